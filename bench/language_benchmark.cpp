@@ -121,7 +121,7 @@ double run(const std::string& command) {
   for (int round = 0; round < rounds; ++round) {
     const double start = cpu_seconds(RUSAGE_CHILDREN);
     const int status = std::system((command + " >/dev/null 2>&1").c_str());
-    // Now and then rs274 fails where it ran well before. Such a round does not count.
+    // rs274 fails now and then where another one runs in the same home. Such a round does not count.
     if (status == 0) best = std::min(best, cpu_seconds(RUSAGE_CHILDREN) - start);
   }
   return best < 1e9 ? timed_lines / best : 0;

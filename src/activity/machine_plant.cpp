@@ -10,7 +10,7 @@
 
 namespace passo {
 
-std::vector<TravelSwitch> home_switches(const MachineDescription& machine, Mm hysteresis) {
+std::vector<TravelSwitch> home_switches(const MachineDescription& machine) {
   std::vector<TravelSwitch> switches;
   for (std::size_t m = 0; m < machine.axes.size(); ++m) {
     const AxisDescription& axis = machine.axes[m];
@@ -18,12 +18,13 @@ std::vector<TravelSwitch> home_switches(const MachineDescription& machine, Mm hy
     const auto add = [&](int input, std::size_t motor, bool inverted, double place) {
       const bool high = axis.home->toward_high != inverted;
       const auto closes = std::llround(place * (inverted ? -axis.steps_per_unit : axis.steps_per_unit));
-      const auto later = std::llround(hysteresis.value() * axis.steps_per_unit);
+      const auto later = std::llround(axis.home->hysteresis * axis.steps_per_unit);
       switches.push_back({.input = static_cast<std::uint16_t>(1U << static_cast<unsigned>(input)),
                           .motor = static_cast<std::uint8_t>(motor),
                           .at_high_end = high,
                           .closes_at = closes,
-                          .opens_at = high ? closes - later : closes + later});
+                          .opens_at = high ? closes - later : closes + later,
+                          .bounce = axis.home->bounce});
     };
     add(axis.home->input, m, axis.inverted, axis.home->switch_at);
     if (!axis.second) continue;
@@ -88,7 +89,7 @@ ScrewModel screw_model(const AxisDescription& axis, bool inverted) {
 }
 
 void fit(FittedPlant& plant, const MachineDescription& machine, const Point& stands_at,
-         const std::vector<TouchBox>& boxes) {
+         const std::vector<Touchable>& things) {
   plant.stand_at(truth_at(machine, stands_at));
   for (std::size_t m = 0; m < machine.axes.size(); ++m) {
     const AxisDescription& axis = machine.axes[m];
@@ -98,12 +99,12 @@ void fit(FittedPlant& plant, const MachineDescription& machine, const Point& sta
   }
   plant.fit_spindle(spindle_model(machine.spindle));
   for (const TravelSwitch& one : home_switches(machine)) plant.add(one);
-  for (const TouchBox& box : boxes) plant.add(touch_body(box, machine));
+  for (const Touchable& thing : things) add(plant, thing, machine);
 }
 
-IdealPlant plant_of(const MachineDescription& machine, const Point& stands_at, const std::vector<TouchBox>& boxes) {
+IdealPlant plant_of(const MachineDescription& machine, const Point& stands_at, const std::vector<Touchable>& things) {
   IdealPlant plant;
-  fit(plant, machine, stands_at, boxes);
+  fit(plant, machine, stands_at, things);
   return plant;
 }
 

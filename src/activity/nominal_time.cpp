@@ -4,17 +4,6 @@
 #include <variant>
 
 namespace passo {
-namespace {
-
-// The highest speed on the path, at most `speed`, at which no axis with such slopes is faster than it can be.
-double speed_within(const Point& slopes, double speed, const MotionLimits& limits) {
-  for (const Axis axis : all_axes) {
-    if (slopes[axis] > 0) speed = std::min(speed, limits.velocity[axis].value() / slopes[axis]);
-  }
-  return speed;
-}
-
-}  // namespace
 
 Seconds nominal_time_of(const PathItem& item, const MotionLimits& limits) {
   if (const auto* action = std::get_if<Action>(&item)) return action->dwell;

@@ -191,6 +191,8 @@ bool OpenProgram::next(PathItem& item) {
   }
   if (const auto* action = std::get_if<Action>(&item)) {
     outputs_ = action->outputs;
+  } else {
+    last_mode_ = std::get<Segment>(item).mode;
   }
   line_number_ = std::visit([](const auto& what) { return what.source.line_number; }, item);
   return true;

@@ -271,6 +271,11 @@ void MotionDrive::await_line() {
   rest_in_hold();
 }
 
+bool MotionDrive::pass_await_line(PathMode last) {
+  if (direct_ == nullptr || state_ != State::running) return false;
+  return planner_.go_on(last);
+}
+
 void MotionDrive::drop() {
   if (state_ != State::running && state_ != State::holding) return;
   dropped_to_.reset();
@@ -370,7 +375,17 @@ void MotionDrive::hold(HoldReason reason) {
 void MotionDrive::resume(HoldReason reason) {
   if (state_ == State::ended || stopped() || !holds_.has(reason)) return;
   change_holds(reason, false);
-  if (!holds_.any_of(asked_holds)) state_ = State::running;
+  if (holds_.any_of(asked_holds)) return;
+  if (state_ == State::held) let_outputs_go();
+  state_ = State::running;
+}
+
+void MotionDrive::let_outputs_go() {
+  const bool spindle_stands = outputs_.spindle_stands();
+  if (!spindle_stands && !outputs_.all_stand()) return;
+  outputs_.stop_spindle(false);
+  outputs_.stop_all(false);
+  switch_on(outputs_.ordered(), spindle_wait_);
 }
 
 void MotionDrive::set_feed_override(double factor) {
@@ -388,14 +403,43 @@ void MotionDrive::set_adaptive_feed(double factor) {
 void MotionDrive::mind_feed() {
   const double feed = std::min({feed_override_, adaptive_feed_, feed_override_ * adaptive_feed_});
   holds_.set(HoldReason::zero_feed, feed < no_feed);
-  if (state_ == State::held && !holds_.any_of(asked_holds)) state_ = State::running;
+  if (state_ != State::held || holds_.any_of(asked_holds)) return;
+  let_outputs_go();
+  state_ = State::running;
 }
 
 void MotionDrive::set_spindle_override(double factor) {
   outputs_.set_override(factor);
-  if (state_ == State::ended || !outputs_.is_news()) return;
-  if (state_ == State::held) return feed_->switch_outputs(outputs_.tell());
-  feed_->pass_on_outputs();
+  if (outputs_.is_news()) tell_outputs();
+}
+
+void MotionDrive::tell_outputs() {
+  if (state_ == State::ended) return;
+  if (state_ != State::held) return feed_->pass_on_outputs();
+  script_.then([this] { feed_->switch_outputs(outputs_.tell()); });
+  script_.until([this] { return feed_->settled(); });
+}
+
+void MotionDrive::switch_mist(bool on) {
+  outputs_.switch_mist(on);
+  tell_outputs();
+}
+
+void MotionDrive::switch_flood(bool on) {
+  outputs_.switch_flood(on);
+  tell_outputs();
+}
+
+void MotionDrive::stop_spindle(bool stands) {
+  if (state_ != State::held || stopped()) return;
+  outputs_.stop_spindle(stands);
+  tell_outputs();
+}
+
+void MotionDrive::stop_outputs() {
+  if (state_ != State::held || stopped()) return;
+  outputs_.stop_all(true);
+  tell_outputs();
 }
 
 void MotionDrive::stop() {

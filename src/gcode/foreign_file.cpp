@@ -7,6 +7,9 @@ namespace passo {
 namespace {
 
 constexpr std::string_view of_drawing = "G-code, which a CAM program makes of the drawing";
+constexpr std::string_view of_holes = "G-code, which passo cam drill makes of the holes";
+constexpr std::string_view of_drawn_holes =
+    "G-code, which a CAM program makes of the drawing, or passo cam drill of its holes";
 constexpr std::string_view of_picture = "G-code, which an engraving program makes of the picture";
 constexpr std::string_view of_model = "G-code, which a CAM program makes of the model";
 constexpr std::string_view of_circuit = "G-code, which a program such as pcb2gcode makes of the circuit board";
@@ -19,12 +22,12 @@ constexpr ForeignFile tiff{"a TIFF picture", of_picture};
 constexpr ForeignFile gif{"a GIF picture", of_picture};
 constexpr ForeignFile bmp{"a BMP picture", of_picture};
 constexpr ForeignFile svg{"an SVG drawing", of_drawing};
-constexpr ForeignFile dxf{"a DXF drawing", of_drawing};
+constexpr ForeignFile dxf{"a DXF drawing", of_drawn_holes};
 constexpr ForeignFile dwg{"a DWG drawing", of_drawing};
 constexpr ForeignFile hpgl{"an HPGL plot", of_drawing};
 constexpr ForeignFile pdf{"a PDF document", of_drawing};
 constexpr ForeignFile gerber{"a Gerber file", of_circuit};
-constexpr ForeignFile excellon{"an Excellon drill file", of_circuit};
+constexpr ForeignFile excellon{"an Excellon drill file", of_holes};
 constexpr ForeignFile stl{"an STL model", of_model};
 constexpr ForeignFile step{"a STEP model", of_model};
 constexpr ForeignFile gzip{"a gzip archive", of_archive};

@@ -54,7 +54,11 @@ bool LineParser::is_digit_alike() const {
 
 bool LineParser::fail_missing_value(const char* owner) {
   const char c = peek();
-  const std::string whose = to_upper(*owner) == '[' ? "the bracket is empty" : fmt::format("'{}' has no value", *owner);
+  const bool is_operator = owner == last_operator_.data();
+  const std::string_view name = is_operator ? last_operator_ : std::string_view(owner, 1);
+  const std::string whose = *owner == '[' ? "the bracket is empty"
+                            : is_operator ? fmt::format("'{}' has no value after it", name)
+                                          : fmt::format("'{}' has no value", name);
   if (at_end() || is_letter(c) || c == '(' || c == ';' || c == ']' || c == '#' || c == '[') {
     if (c == 'O') return fail_letter_o(at_);
     if (is_digit_alike()) {
@@ -64,7 +68,7 @@ bool LineParser::fail_missing_value(const char* owner) {
     const char* expected = a_value;
     if (c == '(') expected = "square brackets: '(' starts a comment";
     if (*owner == '#') expected = "a number or <name> for the parameter; a comment starts with ';'";
-    return fail("gcode.missing-value", owner, 1, whose, expected);
+    return fail("gcode.missing-value", owner, name.size(), whose, expected);
   }
   const NamedCharacter found = name_character(rest(at_));
   std::string cure = found.cure.empty() ? std::string(a_value) : found.cure;

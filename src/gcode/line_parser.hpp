@@ -110,8 +110,9 @@ class LineParser {
   SymbolTable& symbols_;
   LineFault& fault_;
   const bool line_numbers_anywhere_;
-  std::size_t nesting_ = 0;   // values inside other values
-  std::size_t operands_ = 0;  // operands on the stack of the evaluation
+  std::size_t nesting_ = 0;         // values inside other values
+  std::size_t operands_ = 0;        // operands on the stack of the evaluation
+  std::string_view last_operator_;  // as it is written
 };
 
 }  // namespace passo

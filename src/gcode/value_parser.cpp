@@ -179,6 +179,7 @@ bool LineParser::parse_binary(int lowest_precedence, const char* owner) {
     if (found.precedence < lowest_precedence) return true;
     const char* const sign = at_;
     token_end_ = at_ = after;
+    last_operator_ = {sign, after};
     if (!parse_binary(found.precedence + 1, sign)) return false;
     if (!emit(found.op, start)) return false;
   }

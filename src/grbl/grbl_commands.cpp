@@ -131,7 +131,8 @@ void GrblController::take_startup_line(const std::string& text) {
 void GrblController::restore(const std::string& text) {
   if (text != "$RST=#") return answer(GrblError::bad_statement);
   for (int system = 1; system <= 6; ++system) {
-    const std::string line = fmt::format("G10L2P{}X0Y0Z0", system);
+    std::string line = fmt::format("G10L2P{}", system);
+    for (const Axis axis : grbl_axes_of(machine_)) line += fmt::format("{}0", letter_of(axis));
     if (program_.take(line, session_.now())) return answer(GrblError::bad_statement);
   }
   static_cast<void>(program_.take("G92.1", session_.now()));

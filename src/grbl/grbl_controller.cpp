@@ -13,6 +13,11 @@ namespace {
 
 constexpr std::string_view outside_travel = "travel.exceeded";
 
+// Lines that change nothing.
+bool is_question(const std::string& line) {
+  return line == "$" || line == "$G" || line == "$$" || line == "$#" || line == "$I" || line == "$N";
+}
+
 }  // namespace
 
 GrblController::GrblController(const MachineDescription& machine, MachineSession& session, OpenProgram& program)
@@ -24,12 +29,29 @@ void GrblController::connect() {
   input_.clear();
   offset_in_ = 0;
   overrides_in_ = 1;
+  pace_.reset();
   say(std::string(grbl_banner));
+  if (!drives_) say("[MSG:Another client drives the machine]\r\n");
   if (alarm_) say("[MSG:'$H'|'$X' to unlock]\r\n");
+}
+
+// A program that is held goes on with the next one who may drive.
+void GrblController::let_drive(bool drives) {
+  if (drives == drives_) return;
+  drives_ = drives;
+  if (std::exchange(waits_, Waits::none) != Waits::none) answer(GrblError::locked);
+  after_stop_ = nullptr;
+  homing_.reset();
+  checks_ = resets_ = false;
+  const KnownPosition position = session_.status().position;
+  alarm_ = !machine_.homing.empty() && position.trust == Trust::unknown;
+  if (!session_.busy()) program_.restart(position.place);
+  say(drives ? "[MSG:This sender drives the machine]\r\n" : "[MSG:Another client drives the machine]\r\n");
 }
 
 void GrblController::disconnect() {
   input_.clear();
+  if (!drives_) return;
   if (jogs()) {
     cancel_jog();
   } else if (!is_idle() && waits_ == Waits::none) {
@@ -38,6 +60,7 @@ void GrblController::disconnect() {
 }
 
 void GrblController::receive(std::string_view bytes) {
+  heard_at_ = session_.now();
   input_.receive(bytes, [this](std::uint8_t byte) { act(byte); });
 }
 
@@ -53,6 +76,7 @@ void GrblController::turn(const std::vector<MachineChange>& changes) {
     std::exchange(after_stop_, nullptr)();
   }
   if (resets_ && !session_.busy() && session_.state() != MachineState::offline) end_reset();
+  mind_jog_lease();
   begin_stream();
   take_lines();
 }
@@ -105,7 +129,7 @@ void GrblController::stop_for(Waits waits) {
 
 // The program's place is the machine's whenever a stream begins.
 void GrblController::begin_stream() {
-  if (session_.state() != MachineState::idle || resets_ || waits_ == Waits::homing) return;
+  if (session_.state() != MachineState::idle || resets_ || waits_ == Waits::homing || !drives_) return;
   if (program_.is_to_begin(session_.now())) ask(request::Stream{.program = &program_});
 }
 
@@ -126,6 +150,7 @@ void GrblController::take_lines() {
 void GrblController::take(const GrblInput::Line& line) {
   if (line.too_long) return answer(GrblError::line_overflow);
   if (line.text.empty()) return answer(GrblError::none);
+  if (!drives_ && !is_question(line.text)) return answer(GrblError::locked);
   if (line.text[0] == '$') return take_command(line.text);
   if (alarm_ || jogs() || session_.state() == MachineState::sleep) return answer(GrblError::locked);
   take_code(line.text);

@@ -13,31 +13,72 @@ constexpr int offset_each = 30;
 constexpr int overrides_each_at_rest = 10;
 constexpr int overrides_each = 20;
 
+// A jog of a sender that asks for the status is cancelled when nothing was heard of the sender for its pace of asking
+// and this time more. A sender that asks more slowly than that does not ask.
+constexpr Seconds jog_lease{0.25};
+constexpr Seconds slowest_pace{1};
+
 constexpr int least_override = 10;
 constexpr int most_override = 200;
 
 }  // namespace
 
 void GrblController::act(std::uint8_t byte) {
+  if (!drives_) return act_as_watcher(byte);
   switch (byte) {
-    case '?': return report_status();
+    case '?': note_question(); return report_status();
     case '!': return jogs() ? cancel_jog() : hold();
     case '~': return resume();
     case 0x18: return reset();
-    case 0x84: return hold();
+    case 0x84: return open_door();
     case 0x85: return cancel_jog();
     case 0x90: return change_feed(100);
     case 0x91: return change_feed(feed_override_ + 10);
     case 0x92: return change_feed(feed_override_ - 10);
     case 0x93: return change_feed(feed_override_ + 1);
     case 0x94: return change_feed(feed_override_ - 1);
+    case 0x95: return change_rapids(100);
+    case 0x96: return change_rapids(50);
+    case 0x97: return change_rapids(25);
     case 0x99: return change_spindle(100);
     case 0x9A: return change_spindle(spindle_override_ + 10);
     case 0x9B: return change_spindle(spindle_override_ - 10);
     case 0x9C: return change_spindle(spindle_override_ + 1);
     case 0x9D: return change_spindle(spindle_override_ - 1);
+    case 0x9E: return stop_spindle();
+    case 0xA0: return switch_coolant(true);
+    case 0xA1: return switch_coolant(false);
     default: return;
   }
+}
+
+// Everybody may hold. A reset greets, and stops nothing.
+void GrblController::act_as_watcher(std::uint8_t byte) {
+  switch (byte) {
+    case '?': return report_status();
+    case '!': ask(request::Hold{}); return;
+    case 0x84: ask(request::Hold{.for_door = true}); return;
+    case 0x18: return connect();
+    default: return;
+  }
+}
+
+void GrblController::note_question() {
+  const Seconds now = session_.now();
+  const bool asks_often = now - asked_at_ <= slowest_pace;
+  pace_ = asks_often ? std::optional(now - asked_at_) : std::nullopt;
+  asked_at_ = now;
+}
+
+// A sender that asks for the status again and again, and no longer does, hangs or is out of reach. So its key-up may
+// never come.
+void GrblController::mind_jog_lease() {
+  if (pace_ && jogs() && session_.now() - heard_at_ > *pace_ + jog_lease) cancel_jog();
+}
+
+// True: a line of the program moves the machine, or is held.
+bool GrblController::is_executing() const {
+  return session_.busy() && session_.state() != MachineState::await_line && !program_.jogs();
 }
 
 void GrblController::report_status() {
@@ -52,6 +93,7 @@ void GrblController::report_status() {
   report.feed = status.speed_now.value() * seconds_per_minute;
   report.speed = status.outputs.spindle == SpindleDirection::off ? 0 : status.outputs.revolutions_per_minute;
   report.pins = pins();
+  if (is_executing()) report.line_number = status.executes.line_number;
   report.outputs = status.outputs;
   report.feed_override = feed_override_;
   report.rapid_override = rapid_override_;
@@ -70,6 +112,40 @@ void GrblController::hold() {
   if (alarm_ || checks_ || resets_) return;
   if (session_.state() == MachineState::idle) ask(request::Stream{.program = &program_});
   ask(request::Hold{});
+}
+
+// As a hold, also amid a jog. At rest the spindle and the coolant are off, until the resume.
+void GrblController::open_door() {
+  if (alarm_ || checks_ || resets_ || waits_ == Waits::homing) return;
+  cancel_jog();
+  if (session_.state() == MachineState::idle) ask(request::Stream{.program = &program_});
+  ask(request::Hold{.for_door = true});
+}
+
+// Only in a hold, at rest. The resume lets the spindle turn again.
+void GrblController::stop_spindle() {
+  const OutputState outputs = session_.status().outputs;
+  const bool turns = outputs.spindle != SpindleDirection::off;
+  overrides_in_ = 0;
+  if (ask(request::SwitchOutputs{.spindle_stands = turns})) return;
+}
+
+// While nothing is going on, the program switches the coolant itself, as by M7, M8 and M9. Amid the program the coolant
+// stays as switched until the program orders something else.
+void GrblController::switch_coolant(bool flood) {
+  const MachineState state = session_.state();
+  if (alarm_ || checks_ || resets_ || jogs() || state == MachineState::home) return;
+  overrides_in_ = 0;
+  const OutputState outputs = session_.status().outputs;
+  const bool on = !(flood ? outputs.flood : outputs.mist);
+  if (session_.busy()) {
+    ask(flood ? request::SwitchOutputs{.flood = on} : request::SwitchOutputs{.mist = on});
+    return;
+  }
+  if (!is_idle()) return;
+  const bool other = flood ? outputs.mist : outputs.flood;
+  const std::string words = !on ? other ? flood ? "M9 M7" : "M9 M8" : "M9" : flood ? "M8" : "M7";
+  static_cast<void>(program_.take(words, session_.now()));
 }
 
 void GrblController::resume() {
@@ -112,6 +188,11 @@ void GrblController::change_feed(int percent) {
   send_overrides();
 }
 
+void GrblController::change_rapids(int percent) {
+  rapid_override_ = percent;
+  send_overrides();
+}
+
 void GrblController::change_spindle(int percent) {
   spindle_override_ = std::clamp(percent, least_override, most_override);
   send_overrides();
@@ -119,7 +200,10 @@ void GrblController::change_spindle(int percent) {
 
 void GrblController::send_overrides() {
   overrides_in_ = 0;
-  ask(request::Override{.feed = feed_override_ / 100.0, .adaptive_feed = {}, .spindle = spindle_override_ / 100.0});
+  ask(request::Override{.feed = feed_override_ / 100.0,
+                        .adaptive_feed = {},
+                        .spindle = spindle_override_ / 100.0,
+                        .rapids = rapid_override_ / 100.0});
 }
 
 }  // namespace passo

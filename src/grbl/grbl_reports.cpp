@@ -54,6 +54,7 @@ std::string status_text(const GrblStatus& status, const GrblUnits& units, unsign
   std::string text =
       fmt::format("<{}|{}:{}", status.state, machine_places ? "MPos" : "WPos", places_text(shown, units));
   if ((mask & 2U) != 0) text += fmt::format("|Bf:{},{}", status.planner_free, status.bytes_free);
+  if (status.line_number > 0) text += fmt::format("|Ln:{}", status.line_number);
   const double feed = units.inches ? status.feed / mm_per_inch : status.feed;
   text += fmt::format("|FS:{:.0f},{:.0f}", feed, status.speed);
   if (!status.pins.empty()) text += "|Pn:" + status.pins;

@@ -51,6 +51,14 @@ std::vector<Axis> grbl_axes_of(const MachineDescription& machine) {
   return axes;
 }
 
+std::string more_grbl_axes(const MachineDescription& machine) {
+  std::string letters;
+  for (const Axis axis : grbl_axes_of(machine)) {
+    if (index_of(axis) >= 3) letters += letter_of(axis);
+  }
+  return letters;
+}
+
 const AxisDescription* axis_of_setting(const MachineDescription& machine, int number) {
   const std::vector<Axis> axes = grbl_axes_of(machine);
   const auto index = static_cast<std::size_t>(number % 10);

@@ -48,10 +48,11 @@ bool follows_digit(std::string_view text, Span word) {
 }  // namespace
 
 // The order of execution is LinuxCNC's (execute_block and convert_g of its interpreter): comments, spindle and feed
-// mode, F, S, T, M codes, G codes, motion, stops.
+// mode, F, S, T, M codes, G codes, motion, stops. grbl's order has the same effect, but for units, which come before F.
 const BlockExecutor::Step BlockExecutor::steps_before_words[] = {
     {spindle_mode, of<&BlockExecutor::spindles_, &SpindleCodes::set_mode>},
     {feed_mode, own<&BlockExecutor::set_feed_mode>},
+    {length_units, own<&BlockExecutor::set_units_before_feed>},
 };
 const BlockExecutor::Step BlockExecutor::steps_after_words[] = {
     {macro, of<&BlockExecutor::subprograms_, &SubprogramCodes::end_macro_calls>},
@@ -63,7 +64,7 @@ const BlockExecutor::Step BlockExecutor::steps_after_words[] = {
     {user, of<&BlockExecutor::input_output_, &InputOutputCodes::run_user_code>},
     {non_modal, own<&BlockExecutor::dwell>},
     {plane, own<&BlockExecutor::select_plane>},
-    {length_units, own<&BlockExecutor::set_length_units>},
+    {length_units, own<&BlockExecutor::set_units_after_feed>},
     {lathe_diameter, own<&BlockExecutor::set_lathe_diameter>},
     {cutter_compensation, of<&BlockExecutor::cutter_codes_, &CutterCodes::set>},
     {tool_length, of<&BlockExecutor::tools_, &ToolCodes::set_length>},
@@ -213,7 +214,12 @@ bool BlockExecutor::run(std::span<const Step> steps) {
 bool BlockExecutor::move(CodeNumber number) {
   if (!drills(number)) drilling_.forget();
   state_.modal.set(motion, number);
+  const LetterSet in_doubt = reporter_.doubts().axes();
   const bool good = move_by(number);
+  const bool is_arc = number == code(2) || number == code(3);  // a wrong one leads to its end, too
+  if (good ? in_doubt.any() : is_arc) {
+    reporter_.doubts().set_axes(state_.modal.incremental() ? in_doubt : in_doubt - words_.present());
+  }
   if (cutter_.active()) {
     if (!good) cutter_.skip_to(state_.position);
     state_.cutter_shift = cutter_.shift(state_.position);

@@ -106,6 +106,8 @@ class BlockExecutor : private CodeFamily {
   bool switch_overrides(CodeNumber code);
   bool dwell(CodeNumber code);
   bool select_plane(CodeNumber code);
+  bool set_units_before_feed(CodeNumber code);
+  bool set_units_after_feed(CodeNumber code);
   bool set_length_units(CodeNumber code);
   bool set_lathe_diameter(CodeNumber code);
   bool set_path_mode(CodeNumber code);

@@ -160,8 +160,22 @@ bool CodeFamily::spindle_word(SpindleChoice choice, SpindleRange& range) {
   return true;
 }
 
+bool CodeFamily::starts_in_doubt() const {
+  const LetterSet doubtful = reporter_.doubts().axes();
+  if (!doubtful.any()) return false;
+  // In increments an arc is the same wherever it starts.
+  const bool has_place = !words_.has('R') && state_.modal[ModalGroup::arc_distance] == code(90, 1);
+  if (state_.modal.incremental() && !has_place) return false;
+  const PlaneAxes axes = axes_of(state_.modal.plane());
+  return doubtful.has(letter_of(axes.first)) || doubtful.has(letter_of(axes.second));
+}
+
 bool CodeFamily::report_arc(const ArcCenter& arc) {
   const double unit = state_.length_unit();
+  if (arc.fault != ArcFault::none && starts_in_doubt()) {
+    reporter_.meet_again();
+    return false;
+  }
   switch (arc.fault) {
     case ArcFault::none: return true;
     case ArcFault::zero_radius:

@@ -35,6 +35,8 @@ class CodeFamily {
   bool whole_word(char letter, double lowest, double highest, std::int32_t& value);
   bool fail_at_origin(char polar_letter);
   bool report_arc(const ArcCenter& arc);
+  // Whether a line that failed would have moved an axis of the plane.
+  bool starts_in_doubt() const;
   // Where a diagnostic about a motion points: at the motion's code, or, if the code is modal, at the first word that
   // caused the move.
   Span motion_span() const;

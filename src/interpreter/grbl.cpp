@@ -121,8 +121,8 @@ Use use_of(char letter, CodeNumber number, bool& known) {
 // Checks one block as grbl would.
 class GrblCheck {
  public:
-  GrblCheck(const Block& block, const ProgramState& state, Reporter& reporter)
-      : block_(block), state_(state), reporter_(reporter) {}
+  GrblCheck(const Block& block, const ProgramState& state, Reporter& reporter, LetterSet more_axes)
+      : block_(block), state_(state), reporter_(reporter), axes_(grbl_axes | more_axes) {}
 
   bool passes() {
     if (!lines_shape()) return false;
@@ -200,7 +200,7 @@ class GrblCheck {
     if (word.value.count != 1 || value.op != ExpressionOp::number) {
       return fail(2, word.span, "grbl knows no parameters and expressions", "a number");
     }
-    if (!accepted_letters.has(word.letter)) {
+    if (!(accepted_letters | axes_).has(word.letter)) {
       return fail(20, word.span, fmt::format("grbl knows no word {}", word.letter), "F I J K L N P R S T X Y Z");
     }
     if (word.letter == 'G' || word.letter == 'M') return take_code(word, value.number);
@@ -269,7 +269,7 @@ class GrblCheck {
   bool has(char letter) const { return present_.has(letter); }
   double value(char letter) const { return values_[letter_index(letter)]; }
   Span span(char letter) const { return spans_[letter_index(letter)]; }
-  bool any_axis() const { return (present_ & grbl_axes).any(); }
+  bool any_axis() const { return (present_ & axes_).any(); }
 
   bool uses_axes(const CodeEntry* entry) const { return entry != nullptr && entry->axes != AxisUse::none; }
 
@@ -285,7 +285,7 @@ class GrblCheck {
     if (is_inverse_time() && moves() && needs_feed(motion) && !has('F')) return fail_feed();
     const CodeEntry* const tool_length = code_of(ModalGroup::tool_length);
     if (tool_length != nullptr && tool_length->number == code(43, 1) &&
-        (present_ & grbl_axes).bits() != LetterSet("Z").bits()) {
+        (present_ & axes_).bits() != LetterSet("Z").bits()) {
       return fail(37, code_span_, "G43.1 offsets the axis Z alone", "Z, and no other axis word");
     }
     const CodeEntry* const non_modal = code_of(ModalGroup::non_modal);
@@ -370,7 +370,7 @@ class GrblCheck {
     return true;
   }
   Span first_axis_span() const {
-    for (const char letter : {'X', 'Y', 'Z'}) {
+    for (const char letter : std::string_view("XYZABCUVW")) {
       if (has(letter)) return span(letter);
     }
     return {1, 1};
@@ -379,6 +379,7 @@ class GrblCheck {
   const Block& block_;
   const ProgramState& state_;
   Reporter& reporter_;
+  LetterSet axes_;
   LetterSet present_;
   LetterSet idle_letters_;
   std::array<double, letter_count> values_{};
@@ -410,12 +411,12 @@ void drop_decimals(Block& block) {
 
 }  // namespace
 
-bool refuse_as_grbl(const Block& block, const ProgramState& state, Reporter& reporter) {
-  return GrblCheck(block, state, reporter).refuses_before_fault();
+bool refuse_as_grbl(const Block& block, const ProgramState& state, Reporter& reporter, LetterSet more_axes) {
+  return GrblCheck(block, state, reporter, more_axes).refuses_before_fault();
 }
 
-bool accept_as_grbl(Block& block, const ProgramState& state, Reporter& reporter) {
-  GrblCheck check(block, state, reporter);
+bool accept_as_grbl(Block& block, const ProgramState& state, Reporter& reporter, LetterSet more_axes) {
+  GrblCheck check(block, state, reporter, more_axes);
   if (!check.passes()) return false;
   std::erase_if(block.words, [&](const Word& word) {
     const bool idle = word.letter != 'G' && word.letter != 'M' && check.idle_letters().has(word.letter);

@@ -9,6 +9,7 @@
 #include <string>
 #include <string_view>
 
+#include "code_table.hpp"
 #include "program_state.hpp"
 #include "reporter.hpp"
 
@@ -16,12 +17,14 @@
 
 namespace passo {
 
-// True: grbl accepts the block, and words without effect are taken out. False: the reason was reported.
-[[nodiscard]] bool accept_as_grbl(Block& block, const ProgramState& state, Reporter& reporter);
+// True: grbl accepts the block, with `more_axes` beside its X, Y and Z, and words without effect are taken out. False:
+// the reason was reported.
+[[nodiscard]] bool accept_as_grbl(Block& block, const ProgramState& state, Reporter& reporter, LetterSet more_axes);
 
 // For a line that cannot be parsed: whether grbl, which reads word by word, finds another error before, which is then
 // reported.
-[[nodiscard]] bool refuse_as_grbl(const Block& block, const ProgramState& state, Reporter& reporter);
+[[nodiscard]] bool refuse_as_grbl(const Block& block, const ProgramState& state, Reporter& reporter,
+                                  LetterSet more_axes);
 
 // "grbl error:20, unsupported or invalid command"; empty where grbl has no number for it.
 std::string grbl_error(std::string_view code);

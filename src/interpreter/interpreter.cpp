@@ -40,6 +40,7 @@ class Interpreter::Implementation {
         block_(state_, parameters_, operations_, reporter_, answers),
         executor_(block_, symbols_) {
     parameters_.load(options.parameters);
+    if (options.open_ended) reporter_.judge_lines_alone();  // a sender is told of each line whether it is good
     executor_.start(options);
     diagnostics.look_up_rules_with(rule_of);
     if (options.dialect != Dialect::grbl) return;
@@ -109,7 +110,8 @@ class Interpreter::Implementation {
             options.sub_folders,
             options.dialect,
             !(options.settings && options.settings->is_on("RS274NGC", "DISABLE_FANUC_STYLE_SUB")),
-            options.open_ended};
+            options.open_ended,
+            options.more_grbl_axes.c_str()};
   }
 
   // One block: none, one or several operations. False: the next line was not given yet.

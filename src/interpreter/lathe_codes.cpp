@@ -48,6 +48,7 @@ bool LatheCodes::start(CodeNumber number) {
   contour_->block = reporter_.block();
   contour_->block.text = contour_->text;
   contour_->source = block_.source;
+  contour_->errors_before = reporter_.errors();
   contour_->sub = symbols_.intern(fmt::format("{}", sub));
   contour_->start = start;
   contour_->corner = lathe_point(start);
@@ -195,7 +196,7 @@ bool LatheCodes::end_contour() {
   state_.line = contour_->source.line;
   state_.position = contour_->start;
   reporter_.look_at(contour_->block);  // what is found from here on is about the cycle
-  if (!contour_->good) return false;
+  if (!contour_->good || reporter_.errors() != contour_->errors_before) return false;
   if (contour_->shape.segments.size() < 2) {
     return fail_contour("the contour has fewer than two lines and arcs",
                         "a line to where the part begins, and the part");

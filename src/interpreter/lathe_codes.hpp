@@ -44,6 +44,7 @@ class LatheCodes final : public CycleCodes {
   struct Contour {
     bool open = true;
     bool good = true;  // true: no line so far was wrong
+    std::uint64_t errors_before = 0;
     CodeNumber code = 0;
     BlockWords words;  // the words of the cycle's block
     Span span;         // the place of the cycle's Q, to which errors of the whole contour point

@@ -51,6 +51,7 @@ class ProgramFlow final : public CallStack {
     Dialect dialect = Dialect::linuxcnc;
     bool numbered_programs = true;  // false: [RS274NGC]DISABLE_FANUC_STYLE_SUB
     bool open_ended = false;        // the lines come one by one, with give_line()
+    LetterSet more_grbl_axes = {};  // that the dialect of grbl takes beside X, Y and Z
   };
   enum class End : std::uint8_t { none, file, percent, error };
 
@@ -159,6 +160,7 @@ class ProgramFlow final : public CallStack {
   bool recall();
   void look_at(Block& block);
   static bool may_be_control(std::string_view text);
+  static bool names_control(std::string_view text);
   bool is_readable(std::string_view text, std::uint32_t line);
   bool is_percent_end();
   bool closes_program(std::string_view text);

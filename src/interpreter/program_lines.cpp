@@ -32,6 +32,14 @@ bool ProgramFlow::may_be_control(std::string_view text) {
   return at("oO");
 }
 
+// Whether a line that cannot be read has a word of the O-words, as "20 while [1]" has, which lacks its O.
+bool ProgramFlow::names_control(std::string_view text) {
+  std::string small;
+  for (const char c : text) small += c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
+  constexpr std::string_view names[] = {"sub", "call", "return", "while", "repeat", "if", "else", "do"};
+  return std::ranges::any_of(names, [&](std::string_view name) { return small.find(name) != std::string::npos; });
+}
+
 ProgramFlow::Read ProgramFlow::read() {
   block_at_ = file_->reader.position();
   if (reporter_.full()) return Read::end;
@@ -74,18 +82,20 @@ bool ProgramFlow::parse(std::string_view text, std::uint32_t line) {
   }
   look_at(kept != nullptr ? kept->block : line_);
   if (is_readable(text, line)) return true;
-  reporter_.pass_on(faults_);
   doubt_label();
+  reporter_.pass_on(faults_);
+  reporter_.doubt();
   if (kept != nullptr) KeptBlocks::drop(*kept);
   if (!options_.open_ended) unreadable.insert(line);  // such a line never comes again
   return false;
 }
 
-// An O-word that cannot be read may begin or end a construct. Its label is known if the fault comes after it.
+// An O-word that cannot be read may begin or end a construct. Its label is known if the fault comes after its keyword.
 void ProgramFlow::doubt_label() {
-  if (!may_be_control(block_->text)) return;
-  const bool has_label = block_->control && block_->control->label;
-  if (has_label) {
+  const bool is_control = may_be_control(block_->text);
+  if (!is_control && !names_control(block_->text)) return;
+  const bool is_named = !faults_.all().empty() && faults_.all().front().code != "gcode.bad-o-word";
+  if (is_control && is_named && block_->control && block_->control->label) {
     doubtful_labels_.insert(block_->control->label.id);
   } else {
     all_labels_doubtful_ = true;
@@ -101,8 +111,8 @@ void ProgramFlow::look_at(Block& block) {
 bool ProgramFlow::is_readable(std::string_view text, std::uint32_t line) {
   const bool good = file_->parser.parse(text, line, *block_, faults_);
   if (options_.dialect == Dialect::linuxcnc) return good;
-  if (good) return accept_as_grbl(*block_, state_, reporter_);
-  if (refuse_as_grbl(*block_, state_, reporter_)) faults_ = Diagnostics();
+  if (good) return accept_as_grbl(*block_, state_, reporter_, options_.more_grbl_axes);
+  if (refuse_as_grbl(*block_, state_, reporter_, options_.more_grbl_axes)) faults_ = Diagnostics();
   return false;
 }
 

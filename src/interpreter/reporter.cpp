@@ -23,6 +23,9 @@ std::string_view domain_of(std::string_view text) {
 }  // namespace
 
 void Reporter::error(std::string_view code, Span span, std::string message, std::string expected) {
+  const bool is_consequence = doubts_.explain(code);
+  doubt();
+  if (is_consequence) return meet_again();
   add(Severity::error, code, block_->line, block_->text, span, std::move(message), std::move(expected));
 }
 
@@ -41,6 +44,10 @@ void Reporter::error(const EvaluationError& error) {
   const std::string operand = plain_number(error.operand);
   switch (error.kind) {
     case Kind::unknown_parameter:
+      if (doubts_.explain_parameter(what)) {
+        doubt();
+        return meet_again();
+      }
       if (what.find("_hal[") != std::string::npos || what.find("_HAL[") != std::string::npos) {
         return this->error("gcode.no-hal", error.span, fmt::format("there is no HAL here, and so no {}", what),
                            "a parameter of the program; EXISTS[] of a HAL pin is 0");

@@ -6,6 +6,8 @@
 #include <string_view>
 #include <vector>
 
+#include "doubts.hpp"
+
 #include "passo/diagnostics/diagnostic.hpp"
 #include "passo/gcode/block.hpp"
 #include "passo/gcode/expression.hpp"
@@ -47,6 +49,14 @@ class Reporter {
   // Reports what was found while the line was read.
   void pass_on(Diagnostics& faults);
 
+  // Each line is judged by itself, and none as the consequence of an earlier one.
+  void judge_lines_alone() { judges_alone_ = true; }
+  // The block failed, and what it would have set is in doubt.
+  void doubt() {
+    if (!judges_alone_) doubts_.take(block_->text);
+  }
+  Doubts& doubts() { return doubts_; }
+
   // Counts an error that was reported before and is met again.
   void meet_again() { ++errors_; }
   // How often an error was met, also one that was reported before.
@@ -69,6 +79,8 @@ class Reporter {
   const std::string* file_ = nullptr;
   const CallStack* stack_ = nullptr;
   std::uint64_t errors_ = 0;
+  Doubts doubts_;
+  bool judges_alone_ = false;
 };
 
 // A number as a person writes it: "2.5", not "2.500000".

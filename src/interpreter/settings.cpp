@@ -118,6 +118,14 @@ bool BlockExecutor::select_plane(CodeNumber number) {
   return true;
 }
 
+bool BlockExecutor::set_units_before_feed(CodeNumber number) {
+  return !speaks_grbl() || set_length_units(number);
+}
+
+bool BlockExecutor::set_units_after_feed(CodeNumber number) {
+  return speaks_grbl() || set_length_units(number);
+}
+
 bool BlockExecutor::set_length_units(CodeNumber number) {
   state_.modal.set(length_units, number);
   emit_ahead(operation::SetLengthUnits{state_.modal.inches() ? LengthUnits::inch : LengthUnits::mm});

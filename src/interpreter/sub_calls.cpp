@@ -53,9 +53,13 @@ bool ProgramFlow::may_call(Span span) {
 void ProgramFlow::report_unknown_sub(Symbol label, Span span, bool numbered) {
   const std::string sub = fmt::format("{}{}{}", numbered ? "O" : "o", label_text(label), numbered ? "" : " sub");
   const std::string file = std::string(symbols_.name(label)) + ".ngc";
-  reporter_.error("gcode.unknown-sub", span,
-                  fmt::format("there is no {} {}", numbered ? "program" : "sub", label_text(label)),
-                  fmt::format("{} in this file, or in a file {} {}", sub, file, places_looked_at(file)));
+  if (is_doubtful(label)) {
+    reporter_.meet_again();
+  } else {
+    reporter_.error("gcode.unknown-sub", span,
+                    fmt::format("there is no {} {}", numbered ? "program" : "sub", label_text(label)),
+                    fmt::format("{} in this file, or in a file {} {}", sub, file, places_looked_at(file)));
+  }
   // The run goes on to find more errors, but not for ever with a loop of calls that lead nowhere.
   constexpr std::uint64_t most_unknown_calls = 1000;
   if (++unknown_calls_ == most_unknown_calls) finish(End::error);

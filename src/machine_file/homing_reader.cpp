@@ -16,6 +16,7 @@ struct HomeKeys {
   NumberKey seek;
   NumberKey latch;
   NumberKey pull_off;
+  NumberKey hysteresis;
 };
 constexpr HomeKeys linear_keys{
     .unit = "mm",
@@ -23,6 +24,7 @@ constexpr HomeKeys linear_keys{
     .seek = {"seek_mm_s", 1e-3, 1e5, "20"},
     .latch = {"latch_mm_s", 1e-3, 1e5, "1"},
     .pull_off = {"pull_off_mm", 1e-3, 1e3, "2"},
+    .hysteresis = {"hysteresis_mm", 0, 100, "0.05"},
 };
 constexpr HomeKeys rotary_keys{
     .unit = "deg",
@@ -30,6 +32,7 @@ constexpr HomeKeys rotary_keys{
     .seek = {"seek_deg_s", 1e-3, 1e5, "20"},
     .latch = {"latch_deg_s", 1e-3, 1e5, "1"},
     .pull_off = {"pull_off_deg", 1e-3, 1e3, "2"},
+    .hysteresis = {"hysteresis_deg", 0, 100, "0.05"},
 };
 struct SecondKeys {
   NumberKey square;
@@ -46,6 +49,7 @@ constexpr SecondKeys rotary_second_keys{
     .most_skew = {"most_skew_deg", 0.01, 100, "5"},
     .skew = {"skew_deg", -100, 100, "0.8"},
 };
+constexpr NumberKey bounce_key{"bounce_ms", 0, 100, "5"};
 constexpr NumberKey input_key{"input", 0, most_motors - 1, "0"};
 
 const char* const homing_code = "machine.homing";
@@ -146,6 +150,8 @@ std::optional<HomeDescription> read_home(TableReader& reader, const AxisDescript
   const auto latch = reader.number(keys.latch, Need::required);
   const auto pull_off = reader.number(keys.pull_off, Need::required);
   const auto input = reader.whole_number(input_key, Need::optional);
+  const auto hysteresis = reader.number(keys.hysteresis, Need::optional);
+  const auto bounce = reader.number(bounce_key, Need::optional);
   if (!high || !switch_at || !seek || !latch || !pull_off) return std::nullopt;
   HomeDescription home{.toward_high = *high,
                        .switch_at = *switch_at,
@@ -153,6 +159,8 @@ std::optional<HomeDescription> read_home(TableReader& reader, const AxisDescript
                        .latch = MmPerSecond(*latch),
                        .pull_off = *pull_off};
   if (input) home.input = static_cast<int>(*input);
+  if (hysteresis) home.hysteresis = *hysteresis;
+  if (bounce) home.bounce = Seconds(*bounce * 1e-3);
   check_speed(reader, keys.seek, home.seek, axis.velocity, "the axis's velocity");
   check_speed(reader, keys.latch, home.latch, home.seek, "as fast as it seeks or slower");
   if (axis.travel_low < axis.travel_high) check_rest(reader, keys, home, axis);

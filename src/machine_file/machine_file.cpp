@@ -37,20 +37,6 @@ void file_error(Diagnostics& diagnostics, const char* code, const std::string& f
                    .text = {}});
 }
 
-// Reads at most one byte more than a machine file may have.
-std::optional<std::string> read_file(const std::string& path, Diagnostics& diagnostics) {
-  errno = 0;
-  const std::unique_ptr<std::FILE, FileCloser> file(std::fopen(path.c_str(), "rb"));
-  std::string text(largest_file + 1, '\0');
-  if (file != nullptr) text.resize(std::fread(text.data(), 1, text.size(), file.get()));
-  if (file == nullptr || std::ferror(file.get()) != 0) {
-    file_error(diagnostics, "machine.cannot-read", path, fmt::format("cannot read it: {}", std::strerror(errno)),
-               "the path of a machine file");
-    return std::nullopt;
-  }
-  return text;
-}
-
 // The number of dots that may belong to keys, without those of comments. Never less than the true number.
 std::size_t dots_of(std::string_view line) {
   const bool has_quotes = line.find_first_of("\"'") != std::string_view::npos;
@@ -101,8 +87,21 @@ void hand_over(const Diagnostics& found, Diagnostics& diagnostics) {
 
 }  // namespace
 
+std::optional<std::string> machine_file_text(const std::string& path, Diagnostics& diagnostics) {
+  errno = 0;
+  const std::unique_ptr<std::FILE, FileCloser> file(std::fopen(path.c_str(), "rb"));
+  std::string text(largest_file + 1, '\0');
+  if (file != nullptr) text.resize(std::fread(text.data(), 1, text.size(), file.get()));
+  if (file == nullptr || std::ferror(file.get()) != 0) {
+    file_error(diagnostics, "machine.cannot-read", path, fmt::format("cannot read it: {}", std::strerror(errno)),
+               "the path of a machine file");
+    return std::nullopt;
+  }
+  return text;
+}
+
 std::optional<MachineDescription> load_machine_file(const std::string& path, Diagnostics& diagnostics) {
-  const auto text = read_file(path, diagnostics);
+  const auto text = machine_file_text(path, diagnostics);
   if (!text) return std::nullopt;
   return parse_machine(*text, path, diagnostics);
 }

@@ -1,6 +1,7 @@
 // TomlDocument: a TOML file as a plain tree, in the order of the file. Every key and value has its place.
 //
-// Only toml_document.cpp sees the TOML library: the library compiles slowly, and its exceptions stay there.
+// Only toml_document.cpp and toml_text.cpp see the TOML library: the library compiles slowly, and its exceptions stay
+// there.
 #pragma once
 
 #include <string>

@@ -9,6 +9,8 @@ namespace {
 
 constexpr Seconds short_time{0.2e-3};
 constexpr Seconds between_margins{1e-3};  // the torque is averaged over 3 ms
+// While a rotor lags by no more, a pulse moves it by no more than a step and what the lag may change.
+constexpr double small_lag = 0.55;  // full steps
 
 }  // namespace
 
@@ -33,6 +35,21 @@ std::int64_t RotorPlant::events_to_next_change() const {
   return fitted_ > 0 ? 1 : steps_to_next_switch();
 }
 
+// `stepped`: the pulse that the motor has just got, if any. Before the pulse the lag was another one.
+inline void RotorPlant::look_at(std::size_t motor, int stepped) {
+  Fitted& one = motors_[motor];
+  const double after = one.rotor->lag();
+  const double lag = std::max(std::abs(after), std::abs(after - stepped * one.full_step));
+  if (lag > one.record.most_lag) [[unlikely]] {
+    one.record.most_lag = lag;
+    one.record.most_lag_at = now_;
+  }
+  is_close_ &= lag <= small_lag && one.rotor->is_reduced();
+  if (now_ >= one.margin_due) [[unlikely]]
+    look_at_margin(one);
+  if (!one.rotor->is_reduced() && one.rotor->slipped() != one.record.lost) look_at_loss(motor);
+}
+
 // Lets time pass for a motor, and then gives it its steps.
 inline void RotorPlant::turn(std::size_t motor, Seconds passed, std::int64_t steps) {
   Fitted& one = motors_[motor];
@@ -41,7 +58,6 @@ inline void RotorPlant::turn(std::size_t motor, Seconds passed, std::int64_t ste
   if (!rests && passed.value() > 0) one.rotor->run(passed);
   const int way = steps > 0 ? 1 : -1;
   for (std::int64_t left = std::abs(steps); left > 0; --left) one.rotor->step(way);
-  moving_positions()[motor] = one.origin + one.rotor->place();
   // Where the bound holds, the look after the next pulse is enough.
   if (steps == 0 && one.rotor->is_reduced() && passed < short_time) return;
   look_at(motor, steps == 0 ? 0 : way);
@@ -50,6 +66,7 @@ inline void RotorPlant::turn(std::size_t motor, Seconds passed, std::int64_t ste
 void RotorPlant::pulse(Seconds time, const MotorSteps& steps) {
   const Seconds passed = pass_to(time);
   MotorPositions& moving = moving_positions();
+  is_close_ = true;
   for (std::size_t m = 0; m < fitted_; ++m) {
     if (motors_[m].rotor) {
       turn(m, passed, steps[m]);
@@ -58,7 +75,26 @@ void RotorPlant::pulse(Seconds time, const MotorSteps& steps) {
     }
   }
   for (std::size_t m = fitted_; m < steps.size(); ++m) moving[m] += static_cast<double>(steps[m]);
-  set_switches();
+  if (--quiet_pulses_ <= 0 || !is_close_) look_at_places();
+}
+
+// The switches need not follow each pulse of rotors that stay close to their commanded places.
+void RotorPlant::look_at_places() {
+  take_places();
+  set_switches(now_);
+  double wander = 0;  // steps, back and forth
+  for (std::size_t m = 0; m < fitted_; ++m) {
+    if (motors_[m].rotor) wander = std::max(wander, 2 * small_lag / motors_[m].full_step);
+  }
+  const std::int64_t spare = static_cast<std::int64_t>(wander) + 1;
+  const std::int64_t steps = steps_to_next_switch();
+  quiet_pulses_ = fitted_ > 0 && is_close_ && steps > spare ? steps - spare : 1;
+}
+
+void RotorPlant::take_places() {
+  for (std::size_t m = 0; m < fitted_; ++m) {
+    if (motors_[m].rotor) moving_positions()[m] = motors_[m].origin + motors_[m].rotor->place();
+  }
 }
 
 void RotorPlant::run_to(Seconds time) {
@@ -67,6 +103,7 @@ void RotorPlant::run_to(Seconds time) {
   for (std::size_t m = 0; m < fitted_; ++m) {
     if (motors_[m].rotor) turn(m, passed, 0);
   }
+  take_places();
   move_slides();
 }
 
@@ -74,20 +111,6 @@ Seconds RotorPlant::pass_to(Seconds time) {
   const Seconds passed = time - now_;
   now_ = std::max(now_, time);
   return passed;
-}
-
-// `stepped`: the pulse that the motor has just got, if any. Before the pulse the lag was another one.
-void RotorPlant::look_at(std::size_t motor, int stepped) {
-  Fitted& one = motors_[motor];
-  const double after = one.rotor->lag();
-  const double lag = std::max(std::abs(after), std::abs(after - stepped * one.full_step));
-  if (lag > one.record.most_lag) [[unlikely]] {
-    one.record.most_lag = lag;
-    one.record.most_lag_at = now_;
-  }
-  if (now_ >= one.margin_due) [[unlikely]]
-    look_at_margin(one);
-  if (!one.rotor->is_reduced() && one.rotor->slipped() != one.record.lost) look_at_loss(motor);
 }
 
 void RotorPlant::look_at_loss(std::size_t motor) {
@@ -110,8 +133,9 @@ void RotorPlant::look_at_margin(Fitted& one) const {
 }
 
 std::uint16_t RotorPlant::inputs_at(Seconds time) {
+  if (time <= now_ && quiet_pulses_ > 1) return switches().closed();
   run_to(time);
-  set_switches();
+  look_at_places();
   return switches().closed();
 }
 
@@ -123,13 +147,13 @@ bool RotorPlant::settle(Seconds most) {
     if (now_ >= end) return false;
     run_to(now_ + look);
   }
-  set_switches();
+  look_at_places();
   return true;
 }
 
 Truth RotorPlant::truth_at(Seconds time) {
   run_to(time);
-  set_switches();
+  look_at_places();
   return truth_now(time);
 }
 

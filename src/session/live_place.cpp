@@ -7,8 +7,9 @@
 namespace passo {
 namespace {
 
-// How often a board is asked where it is.
-constexpr Seconds between_places{0.05};
+// How often a board is asked where it is. Over a line, each question takes time of the line.
+constexpr Seconds between_places{0.016};
+constexpr Seconds between_places_over_a_line{0.05};
 
 }  // namespace
 
@@ -38,7 +39,8 @@ void MachineSession::look_at_place() {
   if (board_.error() || !zero_counts_) return;
   const bool waits = work_->drive && work_->drive->holds().has(HoldReason::await_line);
   if (!waits && board_.status() && board_.status_time() != place_heard_) hear_place();
-  if (work_->finishing || !board_.settled() || now() - place_asked_ < between_places) return;
+  const Seconds between = options_.over_a_line ? between_places_over_a_line : between_places;
+  if (work_->finishing || !board_.settled() || now() - place_asked_ < between) return;
   place_asked_ = now();
   board_.ask();
 }

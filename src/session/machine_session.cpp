@@ -217,6 +217,7 @@ void MachineSession::turn_work(Seconds most) {
   const MotionDrive::Turn turn = work_->drive->advance();
   if (turn == MotionDrive::Turn::ended) return finish_work();
   mind_holds();
+  mind_door();
   if (turn != MotionDrive::Turn::waits) return;
   const bool held = work_->drive->state() == MotionDrive::State::held;
   if (held && options_.over_a_line) most = std::min(most, Panel::in_a_hold);
@@ -256,6 +257,13 @@ void MachineSession::mind_holds() {
     note({.kind = MachineChange::Kind::came_to_rest});
     answer_holds(Outcome::done);
   }
+}
+
+// A hold as for a door: at rest, spindle and coolant are off.
+void MachineSession::mind_door() {
+  if (!work_->stops_outputs || work_->drive->state() != MotionDrive::State::held) return;
+  work_->stops_outputs = false;
+  work_->drive->stop_outputs();
 }
 
 void MachineSession::note_tails() {
@@ -453,6 +461,7 @@ MachineStatus MachineSession::status() const {
   status.progress = work_->activity->progress();
   status.committed = drive.committed();
   status.outputs = drive.outputs();
+  status.executes = work_->lines_ahead.at(now());
   if (const auto& wait = drive.waits_for()) {
     status.waits_for = OperatorWait{.kind = wait->kind, .tool = wait->tool, .line = wait->source.line};
   }

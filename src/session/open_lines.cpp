@@ -24,7 +24,10 @@ bool MachineSession::mind_lines(Seconds most) {
     return false;
   }
   const bool may_wait = drive.state() == MotionDrive::State::running && !work_->drops && !options_.over_a_line;
-  if (!may_wait || !lines->expects_more(now()) || drive.committed() < least_committed) return false;
+  const bool waits = may_wait && lines->expects_more(now()) && drive.committed() >= least_committed;
+  // The machine may brake for the end of the queue. Lines that have come since lead on from there.
+  if (may_wait && !waits && lines->queued() > 0) drive.pass_await_line(lines->last_mode());
+  if (!waits) return false;
   mind_holds();
   board_.poll(std::min(most, a_wait_for_lines));
   return true;

@@ -16,6 +16,7 @@ namespace passo {
 namespace {
 
 constexpr double highest_factor = 2;
+constexpr double least_rapids = 0.05;
 
 bool is_factor(const std::optional<double>& value, double highest) {
   return !value || (*value >= 0 && *value <= highest);
@@ -204,8 +205,11 @@ void MachineSession::put_on_drive(Work& work, const DriveOptions& options, bool 
   Watchers& watchers = work.watchers;
   work.ahead = position_.place;
   if (knows_ahead) {
-    drive.motion().watch([&work](const MotionItem& item) {
-      if (const auto* move = std::get_if<PlannedMove>(&item)) work.ahead = move->segment.tool_at(move->to);
+    drive.motion().watch([this, &work](const MotionItem& item) {
+      const auto* move = std::get_if<PlannedMove>(&item);
+      if (move == nullptr) return;
+      work.ahead = move->segment.tool_at(move->to);
+      work.lines_ahead.plan(move->segment.source, now() + work.drive->committed() - move->duration(), now());
     });
   }
   if (work.program != nullptr && watchers.operations) work.program->operations().watch(watchers.operations);
@@ -223,9 +227,14 @@ void MachineSession::put_on_drive(Work& work, const DriveOptions& options, bool 
     if (watchers.rests) refiller->watch_rests(watchers.rests);
   }
   if (!work.is_program()) return;
+  put_overrides_on(drive);
+}
+
+void MachineSession::put_overrides_on(MotionDrive& drive) const {
   if (overrides_.feed != 1) drive.set_feed_override(overrides_.feed);
   if (overrides_.adaptive_feed != 1) drive.set_adaptive_feed(overrides_.adaptive_feed);
   if (overrides_.spindle != 1) drive.set_spindle_override(overrides_.spindle);
+  if (overrides_.rapids != 1) drive.set_rapid_override(overrides_.rapids);
 }
 
 MachineSession::Answer MachineSession::take(request::Jog& jog) {
@@ -294,13 +303,14 @@ MachineSession::Answer MachineSession::take(request::Check& check) {
 }
 
 // A hold ends an activity that is not a program.
-MachineSession::Answer MachineSession::take(request::Hold&) {
+MachineSession::Answer MachineSession::take(request::Hold& hold) {
   if (!busy() || state_ == MachineState::check) return refusal(RefusalCode::nothing_runs, "nothing moves");
   const Ticket ticket = ++last_ticket_;
   if (!work_->is_program()) {
     work_->drive->stop();
   } else {
-    work_->drive->hold();
+    work_->drive->hold(hold.for_door ? HoldReason::door : HoldReason::operator_hold);
+    work_->stops_outputs = work_->stops_outputs || hold.for_door;
     work_->rest_told = false;
   }
   waiting_holds_.push_back(ticket);
@@ -316,6 +326,7 @@ MachineSession::Answer MachineSession::take(request::Resume&) {
     return refusal(RefusalCode::nothing_runs, "no program is held");
   }
   if (panel_->door_is_open()) return refusal(RefusalCode::door_open, "the door is open");
+  work_->stops_outputs = false;
   drive.resume(HoldReason::operator_hold);
   drive.resume(HoldReason::door);
   answer_holds(Outcome::stopped);  // those that were called off before the machine came to rest
@@ -337,16 +348,37 @@ MachineSession::Answer MachineSession::take(request::Override& change) {
       !is_factor(change.spindle, highest_factor)) {
     return refusal(RefusalCode::bad_value, "an override is a factor of 0 to 2, the machine's own 0 to 1");
   }
+  if (!is_factor(change.rapids, 1) || change.rapids.value_or(1) < least_rapids) {
+    return refusal(RefusalCode::bad_value, "the override of rapids is a factor of 0.05 to 1");
+  }
   overrides_.feed = change.feed.value_or(overrides_.feed);
   overrides_.adaptive_feed = change.adaptive_feed.value_or(overrides_.adaptive_feed);
   overrides_.spindle = change.spindle.value_or(overrides_.spindle);
+  overrides_.rapids = change.rapids.value_or(overrides_.rapids);
   if (busy() && work_->is_program()) {
     MotionDrive& drive = *work_->drive;
     if (change.feed) drive.set_feed_override(*change.feed);
     if (change.adaptive_feed) drive.set_adaptive_feed(*change.adaptive_feed);
     if (change.spindle) drive.set_spindle_override(*change.spindle);
+    if (change.rapids) drive.set_rapid_override(*change.rapids);
     mind_holds();
   }
+  ++version_;
+  return at_once();
+}
+
+MachineSession::Answer MachineSession::take(request::SwitchOutputs& wanted) {
+  if (!busy() || !work_->is_program() || work_->finishing || work_->drive->stopped()) {
+    return refusal(RefusalCode::nothing_runs, "no program runs");
+  }
+  MotionDrive& drive = *work_->drive;
+  const bool held = drive.state() == MotionDrive::State::held && state_ == MachineState::hold;
+  if (wanted.spindle_stands && !held) {
+    return refusal(RefusalCode::nothing_runs, "the spindle is stopped in a hold only, when the machine rests");
+  }
+  if (wanted.mist) drive.switch_mist(*wanted.mist);
+  if (wanted.flood) drive.switch_flood(*wanted.flood);
+  if (wanted.spindle_stands) drive.stop_spindle(*wanted.spindle_stands);
   ++version_;
   return at_once();
 }

@@ -1,6 +1,7 @@
 // Work: what a session is busy with: either an activity on its own drive, or a check. Private to session/.
 #pragma once
 
+#include <deque>
 #include <memory>
 #include <optional>
 #include <utility>
@@ -11,6 +12,29 @@
 #include "passo/session/machine_session.hpp"
 
 namespace passo {
+
+// The lines of the program whose motion is planned, and when their motion begins.
+class LinesAhead {
+ public:
+  void plan(const OperationSource& line, Seconds begins, Seconds now) {
+    static_cast<void>(at(now));
+    const OperationSource& last = ahead_.empty() ? now_ : ahead_.back().line;
+    if (line.line == last.line && line.line_number == last.line_number) return;
+    ahead_.push_back({.line = line, .begins = begins});
+  }
+  const OperationSource& at(Seconds time) {
+    for (; !ahead_.empty() && ahead_.front().begins <= time; ahead_.pop_front()) now_ = ahead_.front().line;
+    return now_;
+  }
+
+ private:
+  struct Planned {
+    OperationSource line;
+    Seconds begins{0};
+  };
+  std::deque<Planned> ahead_;
+  OperationSource now_;
+};
 
 class MachineSession::Work {
  public:
@@ -23,9 +47,10 @@ class MachineSession::Work {
 
   Ticket ticket = 0;
   bool ended = false;
-  bool stopped = false;    // somebody asked to stop
-  bool finishing = false;  // the drive has ended, and the board is asked for its counts
-  bool rest_told = false;  // the rest of the current hold has been reported
+  bool stopped = false;        // somebody asked to stop
+  bool finishing = false;      // the drive has ended, and the board is asked for its counts
+  bool rest_told = false;      // the rest of the current hold has been reported
+  bool stops_outputs = false;  // at rest in the hold for a door, the outputs are to be switched off
   int recoveries_told = 0;
 
   // For a jog: when the lease is over, and how long each renewal lasts.
@@ -45,6 +70,7 @@ class MachineSession::Work {
   std::unique_ptr<MotionDrive> drive;
   std::unique_ptr<ProgramChecker> checker;  // for a check, which has no activity
   Point ahead;                              // the end of the planned path, for live motion
+  LinesAhead lines_ahead;                   // the same
 };
 
 }  // namespace passo

@@ -62,6 +62,11 @@ class AccelerationLaw final : public SpeedLaw {
     decided_ = 0;
   }
 
+  void path_grew() override {
+    closed_ = false;
+    decided_ = 0;
+  }
+
   bool go_on(PlannedMove& move) override {
     if (std::exchange(braking_, false)) decided_ = 0;
     while (decided_ == 0 && !(cells_.empty() && closed_)) look_ahead();

@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "passo/path/segment.hpp"
+#include "passo/trajectory/motion_limits.hpp"
 
 namespace passo {
 
@@ -15,6 +16,8 @@ inline constexpr double least_feed_factor = 0.01;
 struct FeedFactors {
   double override = 1;
   double adaptive = 1;
+  double rapids = 1;                                     // at most 1: a factor of the speed that the axes allow
+  const MotionLimits* limits = nullptr;                  // of the axes, where rapids != 1
   double spindle = 1;                                    // factor of feeds that follow the spindle
   double top = std::numeric_limits<double>::infinity();  // mm/s: limits all speeds, rapids included
 
@@ -28,13 +31,17 @@ struct FeedFactors {
   }
   // The programmed or rapid speed with the factors, in mm/s.
   double speed_on(const Segment& segment) const {
-    const double factor = segment.rapid ? 1 : planned(segment.heeds, segment.lock);
-    return std::min(segment.speed.value() * factor, top);
+    const double speed = segment.speed.value();
+    if (!segment.rapid) return std::min(speed * planned(segment.heeds, segment.lock), top);
+    if (rapids == 1) return std::min(speed, top);
+    return std::min(rapids * speed_within(segment.curve.steepest(), speed, *limits), top);
   }
   // Each factor of the two that is the faster one.
   static FeedFactors fastest_of(const FeedFactors& a, const FeedFactors& b) {
     return {.override = std::max(a.override, b.override),
             .adaptive = std::max(a.adaptive, b.adaptive),
+            .rapids = std::max(a.rapids, b.rapids),
+            .limits = a.limits != nullptr ? a.limits : b.limits,
             .spindle = std::max(a.spindle, b.spindle),
             .top = std::max(a.top, b.top)};
   }

@@ -46,6 +46,9 @@ class JerkLaw final : public SpeedLaw {
     fastest_ = FeedFactors::fastest_of(fastest_, wishes_.feeds);
   }
 
+  // Where no plan leads on, the old one leads to rest, and a new one from there.
+  void path_grew() override { unsuited_ = true; }
+
   bool go_on(PlannedMove& move) override {
     if (unsuited_) adapt();
     return produce(move);

@@ -344,7 +344,9 @@ bool JerkProfile::find_motion() {
     // What is left may be so little that all of the motion can be slowed by it.
     if (is_lifted && !in_motion_ && slowing() >= least_slowing && slow_down()) return true;
     for (std::size_t k = 0; k < states_.size(); ++k) guess_[k] = states_[k].speed * states_[k].speed;
-    if (!split_steep() && attempt > 0) break;
+    // The next attempt begins with the same guess. It is another one only if cells or stretches are.
+    const bool was_whole = attempt > 0 || std::ranges::find(steady_, true) == steady_.end();
+    if (!split_steep() && was_whole) break;
     prepare();
   }
   return !in_motion_ && find_motion_from_slow();

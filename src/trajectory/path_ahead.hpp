@@ -38,6 +38,16 @@ class PathAhead {
     return std::exchange(action_, std::nullopt);
   }
 
+  // Forgets an await_line after the last segment, which then ends as in its mode `last`. False: there is none, or no
+  // segment is left before it.
+  bool go_on(PathMode last) {
+    if (!action_ || action_->kind != Action::Kind::await_line || segments_.first() == segments_.end()) return false;
+    std::get<Segment>(*segments_[segments_.end() - 1]).mode = last;
+    action_.reset();
+    ended_ = false;
+    return true;
+  }
+
   void drop_to_action() {
     while (front() != nullptr) pop();
   }

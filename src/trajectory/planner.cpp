@@ -68,6 +68,12 @@ void Planner::set_feed_override(double factor) {
 void Planner::set_adaptive_feed(double factor) {
   implementation_->wish([factor](MidRunWishes& wishes) { wishes.feeds.adaptive = factor; });
 }
+void Planner::set_rapid_override(double factor) {
+  implementation_->wish([&](MidRunWishes& wishes) {
+    wishes.feeds.rapids = factor;
+    wishes.feeds.limits = &implementation_->limits;
+  });
+}
 void Planner::set_spindle_ratio(double ratio) {
   implementation_->wish([ratio](MidRunWishes& wishes) { wishes.feeds.spindle = ratio; });
 }
@@ -87,6 +93,11 @@ void Planner::resume() {
 void Planner::braking_plan(std::vector<PlannedMove>& plan) const {
   plan.clear();
   implementation_->law->braking_plan(plan);
+}
+bool Planner::go_on(PathMode last) {
+  if (!implementation_->path.go_on(last)) return false;
+  implementation_->law->path_grew();
+  return true;
 }
 void Planner::drop_to_action() {
   implementation_->path.drop_to_action();

@@ -24,6 +24,8 @@ class SpeedLaw {
   virtual void begin() = 0;
   // Call when the feeds of the wishes have changed.
   virtual void feeds_changed() = 0;
+  // Call when the path goes on where it ended until now (PathAhead::go_on()).
+  virtual void path_grew() = 0;
   // Gives the next move of the fastest motion. Returns false at rest before an action or at the path's end.
   [[nodiscard]] virtual bool go_on(PlannedMove& move) = 0;
   // Gives the next move on the shortest way to rest. Returns false at rest.

@@ -110,7 +110,7 @@ std::vector<std::string> examples_of(const std::string& help, const std::string&
 }
 
 TEST_F(Documents, each_example_of_the_help_of_a_study_runs) {
-  for (const char* command : {"interpolate", "chords", "ramp", "motor", "windings"}) {
+  for (const char* command : {"interpolate", "chords", "ramp", "motor", "loop", "windings"}) {
     const std::vector<std::string> examples = examples_of(passo(std::string(command) + " --help").out, command);
     EXPECT_GE(examples.size(), 3U) << command;
     for (const std::string& example : examples) {

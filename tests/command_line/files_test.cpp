@@ -64,6 +64,11 @@ TEST_F(FilesOfACommand, of_which_two_are_written_under_one_name_are_refused) {
   expect_refused(run_ + "-p " + path("a.svg") + " -p " + path("a.svg"));
   expect_refused(run_ + "-p " + path("a.svg") + " -r " + path("./a.svg"));
   expect_refused("chords --curve line --from 0,0 --to 3,4 --picture " + path("a.svg") + " -o " + path("a.svg"));
+  for (const char* const other : {"./a.svg", "$PWD/a.svg"}) {
+    const Outcome refused = passo(run_ + "-p a.svg -r " + std::string(other), "cd " + dir_.string() + " &&");
+    EXPECT_EQ(refused.code, 2) << other;
+    EXPECT_THAT(refused.err, HasSubstr("it is the same file as --picture")) << other;
+  }
   EXPECT_EQ(files().size(), 0U);
 }
 

@@ -34,6 +34,26 @@ TEST_F(Probe, finds_the_corner_as_the_manual_shows) {
   EXPECT_THAT(manual, HasSubstr(offsets));
 }
 
+TEST_F(Probe, touches_surfaces_in_files) {
+  const std::string plane = write("plane.csv", "x,y,z\n-50,-50,-2\n50,-50,-1\n-50,50,-3\n50,50,-2\n");
+  const std::string program =
+      "G21 G90 F600\nG38.2 Z-20\n(PRINT,#5063)\nG0 Z0\nG0 X10 Y-20\nG38.2 Z-20\n(PRINT,#5063)\nM2\n";
+  const Outcome flat = run_text(program, "--touch " + plane);
+  ASSERT_EQ(flat.code, 0) << flat.err;
+  EXPECT_THAT(flat.err, HasSubstr("-2.000000"));
+  EXPECT_THAT(flat.err, HasSubstr("-1.700000"));
+  const std::string roof =
+      write("roof.stl",
+            "solid roof\nfacet normal 0 0 1\nouter loop\nvertex -1 -1 3\nvertex 4 -1 3\nvertex -1 4 3\n"
+            "endloop\nendfacet\nendsolid roof\n");
+  const Outcome stl = run_text("G21 G90 F600\nG38.2 Z-20\n(PRINT,#5063)\nM2\n", "--touch " + roof + "@X1,Y0,Z-8");
+  ASSERT_EQ(stl.code, 0) << stl.err;
+  EXPECT_THAT(stl.err, HasSubstr("-5.000000"));
+  const Outcome wrong = run_text(program, "--touch " + write("bad.csv", "0,0,1\n0,x,2\n"));
+  EXPECT_EQ(wrong.code, 2);
+  EXPECT_THAT(wrong.err, HasSubstr("bad.csv:2:3: error: 'x' is no length"));
+}
+
 TEST_F(Probe, tells_what_it_found_in_the_json) {
   const Outcome outcome = run_text("G21 G90 F600\nG38.2 Z-20\nM2\n", "--json --touch Z:-1.5");
   ASSERT_EQ(outcome.code, 0) << outcome.err;

@@ -88,7 +88,7 @@ TEST_P(WornMachine, knows_the_side_of_its_backlash_when_a_jog_was_stopped) {
 
 TEST_P(WornMachine, finds_the_true_place_of_a_contact) {
   SessionOn on{.line = GetParam()};
-  on.boxes.emplace_back().ranges[Axis::z].high = -3.2;
+  std::get<TouchBox>(on.touchables.emplace_back()).ranges[Axis::z].high = -3.2;
   SessionRun run(worn_router(), on);
   run.make_ready();
   for (int again = 0; again < 2; ++again) {

@@ -24,22 +24,23 @@
 
 namespace passo::test {
 
-inline InterpreterOptions in_grbl() {
+inline InterpreterOptions in_grbl(const MachineDescription& machine) {
   InterpreterOptions options;
   options.dialect = Dialect::grbl;
+  options.more_grbl_axes = more_grbl_axes(machine);
   return options;
 }
 
 class GrblRun {
  public:
   explicit GrblRun(const MachineDescription& machine = example_machine("router"),
-                   const KnownPosition& start = at_zero(), const std::vector<TouchBox>& boxes = {})
+                   const KnownPosition& start = at_zero(), const std::vector<Touchable>& touchables = {})
       : description_(machine),
         board_(machine.motor_count(), machine.board.clock, machine.board.highest_event_rate,
                static_cast<std::size_t>(machine.board.held_items)),
-        plant_(plant_of(machine, start.place, boxes)),
+        plant_(plant_of(machine, start.place, touchables)),
         session_(description_, board_, {.tells_place = true, .start = start}),
-        program_(description_, in_grbl(), start.place),
+        program_(description_, in_grbl(description_), start.place),
         grbl_(description_, session_, program_) {
     board_.connect(plant_);
     while (session_.state() == MachineState::offline) session_.turn(Seconds(0.01));

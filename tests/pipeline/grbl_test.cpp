@@ -60,8 +60,9 @@ TEST(GrblStream, a_streamed_program_ends_at_the_counts_of_the_program_in_a_file)
   ASSERT_TRUE(slow.turn_until([&] { return slow.is("Idle"); }));
 
   GrblRun in_file;
-  ASSERT_TRUE(in_file.session().request(request::Start{
-      .program = ProgramReader::from_text("t", std::string(program_lines) + "M2\n"), .options = in_grbl()}));
+  ASSERT_TRUE(in_file.session().request(
+      request::Start{.program = ProgramReader::from_text("t", std::string(program_lines) + "M2\n"),
+                     .options = in_grbl(in_file.description())}));
   ASSERT_TRUE(in_file.turn_until([&] { return !in_file.session().busy(); }));
   EXPECT_EQ(counts_of(streamed.board()), counts_of(in_file.board()));
   EXPECT_EQ(counts_of(slow.board()), counts_of(in_file.board()));
@@ -151,6 +152,225 @@ TEST(GrblJog, a_sender_that_goes_ends_its_jog) {
   EXPECT_LT(run.session().status().now_at[Axis::x], 60);
 }
 
+TEST(GrblJog, of_a_sender_that_asks_no_more_ends_by_its_lease) {
+  GrblRun run;
+  for (int i = 0; i < 5; ++i) {
+    run.send("?");
+    run.pass(Seconds(0.2));
+  }
+  run.send("$J=G91 X200 F3000\n");
+  for (int i = 0; i < 5; ++i) {
+    run.pass(Seconds(0.2));
+    run.send("?");
+  }
+  EXPECT_TRUE(run.is("Jog")) << "as long as the sender asks";
+  run.pass(Seconds(0.3));
+  EXPECT_TRUE(run.session().busy()) << "a question may be late";
+  run.grbl().receive("");
+  run.pass(Seconds(0.6));
+  EXPECT_TRUE(run.is("Idle")) << run.status();
+  const double reached = run.session().status().now_at[Axis::x];
+  EXPECT_GT(reached, 50);
+  EXPECT_LT(reached, 110);
+}
+
+TEST(GrblJog, of_a_sender_that_never_asks_goes_on) {
+  GrblRun run;
+  run.send("$J=G91 X100 F3000\n");
+  run.pass(Seconds(3));
+  EXPECT_NEAR(run.session().status().now_at[Axis::x], 100, 1e-3);
+}
+
+// Of a transcript: the fields A, Ov, Ln and FS of a status report.
+std::string field(const std::string& status, const std::string& name) {
+  const std::size_t at = status.find("|" + name + ":");
+  if (at == std::string::npos) return "";
+  const std::size_t from = at + name.size() + 2;
+  return status.substr(from, status.find_first_of("|>", from) - from);
+}
+std::string report_with(GrblRun& run, const std::string& name) {
+  for (int i = 0; i < 40; ++i) {
+    if (const std::string status = run.status(); !field(status, name).empty()) return field(status, name);
+  }
+  return "";
+}
+
+TEST(GrblRealTime, rapids_go_at_a_half_and_a_quarter) {
+  const auto time_of = [](const std::string& command) {
+    GrblRun run;
+    run.send(command + "G0 X100\n");
+    const Seconds begun = run.session().now();
+    EXPECT_TRUE(run.turn_until([&] { return run.is("Run"); }));
+    EXPECT_TRUE(run.turn_until([&] { return run.is("Idle"); }));
+    EXPECT_NEAR(run.session().status().now_at[Axis::x], 100, 1e-3);
+    return (run.session().now() - begun).value();
+  };
+  const double whole = time_of("");
+  const double speed = GrblRun().description().axes[0].velocity.value();
+  EXPECT_NEAR(time_of("\x96") - whole, 100 / speed, 100 / speed * 0.35) << "twice the way's time, but for speeding up";
+  EXPECT_NEAR(time_of("\x97"), 400 / speed, 0.5);
+  EXPECT_NEAR(time_of("\x97\x95"), whole, 0.02);
+  GrblRun run;
+  run.send("\x96");
+  EXPECT_EQ(report_with(run, "Ov"), "100,50,100");
+}
+
+TEST(GrblRealTime, a_feed_is_not_a_rapid) {
+  GrblRun run;
+  run.send("\x97G1 X10 F1200\n");
+  ASSERT_TRUE(run.turn_until([&] { return run.session().status().speed_now > MmPerSecond(19); }, Seconds(2)));
+}
+
+TEST(GrblRealTime, a_spindle_is_stopped_in_a_hold_only_and_turns_again_with_the_resume) {
+  GrblRun run;
+  run.send("M3 S1000\nG1 X20 F600\n");
+  run.pass(Seconds(0.5));
+  run.send("\x9E");
+  run.pass(Seconds(0.2));
+  EXPECT_EQ(run.board().counts().outputs.switches & spindle_on, spindle_on) << "not while the machine moves";
+  run.send("!");
+  ASSERT_TRUE(run.turn_until([&] { return run.is("Hold:0"); }, Seconds(2)));
+  run.send("\x9E");
+  run.pass(Seconds(0.1));
+  EXPECT_EQ(run.board().counts().outputs.switches & spindle_on, 0);
+  run.send("\x9E");
+  run.pass(Seconds(0.1));
+  EXPECT_EQ(run.board().counts().outputs.switches & spindle_on, spindle_on);
+  run.send("\x9E");
+  run.pass(Seconds(0.1));
+  EXPECT_EQ(run.board().counts().outputs.switches & spindle_on, 0);
+  const auto held = counts_of(run.board());
+  run.send("~");
+  run.pass(Seconds(0.05));
+  EXPECT_EQ(run.board().counts().outputs.switches & spindle_on, spindle_on);
+  EXPECT_EQ(counts_of(run.board()), held) << "the spindle gets its time";
+  ASSERT_TRUE(run.turn_until([&] { return run.is("Idle"); }));
+  EXPECT_NEAR(run.session().status().now_at[Axis::x], 20, 1e-3);
+}
+
+TEST(GrblRealTime, coolant_buttons_count_until_the_program_switches_the_same) {
+  GrblRun run;
+  const auto flood = [&] { return (run.board().counts().outputs.switches & flood_on) != 0; };
+  run.send("G1 X10 F600\n");
+  run.pass(Seconds(0.3));
+  run.send("\xA0");
+  run.pass(Seconds(0.1));
+  EXPECT_TRUE(flood());
+  EXPECT_EQ(report_with(run, "A"), "F");
+  run.send("M3 S100\nG1 X12\n");
+  ASSERT_TRUE(run.turn_until([&] { return run.is("Idle"); }));
+  EXPECT_TRUE(flood()) << "another output does not change it";
+  run.send("M8\nG1 X14\nM9\nG1 X15\n");
+  ASSERT_TRUE(run.turn_until([&] { return run.session().status().now_at[Axis::x] > 14.5; }));
+  EXPECT_FALSE(flood());
+  run.send("\xA0");
+  run.pass(Seconds(0.1));
+  EXPECT_TRUE(flood());
+  run.send("\xA0");
+  run.pass(Seconds(0.1));
+  EXPECT_FALSE(flood());
+
+  GrblRun idle;
+  idle.send("\xA0");
+  idle.pass(Seconds(0.2));
+  EXPECT_NE(idle.board().counts().outputs.switches & flood_on, 0);
+  idle.send("$G\n");
+  EXPECT_NE(idle.reply().find(" M8 "), std::string::npos) << "as a line of the program";
+}
+
+TEST(GrblRealTime, a_door_holds_and_switches_off_until_the_resume) {
+  GrblRun run;
+  run.send("M3 S1000 M8\nG1 X20 F600\n");
+  run.pass(Seconds(0.5));
+  run.send("\x84");
+  run.collect();
+  EXPECT_TRUE(run.is("Door:2")) << run.status();
+  ASSERT_TRUE(run.turn_until([&] { return run.is("Door:0"); }, Seconds(2)));
+  run.pass(Seconds(0.1));
+  EXPECT_EQ(run.board().counts().outputs.switches, 0);
+  const auto held = counts_of(run.board());
+  run.pass(Seconds(1));
+  EXPECT_EQ(counts_of(run.board()), held);
+  run.send("~");
+  run.pass(Seconds(0.1));
+  EXPECT_EQ(run.board().counts().outputs.switches, spindle_on) << "the spindle first";
+  EXPECT_EQ(counts_of(run.board()), held);
+  ASSERT_TRUE(run.turn_until([&] { return run.is("Idle"); }));
+  EXPECT_EQ(run.board().counts().outputs.switches, spindle_on | flood_on);
+  EXPECT_NEAR(run.session().status().now_at[Axis::x], 20, 1e-3);
+
+  GrblRun jog;
+  jog.send("$J=G91 X100 F3000\n");
+  jog.pass(Seconds(0.5));
+  jog.send("\x84");
+  ASSERT_TRUE(jog.turn_until([&] { return jog.is("Door:0"); }, Seconds(2)));
+  const double reached = jog.session().status().now_at[Axis::x];
+  jog.send("~");
+  jog.pass(Seconds(1));
+  EXPECT_NEAR(jog.session().status().now_at[Axis::x], reached, 0.1) << "the jog is over";
+  EXPECT_TRUE(jog.is("Idle")) << jog.status();
+}
+
+TEST(GrblRealTime, the_line_that_is_executed_is_told_by_its_number) {
+  GrblRun run;
+  run.send("N10 G1 X5 F600\nN20 G1 Y5\nG1 X0\n");
+  ASSERT_TRUE(run.turn_until([&] { return run.session().status().now_at[Axis::x] > 2; }));
+  EXPECT_EQ(field(run.status(), "Ln"), "10");
+  ASSERT_TRUE(run.turn_until([&] { return run.session().status().now_at[Axis::y] > 2; }));
+  EXPECT_EQ(field(run.status(), "Ln"), "20");
+  ASSERT_TRUE(run.turn_until([&] { return run.session().status().now_at[Axis::x] < 3; }));
+  EXPECT_EQ(field(run.status(), "Ln"), "");
+  ASSERT_TRUE(run.turn_until([&] { return run.is("Idle"); }));
+  EXPECT_EQ(field(run.status(), "Ln"), "");
+}
+
+// The machine brakes for the end of the queue. A line that comes then leads on, without a rest.
+TEST(GrblStream, a_line_that_comes_while_the_machine_brakes_leads_on) {
+  int passed = 0;
+  for (int late = 0; late < 12; ++late) {
+    GrblRun run;
+    run.send("G1 X20 F3000\n");
+    ASSERT_TRUE(run.turn_until([&] { return run.session().status().speed_now > MmPerSecond(49); }, Seconds(2)));
+    double place = 16 + 0.25 * late;
+    ASSERT_TRUE(run.turn_until([&] { return run.session().status().now_at[Axis::x] > place; }, Seconds(2)));
+    run.send("G1 X40\n");
+    bool rested = false;
+    ASSERT_TRUE(run.turn_until(
+        [&] {
+          rested = rested || run.session().state() == MachineState::await_line;
+          return run.session().status().now_at[Axis::x] > 30;
+        },
+        Seconds(5)));
+    passed += rested ? 0 : 1;
+    ASSERT_TRUE(run.turn_until([&] { return run.is("Idle"); }));
+    EXPECT_NEAR(run.session().status().now_at[Axis::x], 40, 1e-3);
+  }
+  EXPECT_GE(passed, 3);
+}
+
+TEST(GrblAxes, of_the_machine_beside_xyz_are_taken_and_told) {
+  MachineDescription machine = example_machine("router");
+  AxisDescription turn = machine.axes.back();
+  turn.axis = Axis::a;
+  turn.home.reset();
+  turn.travel_low = -3600;
+  turn.travel_high = 3600;
+  machine.axes.push_back(turn);
+  GrblRun run(machine);
+  run.send("G1 A90 X1 F600\n");
+  EXPECT_EQ(run.reply(), "ok");
+  ASSERT_TRUE(run.turn_until([&] { return run.is("Idle"); }));
+  EXPECT_TRUE(run.status().starts_with("<Idle|MPos:1.000,0.000,0.000,90.000|")) << run.status();
+  run.send("G1 B9\n$J=G91 A10 F600\n");
+  EXPECT_EQ(run.reply(), "error:20");
+  EXPECT_EQ(run.reply(), "ok");
+  ASSERT_TRUE(run.turn_until([&] { return run.is("Idle"); }));
+  EXPECT_TRUE(run.status().starts_with("<Idle|MPos:1.000,0.000,0.000,100.000|")) << run.status();
+  GrblRun three;
+  three.send("G1 A9 F100\n");
+  EXPECT_EQ(three.reply(), "error:20");
+}
+
 TEST(GrblHoming, a_machine_that_is_not_homed_is_locked_until_it_is) {
   GrblRun run(example_machine("router"), KnownPosition{.place = Point(), .trust = Trust::unknown});
   EXPECT_TRUE(run.is("Alarm"));
@@ -197,9 +417,10 @@ TEST(GrblReplies, each_write_is_whole_lines_of_ascii) {
 // Any bytes: the controller answers each line once, and comes to rest after a reset.
 TEST(GrblHostile, random_bytes_end_in_a_machine_that_obeys) {
   std::mt19937_64 random(seed());
-  const std::string pieces[] = {"G1X",  "G0Y-", "$J=G91X", "F1000", "\n", "\n", "\n",  "\r\n", "?",      "!",    "~",
-                                "\x85", "$H",   "$X\n",    "$C\n",  "G2", "I1", "M2",  "(",    ")",      "$$\n", "9e9",
-                                "\xC3", "\x90", "G38.2Z-", "1.5",   "%",  "S9", "M3 ", "$10=", "$N0=G0", "\x18", "G91"};
+  const std::string pieces[] = {"G1X",  "G0Y-", "$J=G91X", "F1000", "\n",      "\n",   "\n",     "\r\n", "?",    "!",
+                                "~",    "\x85", "$H",      "$X\n",  "$C\n",    "G2",   "I1",     "M2",   "(",    ")",
+                                "$$\n", "9e9",  "\xC3",    "\x90",  "G38.2Z-", "1.5",  "%",      "\x84", "\x96", "\x9E",
+                                "\xA0", "N7",   "A1",      "S9",    "M3 ",     "$10=", "$N0=G0", "\x18", "G91"};
   for (int trial = 0; trial < 40; ++trial) {
     GrblRun run;
     for (int i = 0; i < 150; ++i) {

@@ -40,6 +40,7 @@ inline MachineDescription homing_machine(const std::string& name = "uno") {
 struct Distances {
   std::int64_t steps[3] = {2000, 3000, 1000};
   std::int64_t hysteresis = 30;
+  Seconds bounce{0};
 };
 
 inline TravelSwitch switch_of(const MachineDescription& machine, std::size_t motor, const Distances& distances) {
@@ -50,7 +51,8 @@ inline TravelSwitch switch_of(const MachineDescription& machine, std::size_t mot
           .motor = static_cast<std::uint8_t>(motor),
           .at_high_end = high,
           .closes_at = closes,
-          .opens_at = high ? closes - distances.hysteresis : closes + distances.hysteresis};
+          .opens_at = high ? closes - distances.hysteresis : closes + distances.hysteresis,
+          .bounce = distances.bounce};
 }
 
 inline std::vector<TravelSwitch> switches_of(const MachineDescription& machine, const Distances& distances) {

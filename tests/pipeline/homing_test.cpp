@@ -192,6 +192,19 @@ TEST(HomingTest, a_switch_that_bounces_is_homed_by_its_first_edge) {
   expect_homed(machine, distances, result);
 }
 
+TEST(HomingTest, contacts_that_bounce_are_homed_by_their_first_edge) {
+  test::Random random;
+  const MachineDescription machine = homing_machine();
+  for (int i = 0; i < 20 && !HasFailure(); ++i) {
+    SCOPED_TRACE("trial " + std::to_string(i));
+    Distances distances = anywhere(random);
+    distances.bounce = Seconds(random.between(0, 20e-3));
+    const Homed result = home(machine, {.over_a_line = i % 2 != 0, .switches = switches_of(machine, distances)});
+    expect_homed(machine, distances, result);
+    EXPECT_EQ(result.inputs, 0) << "all switches are open";
+  }
+}
+
 TEST(HomingTest, tells_a_switch_that_never_comes_to_rest) {
   const Homed result = home_by(homing_machine(), [](std::int64_t at) { return (at / 4) % 2 != 0; });
   EXPECT_EQ(result.fault, HomingFault::unsteady);
@@ -213,8 +226,8 @@ TEST(HomingTest, an_operators_stop_ends_it_at_rest) {
 }
 
 TEST(HomeSwitches, close_where_the_machine_file_says) {
-  const MachineDescription machine = homing_machine();
-  const std::vector<TravelSwitch> switches = home_switches(machine);
+  MachineDescription machine = homing_machine();
+  std::vector<TravelSwitch> switches = home_switches(machine);
   ASSERT_EQ(switches.size(), 3U);
   EXPECT_EQ(switches[0].closes_at, -256'256);
   EXPECT_EQ(switches[0].opens_at, -256'256 + 32);
@@ -222,6 +235,12 @@ TEST(HomeSwitches, close_where_the_machine_file_says) {
   EXPECT_TRUE(switches[1].at_high_end) << "its motor turns the other way";
   EXPECT_EQ(switches[2].closes_at, 38'656);
   EXPECT_EQ(switches[2].opens_at, 38'656 - 32);
+  EXPECT_EQ(switches[2].bounce, Seconds(0));
+  machine.axes[2].home->hysteresis = 0.1;
+  machine.axes[2].home->bounce = Seconds(2e-3);
+  switches = home_switches(machine);
+  EXPECT_EQ(switches[2].opens_at, 38'656 - 64);
+  EXPECT_EQ(switches[2].bounce, Seconds(2e-3));
 }
 
 }  // namespace

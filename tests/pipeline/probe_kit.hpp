@@ -4,7 +4,7 @@
 #include <cmath>
 #include <vector>
 
-#include "passo/activity/touch_box.hpp"
+#include "passo/activity/touchable.hpp"
 #include "passo/geometry/axes.hpp"
 #include "passo/machine/machine_observer.hpp"
 #include "passo/machine_file/machine_description.hpp"

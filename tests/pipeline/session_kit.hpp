@@ -7,6 +7,7 @@
 #include <cstdint>
 #include <limits>
 #include <map>
+#include <memory>
 #include <optional>
 #include <string>
 #include <utility>
@@ -27,7 +28,7 @@ struct SessionOn {
   bool line = false;
   KnownPosition start = {.place = Point(), .trust = Trust::commanded};
   Point stands_at = {};  // in truth
-  std::vector<TouchBox> boxes = {};
+  std::vector<Touchable> touchables = {};
 };
 
 // A router that is homed in seconds.
@@ -52,7 +53,7 @@ class SessionRun {
         on_(on),
         board_(static_cast<std::uint8_t>(machine.axes.size()), machine.board.clock, machine.board.highest_event_rate,
                static_cast<std::size_t>(machine.board.held_items)),
-        plant_(plant_of(machine, on.stands_at, on.boxes)),
+        plant_(plant_of(machine, on.stands_at, on.touchables)),
         line_(board_, machine.board.clock, LineOptions{}),
         session_(description_, on.line ? static_cast<BoardPort&>(line_) : board_, options()) {
     board_.connect(plant_);
@@ -101,6 +102,14 @@ class SessionRun {
   std::string refusal_of(Request wanted) {
     const auto answer = ask(std::move(wanted));
     return answer ? std::string() : std::string(code_of(answer.error().code));
+  }
+
+  // Streams a line of a program that never ends.
+  void stream(const std::string& line) {
+    lines_ = std::make_unique<OpenProgram>(description_, InterpreterOptions(), Point());
+    const auto wrong = lines_->take(line, now());
+    EXPECT_FALSE(wrong) << wrong->message;
+    taken(request::Stream{.program = lines_.get()});
   }
 
   void turn(Seconds most = Seconds(0.02)) {
@@ -201,6 +210,7 @@ class SessionRun {
   VirtualMachine board_;
   IdealPlant plant_;
   VirtualLine line_;
+  std::unique_ptr<OpenProgram> lines_;
   MachineSession session_;
   MachineState last_ = MachineState::offline;
   std::map<Ticket, Seconds> waiting_;  // and when they were asked

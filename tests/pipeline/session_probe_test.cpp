@@ -64,7 +64,7 @@ TEST_P(AfterAProbeMove, a_homing_that_is_stopped_in_its_last_pull_off_claims_no_
 
 TEST_P(AfterAProbeMove, a_touch_stops_no_jog) {
   test::SessionOn on{.line = GetParam()};
-  on.boxes.emplace_back().ranges[Axis::z].high = -5;
+  std::get<TouchBox>(on.touchables.emplace_back()).ranges[Axis::z].high = -5;
   SessionRun run(test::short_router(), on);
   run.make_ready();
   stop_amid(run, request::Probe{.target = xyz(0, 0, -20), .speed = MmPerSecond(2)});

@@ -32,6 +32,7 @@ const std::vector<Situation> situations = {
     {"jog", MachineState::jog},
     {"home", MachineState::home},
     {"probe", MachineState::probe},
+    {"await_line", MachineState::await_line},
     {"tool_change", MachineState::tool_change, "G21 M3 S1000\nT1 M6\nG1 F600 X3\nM2\n", false, true},
     {"check", MachineState::check},
     {"door", MachineState::door},
@@ -74,6 +75,7 @@ std::unique_ptr<SessionRun> in(const Situation& situation) {
     case MachineState::alarm: run->board().set_switch(input_emergency_stop, true); break;
     case MachineState::fault: run->line().cut(run->now(), Seconds(1e6)); break;
     case MachineState::sleep: run->taken(request::Sleep{}); break;
+    case MachineState::await_line: run->stream("G1 F600 X1"); break;
     default: break;
   }
   EXPECT_TRUE(run->turn_until(situation.state));
@@ -113,6 +115,12 @@ const std::vector<Asked> requests = {
      [](const Situation& at) { return at.held && at.state != MachineState::door; }},
     {"stop", [] { return Request(request::Stop{}); }, is_active},
     {"override", [] { return Request(request::Override{.feed = 0.5}); }, [](const Situation&) { return true; }},
+    {"coolant", [] { return Request(request::SwitchOutputs{.flood = true}); },
+     [](const Situation& at) { return *at.program != '\0' || at.state == MachineState::await_line; }},
+    {"stop_spindle", [] { return Request(request::SwitchOutputs{.spindle_stands = true}); },
+     [](const Situation& at) { return at.state == MachineState::hold; }},
+    {"drop_lines", [] { return Request(request::DropLines{}); },
+     [](const Situation& at) { return at.state == MachineState::await_line; }},
     {"operator_done", [] { return Request(request::OperatorDone{}); }, [](const Situation& at) { return at.waits; }},
     {"set_position", [] { return Request(request::SetPosition{{.place = test::xyz(1, 2), .trust = Trust::counted}}); },
      [](const Situation& at) { return at.state == MachineState::idle; }},
@@ -176,6 +184,8 @@ TEST(SessionStates, refuse_values_that_are_none) {
   refuses(request::Override{.feed = -0.01});
   refuses(request::Override{.adaptive_feed = 1.01});
   refuses(request::Override{.spindle = nan});
+  refuses(request::Override{.rapids = 0.04});
+  refuses(request::Override{.rapids = 1.01});
   refuses(request::SetPosition{{.place = test::xyz(nan, 0)}});
   EXPECT_EQ(run->state(), MachineState::idle);
 }
@@ -236,7 +246,7 @@ TEST(SessionStates, a_probe_move_ends_at_what_it_touches) {
     SCOPED_TRACE(line ? "over a line" : "direct");
     TouchBox table;
     table.ranges[Axis::z].high = -3;
-    SessionRun run(test::short_router(), {.line = line, .boxes = {table}});
+    SessionRun run(test::short_router(), {.line = line, .touchables = {table}});
     run.make_ready();
     const Ticket ticket = run.taken(slow_probe());
     run.to_end();

@@ -96,6 +96,18 @@ struct CheckArguments {
 };
 int check(const CheckArguments& arguments);
 
+struct TuneArguments {
+  std::string machine;
+  double margin = 0.3;  // of the weakest motors' torque
+  std::string axes;     // "XY"; empty: all whose motors the file describes
+  double way = 0;       // of the reference move, mm or degrees; 0: half of the travel
+  bool keep_velocity = false;
+  std::string output;   // the machine file's copy; empty: none
+  std::string picture;  // .svg or .png
+  bool json = false;
+};
+int tune(const TuneArguments& arguments);
+
 struct CanonArguments {
   ProgramArguments program;
   std::string output;  // empty: standard output
@@ -158,9 +170,13 @@ int board_serve(const BoardServeArguments& arguments);
 struct ServeArguments {
   std::string machine;  // empty: the example machine
   std::string board = "virtual";
-  std::string grbl_tcp;            // HOST:PORT; with no line at all: 127.0.0.1:7071
-  std::string grbl_pty;            // where the link to the pseudo-terminal is to be
-  bool anybody_may_drive = false;  // the port may be reached from other computers
+  std::string grbl_tcp;                 // HOST:PORT; with no line at all: 127.0.0.1:7071
+  std::string grbl_pty;                 // where the link to the pseudo-terminal is to be
+  bool anybody_may_drive = false;       // the port may be reached from other computers
+  std::string http;                     // HOST:PORT for programs and browsers; empty: none
+  std::string http_token;               // file with the token that they need
+  std::vector<std::string> http_names;  // by which others know this server, beside HOST
+  std::string page;                     // folder with a page for browsers
 };
 int serve(const ServeArguments& arguments);
 
@@ -216,6 +232,27 @@ struct MotorArguments {
   bool json = false;
 };
 int motor(const MotorArguments& arguments);
+
+struct LoopArguments {
+  std::string of = "speed";         // or position
+  std::string machine;              // empty: a small motor
+  std::string axis;                 // of the machine
+  std::optional<double> to;         // rad/s, or degrees
+  std::string rule = "pi";          // p, pi or pid, by Ziegler and Nichols
+  std::vector<double> gains;        // kp, ki, kd by hand, instead of the rule
+  std::vector<double> speed_gains;  // of the inner loop of a position; empty: PI by the rule
+  bool compare = false;             // all rules, side by side
+  double time = 0.1;                // s
+  double period_us = 100;
+  double smoothing_us = 500;  // of the counted speed
+  int counts = 4000;          // of the encoder, a turn
+  std::string load;           // NM@S; empty: none
+  std::string picture;        // .svg or .png
+  std::string output;         // CSV; empty: standard output
+  bool json = false;
+};
+int loop(const LoopArguments& arguments);
+
 struct RampArguments {
   std::string method;                  // exact, recursive, table, midpoint
   std::optional<double> clock;         // Hz

@@ -1,7 +1,7 @@
 // The program `passo`: reads the command line and calls the command.
 //
-// Only this file, command_words.cpp, board_options.cpp, cam_options.cpp and study_options.cpp know CLI11, because CLI11
-// compiles slowly. Each command is in a file of its own.
+// Only this file, command_words.cpp, board_options.cpp, cam_options.cpp, study_options.cpp and tuning_options.cpp know
+// CLI11, because CLI11 compiles slowly. Each command is in a file of its own.
 #include <algorithm>
 #include <cstdio>
 #include <exception>
@@ -13,6 +13,7 @@
 #include "commands.hpp"
 #include "program_input.hpp"
 #include "study_options.hpp"
+#include "tuning_options.hpp"
 #include <CLI/CLI.hpp>
 
 namespace {
@@ -32,6 +33,7 @@ constexpr const char* examples = R"(Examples:
   passo serve                                                 a virtual machine for senders: UGS, bCNC, cncjs
   passo check part.ngc -m router.toml                         what is wrong with it, without running it
   passo check part.ngc -m router.toml --motion                peaks of the motion against the limits; the least time
+  passo tune --machine router.toml -o tuned.toml              velocities, accelerations and jerks that its motors can do
   passo canon part.ngc                                        what it means, as canonical calls
   passo explain part.ngc:12                                   what line 12 does, and under which modes
   passo machine router.toml                                   what a machine file says
@@ -39,6 +41,7 @@ constexpr const char* examples = R"(Examples:
   passo board list                                            what is on this computer's serial lines
   passo interpolate --compare --to 27,10                      how each classic method steps along a line
   passo motor --help                                          what a stepping motor can do at each speed
+  passo loop --compare --picture rules.svg                    PID for a motor with an encoder
   passo help run                                              every option of a command
   passo ramp --method exact --clock 1e6 --steps-per-rev 200 --accel 10 --steps 20    when a motor steps
   passo chords --curve arc --from 9,0 --to 0,9 --center 0,0   a curve as chords within a tolerance
@@ -144,11 +147,17 @@ CLI::App& add_serve(CLI::App& app, ServeArguments& arguments) {
                      "LINK: a pseudo-terminal for senders that know serial ports alone");
   command.add_flag("--anybody-may-drive", arguments.anybody_may_drive,
                    "allow a HOST that other computers reach: the protocol has no password");
+  command.add_option("--http", arguments.http, "HOST:PORT for programs and browsers: HTTP and WebSocket");
+  command.add_option("--http-token", arguments.http_token,
+                     "FILE with a token that HTTP then asks for; needed where other computers reach HOST");
+  command.add_option("--http-name", arguments.http_names, "a NAME by which browsers know this server, as a proxy's");
+  command.add_option("--page", arguments.page, "DIR with a web page to serve");
   command.footer(
       "Examples:\n  passo serve                                    a virtual machine: try a sender on it\n"
       "  passo serve -m router.toml                     your machine file, still virtual\n"
       "  passo serve -m uno.toml -b serial:/dev/ttyACM0     a real machine\n"
       "  passo serve --grbl-pty /tmp/ttyPasso           for senders that open a serial port\n"
+      "  passo serve --http 127.0.0.1:7080              for programs: curl 127.0.0.1:7080/api/v1/status\n"
       "  printf '?\\n$G\\n' | nc -q1 127.0.0.1 7071       what a sender sees\n"
       "In UGS: connection TCP, host 127.0.0.1, port 7071. In bCNC: port socket://127.0.0.1:7071. See "
       "docs/manual/serve.md");
@@ -184,7 +193,8 @@ int parse_and_run(int argc, char** argv) {
   run_command.add_option("--hold-at", run_arguments.holds, "hold at SECONDS and end; SECONDS:PAUSE goes on again");
   run_command.add_option("--override", run_arguments.overrides, "PERCENT@SECONDS: feed override from then on");
   run_command.add_option("--touch", run_arguments.touches,
-                         "AXIS LOW:HIGH,...: what the probe touches, as Z:-1.5 or X10:60,Y10:50,Z:-2");
+                         "what the probe touches, as Z:-1.5, X10:60,Y10:50,Z:-2 or part.stl@X100,Y80,Z-20 (a block, an "
+                         "STL file, a height map)");
   add_board(run_command, run_arguments.board);
   run_command.add_flag("--home", run_arguments.home,
                        "the machine is homed first, and the program begins where it then stands");
@@ -243,6 +253,9 @@ int parse_and_run(int argc, char** argv) {
       "  passo check corner.ngc -m router.toml --picture corner.svg    its speeds, accelerations and jerks; plans, "
       "too");
 
+  TuneArguments tune_arguments;
+  CLI::App& tune_command = add_tune_command(app, tune_arguments);
+
   CanonArguments canon_arguments;
   CLI::App& canon_command = *app.add_subcommand("canon", "print what a program means, as canonical calls");
   add_program(canon_command, canon_arguments.program);
@@ -287,6 +300,8 @@ int parse_and_run(int argc, char** argv) {
   CLI::App& ramp_command = add_ramp_command(app, ramp_arguments);
   MotorArguments motor_arguments;
   CLI::App& motor_command = add_motor_command(app, motor_arguments);
+  LoopArguments loop_arguments;
+  CLI::App& loop_command = add_loop_command(app, loop_arguments);
   WindingsArguments windings_arguments;
   CLI::App& windings_command = add_windings_command(app, windings_arguments);
   FollowerArguments follower_arguments;
@@ -307,12 +322,14 @@ int parse_and_run(int argc, char** argv) {
   if (home_command.parsed()) return home(home_arguments);
   if (serve_command.parsed()) return serve(serve_arguments);
   if (check_command.parsed()) return check(check_arguments);
+  if (tune_command.parsed()) return tune(tune_arguments);
   if (canon_command.parsed()) return canon(canon_arguments);
   if (explain_command.parsed()) return explain(explain_arguments);
   if (board_command.parsed()) return board_arguments.chosen();
   if (cam_drill_command.parsed()) return cam_drill(cam_drill_arguments);
   if (interpolate_command.parsed()) return interpolate(interpolate_arguments);
   if (motor_command.parsed()) return motor(motor_arguments);
+  if (loop_command.parsed()) return loop(loop_arguments);
   if (ramp_command.parsed()) return ramp(ramp_arguments);
   if (windings_command.parsed()) return windings(windings_arguments);
   if (follower_command.parsed()) return follower_sim(follower_arguments);

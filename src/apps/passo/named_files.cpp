@@ -19,9 +19,10 @@ bool find(const std::string& path, int standard, struct stat& found) {
   return path == "-" ? fstat(standard, &found) == 0 : stat(path.c_str(), &found) == 0;
 }
 
+// weakly_canonical() alone leaves "a.csv" as it is where there is no such file, and makes "./a.csv" absolute.
 std::string without_detours(const std::string& path) {
   std::error_code none;
-  const fs::path all = fs::weakly_canonical(path, none);
+  const fs::path all = fs::weakly_canonical(fs::absolute(path, none), none);
   return none ? path : all.string();
 }
 

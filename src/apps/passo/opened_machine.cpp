@@ -75,7 +75,7 @@ OpenedMachine::OpenedMachine(const MachineDescription& machine, const MachineWis
   } else {
     plant_ = std::make_unique<IdealPlant>();
   }
-  fit(*plant_, machine, Point(), wish.boxes);
+  fit(*plant_, machine, Point(), wish.touchables);
   if (rotors_ != nullptr) fit_rotors(*rotors_, machine);
 }
 

@@ -12,7 +12,7 @@
 #include "mid_run_changes.hpp"
 #include "place_file.hpp"
 
-#include "passo/activity/touch_box.hpp"
+#include "passo/activity/touchable.hpp"
 #include "passo/machine/virtual_line.hpp"
 #include "passo/machine/virtual_machine.hpp"
 #include "passo/machine_file/machine_description.hpp"
@@ -23,13 +23,13 @@
 namespace passo {
 
 struct MachineWish {
-  std::string board = "virtual";     // as parse_board_address() has it
-  bool over_a_line = false;          // the virtual machine is at the end of a line
-  std::optional<CableCut> cut = {};  // the line is cut; only with over_a_line
-  std::vector<TouchBox> boxes = {};  // boxes that the probe of a virtual or emulated board can touch
-  bool physics = false;              // the motors of a virtual or emulated machine obey physics
-  bool tells_place = false;          // see SessionOptions
-  bool may_move = false;             // another host may have left the board in motion
+  std::string board = "virtual";           // as parse_board_address() has it
+  bool over_a_line = false;                // the virtual machine is at the end of a line
+  std::optional<CableCut> cut = {};        // the line is cut; only with over_a_line
+  std::vector<Touchable> touchables = {};  // what the probe of a virtual or emulated board can touch
+  bool physics = false;                    // the motors of a virtual or emulated machine obey physics
+  bool tells_place = false;                // see SessionOptions
+  bool may_move = false;                   // another host may have left the board in motion
 };
 
 class OpenedMachine {

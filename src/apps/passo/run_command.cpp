@@ -456,8 +456,8 @@ int run(const RunArguments& arguments) {
   show(diagnostics);
   if (!machine) return exit_bad_machine;
 
-  const std::optional<std::vector<TouchBox>> boxes = read_touch_options(arguments.touches, *machine);
-  if (!boxes) return exit_bad_program;
+  const std::optional<std::vector<Touchable>> things = read_touch_options(arguments.touches, *machine);
+  if (!things) return exit_bad_program;
   std::optional<ProgramReader> program = open_program(arguments.program);
   std::optional<InterpreterOptions> options = machine_options(arguments.program);
   if (!program || !options) return exit_bad_program;
@@ -477,7 +477,7 @@ int run(const RunArguments& arguments) {
                      {.board = arguments.board,
                       .over_a_line = cut.has_value(),
                       .cut = cut,
-                      .boxes = *boxes,
+                      .touchables = *things,
                       .physics = arguments.physics,
                       .may_move = arguments.resume},
                      std::move(*program), std::move(*options), *changes);

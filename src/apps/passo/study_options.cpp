@@ -250,6 +250,59 @@ CLI::App& add_motor_command(CLI::App& app, MotorArguments& arguments) {
   return command;
 }
 
+CLI::App& add_loop_command(CLI::App& app, LoopArguments& arguments) {
+  CLI::App& command = *app.add_subcommand("loop", "a motor with an encoder and PID: its response to a step");
+  command.add_option("--of", arguments.of, "what is controlled: speed, or position (a loop around that of the speed)")
+      ->check(CLI::IsMember({"speed", "position"}))
+      ->capture_default_str();
+  command.add_option("--to", arguments.to, "the jump: rad/s (30 without it), or degrees (90)")
+      ->check(CLI::Range(-1e5, 1e5));
+  command
+      .add_option("--rule", arguments.rule, "of Ziegler and Nichols: p, pi or pid, from the gain at which it swings")
+      ->check(CLI::IsMember({"p", "pi", "pid"}))
+      ->capture_default_str();
+  command.add_option("--gains", arguments.gains, "KP,KI,KD by hand, instead of the rule")
+      ->delimiter(',')
+      ->expected(3)
+      ->check(CLI::Range(0.0, 1e9));
+  command.add_option("--speed-gains", arguments.speed_gains, "KP,KI,KD of the inner loop; without it PI by the rule")
+      ->delimiter(',')
+      ->expected(3)
+      ->check(CLI::Range(0.0, 1e9));
+  command.add_flag("--compare", arguments.compare, "P, PI and PID by the rule side by side, and the --gains");
+  command.add_option("--load", arguments.load, "NM@S: a torque against the motion, from a time on");
+  command.add_option("--time", arguments.time, "seconds that are shown")
+      ->check(CLI::Range(0.001, 100.0))
+      ->capture_default_str();
+  command.add_option("--period", arguments.period_us, "of the control, in microseconds")
+      ->check(CLI::Range(10.0, 1e5))
+      ->capture_default_str();
+  command.add_option("--smoothing", arguments.smoothing_us, "of the counted speed: a time constant in microseconds")
+      ->check(CLI::Range(0.0, 1e6))
+      ->capture_default_str();
+  command.add_option("--counts", arguments.counts, "of the encoder, a turn")
+      ->check(CLI::Range(4, 10'000'000))
+      ->capture_default_str();
+  command.add_option("-m,--machine", arguments.machine, "the motor of a machine file, with --axis; else a small one");
+  command.add_option("--axis", arguments.axis, "its letter");
+  command.add_option("-p,--picture", arguments.picture, "draw the response (FILE.svg or FILE.png)");
+  command.add_option("-o,--output", arguments.output, "write the table to a file");
+  command.add_flag("--json", arguments.json, "gains and figures as JSON, no table");
+  command.footer(
+      R"(Prints a line for each period as CSV: the time, the wanted and the counted value, the true one, and the torques
+that were asked for and given. The small motor: 0.45 N·m, 1.7 A, 24 V, with as much inertia again as load.
+
+Examples:
+  passo loop --rule p --json                                          P alone leaves an error
+  passo loop --rule pi --load 0.1@0.05 --picture speed.svg            the integral brings the speed back
+  passo loop --compare --picture rules.svg                            P, PI and PID by the rule
+  passo loop --of position --gains 60,0,0 --picture place.svg         a loop around a loop, by hand
+  passo loop --of position --period 1000 --counts 400 --rule p -o place.csv
+
+The chapter: docs/ramps/loop.md.)");
+  return command;
+}
+
 CLI::App& add_windings_command(CLI::App& app, WindingsArguments& arguments) {
   CLI::App& command =
       *app.add_subcommand("windings", "which windings carry current in a move, and where the rotors are");

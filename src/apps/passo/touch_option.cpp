@@ -3,10 +3,14 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
+#include <filesystem>
+#include <memory>
 #include <string_view>
 
 #include "program_input.hpp"
 #include <fmt/format.h>
+
+#include "passo/surface_file/surface_file.hpp"
 
 namespace passo {
 namespace {
@@ -30,6 +34,18 @@ bool read_range(std::string_view text, const MachineDescription& machine, TouchB
          range.low <= range.high;
 }
 
+// Reads a place: "X100,Y80,Z-20". Axes that it does not name are 0.
+bool read_place(std::string_view text, Point& place) {
+  for (;;) {
+    const std::size_t comma = text.find(',');
+    const std::string_view word = text.substr(0, comma);
+    const std::optional<Axis> axis = word.empty() ? std::nullopt : axis_of(word[0]);
+    if (!axis || is_rotary(*axis) || word.size() < 2 || !read_end(word.substr(1), place[*axis])) return false;
+    if (comma == std::string_view::npos) return true;
+    text.remove_prefix(comma + 1);
+  }
+}
+
 bool read_box(std::string_view text, const MachineDescription& machine, TouchBox& box) {
   for (;;) {
     const std::size_t comma = text.find(',');
@@ -39,19 +55,50 @@ bool read_box(std::string_view text, const MachineDescription& machine, TouchBox
   }
 }
 
-}  // namespace
+bool names_file(const std::string& text) {
+  const std::string file = text.substr(0, text.rfind('@'));
+  std::error_code none;
+  return file.ends_with(".stl") || file.ends_with(".csv") || std::filesystem::exists(file, none);
+}
 
-std::optional<std::vector<TouchBox>> read_touch_options(const std::vector<std::string>& texts,
-                                                        const MachineDescription& machine) {
-  std::vector<TouchBox> boxes;
-  for (const std::string& text : texts) {
-    if (read_box(text, machine, boxes.emplace_back())) continue;
-    fail(exit_bad_program, fmt::format("'{}': expected --touch LOW:HIGH of axes that the machine has, as Z:-1.5 or "
-                                       "X10:60,Y10:50,Z:-2, in machine coordinates",
+std::optional<PlacedSurface> read_placed(const std::string& text) {
+  PlacedSurface placed;
+  const std::size_t at = text.rfind('@');
+  if (at != std::string::npos && !read_place(std::string_view(text).substr(at + 1), placed.zero)) {
+    fail(exit_bad_program, fmt::format("'{}': expected FILE@PLACE with the place of the file's zero in machine "
+                                       "coordinates, as part.stl@X100,Y80,Z-20",
                                        text));
     return std::nullopt;
   }
-  return boxes;
+  Diagnostics diagnostics;
+  placed.surface = std::make_shared<const Surface>(read_surface(text.substr(0, at), diagnostics));
+  show(diagnostics);
+  if (diagnostics.any_error()) return std::nullopt;
+  return placed;
+}
+
+}  // namespace
+
+std::optional<std::vector<Touchable>> read_touch_options(const std::vector<std::string>& texts,
+                                                         const MachineDescription& machine) {
+  std::vector<Touchable> things;
+  for (const std::string& text : texts) {
+    if (names_file(text)) {
+      const std::optional<PlacedSurface> placed = read_placed(text);
+      if (!placed) return std::nullopt;
+      things.emplace_back(*placed);
+      continue;
+    }
+    TouchBox box;
+    if (!read_box(text, machine, box)) {
+      fail(exit_bad_program, fmt::format("'{}': expected --touch LOW:HIGH of axes that the machine has, as Z:-1.5 or "
+                                         "X10:60,Y10:50,Z:-2, in machine coordinates, or a file of a surface",
+                                         text));
+      return std::nullopt;
+    }
+    things.emplace_back(box);
+  }
+  return things;
 }
 
 }  // namespace passo

@@ -41,7 +41,7 @@ constexpr Case values[] = {
     {"X-", "gcode.missing-value 2 1", "a number"},
     {"X[]", "gcode.missing-value 2 1", "a number"},
     {"X[1+]", "gcode.missing-value 4 1", "a number"},
-    {"X[1 AND]", "gcode.missing-value 5 1", "a number"},
+    {"X[1 AND]", "gcode.missing-value 5 3", "a number"},
     {"N X5", "gcode.missing-value 1 1", "digits"},
     {"N-5 X5", "gcode.missing-value 1 1", "digits"},
     {"G1 XO.5", "gcode.bad-o-word 5 1", "digit 0"},
@@ -118,6 +118,7 @@ constexpr Case items[] = {
     {"G0 = 1", "gcode.unexpected-text 4 1", "a letter"},
     {"#1 5", "gcode.unexpected-text 1 4", "'='"},
     {"#<a> 5", "gcode.unexpected-text 1 4", "'='"},
+    {"X[#1 LT ]", "gcode.missing-value 6 2", "a number"},
     {"#<a=5", "gcode.bad-parameter-name 2 1", "'>'"},
     {"#< >=5", "gcode.bad-parameter-name 2 2", "a name"},
     {"#<a<b>=5", "gcode.bad-parameter-name 4 1", "letters"},
@@ -131,6 +132,8 @@ TEST(Messages, name_what_was_found) {
   EXPECT_EQ(ParsedLine("G1 \xE9").fault().message, "byte 0xE9, which is not UTF-8, has no meaning in G-code");
   EXPECT_EQ(ParsedLine("G1 X").fault().message, "'X' has no value");
   EXPECT_EQ(ParsedLine("xsni[3]").fault().message, "there is no function SNI");
+  EXPECT_EQ(ParsedLine("X[#1 lt ]").fault().message, "'lt' has no value after it");
+  EXPECT_EQ(ParsedLine("X[2**]").fault().message, "'**' has no value after it");
 }
 
 TEST(Messages, stay_short_where_the_line_is_long) {

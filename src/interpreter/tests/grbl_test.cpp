@@ -89,6 +89,16 @@ TEST(Grbl, keeps_the_feed_where_g94_is_active_already) {
   EXPECT_EQ(interpret_text("G1 X5 F100\nG94\nG1 X6\nM2").diagnostics.errors(), 1U);
 }
 
+TEST(Grbl, takes_the_feed_in_the_units_of_its_own_block) {
+  const Interpreted inches = as_grbl("G1 G20 X1 F10\nM2");
+  EXPECT_TRUE(inches.diagnostics.all().empty()) << inches.rendered();
+  EXPECT_DOUBLE_EQ(inches.all<operation::SetFeedRate>().front().rate, 254.0 / 60);
+  EXPECT_EQ(inches.all<operation::SetLengthUnits>().size(), 2U) << "at the start, and by G20";
+  const Interpreted mm = as_grbl("G20\nF254 G21 G1 X1\nM2");
+  EXPECT_TRUE(mm.diagnostics.all().empty()) << mm.rendered();
+  EXPECT_DOUBLE_EQ(mm.all<operation::SetFeedRate>().front().rate, 254.0 / 60);
+}
+
 TEST(Grbl, takes_a_line_number_amid_the_line) {
   const Interpreted result = as_grbl("G0 N20 X1\nX2 N30\nM2");
   EXPECT_FALSE(result.diagnostics.any_error()) << result.rendered();

@@ -116,6 +116,31 @@ TEST(Limits, a_line_that_cannot_be_read_does_not_cause_further_errors) {
   }
 }
 
+TEST(Limits, a_line_that_fails_does_not_cause_errors_that_tell_the_lack_of_it) {
+  for (const char* const program :
+       {"G12 F100\nG1 X1\nM2\n", "G1 X[ F100\nG1 X1\nM2\n", "F1OO\nG1 X1\nX2\nM2\n", "G0 (F9\nG1 X1\nM2\n",  // a feed
+        "F9\nG1 X1 )\nX2\nM2\n", "F9\nG81 X1 Z-1 R\nX2\nX3\nM2\n",                                           // a motion
+        "M3 S[\nG33 Z-1 K1\nM2\n",                                                                  // a spindle
+        "F9\nG0 X[5\nG2 X10 Y0 I2.5\nM2\n", "F9\nG0 X[1/0]\nG2 X10 Y0 I2.5\nG2 X15 Y0 I2.5\nM2\n",  // a place
+        "#<a>=[2\n#<b>=#<A>\nG0 X# < b >\nM2\n", "#<a>=[2/0]\nG0 X#<a>\nM2\n",                      // a value
+        "20 while [0]\nG0 X1\no20 endwhile\nM2\n", "Lo1 if [1]\nG0 X1\no1 endif\nM2\n",             // a construct
+        "o1/ while [0]\nG0 X1\no12 endwhile\nM2\n", "o<s> su\nG0 X1\no<s> endsub\no<s> call\nM2\n",
+        "M98 P10\nM2\nO1O\nG0 X1\nM99\n",                                       // a sub
+        "G18 F9\nG71 Q1 X5 Z1\nM2\no1 sub\nG1 X1 Z1 )\nX2 Z0\no1 endsub\n"}) {  // a contour
+    EXPECT_EQ(errors_of(program), 1U) << program << interpret_text(program).rendered();
+  }
+}
+
+TEST(Limits, what_is_wrong_in_itself_is_told_behind_a_line_that_fails) {
+  for (const char* const program :
+       {"F9\nG12 X5\nG0 X5 Y0\nG2 X10 Y0 I2\nM2\n",  // the place is known again
+        "F9\nG12 X5\nG91 G2 X10 Y0 I2\nM2\n",        // an arc that does not depend on the place
+        "F9\nG2 X10 Y0 I2\nG2 X20 Y0 I2\nM2\n",      // a wrong arc leads to its end
+        "G0 X[5\nG1 X1\nM2\n", "G12\n#1=#<a>\nM2\n", "G12\no1 endif\nM2\n", "G12\no<s> call\nM2\n"}) {
+    EXPECT_EQ(errors_of(program), 2U) << program << interpret_text(program).rendered();
+  }
+}
+
 TEST(Limits, a_code_of_another_control_gets_what_does_the_same_here) {
   EXPECT_THAT(error_of("G68 X0 Y0 R30\nM2\n").expected, HasSubstr("G10 L2 with R"));
   EXPECT_THAT(error_of("M42 P1\nM2\n").expected, HasSubstr("M62 to M65"));

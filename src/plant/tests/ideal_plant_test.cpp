@@ -43,6 +43,37 @@ TEST(IdealPlant, a_travel_switch_closes_at_its_place_and_opens_later) {
   EXPECT_EQ(plant.inputs_at(now), 0);
 }
 
+TEST(IdealPlant, a_contact_that_bounces_comes_to_rest_in_its_time) {
+  IdealPlant plant;
+  plant.add(TravelSwitch{
+      .input = input_limit, .at_high_end = true, .closes_at = 20, .opens_at = 10, .bounce = Seconds(10e-3)});
+  plant.pulse(Seconds(1), {19});
+  EXPECT_EQ(plant.inputs_at(Seconds(1)), 0);
+  EXPECT_EQ(plant.events_to_next_change(), 1);
+  for (const auto& [pulses, closed] : {std::pair{1, true}, std::pair{-10, false}}) {
+    const double from = closed ? 2 : 3;
+    plant.pulse(Seconds(from), {pulses});
+    EXPECT_EQ(plant.inputs_at(Seconds(from)) != 0, closed) << "its first edge is the place of the contact";
+    int edges = 0;
+    bool before = closed;
+    for (int ms_100 = 1; ms_100 < 2000; ++ms_100) {
+      const Seconds time(from + ms_100 * 1e-5);
+      const bool now_closed = plant.inputs_at(time) != 0;
+      if (now_closed != before) ++edges;
+      before = now_closed;
+      if (ms_100 == 500) {
+        EXPECT_EQ(plant.events_to_next_change(), 1) << "every event counts";
+      }
+      if (ms_100 >= 1000) {
+        EXPECT_EQ(now_closed, closed);
+      }
+    }
+    EXPECT_EQ(edges, 6);
+  }
+  EXPECT_EQ(plant.truth_at(Seconds(4)).positions[0], 10);
+  EXPECT_EQ(plant.events_to_next_change(), 10) << "at rest";
+}
+
 TEST(IdealPlant, its_probe_touches_a_body_while_all_motors_are_in_it) {
   IdealPlant plant;
   TouchBody body;

@@ -97,5 +97,31 @@ TEST(RotorPlant, does_the_same_however_often_somebody_looks) {
   EXPECT_NEAR(once.truth_at(Seconds(time)).positions[0], often.truth_at(Seconds(time)).positions[0], 0.02);
 }
 
+// One plant is asked for its inputs after each pulse, and need not look at its places. The other looks each time. In
+// some trials the motor loses steps on its way.
+TEST(RotorPlant, its_switches_miss_nothing_between_two_looks) {
+  for (const double rate : {700.0, 3000.0, 9000.0, 40'000.0}) {
+    RotorPlant asked;
+    asked.fit_motor(0, small_setup());
+    asked.add(TravelSwitch{.input = input_limit, .at_high_end = true, .closes_at = 300, .opens_at = 280});
+    asked.add(
+        TravelSwitch{.input = input_limit << 1, .motor = 1, .at_high_end = true, .closes_at = 40, .opens_at = 40});
+    RotorPlant watched = asked;
+    double time = 0;
+    std::uint16_t seen = 0;
+    for (int i = 0; i < 3000; ++i) {
+      const int way = i < 1000 || i >= 2000 ? 1 : -1;
+      time += 1 / std::min(rate, 300.0 + 5 * (i % 1000));
+      const MotorSteps steps{way, i % 16 == 0 ? way : 0};
+      asked.pulse(Seconds(time), steps);
+      watched.pulse(Seconds(time), steps);
+      const Truth truth = watched.truth_at(Seconds(time));
+      seen |= truth.inputs;
+      ASSERT_EQ(asked.inputs_at(Seconds(time)), truth.inputs) << "pulse " << i << " at " << rate << " Hz";
+    }
+    EXPECT_EQ(seen, input_limit | input_limit << 1);
+  }
+}
+
 }  // namespace
 }  // namespace passo

@@ -1,13 +1,17 @@
 #include "passo/plant/screw_model.hpp"
 
 #include <cstdint>
+#include <memory>
 #include <random>
 #include <string>
+#include <utility>
+#include <vector>
 
 #include "kit/seed.hpp"
 #include <gtest/gtest.h>
 
 #include "passo/plant/ideal_plant.hpp"
+#include "passo/surface/surface.hpp"
 #include "passo/wire/message.hpp"
 
 namespace passo {
@@ -95,6 +99,44 @@ TEST(ScrewModel, sums_up_to_the_next_change_tell_as_much_as_each_pulse) {
     EXPECT_NEAR(each.truth_at(no_time).positions[0], sums.truth_at(no_time).positions[0], 1e-9);
   }
   EXPECT_GT(kept, 0);
+}
+
+// Five pits and hills. The motor of X has 3 steps to the millimetre, that of Z 5, the other way round.
+TEST(TouchSurface, sums_up_to_the_next_change_tell_as_much_as_each_pulse) {
+  std::vector<SurfaceTriangle> triangles;
+  for (int x = -50; x < 50; x += 10) {
+    const auto at = [](int place) { return SurfacePoint{place * 1.0, 0, place / 10 % 2 * 20.0}; };
+    const SurfacePoint far{x + 5.0, 40, 0};
+    triangles.push_back({at(x), at(x + 10), far});
+  }
+  const auto surface = std::make_shared<const Surface>(std::move(triangles));
+  std::mt19937_64 random(test::seed());
+  std::int64_t kept = 0;
+  int touched = 0;
+  for (int trial = 0; trial < 50; ++trial) {
+    IdealPlant each;
+    each.add(
+        TouchSurface(surface, {{{.motor = 0, .steps_per_mm = 3}, {}, {.motor = 2, .steps_per_mm = -5, .zero = 1}}}));
+    each.stand_at({-140, 0, -150});
+    IdealPlant sums = each;
+    MotorSteps sum{};
+    std::int64_t quiet = sums.events_to_next_change();
+    for (int event = 0; event < 4000; ++event) {
+      const MotorSteps pulse{event % 4 != 0 ? 0 : 1, 0, random() % 16 < (event / 500 % 2 == 0 ? 10U : 6U) ? 1 : -1};
+      each.pulse(no_time, pulse);
+      for (std::size_t m = 0; m < pulse.size(); ++m) sum[m] += pulse[m];
+      if (--quiet == 0) {
+        sums.pulse(no_time, std::exchange(sum, {}));
+        quiet = sums.events_to_next_change();
+      } else {
+        ++kept;
+      }
+      touched += each.inputs_at(no_time) != 0 ? 1 : 0;
+      ASSERT_EQ(each.inputs_at(no_time), sums.inputs_at(no_time)) << "event " << event << " of trial " << trial;
+    }
+  }
+  EXPECT_GT(kept, 10'000);
+  EXPECT_GT(touched, 1000);
 }
 
 }  // namespace

@@ -95,6 +95,62 @@ TEST_P(BothLaws, apply_all_that_changes_a_feed) {
   }
 }
 
+// The factor of rapids is one of the speed that the axes allow; feeds do not heed it.
+TEST_P(BothLaws, slow_rapids_down) {
+  const auto fastest_with = [&](double factor, bool rapid) {
+    Segment segment = line(xyz(0, 0), xyz(400, 0), 20);
+    segment.rapid = rapid;
+    if (rapid) segment.speed = MmPerSecond(std::numeric_limits<double>::infinity());
+    ListSource<PathItem> source({segment});
+    Planner planner(source, limits());
+    planner.set_rapid_override(factor);
+    double fastest = 0;
+    for (MotionItem item; planner.next(item);) {
+      for (const Phase& phase : std::get<PlannedMove>(item)) fastest = std::max(fastest, phase.velocity.value());
+    }
+    return fastest;
+  };
+  const double whole = fastest_with(1, true);
+  EXPECT_NEAR(fastest_with(0.5, true), whole / 2, 1e-6);
+  EXPECT_NEAR(fastest_with(0.25, true), whole / 4, 1e-6);
+  EXPECT_NEAR(fastest_with(0.25, false), 20, 1e-9);
+}
+
+// A path that ended with a wait for more goes on, while the motion brakes for that end.
+TEST_P(BothLaws, lead_on_where_the_path_ended_until_now) {
+  const auto slowest_at_the_joint = [&](bool goes_on) {
+    ListSource<PathItem> source(
+        {line(xyz(0, 0), xyz(60, 0), 20), Action{.kind = Action::Kind::await_line}, line(xyz(60, 0), xyz(120, 0), 20)});
+    Planner planner(source, limits());
+    planner.limit_moves_to(Seconds(0.005));
+    double slowest = 1e9;
+    bool asked = false;
+    for (MotionItem item; planner.next(item);) {
+      const auto* move = std::get_if<PlannedMove>(&item);
+      if (move == nullptr) {
+        EXPECT_FALSE(goes_on);
+        slowest = 0;
+        continue;
+      }
+      const double at = move->segment.tool_at(move->to)[Axis::x];
+      if (at > 55 && at < 65) slowest = std::min(slowest, move->exit_velocity().value());
+      if (goes_on && !asked && at > 58.5) {
+        asked = true;
+        EXPECT_TRUE(planner.go_on(PathMode::continuous));
+      }
+    }
+    EXPECT_FALSE(planner.go_on(PathMode::continuous)) << "nothing is there";
+    return slowest;
+  };
+  EXPECT_EQ(slowest_at_the_joint(false), 0);
+  ListSource<PathItem> other({line(xyz(0, 0), xyz(60, 0), 20), Action{.kind = Action::Kind::outputs}});
+  Planner planner(other, limits());
+  MotionItem item;
+  ASSERT_TRUE(planner.next(item));
+  EXPECT_FALSE(planner.go_on(PathMode::continuous)) << "another action is not forgotten";
+  EXPECT_GT(slowest_at_the_joint(true), 5);
+}
+
 INSTANTIATE_TEST_SUITE_P(Jerk, BothLaws, testing::Values(0.0, 25'000.0),
                          [](const auto& jerk) { return std::string(jerk.param > 0 ? "limited" : "unlimited"); });
 

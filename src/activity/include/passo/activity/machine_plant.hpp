@@ -4,7 +4,7 @@
 #include <optional>
 #include <vector>
 
-#include "passo/activity/touch_box.hpp"
+#include "passo/activity/touchable.hpp"
 #include "passo/geometry/axes.hpp"
 #include "passo/machine_file/machine_description.hpp"
 #include "passo/plant/ideal_plant.hpp"
@@ -14,9 +14,8 @@
 
 namespace passo {
 
-// The limit switches by which a machine is homed. They close where the machine file says, in steps from machine zero.
-// They open `hysteresis` further off.
-std::vector<TravelSwitch> home_switches(const MachineDescription& machine, Mm hysteresis = Mm(0.05));
+// The limit switches by which a machine is homed, in steps from machine zero.
+std::vector<TravelSwitch> home_switches(const MachineDescription& machine);
 
 // The screw of an axis for which the machine file has one, in steps of a motor that is wired inverted or not.
 ScrewModel screw_model(const AxisDescription& axis, bool inverted);
@@ -30,13 +29,13 @@ PinSetup pin_setup(const MachineDescription& machine);
 SpindleModel spindle_model(const SpindleDescription& spindle);
 
 // Gives a plant the machine's screws, spindle and limit switches. `stands_at`: where the machine truly stands, in
-// machine coordinates. `boxes`: what its probe can touch.
+// machine coordinates. `things`: what its probe can touch.
 void fit(FittedPlant& plant, const MachineDescription& machine, const Point& stands_at = {},
-         const std::vector<TouchBox>& boxes = {});
+         const std::vector<Touchable>& things = {});
 
 // An ideal plant that was fitted so.
 IdealPlant plant_of(const MachineDescription& machine, const Point& stands_at = {},
-                    const std::vector<TouchBox>& boxes = {});
+                    const std::vector<Touchable>& things = {});
 
 // The physics of an axis's motor. Empty: the machine file does not describe the motor, or a full step is not a whole
 // number of the driver's steps.

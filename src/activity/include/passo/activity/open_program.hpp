@@ -61,6 +61,8 @@ class OpenProgram final : public Source<PathItem> {
   // True: the last line taken was M2, M30, or one that ends programs. The program begins anew with the next line.
   bool take_ended() { return std::exchange(ended_, false); }
   std::size_t queued() const { return queue_.size(); }
+  // How the path may pass the end of the segment that was pulled last.
+  PathMode last_mode() const { return last_mode_; }
   // True: the items are a jog.
   bool jogs() const { return jogs_; }
 
@@ -112,6 +114,7 @@ class OpenProgram final : public Source<PathItem> {
   std::optional<Diagnostic> answer_fault_;
   OutputState outputs_;  // after the last item pulled
   std::int64_t line_number_ = -1;
+  PathMode last_mode_ = PathMode::exact_stop;
 };
 
 class OpenRun final : public Activity {

@@ -10,8 +10,6 @@
 
 namespace passo {
 
-inline constexpr std::size_t largest_drawing_file = std::size_t{256} * 1024 * 1024;  // bytes
-
 struct DrawingFileOptions {
   DxfOptions dxf = {};
   ExcellonOptions excellon = {};

@@ -75,8 +75,8 @@ class MotionDrive {
 
   State state() const { return state_; }
   const HoldReasons& holds() const { return holds_; }
-  // The outputs as the program has ordered them.
-  const OutputState& outputs() const { return outputs_.ordered(); }
+  // The outputs as the program and the operator have ordered them.
+  OutputState outputs() const { return outputs_.in_force(); }
   // The time on the board's side.
   Seconds now() const { return board_.now(); }
   // How long the motion lasts that is planned and not played yet. Nothing can be changed for that time.
@@ -94,13 +94,25 @@ class MotionDrive {
   // Brakes to rest, and drops the rest of the path up to its next action. The source of the path is to have an action
   // next.
   void drop();
+  // Only for a board without a line. The path goes on where it ended until now with an action await_line, which is
+  // forgotten. Returns false, and changes nothing, once the machine comes to rest there in any case.
+  bool pass_await_line(PathMode last);
   // Over a line, after a drop(): where the machine has come to rest. Empty: at the end of the motion given.
   const std::optional<Point>& dropped_to() const { return dropped_to_; }
   // Feeds are multiplied by both factors where the program heeds them (M48 to M50, M52). The operator's factor is 0 to
-  // 2, the machine's 0 to 1. Rapids do not change. When the factors leave less than a hundredth of the feed, the motion
+  // 2, the machine's 0 to 1. When the factors leave less than a hundredth of the feed, the motion
   // is held until they leave more.
   void set_feed_override(double factor);
   void set_adaptive_feed(double factor);
+  // Multiplies the speed of rapids; above 0, at most 1.
+  void set_rapid_override(double factor) { planner_.set_rapid_override(factor); }
+  // The operator's switches for coolant. They count until the program switches the same itself.
+  void switch_mist(bool on);
+  void switch_flood(bool on);
+  // Only in a hold, at rest: stops the spindle, or the spindle and the coolant. Before motion goes on, everything is
+  // switched on again, with a wait for the spindle.
+  void stop_spindle(bool stands);
+  void stop_outputs();
   // Multiplies the spindle's speed by `factor`, 0 to 2, where the program heeds it (M48, M49, M51).
   void set_spindle_override(double factor);
   // Holds and ends the drive: the rest of the path is dropped, a dwell is cut short, and the outputs are switched off.
@@ -154,6 +166,8 @@ class MotionDrive {
   void rest_in_hold();
   void lose_thread();
   void switch_on_again();
+  void tell_outputs();
+  void let_outputs_go();
   void switch_off_and_end(std::optional<LinkError> error);
   Turn end();
   Seconds due() const;

@@ -64,6 +64,9 @@ class GrblController {
   void connect();
   // The sender has gone: a jog ends, and a program is held until somebody resumes or resets it.
   void disconnect();
+  // Whether senders may move the machine now, or somebody else does. While they may not, lines that ask are answered,
+  // and all others refused; a hold is still taken. Call while nothing moves for the senders.
+  void let_drive(bool drives);
   void receive(std::string_view bytes);
   // False: the server is to stop reading until lines were taken.
   bool wants_more() const { return input_.wants_more(); }
@@ -78,12 +81,20 @@ class GrblController {
 
   // Real-time commands.
   void act(std::uint8_t byte);
+  void act_as_watcher(std::uint8_t byte);
   void report_status();
+  void note_question();
+  void mind_jog_lease();
+  bool is_executing() const;
   void hold();
   void resume();
   void reset();
   void cancel_jog();
+  void open_door();
+  void stop_spindle();
+  void switch_coolant(bool flood);
   void change_feed(int percent);
+  void change_rapids(int percent);
   void change_spindle(int percent);
   void send_overrides();
 
@@ -137,6 +148,7 @@ class GrblController {
   bool must_touch_ = false;  // the probe move under way raises an alarm if nothing is touched
   bool alarm_ = false;       // locked, until $X, $H
   bool checks_ = false;      // $C
+  bool drives_ = true;       // senders may move the machine
   bool resets_ = false;      // the machine comes to rest for a reset
   int offset_in_ = 0;        // reports until the work offset is shown again; 0: in the next
   int overrides_in_ = 1;
@@ -145,6 +157,9 @@ class GrblController {
   int rapid_override_ = 100;
   int spindle_override_ = 100;
   std::string startup_[2];
+  Seconds heard_at_{0};  // any byte of the sender
+  Seconds asked_at_{0};  // for the status
+  std::optional<Seconds> pace_;
 };
 
 }  // namespace passo

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -25,7 +26,8 @@ struct GrblStatus {
   std::size_t bytes_free = 0;
   double feed = 0;  // mm/min, as the machine moves
   double speed = 0;
-  std::string pins;  // the letters of closed inputs
+  std::int64_t line_number = -1;  // the N word of the line that is being executed; below 1: none
+  std::string pins;               // the letters of closed inputs
   OutputState outputs;
   int feed_override = 100;  // percent
   int rapid_override = 100;

@@ -26,6 +26,9 @@ std::vector<GrblSetting> grbl_settings(const MachineDescription& machine, const 
 // The axes of reports: X, Y and Z always, because senders expect them; then the machine's others, six at most.
 std::vector<Axis> grbl_axes_of(const MachineDescription& machine);
 
+// The letters of those beside X, Y and Z, for InterpreterOptions::more_grbl_axes.
+std::string more_grbl_axes(const MachineDescription& machine);
+
 // The number of a setting's axis: $100 is the first axis of grbl_axes_of(). Null: that axis is not on the machine.
 const AxisDescription* axis_of_setting(const MachineDescription& machine, int number);
 

@@ -58,6 +58,8 @@ struct InterpreterOptions {
   // True: the program's lines come one by one, with give_line(). next() then returns false where no line is left, and
   // goes on after the next give_line().
   bool open_ended = false;
+  // Letters of axes beside X, Y and Z, as "AC". The dialect of grbl takes these too.
+  std::string more_grbl_axes;
 };
 
 class Interpreter final : public Source<Operation> {

@@ -31,9 +31,11 @@ struct HomeDescription {
   bool toward_high = false;
   double switch_at = 0;  // where the switch closes, machine coordinates
   MmPerSecond seek{0};
-  MmPerSecond latch{0};  // slow, to find the exact place
-  double pull_off = 0;   // distance from the switch at which the machine rests; the switch is open there
-  int input = -1;        // the number of the board's limit switch; below 0: not known yet, the motor's own is meant
+  MmPerSecond latch{0};      // slow, to find the exact place
+  double pull_off = 0;       // distance from the switch at which the machine rests; the switch is open there
+  int input = -1;            // the number of the board's limit switch; below 0: not known yet, the motor's own is meant
+  double hysteresis = 0.05;  // of the virtual machine's switch: how much further off it opens than it closes
+  Seconds bounce{0};         // for how long the virtual machine's contact opens and closes after each change
 
   double rest() const { return toward_high ? switch_at - pull_off : switch_at + pull_off; }
 };
@@ -180,6 +182,9 @@ struct MachineDescription {
     return static_cast<std::uint8_t>(motor);
   }
 };
+
+// The bytes of a machine file, at most a little more than it may have. Empty, with a diagnostic: it cannot be read.
+std::optional<std::string> machine_file_text(const std::string& path, Diagnostics& diagnostics);
 
 // Reads and checks a machine file. All errors go to `diagnostics` (line, key, nearest key, what is missing), with codes
 // "machine.*". Returns nothing if there was any error.

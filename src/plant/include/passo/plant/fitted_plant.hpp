@@ -20,6 +20,7 @@ class FittedPlant : public Plant {
   void fit_screw(std::size_t motor, const ScrewModel& model);
   void add(const TravelSwitch& added);
   void add(const TouchBody& body);
+  void add(TouchSurface surface);
 
   void command_spindle(Seconds time, double revolutions_per_minute) override {
     spindle_.command(time, revolutions_per_minute);
@@ -36,9 +37,9 @@ class FittedPlant : public Plant {
   void move_slides() {
     if (screws_.any()) screws_.follow(positions_, slides_);
   }
-  void set_switches() {
+  void set_switches(Seconds time) {
     move_slides();
-    switches_.follow(slides());
+    switches_.follow(time, slides());
   }
   std::int64_t steps_to_next_switch() const {
     return screws_.motor_steps_for(switches_.steps_to_next_change(slides()));

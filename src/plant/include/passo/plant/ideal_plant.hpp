@@ -13,8 +13,14 @@ class IdealPlant final : public FittedPlant {
  public:
   void pulse(Seconds time, const MotorSteps& steps) override;
   std::int64_t events_to_next_change() const override { return steps_to_next_switch(); }
-  std::uint16_t inputs_at(Seconds /*time*/) override { return switches().closed(); }
-  Truth truth_at(Seconds time) override { return truth_now(time); }
+  std::uint16_t inputs_at(Seconds time) override {
+    if (switches().bounces()) set_switches(time);
+    return switches().closed();
+  }
+  Truth truth_at(Seconds time) override {
+    if (switches().bounces()) set_switches(time);
+    return truth_now(time);
+  }
 };
 
 }  // namespace passo

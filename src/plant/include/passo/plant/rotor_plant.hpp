@@ -71,6 +71,8 @@ class RotorPlant final : public FittedPlant {
   void run_to(Seconds time);
   Seconds pass_to(Seconds time);
   void turn(std::size_t motor, Seconds passed, std::int64_t steps);
+  void take_places();
+  void look_at_places();
   void look_at(std::size_t motor, int stepped);
   void look_at_margin(Fitted& one) const;
   void look_at_loss(std::size_t motor);
@@ -79,7 +81,9 @@ class RotorPlant final : public FittedPlant {
   std::array<Fitted, max_motors> motors_;
   std::vector<StepLoss> losses_;
   Seconds now_{0};
-  std::size_t fitted_ = 0;  // one more than the last motor that has physics
+  std::size_t fitted_ = 0;         // one more than the last motor that has physics
+  bool is_close_ = true;           // every rotor that turned is close to where it was told to go
+  std::int64_t quiet_pulses_ = 0;  // pulses until the switches must follow again
 };
 
 }  // namespace passo

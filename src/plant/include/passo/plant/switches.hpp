@@ -5,10 +5,13 @@
 #pragma once
 
 #include <cstdint>
+#include <limits>
+#include <utility>
 #include <vector>
 
 #include "passo/plant/motor_steps.hpp"
 #include "passo/plant/touch_body.hpp"
+#include "passo/plant/touch_surface.hpp"
 #include "passo/plant/travel_switch.hpp"
 
 namespace passo {
@@ -16,29 +19,36 @@ namespace passo {
 class Switches {
  public:
   void add(const TravelSwitch& added);
-  // Adds a body that the probe can touch.
+  // Adds something that the probe can touch.
   void add(const TouchBody& body) { bodies_.push_back(body); }
+  void add(TouchSurface surface) { surfaces_.push_back(std::move(surface)); }
   // Closes or opens switches by hand. `which`: bits of BoardInput.
   void set(std::uint16_t which, bool closed);
-  // Tells where the motors are now. The caller may not leave out a position where a switch would close or open.
-  void follow(const MotorPositions& positions);
+  // Tells where the motors are at `time`. The caller may not leave out a position where a switch would close or open.
+  // A board sees a bounce at the times at which it looks.
+  void follow(Seconds time, const MotorPositions& positions);
 
-  // The closed inputs, as bits of BoardInput.
+  // The closed inputs at the time last given to follow(), as bits of BoardInput.
   std::uint16_t closed() const { return by_motors_ | by_hand_; }
+  // Whether a contact is not at rest: the closed inputs change with time.
+  bool bounces() const { return bounces_; }
   // How many steps any motor may go from `positions`, the positions last given to follow(), until follow() may change
-  // something. 1 or more; INT64_MAX where nothing depends on the motors.
+  // something. 1 or more, and 1 during a bounce; INT64_MAX where nothing depends on the motors.
   std::int64_t steps_to_next_change(const MotorPositions& positions) const;
 
  private:
   struct Limit {
     TravelSwitch place;
     bool closed = false;
+    Seconds changed{-std::numeric_limits<double>::infinity()};
   };
 
   std::vector<Limit> limits_;
   std::vector<TouchBody> bodies_;
+  std::vector<TouchSurface> surfaces_;
   std::uint16_t by_motors_ = 0;
   std::uint16_t by_hand_ = 0;
+  bool bounces_ = false;
 };
 
 }  // namespace passo

@@ -1,7 +1,10 @@
 // TravelSwitch: a limit switch in a plant, closed by one of its axes near an end of the travel.
 #pragma once
 
+#include <array>
 #include <cstdint>
+
+#include "passo/units/units.hpp"
 
 namespace passo {
 
@@ -13,6 +16,7 @@ struct TravelSwitch {
   bool at_high_end = false;
   std::int64_t closes_at = 0;
   std::int64_t opens_at = 0;
+  Seconds bounce{0};  // after each change the contact opens and closes for so long
 
   // Whether the switch is closed with its motor at `position`. `before`: whether it was closed before.
   bool closed(double position, bool before) const {
@@ -20,6 +24,16 @@ struct TravelSwitch {
     // At `opens_at` itself the switch is open.
     if (at_high_end) return before && opens_at != closes_at ? position > at : position >= at;
     return before && opens_at != closes_at ? position < at : position <= at;
+  }
+
+  // Whether the contact, which began to change `since` ago, shows its new state. At first it does.
+  bool shows_change(Seconds since) const {
+    constexpr std::array<double, 6> turns{0.08, 0.21, 0.35, 0.42, 0.71, 0.83};  // as shares of the bounce
+    bool shown = true;
+    for (const double turn : turns) {
+      if (since.value() >= turn * bounce.value()) shown = !shown;
+    }
+    return shown;
   }
 };
 

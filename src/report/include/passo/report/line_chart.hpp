@@ -24,4 +24,8 @@ struct LineChart {
 // `options.program` is the title, `options.machine` the line below it. Draws into `file`, which the caller commits.
 Status<OutputError> draw_line_chart(const LineChart& chart, const PictureOptions& options, OutputFile& file);
 
+// Several charts with lines of the same names, each with axes of its own, on one sheet.
+Status<OutputError> draw_line_charts(const std::vector<LineChart>& charts, const PictureOptions& options,
+                                     OutputFile& file);
+
 }  // namespace passo

@@ -111,6 +111,7 @@ class MachineSession {
   Answer take(request::Resume& resume);
   Answer take(request::Stop& stop);
   Answer take(request::Override& change);
+  Answer take(request::SwitchOutputs& wanted);
   Answer take(request::OperatorDone& done);
   Answer take(request::SetPosition& set);
   Answer take(request::ResetMachine& reset);
@@ -147,6 +148,8 @@ class MachineSession {
   void go_on_after_drop();
   void mind_lease();
   void mind_holds();
+  void mind_door();
+  void put_overrides_on(MotionDrive& drive) const;
   void note_tails();
   void mind_board();
   void look_at_panel();

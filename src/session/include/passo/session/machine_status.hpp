@@ -20,6 +20,7 @@ struct Overrides {
   double feed = 1;
   double adaptive_feed = 1;
   double spindle = 1;
+  double rapids = 1;
   friend bool operator==(const Overrides&, const Overrides&) = default;
 };
 
@@ -45,7 +46,8 @@ struct MachineStatus {
   std::optional<double> progress;  // of the activity, 0 to 1
   Seconds committed{0};            // time of the motion that nothing can change any more
   std::uint16_t inputs = 0;        // bits of BoardInput: the closed inputs
-  OutputState outputs;             // the outputs as the program has ordered them
+  OutputState outputs;             // the outputs as the program and the operator have ordered them
+  OperationSource executes;        // in a program: the line that is being executed, as far as is known
   Overrides overrides;
   std::optional<OperatorWait> waits_for;
   std::optional<HomingStage> homing;  // the stage of homing; the next member is its axis

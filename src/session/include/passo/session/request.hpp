@@ -79,15 +79,29 @@ struct Check {
   InterpreterOptions options;
   Diagnostics* findings = nullptr;  // outlives the check
 };
-struct Hold {};
+// Brakes on the path. What is no program ends there.
+struct Hold {
+  // True: as for an open door. At rest the spindle and the coolant are switched off too. A resume switches them on
+  // again, and waits for the spindle.
+  bool for_door = false;
+};
 struct Resume {};
 // Brakes on the path and ends what is going on.
 struct Stop {};
-// Changes factors. An empty factor stays as it is. Feed and spindle are 0 to 2, the machine's own factor is 0 to 1.
+// Changes factors. An empty factor stays as it is. Feed and spindle are 0 to 2, the machine's own factor is 0 to 1,
+// rapids are 0.05 to 1.
 struct Override {
   std::optional<double> feed = {};
   std::optional<double> adaptive_feed = {};
   std::optional<double> spindle = {};
+  std::optional<double> rapids = {};
+};
+// The operator's switches of a program. Coolant stays as switched until the program switches the same itself. The
+// spindle can be stopped while the program rests in a hold; with the resume it turns again.
+struct SwitchOutputs {
+  std::optional<bool> mist = {};
+  std::optional<bool> flood = {};
+  std::optional<bool> spindle_stands = {};
 };
 // The operator has done what the program waits for: M0, M1, M6.
 struct OperatorDone {};
@@ -103,10 +117,10 @@ struct Wake {};
 
 }  // namespace request
 
-using Request =
-    std::variant<request::Start, request::Stream, request::DropLines, request::Jog, request::RenewLease, request::Home,
-                 request::Probe, request::Check, request::Hold, request::Resume, request::Stop, request::Override,
-                 request::OperatorDone, request::SetPosition, request::ResetMachine, request::Sleep, request::Wake>;
+using Request = std::variant<request::Start, request::Stream, request::DropLines, request::Jog, request::RenewLease,
+                             request::Home, request::Probe, request::Check, request::Hold, request::Resume,
+                             request::Stop, request::Override, request::SwitchOutputs, request::OperatorDone,
+                             request::SetPosition, request::ResetMachine, request::Sleep, request::Wake>;
 
 using Ticket = std::uint64_t;
 

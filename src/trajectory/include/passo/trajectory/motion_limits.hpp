@@ -32,4 +32,12 @@ struct MotionLimits {
   }
 };
 
+// The highest speed along a path, at most `speed`, at which no axis with such slopes is faster than it can be.
+inline double speed_within(const Point& slopes, double speed, const MotionLimits& limits) {
+  for (const Axis axis : all_axes) {
+    if (slopes[axis] > 0) speed = std::min(speed, limits.velocity[axis].value() / slopes[axis]);
+  }
+  return speed;
+}
+
 }  // namespace passo

@@ -42,10 +42,12 @@ class Planner final : public Source<MotionItem> {
 
   // From now on no move is longer than this time.
   void limit_moves_to(Seconds duration);
-  // Both factors multiply the feeds of segments that heed them; ranges 0 to 2 and 0 to 1. Rapids do not change. Where
-  // the product is below a hundredth, the motion stands still as in a hold until the factor is raised.
+  // Both factors multiply the feeds of segments that heed them; ranges 0 to 2 and 0 to 1. Rapids have a factor of
+  // their own. Where the product is below a hundredth, the motion stands still as in a hold until the factor is raised.
   void set_feed_override(double factor);
   void set_adaptive_feed(double factor);
+  // Multiplies the speed of rapids; above 0, at most 1.
+  void set_rapid_override(double factor);
   // Multiplies the speed of segments with a SpindleLock: the ratio of the spindle's real speed to the commanded one.
   void set_spindle_ratio(double ratio);
   // Limits the speed along the path of all motion from here on, rapids included.
@@ -56,6 +58,10 @@ class Planner final : public Source<MotionItem> {
   void resume();
   // Like hold(), but on any segment, whatever it heeds. Lasts until resume().
   void stop();
+  // The path goes on where it ended until now with an await_line. That action is forgotten, and its place is passed as
+  // in the mode `last`. Returns false, and changes nothing, where no such action comes next or where all motion before
+  // it was given.
+  bool go_on(PathMode last);
   // At rest in a hold: drops the rest of the path up to the next action. That action comes next after resume().
   void drop_to_action();
 

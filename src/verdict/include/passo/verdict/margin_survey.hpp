@@ -7,7 +7,7 @@
 //
 //   safe      all motors keep their steps, and none swings further than 1.8 full steps from the field
 //   doubtful  neither
-//   lost      the usual motor loses steps, and so does one that is weaker by half of the tolerance
+//   lost      a motor that is a little stronger than usual loses steps, and so does a weaker one
 //
 // In the formula α and ω are those of the shaft, from the axis's part of the path: on a curve they include the bending.
 // Each phase is looked at in up to 64 places. A motor's true pull-out is only known between two torques (TorqueBand).

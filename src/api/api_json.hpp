@@ -1,0 +1,30 @@
+// What the API's parts say in JSON. Private to api/.
+#pragma once
+
+#include <string>
+#include <string_view>
+
+#include <nlohmann/json.hpp>
+
+#include "passo/api/machine_api.hpp"
+
+namespace passo {
+
+using Json = nlohmann::ordered_json;
+
+WebAnswer json_answer(unsigned status, const Json& json);
+// {"error": {"code": …, "message": …}}
+WebAnswer error_answer(unsigned status, std::string_view code, std::string_view message);
+
+Json as_json(const MachineDescription& machine, const Point& place);
+Json as_json(const MachineDescription& machine, const MachineStatus& status);
+Json as_json(const MotionOwner& owner);
+Json as_json(const ApiJob& job);
+Json as_json(const StoredProgram& program, bool with_findings);
+Json machine_json(const MachineDescription& machine, std::string_view version);
+
+// The session's request in the body of a POST. Empty, with the reason: the body is none.
+std::optional<Request> read_request(std::string_view path, const Json& body, const MachineDescription& machine,
+                                    std::string& reason);
+
+}  // namespace passo

@@ -1,0 +1,66 @@
+#include "passo/api/api_routes.hpp"
+
+#include <charconv>
+
+namespace passo {
+namespace {
+
+constexpr ApiRoute routes[] = {
+    {"GET", "/api/v1/health"},
+    {"GET", "/api/v1/machine"},
+    {"GET", "/api/v1/metrics"},
+    {"GET", "/api/v1/openapi.json"},
+    {"GET", "/api/v1/programs"},
+    {"GET", "/api/v1/programs/{id}"},
+    {"GET", "/api/v1/status"},
+    {"GET", "/api/v1/stream"},
+    {"DELETE", "/api/v1/owner"},
+    {"DELETE", "/api/v1/programs/{id}", true},
+    {"POST", "/api/v1/hold"},
+    {"POST", "/api/v1/home", true},
+    {"POST", "/api/v1/jog", true},
+    {"POST", "/api/v1/jog/renew", true},
+    {"POST", "/api/v1/operator-done", true},
+    {"POST", "/api/v1/outputs", true},
+    {"POST", "/api/v1/override", true},
+    {"POST", "/api/v1/owner"},
+    {"POST", "/api/v1/position", true},
+    {"POST", "/api/v1/programs"},
+    {"POST", "/api/v1/programs/{id}/check"},
+    {"POST", "/api/v1/programs/{id}/run", true},
+    {"POST", "/api/v1/reset", true},
+    {"POST", "/api/v1/resume", true},
+    {"POST", "/api/v1/sleep", true},
+    {"POST", "/api/v1/stop"},
+    {"POST", "/api/v1/wake", true},
+};
+constexpr std::string_view id_place = "{id}";
+
+bool matches(std::string_view pattern, std::string_view path, std::uint64_t& id) {
+  const std::size_t at = pattern.find(id_place);
+  if (at == std::string_view::npos) return pattern == path;
+  if (!path.starts_with(pattern.substr(0, at))) return false;
+  path.remove_prefix(at);
+  const auto [end, error] = std::from_chars(path.data(), path.data() + path.size(), id);
+  if (error != std::errc()) return false;
+  path.remove_prefix(static_cast<std::size_t>(end - path.data()));
+  return path == pattern.substr(at + id_place.size());
+}
+
+}  // namespace
+
+std::span<const ApiRoute> api_routes() {
+  return routes;
+}
+
+FoundRoute find_route(std::string_view method, std::string_view path) {
+  FoundRoute found;
+  for (const ApiRoute& one : routes) {
+    if (!matches(one.path, path, found.id)) continue;
+    found.knows_path = true;
+    if (one.method == method) found.route = &one;
+  }
+  return found;
+}
+
+}  // namespace passo

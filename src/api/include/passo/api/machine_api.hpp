@@ -1,0 +1,105 @@
+// MachineApi: a machine for programs and browsers, by HTTP and WebSocket. It turns JSON into requests of the machine's
+// session, and the session's status into JSON.
+//
+//   WebServer -> MachineApi -> requests to MachineSession
+//             <- JSON       <- status and changes
+//
+// Place on the street: beside the street, above the session, as GrblController is for senders. It knows no sockets and
+// no clock. docs/api/openapi.json describes each request; lengths are mm, speeds mm/min, times seconds.
+//
+// Invariants: only the owner of motion moves the machine; everybody may hold and stop. A program runs only after a good
+// check from the place where the machine stands. Memory is bounded.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "passo/api/api_routes.hpp"
+#include "passo/api/motion_owner.hpp"
+#include "passo/api/program_store.hpp"
+#include "passo/machine_file/machine_description.hpp"
+#include "passo/session/machine_session.hpp"
+#include "passo/web/web_server.hpp"
+
+namespace passo {
+
+enum class JobState : std::uint8_t { none, checking, running, done, stopped, failed };
+std::string_view name_of(JobState state);
+
+// A program that was asked to run, and what has become of it.
+struct ApiJob {
+  std::uint64_t id = 0;
+  std::uint64_t program = 0;
+  std::string name;
+  JobState state = JobState::none;
+  std::string why;  // of one that failed, a sentence without a full stop
+  Seconds begun{0};
+  friend bool operator==(const ApiJob&, const ApiJob&) = default;
+};
+
+struct ApiOptions {
+  std::string version;                    // of the program
+  std::string openapi;                    // the text of docs/api/openapi.json
+  std::function<std::string()> make_key;  // a text that nobody guesses, for an owner of motion
+  // What serves other paths: a folder with a page. Empty: nothing does.
+  std::function<std::optional<WebAnswer>(std::string_view path)> page = {};
+};
+
+class MachineApi final : public WebHandler {
+ public:
+  // All of them outlive this.
+  MachineApi(const MachineDescription& machine, MachineSession& session, MotionOwner& owner, ApiOptions options);
+
+  WebAnswer answer(const WebRequest& request) override;
+  WebAnswer refusal(unsigned status) override;
+  std::size_t longest_body(const WebRequest& request) override;
+  bool is_stream(std::string_view path) override { return path == "/api/v1/stream"; }
+  // {"do": "/api/v1/jog/renew", "key": "…", "body": {…}} is a POST; the answer has "do", "status" and "body".
+  std::string hear(std::string_view message) override;
+
+  // Goes on with what was asked. `changes`: the session's, since the last call. Call after each turn of the session.
+  void turn(const std::vector<MachineChange>& changes);
+  // True: turn() has more to do at once.
+  bool is_checking() const { return programs_.checks(); }
+  // The status, as GET /api/v1/status gives it.
+  std::string status_text() const;
+  // What web servers count, for the metrics.
+  void watch(const WebServer& server) { server_ = &server; }
+  const ApiJob& job() const { return job_; }
+
+  // A client that owns the motion, and was not heard for so long while nothing moved, owns it no longer.
+  static constexpr Seconds silent_owner{300};
+
+ private:
+  WebAnswer look(const FoundRoute& found);
+  WebAnswer change(const FoundRoute& found, const WebRequest& request);
+  WebAnswer change_programs(const FoundRoute& found, const WebRequest& request);
+  WebAnswer take_ownership(const WebRequest& request);
+  WebAnswer ask(Request wanted);
+  WebAnswer begin_job(const StoredProgram& program);
+  void start_job();
+  void end_job(JobState state, std::string why = {});
+  std::string metrics() const;
+  bool may_pass_on() const;
+
+  const MachineDescription& machine_;
+  MachineSession& session_;
+  MotionOwner& owner_;
+  ApiOptions options_;
+  ProgramStore programs_;
+  ApiJob job_;
+  Seconds owner_heard_{0};
+  std::uint64_t job_owner_ = 0;  // MotionOwner::changes() when the job was asked for
+  std::optional<Ticket> ticket_;
+  Diagnostics findings_;  // of the run
+  const WebServer* server_ = nullptr;
+  std::uint64_t jobs_ended_ = 0;
+  std::uint64_t alarms_ = 0;
+  std::uint64_t late_ = 0;  // rests because a refill came too late
+};
+
+}  // namespace passo

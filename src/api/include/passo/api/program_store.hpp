@@ -1,0 +1,63 @@
+// ProgramStore: the programs that clients have uploaded, and what their check has found.
+//
+// Bounded: so many programs, and so many bytes in all. A program is checked a piece at a time, so that a long one does
+// not delay the machine.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <map>
+#include <memory>
+#include <optional>
+#include <string>
+
+#include "passo/activity/program.hpp"
+#include "passo/diagnostics/diagnostic.hpp"
+#include "passo/interpreter/interpreter.hpp"
+#include "passo/machine_file/machine_description.hpp"
+
+namespace passo {
+
+enum class UploadState : std::uint8_t { unchecked, checking, good, bad };
+std::string_view name_of(UploadState state);
+
+struct StoredProgram {
+  std::uint64_t id = 0;
+  std::string name;
+  Dialect dialect = Dialect::linuxcnc;
+  std::string text;
+  std::uint64_t lines = 0;
+  UploadState state = UploadState::unchecked;
+  ProgramCheck check;
+  Diagnostics findings;
+};
+
+class ProgramStore {
+ public:
+  static constexpr std::size_t most_programs = 64;
+  static constexpr std::size_t longest_program = std::size_t{64} << 20;  // bytes
+  static constexpr std::size_t most_bytes = std::size_t{256} << 20;
+
+  // Null: there is no room.
+  const StoredProgram* add(std::string name, Dialect dialect, std::string text);
+  const StoredProgram* find(std::uint64_t id) const;
+  // False: there is none.
+  bool remove(std::uint64_t id);
+  const std::map<std::uint64_t, StoredProgram>& all() const { return programs_; }
+
+  // Begins the check of a program from this place on. One is checked at a time; the last one counts.
+  void check(std::uint64_t id, const MachineDescription& machine, const Point& start);
+  bool checks() const { return checker_ != nullptr; }
+  // Checks a bounded piece.
+  void turn();
+  InterpreterOptions options_of(const StoredProgram& program) const;
+
+ private:
+  std::map<std::uint64_t, StoredProgram> programs_;
+  std::size_t bytes_ = 0;
+  std::uint64_t last_id_ = 0;
+  std::uint64_t checked_ = 0;  // the program that is checked
+  std::unique_ptr<ProgramChecker> checker_;
+};
+
+}  // namespace passo

@@ -1,0 +1,293 @@
+#include "passo/api/machine_api.hpp"
+
+#include <utility>
+
+#include "api_json.hpp"
+#include <fmt/format.h>
+
+namespace passo {
+namespace {
+
+constexpr std::size_t small_body = std::size_t{1} << 16;
+constexpr std::size_t longest_name = 200;
+constexpr std::string_view programs_path = "/api/v1/programs";
+
+unsigned status_of(RefusalCode code) {
+  return code == RefusalCode::bad_value ? 400 : 409;
+}
+
+// A name for people: what could do harm in a terminal or a page is left out.
+std::string name_from(std::string_view text, std::string_view otherwise) {
+  std::string name;
+  for (const char c : text.substr(0, longest_name)) {
+    const bool is_plain = (c >= '0' && c <= '9') || (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') ||
+                          std::string_view(" ._-()").find(c) != std::string_view::npos;
+    if (is_plain) name += c;
+  }
+  return name.empty() ? std::string(otherwise) : name;
+}
+
+}  // namespace
+
+std::string_view name_of(JobState state) {
+  switch (state) {
+    case JobState::none: return "none";
+    case JobState::checking: return "checking";
+    case JobState::running: return "running";
+    case JobState::done: return "done";
+    case JobState::stopped: return "stopped";
+    case JobState::failed: return "failed";
+  }
+  return "";
+}
+
+MachineApi::MachineApi(const MachineDescription& machine, MachineSession& session, MotionOwner& owner,
+                       ApiOptions options)
+    : machine_(machine), session_(session), owner_(owner), options_(std::move(options)) {}
+
+WebAnswer MachineApi::refusal(unsigned status) {
+  switch (status) {
+    case 400: return error_answer(status, "http.bad-request", "this is no request that HTTP knows");
+    case 401: return error_answer(status, "http.token", "a token is needed: the header Authorization: Bearer …");
+    case 403: return error_answer(status, "http.foreign-page", "the name in Host or Origin is not this server's");
+    case 404: return error_answer(status, "http.not-found", "there is nothing at this path");
+    case 405: return error_answer(status, "http.method", "this path has other methods");
+    case 413: return error_answer(status, "http.too-large", "the body is too long");
+    case 431: return error_answer(status, "http.too-large", "the header is too long");
+    case 503: return error_answer(status, "http.busy", "other large uploads are under way: try again");
+    default: return error_answer(status, "http.error", "the request failed");
+  }
+}
+
+std::size_t MachineApi::longest_body(const WebRequest& request) {
+  return request.method == "POST" && request.path == programs_path ? ProgramStore::longest_program : small_body;
+}
+
+WebAnswer MachineApi::answer(const WebRequest& request) {
+  if (owner_.is_client(request.key)) owner_heard_ = session_.now();
+  const FoundRoute found = find_route(request.method, request.path);
+  if (found.route == nullptr) {
+    if (found.knows_path) return refusal(405);
+    const bool looks = request.method == "GET" && options_.page;
+    if (const auto page = looks ? options_.page(request.path) : std::nullopt) return *page;
+    return refusal(404);
+  }
+  if (found.route->moves && !owner_.is_client(request.key)) {
+    return error_answer(
+        403, "owner.not-you",
+        "only the owner of motion may do this: take ownership by POST /api/v1/owner, and send its key in "
+        "X-Passo-Key");
+  }
+  return request.method == "GET" ? look(found) : change(found, request);
+}
+
+std::string MachineApi::hear(std::string_view message) {
+  const Json said = Json::parse(message, nullptr, false);
+  const auto text = [&](const char* key) {
+    const auto found = said.is_object() ? said.find(key) : said.end();
+    return said.is_object() && found != said.end() && found->is_string() ? found->get<std::string>() : std::string();
+  };
+  const std::string path = text("do");
+  const bool has_body = said.is_object() && said.contains("body");
+  const WebAnswer answer = this->answer(
+      {.method = "POST", .path = path, .key = text("key"), .body = has_body ? said["body"].dump() : std::string()});
+  return Json({{"do", path}, {"status", answer.status}, {"body", Json::parse(answer.body, nullptr, false)}})
+      .dump(-1, ' ', false, Json::error_handler_t::replace);
+}
+
+WebAnswer MachineApi::look(const FoundRoute& found) {
+  const std::string_view path = found.route->path;
+  if (path.ends_with("/status")) return {.body = status_text()};
+  if (path.ends_with("/machine")) return json_answer(200, machine_json(machine_, options_.version));
+  if (path.ends_with("/openapi.json")) return {.body = options_.openapi};
+  if (path.ends_with("/metrics")) return {.type = "text/plain; version=0.0.4", .body = metrics()};
+  if (path.ends_with("/stream")) return refusal(400);
+  if (path.ends_with("/health")) {
+    const MachineState state = session_.state();
+    const bool well = state != MachineState::fault && state != MachineState::offline;
+    return json_answer(well ? 200 : 503, {{"healthy", well}, {"state", name_of(state)}});
+  }
+  if (path == programs_path) {
+    Json list = Json::array();
+    for (const auto& [id, program] : programs_.all()) list.push_back(as_json(program, false));
+    return json_answer(200, {{"programs", std::move(list)}});
+  }
+  const StoredProgram* const program = programs_.find(found.id);
+  return program == nullptr ? refusal(404) : json_answer(200, as_json(*program, true));
+}
+
+WebAnswer MachineApi::change(const FoundRoute& found, const WebRequest& request) {
+  const std::string_view path = found.route->path;
+  if (path.starts_with(programs_path)) return change_programs(found, request);
+  if (path == "/api/v1/owner") {
+    if (request.method == "POST") return take_ownership(request);
+    if (!owner_.is_client(request.key)) return error_answer(403, "owner.not-you", "somebody else owns the motion");
+    owner_.give_back();
+    return json_answer(200, as_json(owner_));
+  }
+  const Json body = request.body.empty() ? Json::object() : Json::parse(request.body, nullptr, false);
+  std::string reason;
+  auto wanted = read_request(path, body, machine_, reason);
+  if (!wanted) return error_answer(400, "http.bad-body", reason);
+  // Who holds or stops wants no motion, also of a job that is about to begin.
+  const bool calls_off = path == "/api/v1/hold" || path == "/api/v1/stop";
+  if (calls_off && job_.state == JobState::checking && !session_.busy()) {
+    end_job(JobState::stopped, "it was called off before it began");
+    return json_answer(200, {{"ticket", 0}});
+  }
+  return ask(std::move(*wanted));
+}
+
+WebAnswer MachineApi::ask(Request wanted) {
+  const auto ticket = session_.request(std::move(wanted));
+  if (!ticket)
+    return error_answer(status_of(ticket.error().code), code_of(ticket.error().code), ticket.error().message);
+  return json_answer(200, {{"ticket", *ticket}});
+}
+
+// The machine rests, and nothing moves it without somebody's wish.
+bool MachineApi::may_pass_on() const {
+  if (owner_.kind() == MotionOwner::Kind::nobody || !session_.busy()) return true;
+  const MachineState state = session_.state();
+  const bool rests = session_.status().rests;
+  return rests && (state == MachineState::await_line || state == MachineState::hold || state == MachineState::door);
+}
+
+// A sender's program that waits for its next line ends here.
+WebAnswer MachineApi::take_ownership(const WebRequest& request) {
+  const Json body = request.body.empty() ? Json::object() : Json::parse(request.body, nullptr, false);
+  if (!body.is_object()) return error_answer(400, "http.bad-body", "the body is no JSON object");
+  if (!may_pass_on() || job_.state == JobState::checking) {
+    return error_answer(409, "owner.moves",
+                        fmt::format("the machine moves for {}: hold it first, or wait", owner_.name()));
+  }
+  owner_heard_ = session_.now();
+  const auto name = body.find("name");
+  const bool was_sender = owner_.is_sender();
+  std::string key = options_.make_key();
+  owner_.take_for_client(name_from(name != body.end() && name->is_string() ? name->get<std::string>() : "", "client"),
+                         key);
+  if (was_sender && session_.busy()) static_cast<void>(session_.request(request::Stop{}).has_value());
+  Json answer = as_json(owner_);
+  answer["key"] = std::move(key);
+  return json_answer(200, answer);
+}
+
+WebAnswer MachineApi::change_programs(const FoundRoute& found, const WebRequest& request) {
+  if (found.route->path == programs_path) {
+    const std::string_view dialect = query_value(request.query, "dialect");
+    if (!dialect.empty() && dialect != "grbl" && dialect != "linuxcnc") {
+      return error_answer(400, "http.bad-body", "the dialect is linuxcnc or grbl");
+    }
+    const StoredProgram* const program =
+        programs_.add(name_from(query_value(request.query, "name"), "program"),
+                      dialect == "grbl" ? Dialect::grbl : Dialect::linuxcnc, request.body);
+    if (program == nullptr) {
+      return error_answer(507, "programs.no-room", "there are too many programs: delete some first");
+    }
+    return json_answer(201, as_json(*program, false));
+  }
+  const StoredProgram* const program = programs_.find(found.id);
+  if (program == nullptr) return refusal(404);
+  const bool is_checked_for_job = job_.state == JobState::checking;
+  if (request.method == "DELETE") {
+    if (is_checked_for_job && job_.program == found.id) {
+      return error_answer(409, "programs.in-use", "the program is about to run");
+    }
+    programs_.remove(found.id);
+    return json_answer(200, Json::object());
+  }
+  if (is_checked_for_job) return error_answer(409, "machine.busy", "a job is about to begin");
+  if (found.route->path.ends_with("/run")) return begin_job(*program);
+  programs_.check(found.id, machine_, session_.status().position.place);
+  return json_answer(202, as_json(*program, false));
+}
+
+WebAnswer MachineApi::begin_job(const StoredProgram& program) {
+  if (session_.state() != MachineState::idle) {
+    return error_answer(409, "machine.busy", fmt::format("the machine is not idle: {}", name_of(session_.state())));
+  }
+  if (const auto refused = session_.closed_limit()) return error_answer(409, code_of(refused->code), refused->message);
+  job_ = {.id = job_.id + 1, .program = program.id, .name = program.name, .state = JobState::checking, .why = {}};
+  job_.begun = session_.now();
+  job_owner_ = owner_.changes();
+  programs_.check(program.id, machine_, session_.status().position.place);
+  return json_answer(202, as_json(job_));
+}
+
+// The check is done, and the machine stands where the check began.
+void MachineApi::start_job() {
+  const StoredProgram& program = *programs_.find(job_.program);
+  if (owner_.changes() != job_owner_) return end_job(JobState::stopped, "the ownership of motion was passed on");
+  if (program.state != UploadState::good) return end_job(JobState::failed, "the program has errors: see its findings");
+  findings_.clear();
+  request::Start start{.program = ProgramReader::from_text(program.name, program.text),
+                       .options = programs_.options_of(program)};
+  start.nominal_time = program.check.nominal_time;
+  start.findings = &findings_;
+  const auto ticket = session_.request(std::move(start));
+  if (!ticket) return end_job(JobState::failed, ticket.error().message);
+  ticket_ = *ticket;
+  job_.state = JobState::running;
+}
+
+void MachineApi::end_job(JobState state, std::string why) {
+  job_.state = state;
+  job_.why = std::move(why);
+  ticket_.reset();
+  ++jobs_ended_;
+}
+
+void MachineApi::turn(const std::vector<MachineChange>& changes) {
+  for (const MachineChange& change : changes) {
+    if (change.kind == MachineChange::Kind::rested_by_tail) ++late_;
+    if (change.kind == MachineChange::Kind::state &&
+        (change.state == MachineState::alarm || change.state == MachineState::fault)) {
+      ++alarms_;
+    }
+    if (change.kind != MachineChange::Kind::answered || !ticket_ || change.ticket != *ticket_) continue;
+    switch (change.outcome) {
+      case Outcome::done: end_job(JobState::done); break;
+      case Outcome::stopped: end_job(JobState::stopped); break;
+      case Outcome::failed: end_job(JobState::failed, change.fault ? change.fault->message : ""); break;
+    }
+  }
+  const bool is_silent = session_.now() - owner_heard_ > silent_owner;
+  if (owner_.kind() == MotionOwner::Kind::client && is_silent && !session_.busy()) owner_.give_back();
+  programs_.turn();
+  if (job_.state == JobState::checking && !programs_.checks()) start_job();
+}
+
+std::string MachineApi::status_text() const {
+  Json json = as_json(machine_, session_.status());
+  json["owner"] = as_json(owner_);
+  json["job"] = as_json(job_);
+  return json.dump() + "\n";
+}
+
+std::string MachineApi::metrics() const {
+  const MachineStatus status = session_.status();
+  std::string text;
+  const auto add = [&](const char* name, const char* type, const char* help, auto value) {
+    text += fmt::format("# HELP passo_{} {}\n# TYPE passo_{} {}\npasso_{} {}\n", name, help, name, type, name, value);
+  };
+  text += "# HELP passo_state 1 for the state that the machine is in.\n# TYPE passo_state gauge\n";
+  for (const StateRow& row : state_rows) {
+    text += fmt::format("passo_state{{state=\"{}\"}} {}\n", row.name, row.state == status.state ? 1 : 0);
+  }
+  add("board_seconds", "counter", "Time on the board's side.", status.time.value());
+  add("homed", "gauge", "1: the place is known by switches.", status.position.trust == Trust::homed ? 1 : 0);
+  add("job_progress", "gauge", "Of the job that runs, 0 to 1.", status.progress.value_or(0));
+  add("jobs_ended_total", "counter", "Jobs that have ended, in whatever way.", jobs_ended_);
+  add("alarms_total", "counter", "Times the machine stopped at once or the board was lost.", alarms_);
+  add("late_refills_total", "counter", "Rests because motion reached the board too late.", late_);
+  if (server_ == nullptr) return text;
+  add("http_connections", "gauge", "Open connections.", server_->connections());
+  add("http_watchers", "gauge", "Clients of the stream.", server_->watchers());
+  add("http_requests_total", "counter", "Requests that were answered.", server_->requests());
+  add("http_refused_total", "counter", "Requests and connections that were refused.", server_->refused());
+  add("stream_skipped_total", "counter", "Messages that slow clients of the stream skipped.", server_->skipped());
+  return text;
+}
+
+}  // namespace passo

@@ -1,0 +1,137 @@
+#include <cmath>
+
+#include "api_json.hpp"
+
+namespace passo {
+namespace {
+
+constexpr double a_minute = 60;
+
+std::string axis_key(Axis axis) {
+  return {static_cast<char>(letter_of(axis) - 'A' + 'a')};
+}
+
+Json names_of(const HoldReasons& holds) {
+  static constexpr std::pair<HoldReason, const char*> names[] = {
+      {HoldReason::operator_hold, "operator"}, {HoldReason::door, "door"},       {HoldReason::program_stop, "program"},
+      {HoldReason::tool_change, "tool"},       {HoldReason::await_line, "line"}, {HoldReason::zero_feed, "zero-feed"},
+      {HoldReason::probe_contact, "probe"},    {HoldReason::tap, "tap"},         {HoldReason::drop, "drop"},
+      {HoldReason::line_lost, "line-lost"},    {HoldReason::stop, "stop"}};
+  Json list = Json::array();
+  for (const auto& [reason, name] : names) {
+    if (holds.has(reason)) list.push_back(name);
+  }
+  return list;
+}
+
+// Six decimals: a tenth of a step of a fine machine.
+double rounded(double value) {
+  return std::round(value * 1e6) / 1e6 + 0.0;
+}
+
+const char* name_of(SpindleDirection direction) {
+  switch (direction) {
+    case SpindleDirection::clockwise: return "clockwise";
+    case SpindleDirection::counterclockwise: return "counterclockwise";
+    case SpindleDirection::off: break;
+  }
+  return "off";
+}
+
+}  // namespace
+
+WebAnswer json_answer(unsigned status, const Json& json) {
+  return {.status = status,
+          .type = "application/json",
+          .body = json.dump(-1, ' ', false, Json::error_handler_t::replace) + "\n"};
+}
+
+WebAnswer error_answer(unsigned status, std::string_view code, std::string_view message) {
+  return json_answer(status, {{"error", {{"code", code}, {"message", message}}}});
+}
+
+Json as_json(const MachineDescription& machine, const Point& place) {
+  Json json = Json::object();
+  for (const AxisDescription& axis : machine.axes) json[axis_key(axis.axis)] = rounded(place[axis.axis]);
+  return json;
+}
+
+Json as_json(const MachineDescription& machine, const MachineStatus& status) {
+  Json json = {
+      {"version", status.version},
+      {"time", rounded(status.time.value())},
+      {"state", name_of(status.state)},
+      {"rests", status.rests},
+      {"holds", names_of(status.holds)},
+      {"trust", name_of(status.position.trust)},
+      {"place", as_json(machine, status.now_at)},
+      {"speed", rounded(status.speed_now.value() * a_minute)},
+      {"line", status.executes.line},
+      {"progress", status.progress ? Json(rounded(*status.progress)) : Json()},
+      {"outputs",
+       {{"spindle", name_of(status.outputs.spindle)},
+        {"spindle_speed", status.outputs.revolutions_per_minute},
+        {"mist", status.outputs.mist},
+        {"flood", status.outputs.flood}}},
+      {"overrides",
+       {{"feed", status.overrides.feed}, {"rapids", status.overrides.rapids}, {"spindle", status.overrides.spindle}}},
+      {"inputs",
+       {{"probe", (status.inputs & input_probe) != 0},
+        {"door", (status.inputs & input_door) != 0},
+        {"hold", (status.inputs & input_hold) != 0}}},
+      {"waits_for_tool", Json()},
+      {"waits_for_operator", status.waits_for.has_value()},
+      {"trouble", status.trouble_words}};
+  if (status.waits_for && status.waits_for->kind == Action::Kind::tool_change) {
+    json["waits_for_tool"] = status.waits_for->tool;
+  }
+  return json;
+}
+
+Json as_json(const MotionOwner& owner) {
+  static constexpr const char* kinds[] = {"nobody", "sender", "client"};
+  return {{"kind", kinds[static_cast<std::size_t>(owner.kind())]}, {"name", owner.name()}};
+}
+
+Json as_json(const ApiJob& job) {
+  if (job.state == JobState::none) return Json();
+  return {
+      {"id", job.id}, {"program", job.program}, {"name", job.name}, {"state", name_of(job.state)}, {"why", job.why}};
+}
+
+Json as_json(const StoredProgram& program, bool with_findings) {
+  Json json = {{"id", program.id},
+               {"name", program.name},
+               {"dialect", program.dialect == Dialect::grbl ? "grbl" : "linuxcnc"},
+               {"bytes", program.text.size()},
+               {"lines", program.lines},
+               {"state", name_of(program.state)},
+               {"seconds", rounded(program.check.nominal_time.value())},
+               {"moves", program.check.moves}};
+  if (!with_findings) return json;
+  Json findings = Json::array();
+  for (const Diagnostic& one : program.findings.all()) {
+    findings.push_back({{"severity", one.severity == Severity::error ? "error" : "warning"},
+                        {"code", one.code},
+                        {"line", one.place.line},
+                        {"column", one.place.column},
+                        {"message", one.message},
+                        {"expected", one.expected}});
+  }
+  json["findings"] = std::move(findings);
+  return json;
+}
+
+Json machine_json(const MachineDescription& machine, std::string_view version) {
+  Json axes = Json::array();
+  for (const AxisDescription& axis : machine.axes) {
+    axes.push_back({{"axis", axis_key(axis.axis)},
+                    {"low", axis.travel_low},
+                    {"high", axis.travel_high},
+                    {"speed", axis.velocity.value() * a_minute},
+                    {"homes", axis.home.has_value()}});
+  }
+  return {{"name", machine.name}, {"version", version}, {"axes", std::move(axes)}};
+}
+
+}  // namespace passo

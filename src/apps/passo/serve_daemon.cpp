@@ -1,0 +1,106 @@
+#include "serve_daemon.hpp"
+
+#include <algorithm>
+#include <utility>
+
+#include "run_signals.hpp"
+#include <poll.h>
+
+namespace passo {
+namespace {
+
+// How long the loop waits for senders: while the machine is busy, and while nothing goes on.
+constexpr Seconds busy_look{0.002};
+constexpr Seconds idle_look{0.02};
+constexpr Seconds hardly_late{1e-4};
+constexpr int most_turns = 5000;  // of one look
+
+}  // namespace
+
+ServeDaemon::ServeDaemon(OpenedMachine& machine, GrblController& grbl, MotionOwner& owner, Lines lines, ServedWeb* web)
+    : machine_(machine), session_(machine.session()), grbl_(grbl), owner_(owner), lines_(std::move(lines)), web_(web) {}
+
+void ServeDaemon::serve() {
+  while (interrupted_by() == 0) {
+    wait();
+    for (const auto& line : lines_) attend(*line);
+    if (web_ != nullptr) web_->turn();
+    mind_owner();
+    turn();
+    reply();
+  }
+}
+
+void ServeDaemon::stop() {
+  if (session_.busy()) try_request(session_, request::Stop{});
+  while (session_.busy()) session_.turn(machine_.has_board() ? busy_look : Seconds(1));
+}
+
+void ServeDaemon::wait() {
+  std::vector<pollfd> all;
+  for (const auto& line : lines_) line->add_to(all, may_read(*line));
+  const bool busy = session_.busy() || session_.state() == MachineState::offline;
+  Seconds most = busy ? busy_look : idle_look;
+  if (web_ != nullptr) most = web_->most_wait(most);
+  const auto milliseconds = static_cast<int>(machine_.has_board() && busy ? 0 : most.value() * 1e3);
+  static_cast<void>(poll(all.data(), all.size(), milliseconds));
+}
+
+// One sender at a time; others are told that they have to wait.
+bool ServeDaemon::may_read(const SenderLine& line) const {
+  return grbl_.wants_more() && (driver_ == nullptr || driver_ == &line);
+}
+
+void ServeDaemon::attend(SenderLine& line) {
+  const SenderLine::News news = line.look(may_read(line));
+  if (news.came && driver_ == nullptr) {
+    driver_ = &line;
+    owner_.take_for_sender();
+    grbl_.let_drive(owner_.is_sender());
+    grbl_.connect();
+  }
+  if (driver_ != &line) return;
+  if (!news.bytes.empty()) grbl_.receive(news.bytes);
+  if (!news.went) return;
+  driver_ = nullptr;
+  grbl_.disconnect();
+}
+
+// A sender has the motion that nobody else wants. One who has gone keeps nothing.
+void ServeDaemon::mind_owner() {
+  if (driver_ != nullptr) {
+    owner_.take_for_sender();
+  } else if (owner_.is_sender()) {
+    owner_.give_back();
+  }
+  // A sender's held program waits for the next sender, unless a client comes.
+  if (owner_.kind() != MotionOwner::Kind::nobody) grbl_.let_drive(owner_.is_sender());
+}
+
+void ServeDaemon::hear_changes() {
+  const std::vector<MachineChange> changes = session_.take_changes();
+  grbl_.turn(changes);
+  if (web_ != nullptr) web_->hear_changes(changes);
+}
+
+void ServeDaemon::turn() {
+  if (machine_.has_board()) {
+    session_.turn(session_.busy() ? busy_look : Seconds(0));
+    return hear_changes();
+  }
+  for (int turns = 0; turns < most_turns; ++turns) {
+    const Seconds ahead = clock_.ahead_of(session_.now());
+    if (ahead < hardly_late) break;
+    session_.turn(ahead);
+    hear_changes();
+  }
+  hear_changes();
+}
+
+void ServeDaemon::reply() {
+  for (const std::string& text : grbl_.take_replies()) {
+    if (driver_ != nullptr) driver_->send(text);
+  }
+}
+
+}  // namespace passo

@@ -1,0 +1,70 @@
+// ServeDaemon: the one loop of `passo serve`. It hears senders and web clients, turns the session, and answers. Only
+// this thread touches the machine. See docs/decisions/0090 and 0093.
+#pragma once
+
+#include <chrono>
+#include <memory>
+#include <vector>
+
+#include "opened_machine.hpp"
+#include "serve_web.hpp"
+
+#include "passo/api/motion_owner.hpp"
+#include "passo/grbl/grbl_controller.hpp"
+#include "passo/transport/sender_line.hpp"
+
+namespace passo {
+
+// The time of a virtual machine follows the clock of this computer.
+class WallClock {
+ public:
+  // A virtual machine that is later than this, because the computer was busy or asleep, does not catch up.
+  static constexpr Seconds most_late{0.2};
+
+  // How far the clock is ahead of `time`.
+  Seconds ahead_of(Seconds time) {
+    const auto now = std::chrono::steady_clock::now();
+    const Seconds ahead = Seconds(std::chrono::duration<double>(now - start_).count()) - (time - from_);
+    if (ahead <= most_late) return ahead;
+    start_ = now;
+    from_ = time;
+    return Seconds(0);
+  }
+
+ private:
+  std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
+  Seconds from_{0};
+};
+
+class ServeDaemon {
+ public:
+  using Lines = std::vector<std::unique_ptr<SenderLine>>;
+
+  // All of them outlive the daemon. `web` may be null.
+  ServeDaemon(OpenedMachine& machine, GrblController& grbl, MotionOwner& owner, Lines lines, ServedWeb* web);
+
+  // Until a signal comes.
+  void serve();
+  // Brakes what moves, and waits until it rests.
+  void stop();
+
+ private:
+  void wait();
+  bool may_read(const SenderLine& line) const;
+  void attend(SenderLine& line);
+  void mind_owner();
+  void turn();
+  void hear_changes();
+  void reply();
+
+  OpenedMachine& machine_;
+  MachineSession& session_;
+  GrblController& grbl_;
+  MotionOwner& owner_;
+  Lines lines_;
+  ServedWeb* web_;
+  SenderLine* driver_ = nullptr;  // where the sender is
+  WallClock clock_;
+};
+
+}  // namespace passo

@@ -1,0 +1,58 @@
+// ServedWeb: the web server of `passo serve`, with the API behind it.
+#pragma once
+
+#include <chrono>
+#include <memory>
+#include <optional>
+#include <string>
+
+#include "commands.hpp"
+#include "page_folder.hpp"
+
+#include "passo/api/machine_api.hpp"
+#include "passo/web/web_server.hpp"
+
+namespace passo {
+
+// docs/api/openapi.json
+extern const char* const openapi_text;
+
+// "HOST:PORT", "[::1]:PORT" or ":PORT". Empty: it is none of them.
+struct HostAndPort {
+  std::string host;
+  unsigned port = 0;
+};
+std::optional<HostAndPort> read_address(std::string_view text);
+bool is_this_computer(const std::string& host);
+
+class ServedWeb {
+ public:
+  // Null, with a message and `code`: the address or the token is not good.
+  static std::unique_ptr<ServedWeb> open(const ServeArguments& arguments, const MachineDescription& machine,
+                                         MachineSession& session, MotionOwner& owner, int& code);
+
+  std::string name() const;
+  // How long the loop may wait for others.
+  Seconds most_wait(Seconds most) const;
+  void hear_changes(const std::vector<MachineChange>& changes) { api_.turn(changes); }
+  // Hears the clients, and tells those who watch what is new.
+  void turn();
+
+ private:
+  ServedWeb(const ServeArguments& arguments, const MachineDescription& machine, MachineSession& session,
+            MotionOwner& owner);
+  void publish();
+
+  MachineSession& session_;
+  MotionOwner& owner_;
+  PageFolder page_;
+  std::string host_;
+  MachineApi api_;
+  std::unique_ptr<WebServer> server_;
+  std::chrono::steady_clock::time_point published_;
+  std::uint64_t told_version_ = 0;
+  std::uint64_t told_owner_ = 0;
+  ApiJob told_job_;
+};
+
+}  // namespace passo

@@ -1,0 +1,55 @@
+#include "passo/diagnostics/file_bytes.hpp"
+
+#include <cerrno>
+#include <cstdio>
+#include <cstring>
+#include <filesystem>
+#include <memory>
+
+#include <fmt/format.h>
+
+namespace passo {
+
+Diagnostic of_file(std::string code, const std::string& path, std::string message, std::string expected) {
+  return {.code = std::move(code),
+          .file = path,
+          .place = {},
+          .message = std::move(message),
+          .expected = std::move(expected),
+          .text = ""};
+}
+
+std::optional<std::string> read_bytes(const std::string& path, const FileKind& kind, Diagnostics& diagnostics) {
+  const auto refuse = [&](const char* why, std::string message, std::string expected) {
+    diagnostics.add(of_file(fmt::format("{}.{}", kind.area, why), path, std::move(message), std::move(expected)));
+  };
+  std::error_code none;
+  if (std::filesystem::is_directory(path, none)) {
+    refuse("unreadable", "is a directory", kind.expected);
+    return std::nullopt;
+  }
+  const std::unique_ptr<std::FILE, int (*)(std::FILE*)> file(std::fopen(path.c_str(), "rb"), &std::fclose);
+  if (!file) {
+    refuse("unreadable", fmt::format("cannot be read: {}", std::strerror(errno)), "");
+    return std::nullopt;
+  }
+  std::string bytes;
+  constexpr std::size_t at_once = 1 << 20;
+  for (std::size_t filled = 0;;) {
+    bytes.resize(filled + at_once);
+    const std::size_t count = std::fread(bytes.data() + filled, 1, at_once, file.get());
+    filled += count;
+    bytes.resize(filled);
+    if (std::ferror(file.get()) != 0) {
+      refuse("unreadable", fmt::format("cannot be read: {}", std::strerror(errno)), "");
+      return std::nullopt;
+    }
+    if (filled > kind.most) {
+      refuse("too-large", "the file is larger than what is read", fmt::format("at most {} MiB", kind.most >> 20U));
+      return std::nullopt;
+    }
+    if (count == 0) return bytes;
+  }
+}
+
+}  // namespace passo

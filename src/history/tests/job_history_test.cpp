@@ -1,0 +1,149 @@
+#include "passo/history/job_history.hpp"
+
+#include <csignal>
+#include <filesystem>
+#include <fstream>
+#include <random>
+
+#include "kit/seed.hpp"
+#include <gtest/gtest.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+namespace passo {
+namespace {
+
+namespace fs = std::filesystem;
+
+class JobHistoryTest : public testing::Test {
+ protected:
+  JobHistoryTest() { fs::create_directories(folder_); }
+  ~JobHistoryTest() override { fs::remove_all(folder_); }
+
+  std::string file(const std::string& name = "history.sqlite") const { return (folder_ / name).string(); }
+  std::unique_ptr<JobHistory> open() const {
+    auto opened = JobHistory::open(file());
+    EXPECT_TRUE(opened) << opened.error();
+    return std::move(*opened);
+  }
+
+ private:
+  fs::path folder_ = fs::temp_directory_path() / ("passo-history-" + std::to_string(getpid()));
+};
+
+TEST_F(JobHistoryTest, keeps_what_waits_and_what_has_ended) {
+  {
+    const auto history = open();
+    EXPECT_EQ(history->add("a.ngc", "linuxcnc", "G0 X1\n", 10), 1);
+    EXPECT_EQ(history->add("b.ngc", "grbl", std::string("\0\xff", 2), 11), 2);
+    EXPECT_EQ(history->add("c.ngc", "grbl", "M2\n", 12), 3);
+    EXPECT_TRUE(history->begin(1, 20));
+    EXPECT_TRUE(history->end(1, HistoryState::done, "", 30));
+    EXPECT_TRUE(history->remove(3));
+    EXPECT_TRUE(history->note_alarm("the board was lost", 31));
+  }
+  const auto history = open();
+  const auto queue = history->queue();
+  ASSERT_EQ(queue.size(), 1U);
+  EXPECT_EQ(queue[0].name, "b.ngc");
+  EXPECT_EQ(queue[0].bytes, 2U);
+  EXPECT_EQ(history->program_of(2), std::string("\0\xff", 2));
+  const auto ended = history->ended(10);
+  ASSERT_EQ(ended.size(), 1U);
+  EXPECT_EQ(ended[0].state, HistoryState::done);
+  EXPECT_EQ(ended[0].begun_at, 20);
+  EXPECT_EQ(ended[0].ended_at, 30);
+  EXPECT_EQ(history->program_of(1), std::nullopt) << "it is done";
+  ASSERT_EQ(history->alarms(10).size(), 1U);
+  EXPECT_EQ(history->alarms(10)[0].words, "the board was lost");
+  EXPECT_EQ(history->add("d.ngc", "grbl", "M2\n", 12), 4) << "a number is given once";
+}
+
+TEST_F(JobHistoryTest, refuses_what_does_not_fit_the_state) {
+  const auto history = open();
+  history->add("a", "grbl", "", 1);
+  history->begin(1, 2);
+  EXPECT_FALSE(history->remove(1));
+  EXPECT_FALSE(history->begin(7, 2));
+  EXPECT_FALSE(history->end(7, HistoryState::done, "", 2));
+  EXPECT_FALSE(history->find(7));
+  for (std::size_t i = 0; i < JobHistory::most_queued; ++i) ASSERT_TRUE(history->add("x", "grbl", "", 1));
+  EXPECT_FALSE(history->add("x", "grbl", "", 1));
+}
+
+TEST_F(JobHistoryTest, is_opened_by_one_program_at_a_time) {
+  const auto first = open();
+  const auto second = JobHistory::open(file());
+  ASSERT_FALSE(second);
+  EXPECT_NE(second.error().find("locked"), std::string::npos) << second.error();
+}
+
+TEST_F(JobHistoryTest, says_what_is_wrong_with_a_file) {
+  std::ofstream(file("text")) << std::string(5000, 'x');
+  EXPECT_FALSE(JobHistory::open(file("text")));
+  EXPECT_FALSE(JobHistory::open(file("missing/history")));
+  fs::create_symlink(file("text"), file("link"));
+  EXPECT_FALSE(JobHistory::open(file("link")));
+}
+
+// A file cut or changed at any place opens with whole jobs, or is refused.
+TEST_F(JobHistoryTest, a_damaged_file_gives_whole_jobs_or_none) {
+  {
+    const auto history = open();
+    for (int i = 0; i < 20; ++i) history->add("part " + std::to_string(i), "grbl", std::string(500, 'G'), i);
+  }
+  std::ifstream in(file(), std::ios::binary);
+  const std::string whole{std::istreambuf_iterator<char>(in), {}};
+  std::mt19937_64 random(test::seed());
+  for (int trial = 0; trial < 200; ++trial) {
+    std::string bytes = whole;
+    if (trial % 2 == 0) {
+      bytes.resize(random() % bytes.size());
+    } else {
+      for (int i = 0; i < 5; ++i) bytes[random() % bytes.size()] = static_cast<char>(random());
+    }
+    for (const char* end : {"", "-wal", "-shm"}) fs::remove(file() + end);
+    std::ofstream(file(), std::ios::binary) << bytes;
+    const auto opened = JobHistory::open(file());
+    if (!opened) continue;
+    for (const HistoryJob& job : (*opened)->queue()) static_cast<void>((*opened)->program_of(job.id));
+    static_cast<void>((*opened)->add("more", "grbl", "M2\n", 1));
+  }
+}
+
+// A program that is killed loses no job that it was told of, and its running job is interrupted.
+TEST_F(JobHistoryTest, a_killed_program_loses_nothing) {
+  for (int trial = 0; trial < 20; ++trial) {
+    for (const char* end : {"", "-wal", "-shm"}) fs::remove(file() + end);
+    int told[2];
+    ASSERT_EQ(pipe(told), 0);
+    const pid_t child = fork();
+    if (child == 0) {
+      const auto history = std::move(*JobHistory::open(file()));
+      history->add("runs", "grbl", "M2\n", 0);
+      history->begin(1, 1);
+      for (char i = 0;; ++i) {
+        if (history->add("job", "grbl", std::string(2000, 'x'), 0) && write(told[1], &i, 1) != 1) _exit(1);
+        if (i % 7 == 3) history->keep();
+        if (i == 100) pause();
+      }
+    }
+    usleep(static_cast<useconds_t>(3000 + 2500 * trial));
+    kill(child, SIGKILL);
+    waitpid(child, nullptr, 0);
+    close(told[1]);
+    std::size_t heard = 0;
+    for (char i = 0; ::read(told[0], &i, 1) == 1;) ++heard;
+    close(told[0]);
+    const auto history = open();
+    EXPECT_GE(history->queue().size(), heard);
+    EXPECT_LE(history->queue().size(), heard + 1);
+    if (heard > 0) {
+      EXPECT_EQ(history->find(1)->state, HistoryState::interrupted);
+    }
+    for (const HistoryJob& job : history->queue()) EXPECT_EQ(history->program_of(job.id)->size(), 2000U);
+  }
+}
+
+}  // namespace
+}  // namespace passo

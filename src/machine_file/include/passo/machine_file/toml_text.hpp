@@ -1,0 +1,48 @@
+// TomlText: the text of a machine file, in which values can be set. All that is not set stays as it is, byte for byte:
+// comments, order, spaces, ends of lines.
+//
+//   max_velocity_mm_s = 200     # 2400 turns a minute        set("axis.X.max_velocity_mm_s", 85.5)
+//   max_velocity_mm_s = 85.5    # 2400 turns a minute        the comment stays in its column, if there is room
+//
+// A key that the file does not have is written below the last key of its table. A table that the file does not have is
+// written at the end of the file.
+//
+// Invariant: the text is TOML. A value that cannot be set leaves the text as it was. Whether the file still describes a
+// sound machine is for parse_machine() to say.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <string_view>
+#include <variant>
+#include <vector>
+
+#include "passo/base/result.hpp"
+
+namespace passo {
+
+struct TomlTextError {
+  std::string message;  // "axis.X is a table", "this is not TOML: ..."
+};
+
+class TomlText {
+ public:
+  // Numbers must be finite. A list of numbers is written on one line.
+  using Setting = std::variant<double, bool, std::string, std::vector<double>>;
+
+  // `text`: a file that parse_machine() has accepted. (Other files need a bound for the depth of their keys, which the
+  // TOML library does not have.)
+  static Result<TomlText, TomlTextError> read(std::string text);
+
+  // `path`: the key with its tables, "axis.X.max_velocity_mm_s". Its parts are letters, digits, '_' and '-'.
+  Status<TomlTextError> set(std::string_view path, const Setting& setting);
+
+  const std::string& text() const { return text_; }
+
+ private:
+  explicit TomlText(std::string text) : text_(std::move(text)) {}
+
+  std::string text_;
+};
+
+}  // namespace passo

@@ -1,0 +1,32 @@
+// read_surface: a Surface from a file: a body (STL, text or binary) or a height map (CSV). The kind is told by what is
+// in the file.
+//
+// A height map has a line x,y,z for each point of a grid, in any order. Its columns and rows may be unevenly spaced.
+// Blanks or semicolons may stand for the commas, # begins a comment, and one line of names may come first. Four points
+// are a plane. Between the points the surface is made of two triangles a cell.
+//
+// Files are in millimetres. What a file says is bounded: its size, the triangles, and how far they lie. Errors are
+// diagnostics "surface.…".
+//
+// Sources: STL, 3D Systems, 1989 (read by assimp).
+#pragma once
+
+#include <cstddef>
+#include <string>
+#include <string_view>
+
+#include "passo/diagnostics/diagnostic.hpp"
+#include "passo/surface/surface.hpp"
+
+namespace passo {
+
+inline constexpr std::size_t most_triangles = 10'000'000;
+inline constexpr double farthest_surface = 1e5;  // mm
+
+// Errors are in `diagnostics`; the surface then has nothing.
+Surface read_surface(const std::string& path, Diagnostics& diagnostics);
+
+// The same, of a file that was read.
+Surface read_surface(const std::string& name, std::string_view bytes, Diagnostics& diagnostics);
+
+}  // namespace passo

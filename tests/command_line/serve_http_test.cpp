@@ -1,0 +1,158 @@
+// passo serve --http: the program itself, spoken to over a socket.
+#include <csignal>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "kit/command_line.hpp"
+#include <arpa/inet.h>
+#include <gmock/gmock.h>
+#include <netinet/in.h>
+#include <nlohmann/json.hpp>
+#include <sys/socket.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+namespace {
+
+using passo::test::read;
+using testing::HasSubstr;
+using testing::Not;
+
+class ServeHttp : public passo::test::CommandLine {
+ protected:
+  ~ServeHttp() override { end(); }
+
+  void serve(const std::vector<std::string>& more = {}) {
+    const std::string said = path("said");
+    write("said", "");
+    server_ = fork();
+    if (server_ == 0) {
+      if (std::freopen(said.c_str(), "w", stdout) == nullptr) _exit(1);
+      std::vector<std::string> words = {PASSO_PROGRAM, "serve", "--http", "127.0.0.1:0"};
+      words.insert(words.end(), more.begin(), more.end());
+      std::vector<char*> arguments;
+      for (std::string& word : words) arguments.push_back(word.data());
+      arguments.push_back(nullptr);
+      execv(PASSO_PROGRAM, arguments.data());
+      _exit(1);
+    }
+    for (int i = 0; i < 1000 && read(said).find("Ctrl-C") == std::string::npos; ++i) usleep(10'000);
+    const std::string text = read(said);
+    const std::string before = "http://127.0.0.1:";
+    const std::size_t at = text.find(before);
+    ASSERT_NE(at, std::string::npos) << text;
+    port_ = std::stoi(text.substr(at + before.size()));
+  }
+  int end(int signal = SIGTERM) {
+    if (server_ <= 0) return 0;
+    int status = 0;
+    kill(server_, signal);
+    waitpid(server_, &status, 0);
+    server_ = 0;
+    return WIFEXITED(status) ? WEXITSTATUS(status) : -WTERMSIG(status);
+  }
+
+  // The whole answer: header and body.
+  std::string ask(const std::string& method, const std::string& path, const std::string& body = "",
+                  const std::string& headers = "") const {
+    const int line = socket(AF_INET, SOCK_STREAM, 0);
+    sockaddr_in address{};
+    address.sin_family = AF_INET;
+    address.sin_port = htons(static_cast<std::uint16_t>(port_));
+    address.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
+    if (connect(line, reinterpret_cast<const sockaddr*>(&address), sizeof address) != 0) return "nobody is there";
+    const std::string text =
+        method + " " + path +
+        " HTTP/1.1\r\nHost: 127.0.0.1\r\nConnection: close\r\nContent-Length: " + std::to_string(body.size()) + "\r\n" +
+        headers + "\r\n" + body;
+    static_cast<void>(send(line, text.data(), text.size(), MSG_NOSIGNAL));
+    std::string answer;
+    char bytes[4096];
+    for (ssize_t got = 0; (got = recv(line, bytes, sizeof bytes, 0)) > 0;) {
+      answer.append(bytes, static_cast<std::size_t>(got));
+    }
+    close(line);
+    return answer;
+  }
+  nlohmann::json json(const std::string& method, const std::string& path, const std::string& body = "",
+                      const std::string& headers = "") const {
+    const std::string answer = ask(method, "/api/v1" + path, body, headers);
+    return nlohmann::json::parse(answer.substr(std::min(answer.find("\r\n\r\n"), answer.size())), nullptr, false);
+  }
+  template <class Condition>
+  bool until(Condition condition) {
+    for (int i = 0; i < 3000 && !condition(); ++i) usleep(10'000);
+    return condition();
+  }
+
+ private:
+  pid_t server_ = 0;
+  int port_ = 0;
+};
+
+TEST_F(ServeHttp, runs_a_program_that_was_uploaded) {
+  serve();
+  EXPECT_EQ(json("GET", "/status")["state"], "Idle");
+  EXPECT_EQ(json("GET", "/openapi.json")["openapi"], "3.1.0");
+  const std::string key = "X-Passo-Key: " + json("POST", "/owner", "{}").value("key", "") + "\r\n";
+  const auto program = json("POST", "/programs?name=p.ngc", "G21 G90\nG1 X1 F3000\nM2\n");
+  const std::string id = std::to_string(program.value("id", 0));
+  EXPECT_EQ(json("POST", "/programs/" + id + "/run", "", key)["state"], "checking");
+  EXPECT_TRUE(until([&] { return json("GET", "/status")["job"]["state"] == "done"; })) << json("GET", "/status");
+  EXPECT_EQ(json("GET", "/status")["place"]["x"], 1.0);
+  EXPECT_THAT(ask("GET", "/api/v1/metrics"), HasSubstr("passo_jobs_ended_total 1\n"));
+  EXPECT_THAT(ask("GET", "/"), HasSubstr("404 Not Found"));
+}
+
+TEST_F(ServeHttp, brakes_before_it_ends) {
+  serve();
+  const std::string key = "X-Passo-Key: " + json("POST", "/owner", "{}").value("key", "") + "\r\n";
+  json("POST", "/jog", R"({"direction": {"x": 1}, "speed": 600, "lease": 10})", key);
+  EXPECT_TRUE(until([&] { return json("GET", "/status")["state"] == "Jog"; }));
+  EXPECT_EQ(end(SIGTERM), 0);
+  EXPECT_EQ(ask("GET", "/api/v1/status"), "nobody is there");
+}
+
+TEST_F(ServeHttp, asks_for_the_token_and_for_its_own_name) {
+  const std::string token = write("token", "0123456789abcdef\n");
+  serve({"--http-token", token});
+  EXPECT_THAT(ask("GET", "/api/v1/status"), HasSubstr("401 Unauthorized"));
+  EXPECT_THAT(ask("GET", "/api/v1/status", "", "Authorization: Bearer 0123456789abcdef\r\n"), HasSubstr("200 OK"));
+  EXPECT_THAT(ask("GET", "/api/v1/status?token=0123456789abcdef"), HasSubstr("200 OK"));
+  EXPECT_THAT(ask("GET", "/api/v1/status?token=0123456789abcdef", "", "Origin: http://evil.example\r\n"),
+              HasSubstr("403 Forbidden"));
+}
+
+TEST_F(ServeHttp, refuses_to_listen_for_all_without_a_token) {
+  const auto open = passo("serve --http 0.0.0.0:0");
+  EXPECT_EQ(open.code, 2);
+  EXPECT_THAT(open.err, HasSubstr("serve.open-http"));
+  const auto weak = passo("serve --http 0.0.0.0:0 --http-token " + write("token", "short\n"));
+  EXPECT_EQ(weak.code, 2);
+  EXPECT_THAT(weak.err, HasSubstr("serve.bad-token"));
+  EXPECT_EQ(passo("serve --http nowhere").code, 2);
+  EXPECT_EQ(passo("serve --http 127.0.0.1:0 --http-token /nonexistent").code, 2);
+}
+
+TEST_F(ServeHttp, shows_a_page_and_nothing_beside_it) {
+  const std::string folder = path("page");
+  std::filesystem::create_directory(folder);
+  std::filesystem::create_directory(folder + "/sub");
+  write("page/index.html", "the page");
+  write("page/sub/a.js", "the script");
+  write("page/.hidden", "hidden");
+  write("secret", "secret");
+  std::filesystem::create_symlink(path("secret"), folder + "/link");
+  serve({"--page", folder});
+  EXPECT_THAT(ask("GET", "/"), HasSubstr("the page"));
+  EXPECT_THAT(ask("GET", "/sub/a.js"), HasSubstr("Content-Type: text/javascript"));
+  for (const char* bad : {"/../secret", "/sub/../../secret", "/%2e%2e/secret", "/.hidden", "/link", "//secret", "/sub",
+                          "/./index.html", "/sub/..", "/index.html/x", "secret", "/\\..\\secret"}) {
+    const std::string answer = ask("GET", bad);
+    EXPECT_THAT(answer, Not(HasSubstr("200 OK"))) << bad;
+    EXPECT_THAT(answer, Not(HasSubstr("secret"))) << bad;
+  }
+}
+
+}  // namespace

@@ -1,0 +1,420 @@
+// The API around a session on a virtual machine, in virtual time: what each request does, who may ask, and what hostile
+// bodies do.
+#include <fstream>
+#include <random>
+#include <set>
+#include <sstream>
+
+#include "grbl_kit.hpp"
+#include "kit/seed.hpp"
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include "passo/api/machine_api.hpp"
+
+namespace passo::test {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+// A machine with a sender's door and a client's door.
+class ApiRun {
+ public:
+  explicit ApiRun(const KnownPosition& start = GrblRun::at_zero())
+      : run(example_machine("router"), start),
+        api(run.description(), run.session(), owner,
+            {.version = "1", .openapi = "{}", .make_key = [this] { return fmt::format("key{}", ++keys_); }}) {}
+
+  Json ask(const std::string& method, const std::string& path, const std::string& body = "",
+           const std::string& by = "") {
+    const std::size_t mark = std::min(path.find('?'), path.size());
+    const WebAnswer answer = api.answer({.method = method,
+                                         .path = "/api/v1" + path.substr(0, mark),
+                                         .query = path.substr(std::min(mark + 1, path.size())),
+                                         .key = by.empty() ? key : by,
+                                         .body = body});
+    status = answer.status;
+    return Json::parse(answer.body, nullptr, false);
+  }
+  Json post(const std::string& path, const std::string& body = "") { return ask("POST", path, body); }
+  Json get(const std::string& path) { return ask("GET", path); }
+
+  void turn() {
+    run.session().turn(Seconds(0.005));
+    const auto changes = run.session().take_changes();
+    run.grbl().turn(changes);
+    api.turn(changes);
+    run.collect();
+  }
+  template <class Condition>
+  bool turn_until(Condition condition, Seconds within = Seconds(300)) {
+    const Seconds end = run.session().now() + within;
+    for (int turns = 0; !condition() && run.session().now() < end && turns < 1'000'000; ++turns) turn();
+    return condition();
+  }
+  bool turn_until_state(const std::string& state) {
+    return turn_until([&] { return get("/status")["state"] == state; });
+  }
+  void pass(Seconds time) {
+    const Seconds end = run.session().now() + time;
+    turn_until([&] { return run.session().now() >= end; });
+  }
+  void own() {
+    const Json answer = post("/owner", R"({"name": "test"})");
+    ASSERT_EQ(status, 200U) << answer;
+    key = answer["key"];
+    run.grbl().let_drive(owner.is_sender());
+  }
+  std::uint64_t upload(const std::string& text, const std::string& query = "") {
+    const Json answer = ask("POST", "/programs" + query, text);
+    EXPECT_EQ(status, 201U) << answer;
+    return answer["id"];
+  }
+
+  GrblRun run;
+  MotionOwner owner;
+  MachineApi api;
+  std::string key;
+  unsigned status = 0;
+
+ private:
+  int keys_ = 0;
+};
+
+Json openapi() {
+  std::ifstream file(PASSO_SOURCE_DIR "/docs/api/openapi.json");
+  return Json::parse(file);
+}
+
+TEST(ApiDescription, has_just_the_requests_of_the_program) {
+  std::set<std::string> described;
+  std::set<std::string> served;
+  const Json document = openapi();
+  for (const auto& [path, operations] : document["paths"].items()) {
+    for (const auto& [method, operation] : operations.items()) {
+      if (method == "parameters") continue;
+      const bool moves = operation.value("x-owner", false);
+      described.insert(method + " /api/v1" + path + (moves ? " owner" : ""));
+    }
+  }
+  for (const ApiRoute& route : api_routes()) {
+    std::string method(route.method);
+    for (char& c : method) c = static_cast<char>(c - 'A' + 'a');
+    served.insert(method + " " + std::string(route.path) + (route.moves ? " owner" : ""));
+  }
+  EXPECT_EQ(described, served);
+}
+
+void expect_members(const Json& schema, const Json& value, const std::string& what) {
+  std::set<std::string> described;
+  std::set<std::string> found;
+  for (const auto& [name, member] : schema["properties"].items()) described.insert(name);
+  for (const auto& [name, member] : value.items()) found.insert(name);
+  EXPECT_EQ(described, found) << what;
+}
+
+TEST(ApiDescription, has_just_the_members_that_are_told) {
+  const Json document = openapi();
+  const Json& schemas = document["components"]["schemas"];
+  ApiRun run;
+  run.own();
+  const std::uint64_t id = run.upload("G21 G1 X9 F100\nM2\n");
+  run.post(fmt::format("/programs/{}/run", id));
+  const Json status = run.get("/status");
+  expect_members(schemas["Status"], status, "Status");
+  expect_members(schemas["Status"]["properties"]["outputs"], status["outputs"], "outputs");
+  expect_members(schemas["Status"]["properties"]["overrides"], status["overrides"], "overrides");
+  expect_members(schemas["Status"]["properties"]["inputs"], status["inputs"], "inputs");
+  expect_members(schemas["Owner"], status["owner"], "Owner");
+  expect_members(schemas["Job"], status["job"], "Job");
+  expect_members(schemas["Program"], run.get(fmt::format("/programs/{}", id)), "Program");
+  expect_members(schemas["Machine"], run.get("/machine"), "Machine");
+  expect_members(schemas["Machine"]["properties"]["axes"]["items"], run.get("/machine")["axes"][0], "axes");
+  expect_members(schemas["Health"], run.get("/health"), "Health");
+}
+
+// Each example of a body is understood, and a body with one member more is not.
+TEST(ApiDescription, has_bodies_that_are_understood) {
+  const Json document = openapi();
+  int examples = 0;
+  for (const auto& [path, operations] : document["paths"].items()) {
+    if (!operations.contains("post") || path == "/owner") continue;
+    const Json& content = operations["post"].value("requestBody", Json::object());
+    if (!content.contains("content") || !content["content"].contains("application/json")) continue;
+    const Json& body = content["content"]["application/json"];
+    ApiRun run;
+    run.own();
+    run.post(path, body["example"].dump());
+    EXPECT_NE(run.status, 400U) << path;
+    expect_members(body["schema"], body["example"], path);
+    Json more = body["example"];
+    more["other"] = 1;
+    EXPECT_EQ(run.post(path, more.dump())["error"]["code"], "http.bad-body") << path;
+    EXPECT_EQ(run.status, 400U) << path;
+    ++examples;
+  }
+  EXPECT_GE(examples, 5);
+}
+
+TEST(Api, runs_a_program_after_its_check_and_tells_how_far_it_is) {
+  ApiRun run;
+  run.own();
+  const std::uint64_t id = run.upload("G21 G90\nG1 X10 F600\nG1 Y10\nM2\n", "?name=part.ngc");
+  const Json job = run.post(fmt::format("/programs/{}/run", id));
+  EXPECT_EQ(run.status, 202U);
+  EXPECT_EQ(job["state"], "checking");
+  ASSERT_TRUE(run.turn_until_state("Run"));
+  ASSERT_TRUE(run.turn_until([&] { return run.get("/status")["place"]["x"] > 5.0; }));
+  EXPECT_EQ(run.get("/status")["line"], 2);
+  ASSERT_TRUE(run.turn_until([&] { return run.get("/status")["place"]["y"] > 5.0; }));
+  EXPECT_EQ(run.get("/status")["line"], 3);
+  EXPECT_GT(run.get("/status")["progress"], 0.5);
+  ASSERT_TRUE(run.turn_until_state("Idle"));
+  EXPECT_EQ(run.get("/status")["job"]["state"], "done");
+  EXPECT_EQ(run.get("/status")["place"]["y"], 10.0);
+}
+
+TEST(Api, a_program_with_errors_moves_nothing_and_says_why) {
+  ApiRun run;
+  run.own();
+  const std::uint64_t id = run.upload("G21 G90\nG1 X10\nM2\n");
+  run.post(fmt::format("/programs/{}/run", id));
+  ASSERT_TRUE(run.turn_until([&] { return run.get("/status")["job"]["state"] == "failed"; }));
+  const Json program = run.get(fmt::format("/programs/{}", id));
+  EXPECT_EQ(program["state"], "bad");
+  EXPECT_EQ(program["findings"][0]["line"], 2);
+  EXPECT_EQ(program["findings"][0]["code"], "gcode.missing-feed");
+  EXPECT_EQ(run.run.board().counts().events, 0U);
+}
+
+TEST(Api, holds_resumes_and_stops) {
+  ApiRun run;
+  run.own();
+  const std::uint64_t id = run.upload("G21 G90 M3 S1000\nG1 X30 F600\nM2\n");
+  run.post(fmt::format("/programs/{}/run", id));
+  ASSERT_TRUE(run.turn_until([&] { return run.get("/status")["place"]["x"] > 3.0; }));
+  EXPECT_EQ(run.ask("POST", "/hold", "", "nobody")["ticket"].is_number(), true) << "everybody may";
+  ASSERT_TRUE(run.turn_until([&] { return run.get("/status")["rests"] == true; }));
+  EXPECT_EQ(run.get("/status")["holds"], Json({"operator"}));
+  EXPECT_EQ(run.ask("POST", "/resume", "", "nobody")["error"]["code"], "owner.not-you");
+  EXPECT_EQ(run.status, 403U);
+  run.post("/outputs", R"({"spindle_stands": true})");
+  EXPECT_EQ(run.status, 200U);
+  EXPECT_EQ(run.get("/status")["outputs"]["spindle"], "off");
+  run.post("/resume");
+  ASSERT_TRUE(run.turn_until([&] { return run.get("/status")["place"]["x"] > 15.0; }));
+  run.ask("POST", "/stop", "", "nobody");
+  ASSERT_TRUE(run.turn_until_state("Idle"));
+  EXPECT_EQ(run.get("/status")["job"]["state"], "stopped");
+  EXPECT_LT(run.get("/status")["place"]["x"], 25.0);
+}
+
+TEST(Api, a_job_that_is_about_to_begin_is_called_off_by_a_hold_and_by_a_stop) {
+  for (const char* call : {"/hold", "/stop"}) {
+    ApiRun run;
+    run.own();
+    run.post(fmt::format("/programs/{}/run", run.upload("G21 G1 X30 F600\nM2\n")));
+    EXPECT_EQ(run.get("/status")["job"]["state"], "checking");
+    run.ask("POST", call, "", "nobody");
+    EXPECT_EQ(run.status, 200U);
+    run.pass(Seconds(1));
+    EXPECT_EQ(run.get("/status")["job"]["state"], "stopped");
+    EXPECT_EQ(run.run.board().counts().events, 0U);
+  }
+}
+
+TEST(Api, a_jog_ends_with_its_lease) {
+  ApiRun run;
+  run.own();
+  run.post("/jog", R"({"direction": {"x": 1}, "speed": 1200})");
+  EXPECT_EQ(run.status, 200U);
+  for (int i = 0; i < 10; ++i) {
+    run.pass(Seconds(0.1));
+    run.post("/jog/renew");
+    EXPECT_EQ(run.status, 200U);
+  }
+  EXPECT_EQ(run.get("/status")["state"], "Jog");
+  ASSERT_TRUE(run.turn_until_state("Idle"));
+  EXPECT_GT(run.get("/status")["place"]["x"], 18.0);
+  EXPECT_LT(run.get("/status")["place"]["x"], 27.0);
+  EXPECT_EQ(run.post("/jog/renew")["error"]["code"], "machine.nothing-runs");
+  EXPECT_EQ(run.status, 409U);
+}
+
+TEST(Api, motion_has_one_owner_and_passes_at_rest) {
+  ApiRun run;
+  EXPECT_EQ(run.post("/home")["error"]["code"], "owner.not-you") << "nobody is not enough";
+  run.own();
+  const std::string first = run.key;
+  const std::uint64_t id = run.upload("G21 G90\nG1 X30 F600\nM2\n");
+  run.post(fmt::format("/programs/{}/run", id));
+  ASSERT_TRUE(run.turn_until_state("Run"));
+  EXPECT_EQ(run.post("/owner")["error"]["code"], "owner.moves");
+  EXPECT_EQ(run.status, 409U);
+  run.post("/hold");
+  ASSERT_TRUE(run.turn_until([&] { return run.get("/status")["rests"] == true; }));
+  run.own();
+  EXPECT_NE(run.key, first);
+  EXPECT_EQ(run.ask("POST", "/resume", "", first)["error"]["code"], "owner.not-you");
+  run.post("/resume");
+  EXPECT_EQ(run.status, 200U);
+  ASSERT_TRUE(run.turn_until_state("Idle"));
+  EXPECT_EQ(run.get("/status")["place"]["x"], 30.0);
+  run.ask("DELETE", "/owner");
+  EXPECT_EQ(run.get("/status")["owner"]["kind"], "nobody");
+}
+
+TEST(Api, a_silent_owner_loses_the_motion_while_nothing_moves) {
+  ApiRun run;
+  run.own();
+  run.pass(MachineApi::silent_owner - Seconds(1));
+  run.post("/hold");  // refused, but heard
+  run.pass(MachineApi::silent_owner - Seconds(1));
+  EXPECT_EQ(run.owner.kind(), MotionOwner::Kind::client);
+  run.pass(Seconds(3));
+  EXPECT_EQ(run.owner.kind(), MotionOwner::Kind::nobody);
+}
+
+TEST(Api, senders_and_clients_share_a_machine_one_after_the_other) {
+  ApiRun run;
+  ASSERT_TRUE(run.owner.take_for_sender());
+  run.run.send("G1 X20 F600\n");
+  ASSERT_TRUE(run.turn_until_state("Run"));
+  EXPECT_EQ(run.post("/owner")["error"]["code"], "owner.moves") << "for the sender";
+  ASSERT_TRUE(run.turn_until_state("Line"));
+  run.own();
+  ASSERT_TRUE(run.turn_until_state("Idle"));
+  run.run.replies.clear();
+  run.run.send("G1 X0\n$G\n?");
+  run.pass(Seconds(0.1));
+  EXPECT_EQ(run.run.replies.front().substr(0, 5), "<Idle");
+  EXPECT_EQ(run.run.replies[1], "error:9");
+  EXPECT_EQ(run.run.replies.back(), "ok") << "a question is answered";
+  run.post("/jog", R"({"direction": {"y": 1}, "speed": 600, "distance": 3, "lease": 5})");
+  ASSERT_TRUE(run.turn_until_state("Idle"));
+  run.ask("DELETE", "/owner");
+  ASSERT_TRUE(run.owner.take_for_sender());
+  run.run.grbl().let_drive(true);
+  run.run.send("G91 G1 Y1 F600\n");
+  ASSERT_TRUE(run.turn_until([&] { return run.get("/status")["place"]["y"] == 4.0; })) << run.get("/status");
+  EXPECT_EQ(run.get("/status")["place"]["x"], 20.0);
+}
+
+TEST(Api, a_sender_that_only_watches_may_hold) {
+  ApiRun run;
+  run.own();
+  run.post(fmt::format("/programs/{}/run", run.upload("G21 G1 X30 F600\nM2\n")));
+  ASSERT_TRUE(run.turn_until_state("Run"));
+  run.run.send("~\x18!");
+  ASSERT_TRUE(run.turn_until([&] { return run.get("/status")["state"] == "Hold"; }));
+  EXPECT_EQ(run.get("/status")["job"]["state"], "running");
+}
+
+TEST(Api, refuses_what_it_does_not_know) {
+  ApiRun run;
+  run.own();
+  EXPECT_EQ(run.get("/nothing")["error"]["code"], "http.not-found");
+  EXPECT_EQ(run.get("/programs/99")["error"]["code"], "http.not-found");
+  EXPECT_EQ(run.get("/programs/99999999999999999999999")["error"]["code"], "http.not-found");
+  EXPECT_EQ(run.get("/programs/1x")["error"]["code"], "http.not-found");
+  EXPECT_EQ(run.get("/hold")["error"]["code"], "http.method");
+  EXPECT_EQ(run.ask("DELETE", "/status")["error"]["code"], "http.method");
+  for (const char* body : {"", "{", "[]", "7", "null", R"({"direction": 5, "speed": 1})", R"({"direction": {"q": 1}})",
+                           R"({"direction": {}, "speed": 1})", R"({"direction": {"x": "1"}, "speed": 1})",
+                           R"({"direction": {"x": 1}, "speed": "fast"})", R"({"direction": {"x": 1}, "speed": 1e999})",
+                           R"({"direction": {"x": 1}, "speed": -1})", R"({"direction": {"x": 1}})"}) {
+    run.post("/jog", body);
+    EXPECT_EQ(run.status, 400U) << body;
+  }
+  EXPECT_EQ(run.post("/override", R"({"feed": 3})")["error"]["code"], "machine.bad-value");
+  EXPECT_EQ(run.run.board().counts().events, 0U);
+}
+
+TEST(Api, programs_are_bounded_in_number) {
+  ApiRun run;
+  run.own();
+  for (std::size_t i = 0; i < ProgramStore::most_programs; ++i) run.upload("M2\n");
+  EXPECT_EQ(run.ask("POST", "/programs", "M2\n")["error"]["code"], "programs.no-room");
+  EXPECT_EQ(run.status, 507U);
+  run.ask("DELETE", "/programs/1");
+  EXPECT_EQ(run.status, 200U);
+  run.upload("M2\n");
+}
+
+TEST(Api, names_of_programs_are_harmless) {
+  ApiRun run;
+  EXPECT_EQ(run.get(fmt::format("/programs/{}", run.upload("M2\n", "?name=<script>\x1b[31m../x")))["name"],
+            "script31m..x");
+}
+
+TEST(Api, counts_for_prometheus) {
+  ApiRun run;
+  const WebAnswer answer = run.api.answer({.method = "GET", .path = "/api/v1/metrics"});
+  EXPECT_NE(answer.body.find("passo_state{state=\"Idle\"} 1\n"), std::string::npos);
+  EXPECT_NE(answer.body.find("# TYPE passo_jobs_ended_total counter\n"), std::string::npos);
+  std::istringstream lines(answer.body);
+  for (std::string line; std::getline(lines, line);) {
+    EXPECT_TRUE(line.starts_with("# ") || line.starts_with("passo_")) << line;
+  }
+}
+
+TEST(Api, takes_requests_over_the_stream) {
+  ApiRun run;
+  run.own();
+  const Json answer = Json::parse(run.api.hear(
+      Json({{"do", "/api/v1/jog"}, {"key", run.key}, {"body", {{"direction", {{"x", 1}}}, {"speed", 600}}}}).dump()));
+  EXPECT_EQ(answer["status"], 200);
+  ASSERT_TRUE(run.turn_until_state("Jog"));
+  EXPECT_EQ(Json::parse(run.api.hear("nonsense"))["status"], 404);
+  EXPECT_EQ(Json::parse(run.api.hear(R"({"do": 5})"))["status"], 404);
+  EXPECT_EQ(Json::parse(run.api.hear(R"({"do": "/api/v1/jog/renew"})"))["status"], 403);
+}
+
+// Whatever comes, each request has an answer in JSON, and the machine obeys afterwards.
+TEST(ApiHostile, random_requests_end_in_a_machine_that_obeys) {
+  std::mt19937_64 random(seed());
+  const std::string bodies[] = {"",
+                                "{}",
+                                "{\"feed\": 0}",
+                                "{\"feed\": 2, \"rapids\": 0.05}",
+                                R"({"direction": {"x": 1, "y": -1}, "speed": 3000, "lease": 0.1})",
+                                R"({"direction": {"z": -1e308}, "speed": 1e308, "distance": 1e308})",
+                                R"({"place": {"x": 1e300}})",
+                                R"({"flood": true, "mist": null})",
+                                "[[[[[[[[",
+                                R"({"door": true})",
+                                "\xff\xfe",
+                                R"({"spindle_stands": true})",
+                                std::string(60'000, '[')};
+  for (int trial = 0; trial < 12; ++trial) {
+    ApiRun run;
+    run.own();
+    const std::uint64_t id = run.upload("G21 G90 M3 S500\nG1 X20 F900\nM0\nG1 Y9\nM8\nG1 X0\nM2\n");
+    for (int i = 0; i < 120; ++i) {
+      const ApiRoute& route = api_routes()[random() % api_routes().size()];
+      if (route.path.ends_with("/owner") || route.path.ends_with("/position")) continue;
+      std::string path(route.path.substr(7));
+      const std::size_t place = path.find("{id}");
+      if (place != std::string::npos) path.replace(place, 4, std::to_string(random() % 3 + id - 1));
+      if (route.method == "DELETE") continue;
+      const Json answer = run.ask(std::string(route.method), path, bodies[random() % std::size(bodies)]);
+      if (!path.ends_with("metrics")) {
+        EXPECT_FALSE(answer.is_discarded()) << path;
+      }
+      if (random() % 3 == 0) run.pass(Seconds(0.02));
+    }
+    if (run.run.session().state() == MachineState::sleep) run.post("/wake");
+    run.post("/override", R"({"feed": 1, "rapids": 1})");
+    run.post("/stop");
+    ASSERT_TRUE(run.turn_until([&] { return !run.run.session().busy() && !run.api.is_checking(); }))
+        << trial << run.get("/status");
+    run.pass(Seconds(0.1));
+    ASSERT_FALSE(run.run.session().busy()) << trial << run.get("/status");
+    run.post("/jog", R"({"direction": {"y": 1}, "speed": 600, "distance": 1, "lease": 5})");
+    EXPECT_EQ(run.status, 200U) << trial << run.get("/status");
+    ASSERT_TRUE(run.turn_until_state("Idle"));
+  }
+}
+
+}  // namespace
+}  // namespace passo::test
