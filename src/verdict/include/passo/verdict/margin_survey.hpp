@@ -5,7 +5,7 @@
 //   ToleranceTrial   plays the motion with motors from the weakest to the strongest of the tolerance
 //   formula          needed = (J_rotor + J_load)·α + friction·sign(ω) + damping·ω + weight     against pull-out at |ω|
 //
-//   safe      all motors keep their steps, and none swings further than 1.8 full steps from the field
+//   safe      all motors keep their steps, and none swings further than 1.6 full steps from the field
 //   doubtful  neither
 //   lost      a motor that is a little stronger than usual loses steps, and so does a weaker one
 //
@@ -111,7 +111,7 @@ class MarginSurvey {
   // The share of the low end that the formula keeps.
   static constexpr double usual_reserve = 0.1;
   // Full steps from the field to the rotor. Torque falls beyond one, and at two the rotor falls back.
-  static constexpr double safe_swing = 1.8;
+  static constexpr double safe_swing = 1.6;
 
   // Without a grid each motor steps at its own exact times.
   explicit MarginSurvey(std::vector<SurveyedMotor> motors, const StepGrid& grid = {}, double reserve = usual_reserve);

@@ -73,8 +73,8 @@ class ToleranceTrial {
   // The axis rests.
   TrialFinding stand(Seconds time);
 
-  // Motors on both sides of the usual one have lost steps since the axis began to move: one stronger by a seventh of the
-  // tolerance, and one weaker by half of it.
+  // Motors on both sides of the usual one have lost steps since the axis began to move: one stronger by a seventh of
+  // the tolerance, and one weaker by half of it.
   bool usual_out() const { return (out_ & usual) == usual; }
   // They have lost steps somewhere.
   bool usual_lost() const { return (ever_lost_ & usual) == usual; }
