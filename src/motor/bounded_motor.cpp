@@ -60,4 +60,15 @@ void BoundedMotor::set_resistance(NewtonMetres torque) {
   if (reduced_) reduced_->set_resistance(torque);
 }
 
+void BoundedMotor::carry(RadiansPerSecond speed) {
+  if (is_reduced_) leave();
+  full_.carry(speed);
+  calm_ = 0;
+}
+
+void BoundedMotor::let_go() {
+  full_.let_go();
+  calm_ = 0;
+}
+
 }  // namespace passo

@@ -8,7 +8,7 @@ namespace passo {
 namespace {
 
 constexpr double gentle = 0.1;            // share of the holding torque that a ramp uses
-constexpr double torque_steps = 1000;     // to the holding torque
+constexpr double torque_steps = 1250;     // to the holding torque
 constexpr Seconds at_each_torque{0.003};  // several times L/R, and a ringing of 300 Hz
 constexpr int halvings = 10;
 constexpr int steps_of_a_start = 100;  // full steps

@@ -38,12 +38,17 @@ MotorSetup measured_setup(const TorqueCurve& curve, const Excitation& excitation
   return setup;
 }
 
+TorqueCurve pull_out_curve(const MotorSetup& setup) {
+  if (setup.measured) return *setup.measured;
+  return *TorqueCurve::from_motor(setup.motor, setup.drive);
+}
+
 RunningMotor::StepSize RunningMotor::size_of(double time) const {
   const double half = resistance_ * time / (2 * inductance_);
   return {.h = time,
           .keep = (1 - half) / (1 + half),
           .push = time / inductance_ / (1 + half),
-          .fade = viscous_ * time / (2 * inertia_),
+          .fade = (viscous_ + hand_) * time / (2 * inertia_),
           .kick = time / inertia_};
 }
 
@@ -113,6 +118,22 @@ void RunningMotor::resume(std::int64_t commanded, double place, RadiansPerSecond
   rests_ = false;
 }
 
+void RunningMotor::carry(RadiansPerSecond speed) {
+  if (hand_ == 0) {
+    hand_ = 2 * std::sqrt(teeth_ * constant_ * rated_ * inertia_);
+    speed_ = speed.value;
+    gain_ = 0;
+    last_time_ = 0;  // the hand's damping counts from now on
+  }
+  hand_speed_ = speed.value;
+  rests_ = false;
+}
+
+void RunningMotor::let_go() {
+  hand_ = hand_speed_ = 0;
+  last_time_ = 0;
+}
+
 void RunningMotor::set_resistance(NewtonMetres torque) {
   resisting_ = torque.value;
   rests_ = false;
@@ -145,7 +166,8 @@ void RunningMotor::integrate(const StepSize& size) {
   torque_ = made - detent_ * 4 * sine_ * cosine_ * (cosine_ * cosine_ - sine_ * sine_);
   mean_torque_ += (torque_ - mean_torque_) * std::min(size.h / averaging, 1.0);
 
-  const double free = (speed_ * (1 - size.fade) + (torque_ - weight_) * size.kick) / (1 + size.fade);
+  const double pull = torque_ - weight_ + hand_ * hand_speed_;
+  const double free = (speed_ * (1 - size.fade) + pull * size.kick) / (1 + size.fade);
   const double dry = (dry_ + resisting_) * size.kick;
   // A rotor that runs away, as under a weight that the motor does not hold, gets no faster than the integration can
   // see.

@@ -16,13 +16,6 @@ constexpr double first_rate = 30;
 constexpr double curve_too_high = 0.97;
 constexpr double curve_too_low = 1.06;
 constexpr double of_whole_steps = 1.3;
-constexpr double notable = 0.9;
-
-// The checks of the setup's parts passed, so there is a curve.
-TorqueCurve curve_of(const MotorSetup& setup) {
-  if (setup.measured) return *setup.measured;
-  return *TorqueCurve::from_motor(setup.motor, setup.drive);
-}
 
 double whole_torque(const MotorSetup& setup, Hertz rate, RadiansPerSecond speed) {
   const double tried = tried_pull_out(setup, rate).value;
@@ -44,17 +37,22 @@ MotorSetup with_torque(const MotorSetup& setup, double factor) {
   return changed;
 }
 
-TorqueBand::TorqueBand(const MotorSetup& setup, double tolerance, RadiansPerSecond fastest)
-    : weak_(curve_of(with_torque(setup, 1 - tolerance))),
-      strong_(curve_of(with_torque(setup, 1 + tolerance))),
+TorqueBand::TorqueBand(const MotorSetup& setup, double tolerance)
+    : setup_(setup),
+      tolerance_(tolerance),
+      weak_(pull_out_curve(with_torque(setup, 1 - tolerance))),
+      strong_(pull_out_curve(with_torque(setup, 1 + tolerance))),
       factor_low_(curve_too_high),
-      factor_high_(setup.excitation.is_sine() ? curve_too_low : of_whole_steps) {
+      factor_high_(setup.excitation.is_sine() ? curve_too_low : of_whole_steps) {}
+
+void TorqueBand::try_steady(RadiansPerSecond fastest) {
+  tried_.clear();
   const double last_rate = rate_at(fastest).value();
-  MotorSetup usual = setup;
-  usual.weight = {};  // counts as a load, not as something that the motor lacks
-  const MotorSetup weak = with_torque(usual, 1 - tolerance);
-  const MotorSetup strong = with_torque(usual, 1 + tolerance);
   if (last_rate <= first_rate) return;
+  MotorSetup usual = setup_;
+  usual.weight = {};  // counts as a load, not as something that the motor lacks
+  const MotorSetup weak = with_torque(usual, 1 - tolerance_);
+  const MotorSetup strong = with_torque(usual, 1 + tolerance_);
   for (int i = 0; i < trials; ++i) {
     const Hertz rate(first_rate * std::pow(last_rate / first_rate, i / double{trials - 1}));
     const RadiansPerSecond speed = weak_.speed_at(rate);
@@ -83,10 +81,6 @@ NewtonMetres TorqueBand::while_steady(RadiansPerSecond speed) const {
   double share = share_of(next == tried_.end() ? tried_.back() : *next);
   if (next != tried_.begin()) share = std::min(share, share_of(*std::prev(next)));
   return {share * low};
-}
-
-bool TorqueBand::swings_at(RadiansPerSecond speed) const {
-  return while_steady(speed).value < notable * of_curve(speed).low.value;
 }
 
 }  // namespace passo

@@ -21,10 +21,7 @@ void RotorPlant::fit_motor(std::size_t motor, const MotorSetup& setup) {
   motors_[motor].setup = setup;
   motors_[motor].origin = positions()[motor];
   motors_[motor].full_step = 1.0 / setup.excitation.steps_per_full_step();
-  motors_[motor].pull_out = setup.measured;
-  if (!setup.measured) {
-    if (auto curve = TorqueCurve::from_motor(setup.motor, setup.drive)) motors_[motor].pull_out = std::move(*curve);
-  }
+  motors_[motor].pull_out = pull_out_curve(setup);
   fitted_ = std::max(fitted_, motor + 1);
 }
 

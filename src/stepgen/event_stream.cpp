@@ -12,9 +12,6 @@ constexpr double infinity = std::numeric_limits<double>::infinity();
 // stretch begins with a finer or coarser grid.
 constexpr double rate_before_finer = 0.5;
 constexpr double rate_before_coarser = 4;
-// Below the slow rate the grid is made finer. The slow rate is this share of the board's highest event rate, or
-// Exactness::least_rate if that is lower.
-constexpr double slow_share = 1.0 / 16;
 constexpr std::int64_t finest_grid = whole_step / 256;
 constexpr double turn_an_event = 0.25;  // radians
 // Another motor must be faster by this factor before it becomes the master.

@@ -36,12 +36,18 @@ constexpr double cheap_slack = 0.02;  // for accelerations along the path that f
 constexpr double braking_share = 1.0 / 64;
 constexpr double length_share = 1.0 / 128;
 constexpr double growth = 2;
+// Dense programs are made of short cubics, and motion has hardly time to change its speed in one. Finer cells take time
+// to plan, and gain less than 0.01 % of the motion.
+constexpr double length_share_of_cubic = 1.0 / 24;
 // About half a cell is lost where an arc is fastest between two slow ends.
 constexpr double least_cells_of_arc = 32;
 
 // Where limits fall with the speed: the greatest change of speed in a cell, as a share of the top speed.
 constexpr double speed_share = 1.0 / 64;
 constexpr double most_graded = 10'000;  // cells of a segment
+// A cubic that is shorter than this many braking ways sees only a part of a change of speed, and has fewer cells.
+constexpr double short_for_braking = 4;
+constexpr double most_graded_of_short = 24;
 
 // A feed below a limit's shoulder by this factor is planned as if the limit were constant. The override does not raise
 // the speed further.
@@ -116,7 +122,9 @@ void CellCutter::begin(const Segment& segment, double entry_squared) {
   const bool line = curve.shape() == Curve::Shape::line;
   straight_ = line;
   if (flat_top(moving_, steepest) < std::min(room_for_override * top, line ? reached : infinity)) {
-    grade_ = std::max(speed_share * std::sqrt(braking), std::sqrt(2 * length) / most_graded);
+    const bool is_short = curve.shape() == Curve::Shape::cubic && length < short_for_braking * braking;
+    const double most_cells = is_short ? most_graded_of_short : most_graded;
+    grade_ = std::max(speed_share * std::sqrt(braking), std::sqrt(2 * length) / most_cells);
     straight_ = false;
   }
   if (line) return;
@@ -134,7 +142,7 @@ void CellCutter::begin(const Segment& segment, double entry_squared) {
     shortest_ = std::clamp(slowing * braking_share, longest_ / 64, longest_);
   } else {
     const double by_turn = length * std::min(1.0, share * turn_a_cell_of_cubic / turning);
-    const double wanted = std::min(by_turn, std::max(braking * braking_share, length * length_share));
+    const double wanted = std::min(by_turn, std::max(braking * braking_share, length * length_share_of_cubic));
     longest_ = shortest_ = length / std::ceil(length / wanted);
   }
 }

@@ -73,7 +73,9 @@ AxisTuner::AxisTuner(const AxisDescription& axis, const BoardDescription& board,
 TorqueBand AxisTuner::band_to(double speed) const {
   MotorSetup tried = setup_;
   tried.load.friction_per_speed.value -= tried.damping.value;
-  return TorqueBand(tried, axis_.motor->tolerance, {speed * radians_per_unit_});
+  TorqueBand band(tried, axis_.motor->tolerance);
+  band.try_steady({speed * radians_per_unit_});
+  return band;
 }
 
 double AxisTuner::friction_at(double speed) const {

@@ -12,15 +12,14 @@ namespace passo {
 namespace {
 
 constexpr double radians_between_looks = 0.15;
-constexpr int most_looks = 64;
 constexpr double nothing = 1e-9;
-// A motor that stays within a fifth of its speed for so long has time to begin to swing: some periods of its ringing.
 constexpr double band_of_speed = 0.2;
-constexpr double time_to_swing = 0.03;  // s
+constexpr Seconds time_to_swing{0.1};
+constexpr Seconds after_the_end{0.5};
 
 // In how many pieces a phase is looked at. On a line without jerk torque and speed have their extremes at the ends;
 // between them the speed passes places where the motor swings.
-int looks_in(const Curve& curve, const Phase& phase) {
+int looks_in(const Curve& curve, const Phase& phase, int most) {
   const double change = std::abs(phase.velocity_at(phase.duration).value() - phase.velocity.value());
   const double fastest = std::max(phase.velocity_at(phase.duration).value(), phase.velocity.value());
   double looks = change > band_of_speed * fastest ? 6 : 1;
@@ -29,7 +28,7 @@ int looks_in(const Curve& curve, const Phase& phase) {
     const double way = (phase.position_at(phase.duration) - phase.start).value();
     looks = std::max(looks, 2 + way * curve.curvature() / radians_between_looks);
   }
-  return static_cast<int>(std::min<double>(looks, most_looks));
+  return static_cast<int>(std::min<double>(looks, most));
 }
 
 bool is_worse(const MarginSpot& a, const MarginSpot& b) {
@@ -38,20 +37,23 @@ bool is_worse(const MarginSpot& a, const MarginSpot& b) {
 
 }  // namespace
 
+MarginSurvey::Look::Look(const PlannedMove& move, const Phase& phase, Seconds t, Seconds now)
+    : time(now), speed(std::max(phase.velocity_at(t).value(), 0.0)), acceleration(phase.acceleration_at(t).value()) {
+  const Curve& curve = move.segment.curve;
+  const Mm s = phase.position_at(t);
+  place = curve.at(s);
+  slope = curve.tangent(s);
+  if (curve.shape() != Curve::Shape::line) bend = curve.second_derivative(s);
+}
+
 // A moment of one axis.
 struct MarginSurvey::Moment {
-  Moment(const SurveyedMotor& motor, const PlannedMove& move, const Phase& phase, Seconds t, Seconds now)
-      : line(move.segment.source.line),
-        rapid(move.segment.rapid),
-        time(now),
-        path_speed(std::max(phase.velocity_at(t).value(), 0.0)) {
-    const Mm s = phase.position_at(t);
-    const double slope = move.segment.curve.tangent(s)[motor.axis];
-    const double bend =
-        move.segment.curve.shape() == Curve::Shape::line ? 0 : move.segment.curve.second_derivative(s)[motor.axis];
-    speed = slope * path_speed;
-    bending = bend * path_speed * path_speed;
-    acceleration = slope * phase.acceleration_at(t).value() + bending;
+  Moment(const SurveyedMotor& motor, const PlannedMove& move, const Look& look)
+      : line(move.segment.source.line), rapid(move.segment.rapid), time(look.time), path_speed(look.speed) {
+    place = look.place[motor.axis];
+    speed = look.slope[motor.axis] * look.speed;
+    bending = look.bend[motor.axis] * look.speed * look.speed;
+    acceleration = look.slope[motor.axis] * look.acceleration + bending;
     shaft = {std::abs(speed) * motor.radians_per_unit};
     torque = torque_for(motor, acceleration);
   }
@@ -66,15 +68,12 @@ struct MarginSurvey::Moment {
     }
     return motor.inertia * axis_acceleration * motor.radians_per_unit + friction + motor.weight;
   }
-  // Whether the axis stays at about this speed long enough to begin to swing.
-  bool is_steady() const {
-    return std::abs(speed) > nothing && std::abs(acceleration) * time_to_swing < band_of_speed * std::abs(speed);
-  }
 
   std::uint32_t line;
   bool rapid;
   Seconds time;
   double path_speed;
+  double place = 0;
   double speed = 0;
   double acceleration = 0;
   double bending = 0;
@@ -96,9 +95,12 @@ const char* name_of(Verdict verdict) {
   return "lost";
 }
 
-MarginSurvey::MarginSurvey(std::vector<SurveyedMotor> motors, double reserve)
-    : motors_(std::move(motors)), share_(1 - reserve), states_(motors_.size()) {
-  rest();
+MarginSurvey::MarginSurvey(std::vector<SurveyedMotor> motors, const StepGrid& grid, double reserve)
+    : motors_(std::move(motors)), grid_(grid), share_(1 - reserve), states_(motors_.size()) {
+  for (const SurveyedMotor& motor : motors_) {
+    trials_.emplace_back(motor.setup, motor.tolerance, motor.radians_per_unit, motor.fastest);
+  }
+  rest(Seconds(0));
 }
 
 void MarginSurvey::watch(const MotionItem& item) {
@@ -106,23 +108,22 @@ void MarginSurvey::watch(const MotionItem& item) {
     watch_move(*move);
     return;
   }
-  rest();
-  now_ += std::get<Action>(item).dwell;
+  const Seconds dwell = std::get<Action>(item).dwell;
+  rest(dwell);
+  now_ += dwell;
 }
 
-void MarginSurvey::rest() {
-  for (std::size_t m = 0; m < motors_.size(); ++m) {
-    stand(m);
-  }
+void MarginSurvey::rest(Seconds time) {
+  for (std::size_t m = 0; m < motors_.size(); ++m) stand(m, time);
 }
 
 // The axis rests, or has nothing to do in the motion of the others.
-void MarginSurvey::stand(std::size_t motor) {
-  constexpr double for_ever = 1e9;
-  states_[motor].torque = motors_[motor].weight;
-  states_[motor].acceleration = 0;
-  states_[motor].lasted = for_ever;
-  states_[motor].behind = states_[motor].behind_rate = 0;
+void MarginSurvey::stand(std::size_t motor, Seconds time) {
+  State& state = states_[motor];
+  state.torque = motors_[motor].weight;
+  state.acceleration = 0;
+  const TrialFinding finding = trials_[motor].stand(time);
+  if (state.hardest) judge(motor, *state.hardest, finding);
 }
 
 void MarginSurvey::watch_move(const PlannedMove& move) {
@@ -130,83 +131,113 @@ void MarginSurvey::watch_move(const PlannedMove& move) {
   line_ = move.segment.source.line;
   last_load_ = 0;
   for (const Phase& phase : move) {
-    for (std::size_t m = 0; m < motors_.size(); ++m) watch_phase(move, phase, m);
+    watch_phase(move, phase);
     now_ += phase.duration;
   }
 }
 
-void MarginSurvey::watch_phase(const PlannedMove& move, const Phase& phase, std::size_t motor) {
-  if (move.segment.curve.shape() == Curve::Shape::line && !move.segment.curve.moves(motors_[motor].axis)) {
-    stand(motor);
-    return;
+void MarginSurvey::watch_phase(const PlannedMove& move, const Phase& phase) {
+  const Curve& curve = move.segment.curve;
+  const int count = looks_in(curve, phase, most_looks);
+  looks_.clear();
+  for (int i = 0; i <= count; ++i) {
+    const Seconds t = phase.duration * (static_cast<double>(i) / count);
+    looks_.emplace_back(move, phase, t, now_ + t);
+    if (i == 0) continue;
+    find_leader(looks_[looks_.size() - 2], looks_.back());
+    looks_.back().leader = leader_;
   }
-  const int looks = looks_in(move.segment.curve, phase);
-  for (int i = 0; i <= looks; ++i) {
-    const Seconds t = phase.duration * (static_cast<double>(i) / looks);
-    const Moment moment(motors_[motor], move, phase, t, now_ + t);
-    if (i == 0) judge_jump(motor, moment, phase, states_[motor]);
-    states_[motor].torque = moment.torque;
-    states_[motor].acceleration = moment.acceleration;
-    judge(motor, moment);
-    if (i > 0 && falls_behind(motor, moment, phase.duration.value() / looks)) {
-      MarginSpot spot = spot_at(motors_[motor], moment);
-      spot.verdict = Verdict::lost;
-      note(motor, spot);
+  for (std::size_t m = 0; m < motors_.size(); ++m) {
+    if (curve.shape() == Curve::Shape::line && !curve.moves(motors_[m].axis)) {
+      stand(m, phase.duration);
+    } else {
+      watch_motor(move, m);
     }
   }
-  states_[motor].lasted += phase.duration.value();
 }
 
-void MarginSurvey::judge(std::size_t motor, const Moment& moment) {
-  const TorqueBand& band = motors_[motor].band;
-  MarginSpot spot = spot_at(motors_[motor], moment);
-  const bool may_swing = motors_[motor].coarse_steps ? moment.shaft.value > 0 : moment.is_steady();
-  if (may_swing && band.swings_at(moment.shaft) && spot.needed.value <= share_ * spot.there.low.value) {
-    spot.there.low = band.while_steady(moment.shaft);
-    spot.want = Want::calm;
-  }
-  spot.verdict = spot.needed.value > share_ * spot.there.low.value ? Verdict::doubtful : Verdict::safe;
-  if (spot.verdict == Verdict::safe) spot.want = Want::torque;
-  note(motor, spot);
-}
-
-void MarginSurvey::judge_jump(std::size_t motor, const Moment& moment, const Phase& phase, const State& before) {
-  const TorqueRange there = motors_[motor].band.of_curve(moment.shaft);
-  constexpr double notable = 0.05;
-  if (std::abs(moment.torque - before.torque) < notable * there.low.value) return;
-  const double swings = torque_to_catch(before.torque, moment.torque);
-  MarginSpot spot = spot_at(motors_[motor], moment);
-  spot.needed = {swings};
-  spot.of_motion = {std::max(std::abs(before.torque), std::abs(moment.torque))};
-  spot.acceleration = MmPerSecond2(std::max(std::abs(before.acceleration), std::abs(moment.acceleration)));
-  if (swings > share_ * there.low.value) {
-    spot.verdict = Verdict::doubtful;
-    spot.want = Want::jump;
-  }
-  // The rotor's own losses may still catch a swing that is only just too large.
-  constexpr double beyond_losses = 1.1;
-  const double stiffness = motors_[motor].band.rotor().teeth() * there.high.value;
-  const double period = 2 * std::numbers::pi * std::sqrt(motors_[motor].inertia / stiffness);
-  const bool settled = std::exchange(states_[motor].lasted, 0) > period;
-  const bool lasts = phase.jerk.value() == 0 && phase.duration.value() > period;
-  if (settled && lasts && swings > beyond_losses * there.high.value) spot.verdict = Verdict::lost;
-  note(motor, spot);
-}
-
-// What exceeds the high end slows the rotor against the field; what is left below it brings the rotor back.
-bool MarginSurvey::falls_behind(std::size_t motor, const Moment& moment, double time) {
-  State& state = states_[motor];
+void MarginSurvey::watch_motor(const PlannedMove& move, std::size_t motor) {
   const SurveyedMotor& own = motors_[motor];
-  const double excess = (std::abs(moment.torque) - own.band.of_curve(moment.shaft).high.value) / own.inertia;
-  if (excess <= 0 && state.behind_rate <= 0) return false;
-  state.behind += time * (state.behind_rate + excess * time / 2);
-  state.behind_rate += excess * time;
-  if (state.behind_rate <= 0) state.behind = state.behind_rate = 0;
-  return state.behind * own.band.rotor().steps_per_revolution > 2 * std::numbers::pi;
+  Moment from(own, move, looks_[0]);
+  MarginSpot worst = spot_of_jump(motor, from);
+  for (std::size_t i = 1; i < looks_.size(); ++i) {
+    const Moment to(own, move, looks_[i]);
+    const MarginSpot spot = spot_at(motor, to);
+    if (is_worse(spot, worst)) worst = spot;
+    AxisPiece piece{.duration = to.time - from.time,
+                    .from = from.place,
+                    .to = to.place,
+                    .speed_from = from.speed,
+                    .speed_to = to.speed,
+                    .load = worst.load()};
+    if (const Leader& leader = looks_[i].leader; leader.axis && leader.axis != own.axis) {
+      const double lines = grid_.steps_per_unit[*leader.axis] * leader.division;
+      piece.grid_from = looks_[i - 1].place[*leader.axis] * lines + leader.division / 2;
+      piece.grid_to = looks_[i].place[*leader.axis] * lines + leader.division / 2;
+    }
+    judge(motor, worst, trials_[motor].play(piece));
+    worst = spot;
+    from = to;
+  }
+  states_[motor].torque = from.torque;
+  states_[motor].acceleration = from.acceleration;
+}
+
+// As the step generator does: the fastest motor leads, and its steps are divided until events come often enough.
+void MarginSurvey::find_leader(const Look& from, const Look& to) {
+  constexpr double takeover = 1 + 1e-6;
+  std::optional<Axis> axis;
+  double most = 0;
+  const auto steps_of = [&](Axis one) { return std::abs(to.place[one] - from.place[one]) * grid_.steps_per_unit[one]; };
+  for (const Axis one : all_axes) {
+    if (steps_of(one) <= most * takeover) continue;
+    most = steps_of(one);
+    axis = one;
+  }
+  if (!axis) {
+    leader_ = {};
+    return;
+  }
+  const double slope = std::max(std::abs(from.slope[*axis]), std::abs(to.slope[*axis])) * grid_.steps_per_unit[*axis];
+  const double speed = slope * std::max(from.speed, to.speed);
+  const double rate = std::sqrt(speed * speed + 2 * slope * std::abs(from.acceleration));
+  const double slow = grid_.slow_rate.value();
+  const double events = rate * leader_.division;
+  constexpr double before_finer = 0.5;
+  constexpr double before_coarser = 4;
+  const bool fits = events > before_finer * slow && (events <= before_coarser * slow || leader_.division == 1);
+  if (leader_.axis == axis && fits) return;
+  constexpr double finest = 256;
+  leader_ = {.axis = axis};
+  while (rate * leader_.division < slow && leader_.division < finest) leader_.division *= 2;
+}
+
+// The verdict is that of the trial. The formula says what the cause was.
+void MarginSurvey::judge(std::size_t motor, MarginSpot spot, const TrialFinding& finding) {
+  std::optional<MarginSpot>& hardest = states_[motor].hardest;
+  if (!hardest || spot.load() >= hardest->load() || spot.time - hardest->time > time_to_swing) hardest = spot;
+  if (finding.judged) {
+    const bool keeps = finding.lost == 0 && finding.most_swing < safe_swing;
+    if (!keeps) spot = *hardest;
+    const bool torque_is_enough = spot.verdict == Verdict::safe;
+    spot.verdict = keeps ? Verdict::safe : Verdict::doubtful;
+    if (finding.lost > 0 && trials_[motor].usual_out()) spot.verdict = Verdict::lost;
+    if (keeps) {
+      spot.want = Want::torque;
+    } else if (torque_is_enough) {
+      spot.want = Want::calm;
+    }
+  }
+  note(motor, spot);
 }
 
 void MarginSurvey::note(std::size_t motor, const MarginSpot& spot) {
   last_load_ = std::max(last_load_, spot.load());
+  if (spot.line != line_) {  // its line has ended
+    keep(spot);
+    if (!states_[motor].worst || is_worse(spot, *states_[motor].worst)) states_[motor].worst = spot;
+    return;
+  }
   const std::optional<MmPerSecond2> cure = safe_acceleration(motors_[motor], spot);
   std::optional<MarginSpot>& worst = states_[motor].worst_of_line;
   const std::optional<MmPerSecond2> other = worst ? worst->safe_acceleration : std::nullopt;
@@ -215,7 +246,9 @@ void MarginSurvey::note(std::size_t motor, const MarginSpot& spot) {
   worst->safe_acceleration = cure && other ? std::min(*cure, *other) : (cure ? cure : other);
 }
 
-MarginSpot MarginSurvey::spot_at(const SurveyedMotor& own, const Moment& moment) {
+// By the formula.
+MarginSpot MarginSurvey::spot_at(std::size_t motor, const Moment& moment) const {
+  const SurveyedMotor& own = motors_[motor];
   MarginSpot spot{.axis = own.axis, .line = moment.line, .time = moment.time, .rapid = moment.rapid};
   spot.needed = {std::abs(moment.torque)};
   spot.of_motion = spot.needed;
@@ -225,12 +258,29 @@ MarginSpot MarginSurvey::spot_at(const SurveyedMotor& own, const Moment& moment)
   spot.path_speed = MmPerSecond(moment.path_speed);
   spot.acceleration = MmPerSecond2(std::abs(moment.acceleration));
   spot.bending = MmPerSecond2(std::abs(moment.bending));
+  spot.verdict = spot.needed.value > share_ * spot.there.low.value ? Verdict::doubtful : Verdict::safe;
+  return spot;
+}
+
+// The same for the first moment of a phase, with the swing after the jump from the last one.
+MarginSpot MarginSurvey::spot_of_jump(std::size_t motor, const Moment& moment) const {
+  MarginSpot spot = spot_at(motor, moment);
+  const State& before = states_[motor];
+  constexpr double notable = 0.05;
+  if (std::abs(moment.torque - before.torque) < notable * spot.there.low.value) return spot;
+  spot.needed = {torque_to_catch(before.torque, moment.torque)};
+  spot.of_motion = {std::max(std::abs(before.torque), std::abs(moment.torque))};
+  spot.acceleration = MmPerSecond2(std::max(std::abs(before.acceleration), std::abs(moment.acceleration)));
+  if (spot.needed.value > share_ * spot.there.low.value) {
+    spot.verdict = Verdict::doubtful;
+    spot.want = Want::jump;
+  }
   return spot;
 }
 
 // The greatest acceleration with which the moment would be safe at its speed.
 std::optional<MmPerSecond2> MarginSurvey::safe_acceleration(const SurveyedMotor& own, const MarginSpot& spot) const {
-  if (spot.verdict == Verdict::safe || !(spot.of_motion.value > 0)) return {};
+  if (spot.verdict == Verdict::safe || spot.want == Want::calm || !(spot.of_motion.value > 0)) return {};
   const double swing = spot.needed.value / spot.of_motion.value;
   const double for_each = own.inertia * own.radians_per_unit;  // N·m for mm/s²
   const double rest = spot.of_motion.value - for_each * spot.acceleration.value();
@@ -240,9 +290,10 @@ std::optional<MmPerSecond2> MarginSurvey::safe_acceleration(const SurveyedMotor&
 }
 
 // The greatest speed with which the moment would be safe at its acceleration.
-void MarginSurvey::find_safe_speed(MarginSpot& spot) const {
+void MarginSurvey::find_safe_speed(MarginSpot& spot) {
   if (spot.verdict == Verdict::safe) return;
   const auto own = std::ranges::find(motors_, spot.axis, &SurveyedMotor::axis);
+  if (spot.want == Want::calm && !own->band.tried()) own->band.try_steady(own->fastest);
   const double swing = spot.of_motion.value > 0 ? spot.needed.value / spot.of_motion.value : 1;
   const double for_each = own->inertia * own->radians_per_unit;
   const double shaft = spot.speed.value() * own->radians_per_unit;
@@ -260,11 +311,14 @@ void MarginSurvey::find_safe_speed(MarginSpot& spot) const {
 }
 
 MarginVerdict MarginSurvey::verdict() {
+  rest(after_the_end);
   end_line();
   MarginVerdict whole;
   for (std::size_t m = 0; m < motors_.size(); ++m) {
     std::optional<MarginSpot> worst = states_[m].worst;
     if (worst) {
+      // One motor here, another there.
+      if (trials_[m].usual_lost()) worst->verdict = Verdict::lost;
       find_safe_speed(*worst);
       whole.verdict = std::max(whole.verdict, worst->verdict);
     }

@@ -1,4 +1,6 @@
 // The page of `passo check` as a user sees it: time, ways and what the motors can do.
+#include <cmath>
+
 #include "kit/command_line.hpp"
 #include <gmock/gmock.h>
 #include <nlohmann/json.hpp>
@@ -73,6 +75,25 @@ TEST_F(CheckMargin, agrees_with_the_physics_of_a_run) {
     const Outcome verdict = check(acceleration);
     EXPECT_EQ(passo("run " + path("p.ngc") + " -m " + path("m.toml") + " --physics --quiet").code, verdict.code);
   }
+}
+
+// A zigzag turns X back nine times, and the run rests there until 0.5 mm of backlash are taken up.
+TEST_F(CheckMargin, knows_the_time_that_backlash_takes) {
+  std::string zigzag = "G21 G90\n";
+  for (int i = 0; i < 10; ++i) zigzag += i % 2 == 0 ? "G1 X20 F3000\n" : "G1 X-20\n";
+  const std::string program = write("zigzag.ngc", zigzag + "M2\n");
+  const auto seconds_of = [&](const std::string& more) {
+    const Outcome outcome = passo("check " + program + " --json -m " + write("m.toml", with_motor(500, more)));
+    EXPECT_EQ(outcome.code, 0) << outcome.err;
+    return nlohmann::json::parse(outcome.out)["time_s"].get<double>();
+  };
+  const std::string screw = "[axis.X.screw]\nbacklash_mm = 0.5\n";
+  const double longer = seconds_of(screw) - seconds_of("");
+  const double once = 2 * std::sqrt(0.5 / 500);  // half of the way faster and faster, then slower and slower
+  EXPECT_NEAR(longer, 9 * once, 1.5 * once);
+
+  const Outcome run = passo("run " + program + " -m " + path("m.toml") + " --quiet");
+  EXPECT_EQ(run.code, 0) << run.err;
 }
 
 TEST_F(CheckMargin, says_nothing_of_motors_that_the_machine_file_does_not_know) {

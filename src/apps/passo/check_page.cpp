@@ -8,6 +8,7 @@
 #include <nlohmann/json.hpp>
 
 #include "passo/activity/stage_options.hpp"
+#include "passo/drive/backlash_options.hpp"
 #include "passo/report/summary_builder.hpp"
 #include "passo/trajectory/planner.hpp"
 #include "passo/verdict/margin_words.hpp"
@@ -190,7 +191,7 @@ CheckPage judge(ProgramReader program, const MachineDescription& machine, const 
     axis_set.add(axis.axis);
   }
   SummaryBuilder builder(axes);
-  MarginSurvey survey(surveyed_motors(machine));
+  MarginSurvey survey(surveyed_motors(machine), step_grid(machine));
   SpeedSurvey speeds(motion_limits(machine), axis_set);
   CheckPage page;
   std::uint64_t segments = 0;
@@ -199,7 +200,10 @@ CheckPage judge(ProgramReader program, const MachineDescription& machine, const 
     builder.watch_path(item);
     if (std::holds_alternative<Segment>(item)) ++segments;
   });
-  Planner planner(activity, motion_limits(machine));
+  StepOptions steps = step_options(machine);
+  steps.start = options.start;
+  BacklashTaker path_with_rests(activity, backlash_options(steps, false));
+  Planner planner(path_with_rests, motion_limits(machine));
   constexpr unsigned items_between_looks = 1024;
   MotionItem item;
   // A loop that only a probe ends goes on as far as the check has followed it.

@@ -3,8 +3,9 @@
 
 #include <cmath>
 #include <random>
+#include <string>
 
-#include "passo/motor/motor_data.hpp"
+#include "passo/motor/running_motor.hpp"
 
 namespace passo::test {
 
@@ -24,6 +25,17 @@ inline MotorData large_motor() {
           .rated_current = {2.8},
           .resistance = {1.13},
           .inductance = {3.6e-3}};
+}
+
+// A motor on the test bench: with a drive of 24 V, a load as heavy as the rotor, and that share of critical damping.
+inline MotorSetup on_the_bench(const MotorData& motor, const std::string& excitation, double damping,
+                               Regulation regulation = Regulation::chopper) {
+  MotorSetup setup{.motor = motor,
+                   .drive = {.supply = {24}, .regulation = regulation},
+                   .excitation = *Excitation::named(excitation)};
+  setup.load.inertia = motor.rotor.inertia;
+  setup.damping = damping_of(motor, damping);
+  return setup;
 }
 
 struct Driven {

@@ -2,15 +2,18 @@
 // integrated by another method.
 #include "passo/motor/running_motor.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 #include <random>
 #include <string>
+#include <utility>
 
 #include "example_motors.hpp"
 #include "kit/seed.hpp"
 #include <gtest/gtest.h>
 
+#include "passo/motor/motor_trials.hpp"
 #include "passo/motor/torque_curve.hpp"
 
 namespace passo {
@@ -121,45 +124,22 @@ TEST(RunningMotor, stays_where_friction_holds_it_and_then_rests_for_nothing) {
   EXPECT_EQ(motor.slipped(), 0);
 }
 
-// Steps at an even rate after a slow ramp.
-void run_up(RunningMotor& motor, double rate, double acceleration) {
-  double at = rate / 20;
-  while (at < rate) {
-    motor.step(1);
-    motor.run(Seconds(1 / at));
-    at += acceleration / at;
-  }
-}
-
-// The resistance at which a motor at that rate falls out of step, found by a slowly growing one.
-double pull_out_by_trial(MotorSetup setup, double full_steps_a_second, double most) {
+// The whole torque at which a motor at that rate falls out of step: that of the trial, and its own damping.
+double pull_out_by_trial(MotorSetup setup, double rate) {
   setup.damping = damping_of(setup.motor, 0.015);
-  const double rate = full_steps_a_second * setup.excitation.steps_per_full_step();
-  RunningMotor motor(setup);
-  run_up(motor, rate, rate * 4);
-  const double omega = full_steps_a_second * 2 * pi / setup.motor.rotor.steps_per_revolution;
-  for (int i = 0; i < 2000; ++i) {
-    const double resistance = most * 1.2 * i / 2000;
-    motor.set_resistance({resistance});
-    for (double time = 0; time < 2e-3; time += 1 / rate) {
-      motor.step(1);
-      motor.run(Seconds(1 / rate));
-    }
-    if (motor.slipped() != 0) return resistance + setup.damping.value * omega;
-  }
-  return most * 1.2;
+  const double speed = rate * 2 * pi / setup.motor.rotor.steps_per_revolution;
+  return tried_pull_out(setup, Hertz(rate)).value + setup.damping.value * speed;
 }
 
 TEST(RunningMotor, falls_out_of_step_where_the_textbook_says) {
   for (const MotorData& data : {test::small_motor(), test::large_motor()}) {
     for (const Regulation regulation : {Regulation::chopper, Regulation::resistive}) {
       for (const double rate : {300.0, 800.0, 1500.0}) {
-        MotorSetup setup = setup_of(data, "microsteps:8", 24, regulation);
-        setup.load.inertia = data.rotor.inertia;
+        const MotorSetup setup = test::on_the_bench(data, "microsteps:8", 0.015, regulation);
         const auto curve = TorqueCurve::from_motor(setup.motor, setup.drive);
         ASSERT_TRUE(curve);
         const double expected = curve->pull_out(curve->speed_at(Hertz(rate))).value;
-        const double found = pull_out_by_trial(setup, rate, expected);
+        const double found = pull_out_by_trial(setup, rate);
         // A chopper at its limit switches the whole supply to each phase. The textbook's sines have less.
         EXPECT_GT(found, 0.97 * expected) << rate;
         EXPECT_LT(found, (regulation == Regulation::chopper ? 1.06 : 1.03) * expected) << rate;
@@ -174,8 +154,43 @@ TEST(RunningMotor, follows_a_measured_curve) {
   setup.load.inertia = setup.motor.rotor.inertia;
   for (const double rate : {300.0, 1000.0, 1500.0}) {
     const double expected = curve->pull_out(curve->speed_at(Hertz(rate))).value;
-    EXPECT_NEAR(pull_out_by_trial(setup, rate, expected), expected, 0.03 * expected) << rate;
+    EXPECT_NEAR(pull_out_by_trial(setup, rate), expected, 0.03 * expected) << rate;
   }
+}
+
+// A rotor that a hand carries is, when the hand lets go, where a rotor is that has got there by itself.
+TEST(RunningMotor, goes_on_in_step_from_mid_motion) {
+  MotorSetup setup = test::on_the_bench(test::small_motor(), "microsteps:8", 0.02);
+  setup.load.friction = {0.05};
+  const double rate = 800 * 8;
+  const RadiansPerSecond speed{800 * 2 * pi / 200};
+  const auto lags_after = [&](RunningMotor& motor, double time) {
+    double least = 100;
+    double most = -100;
+    for (; time > 0; time -= 1 / rate) {
+      motor.step(1);
+      motor.run(Seconds(1 / rate));
+      least = std::min(least, motor.lag());
+      most = std::max(most, motor.lag());
+    }
+    return std::pair(least, most);
+  };
+  RunningMotor slow(setup);
+  for (double at = 100; at < rate; at += 6'000 / at) {
+    slow.step(1);
+    slow.run(Seconds(1 / at));
+  }
+  lags_after(slow, 1);
+  const auto [low, high] = lags_after(slow, 0.02);
+
+  RunningMotor carried(setup);
+  carried.carry(speed);
+  lags_after(carried, 0.012);
+  carried.let_go();
+  const auto [least, most] = lags_after(carried, 0.05);
+  EXPECT_NEAR(least, low, 0.05);
+  EXPECT_NEAR(most, high, 0.05);
+  EXPECT_EQ(carried.slipped(), 0);
 }
 
 TEST(RunningMotor, loses_whole_periods_of_its_teeth_in_too_steep_a_ramp) {

@@ -237,5 +237,18 @@ INSTANTIATE_TEST_SUITE_P(Seven, FallingPrograms,
                          testing::Values(Falling{0, 0}, Falling{1, 0}, Falling{2, 0}, Falling{3, 0}, Falling{4, 0},
                                          Falling{5, 0.02}, Falling{6, 0.005}));
 
+// A dense program, of cubics of 0.2 mm: planning costs time for each cell, and finer cells gain nothing.
+TEST(FallingLimits, cut_a_short_cubic_into_few_cells) {
+  const Machine machine(shouldered, 150);
+  CellCutter cutter(machine.limits);
+  Segment bent;
+  bent.curve = Curve::cubic(xyz(0, 0), xyz(1, 0), xyz(0.2, 0.01), xyz(std::sqrt(0.99), 0.1), Mm(0.2));
+  bent.speed = MmPerSecond(50);
+  cutter.begin(bent, 50 * 50);
+  int cells = 0;
+  for (test::LoneCell piece; !cutter.at_end(); ++cells) cutter.next(piece.place());
+  EXPECT_LE(cells, 32);
+}
+
 }  // namespace
 }  // namespace passo

@@ -33,6 +33,9 @@ class BoundedMotor {
     if (!reduced_->holds()) leave();
   }
   void set_resistance(NewtonMetres torque);
+  // While a hand carries the rotor, the motor is integrated in full.
+  void carry(RadiansPerSecond speed);
+  void let_go();
 
   // As RunningMotor has them.
   double place() const { return is_reduced_ ? reduced_->place() : full_.place(); }

@@ -58,6 +58,10 @@ struct MotorSetup {
 // The setup of a motor that is known by its measured curve.
 MotorSetup measured_setup(const TorqueCurve& curve, const Excitation& excitation);
 
+// The pull-out of a motor: the measured curve, or the one that its data and drive give. The setup's parts have passed
+// their checks.
+TorqueCurve pull_out_curve(const MotorSetup& setup);
+
 // The damping by which the ringing of the rotor alone fades by that share of critical damping. The default is for a
 // motor whose own damping is not known: the iron losses of a usual motor at 1000 revolutions a minute are one or two
 // hundredths of its holding torque.
@@ -75,6 +79,10 @@ class RunningMotor {
   // Goes on from another state of the rotor, with the currents that the driver wants at `commanded`. The steps that
   // were lost stay lost.
   void resume(std::int64_t commanded, double place, RadiansPerSecond speed, NewtonMetres mean_torque);
+  // A hand carries the rotor at about that speed: it pulls as much as the rotor's speed differs, with critical damping.
+  // So a rotor begins in mid-motion, with the lag and the currents of that motion. The rotor starts at that speed.
+  void carry(RadiansPerSecond speed);
+  void let_go();
   // A torque of the work against the motion, whichever way it goes: a cutting force at the shaft.
   void set_resistance(NewtonMetres torque);
 
@@ -137,6 +145,8 @@ class RunningMotor {
   double dry_;
   double weight_;
   double resisting_ = 0;
+  double hand_ = 0;  // damping of the hand that carries the rotor
+  double hand_speed_ = 0;
   std::optional<TorqueCurve> measured_;
   int steps_;  // of the driver to a full step
   double places_per_radian_;

@@ -12,7 +12,7 @@
 //
 // The curves themselves differ from the full physics: docs/ramps/physics.md. The band includes that.
 //
-// Cost of the constructor: 80 trials, some milliseconds each. Afterwards a look takes below a microsecond.
+// Cost of try_steady(): 80 trials, some milliseconds each. A look takes below a microsecond.
 #pragma once
 
 #include <vector>
@@ -32,16 +32,18 @@ MotorSetup with_torque(const MotorSetup& setup, double factor);
 
 class TorqueBand {
  public:
-  // `tolerance`, 0 to 0.5, is the share by which the true torque may differ from the setup's. Rates are tried up to
-  // `fastest`. The setup's parts have passed their checks.
-  TorqueBand(const MotorSetup& setup, double tolerance, RadiansPerSecond fastest);
+  // `tolerance`, 0 to 0.5, is the share by which the true torque may differ from the setup's. The setup's parts have
+  // passed their checks.
+  TorqueBand(const MotorSetup& setup, double tolerance);
+
+  // Tries where the motor swings, at rates up to `fastest`. Without trials while_steady() is that of the curve.
+  void try_steady(RadiansPerSecond fastest);
+  bool tried() const { return !tried_.empty(); }
 
   // Pull-out of a motor that does not swing. `speed` ≥ 0.
   TorqueRange of_curve(RadiansPerSecond speed) const;
   // The low end for a motor that stays at about that speed, and so has the time to swing. Never above the curve's.
   NewtonMetres while_steady(RadiansPerSecond speed) const;
-  // Whether swinging takes more than a tenth of the low end.
-  bool swings_at(RadiansPerSecond speed) const;
 
   Hertz rate_at(RadiansPerSecond speed) const { return weak_.rate_at(speed); }
   const Rotor& rotor() const { return weak_.rotor(); }
@@ -52,6 +54,8 @@ class TorqueBand {
     double torque = 0;  // friction and damping included
   };
 
+  MotorSetup setup_;
+  double tolerance_;
   TorqueCurve weak_;
   TorqueCurve strong_;
   double factor_low_;

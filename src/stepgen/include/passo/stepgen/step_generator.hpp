@@ -1,6 +1,7 @@
 // StepGenerator: phases -> board segments. Each step comes at the place and time at which the exact motion has it.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <memory>
@@ -80,6 +81,12 @@ struct Exactness {
   friend bool operator==(const Exactness&, const Exactness&) = default;
 };
 inline constexpr int longest_segment_of_all = 2047;
+// Below this rate of events the steps of the fastest motor are divided, if no other exactness was asked for: this share
+// of the board's highest rate, or Exactness::least_rate if that is lower.
+inline constexpr double slow_share = 1.0 / 16;
+inline Hertz slow_event_rate(Hertz highest_event_rate) {
+  return std::min(Exactness{}.least_rate, highest_event_rate * slow_share);
+}
 
 class StepGenerator final : public Source<BoardItem> {
  public:

@@ -1,20 +1,22 @@
-// MarginSurvey: watches planned motion, and says whether the motors have the torque for it.
+// MarginSurvey: watches planned motion, and says whether the motors lose steps in it.
 //
-//     needed = (J_rotor + J_load)·α + friction·sign(ω) + damping·ω + weight        against pull-out at |ω|
+// Two looks at the same motion. The physics gives the verdict, and the formula the cause and the cure:
 //
-// α and ω are those of the shaft, from the axis's part of the path: on a curve they include the bending. Each phase is
-// looked at in up to 64 places.
+//   ToleranceTrial   plays the motion with motors from the weakest to the strongest of the tolerance
+//   formula          needed = (J_rotor + J_load)·α + friction·sign(ω) + damping·ω + weight     against pull-out at |ω|
 //
-// A motor's true pull-out is only known between two torques (TorqueBand). So there are three verdicts:
-//
-//   safe      the low end, less a reserve, is enough for what is needed, and for the swing after a jump of it
-//   lost      what is needed exceeds the high end so long that the rotor falls a full step behind; or the high end
-//             does not catch the swing
+//   safe      all motors keep their steps, and none swings further than 1.6 full steps from the field
 //   doubtful  neither
+//   lost      a motor that is a little stronger than usual loses steps, and so does a weaker one
 //
+// In the formula α and ω are those of the shaft, from the axis's part of the path: on a curve they include the bending.
+// Each phase is looked at in up to 64 places. A motor's true pull-out is only known between two torques (TorqueBand).
 // After a jump of the torque the rotor swings beyond its new place. The swing ends well if the energy does not carry
-// the rotor over the top: the equal-area criterion, as for a start without a ramp (motor/torque_curve.hpp). A motor
-// that stays at about one speed may begin to swing by itself: there the low end is TorqueBand::while_steady().
+// the rotor over the top: the equal-area criterion, as for a start without a ramp (motor/torque_curve.hpp). Where the
+// formula finds torque enough and steps are lost all the same, the motor swings by itself.
+//
+// A trial leaves out what repeats itself, and ends after a minute. Motion that was not played is safe or doubtful by
+// the formula: safe if the low end, less a reserve, is enough.
 //
 // Memory is bounded, whatever the program. docs/manual/checking.md says how far the verdicts are right.
 // Source of the criterion: any textbook of power systems.
@@ -28,6 +30,7 @@
 #include "passo/machine_file/machine_description.hpp"
 #include "passo/motor/torque_band.hpp"
 #include "passo/trajectory/phase.hpp"
+#include "passo/verdict/tolerance_trial.hpp"
 
 namespace passo {
 
@@ -43,18 +46,29 @@ const char* name_of(Verdict verdict);
 // An axis with its motor, as the survey knows it.
 struct SurveyedMotor {
   Axis axis = Axis::x;
+  MotorSetup setup;  // with the weight towards the low end
+  double tolerance = 0;
+  RadiansPerSecond fastest = {};  // of the shaft
   TorqueBand band;
   Load load = {};      // the motor's own damping included
   double inertia = 0;  // kg·m², rotor and load
   double weight = 0;   // N·m, pulls towards the low end
   double radians_per_unit = 0;
-  bool coarse_steps =
-      false;  // full or half steps: each step makes the rotor ring, so a ramp through a resonance counts
 };
 
-// The axes whose motor the machine file describes, with a driver that divides a full step evenly. The trials of an axis
-// take some tenths of a second.
+// `setup`: with the weight towards the low end.
+SurveyedMotor surveyed_motor(Axis axis, const MotorSetup& setup, double tolerance, double radians_per_unit,
+                             RadiansPerSecond fastest);
+
+// The axes whose motor the machine file describes, with a driver that divides a full step evenly.
 std::vector<SurveyedMotor> surveyed_motors(const MachineDescription& machine);
+
+// What makes the board's events: the steps of all axes, and the rate below which events divide a step.
+struct StepGrid {
+  PerAxis<double> steps_per_unit;
+  Hertz slow_rate{0};
+};
+StepGrid step_grid(const MachineDescription& machine);
 
 // The worst moment of an axis in a line of the program.
 struct MarginSpot {
@@ -66,7 +80,7 @@ struct MarginSpot {
   bool rapid = false;
   NewtonMetres needed = {};     // with the swing, where `want` is jump
   NewtonMetres of_motion = {};  // without it
-  TorqueRange there = {};       // pull-out; the low end with swinging, where `want` is calm
+  TorqueRange there = {};       // pull-out
   Hertz rate{0};                // full steps a second
   MmPerSecond speed{0};         // of the axis
   MmPerSecond path_speed{0};
@@ -94,10 +108,13 @@ struct MarginVerdict {
 class MarginSurvey {
  public:
   static constexpr std::size_t most_worst = 10;
-  // The share of the low end that is kept.
+  // The share of the low end that the formula keeps.
   static constexpr double usual_reserve = 0.1;
+  // Full steps from the field to the rotor. Torque falls beyond one, and at two the rotor falls back.
+  static constexpr double safe_swing = 1.6;
 
-  explicit MarginSurvey(std::vector<SurveyedMotor> motors, double reserve = usual_reserve);
+  // Without a grid each motor steps at its own exact times.
+  explicit MarginSurvey(std::vector<SurveyedMotor> motors, const StepGrid& grid = {}, double reserve = usual_reserve);
 
   void watch(const MotionItem& item);
   // How much of the sure torque the last move needed at its worst, of any axis.
@@ -109,32 +126,52 @@ class MarginSurvey {
   struct State {              // of one motor
     double torque = 0;        // needed at the last moment
     double acceleration = 0;  // of the axis, then
-    double lasted = 0;        // s since the torque jumped
-    // How far the rotor would be behind if its motor had the high end.
-    double behind = 0;       // rad
-    double behind_rate = 0;  // rad/s
+    // The hardest moment of the last tenth of a second: a swing that begins there may lose its steps later.
+    std::optional<MarginSpot> hardest = {};
     std::optional<MarginSpot> worst_of_line = {};
     std::optional<MarginSpot> worst = {};
   };
+  // The motor whose steps make the events, and the events that make one step of it.
+  struct Leader {
+    std::optional<Axis> axis = {};
+    double division = 1;
+  };
+  // A moment of the path.
+  struct Look {
+    Look(const PlannedMove& move, const Phase& phase, Seconds t, Seconds now);
+    Seconds time;
+    double speed;
+    double acceleration;
+    Point place;
+    Point slope;
+    Point bend;
+    Leader leader = {};  // from the look before to this one
+  };
   struct Moment;
+  static constexpr int most_looks = 64;
 
   void watch_move(const PlannedMove& move);
-  void watch_phase(const PlannedMove& move, const Phase& phase, std::size_t motor);
-  void judge(std::size_t motor, const Moment& moment);
-  void judge_jump(std::size_t motor, const Moment& moment, const Phase& phase, const State& before);
-  bool falls_behind(std::size_t motor, const Moment& moment, double time);
+  void watch_phase(const PlannedMove& move, const Phase& phase);
+  void watch_motor(const PlannedMove& move, std::size_t motor);
+  void find_leader(const Look& from, const Look& to);
+  MarginSpot spot_at(std::size_t motor, const Moment& moment) const;
+  MarginSpot spot_of_jump(std::size_t motor, const Moment& moment) const;
+  void judge(std::size_t motor, MarginSpot spot, const TrialFinding& finding);
   void note(std::size_t motor, const MarginSpot& spot);
-  static MarginSpot spot_at(const SurveyedMotor& own, const Moment& moment);
   std::optional<MmPerSecond2> safe_acceleration(const SurveyedMotor& own, const MarginSpot& spot) const;
-  void find_safe_speed(MarginSpot& spot) const;
+  void find_safe_speed(MarginSpot& spot);
   void end_line();
   void keep(const MarginSpot& spot);
-  void rest();
-  void stand(std::size_t motor);
+  void rest(Seconds time);
+  void stand(std::size_t motor, Seconds time);
 
   std::vector<SurveyedMotor> motors_;
+  std::vector<ToleranceTrial> trials_;
+  StepGrid grid_;
+  Leader leader_;
   double share_;  // of the low end that may be used
   std::vector<State> states_;
+  std::vector<Look> looks_;  // at the present phase
   std::vector<MarginSpot> worst_;
   std::uint32_t line_ = 0;
   Seconds now_{0};
