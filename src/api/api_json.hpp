@@ -21,6 +21,7 @@ Json as_json(const MachineDescription& machine, const MachineStatus& status);
 Json as_json(const MotionOwner& owner);
 Json as_json(const ApiJob& job);
 Json as_json(const StoredProgram& program, bool with_findings);
+Json as_json(const HistoryJob& job);
 Json machine_json(const MachineDescription& machine, std::string_view version);
 
 // The session's request in the body of a POST. Empty, with the reason: the body is none.

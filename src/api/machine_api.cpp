@@ -1,5 +1,7 @@
 #include "passo/api/machine_api.hpp"
 
+#include <algorithm>
+#include <charconv>
 #include <utility>
 
 #include "api_json.hpp"
@@ -11,6 +13,10 @@ namespace {
 constexpr std::size_t small_body = std::size_t{1} << 16;
 constexpr std::size_t longest_name = 200;
 constexpr std::string_view programs_path = "/api/v1/programs";
+constexpr std::string_view queue_path = "/api/v1/queue";
+constexpr std::string_view history_path = "/api/v1/history";
+constexpr std::string_view alarms_path = "/api/v1/alarms";
+constexpr std::int64_t shown_of_history = 100;
 
 unsigned status_of(RefusalCode code) {
   return code == RefusalCode::bad_value ? 400 : 409;
@@ -25,6 +31,29 @@ std::string name_from(std::string_view text, std::string_view otherwise) {
     if (is_plain) name += c;
   }
   return name.empty() ? std::string(otherwise) : name;
+}
+
+std::optional<Dialect> dialect_from(std::string_view query) {
+  const std::string_view dialect = query_value(query, "dialect");
+  if (dialect == "grbl") return Dialect::grbl;
+  if (dialect.empty() || dialect == "linuxcnc") return Dialect::linuxcnc;
+  return {};
+}
+
+WebAnswer no_history() {
+  return error_answer(404, "data.none", "passo serve keeps nothing: start it with --data DIR");
+}
+
+WebAnswer no_room() {
+  return error_answer(507, "programs.no-room", "there are too many programs: delete some first");
+}
+
+HistoryState history_state_of(JobState state) {
+  switch (state) {
+    case JobState::done: return HistoryState::done;
+    case JobState::failed: return HistoryState::failed;
+    default: return HistoryState::stopped;
+  }
 }
 
 }  // namespace
@@ -60,7 +89,8 @@ WebAnswer MachineApi::refusal(unsigned status) {
 }
 
 std::size_t MachineApi::longest_body(const WebRequest& request) {
-  return request.method == "POST" && request.path == programs_path ? ProgramStore::longest_program : small_body;
+  const bool uploads = request.path == programs_path || (request.path == queue_path && options_.history != nullptr);
+  return request.method == "POST" && uploads ? ProgramStore::longest_program : small_body;
 }
 
 WebAnswer MachineApi::answer(const WebRequest& request) {
@@ -78,7 +108,7 @@ WebAnswer MachineApi::answer(const WebRequest& request) {
         "only the owner of motion may do this: take ownership by POST /api/v1/owner, and send its key in "
         "X-Passo-Key");
   }
-  return request.method == "GET" ? look(found) : change(found, request);
+  return request.method == "GET" ? look(found, request) : change(found, request);
 }
 
 std::string MachineApi::hear(std::string_view message) {
@@ -95,8 +125,9 @@ std::string MachineApi::hear(std::string_view message) {
       .dump(-1, ' ', false, Json::error_handler_t::replace);
 }
 
-WebAnswer MachineApi::look(const FoundRoute& found) {
+WebAnswer MachineApi::look(const FoundRoute& found, const WebRequest& request) {
   const std::string_view path = found.route->path;
+  if (path == queue_path || path == history_path || path == alarms_path) return look_at_history(found, request);
   if (path.ends_with("/status")) return {.body = status_text()};
   if (path.ends_with("/machine")) return json_answer(200, machine_json(machine_, options_.version));
   if (path.ends_with("/openapi.json")) return {.body = options_.openapi};
@@ -119,6 +150,7 @@ WebAnswer MachineApi::look(const FoundRoute& found) {
 WebAnswer MachineApi::change(const FoundRoute& found, const WebRequest& request) {
   const std::string_view path = found.route->path;
   if (path.starts_with(programs_path)) return change_programs(found, request);
+  if (path.starts_with(queue_path)) return change_queue(found, request);
   if (path == "/api/v1/owner") {
     if (request.method == "POST") return take_ownership(request);
     if (!owner_.is_client(request.key)) return error_answer(403, "owner.not-you", "somebody else owns the motion");
@@ -175,17 +207,11 @@ WebAnswer MachineApi::take_ownership(const WebRequest& request) {
 
 WebAnswer MachineApi::change_programs(const FoundRoute& found, const WebRequest& request) {
   if (found.route->path == programs_path) {
-    const std::string_view dialect = query_value(request.query, "dialect");
-    if (!dialect.empty() && dialect != "grbl" && dialect != "linuxcnc") {
-      return error_answer(400, "http.bad-body", "the dialect is linuxcnc or grbl");
-    }
+    const auto dialect = dialect_from(request.query);
+    if (!dialect) return error_answer(400, "http.bad-body", "the dialect is linuxcnc or grbl");
     const StoredProgram* const program =
-        programs_.add(name_from(query_value(request.query, "name"), "program"),
-                      dialect == "grbl" ? Dialect::grbl : Dialect::linuxcnc, request.body);
-    if (program == nullptr) {
-      return error_answer(507, "programs.no-room", "there are too many programs: delete some first");
-    }
-    return json_answer(201, as_json(*program, false));
+        programs_.add(name_from(query_value(request.query, "name"), "program"), *dialect, request.body);
+    return program != nullptr ? json_answer(201, as_json(*program, false)) : no_room();
   }
   const StoredProgram* const program = programs_.find(found.id);
   if (program == nullptr) return refusal(404);
@@ -198,18 +224,75 @@ WebAnswer MachineApi::change_programs(const FoundRoute& found, const WebRequest&
     return json_answer(200, Json::object());
   }
   if (is_checked_for_job) return error_answer(409, "machine.busy", "a job is about to begin");
-  if (found.route->path.ends_with("/run")) return begin_job(*program);
+  if (found.route->path.ends_with("/run")) return begin_job(*program, 0);
   programs_.check(found.id, machine_, session_.status().position.place);
   return json_answer(202, as_json(*program, false));
 }
 
-WebAnswer MachineApi::begin_job(const StoredProgram& program) {
+WebAnswer MachineApi::look_at_history(const FoundRoute& found, const WebRequest& request) {
+  if (options_.history == nullptr) return no_history();
+  std::int64_t most = shown_of_history;
+  const std::string_view digits = query_value(request.query, "most");
+  std::from_chars(digits.data(), digits.data() + digits.size(), most);
+  most = std::clamp<std::int64_t>(most, 1, JobHistory::most_ended);
+  const std::string_view path = found.route->path;
+  Json list = Json::array();
+  if (path == alarms_path) {
+    for (const HistoryAlarm& one : options_.history->alarms(most))
+      list.push_back({{"at", one.at}, {"words", one.words}});
+    return json_answer(200, {{"alarms", std::move(list)}});
+  }
+  for (const HistoryJob& one : path == queue_path ? options_.history->queue() : options_.history->ended(most)) {
+    list.push_back(as_json(one));
+  }
+  return json_answer(200, {{"jobs", std::move(list)}});
+}
+
+// A job in the queue waits until somebody runs it.
+WebAnswer MachineApi::change_queue(const FoundRoute& found, const WebRequest& request) {
+  JobHistory* const history = options_.history;
+  if (history == nullptr) return no_history();
+  if (found.route->path == queue_path) {
+    const auto dialect = dialect_from(request.query);
+    if (!dialect) return error_answer(400, "http.bad-body", "the dialect is linuxcnc or grbl");
+    const auto id = history->add(name_from(query_value(request.query, "name"), "program"),
+                                 *dialect == Dialect::grbl ? "grbl" : "linuxcnc", request.body, wall_time());
+    return id ? json_answer(201, as_json(*history->find(*id))) : no_room();
+  }
+  const auto id = static_cast<std::int64_t>(std::min<std::uint64_t>(found.id, INT64_MAX));
+  const auto job = history->find(id);
+  if (!job || job->state != HistoryState::queued) return refusal(404);
+  if (job_.state == JobState::checking) return error_answer(409, "machine.busy", "a job is about to begin");
+  if (request.method == "DELETE") {
+    history->remove(id);
+    return json_answer(200, Json::object());
+  }
+  const StoredProgram* const program = programs_.add(
+      job->name, job->dialect == "grbl" ? Dialect::grbl : Dialect::linuxcnc, history->program_of(id).value_or(""));
+  if (program == nullptr) return no_room();
+  const std::uint64_t stored = program->id;
+  WebAnswer answer = begin_job(*program, id);
+  if (answer.status != 202) programs_.remove(stored);
+  return answer;
+}
+
+WebAnswer MachineApi::begin_job(const StoredProgram& program, std::int64_t history) {
   if (session_.state() != MachineState::idle) {
     return error_answer(409, "machine.busy", fmt::format("the machine is not idle: {}", name_of(session_.state())));
   }
   if (const auto refused = session_.closed_limit()) return error_answer(409, code_of(refused->code), refused->message);
-  job_ = {.id = job_.id + 1, .program = program.id, .name = program.name, .state = JobState::checking, .why = {}};
-  job_.begun = session_.now();
+  if (options_.history != nullptr && history == 0) {
+    const char* const dialect = program.dialect == Dialect::grbl ? "grbl" : "linuxcnc";
+    history = options_.history->add(program.name, dialect, program.text, wall_time()).value_or(0);
+    if (history == 0) return no_room();
+  }
+  job_ = {.id = job_.id + 1,
+          .program = program.id,
+          .name = program.name,
+          .state = JobState::checking,
+          .why = {},
+          .history = history};
+  if (history != 0) options_.history->begin(history, wall_time());
   job_owner_ = owner_.changes();
   programs_.check(program.id, machine_, session_.status().position.place);
   return json_answer(202, as_json(job_));
@@ -236,14 +319,20 @@ void MachineApi::end_job(JobState state, std::string why) {
   job_.why = std::move(why);
   ticket_.reset();
   ++jobs_ended_;
+  if (job_.history != 0) options_.history->end(job_.history, history_state_of(state), job_.why, wall_time());
 }
 
-void MachineApi::turn(const std::vector<MachineChange>& changes) {
+void MachineApi::note_alarm() {
+  ++alarms_;
+  if (options_.history != nullptr) options_.history->note_alarm(session_.status().trouble_words, wall_time());
+}
+
+void MachineApi::heed(const std::vector<MachineChange>& changes) {
   for (const MachineChange& change : changes) {
     if (change.kind == MachineChange::Kind::rested_by_tail) ++late_;
     if (change.kind == MachineChange::Kind::state &&
         (change.state == MachineState::alarm || change.state == MachineState::fault)) {
-      ++alarms_;
+      note_alarm();
     }
     if (change.kind != MachineChange::Kind::answered || !ticket_ || change.ticket != *ticket_) continue;
     switch (change.outcome) {
@@ -252,10 +341,15 @@ void MachineApi::turn(const std::vector<MachineChange>& changes) {
       case Outcome::failed: end_job(JobState::failed, change.fault ? change.fault->message : ""); break;
     }
   }
+}
+
+void MachineApi::turn() {
   const bool is_silent = session_.now() - owner_heard_ > silent_owner;
   if (owner_.kind() == MotionOwner::Kind::client && is_silent && !session_.busy()) owner_.give_back();
   programs_.turn();
   if (job_.state == JobState::checking && !programs_.checks()) start_job();
+  // The disk may take its time while nothing moves.
+  if (options_.history != nullptr && !session_.busy()) options_.history->keep();
 }
 
 std::string MachineApi::status_text() const {

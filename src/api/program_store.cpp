@@ -6,7 +6,7 @@
 namespace passo {
 namespace {
 
-constexpr std::uint64_t items_a_turn = 1000;
+constexpr std::uint64_t items_a_turn = 500;
 
 }  // namespace
 

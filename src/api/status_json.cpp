@@ -95,8 +95,20 @@ Json as_json(const MotionOwner& owner) {
 
 Json as_json(const ApiJob& job) {
   if (job.state == JobState::none) return Json();
-  return {
-      {"id", job.id}, {"program", job.program}, {"name", job.name}, {"state", name_of(job.state)}, {"why", job.why}};
+  return {{"id", job.id},   {"program", job.program}, {"name", job.name}, {"state", name_of(job.state)},
+          {"why", job.why}, {"history", job.history}};
+}
+
+Json as_json(const HistoryJob& job) {
+  return {{"id", job.id},
+          {"name", job.name},
+          {"dialect", job.dialect},
+          {"bytes", job.bytes},
+          {"state", name_of(job.state)},
+          {"why", job.why},
+          {"queued_at", job.queued_at},
+          {"begun_at", job.begun_at},
+          {"ended_at", job.ended_at}};
 }
 
 Json as_json(const StoredProgram& program, bool with_findings) {

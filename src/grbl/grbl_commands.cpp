@@ -32,7 +32,7 @@ void GrblController::take_command(const std::string& text) {
   if (!is_idle() && !(alarm_ && !session_.busy())) return answer(GrblError::not_idle);
   if (text == "$$") {
     std::string all;
-    for (const GrblSetting& setting : grbl_settings(machine_, choices_)) {
+    for (const GrblSetting& setting : grbl_settings(kept_ ? kept_->machine() : machine_, choices_)) {
       all += fmt::format("${}={}\r\n", setting.number, setting.value);
     }
     say(std::move(all));
@@ -157,8 +157,31 @@ void GrblController::take_setting(const std::string& text) {
   } else if (number == 13) {
     choices_.inches = value != 0;
   } else {
+    return keep_setting(number, value);
+  }
+  answer(GrblError::none);
+}
+
+void GrblController::keep_settings(std::string text, WriteFile write) {
+  kept_.emplace(std::move(text));
+  write_file_ = std::move(write);
+}
+
+// The machine goes on with what it began with: its place is counted in steps of that.
+void GrblController::keep_setting(int number, double value) {
+  if (!kept_) return answer(GrblError::bad_statement);
+  std::string reason;
+  auto after = kept_->with(number, value, reason);
+  if (after && !write_file_(kept_->text(), *after)) {
+    after.reset();
+    reason = "The machine file cannot be written, or was changed meanwhile";
+  }
+  if (!after) {
+    say(fmt::format("[MSG:{}]\r\n", reason));
     return answer(GrblError::bad_statement);
   }
+  kept_->take(std::move(*after));
+  say("[MSG:Kept in the machine file, counts from the next start on]\r\n");
   answer(GrblError::none);
 }
 

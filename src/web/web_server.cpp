@@ -61,17 +61,18 @@ class WebServer::Implementation {
 
   void accept();
 
+  // All of them, for the end: a connection keeps itself alive by what it waits for in the context. So these outlive the
+  // context.
+  std::unordered_set<Connection*> open;
+  std::unordered_set<Watcher*> watching;
+  std::size_t large_bodies = 0;
   asio::io_context context{1};
   WebAccess access;
   WebHandler& handler;
   WebLimits limits;
   tcp::acceptor acceptor;
   asio::steady_timer pause;
-  // All of them, for the end: a connection keeps itself alive by what it waits for.
-  std::unordered_set<Connection*> open;
-  std::unordered_set<Watcher*> watching;
   Text newest;
-  std::size_t large_bodies = 0;
   std::uint64_t requests = 0;
   std::uint64_t refused = 0;
   std::uint64_t skipped = 0;

@@ -114,6 +114,25 @@ TEST_F(ServeHttp, brakes_before_it_ends) {
   EXPECT_EQ(ask("GET", "/api/v1/status"), "nobody is there");
 }
 
+// kill -9 amid a job: the job is known, and so is what waits.
+TEST_F(ServeHttp, keeps_its_jobs_when_it_is_killed) {
+  serve({"--data", path("data")});
+  const std::string key = "X-Passo-Key: " + json("POST", "/owner", "{}").value("key", "") + "\r\n";
+  json("POST", "/queue?name=a.ngc", "G21 G90\nG1 X100 F600\nM2\n");
+  json("POST", "/queue?name=b.ngc", "M2\n");
+  json("POST", "/queue/1/run", "", key);
+  EXPECT_TRUE(until([&] { return json("GET", "/status")["state"] == "Run"; }));
+  const auto second = passo("serve --http 127.0.0.1:0 --data " + path("data"));
+  EXPECT_EQ(second.code, 1);
+  EXPECT_THAT(second.err, HasSubstr("serve.data"));
+  EXPECT_EQ(end(SIGKILL), -SIGKILL);
+  serve({"--data", path("data")});
+  EXPECT_EQ(json("GET", "/queue")["jobs"][0]["name"], "b.ngc");
+  EXPECT_EQ(json("GET", "/history")["jobs"][0]["state"], "interrupted");
+  EXPECT_EQ(json("GET", "/status")["state"], "Idle") << "it starts nothing by itself";
+  EXPECT_EQ(passo("serve --data " + path("data")).code, 2) << "without --http";
+}
+
 TEST_F(ServeHttp, asks_for_the_token_and_for_its_own_name) {
   const std::string token = write("token", "0123456789abcdef\n");
   serve({"--http-token", token});

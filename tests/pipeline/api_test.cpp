@@ -1,5 +1,6 @@
 // The API around a session on a virtual machine, in virtual time: what each request does, who may ask, and what hostile
 // bodies do.
+#include <filesystem>
 #include <fstream>
 #include <random>
 #include <set>
@@ -9,6 +10,7 @@
 #include "kit/seed.hpp"
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
+#include <unistd.h>
 
 #include "passo/api/machine_api.hpp"
 
@@ -20,10 +22,15 @@ using Json = nlohmann::ordered_json;
 // A machine with a sender's door and a client's door.
 class ApiRun {
  public:
-  explicit ApiRun(const KnownPosition& start = GrblRun::at_zero())
+  explicit ApiRun(const KnownPosition& start = GrblRun::at_zero(), JobHistory* history = nullptr)
       : run(example_machine("router"), start),
         api(run.description(), run.session(), owner,
-            {.version = "1", .openapi = "{}", .make_key = [this] { return fmt::format("key{}", ++keys_); }}) {}
+            {.version = "1",
+             .openapi = "{}",
+             .make_key = [this] { return fmt::format("key{}", ++keys_); },
+             .page = {},
+             .history = history,
+             .wall_time = [this] { return 1e9 + run.session().now().value(); }}) {}
 
   Json ask(const std::string& method, const std::string& path, const std::string& body = "",
            const std::string& by = "") {
@@ -43,7 +50,8 @@ class ApiRun {
     run.session().turn(Seconds(0.005));
     const auto changes = run.session().take_changes();
     run.grbl().turn(changes);
-    api.turn(changes);
+    api.heed(changes);
+    api.turn();
     run.collect();
   }
   template <class Condition>
@@ -368,6 +376,92 @@ TEST(Api, takes_requests_over_the_stream) {
   EXPECT_EQ(Json::parse(run.api.hear("nonsense"))["status"], 404);
   EXPECT_EQ(Json::parse(run.api.hear(R"({"do": 5})"))["status"], 404);
   EXPECT_EQ(Json::parse(run.api.hear(R"({"do": "/api/v1/jog/renew"})"))["status"], 403);
+}
+
+// A machine whose jobs are kept.
+class KeptApi : public testing::Test {
+ protected:
+  KeptApi() { std::filesystem::create_directories(folder_); }
+  ~KeptApi() override { std::filesystem::remove_all(folder_); }
+  std::unique_ptr<JobHistory> open() const { return std::move(*JobHistory::open((folder_ / "jobs").string())); }
+
+ private:
+  std::filesystem::path folder_ = std::filesystem::temp_directory_path() / ("passo-api-" + std::to_string(getpid()));
+};
+
+TEST_F(KeptApi, a_queued_job_waits_until_somebody_runs_it) {
+  {
+    const auto history = open();
+    ApiRun run(GrblRun::at_zero(), history.get());
+    EXPECT_EQ(run.ask("POST", "/queue?name=a.ngc", "G21 G90 G1 X3 F600\nM2\n")["id"], 1);
+    EXPECT_EQ(run.status, 201U);
+    run.ask("POST", "/queue?name=b.ngc&dialect=grbl", "G1 X1 F600\n");
+    run.pass(Seconds(5));
+    EXPECT_EQ(run.run.board().counts().events, 0U) << "never by itself";
+    EXPECT_EQ(run.post("/queue/1/run")["error"]["code"], "owner.not-you");
+  }
+  const auto history = open();
+  ApiRun run(GrblRun::at_zero(), history.get());
+  EXPECT_EQ(run.get("/queue")["jobs"].size(), 2U) << "after another start";
+  run.own();
+  EXPECT_EQ(run.post("/queue/1/run")["state"], "checking");
+  EXPECT_EQ(run.post("/queue/2/run")["error"]["code"], "machine.busy");
+  ASSERT_TRUE(run.turn_until([&] { return run.get("/status")["job"]["state"] == "done"; }));
+  EXPECT_EQ(run.get("/status")["place"]["x"], 3.0);
+  EXPECT_EQ(run.get("/queue")["jobs"][0]["name"], "b.ngc");
+  const Json ended = run.get("/history")["jobs"];
+  ASSERT_EQ(ended.size(), 1U);
+  EXPECT_EQ(ended[0]["state"], "done");
+  EXPECT_GT(ended[0]["ended_at"], ended[0]["begun_at"]);
+  expect_members(openapi()["components"]["schemas"]["HistoryJob"], ended[0], "HistoryJob");
+  EXPECT_EQ(run.post("/queue/1/run")["error"]["code"], "http.not-found") << "it is done";
+  run.ask("DELETE", "/queue/2");
+  EXPECT_EQ(run.get("/queue")["jobs"].size(), 0U);
+}
+
+TEST_F(KeptApi, each_end_is_kept_with_its_reason) {
+  const auto history = open();
+  ApiRun run(GrblRun::at_zero(), history.get());
+  run.own();
+  run.post(fmt::format("/programs/{}/run", run.upload("G1 X1\n")));
+  ASSERT_TRUE(run.turn_until([&] { return run.get("/status")["job"]["state"] == "failed"; }));
+  run.post(fmt::format("/programs/{}/run", run.upload("G21 G1 X30 F600\nM2\n")));
+  ASSERT_TRUE(run.turn_until_state("Run"));
+  run.post("/stop");
+  ASSERT_TRUE(run.turn_until_state("Idle"));
+  const Json ended = run.get("/history?most=5")["jobs"];
+  ASSERT_EQ(ended.size(), 2U);
+  EXPECT_EQ(ended[0]["state"], "stopped");
+  EXPECT_EQ(ended[1]["state"], "failed");
+  EXPECT_NE(ended[1]["why"], "");
+  run.post(fmt::format("/programs/{}/run", run.upload("G21 G1 X30 F600\nM2\n")));
+  ASSERT_TRUE(run.turn_until_state("Run"));
+  run.run.board().set_switch(input_emergency_stop, true);
+  ASSERT_TRUE(run.turn_until_state("Alarm"));
+  EXPECT_EQ(run.get("/alarms")["alarms"].size(), 1U);
+  EXPECT_EQ(run.get("/history?most=1")["jobs"][0]["state"], "failed");
+}
+
+TEST_F(KeptApi, a_job_that_ran_when_the_program_was_killed_is_interrupted) {
+  {
+    const auto history = open();
+    ApiRun run(GrblRun::at_zero(), history.get());
+    run.own();
+    run.post(fmt::format("/programs/{}/run", run.upload("G21 G1 X30 F600\nM2\n")));
+    ASSERT_TRUE(run.turn_until_state("Run"));
+  }
+  const auto history = open();
+  EXPECT_EQ(history->ended(9)[0].state, HistoryState::interrupted);
+  EXPECT_TRUE(history->program_of(1)) << "it can run again";
+}
+
+TEST(Api, without_a_folder_there_is_no_queue) {
+  ApiRun run;
+  run.own();
+  for (const char* path : {"/queue", "/history", "/alarms"}) {
+    EXPECT_EQ(run.get(path)["error"]["code"], "data.none") << path;
+  }
+  EXPECT_EQ(run.post("/queue", "M2")["error"]["code"], "data.none");
 }
 
 // Whatever comes, each request has an answer in JSON, and the machine obeys afterwards.

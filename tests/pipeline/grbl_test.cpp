@@ -414,6 +414,38 @@ TEST(GrblReplies, each_write_is_whole_lines_of_ascii) {
   }
 }
 
+TEST(GrblSettings, are_written_into_the_machine_file_and_shown) {
+  GrblRun run;
+  std::ifstream file(PASSO_SOURCE_DIR "/examples/machines/router.toml");
+  std::string text{std::istreambuf_iterator<char>(file), {}};
+  bool writes = true;
+  run.grbl().keep_settings(text, [&](const std::string& before, const std::string& after) {
+    if (!writes || before != text) return false;
+    text = after;
+    return true;
+  });
+  run.send("$110=4800\n");
+  EXPECT_TRUE(run.reply().starts_with("[MSG:Kept"));
+  EXPECT_EQ(run.reply(), "ok");
+  EXPECT_NE(text.find("max_velocity_mm_s = 80 "), std::string::npos);
+  run.send("$$\n");
+  run.turn_until([&] { return !run.replies.empty() && run.replies.back() == "ok"; });
+  EXPECT_NE(std::ranges::find(run.replies, "$110=4800.000"), run.replies.end());
+  run.replies.clear();
+  writes = false;
+  run.send("$110=3000\n");
+  EXPECT_TRUE(run.reply().starts_with("[MSG:The machine file cannot"));
+  EXPECT_EQ(run.reply(), "error:3");
+  run.send("$110=0\n$32=1\n");
+  EXPECT_TRUE(run.reply().starts_with("[MSG:No sound"));
+  EXPECT_EQ(run.reply(), "error:3");
+  EXPECT_TRUE(run.reply().starts_with("[MSG:The machine file has no"));
+  EXPECT_EQ(run.reply(), "error:3");
+  GrblRun without;
+  without.send("$110=3000\n");
+  EXPECT_EQ(without.reply(), "error:3");
+}
+
 // Any bytes: the controller answers each line once, and comes to rest after a reset.
 TEST(GrblHostile, random_bytes_end_in_a_machine_that_obeys) {
   std::mt19937_64 random(seed());

@@ -24,8 +24,10 @@
 namespace passo::test {
 namespace {
 
-constexpr std::array names = {"start", "jog",      "renew", "home",         "probe", "check", "hold", "resume",
-                              "stop",  "override", "done",  "set position", "reset", "sleep", "wake"};
+constexpr std::array names = {"start",  "stream", "drop lines",   "jog",    "renew", "home",
+                              "probe",  "check",  "hold",         "resume", "stop",  "override",
+                              "switch", "done",   "set position", "reset",  "sleep", "wake"};
+static_assert(names.size() == std::variant_size_v<Request>);
 
 constexpr LineCare care{.answer_within = Seconds(0.05), .patience = Seconds(3)};
 // What somebody has asked to end is at an end after so long, however bad the line.
@@ -102,6 +104,7 @@ class SessionSoak : public testing::Test {
       }
       bool operator()(const request::Stop&) const { return !busy; }
       bool operator()(const request::Override&) const { return false; }
+      bool operator()(const request::SwitchOutputs&) const { return !runs; }  // nobody here asks for that
       bool operator()(const request::OperatorDone&) const { return !status.waits_for; }
       bool operator()(const request::SetPosition&) const { return status.state != MachineState::idle; }
       bool operator()(const request::ResetMachine&) const { return lacks(MachineEvent::reset); }

@@ -151,6 +151,7 @@ CLI::App& add_serve(CLI::App& app, ServeArguments& arguments) {
   command.add_option("--http-token", arguments.http_token,
                      "FILE with a token that HTTP then asks for; needed where other computers reach HOST");
   command.add_option("--http-name", arguments.http_names, "a NAME by which browsers know this server, as a proxy's");
+  command.add_option("--data", arguments.data, "DIR for the queue of jobs, their history and alarms");
   command.add_option("--page", arguments.page, "DIR with a web page to serve");
   command.footer(
       "Examples:\n  passo serve                                    a virtual machine: try a sender on it\n"

@@ -14,6 +14,7 @@
 #include <fmt/format.h>
 
 #include "passo/grbl/grbl_controller.hpp"
+#include "passo/report/output_file.hpp"
 
 namespace passo {
 namespace {
@@ -53,19 +54,41 @@ bool open_lines(const ServeArguments& arguments, ServeDaemon::Lines& lines, int&
   return true;
 }
 
-std::optional<MachineDescription> load_machine(const std::string& file) {
+// The text of the machine file. The example's, if none is named.
+std::optional<std::string> machine_text(const std::string& file) {
+  if (file.empty()) return example_machine_text;
   Diagnostics diagnostics;
-  const auto machine = file.empty() ? parse_machine(example_machine_text, "the example machine", diagnostics)
-                                    : load_machine_file(file, diagnostics);
+  auto text = machine_file_text(file, diagnostics);
+  show(diagnostics);
+  return text;
+}
+
+std::optional<MachineDescription> described(const std::string& text, const std::string& file) {
+  Diagnostics diagnostics;
+  auto machine = parse_machine(text, file.empty() ? "the example machine" : file, diagnostics);
   show(diagnostics);
   return machine;
+}
+
+// Whoever has changed the file meanwhile is not overwritten.
+bool replace_file(const std::string& file, const std::string& before, const std::string& after) {
+  Diagnostics ignored;
+  if (machine_file_text(file, ignored) != before) return false;
+  Result<OutputFile, OutputError> output = OutputFile::open(file);
+  if (!output) return false;
+  output->write(after);
+  return output->commit().has_value();
 }
 
 }  // namespace
 
 int serve(const ServeArguments& arguments) {
-  const std::optional<MachineDescription> machine = load_machine(arguments.machine);
+  const auto text = machine_text(arguments.machine);
+  const auto machine = text ? described(*text, arguments.machine) : std::nullopt;
   if (!machine) return exit_bad_machine;
+  if (!arguments.data.empty() && arguments.http.empty()) {
+    return fail(exit_bad_program, "--data keeps the jobs of --http, which is missing [serve.data]");
+  }
   int code = exit_done;
   ServeDaemon::Lines lines;
   if (!open_lines(arguments, lines, code)) return code;
@@ -80,6 +103,11 @@ int serve(const ServeArguments& arguments) {
   dialect.more_grbl_axes = more_grbl_axes(*machine);
   OpenProgram program(*machine, dialect, position.place);
   GrblController grbl(*machine, opened->session(), program);
+  if (!arguments.machine.empty()) {
+    grbl.keep_settings(*text, [&](const std::string& before, const std::string& after) {
+      return replace_file(arguments.machine, before, after);
+    });
+  }
   MotionOwner owner;
   std::unique_ptr<ServedWeb> web;
   if (!arguments.http.empty()) {

@@ -34,6 +34,7 @@ void ServeDaemon::serve() {
 void ServeDaemon::stop() {
   if (session_.busy()) try_request(session_, request::Stop{});
   while (session_.busy()) session_.turn(machine_.has_board() ? busy_look : Seconds(1));
+  hear_changes();
 }
 
 void ServeDaemon::wait() {

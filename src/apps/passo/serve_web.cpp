@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <charconv>
+#include <filesystem>
 #include <fstream>
 #include <random>
 #include <utility>
@@ -35,8 +36,14 @@ std::optional<std::string> read_token(const std::string& file) {
   return token;
 }
 
-ApiOptions api_options(const PageFolder* page) {
+double seconds_since_1970() {
+  return std::chrono::duration<double>(std::chrono::system_clock::now().time_since_epoch()).count();
+}
+
+ApiOptions api_options(const PageFolder* page, JobHistory* history) {
   ApiOptions options{.version = PASSO_VERSION, .openapi = openapi_text, .make_key = new_key};
+  options.history = history;
+  options.wall_time = seconds_since_1970;
   if (page != nullptr) options.page = [page](std::string_view path) { return page->file(path); };
   return options;
 }
@@ -60,11 +67,12 @@ bool is_this_computer(const std::string& host) {
 }
 
 ServedWeb::ServedWeb(const ServeArguments& arguments, const MachineDescription& machine, MachineSession& session,
-                     MotionOwner& owner)
+                     MotionOwner& owner, std::unique_ptr<JobHistory> history)
     : session_(session),
       owner_(owner),
       page_(arguments.page),
-      api_(machine, session, owner, api_options(arguments.page.empty() ? nullptr : &page_)) {}
+      history_(std::move(history)),
+      api_(machine, session, owner, api_options(arguments.page.empty() ? nullptr : &page_, history_.get())) {}
 
 std::unique_ptr<ServedWeb> ServedWeb::open(const ServeArguments& arguments, const MachineDescription& machine,
                                            MachineSession& session, MotionOwner& owner, int& code) {
@@ -99,7 +107,18 @@ std::unique_ptr<ServedWeb> ServedWeb::open(const ServeArguments& arguments, cons
                             arguments.http));
     return nullptr;
   }
-  std::unique_ptr<ServedWeb> web(new ServedWeb(arguments, machine, session, owner));
+  std::unique_ptr<JobHistory> history;
+  if (!arguments.data.empty()) {
+    std::error_code error;
+    std::filesystem::create_directories(arguments.data, error);
+    auto opened = JobHistory::open((std::filesystem::path(arguments.data) / "jobs.sqlite").string());
+    if (!opened) {
+      code = fail(exit_failed, fmt::format("--data {} [serve.data]", opened.error()));
+      return nullptr;
+    }
+    history = std::move(*opened);
+  }
+  std::unique_ptr<ServedWeb> web(new ServedWeb(arguments, machine, session, owner, std::move(history)));
   auto server = WebServer::listen(address->host, address->port, std::move(access), web->api_);
   if (!server) {
     code = fail(exit_failed, server.error());
@@ -122,6 +141,7 @@ Seconds ServedWeb::most_wait(Seconds most) const {
 
 void ServedWeb::turn() {
   server_->turn();
+  api_.turn();
   if (server_->watchers() > 0) publish();
 }
 

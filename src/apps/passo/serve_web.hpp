@@ -34,18 +34,19 @@ class ServedWeb {
   std::string name() const;
   // How long the loop may wait for others.
   Seconds most_wait(Seconds most) const;
-  void hear_changes(const std::vector<MachineChange>& changes) { api_.turn(changes); }
+  void hear_changes(const std::vector<MachineChange>& changes) { api_.heed(changes); }
   // Hears the clients, and tells those who watch what is new.
   void turn();
 
  private:
   ServedWeb(const ServeArguments& arguments, const MachineDescription& machine, MachineSession& session,
-            MotionOwner& owner);
+            MotionOwner& owner, std::unique_ptr<JobHistory> history);
   void publish();
 
   MachineSession& session_;
   MotionOwner& owner_;
   PageFolder page_;
+  std::unique_ptr<JobHistory> history_;  // may be null
   std::string host_;
   MachineApi api_;
   std::unique_ptr<WebServer> server_;

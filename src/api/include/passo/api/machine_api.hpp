@@ -21,6 +21,7 @@
 #include "passo/api/api_routes.hpp"
 #include "passo/api/motion_owner.hpp"
 #include "passo/api/program_store.hpp"
+#include "passo/history/job_history.hpp"
 #include "passo/machine_file/machine_description.hpp"
 #include "passo/session/machine_session.hpp"
 #include "passo/web/web_server.hpp"
@@ -36,8 +37,8 @@ struct ApiJob {
   std::uint64_t program = 0;
   std::string name;
   JobState state = JobState::none;
-  std::string why;  // of one that failed, a sentence without a full stop
-  Seconds begun{0};
+  std::string why;           // of one that failed, a sentence without a full stop
+  std::int64_t history = 0;  // its number in the history; 0: nobody keeps one
   friend bool operator==(const ApiJob&, const ApiJob&) = default;
 };
 
@@ -47,6 +48,9 @@ struct ApiOptions {
   std::function<std::string()> make_key;  // a text that nobody guesses, for an owner of motion
   // What serves other paths: a folder with a page. Empty: nothing does.
   std::function<std::optional<WebAnswer>(std::string_view path)> page = {};
+  // Keeps the queue of jobs and what became of them; outlives this. Null: there is no queue, and nothing is kept.
+  JobHistory* history = nullptr;
+  std::function<double()> wall_time = {};  // seconds since 1970, for the history
 };
 
 class MachineApi final : public WebHandler {
@@ -61,8 +65,11 @@ class MachineApi final : public WebHandler {
   // {"do": "/api/v1/jog/renew", "key": "…", "body": {…}} is a POST; the answer has "do", "status" and "body".
   std::string hear(std::string_view message) override;
 
-  // Goes on with what was asked. `changes`: the session's, since the last call. Call after each turn of the session.
-  void turn(const std::vector<MachineChange>& changes);
+  // Heeds what has happened. `changes`: the session's, since the last call. Call after each turn of the session.
+  void heed(const std::vector<MachineChange>& changes);
+  // Does a bounded piece of what was asked: about a millisecond of a check, or the disk's time while the machine rests.
+  // Call once in each round of the loop.
+  void turn();
   // True: turn() has more to do at once.
   bool is_checking() const { return programs_.checks(); }
   // The status, as GET /api/v1/status gives it.
@@ -75,12 +82,16 @@ class MachineApi final : public WebHandler {
   static constexpr Seconds silent_owner{300};
 
  private:
-  WebAnswer look(const FoundRoute& found);
+  WebAnswer look(const FoundRoute& found, const WebRequest& request);
   WebAnswer change(const FoundRoute& found, const WebRequest& request);
   WebAnswer change_programs(const FoundRoute& found, const WebRequest& request);
+  WebAnswer look_at_history(const FoundRoute& found, const WebRequest& request);
+  WebAnswer change_queue(const FoundRoute& found, const WebRequest& request);
   WebAnswer take_ownership(const WebRequest& request);
   WebAnswer ask(Request wanted);
-  WebAnswer begin_job(const StoredProgram& program);
+  WebAnswer begin_job(const StoredProgram& program, std::int64_t history);
+  void note_alarm();
+  double wall_time() const { return options_.wall_time ? options_.wall_time() : 0; }
   void start_job();
   void end_job(JobState state, std::string why = {});
   std::string metrics() const;

@@ -24,6 +24,7 @@
 #include "passo/grbl/grbl_input.hpp"
 #include "passo/grbl/grbl_reports.hpp"
 #include "passo/grbl/grbl_settings.hpp"
+#include "passo/grbl/kept_settings.hpp"
 #include "passo/machine_file/machine_description.hpp"
 #include "passo/session/machine_session.hpp"
 
@@ -59,6 +60,12 @@ class GrblController {
  public:
   // `machine`, `session` and `program` outlive the controller. `program` speaks grbl's dialect.
   GrblController(const MachineDescription& machine, MachineSession& session, OpenProgram& program);
+
+  // Settings are written into the machine file, whose text is `text`. They count from the next start on. `write`
+  // replaces the file by a text, and returns false if that is not possible, or if the file is no longer the text it is
+  // given first.
+  using WriteFile = std::function<bool(const std::string& before, const std::string& after)>;
+  void keep_settings(std::string text, WriteFile write);
 
   // A sender has come: it is greeted, and what an earlier one has left unread is dropped.
   void connect();
@@ -106,6 +113,7 @@ class GrblController {
   void take_command(const std::string& text);
   void take_jog(const std::string& text);
   void take_setting(const std::string& text);
+  void keep_setting(int number, double value);
   void take_startup_line(const std::string& text);
   void restore(const std::string& text);
   void toggle_check();
@@ -140,6 +148,8 @@ class GrblController {
   OpenProgram& program_;
   GrblInput input_;
   GrblChoices choices_;
+  std::optional<KeptSettings> kept_;
+  WriteFile write_file_;
   std::vector<std::string> replies_;
   Waits waits_ = Waits::none;
   std::function<void()> after_stop_;
