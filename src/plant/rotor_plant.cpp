@@ -27,6 +27,7 @@ void RotorPlant::fit_motor(std::size_t motor, const MotorSetup& setup) {
 
 void RotorPlant::fit_encoder(std::size_t motor, const EncoderModel& model) {
   motors_[motor].drive.emplace(model, *motors_[motor].setup);
+  motors_[motor].has_drive = true;
 }
 
 void RotorPlant::set_resistance(std::size_t motor, NewtonMetres torque) {
@@ -63,7 +64,7 @@ std::int64_t RotorPlant::events_to_next_change() const {
 // `stepped`: the pulse that the motor has just got, if any. Before the pulse the lag was another one.
 inline void RotorPlant::look_at(std::size_t motor, int stepped) {
   Fitted& one = motors_[motor];
-  const double after = one.drive ? one.drive->error() * one.full_step : one.rotor->lag();
+  const double after = one.has_drive ? one.drive->error() * one.full_step : one.rotor->lag();
   const double lag = std::max(std::abs(after), std::abs(after - stepped * one.full_step));
   if (lag > one.record.most_lag) [[unlikely]] {
     one.record.most_lag = lag;
@@ -78,7 +79,7 @@ inline void RotorPlant::look_at(std::size_t motor, int stepped) {
 // Lets time pass for a motor, and then gives it its steps.
 inline void RotorPlant::turn(std::size_t motor, Seconds passed, std::int64_t steps) {
   Fitted& one = motors_[motor];
-  if (one.drive) [[unlikely]]
+  if (one.has_drive) [[unlikely]]
     return turn_with_encoder(motor, passed, steps);
   const bool rests = one.rotor->rests();
   if (rests && steps == 0) return;

@@ -85,13 +85,15 @@ class RotorPlant final : public FittedPlant {
  private:
   struct Fitted {
     std::optional<BoundedMotor> rotor;
-    std::optional<MotorSetup> setup;
-    std::optional<EncoderDrive> drive;  // with an encoder
-    double origin = 0;                  // of the rotor's place 0
-    double full_step = 1;               // of a step of the driver
+    double origin = 0;     // of the rotor's place 0
+    double full_step = 1;  // of a step of the driver
     std::optional<TorqueCurve> pull_out;
     Seconds margin_due{0};  // when the margin is looked at next
+    bool has_drive = false;
     RotorRecord record;
+    // Seldom looked at.
+    std::optional<EncoderDrive> drive = {};  // with an encoder
+    std::optional<MotorSetup> setup = {};
   };
 
   void run_to(Seconds time);
