@@ -109,7 +109,7 @@ class MarginSurvey {
  public:
   static constexpr std::size_t most_worst = 10;
   // The share of the low end that the formula keeps.
-  static constexpr double usual_reserve = 0.1;
+  static constexpr double usual_reserve = 0.2;
   // Full steps from the field to the rotor. Torque falls beyond one, and at two the rotor falls back.
   static constexpr double safe_swing = 1.6;
 
