@@ -193,15 +193,18 @@ void HomingPath::judge() {
   }
 }
 
-// Takes note of where the motors of the axis have gone, and of where the switch has closed.
+// Takes note of where the motors of the axis have gone, and of where the switch has closed. A contact that bounces closes
+// again on the way off: that is not its place.
 void HomingPath::note_way(const Point& before) {
   const double way = stands() - before[axis_->axis];
   const double to_contact = outcome().contact[axis_->axis] - before[axis_->axis];
+  const bool retreats = stage_ == HomingStage::back_off || stage_ == HomingStage::pull_off;
+  const bool has_closed = !outcome().refused && outcome().touched && until_closed_ && !retreats;
   for (const std::size_t motor : {first_motor, second_motor}) {
     const bool is_alone = stage_ == HomingStage::square;
     const bool is_first = alone_ == Alone::close_first;
     if (is_alone && is_first != (motor == first_motor)) continue;
-    if (!outcome().refused && outcome().touched && until_closed_) found_[motor] = goes_[motor] + to_contact;
+    if (has_closed) found_[motor] = goes_[motor] + to_contact;
     goes_[motor] += way;
   }
 }
