@@ -193,8 +193,8 @@ void HomingPath::judge() {
   }
 }
 
-// Takes note of where the motors of the axis have gone, and of where the switch has closed. A contact that bounces closes
-// again on the way off: that is not its place.
+// Takes note of where the motors of the axis have gone, and of where the switch has closed. A contact that bounces
+// closes again on the way off: that is not its place.
 void HomingPath::note_way(const Point& before) {
   const double way = stands() - before[axis_->axis];
   const double to_contact = outcome().contact[axis_->axis] - before[axis_->axis];

@@ -112,7 +112,7 @@ double AxisTuner::torque_ends_at(const TorqueBand& band, double share, double to
 
 // The highest speed up to which no motor of the tolerance swings by itself, with steps in time and with late ones.
 double AxisTuner::calm_to(double top) const {
-  constexpr double below = 0.93;  // of the rate where the swing was seen
+  constexpr double below = 0.88;  // of the rate where the swing was seen
   const double steps_per_unit = setup_.motor.rotor.steps_per_revolution * radians_per_unit_ / (2 * std::numbers::pi);
   MotorSetup usual = setup_;
   usual.load.friction_per_speed.value -= usual.damping.value;

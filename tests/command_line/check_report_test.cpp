@@ -65,8 +65,8 @@ TEST_F(CheckReport, warns_of_words_without_effect) {
 }
 
 TEST_F(CheckReport, is_one_page_without_network_and_script) {
-  const Outcome outcome = check("G21 G90 S1000 M3\nG1 X50 Y20 Z-3 F900\nX0 Y0\nM2\n", "--report " + path("r.html"),
-                                "strong-router.toml");
+  const Outcome outcome =
+      check("G21 G90 S1000 M3\nG1 X50 Y20 Z-3 F900\nX0 Y0\nM2\n", "--report " + path("r.html"), "strong-router.toml");
   ASSERT_EQ(outcome.code, 0) << outcome.err;
   const std::string page = read(path("r.html"));
   EXPECT_THAT(page, HasSubstr("<!DOCTYPE html>"));
