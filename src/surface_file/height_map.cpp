@@ -98,7 +98,7 @@ void HeightMapReader::read_line(std::string_view line) {
 
 std::vector<double> sorted_once(std::vector<double> values) {
   std::ranges::sort(values);
-  values.erase(std::ranges::unique(values).begin(), values.end());
+  values.erase(std::unique(values.begin(), values.end()), values.end());
   return values;
 }
 
