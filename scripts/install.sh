@@ -15,6 +15,7 @@ build_packages=(
   libcairo2-dev libpng-dev   # pictures
   libsqlite3-dev             # jobs and history of passo serve
   libboost1.74-dev           # HTTP and WebSocket of passo serve
+  libpolyclipping-dev        # unions and offsets of copper in passo cam
   libassimp-dev              # bodies in STL files
   fonts-dejavu-core          # letters in pictures
   pkg-config                 # finds cairo
