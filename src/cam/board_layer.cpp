@@ -3,6 +3,8 @@
 #include <map>
 
 #include "passo/cam/edge_loops.hpp"
+#include "passo/cam/gerber.hpp"
+#include "passo/diagnostics/file_bytes.hpp"
 
 namespace passo {
 
@@ -29,8 +31,20 @@ Region face_of(const Drawing& drawing) {
 
 BoardLayer read_board_layer(const std::string& path, const DrawingFileOptions& options, Diagnostics& diagnostics) {
   BoardLayer layer;
-  layer.lines = read_drawing(path, options, diagnostics);
-  layer.face = face_of(layer.lines);
+  layer.lines.file = path;
+  const FileKind kind{.area = "drawing", .expected = "a Gerber, DXF or drill file"};
+  const std::optional<std::string> bytes = read_bytes(path, kind, diagnostics);
+  if (!bytes) return layer;
+  if (!looks_like_gerber(*bytes)) {
+    layer.lines = read_drawing(path, options, diagnostics);
+    layer.face = face_of(layer.lines);
+    return layer;
+  }
+  GerberLayer gerber = read_gerber(path, *bytes, diagnostics);
+  layer.face = std::move(gerber.dark);
+  layer.lines = std::move(gerber.strokes);
+  layer.lines.file = path;
+  if (gerber.is_negative) layer.lines.notes.push_back("the layer is negative: what it draws is free of copper");
   return layer;
 }
 
