@@ -2,7 +2,6 @@
 
 #include <map>
 
-#include "passo/cam/edge_loops.hpp"
 #include "passo/cam/gerber.hpp"
 #include "passo/diagnostics/file_bytes.hpp"
 
@@ -46,6 +45,16 @@ BoardLayer read_board_layer(const std::string& path, const DrawingFileOptions& o
   layer.lines.file = path;
   if (gerber.is_negative) layer.lines.notes.push_back("the layer is negative: what it draws is free of copper");
   return layer;
+}
+
+BoardEdge board_edge(const BoardLayer& layer, Nanometres join, Diagnostics& diagnostics) {
+  Diagnostics found;
+  BoardEdge edge;
+  edge.loops = edge_loops(layer.lines, join, found);
+  edge.board = board_within(edge.loops);
+  for (const Diagnostic& one : found.all()) diagnostics.add(one);
+  if (edge.board.empty() && !found.any_error()) edge.board = layer.face;
+  return edge;
 }
 
 }  // namespace passo

@@ -29,18 +29,25 @@ std::string exact(Nanometres length) {
   return fmt::format("{:.6f}mm", to_mm(length).value());
 }
 
-BoardPlan plan_of(const BoardJob& job) {
+BoardPlan plan_of(const BoardJob& job, Nanometres join, Diagnostics& findings) {
   BoardPlan plan;
-  plan.face = board_face(job);
   std::vector<Region> fronts;
   std::vector<Region> backs;
+  std::string edge_name;
   for (const BoardFile& file : job.files) {
     if (file.drills && file.kind.role == BoardRole::drill) plan.drills.push_back(*file.drills);
     if (!file.layer) continue;
-    if (file.kind.role == BoardRole::outline) plan.edge = BoardLayer{file.layer->dark, file.layer->strokes};
+    if (file.kind.role == BoardRole::outline) {
+      plan.edge = BoardLayer{file.layer->dark, file.layer->strokes};
+      edge_name = file.name;
+    }
     if (file.kind.role != BoardRole::copper) continue;
     if (file.kind.side == BoardSide::top) fronts.push_back(file.layer->dark);
     if (file.kind.side == BoardSide::bottom) backs.push_back(file.layer->dark);
+  }
+  if (plan.edge) {
+    plan.edge->lines.file = edge_name;
+    plan.face = board_edge(*plan.edge, join, findings).board;
   }
   if (!fronts.empty()) plan.front = BoardLayer{united(fronts), {}};
   if (!backs.empty()) plan.back = BoardLayer{united(backs), {}};
@@ -213,9 +220,11 @@ int cam_board(const CamBoardArguments& arguments, CamDrillingArguments drill, Ca
     if (!machine) return exit_bad_machine;
   }
   const BoardJob job = read_board_job(arguments.paths, findings);
+  LengthArguments lengths(*mm_of_unit(outline.units));
+  const BoardPlan plan = plan_of(job, lengths.any("--join", outline.join), findings);
+  if (!lengths.message().empty()) return fail(exit_bad_program, lengths.message());
   show(findings);
   if (findings.any_error()) return exit_bad_program;
-  const BoardPlan plan = plan_of(job);
   if (plan.drills.empty() && !plan.front && !plan.back && !plan.edge) {
     return fail(exit_bad_program, "there is no copper, no edge and no drill file among these files");
   }

@@ -4,7 +4,6 @@
 #include "cam_job.hpp"
 #include <nlohmann/json.hpp>
 
-#include "passo/cam/edge_loops.hpp"
 #include "passo/cam/isolation.hpp"
 #include "passo/cam/isolation_proof.hpp"
 
@@ -110,8 +109,7 @@ std::optional<Region> board_of(const std::string& edge, const MillJob& job) {
   if (!layer) return std::nullopt;
   Diagnostics findings;
   constexpr Nanometres join{100'000};
-  Region board = board_within(edge_loops(layer->lines, join, findings));
-  if (board.empty() && !findings.any_error()) board = layer->face;
+  Region board = board_edge(*layer, join, findings).board;
   show(findings);
   if (findings.any_error()) return std::nullopt;
   return board;

@@ -4,7 +4,6 @@
 #include "cam_job.hpp"
 #include <nlohmann/json.hpp>
 
-#include "passo/cam/edge_loops.hpp"
 #include "passo/cam/outline.hpp"
 
 namespace passo {
@@ -73,10 +72,8 @@ int cam_outline(const CamOutlineArguments& arguments, const CamSources* given, C
   const std::optional<BoardLayer> layer = given != nullptr ? given->layer : read_layers(arguments.files, job);
   if (!layer) return exit_bad_program;
   Diagnostics findings;
-  const EdgeLoops loops = edge_loops(layer->lines, join, findings);
-  Region board = board_within(loops);
-  if (board.empty() && !findings.any_error()) board = layer->face;
-  board = mirrored(board, job.mirror);
+  const BoardEdge edge = board_edge(*layer, join, findings);
+  Region board = mirrored(edge.board, job.mirror);
   move_to_zero(job.zero, board, {&board});
   OutlinePlan plan;
   if (!findings.any_error()) plan = plan_outline(board, options, findings);
@@ -95,10 +92,10 @@ int cam_outline(const CamOutlineArguments& arguments, const CamSources* given, C
     if (code != exit_done) return code;
   }
   if (arguments.json) {
-    fmt::print("{}\n", as_json(plan, loops, board, options.park).dump(2));
+    fmt::print("{}\n", as_json(plan, edge.loops, board, options.park).dump(2));
     return exit_done;
   }
-  const std::string words = summary_of(plan.mill, options.park, arguments.units) + board_words(board, plan, loops);
+  const std::string words = summary_of(plan.mill, options.park, arguments.units) + board_words(board, plan, edge.loops);
   return tell(arguments.output, plan.mill, words, made);
 }
 
