@@ -93,6 +93,7 @@ struct CamBoardArguments {
   std::string profile;               // options of the three commands (TOML); empty: none
   std::string machine;               // machine file, for the times; empty: none
   std::string turn = "x";            // how a board is turned over: x or y
+  std::string margin = "10mm";       // of the board's lower left corner from X0 and from Y0
   std::string pin_distance = "5mm";  // of the alignment holes from the board's edge; 0: none
 };
 int cam_board(const CamBoardArguments& arguments, CamDrillingArguments drill, CamIsolateArguments isolate,

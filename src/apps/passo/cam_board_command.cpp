@@ -89,10 +89,11 @@ class BoardMaker {
     const DrawnBox& box = plan_.box;
     return {is_x() ? (box.least.x.count + box.most.x.count) / 2 : (box.least.y.count + box.most.y.count) / 2};
   }
-  // Both sides have their zero at the lower left corner of the board: it is turned over about its middle.
+  // Both sides have one zero: the board is turned over about its middle.
   template <class Arguments>
   void place(Arguments& arguments, bool is_turned) const {
-    if (arguments.zero == "file") arguments.zero = exact(plan_.box.least.x) + "," + exact(plan_.box.least.y);
+    const DrawnPoint corner = plan_.box.least;
+    arguments.zero = exact(corner.x - margin_) + "," + exact(corner.y - margin_);
     arguments.mirror = is_turned ? arguments_.turn : "";
     arguments.mirror_at = is_turned ? exact(middle()) : "";
   }
@@ -112,6 +113,7 @@ class BoardMaker {
   const CamBoardArguments& arguments_;
   const BoardPlan& plan_;
   const MachineDescription* machine_;
+  Nanometres margin_;
   int programs_ = 0;
 };
 
@@ -152,7 +154,13 @@ std::string BoardMaker::pins(Nanometres distance) const {
 int BoardMaker::make(CamDrillingArguments drill, CamIsolateArguments isolate, CamOutlineArguments outline) {
   const bool two_sides = plan_.front && plan_.back;
   const bool only_back = plan_.back && !plan_.front;
-  const std::string zero = "X0 Y0 is the lower left corner of the board, Z0 its face.";
+  LengthArguments lengths(1);
+  margin_ = lengths.any("--margin", arguments_.margin);
+  const Nanometres distance = lengths.any("--pins", arguments_.pin_distance);
+  if (!lengths.message().empty()) return fail(exit_bad_program, lengths.message());
+  const std::string zero =
+      fmt::format("The lower left corner of the board lies at X{0:.4g} Y{0:.4g} mm; Z0 is the face of the blank.",
+                  to_mm(margin_).value());
   const std::string over = is_x() ? "from left to right" : "from top to bottom";
   page.steps.push_back({.title = "Fix the blank",
                         .program = "",
@@ -165,9 +173,6 @@ int BoardMaker::make(CamDrillingArguments drill, CamIsolateArguments isolate, Ca
                         .time = "",
                         .picture = ""});
   CamSources sources{.drills = plan_.drills, .layer = {}, .board = plan_.face};
-  LengthArguments lengths(1);
-  const Nanometres distance = lengths.any("--pins", arguments_.pin_distance);
-  if (!lengths.message().empty()) return fail(exit_bad_program, lengths.message());
   const bool has_pins = two_sides && distance.count > 0;
   if (has_pins) drill.align = pins(distance);
   if (!plan_.drills.empty() || has_pins) {

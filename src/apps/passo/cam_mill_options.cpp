@@ -173,6 +173,8 @@ void add_cam_board_command(CLI::App& cam, CamArguments& all) {
   board.add_option("--turn", arguments.turn, "the board is turned over: x from left to right, y from top to bottom")
       ->check(CLI::IsMember({"x", "y"}))
       ->capture_default_str();
+  board.add_option("--margin", arguments.margin, "the board's lower left corner lies at this X and Y")
+      ->capture_default_str();
   board.add_option("--pins", arguments.pin_distance, "distance of two alignment holes from the board's edge; 0: none")
       ->capture_default_str();
   board.footer(board_examples);
