@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <limits>
 
-#include "arc_fit.hpp"
 #include "place_tree.hpp"
 
 #include "passo/cam/route.hpp"
@@ -126,7 +125,7 @@ MillRun WayOrderer::run_of(const Chain& chain) const {
       std::ranges::rotate(points, points.begin() + static_cast<std::ptrdiff_t>(entered.entry));
       points.push_back(points.front());
     }
-    for (const PathPoint& point : with_arcs(points, {})) run.push_back({point.at, point.bulge, order_.z});
+    for (const PathPoint& point : with_arcs(points, order_.arcs)) run.push_back({point.at, point.bulge, order_.z});
   }
   return run;
 }

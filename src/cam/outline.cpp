@@ -19,7 +19,7 @@ namespace passo {
 namespace {
 
 constexpr Nanometres fine_chords{500};
-constexpr Nanometres board_room{1'000};  // the cutter stays so much farther from the board than half its width
+constexpr Nanometres board_room{2'000};  // the cutter stays so much farther from the board than half its width
 
 struct Flat {
   double x;
