@@ -192,6 +192,19 @@ std::vector<Region> parts_of(const Region& region) {
   return parts;
 }
 
+std::vector<std::size_t> parts_with(const std::vector<Region>& islands, const std::vector<Region>& parts) {
+  std::vector<DrawnBox> boxes;
+  for (const Region& part : parts) boxes.push_back(bounds(part).value_or(DrawnBox{}));
+  std::vector<std::size_t> found;
+  for (const Region& island : islands) {
+    const DrawnPoint point = island.rings.front().front();
+    std::size_t i = 0;
+    while (i < parts.size() && !(is_within({point, point}, boxes[i]) && contains(parts[i], point))) ++i;
+    found.push_back(i);
+  }
+  return found;
+}
+
 double area_mm2(const DrawnRing& ring) {
   return ring.empty() ? 0 : static_cast<double>(doubled_area(ring)) / (2 * nanometres_per_mm * nanometres_per_mm);
 }

@@ -2,8 +2,9 @@
 #include <cmath>
 #include <filesystem>
 
+#include "cam_job.hpp"
 #include "commands.hpp"
-#include "length_argument.hpp"
+#include "length_arguments.hpp"
 #include "named_files.hpp"
 #include "program_input.hpp"
 #include <fmt/format.h>
@@ -17,46 +18,6 @@
 namespace passo {
 namespace {
 
-// Reads the lengths of the arguments. Keeps the first message of what is wrong.
-class LengthArguments {
- public:
-  explicit LengthArguments(double unit_mm) : unit_mm_(unit_mm) {}
-
-  Nanometres any(const char* option, const std::string& text) {
-    const Result<Mm, std::string> length = parse_length(option, text, unit_mm_);
-    if (length) return to_nanometres(*length);
-    refuse(length.error());
-    return {};
-  }
-  Nanometres above_0(const char* option, const std::string& text) {
-    const Nanometres length = any(option, text);
-    if (length.count <= 0) refuse(fmt::format("{}: expected a length above 0, found '{}'", option, text));
-    return length;
-  }
-  std::optional<Nanometres> perhaps(const char* option, const std::string& text) {
-    if (text.empty()) return std::nullopt;
-    return above_0(option, text);
-  }
-  std::vector<Nanometres> list(const char* option, const std::string& text) {
-    const Result<std::vector<Mm>, std::string> lengths = parse_lengths(option, text, unit_mm_);
-    std::vector<Nanometres> all;
-    if (!lengths) {
-      refuse(lengths.error());
-    } else {
-      for (const Mm length : *lengths) all.push_back(to_nanometres(length));
-    }
-    return all;
-  }
-  void refuse(const std::string& message) {
-    if (message_.empty()) message_ = message;
-  }
-  const std::string& message() const { return message_; }
-
- private:
-  double unit_mm_;
-  std::string message_;
-};
-
 struct DrillJob {
   DrawingFileOptions reading;
   DrillOptions plan;
@@ -67,13 +28,7 @@ Result<DrillJob, std::string> job_of(const CamDrillArguments& arguments) {
   const double unit = *mm_of_unit(arguments.units);
   LengthArguments lengths(unit);
   DrillJob job;
-  if (arguments.scale || !arguments.input.empty()) {
-    const double scale = arguments.scale.value_or(1);
-    if (!(scale > 1e-9 && scale < 1e9))
-      lengths.refuse(fmt::format("--scale: expected a number above 0, found {:g}", scale));
-    job.reading.dxf.unit = Mm(scale * (arguments.input.empty() ? unit : *mm_of_unit(arguments.input)));
-  }
-  job.reading.dxf.layers = arguments.layers;
+  job.reading.dxf = dxf_options_of(arguments, unit, lengths);
   if (!arguments.input.empty()) job.reading.excellon.inch = arguments.input == "inch";
   if (!arguments.zeros.empty()) {
     job.reading.excellon.zeros = arguments.zeros == "leading" ? LeftOutZeros::leading : LeftOutZeros::trailing;
@@ -91,9 +46,7 @@ Result<DrillJob, std::string> job_of(const CamDrillArguments& arguments) {
   if (job.plan.tolerance.count < 0) lengths.refuse("--tolerance: expected a length of 0 or more");
   job.plan.one_drill = lengths.perhaps("--drill", arguments.drill);
   job.plan.mill = lengths.perhaps("--mill", arguments.mill);
-  const std::vector<Nanometres> park = lengths.list("--park", arguments.park);
-  if (park.size() == 2) job.plan.park = {park[0], park[1]};
-  if (park.size() != 2) lengths.refuse(fmt::format("--park: expected X,Y, found '{}'", arguments.park));
+  job.plan.park = lengths.place("--park", arguments.park);
   job.plan.route_steps = arguments.route_steps;
 
   DrillProgramOptions& program = job.program;
@@ -101,9 +54,7 @@ Result<DrillJob, std::string> job_of(const CamDrillArguments& arguments) {
   for (const std::string& file : arguments.files) {
     program.files.push_back(std::filesystem::path(file).filename().string());
   }
-  program.units = arguments.units == "cm"     ? ProgramUnits::cm
-                  : arguments.units == "inch" ? ProgramUnits::inch
-                                              : ProgramUnits::mm;
+  program.units = program_units_of(arguments.units);
   program.clearance = lengths.above_0("--clearance", arguments.clearance);
   program.depth = lengths.any("--depth", arguments.depth);
   if (program.depth.count >= 0) {
@@ -152,14 +103,6 @@ std::string summary_of(const std::vector<Drawing>& drawings, const DrillPlan& pl
   return text;
 }
 
-int write(const std::string& path, const std::string& text) {
-  Result<OutputFile, OutputError> file = OutputFile::open(path.empty() ? "-" : path);
-  if (!file) return fail(exit_failed, file.error().message);
-  file->write(text);
-  const Status<OutputError> written = file->commit();
-  return written ? exit_done : fail(exit_failed, written.error().message);
-}
-
 int draw(const DrillPlan& plan, const CamDrillArguments& arguments, PictureFormat format, DrawnPoint park) {
   Result<OutputFile, OutputError> file = OutputFile::open(arguments.picture);
   if (!file) return fail(exit_failed, file.error().message);
@@ -206,7 +149,8 @@ int cam_drill(const CamDrillArguments& arguments) {
     show(findings);
     return exit_bad_program;
   }
-  if (const int code = write(arguments.output, write_drill_program(plan, job->program)); code != exit_done) return code;
+  if (const int code = write_text(arguments.output, write_drill_program(plan, job->program)); code != exit_done)
+    return code;
   if (format) {
     if (const int code = draw(plan, arguments, *format, job->plan.park); code != exit_done) return code;
   }

@@ -19,11 +19,8 @@ Examples:
 
 Every option, and what is read: docs/manual/cam.md.)";
 
-}  // namespace
-
-CLI::App& add_cam_command(CLI::App& app, CamDrillArguments& arguments) {
-  CLI::App& cam = *app.add_subcommand("cam", "make programs of drawings: the holes of circuit boards");
-  cam.require_subcommand(1);
+void add_drill_command(CLI::App& cam, CamArguments& all) {
+  CamDrillArguments& arguments = all.drill;
   CLI::App& drill = *cam.add_subcommand("drill", "drill the holes of DXF drawings and Excellon drill files");
   drill.add_option("FILE", arguments.files, "DXF drawings and drill files; the kind is seen from what is in them")
       ->required();
@@ -60,7 +57,18 @@ CLI::App& add_cam_command(CLI::App& app, CamDrillArguments& arguments) {
       ->check(CLI::Range(std::uint64_t{0}, std::uint64_t{10'000'000'000}))
       ->capture_default_str();
   drill.footer(drill_examples);
-  return drill;
+  drill.callback([&all] { all.chosen = [&all] { return cam_drill(all.drill); }; });
+}
+
+}  // namespace
+
+CLI::App& add_cam_command(CLI::App& app, CamArguments& arguments) {
+  CLI::App& cam = *app.add_subcommand("cam", "make programs of drawings: circuit boards, drilled, milled and cut out");
+  cam.require_subcommand(1);
+  add_drill_command(cam, arguments);
+  add_isolate_command(cam, arguments);
+  add_outline_command(cam, arguments);
+  return cam;
 }
 
 }  // namespace passo

@@ -57,6 +57,9 @@ std::vector<DrawnRing> ways_within(const std::vector<DrawnRing>& ways, const Reg
 // Each part is one outer ring, which comes first, and the holes in it.
 std::vector<Region> parts_of(const Region& region);
 
+// For each of the islands, each one part, the index of the part that its first point lies in; beyond the last: none.
+std::vector<std::size_t> parts_with(const std::vector<Region>& islands, const std::vector<Region>& parts);
+
 // In square millimetres. The sum is exact; only the answer is rounded.
 double area_mm2(const Region& region);
 double area_mm2(const DrawnRing& ring);  // below 0 if the ring is clockwise
