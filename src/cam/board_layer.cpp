@@ -3,6 +3,8 @@
 #include <map>
 
 #include "passo/cam/edge_loops.hpp"
+#include "passo/cam/gerber.hpp"
+#include "passo/diagnostics/file_bytes.hpp"
 
 namespace passo {
 
@@ -29,6 +31,14 @@ Region face_of(const Drawing& drawing) {
 
 BoardLayer read_board_layer(const std::string& path, const DrawingFileOptions& options, Diagnostics& diagnostics) {
   BoardLayer layer;
+  layer.lines.file = path;
+  const std::optional<std::string> bytes =
+      read_bytes(path, {.area = "drawing", .expected = "a Gerber, DXF or drill file"}, diagnostics);
+  if (!bytes) return layer;
+  if (looks_like_gerber(*bytes)) {
+    GerberLayer gerber = read_gerber(path, *bytes, diagnostics);
+    return {std::move(gerber.dark), std::move(gerber.strokes)};
+  }
   layer.lines = read_drawing(path, options, diagnostics);
   layer.face = face_of(layer.lines);
   return layer;

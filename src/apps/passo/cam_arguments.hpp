@@ -1,4 +1,4 @@
-// The commands `passo cam isolate` and `passo cam outline`, a function each, and their arguments.
+// The commands `passo cam show`, `isolate` and `outline`, a function each, and their arguments.
 //
 // Lengths are texts for parse_length(); a number without a unit is in `units`.
 #pragma once
@@ -61,5 +61,12 @@ struct CamOutlineArguments : CamMillArguments {
   bool dog_bones = false;
 };
 int cam_outline(const CamOutlineArguments& arguments);
+
+struct CamShowArguments {
+  std::vector<std::string> files;  // Gerber and drill files, folders, zip archives
+  std::string picture;             // .svg or .png; empty: none
+  bool json = false;
+};
+int cam_show(const CamShowArguments& arguments);
 
 }  // namespace passo

@@ -1,4 +1,4 @@
-// read_board_layer: a layer of a board as a face and as lines, from a drawing.
+// read_board_layer: a layer of a board as a face and as lines, from a Gerber file or a drawing.
 //
 // In a drawing closed paths and circles are filled, and open paths with a width are as wide as that. An open path
 // without a width covers nothing; it is still among the lines, from which edge_loops() makes an outline.
