@@ -16,10 +16,7 @@ build_packages=(
   libsqlite3-dev             # jobs and history of passo serve
   libboost1.74-dev           # HTTP and WebSocket of passo serve
   libpolyclipping-dev        # unions and offsets of copper in passo cam
-<<<<<<< HEAD
   libminizip-dev             # zip archives of board files
-=======
->>>>>>> isolate
   libassimp-dev              # bodies in STL files
   fonts-dejavu-core          # letters in pictures
   pkg-config                 # finds cairo

@@ -7,7 +7,7 @@
 #include "zip_files.hpp"
 #include <fmt/format.h>
 
-#include "passo/cam/edge_loops.hpp"
+#include "passo/cam/board_layer.hpp"
 #include "passo/cam/excellon.hpp"
 #include "passo/diagnostics/file_bytes.hpp"
 
@@ -134,9 +134,8 @@ Region board_face(const BoardJob& job) {
   if (file == job.files.end()) return {};
   constexpr Nanometres usual_join{100'000};
   Diagnostics open_ends;
-  Region face = board_within(edge_loops(file->layer->strokes, usual_join, open_ends));
-  if (open_ends.any_error()) return {};
-  return face.empty() ? file->layer->dark : face;  // an outline may be drawn as a filled region
+  const BoardEdge edge = board_edge({file->layer->dark, file->layer->strokes}, usual_join, open_ends);
+  return open_ends.any_error() ? Region{} : edge.board;
 }
 
 }  // namespace passo

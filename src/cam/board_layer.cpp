@@ -2,7 +2,6 @@
 
 #include <map>
 
-#include "passo/cam/edge_loops.hpp"
 #include "passo/cam/gerber.hpp"
 #include "passo/diagnostics/file_bytes.hpp"
 
@@ -32,16 +31,30 @@ Region face_of(const Drawing& drawing) {
 BoardLayer read_board_layer(const std::string& path, const DrawingFileOptions& options, Diagnostics& diagnostics) {
   BoardLayer layer;
   layer.lines.file = path;
-  const std::optional<std::string> bytes =
-      read_bytes(path, {.area = "drawing", .expected = "a Gerber, DXF or drill file"}, diagnostics);
+  const FileKind kind{.area = "drawing", .expected = "a Gerber, DXF or drill file"};
+  const std::optional<std::string> bytes = read_bytes(path, kind, diagnostics);
   if (!bytes) return layer;
-  if (looks_like_gerber(*bytes)) {
-    GerberLayer gerber = read_gerber(path, *bytes, diagnostics);
-    return {std::move(gerber.dark), std::move(gerber.strokes)};
+  if (!looks_like_gerber(*bytes)) {
+    layer.lines = read_drawing(path, options, diagnostics);
+    layer.face = face_of(layer.lines);
+    return layer;
   }
-  layer.lines = read_drawing(path, options, diagnostics);
-  layer.face = face_of(layer.lines);
+  GerberLayer gerber = read_gerber(path, *bytes, diagnostics);
+  layer.face = std::move(gerber.dark);
+  layer.lines = std::move(gerber.strokes);
+  layer.lines.file = path;
+  if (gerber.is_negative) layer.lines.notes.push_back("the layer is negative: what it draws is free of copper");
   return layer;
+}
+
+BoardEdge board_edge(const BoardLayer& layer, Nanometres join, Diagnostics& diagnostics) {
+  Diagnostics found;
+  BoardEdge edge;
+  edge.loops = edge_loops(layer.lines, join, found);
+  edge.board = board_within(edge.loops);
+  for (const Diagnostic& one : found.all()) diagnostics.add(one);
+  if (edge.board.empty() && !found.any_error()) edge.board = layer.face;
+  return edge;
 }
 
 }  // namespace passo

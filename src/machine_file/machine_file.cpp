@@ -44,7 +44,18 @@ std::size_t dots_of(std::string_view line) {
   return static_cast<std::size_t>(std::ranges::count(relevant, '.'));
 }
 
-// Refuses what a parser should not see. A text over several lines is refused too: without such texts a comment can be
+// A machine file is checked by meaning, but a person corrects it from top to bottom: so sort by line.
+void hand_over(const Diagnostics& found, Diagnostics& diagnostics) {
+  std::vector<Diagnostic> sorted = found.all();
+  std::ranges::stable_sort(sorted, [](const Diagnostic& a, const Diagnostic& b) {
+    return std::pair(a.place.line, a.place.column) < std::pair(b.place.line, b.place.column);
+  });
+  for (Diagnostic& diagnostic : sorted) diagnostics.add(std::move(diagnostic));
+}
+
+}  // namespace
+
+// A text over several lines is refused too: without such texts a comment can be
 // recognised from its line alone.
 bool is_fit_for_parser(const TomlReporter& reporter) {
   for (std::uint32_t number = 1; number <= reporter.line_count(); ++number) {
@@ -75,17 +86,6 @@ bool is_fit_for_parser(const TomlReporter& reporter) {
   }
   return true;
 }
-
-// A machine file is checked by meaning, but a person corrects it from top to bottom: so sort by line.
-void hand_over(const Diagnostics& found, Diagnostics& diagnostics) {
-  std::vector<Diagnostic> sorted = found.all();
-  std::ranges::stable_sort(sorted, [](const Diagnostic& a, const Diagnostic& b) {
-    return std::pair(a.place.line, a.place.column) < std::pair(b.place.line, b.place.column);
-  });
-  for (Diagnostic& diagnostic : sorted) diagnostics.add(std::move(diagnostic));
-}
-
-}  // namespace
 
 std::optional<std::string> machine_file_text(const std::string& path, Diagnostics& diagnostics) {
   errno = 0;

@@ -1,5 +1,6 @@
-// The commands `passo cam show`, `isolate` and `outline`, a function each, and their arguments.
+// The commands of `passo cam`, a function each, and their arguments.
 //
+// `given`: what was read already, instead of the files. `made`: what is printed otherwise. Null: nothing.
 // Lengths are texts for parse_length(); a number without a unit is in `units`.
 #pragma once
 
@@ -10,7 +11,30 @@
 
 #include "commands.hpp"
 
+#include "passo/cam/board_layer.hpp"
+
 namespace passo {
+
+// What a command would read from its files, if it was read already.
+struct CamSources {
+  std::vector<Drawing> drills = {};
+  BoardLayer layer = {};  // of the copper, or of the edge
+  Region board = {};      // inside the edge; empty: there is none
+};
+
+// What a command has made.
+struct CamMade {
+  std::vector<std::string> tools = {};  // for the operator, in the order in which they are used
+  std::string summary = {};
+};
+
+struct CamDrillingArguments : CamDrillArguments {
+  std::string mirror;               // x or y; empty: the board is not turned over
+  std::string mirror_at;            // the line about which it is; empty: X0 or Y0
+  std::string align;                // X,Y,X,Y: two more holes; empty: none
+  std::string align_drill = "3mm";  // their diameter
+};
+int cam_drill(const CamDrillingArguments& arguments, const CamSources* given = nullptr, CamMade* made = nullptr);
 
 // What both have.
 struct CamMillArguments {
@@ -22,7 +46,7 @@ struct CamMillArguments {
   std::optional<double> scale;      // of the numbers of DXF files
   std::string input;                // unit of the files' numbers; empty: as they say, with --scale as `units`
   std::vector<std::string> layers;  // of DXF files; empty: all that are on
-  std::string zero = "file";        // where X0 Y0 is: file or lower-left
+  std::string zero = "file";        // where X0 Y0 is: file, lower-left or X,Y
   std::string mirror;               // x or y; empty: the board is not turned over
   std::string mirror_at;            // the line about which it is; empty: X0 or Y0
   std::string align;                // X,Y,X,Y: two holes midway between which that line runs
@@ -45,7 +69,7 @@ struct CamIsolateArguments : CamMillArguments {
   bool clear = false;
   std::string tolerance = "0.004mm";
 };
-int cam_isolate(const CamIsolateArguments& arguments);
+int cam_isolate(const CamIsolateArguments& arguments, const CamSources* given = nullptr, CamMade* made = nullptr);
 
 struct CamOutlineArguments : CamMillArguments {
   std::string tool = "2mm";
@@ -60,7 +84,20 @@ struct CamOutlineArguments : CamMillArguments {
   std::string lead;  // empty: none
   bool dog_bones = false;
 };
-int cam_outline(const CamOutlineArguments& arguments);
+int cam_outline(const CamOutlineArguments& arguments, const CamSources* given = nullptr, CamMade* made = nullptr);
+
+// The three commands at once, on all files of a board.
+struct CamBoardArguments {
+  std::vector<std::string> paths;    // of Gerber and drill files, folders, or a zip archive
+  std::string output = ".";          // the folder for programs, pictures and the page
+  std::string profile;               // options of the three commands (TOML); empty: none
+  std::string machine;               // machine file, for the times; empty: none
+  std::string turn = "x";            // how a board is turned over: x or y
+  std::string margin = "10mm";       // of the board's lower left corner from X0 and from Y0
+  std::string pin_distance = "5mm";  // of the alignment holes from the board's edge; 0: none
+};
+int cam_board(const CamBoardArguments& arguments, CamDrillingArguments drill, CamIsolateArguments isolate,
+              CamOutlineArguments outline);
 
 struct CamShowArguments {
   std::vector<std::string> files;  // Gerber and drill files, folders, zip archives

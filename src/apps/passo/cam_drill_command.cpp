@@ -1,4 +1,5 @@
 // passo cam drill: a program that drills the holes of circuit boards, from DXF drawings and drill files.
+#include <algorithm>
 #include <cmath>
 #include <filesystem>
 
@@ -22,9 +23,12 @@ struct DrillJob {
   DrawingFileOptions reading;
   DrillOptions plan;
   DrillProgramOptions program;
+  Mirror mirror;
+  ZeroPlace zero;
+  Drawing align;  // the holes that hold the board
 };
 
-Result<DrillJob, std::string> job_of(const CamDrillArguments& arguments) {
+Result<DrillJob, std::string> job_of(const CamDrillingArguments& arguments) {
   const double unit = *mm_of_unit(arguments.units);
   LengthArguments lengths(unit);
   DrillJob job;
@@ -48,6 +52,11 @@ Result<DrillJob, std::string> job_of(const CamDrillArguments& arguments) {
   job.plan.mill = lengths.perhaps("--mill", arguments.mill);
   job.plan.park = lengths.place("--park", arguments.park);
   job.plan.route_steps = arguments.route_steps;
+  job.mirror = mirror_of(arguments.mirror, arguments.mirror_at, lengths);
+  job.zero = zero_of(arguments.zero, lengths);
+  job.align.file = "--align";
+  const Nanometres align_drill = lengths.above_0("--align-drill", arguments.align_drill);
+  for (const DrawnPoint at : align_holes_of(arguments.align, lengths)) job.align.holes.push_back({at, align_drill});
 
   DrillProgramOptions& program = job.program;
   program.name = arguments.output.empty() ? "board" : std::filesystem::path(arguments.output).filename().string();
@@ -76,7 +85,7 @@ Result<DrillJob, std::string> job_of(const CamDrillArguments& arguments) {
 
 // What was read and planned, in the program's units.
 std::string summary_of(const std::vector<Drawing>& drawings, const DrillPlan& plan,
-                       const CamDrillArguments& arguments) {
+                       const CamDrillingArguments& arguments) {
   const double unit_nm = *mm_of_unit(arguments.units) * nanometres_per_mm;
   const auto words = [&](double nm) { return fmt::format("{:.6g} {}", nm / unit_nm, arguments.units); };
   const auto size = [&](Nanometres length) { return words(static_cast<double>(length.count)); };
@@ -103,7 +112,21 @@ std::string summary_of(const std::vector<Drawing>& drawings, const DrillPlan& pl
   return text;
 }
 
-int draw(const DrillPlan& plan, const CamDrillArguments& arguments, PictureFormat format, DrawnPoint park) {
+// Adds the holes of --align, turns the board over, and moves it to its zero.
+void place(std::vector<Drawing>& drawings, const DrillJob& job) {
+  const auto turn = [&](Drawing& drawing) { mirror_drawing(drawing, job.mirror); };
+  std::ranges::for_each(drawings, turn);
+  const DrawnPoint corner = lower_left_of(drawings);  // of the board's own holes
+  if (!job.align.holes.empty()) {
+    drawings.push_back(job.align);
+    turn(drawings.back());
+  }
+  const std::optional<DrawnPoint> zero = job.zero.is_lower_left ? std::optional(corner) : job.zero.at;
+  if (!zero) return;
+  for (Drawing& drawing : drawings) move_zero_to(*zero, drawing);
+}
+
+int draw(const DrillPlan& plan, const CamDrillingArguments& arguments, PictureFormat format, DrawnPoint park) {
   Result<OutputFile, OutputError> file = OutputFile::open(arguments.picture);
   if (!file) return fail(exit_failed, file.error().message);
   PictureOptions options;
@@ -116,7 +139,7 @@ int draw(const DrillPlan& plan, const CamDrillArguments& arguments, PictureForma
 
 }  // namespace
 
-int cam_drill(const CamDrillArguments& arguments) {
+int cam_drill(const CamDrillingArguments& arguments, const CamSources* given, CamMade* made) {
   NamedFiles files;
   for (const std::string& file : arguments.files) files.reads("the file", file);
   files.writes("--output", arguments.output);
@@ -131,7 +154,9 @@ int cam_drill(const CamDrillArguments& arguments) {
 
   Diagnostics findings;
   std::vector<Drawing> drawings;
-  for (const std::string& file : arguments.files) {
+  if (given != nullptr) drawings = given->drills;
+  for (std::size_t i = 0; given == nullptr && i < arguments.files.size(); ++i) {
+    const std::string& file = arguments.files[i];
     drawings.push_back(read_drawing(file, job->reading, findings));
     for (const std::string& words : drawings.back().notes) note(file + ": " + words);
   }
@@ -139,10 +164,7 @@ int cam_drill(const CamDrillArguments& arguments) {
     show(findings);
     return exit_bad_program;
   }
-  if (arguments.zero == "lower-left") {
-    const DrawnPoint corner = lower_left_of(drawings);
-    for (Drawing& drawing : drawings) move_zero_to(corner, drawing);
-  }
+  place(drawings, *job);
   const DrillPlan plan = plan_drilling(drawings, job->plan, findings);
   for (const std::string& words : plan.notes) note(words);
   if (findings.any_error()) {
@@ -154,7 +176,15 @@ int cam_drill(const CamDrillArguments& arguments) {
   if (format) {
     if (const int code = draw(plan, arguments, *format, job->plan.park); code != exit_done) return code;
   }
-  if (!arguments.output.empty() && arguments.output != "-") fmt::print("{}", summary_of(drawings, plan, arguments));
+  const std::string words = summary_of(drawings, plan, arguments);
+  if (made != nullptr) {
+    for (const DrillTool& tool : plan.tools) {
+      made->tools.push_back(fmt::format("{} {:.4g} mm", tool.is_mill ? "mill" : "drill", to_mm(tool.diameter).value()));
+    }
+    made->summary = words;
+  } else if (!arguments.output.empty() && arguments.output != "-") {
+    fmt::print("{}", words);
+  }
   return exit_done;
 }
 

@@ -4,7 +4,6 @@
 #include "cam_job.hpp"
 #include <nlohmann/json.hpp>
 
-#include "passo/cam/edge_loops.hpp"
 #include "passo/cam/isolation.hpp"
 #include "passo/cam/isolation_proof.hpp"
 
@@ -110,44 +109,49 @@ std::optional<Region> board_of(const std::string& edge, const MillJob& job) {
   if (!layer) return std::nullopt;
   Diagnostics findings;
   constexpr Nanometres join{100'000};
-  Region board = board_within(edge_loops(layer->lines, join, findings));
-  if (board.empty() && !findings.any_error()) board = layer->face;
+  Region board = board_edge(*layer, join, findings).board;
   show(findings);
   if (findings.any_error()) return std::nullopt;
   return board;
 }
 
+std::optional<CamSources> read(const CamIsolateArguments& arguments, const MillJob& job) {
+  CamSources sources;
+  std::optional<BoardLayer> layer = read_layers(arguments.files, job);
+  if (!layer) return std::nullopt;
+  sources.layer = std::move(*layer);
+  if (arguments.edge.empty()) return sources;
+  std::optional<Region> board = board_of(arguments.edge, job);
+  if (!board) return std::nullopt;
+  sources.board = std::move(*board);
+  return sources;
+}
+
 }  // namespace
 
-int cam_isolate(const CamIsolateArguments& arguments) {
+int cam_isolate(const CamIsolateArguments& arguments, const CamSources* given, CamMade* made) {
   if (!outputs_are_good(arguments, arguments.edge)) return exit_bad_program;
   LengthArguments lengths(*mm_of_unit(arguments.units));
   MillJob job = mill_job_of(arguments, "passo cam isolate", lengths);
   IsolationOptions options = options_of(arguments, job, lengths);
   if (!lengths.message().empty()) return fail(exit_bad_program, lengths.message());
 
-  std::optional<BoardLayer> layer = read_layers(arguments.files, job);
-  if (!layer) return exit_bad_program;
-  if (!arguments.edge.empty()) {
-    const std::optional<Region> board = board_of(arguments.edge, job);
-    if (!board) return exit_bad_program;
-    options.board = mirrored(*board, job.mirror);
+  const std::optional<CamSources> sources = given != nullptr ? *given : read(arguments, job);
+  if (!sources) return exit_bad_program;
+  Region copper = mirrored(sources->layer.face, job.mirror);
+  options.board = mirrored(sources->board, job.mirror);
+  if (const std::optional<DrawnBox> box = bounds(copper); options.clear && options.board.empty() && box) {
+    options.board = grown(filled({rectangle(*box)}), {2'000'000});
   }
-  layer->face = mirrored(layer->face, job.mirror);
-  const std::optional<DrawnBox> box = bounds(options.board.empty() ? layer->face : options.board);
-  if (options.clear && options.board.empty() && box) options.board = grown(filled({rectangle(*box)}), {2'000'000});
-  if (arguments.zero == "lower-left" && box) {
-    layer->face = moved_to_zero(layer->face, box->least);
-    options.board = moved_to_zero(options.board, box->least);
-  }
+  move_to_zero(job.zero, options.board.empty() ? copper : options.board, {&copper, &options.board});
 
   Diagnostics findings;
-  const IsolationPlan plan = plan_isolation(layer->face, options, findings);
+  const IsolationPlan plan = plan_isolation(copper, options, findings);
   if (findings.any_error()) {
     show(findings);
     return exit_bad_program;
   }
-  const IsolationProof proof = prove_isolation(layer->face, plan.mill);
+  const IsolationProof proof = prove_isolation(copper, plan.mill);
   if (proof.lost_mm2 > 0) {
     return fail(
         exit_failed,
@@ -159,7 +163,7 @@ int cam_isolate(const CamIsolateArguments& arguments) {
     return code;
   }
   if (!arguments.picture.empty()) {
-    MillScene scene{plan.mill, layer->face, "Copper", plan.unmilled, {}, "Gap too narrow", options.park};
+    MillScene scene{plan.mill, copper, "Copper", plan.unmilled, {}, "Gap too narrow", options.park};
     for (const CopperGap& gap : plan.gaps) scene.marks.push_back(gap.at);
     const int code = write_picture(
         arguments.picture, job.program.name,
@@ -168,10 +172,10 @@ int cam_isolate(const CamIsolateArguments& arguments) {
   }
   if (arguments.json) {
     fmt::print("{}\n", as_json(plan, proof, options.park).dump(2));
-  } else if (!arguments.output.empty() && arguments.output != "-") {
-    fmt::print("{}{}", summary_of(plan.mill, options.park, arguments.units), proof_words(proof));
+    return exit_done;
   }
-  return exit_done;
+  return tell(arguments.output, plan.mill, summary_of(plan.mill, options.park, arguments.units) + proof_words(proof),
+              made);
 }
 
 }  // namespace passo

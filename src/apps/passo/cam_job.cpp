@@ -31,31 +31,50 @@ int write_picture(const std::string& path, const std::string& title,
   return done ? exit_done : fail(exit_failed, done.error().message);
 }
 
+ZeroPlace zero_of(const std::string& zero, LengthArguments& lengths) {
+  if (zero == "file") return {};
+  if (zero == "lower-left") return {.is_lower_left = true};
+  if (zero.find(',') == std::string::npos) {
+    lengths.refuse(fmt::format("--zero: expected file, lower-left or X,Y, found '{}'", zero));
+    return {};
+  }
+  return {.at = lengths.place("--zero", zero)};
+}
+
+Mirror mirror_of(const std::string& turned, const std::string& at, LengthArguments& lengths) {
+  Mirror mirror;
+  if (turned == "x") mirror.turned = Mirror::Turned::x;
+  if (turned == "y") mirror.turned = Mirror::Turned::y;
+  if (at.empty()) return mirror;
+  if (turned.empty()) lengths.refuse("--mirror-at: expected --mirror x or --mirror y, too");
+  mirror.at = lengths.any("--mirror-at", at);
+  return mirror;
+}
+
+std::vector<DrawnPoint> align_holes_of(const std::string& align, LengthArguments& lengths) {
+  if (align.empty()) return {};
+  const std::vector<Nanometres> holes = lengths.list("--align", align);
+  if (holes.size() == 4 && (holes[0] == holes[2]) != (holes[1] == holes[3])) {
+    return {{holes[0], holes[1]}, {holes[2], holes[3]}};
+  }
+  lengths.refuse(
+      fmt::format("--align: expected X,Y,X,Y of two holes side by side (one Y) or one above the other "
+                  "(one X), found '{}'",
+                  align));
+  return {};
+}
+
 namespace {
 
 Mirror mirror_of(const CamMillArguments& arguments, LengthArguments& lengths) {
-  Mirror mirror;
-  if (arguments.mirror == "x") mirror.turned = Mirror::Turned::x;
-  if (arguments.mirror == "y") mirror.turned = Mirror::Turned::y;
-  if (!arguments.mirror_at.empty()) {
-    if (arguments.mirror.empty()) lengths.refuse("--mirror-at: expected --mirror x or --mirror y, too");
-    mirror.at = lengths.any("--mirror-at", arguments.mirror_at);
-  }
-  if (arguments.align.empty()) return mirror;
-  const std::vector<Nanometres> holes = lengths.list("--align", arguments.align);
+  const std::vector<DrawnPoint> holes = align_holes_of(arguments.align, lengths);
+  if (holes.empty()) return mirror_of(arguments.mirror, arguments.mirror_at, lengths);
   if (!arguments.mirror.empty() || !arguments.mirror_at.empty()) {
     lengths.refuse("--align says about what the board is turned over: leave --mirror and --mirror-at out");
-  } else if (holes.size() != 4 || (holes[0] == holes[2]) == (holes[1] == holes[3])) {
-    lengths.refuse(
-        fmt::format("--align: expected X,Y,X,Y of two holes side by side (one Y) or one above the other "
-                    "(one X), found '{}'",
-                    arguments.align));
-  } else {
-    const bool side_by_side = holes[1] == holes[3];
-    mirror.turned = side_by_side ? Mirror::Turned::x : Mirror::Turned::y;
-    mirror.at = {side_by_side ? (holes[0].count + holes[2].count) / 2 : (holes[1].count + holes[3].count) / 2};
   }
-  return mirror;
+  const bool side_by_side = holes[0].y == holes[1].y;
+  return {side_by_side ? Mirror::Turned::x : Mirror::Turned::y,
+          {side_by_side ? (holes[0].x.count + holes[1].x.count) / 2 : (holes[0].y.count + holes[1].y.count) / 2}};
 }
 
 }  // namespace
@@ -70,8 +89,12 @@ MillJob mill_job_of(const CamMillArguments& arguments, const char* command, Leng
   for (const std::string& file : arguments.files) {
     program.files.push_back(std::filesystem::path(file).filename().string());
   }
-  program.remarks.push_back(arguments.zero == "lower-left" ? "X0 Y0 is the lower left corner, Z0 the face of the board"
-                                                           : "X0 Y0 is the drawing's zero, Z0 the face of the board");
+  job.zero = zero_of(arguments.zero, lengths);
+  const std::string zero = job.zero.is_lower_left ? "the lower left corner"
+                           : job.zero.at          ? fmt::format("X{:.6g} Y{:.6g} mm of the drawing",
+                                                                to_mm(job.zero.at->x).value(), to_mm(job.zero.at->y).value())
+                                                  : "the drawing's zero";
+  program.remarks.push_back(fmt::format("X0 Y0 is {}, Z0 the face of the board", zero));
   if (job.mirror.turned != Mirror::Turned::no) {
     const bool is_x = job.mirror.turned == Mirror::Turned::x;
     program.remarks.push_back(fmt::format("the board is turned over {}, about {}{:.6g} mm of the drawing",
@@ -121,20 +144,25 @@ std::optional<BoardLayer> read_layers(const std::vector<std::string>& files, con
   return all;
 }
 
-Region moved_to_zero(const Region& region, DrawnPoint zero) {
-  Region moved = region;
-  for (DrawnRing& ring : moved.rings) {
-    for (DrawnPoint& point : ring) point = {point.x - zero.x, point.y - zero.y};
+void move_to_zero(const ZeroPlace& zero, const Region& whole, const std::vector<Region*>& regions) {
+  const std::optional<DrawnBox> box = bounds(whole);
+  const std::optional<DrawnPoint> at = zero.is_lower_left && box ? std::optional(box->least) : zero.at;
+  if (!at) return;
+  for (Region* region : regions) {
+    for (DrawnRing& ring : region->rings) {
+      for (DrawnPoint& point : ring) point = {point.x - at->x, point.y - at->y};
+    }
   }
-  return moved;
 }
 
-void place_layer(BoardLayer& layer, const Mirror& mirror, const std::optional<DrawnPoint>& zero) {
-  layer.face = mirrored(layer.face, mirror);
-  mirror_drawing(layer.lines, mirror);
-  if (!zero) return;
-  layer.face = moved_to_zero(layer.face, *zero);
-  move_zero_to(*zero, layer.lines);
+int tell(const std::string& output, const MillPlan& plan, const std::string& words, CamMade* made) {
+  if (made != nullptr) {
+    for (const MillTool& tool : plan.tools) made->tools.push_back(tool.words);
+    made->summary = words;
+  } else if (!output.empty() && output != "-") {
+    fmt::print("{}", words);
+  }
+  return exit_done;
 }
 
 std::string summary_of(const MillPlan& plan, DrawnPoint park, const std::string& units) {

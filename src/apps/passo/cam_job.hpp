@@ -31,6 +31,19 @@ DxfOptions dxf_options_of(const Arguments& arguments, double unit_mm, LengthArgu
   return options;
 }
 
+// Where X0 Y0 is, of the drawing after it was turned over. Empty: the drawing's own zero.
+struct ZeroPlace {
+  bool is_lower_left = false;
+  std::optional<DrawnPoint> at = {};
+};
+// "file", "lower-left", or "X,Y".
+ZeroPlace zero_of(const std::string& zero, LengthArguments& lengths);
+
+// What --mirror and --mirror-at say.
+Mirror mirror_of(const std::string& turned, const std::string& at, LengthArguments& lengths);
+// The two places of --align: X,Y,X,Y. Empty: none were given, or they are wrong.
+std::vector<DrawnPoint> align_holes_of(const std::string& align, LengthArguments& lengths);
+
 ProgramUnits program_units_of(const std::string& name);
 
 // Writes the text to the file, or without a name to standard output. Returns an exit code.
@@ -43,6 +56,7 @@ struct MillJob {
   DrawingFileOptions reading;
   MillProgramOptions program;
   Mirror mirror;
+  ZeroPlace zero;
 };
 
 // What CamMillArguments say. `command`: "passo cam isolate".
@@ -54,9 +68,11 @@ bool outputs_are_good(const CamMillArguments& arguments, const std::string& edge
 // Reads the files, and says what was guessed. Findings are shown; then the answer is empty.
 std::optional<BoardLayer> read_layers(const std::vector<std::string>& files, const MillJob& job);
 
-// Turns the face and the lines over, and puts them where --zero says: `corner` is the lower left, after turning.
-void place_layer(BoardLayer& layer, const Mirror& mirror, const std::optional<DrawnPoint>& zero);
-Region moved_to_zero(const Region& region, DrawnPoint zero);
+// Puts the regions where --zero says; `whole`, one of them, has the lower left corner.
+void move_to_zero(const ZeroPlace& zero, const Region& whole, const std::vector<Region*>& regions);
+
+// Prints the words where standard output is free, or puts them into `made`. Returns exit_done.
+int tell(const std::string& output, const MillPlan& plan, const std::string& words, CamMade* made);
 
 // What the runs of each tool are, a line each, in the program's units.
 std::string summary_of(const MillPlan& plan, DrawnPoint park, const std::string& units);

@@ -1,6 +1,11 @@
-// The options of `passo cam isolate` and `passo cam outline`.
+// The options of `passo cam isolate`, `passo cam outline` and `passo cam board`.
+#include <algorithm>
+
 #include "cam_options.hpp"
+#include "program_input.hpp"
 #include <CLI/CLI.hpp>
+
+#include "passo/machine_file/option_profile.hpp"
 
 namespace passo {
 namespace {
@@ -28,6 +33,19 @@ constexpr const char* outline_examples =
 
 Every option: docs/manual/circuit-boards.md.)";
 
+constexpr const char* board_examples =
+    R"(Examples:
+  passo cam board gerbers/ -o job                    programs, a picture each, and job/board.html: what to do when
+  passo cam board board.zip --profile mine.toml -m router.toml -o job      with your options, and times
+
+A profile has a table for each command: [drill], [isolate], [outline], with the options as keys:
+
+  [isolate]
+  tool = "1,0.2"
+  clear = true
+
+Every option: docs/manual/circuit-boards.md.)";
+
 void add_common(CLI::App& command, CamMillArguments& arguments) {
   command.add_option("-o,--output", arguments.output, "write the program to a file; without it to standard output");
   command.add_option("-p,--picture", arguments.picture, "draw what is milled, and the rapids (FILE.svg or FILE.png)");
@@ -42,8 +60,7 @@ void add_common(CLI::App& command, CamMillArguments& arguments) {
   command
       .add_option("--layer", arguments.layers, "DXF: read this layer; may be given again. Without it all that are on")
       ->take_all();
-  command.add_option("--zero", arguments.zero, "where X0 Y0 is: file, or lower-left of the board")
-      ->check(CLI::IsMember({"file", "lower-left"}))
+  command.add_option("--zero", arguments.zero, "where X0 Y0 is: file, lower-left of the board, or X,Y")
       ->capture_default_str();
   command
       .add_option("--mirror", arguments.mirror, "the board is turned over: x from left to right, y from top to bottom")
@@ -108,6 +125,65 @@ void add_outline_command(CLI::App& cam, CamArguments& all) {
   add_common(outline, arguments);
   outline.footer(outline_examples);
   outline.callback([&all] { all.chosen = [&all] { return cam_outline(all.outline); }; });
+}
+
+namespace {
+
+// Fills in what the profile says. Returns an exit code.
+int read_profile(CamArguments& all) {
+  if (all.board.profile.empty()) return exit_done;
+  Diagnostics findings;
+  const auto sections = read_option_profile(all.board.profile, {"drill", "isolate", "outline"}, findings);
+  show(findings);
+  if (!sections) return exit_bad_program;
+  CamArguments read;
+  for (const OptionSection& section : *sections) {
+    CLI::App cam;
+    if (section.name == "drill") add_drill_command(cam, read);
+    if (section.name == "isolate") add_isolate_command(cam, read);
+    if (section.name == "outline") add_outline_command(cam, read);
+    std::vector<std::string> words = {section.name};
+    words.insert(words.end(), section.words.begin(), section.words.end());
+    words.emplace_back("board");  // the file, which the board itself gives
+    std::ranges::reverse(words);  // CLI11 wants the last word first
+    try {
+      cam.parse(std::move(words));
+    } catch (const CLI::ParseError& error) {
+      return fail(exit_bad_program,
+                  all.board.profile + ":" + std::to_string(section.line) + ": [" + section.name + "]: " + error.what());
+    }
+  }
+  all.drill = read.drill;
+  all.isolate = read.isolate;
+  all.outline = read.outline;
+  return exit_done;
+}
+
+}  // namespace
+
+void add_cam_board_command(CLI::App& cam, CamArguments& all) {
+  CamBoardArguments& arguments = all.board;
+  CLI::App& board =
+      *cam.add_subcommand("board", "everything for a board: drill, isolate and cut out, and what to do when");
+  board.add_option("JOB", arguments.paths, "Gerber and drill files, folders of them, or a zip archive")->required();
+  board.add_option("-o,--output", arguments.output, "folder for programs, pictures and board.html")
+      ->capture_default_str();
+  board.add_option("--profile", arguments.profile, "options of drill, isolate and outline (TOML)");
+  board.add_option("-m,--machine", arguments.machine, "machine file (TOML): how long each program takes on it");
+  board.add_option("--turn", arguments.turn, "the board is turned over: x from left to right, y from top to bottom")
+      ->check(CLI::IsMember({"x", "y"}))
+      ->capture_default_str();
+  board.add_option("--margin", arguments.margin, "the board's lower left corner lies at this X and Y")
+      ->capture_default_str();
+  board.add_option("--pins", arguments.pin_distance, "distance of two alignment holes from the board's edge; 0: none")
+      ->capture_default_str();
+  board.footer(board_examples);
+  board.callback([&all] {
+    all.chosen = [&all] {
+      if (const int code = read_profile(all); code != exit_done) return code;
+      return cam_board(all.board, all.drill, all.isolate, all.outline);
+    };
+  });
 }
 
 }  // namespace passo

@@ -36,9 +36,10 @@ void add_show_command(CLI::App& cam, CamArguments& all) {
   show.footer(show_examples);
   show.callback([&all] { all.chosen = [&all] { return cam_show(all.show); }; });
 }
+}  // namespace
 
 void add_drill_command(CLI::App& cam, CamArguments& all) {
-  CamDrillArguments& arguments = all.drill;
+  CamDrillingArguments& arguments = all.drill;
   CLI::App& drill = *cam.add_subcommand("drill", "drill the holes of DXF drawings and Excellon drill files");
   drill.add_option("FILE", arguments.files, "DXF drawings and drill files; the kind is seen from what is in them")
       ->required();
@@ -55,9 +56,14 @@ void add_drill_command(CLI::App& cam, CamArguments& all) {
       ->check(CLI::IsMember({"leading", "trailing"}));
   drill.add_option("--layer", arguments.layers, "DXF: read this layer; may be given again. Without it all that are on")
       ->take_all();
-  drill.add_option("--zero", arguments.zero, "where X0 Y0 is: file, or lower-left of all holes")
-      ->check(CLI::IsMember({"file", "lower-left"}))
+  drill.add_option("--zero", arguments.zero, "where X0 Y0 is: file, lower-left of all holes, or X,Y")
       ->capture_default_str();
+  drill
+      .add_option("--mirror", arguments.mirror, "the board is turned over: x from left to right, y from top to bottom")
+      ->check(CLI::IsMember({"x", "y"}));
+  drill.add_option("--mirror-at", arguments.mirror_at, "about this X or Y of the drawing; without it 0");
+  drill.add_option("--align", arguments.align, "X,Y,X,Y: drill two more holes, for pins that hold the board");
+  drill.add_option("--align-drill", arguments.align_drill, "diameter of these holes")->capture_default_str();
   drill.add_option("--tools", arguments.tools, "the drills at hand, as 0.8,1.0,1.3; without it one for each diameter");
   drill.add_option("--tolerance", arguments.tolerance, "how far a drill of --tools may be off")->capture_default_str();
   drill.add_option("--drill", arguments.drill, "this one drill makes every hole");
@@ -78,8 +84,6 @@ void add_drill_command(CLI::App& cam, CamArguments& all) {
   drill.callback([&all] { all.chosen = [&all] { return cam_drill(all.drill); }; });
 }
 
-}  // namespace
-
 CLI::App& add_cam_command(CLI::App& app, CamArguments& arguments) {
   CLI::App& cam = *app.add_subcommand("cam", "make programs of drawings: circuit boards, drilled, milled and cut out");
   cam.require_subcommand(1);
@@ -87,6 +91,7 @@ CLI::App& add_cam_command(CLI::App& app, CamArguments& arguments) {
   add_drill_command(cam, arguments);
   add_isolate_command(cam, arguments);
   add_outline_command(cam, arguments);
+  add_cam_board_command(cam, arguments);
   return cam;
 }
 

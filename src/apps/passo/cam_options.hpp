@@ -13,16 +13,19 @@ namespace passo {
 
 struct CamArguments {
   CamShowArguments show;
-  CamDrillArguments drill;
+  CamDrillingArguments drill;
   CamIsolateArguments isolate;
   CamOutlineArguments outline;
+  CamBoardArguments board;
   std::function<int()> chosen;  // the chosen command, after parsing
 };
 
 CLI::App& add_cam_command(CLI::App& app, CamArguments& arguments);
 
 // Add the commands to `cam`.
+void add_drill_command(CLI::App& cam, CamArguments& arguments);
 void add_isolate_command(CLI::App& cam, CamArguments& arguments);
 void add_outline_command(CLI::App& cam, CamArguments& arguments);
+void add_cam_board_command(CLI::App& cam, CamArguments& arguments);
 
 }  // namespace passo

@@ -4,7 +4,6 @@
 #include "cam_job.hpp"
 #include <nlohmann/json.hpp>
 
-#include "passo/cam/edge_loops.hpp"
 #include "passo/cam/outline.hpp"
 
 namespace passo {
@@ -61,7 +60,7 @@ nlohmann::ordered_json as_json(const OutlinePlan& plan, const EdgeLoops& loops, 
 
 }  // namespace
 
-int cam_outline(const CamOutlineArguments& arguments) {
+int cam_outline(const CamOutlineArguments& arguments, const CamSources* given, CamMade* made) {
   if (!outputs_are_good(arguments, "")) return exit_bad_program;
   LengthArguments lengths(*mm_of_unit(arguments.units));
   const MillJob job = mill_job_of(arguments, "passo cam outline", lengths);
@@ -70,16 +69,12 @@ int cam_outline(const CamOutlineArguments& arguments) {
   if (join.count < 0) lengths.refuse("--join: expected a length of 0 or more");
   if (!lengths.message().empty()) return fail(exit_bad_program, lengths.message());
 
-  std::optional<BoardLayer> layer = read_layers(arguments.files, job);
+  const std::optional<BoardLayer> layer = given != nullptr ? given->layer : read_layers(arguments.files, job);
   if (!layer) return exit_bad_program;
   Diagnostics findings;
-  const EdgeLoops loops = edge_loops(layer->lines, join, findings);
-  Region board = board_within(loops);
-  if (board.empty() && !findings.any_error()) board = layer->face;
-  board = mirrored(board, job.mirror);
-  if (const std::optional<DrawnBox> box = bounds(board); box && arguments.zero == "lower-left") {
-    board = moved_to_zero(board, box->least);
-  }
+  const BoardEdge edge = board_edge(*layer, join, findings);
+  Region board = mirrored(edge.board, job.mirror);
+  move_to_zero(job.zero, board, {&board});
   OutlinePlan plan;
   if (!findings.any_error()) plan = plan_outline(board, options, findings);
   show(findings);
@@ -97,11 +92,11 @@ int cam_outline(const CamOutlineArguments& arguments) {
     if (code != exit_done) return code;
   }
   if (arguments.json) {
-    fmt::print("{}\n", as_json(plan, loops, board, options.park).dump(2));
-  } else if (!arguments.output.empty() && arguments.output != "-") {
-    fmt::print("{}{}", summary_of(plan.mill, options.park, arguments.units), board_words(board, plan, loops));
+    fmt::print("{}\n", as_json(plan, edge.loops, board, options.park).dump(2));
+    return exit_done;
   }
-  return exit_done;
+  const std::string words = summary_of(plan.mill, options.park, arguments.units) + board_words(board, plan, edge.loops);
+  return tell(arguments.output, plan.mill, words, made);
 }
 
 }  // namespace passo
