@@ -2,10 +2,12 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <tuple>
 
 #include "zip_files.hpp"
 #include <fmt/format.h>
 
+#include "passo/cam/board_layer.hpp"
 #include "passo/cam/excellon.hpp"
 #include "passo/diagnostics/file_bytes.hpp"
 
@@ -118,11 +120,6 @@ BoardJob JobReader::take() {
   return std::move(job_);
 }
 
-bool is_box_within(const DrawnBox& inner, const DrawnBox& outer) {
-  return inner.least.x > outer.least.x && inner.least.y > outer.least.y && inner.most.x < outer.most.x &&
-         inner.most.y < outer.most.y;
-}
-
 }  // namespace
 
 BoardJob read_board_job(const std::vector<std::string>& paths, Diagnostics& diagnostics) {
@@ -131,25 +128,14 @@ BoardJob read_board_job(const std::vector<std::string>& paths, Diagnostics& diag
   return reader.take();
 }
 
-// The line of an outline is a ring of its own width. What a line surrounds is the board, and what a line inside
-// surrounds is cut out.
 Region board_face(const BoardJob& job) {
-  std::vector<DrawnRing> boards;
-  std::vector<DrawnRing> cut_outs;
   const auto is_outline = [](const BoardFile& file) { return file.kind.role == BoardRole::outline && file.layer; };
   const auto file = std::find_if(job.files.begin(), job.files.end(), is_outline);
   if (file == job.files.end()) return {};
-  const std::vector<Region> parts = parts_of(file->layer->dark);
-  std::vector<DrawnBox> boxes;
-  for (const Region& part : parts) boxes.push_back(bounds(part).value_or(DrawnBox{}));
-  constexpr std::size_t most_parts = 2000;  // more is no outline
-  if (parts.size() > most_parts) return {};
-  for (std::size_t i = 0; i < parts.size(); ++i) {
-    const auto surrounds = [&](const DrawnBox& box) { return is_box_within(boxes[i], box); };
-    const bool is_inside = std::any_of(boxes.begin(), boxes.end(), surrounds);
-    (is_inside ? cut_outs : boards).push_back(parts[i].rings.front());
-  }
-  return subtracted(filled(std::move(boards)), filled(std::move(cut_outs)));
+  constexpr Nanometres usual_join{100'000};
+  Diagnostics open_ends;
+  const BoardEdge edge = board_edge({file->layer->dark, file->layer->strokes}, usual_join, open_ends);
+  return open_ends.any_error() ? Region{} : edge.board;
 }
 
 }  // namespace passo

@@ -127,10 +127,10 @@ void GerberReader::finish() {
     layer_.strokes.layers.push_back(fmt::format("D{}", aperture.code));
   if (!ended_ && !findings_.any_error()) findings_.note("the file has no M02 at its end; perhaps a part is missing");
   if (!findings_.full() && !plotter_.is_full()) {
-    if (std::optional<Region> dark = composed(std::move(image))) {
+    if (std::optional<Region> dark = composed(std::move(image), plotter_.budget())) {
       layer_.dark = std::move(*dark);
     } else {
-      findings_.refuse(0, 0, "gerber.too-large", "clear objects take away from too many dark ones", "a smaller layer");
+      findings_.refuse(0, 0, "gerber.too-large", "the lines of this layer cross too often to be united", "fewer lines");
     }
   }
   layer_.is_negative = layer_.is_negative != old_codes_.is_negative();

@@ -160,8 +160,10 @@ void GerberApertures::add_statement() {
 
 bool GerberApertures::make_macro(const Definition& definition, const GerberMacro& macro, PlotterAperture& aperture) {
   std::vector<GerberMacroFault> faults;
-  const GerberMacroLimits limits{.nm_per_unit = numbers_.nm_per_unit(),
-                                 .has_room_for = [this](std::size_t points) { return plotter_.has_room_for(points); }};
+  const GerberMacroLimits limits{
+      .nm_per_unit = numbers_.nm_per_unit(),
+      .has_room_for = [this](std::size_t points) { return plotter_.has_room_for(points); },
+      .can_unite = [this](const std::vector<DrawnRing>& rings) { return plotter_.can_unite(rings); }};
   aperture.shape = shape_of(macro, definition.values, limits, faults);
   for (GerberMacroFault& fault : faults) {
     const std::size_t size = fault.statement->words.size();

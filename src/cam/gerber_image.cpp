@@ -2,7 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
+#include <iterator>
+#include <tuple>
 
 namespace passo {
 namespace {
@@ -28,38 +29,64 @@ struct DarkObject {
 // Clear objects take away from the dark objects that they touch, one by one: the others stay as they are.
 class Composition {
  public:
+  explicit Composition(RegionBudget& budget) : budget_(budget) {}
+
   void add(Region object) {
     if (const std::optional<DrawnBox> box = bounds(object)) dark_.push_back({std::move(object), *box});
   }
 
   bool take_away(const std::vector<Region>& objects) {
+    if (!budget_.affords(objects)) return false;
     const Region clear = united(objects);
     const std::optional<DrawnBox> box = bounds(clear);
     if (!box) return true;
-    work_ += dark_.size() / 16;
-    const std::size_t clear_points = points_of(clear);
+    looked_at_ += dark_.size();
+    if (looked_at_ > most_looked_at) return false;
     for (DarkObject& dark : dark_) {
       if (!overlap(dark.box, *box)) continue;
-      work_ += points_of(dark.region) + clear_points;
-      if (work_ > most_work) return false;
+      if (!budget_.affords({dark.region, clear})) return false;
       dark.region = subtracted(dark.region, clear);
     }
     std::erase_if(dark_, [](const DarkObject& dark) { return dark.region.empty(); });
-    return work_ <= most_work;
+    return true;
   }
 
-  Region take() {
+  // Halves of the board are united first: a sweep over a half passes half as many edges at each stop.
+  std::optional<Region> take() {
     std::vector<Region> all;
     all.reserve(dark_.size());
+    std::sort(dark_.begin(), dark_.end(), [](const DarkObject& a, const DarkObject& b) {
+      return std::tie(a.box.least, a.box.most) < std::tie(b.box.least, b.box.most);
+    });
     for (DarkObject& dark : dark_) all.push_back(std::move(dark.region));
     dark_.clear();
-    return united(all);
+    return united_by_halves(std::move(all));
   }
 
  private:
-  static constexpr std::size_t most_work = 50'000'000;  // points, about a minute
+  std::optional<Region> united_by_halves(std::vector<Region> objects) {
+    std::size_t points = 0;
+    for (const Region& object : objects) points += points_of(object);
+    constexpr std::size_t few = 100'000;
+    if (points <= few || objects.size() < 4) {
+      if (!budget_.affords(objects)) return std::nullopt;
+      return united(objects);
+    }
+    const auto middle = objects.begin() + static_cast<std::ptrdiff_t>(objects.size() / 2);
+    std::vector<Region> right(std::make_move_iterator(middle), std::make_move_iterator(objects.end()));
+    objects.erase(middle, objects.end());
+    const std::optional<Region> a = united_by_halves(std::move(objects));
+    if (!a) return a;
+    const std::optional<Region> b = united_by_halves(std::move(right));
+    if (!b) return b;
+    if (!budget_.affords({*a, *b})) return std::nullopt;
+    return united(*a, *b);
+  }
+
+  static constexpr std::size_t most_looked_at = 2'000'000'000;
+  RegionBudget& budget_;
   std::vector<DarkObject> dark_;
-  std::size_t work_ = 0;
+  std::size_t looked_at_ = 0;
 };
 
 }  // namespace
@@ -116,8 +143,8 @@ void GerberImage::add(const GerberImage& image, const GerberPlacement& placement
   for (const DrawnPath& path : image.strokes) points += path.points.size();
 }
 
-std::optional<Region> composed(GerberImage image) {
-  Composition composition;
+std::optional<Region> composed(GerberImage image, RegionBudget& budget) {
+  Composition composition(budget);
   for (GerberImage::Run& run : image.runs) {
     if (run.is_dark) {
       for (Region& object : run.objects) composition.add(std::move(object));

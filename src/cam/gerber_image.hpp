@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "gerber_shapes.hpp"
+#include "region_budget.hpp"
 
 #include "passo/cam/gerber.hpp"
 
@@ -43,7 +44,7 @@ struct GerberImage {
   void add(const GerberImage& image, const GerberPlacement& placement, bool is_dark);
 };
 
-// What is dark in the end. Empty: the clear objects take away from more than can be worked out in time.
-std::optional<Region> composed(GerberImage image);
+// What is dark in the end. Empty: the budget does not allow it.
+std::optional<Region> composed(GerberImage image, RegionBudget& budget);
 
 }  // namespace passo

@@ -138,6 +138,12 @@ bool MacroComposer::refuse(std::size_t at, std::string message, std::string expe
 
 void MacroComposer::flush() {
   if (rings_.empty()) return;
+  std::vector<DrawnRing> all = rings_;
+  all.insert(all.end(), shape_.rings.begin(), shape_.rings.end());
+  if (!limits_.can_unite(all)) {
+    rings_.clear();
+    return;
+  }
   const Region added = filled(std::move(rings_));
   rings_.clear();
   if (rings_are_on_) shape_ = shape_.empty() ? added : united(shape_, added);

@@ -33,6 +33,7 @@ struct GerberMacroLimits {
   double nm_per_unit = 1e6;
   // Asked before points are made: whether so many more are still allowed.
   std::function<bool(std::size_t points)> has_room_for;
+  std::function<bool(const std::vector<DrawnRing>& rings)> can_unite;
 };
 
 // The macro's shape about zero, with the arguments as $1, $2 ... Stops at the first fault, which is then in `faults`.

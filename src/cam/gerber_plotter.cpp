@@ -11,7 +11,7 @@ namespace {
 
 constexpr double pi = std::numbers::pi;
 constexpr std::size_t most_frames = 32;
-constexpr std::size_t longest_swept = 256;  // points; a longer stroke is drawn in pieces
+constexpr std::size_t longest_swept = 64;  // points; a longer stroke is drawn in pieces
 
 double sweep_of(double from, double to, bool counterclockwise) {
   double sweep = counterclockwise ? to - from : from - to;
@@ -68,6 +68,13 @@ bool GerberPlotter::has_room_for(std::size_t points) {
   is_full_ = true;
   return findings_.refuse(0, 0, "gerber.too-large", fmt::format("here the image exceeds {} points", most_gerber_points),
                           "a smaller layer, or fewer repeats");
+}
+
+bool GerberPlotter::can_unite(const std::vector<DrawnRing>& rings) {
+  if (is_full_) return false;
+  if (budget_.affords(rings)) return true;
+  is_full_ = true;
+  return findings_.refuse(0, 0, "gerber.too-large", "the lines here cross too often to be united", "fewer lines");
 }
 
 void GerberPlotter::set_dark(bool is_dark) {
@@ -185,7 +192,7 @@ void GerberPlotter::draw_to(DrawnPoint place, const ArcWords& words) {
   const bool is_arc = find_arc(place, words, arc);
   const std::size_t chords =
       is_arc ? chords_of_arc(std::max(radius_at(arc.from, arc.centre), radius_at(arc.to, arc.centre)), arc.sweep) : 1;
-  const std::size_t points_of_end = in_region_ || (tool().is_round && is_arc) ? 1 : tool().hull.size() + 4;
+  const std::size_t points_of_end = in_region_ ? 1 : tool().hull.size() + 4;
   if (!has_room_for(chords * points_of_end + 4)) return;
   if (way_.empty()) {
     way_ = {at_};
@@ -267,7 +274,7 @@ void GerberPlotter::begin_region() {
 void GerberPlotter::finish_contour() {
   if (way_.size() >= 3) {
     if (way_.front() != way_.back()) findings_.note("a contour of a region is not closed; a line closes it");
-    image().add(filled({std::move(way_)}), is_dark_);
+    if (can_unite({way_})) image().add(filled({std::move(way_)}), is_dark_);
   }
   way_.clear();
 }

@@ -63,6 +63,9 @@ class GerberPlotter {
   // Counts points before they are made. False, and reported once: too many.
   bool has_room_for(std::size_t points);
   bool is_full() const { return is_full_; }
+  // The same for rings that are to be united.
+  bool can_unite(const std::vector<DrawnRing>& rings);
+  RegionBudget& budget() { return budget_; }
 
   // All that was drawn. Blocks that are still open are closed, and noted.
   GerberImage finish();
@@ -109,6 +112,7 @@ class GerberPlotter {
   bool tool_is_new_ = true;
   std::size_t points_ = 0;
   bool is_full_ = false;
+  RegionBudget budget_;
 };
 
 // Adds where an aperture's shape goes to what a user is told of it.

@@ -150,6 +150,13 @@ void Canvas::stroke(const Pen& pen) {
   cairo_stroke(context_.get());
 }
 
+void Canvas::fill_path(const Colour& colour) {
+  cairo_set_source_rgb(context_.get(), colour.red, colour.green, colour.blue);
+  cairo_set_fill_rule(context_.get(), CAIRO_FILL_RULE_EVEN_ODD);
+  cairo_fill(context_.get());
+  cairo_set_fill_rule(context_.get(), CAIRO_FILL_RULE_WINDING);
+}
+
 void Canvas::clip(const Area& area) {
   cairo_save(context_.get());
   cairo_rectangle(context_.get(), area.x, area.y, area.width, area.height);

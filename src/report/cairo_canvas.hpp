@@ -65,10 +65,12 @@ class Canvas {
   void text(Spot place, const std::string& text, const Font& font, Align align = Align::left);
   double text_width(const std::string& text, const Font& font);
 
-  // These two build a path, which may have several pieces. stroke() draws the path.
+  // These two build a path, which may have several pieces. stroke() draws the path. fill_path() fills what an odd
+  // number of its pieces surround, so a piece in another is a hole.
   void move_to(Spot spot);
   void line_to(Spot spot);
   void stroke(const Pen& pen);
+  void fill_path(const Colour& colour);
 
   // Between clip() and end_clip(), drawing shows only inside `area`.
   void clip(const Area& area);

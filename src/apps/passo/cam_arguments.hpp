@@ -99,4 +99,11 @@ struct CamBoardArguments {
 int cam_board(const CamBoardArguments& arguments, CamDrillingArguments drill, CamIsolateArguments isolate,
               CamOutlineArguments outline);
 
+struct CamShowArguments {
+  std::vector<std::string> files;  // Gerber and drill files, folders, zip archives
+  std::string picture;             // .svg or .png; empty: none
+  bool json = false;
+};
+int cam_show(const CamShowArguments& arguments);
+
 }  // namespace passo

@@ -19,6 +19,23 @@ Examples:
 
 Every option, and what is read: docs/manual/cam.md.)";
 
+constexpr const char* show_examples =
+    R"(Examples:
+  passo cam show board.zip                     what the layout program has exported, a line for each layer
+  passo cam show gerbers/ -p board.png         a folder, and how the board will look from above and from below
+  passo cam show board.GTL board.GKO board.TXT --json
+
+Layers are known by their attributes or by their names: docs/manual/cam.md.)";
+
+void add_show_command(CLI::App& cam, CamArguments& all) {
+  CamShowArguments& arguments = all.show;
+  CLI::App& show = *cam.add_subcommand("show", "say and draw which layers a circuit board's files have");
+  show.add_option("FILE", arguments.files, "Gerber and drill files, folders and zip archives of them")->required();
+  show.add_option("-p,--picture", arguments.picture, "draw the board from above and from below (FILE.svg or FILE.png)");
+  show.add_flag("--json", arguments.json, "the same for scripts");
+  show.footer(show_examples);
+  show.callback([&all] { all.chosen = [&all] { return cam_show(all.show); }; });
+}
 }  // namespace
 
 void add_drill_command(CLI::App& cam, CamArguments& all) {
@@ -70,6 +87,7 @@ void add_drill_command(CLI::App& cam, CamArguments& all) {
 CLI::App& add_cam_command(CLI::App& app, CamArguments& arguments) {
   CLI::App& cam = *app.add_subcommand("cam", "make programs of drawings: circuit boards, drilled, milled and cut out");
   cam.require_subcommand(1);
+  add_show_command(cam, arguments);
   add_drill_command(cam, arguments);
   add_isolate_command(cam, arguments);
   add_outline_command(cam, arguments);

@@ -12,6 +12,7 @@ class App;
 namespace passo {
 
 struct CamArguments {
+  CamShowArguments show;
   CamDrillingArguments drill;
   CamIsolateArguments isolate;
   CamOutlineArguments outline;

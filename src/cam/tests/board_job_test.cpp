@@ -160,7 +160,7 @@ TEST_F(BoardJobFiles, the_outline_surrounds_the_board) {
         "%FSLAX33Y33*%\n%MOMM*%\n%ADD10C,0.1*%\nD10*\nX0Y0D02*X20000D01*Y10000D01*X0D01*Y0D01*\n"
         "X5000Y5000D02*X7000D01*Y6000D01*X5000D01*Y5000D01*\nM02*\n");
   const Region face = board_face(read_board_job({folder_.string()}, found_));
-  EXPECT_NEAR(area_mm2(face), 20.1 * 10.1 - 2.1 * 1.1, 0.02);
+  EXPECT_NEAR(area_mm2(face), 20 * 10 - 2 * 1, 0.001);
 }
 
 }  // namespace

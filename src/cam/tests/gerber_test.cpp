@@ -257,6 +257,11 @@ TEST(Gerber, bombs_end_at_the_limit) {
   }
   EXPECT_EQ(gerber_code(read_mm(bomb)), "gerber.too-large");
   EXPECT_EQ(gerber_code(read_mm("%ADD10C,1*%%SRX100000Y100000I0.001J0.001*%D10*X0Y0D03*%SR*%")), "gerber.too-large");
+  std::string tangle = "%ADD10C,0.1*%D10*G36*X0Y0D02*";
+  for (int i = 0; i < 20'000; ++i) {
+    tangle += "X" + std::to_string(i * 7919 % 99'991) + "Y" + std::to_string(i % 2 * 90'000 + i) + "D01*";
+  }
+  EXPECT_EQ(gerber_code(read_mm(tangle + "G37*")), "gerber.too-large") << "too many crossings";
   std::string deep;
   for (int i = 10; i < 60; ++i) deep += "%ABD" + std::to_string(i) + "*%";
   EXPECT_EQ(gerber_code(read_mm(deep)), "gerber.nested-too-deep");

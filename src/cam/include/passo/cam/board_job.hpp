@@ -48,7 +48,8 @@ struct BoardJob {
 // Errors are in `diagnostics`: "board.…" and those of the readers.
 BoardJob read_board_job(const std::vector<std::string>& paths, Diagnostics& diagnostics);
 
-// The face of the board: what its outline surrounds, without what is cut out inside. Empty: there is no outline.
+// The face of the board: what its outline surrounds, without what is cut out inside. Empty: there is no outline, or it
+// is not closed within 0.1 mm.
 Region board_face(const BoardJob& job);
 
 }  // namespace passo

@@ -10,7 +10,8 @@
 // Arcs are chords within 0.5 um, and a round stroke is within 1 um of its true rim; neither leaves the true shape.
 //
 // Time and memory are proportional to the text and to what the text repeats, of which there are at most
-// `most_gerber_points`. A hostile text gives diagnostics "gerber.…" with line and column.
+// `most_gerber_points`; lines that cross too often to be united are refused before it is tried. A hostile text gives
+// diagnostics "gerber.…" with line and column.
 //
 // Source: Ucamco, The Gerber Layer Format Specification 2024.05.
 #pragma once
@@ -25,7 +26,7 @@
 
 namespace passo {
 
-inline constexpr std::size_t most_gerber_points = 16'000'000;  // of all rings before they are united
+inline constexpr std::size_t most_gerber_points = 32'000'000;  // of all rings before they are united
 
 struct GerberAperture {
   std::uint32_t code = 0;     // 10: D10
