@@ -188,7 +188,7 @@ CutTrack OutlinePlanner::track_of(DrawnRing ring) const {
   for (std::size_t i = 1; i < ring.size(); ++i) {
     if (edge_length(i) > edge_length(longest)) longest = i;
   }
-  std::ranges::rotate(ring, ring.begin() + static_cast<std::ptrdiff_t>((longest + 1) % ring.size()));
+  std::rotate(ring.begin(), ring.begin() + static_cast<std::ptrdiff_t>((longest + 1) % ring.size()), ring.end());
   constexpr double straight = 1e6;  // nm; shorter edges may be chords of an arc
   if (distance_nm(ring.back(), ring.front()) > straight) {
     const Flat edge = from_to(ring.back(), ring.front());

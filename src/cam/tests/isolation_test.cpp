@@ -155,7 +155,7 @@ TEST(Isolation, random_layouts_lose_no_copper_and_join_only_what_is_told) {
     state = state * 6364136223846793005U + 1442695040888963407U;
     return least + (most - least) * static_cast<double>(state >> 40U) / static_cast<double>(1U << 24U);
   };
-  for (int layout = 0; layout < 30; ++layout) {
+  for (int layout = 0; layout < 15; ++layout) {
     std::vector<Region> shapes;
     for (int i = 0; i < 12; ++i) {
       const DrawnPoint from = spot(random(0, 8), random(0, 8));
