@@ -44,8 +44,9 @@ class ArcFinder {
     const FlatVector centre{(to_last.y * middle - to_middle.y * end) / twice,
                             (to_middle.x * end - to_last.x * middle) / twice};
     const double radius = std::hypot(centre.x, centre.y);
-    constexpr double widest = 1e10;  // nm; flatter is a line
-    if (radius > widest) return std::nullopt;
+    constexpr double widest = 1e10;    // nm; flatter is a line
+    constexpr double narrowest = 1e4;  // nm; smaller arcs suffer from the last digit of a program
+    if (radius > widest || radius < narrowest) return std::nullopt;
     double sweep = 0;
     FlatVector before{-centre.x, -centre.y};
     for (std::size_t i = first + 1; i <= last; ++i) {

@@ -1,9 +1,8 @@
 // passo cam board: from the files of a board to numbered programs, a picture each, and a page that says what to do
 // when.
-#include <cmath>
 #include <filesystem>
 #include <fstream>
-#include <sstream>
+#include <iterator>
 
 #include "cam_board_page.hpp"
 #include "cam_job.hpp"
@@ -48,6 +47,10 @@ BoardPlan plan_of(const BoardJob& job, Nanometres join, Diagnostics& findings) {
   if (plan.edge) {
     plan.edge->lines.file = edge_name;
     plan.face = board_edge(*plan.edge, join, findings).board;
+    if (plan.face.empty() && !findings.any_error()) {
+      note(edge_name + ": there is no closed edge in it, so no board is cut out");
+      plan.edge.reset();
+    }
   }
   if (!fronts.empty()) plan.front = BoardLayer{united(fronts), {}};
   if (!backs.empty()) plan.back = BoardLayer{united(backs), {}};
