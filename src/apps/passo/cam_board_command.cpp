@@ -242,7 +242,8 @@ int cam_board(const CamBoardArguments& arguments, CamDrillingArguments drill, Ca
   if (isolate.tools.empty() && isolate.v.empty()) isolate.tools = "0.2mm";
 
   BoardMaker maker(arguments, plan, machine ? &*machine : nullptr);
-  maker.page.name = std::filesystem::path(arguments.paths.front()).lexically_normal().string();
+  maker.page.name = std::filesystem::path(arguments.paths.front()).filename().string();
+  if (maker.page.name.empty()) maker.page.name = arguments.paths.front();  // "gerbers/"
   if (machine) maker.page.machine = machine->name;
   for (const BoardFile& file : job.files) {
     maker.page.files.push_back(
