@@ -335,9 +335,11 @@ void GerberPlotter::pop_frame() {
     define(frame.code, std::move(aperture));
     return;
   }
+  const std::int64_t copies = frame.across * frame.up;
+  const auto most_copies = static_cast<std::int64_t>(most_gerber_points / frame.image.points_of_copy()) + 1;
+  if (!has_room_for(frame.image.points_of_copy() * static_cast<std::size_t>(std::min(copies, most_copies)))) return;
   for (std::int64_t i = 0; i < frame.across; ++i) {
     for (std::int64_t j = 0; j < frame.up; ++j) {
-      if (!has_room_for(frame.image.points_of_copy())) return;
       GerberPlacement placement;
       placement.at = {{frame.step.x.count * i}, {frame.step.y.count * j}};
       image().add(frame.image, placement, true);

@@ -27,10 +27,15 @@ ShownSize size_of(const std::optional<DrawnBox>& box) {
   return {to_mm(box->most.x - box->least.x).value(), to_mm(box->most.y - box->least.y).value()};
 }
 
+// Without folders.
+std::string short_name(const BoardFile& file) {
+  return std::filesystem::path(file.name).filename().string();
+}
+
 // A row of the table: what a user needs to tell whether this is the layer.
 std::string row_of(const BoardFile& file, std::size_t name_width) {
   std::string row =
-      fmt::format("{:{}}  {:<16}  {:<9}  ", file.name, name_width, words_for(file.kind), file.kind.told_by);
+      fmt::format("{:{}}  {:<16}  {:<9}  ", short_name(file), name_width, words_for(file.kind), file.kind.told_by);
   if (file.layer) {
     const ShownSize size = size_of(bounds(file.layer->dark));
     return row + fmt::format("{:7.2f} x {:7.2f} mm  {:9.2f} mm²  {} pads, {} strokes\n", size.across, size.up,
@@ -73,7 +78,7 @@ void print_json(const BoardJob& job) {
 
 void print_table(const BoardJob& job) {
   std::size_t width = 4;
-  for (const BoardFile& file : job.files) width = std::max(width, std::min<std::size_t>(60, file.name.size()));
+  for (const BoardFile& file : job.files) width = std::max(width, short_name(file).size());
   for (const BoardFile& file : job.files) fmt::print("{}", row_of(file, width));
   const Region face = board_face(job);
   if (const std::optional<DrawnBox> box = bounds(face)) {

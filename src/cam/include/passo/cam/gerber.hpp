@@ -26,7 +26,7 @@
 
 namespace passo {
 
-inline constexpr std::size_t most_gerber_points = 32'000'000;  // of all rings before they are united
+inline constexpr std::size_t most_gerber_points = 16'000'000;  // of all rings before they are united
 
 struct GerberAperture {
   std::uint32_t code = 0;     // 10: D10
