@@ -83,7 +83,7 @@ class BoardMaker {
   BoardMaker(const CamBoardArguments& arguments, const BoardPlan& plan, const MachineDescription* machine)
       : arguments_(arguments), plan_(plan), machine_(machine) {}
 
-  int make(CamDrillingArguments drill, CamIsolateArguments isolate, CamOutlineArguments outline);
+  int make(CamDrillArguments drill, CamIsolateArguments isolate, CamOutlineArguments outline);
   BoardPage page;
 
  private:
@@ -154,7 +154,7 @@ std::string BoardMaker::pins(Nanometres distance) const {
   return fmt::format("{},{},{},{}", exact(a.x), exact(a.y), exact(is_x() ? b.x : a.x), exact(is_x() ? a.y : b.y));
 }
 
-int BoardMaker::make(CamDrillingArguments drill, CamIsolateArguments isolate, CamOutlineArguments outline) {
+int BoardMaker::make(CamDrillArguments drill, CamIsolateArguments isolate, CamOutlineArguments outline) {
   const bool two_sides = plan_.front && plan_.back;
   const bool only_back = plan_.back && !plan_.front;
   LengthArguments lengths(1);
@@ -218,7 +218,7 @@ int BoardMaker::make(CamDrillingArguments drill, CamIsolateArguments isolate, Ca
 
 }  // namespace
 
-int cam_board(const CamBoardArguments& arguments, CamDrillingArguments drill, CamIsolateArguments isolate,
+int cam_board(const CamBoardArguments& arguments, CamDrillArguments drill, CamIsolateArguments isolate,
               CamOutlineArguments outline) {
   Diagnostics findings;
   std::optional<MachineDescription> machine;

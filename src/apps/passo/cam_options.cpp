@@ -39,7 +39,7 @@ void add_show_command(CLI::App& cam, CamArguments& all) {
 }  // namespace
 
 void add_drill_command(CLI::App& cam, CamArguments& all) {
-  CamDrillingArguments& arguments = all.drill;
+  CamDrillArguments& arguments = all.drill;
   CLI::App& drill = *cam.add_subcommand("drill", "drill the holes of DXF drawings and Excellon drill files");
   drill.add_option("FILE", arguments.files, "DXF drawings and drill files; the kind is seen from what is in them")
       ->required();

@@ -13,7 +13,7 @@ namespace passo {
 
 struct CamArguments {
   CamShowArguments show;
-  CamDrillingArguments drill;
+  CamDrillArguments drill;
   CamIsolateArguments isolate;
   CamOutlineArguments outline;
   CamBoardArguments board;
