@@ -229,7 +229,8 @@ void StockCutter::Implementation::cut_one(TileWork& work, std::vector<MoveTally>
     const SweptChord& chord = chords_[i];
     const ToolShape& tool = tool_of(chord);
     MoveTally& tally = tallies[chord.move];
-    const double thinner = moves_[chord.move].move.rapid ? rapid_share * field_.cell() : 0;
+    const StockMove& move = moves_[chord.move].move;
+    const double thinner = move.rapid ? rapid_share * field_.cell() + move.rounding.value() : 0;
     const double rim = std::max(0.5 * tool.radius.value(), tool.radius.value() - thinner);
     const TileCut cut = cut_tile(field_, work.tile, chord.sweep, tool, rim);
     if (cut.cells > 0) {

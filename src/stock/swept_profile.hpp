@@ -139,10 +139,10 @@ struct RingProfile {
     const float most = slope2 + 1;
     float x = std::min(1.0F, v / (inner + pull / std::sqrt(most)));
     for (int i = 0; i < 6; ++i) {
-      const float square = most - x * x;
-      const float out = pull / std::sqrt(square);
+      const float inverse = 1 / std::sqrt(most - x * x);
+      const float out = pull * inverse;
       const float too_far = x * (inner + out) - v;
-      x = above_zero(x - too_far / (inner + out * most / square));
+      x = above_zero(x - too_far / (inner + out * most * inverse * inverse));
     }
     const float cosine2 = above_zero(1 - x * x);
     return edge * (inner + pull / std::sqrt(slope2 + cosine2)) * std::sqrt(cosine2);

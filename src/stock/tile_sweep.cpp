@@ -116,8 +116,8 @@ struct RowDrops {
 };
 
 template <bool cuts, class Profile, class Cells>
-void sweep_row(const LocalSweep& sweep, const Profile& profile, float floor, double y, double cell, std::size_t first,
-               std::size_t end, Cells* cells, RowDrops& drops) {
+void sweep_row(const LocalSweep& sweep, const Profile& of_tool, float floor, double y, double cell, std::size_t first,
+               std::size_t end, Cells* __restrict cells, RowDrops& drops) {
   const double from_x = static_cast<double>(first) * cell - sweep.x;
   const double from_y = y - sweep.y;
   const auto u0 = static_cast<float>(from_x * sweep.along_x + from_y * sweep.along_y);
@@ -130,6 +130,9 @@ void sweep_row(const LocalSweep& sweep, const Profile& profile, float floor, dou
   const float slope = sweep.slope;
   const auto rim2 = static_cast<float>(sweep.rim * sweep.rim);
   const std::size_t count = end - first;
+  // Copies of their own, so that the compiler sees that writing a cell changes none of them.
+  const Profile profile = of_tool;
+  float* __restrict const lost = drops.values.data();
   for (std::size_t i = 0; i < count; ++i) {
     const float u = u0 + indices[i] * du;
     const float v = v0 + indices[i] * dv;
@@ -141,7 +144,7 @@ void sweep_row(const LocalSweep& sweep, const Profile& profile, float floor, dou
     const float before = cells[i];
     const float reached = off * off + v2 <= rim2 ? under : before;
     const float after = reached < before ? reached : before;
-    drops.values[i] = before - after;
+    lost[i] = before - after;
     if constexpr (cuts) cells[i] = after;
   }
   drops.count = (count + lanes - 1) / lanes * lanes;

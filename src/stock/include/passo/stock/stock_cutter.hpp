@@ -35,6 +35,8 @@ struct StockMove {
   std::size_t tool = 0;    // which of the tools
   bool rapid = false;
   Seconds time{0};  // how long it takes
+  // A rapid that a machine rounds into a feed goes through the stock by so much. On rapids the tool is thinner by that.
+  Mm rounding{0};
 };
 
 // What a move did. Volumes in mm³, lengths in mm, areas in mm².
