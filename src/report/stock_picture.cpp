@@ -70,7 +70,7 @@ void draw_legend(Canvas& canvas, const StockDrawing& drawing, const StockShading
   const double third = (area.width - 2 * gap) / 3;
   const auto bar = [&](int place, double largest, double sign, const std::string& words) {
     const Area here{area.x + place * (third + gap), area.y, third, area.height};
-    draw_bar(canvas, here, "", fmt::format("{:.3g} mm", largest), words,
+    draw_bar(canvas, here, words, fmt::format("{:.3g} mm", largest), "",
              [&](double share) { return shading.colour_of_difference(sign * share * largest); });
   };
   bar(0, shading.largest_gouge(), -1, "gouges");

@@ -77,13 +77,13 @@ StockShading::Patch StockShading::patch(double column, double row, double size) 
   const double bright = dark + (1.12 - dark) * std::max(0.0, towards) / light.z;
   Patch patch;
   patch.height = height_near(column, row);
-  if (drawing_.target == nullptr) {
-    patch.colour = pixel_of(colour_of_depth(field.top() - patch.height), bright);
-    return patch;
+  Colour colour = colour_of_depth(field.top() - patch.height);
+  if (drawing_.target != nullptr) {
+    colour = colour_of_difference(cell_difference(field, *drawing_.target, nearest_cell(column, field.columns()),
+                                                  nearest_cell(row, field.rows())));
   }
-  const double difference =
-      cell_difference(field, *drawing_.target, nearest_cell(column, field.columns()), nearest_cell(row, field.rows()));
-  patch.colour = pixel_of(colour_of_difference(difference), bright);
+  patch.colour = pixel_of(colour, bright);
+  patch.wall = pixel_of(colour, wall_share);
   return patch;
 }
 

@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "stock_shading.hpp"
 #include <gmock/gmock.h>
 
 namespace passo {
@@ -34,6 +35,25 @@ TEST(StockPicture, comes_as_png_and_as_svg) {
   const std::string svg = drawn({.field = field}, PictureFormat::svg);
   EXPECT_THAT(svg, testing::HasSubstr("<svg"));
   EXPECT_THAT(svg, testing::HasSubstr("data:image/png"));
+}
+
+// A wall that nobody paints is as white as the paper: the picture would not change with the height of the stock.
+TEST(StockPicture, shows_the_walls_of_the_body) {
+  const HeightField field = bowl();
+  const StockDrawing drawing{.field = field};
+  const StockShading shaded(drawing);
+  Projection projection = Projection::isometric();
+  Box box;
+  box.high[Axis::x] = 30;
+  box.high[Axis::y] = 20;
+  box.low[Axis::z] = -6;
+  const Area area{0, 0, 300, 240};
+  projection.fit(box, area);
+  const PixelMap map = shaded.as_body(projection, area, 1);
+  const Spot front = projection.spot(15, 0, -4);
+  const auto place =
+      static_cast<std::size_t>(front.y) * static_cast<std::size_t>(map.width) + static_cast<std::size_t>(front.x);
+  EXPECT_EQ(map.pixels[place] >> 24U, 0xFFU);
 }
 
 TEST(StockPicture, shows_differences_from_a_target) {
