@@ -15,6 +15,8 @@ namespace {
 // Chords that are cut at once: so many that the threads are worth their start.
 constexpr std::size_t batch_chords = 8192;
 constexpr unsigned most_threads = 64;
+// Of these, so many at once are noted in tiles: a chord of a wide tool is in many.
+constexpr std::size_t most_notes = std::size_t{1} << 20U;
 // A chord may be this share of a cell away from its curve.
 constexpr double chord_share = 0.1;
 constexpr double most_chords_of_a_move = 1e6;
@@ -134,7 +136,8 @@ class StockCutter::Implementation {
   void finish();
 
  private:
-  void sort_into_tiles();
+  std::size_t sort_into_tiles(std::size_t first);
+  void cut_busy_tiles(std::vector<std::vector<MoveTally>>& tallies);
   void cut_tiles(std::atomic<std::size_t>& next, std::vector<MoveTally>& tallies);
   void cut_one(TileWork& work, std::vector<MoveTally>& tallies);
   void look_at_clamps(const SweptChord& chord, MoveCut& cut) const;
@@ -197,12 +200,14 @@ void StockCutter::Implementation::cut(const Curve& curve, const Vector3& zero, c
   if (chords_.size() >= batch_chords) finish();
 }
 
-// A chord goes to the tiles that its tool may cut, or its holder touch.
-void StockCutter::Implementation::sort_into_tiles() {
+// A chord goes to the tiles that its tool may cut, or its holder touch. Returns the first chord that must wait.
+std::size_t StockCutter::Implementation::sort_into_tiles(std::size_t first) {
   busy_.clear();
+  std::size_t notes = 0;
   const StockBlock& block = field_.block();
   const std::size_t tiles_up = tiles_.size() / tiles_across_;
-  for (std::uint32_t i = 0; i < chords_.size(); ++i) {
+  std::size_t i = first;
+  for (; i < chords_.size() && notes < most_notes; ++i) {
     const Sweep& sweep = chords_[i].sweep;
     const ToolShape& tool = tool_of(chords_[i]);
     const double lowest = sweep.low.z - block.high.z;
@@ -218,10 +223,12 @@ void StockCutter::Implementation::sort_into_tiles() {
         TileWork& work = tiles_[row * tiles_across_ + column];
         if (lowest >= static_cast<double>(work.top) || !comes_near(sweep, field_, work.tile, reach)) continue;
         if (work.chords.empty()) busy_.push_back(row * tiles_across_ + column);
-        work.chords.push_back(i);
+        work.chords.push_back(static_cast<std::uint32_t>(i));
+        ++notes;
       }
     }
   }
+  return i;
 }
 
 void StockCutter::Implementation::cut_one(TileWork& work, std::vector<MoveTally>& tallies) {
@@ -290,10 +297,8 @@ void StockCutter::Implementation::write(const MoveTally& tally, MoveCut& cut) co
   if (cut.holder > 0) cut.holder_place = place_of(tally.holder);
 }
 
-void StockCutter::Implementation::finish() {
-  sort_into_tiles();
-  const std::size_t threads = std::min<std::size_t>(options_.threads, std::max<std::size_t>(1, busy_.size()));
-  std::vector<std::vector<MoveTally>> tallies(threads, std::vector<MoveTally>(moves_.size()));
+void StockCutter::Implementation::cut_busy_tiles(std::vector<std::vector<MoveTally>>& tallies) {
+  const std::size_t threads = std::min(tallies.size(), std::max<std::size_t>(1, busy_.size()));
   std::atomic<std::size_t> next = 0;
   std::vector<std::thread> others;
   for (std::size_t i = 1; i < threads; ++i) {
@@ -301,9 +306,17 @@ void StockCutter::Implementation::finish() {
   }
   cut_tiles(next, tallies.front());
   for (std::thread& other : others) other.join();
+}
+
+void StockCutter::Implementation::finish() {
+  std::vector<std::vector<MoveTally>> tallies(options_.threads, std::vector<MoveTally>(moves_.size()));
+  for (std::size_t first = 0; first < chords_.size();) {
+    first = sort_into_tiles(first);
+    cut_busy_tiles(tallies);
+  }
   for (std::size_t move = 0; move < moves_.size(); ++move) {
     MoveTally all = tallies.front()[move];
-    for (std::size_t i = 1; i < threads; ++i) all.take(tallies[i][move]);
+    for (std::size_t i = 1; i < tallies.size(); ++i) all.take(tallies[i][move]);
     write(all, moves_[move]);
   }
   for (const SweptChord& chord : chords_) look_at_clamps(chord, moves_[chord.move]);

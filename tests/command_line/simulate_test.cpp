@@ -77,8 +77,8 @@ TEST_F(Simulate, wrong_words_are_refused) {
   for (const char* arguments :
        {"--tool round:6", "--tool flat", "--tool flat:-3", "--tool v:6", "--tool bull-nose:6:4", "--tool x=flat:3",
         "--tool flat:6 --stock X0:10,Q3:4", "--tool flat:6 --stock X5:2", "--tool flat:6 --clamp X0:5",
-        "--tool flat:6 --cell 0", "--tool flat:6 --stock X0:9000,Y0:9000,Z-1:0 --cell 0.1",
-        "--tool flat:6 -p part.bmp"}) {
+        "--tool flat:6 --cell 0", "--tool flat:6 --stock X0:9000,Y0:9000,Z-1:0 --cell 0.1", "--tool flat:6 -p part.bmp",
+        "--tool flat:6 --compare part.png"}) {
     const Outcome done = simulate(slots() + " " + arguments);
     EXPECT_EQ(done.code, 2) << arguments << "\n" << done.err;
     EXPECT_NE(done.err, "") << arguments;

@@ -58,6 +58,23 @@ struct FirstPass {
   std::uint64_t moves = 0;
 };
 
+// The end of a file's name in lower case: ".stl".
+std::string end_of_name(const std::string& path) {
+  std::string end = std::filesystem::path(path).extension().string();
+  std::ranges::transform(end, end.begin(), [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  return end;
+}
+
+bool is_surface(const std::string& path) {
+  const std::string end = end_of_name(path);
+  return end == ".stl" || end == ".csv" || end == ".xyz";
+}
+
+bool is_image(const std::string& path) {
+  const std::string end = end_of_name(path);
+  return end == ".png" || end == ".jpg" || end == ".jpeg" || end == ".tif" || end == ".tiff";
+}
+
 // The refusals of the command line come as messages.
 Result<Wishes, std::string> wishes_of(const SimulateArguments& arguments) {
   Wishes wishes;
@@ -79,6 +96,10 @@ Result<Wishes, std::string> wishes_of(const SimulateArguments& arguments) {
     } else {
       wishes.any_tool = tool->shape;
     }
+  }
+  if (is_image(arguments.compare)) {
+    return Failure{"--compare: " + arguments.compare +
+                   " is an image; expected a body (.stl), a height map (.csv) or a program"};
   }
   for (const std::string& picture : arguments.pictures) {
     if (!picture_format_of(picture)) return Failure{picture + ": a picture's name ends in .svg or .png"};
@@ -189,12 +210,6 @@ std::vector<std::int32_t> numbers_of(const FirstPass& pass) {
   std::vector<std::int32_t> numbers;
   for (const auto& [number, line] : pass.tools) numbers.push_back(number);
   return numbers;
-}
-
-bool is_surface(const std::string& path) {
-  std::string end = std::filesystem::path(path).extension().string();
-  std::ranges::transform(end, end.begin(), [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-  return end == ".stl" || end == ".csv" || end == ".xyz";
 }
 
 // The field as the target has it: the face of a body, or what another program leaves. Nothing, with a message.
