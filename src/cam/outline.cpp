@@ -112,13 +112,21 @@ void OutlinePlanner::refuse_narrow_openings() {
 }
 
 void OutlinePlanner::find_cuts() {
+  std::vector<Region> rings;
+  std::vector<DrawnBox> boxes;
   for (const DrawnRing& ring : ways_.rings) {
-    OutlineCut cut{ring, area_mm2(ring) > 0};
+    rings.push_back({{ring}});
+    boxes.push_back(bounds(rings.back()).value_or(DrawnBox{}));
+  }
+  for (std::size_t i = 0; i < rings.size(); ++i) {
+    OutlineCut cut{ways_.rings[i], area_mm2(ways_.rings[i]) > 0};
     (cut.is_outside ? plan_.outsides : plan_.openings) += 1;
-    for (const DrawnRing& other : ways_.rings) {
-      if (&other == &ring) continue;
-      const Region around{{other}};
-      if (contains(area_mm2(other) > 0 ? around : filled({other}), ring.front())) ++cut.around;
+    const DrawnPoint point = cut.ring.front();
+    for (std::size_t other = 0; other < rings.size(); ++other) {
+      const DrawnBox& box = boxes[other];
+      const bool is_in_box =
+          box.least.x <= point.x && point.x <= box.most.x && box.least.y <= point.y && point.y <= box.most.y;
+      if (other != i && is_in_box && contains(rings[other], point)) ++cut.around;
     }
     cuts_.push_back(std::move(cut));
   }
