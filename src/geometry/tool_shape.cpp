@@ -9,9 +9,9 @@ namespace {
 constexpr std::array<std::pair<ToolShape::Kind, std::string_view>, 5> kinds = {
     {{ToolShape::Kind::flat, "flat"},
      {ToolShape::Kind::ball, "ball"},
-     {ToolShape::Kind::v, "v"},
-     {ToolShape::Kind::bull_nose, "bull-nose"},
-     {ToolShape::Kind::tapered_ball, "tapered-ball"}}};
+     {ToolShape::Kind::v, "vee"},
+     {ToolShape::Kind::bull_nose, "bull"},
+     {ToolShape::Kind::tapered_ball, "taper"}}};
 
 // The height of a ball's underside above its lowest point.
 double above_tip_of_ball(double radius, double distance) {

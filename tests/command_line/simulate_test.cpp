@@ -1,4 +1,6 @@
 // passo simulate, as a user starts it: what it says, what it writes, and how it ends.
+#include <cmath>
+
 #include "kit/command_line.hpp"
 #include <gmock/gmock.h>
 #include <nlohmann/json.hpp>
@@ -73,9 +75,30 @@ TEST_F(Simulate, a_tool_without_a_shape_is_refused_with_a_hint) {
   EXPECT_THAT(done.err, HasSubstr("--tool 1=flat:6"));
 }
 
+TEST_F(Simulate, takes_every_shape_of_tool) {
+  // A plunge to a depth of 2 mm, and the volume of the hole.
+  const std::string plunge = write("plunge.ngc", "G21 G90 G0 Z5\nG0 X10 Y10\nG1 Z-2 F600\nG0 Z5\nM2\n");
+  const auto volume = [&](const std::string& tool) {
+    return json_of(plunge + " --stock X0:20,Y0:20,Z-5:0 --cell 0.05 --tool " + tool)["removed_mm3"].get<double>();
+  };
+  constexpr double pi = 3.14159265;
+  EXPECT_NEAR(volume("flat:6"), 18 * pi, 0.1);
+  EXPECT_NEAR(volume("ball:6"), pi * 4 * (3 - 2 / 3.0), 0.1);
+  EXPECT_NEAR(volume("vee:90:6"), pi * 8 / 3, 0.1);
+  EXPECT_NEAR(volume("vee:90:6:2"), pi * 2 / 3 * (9 + 3 + 1), 0.1);
+  // A cone of 45 degrees a side whose apex lies sqrt(2) - 1 below the tip of the ball, without what is below the ball.
+  const double depth = 2 + std::sqrt(2.0) - 1;
+  const double tangent = std::sqrt(0.5);
+  const double cap = 1 - tangent;
+  const double without = pi * tangent * tangent * tangent / 3 - pi * cap * cap * (1 - cap / 3);
+  EXPECT_NEAR(volume("taper:2:45:6"), pi * depth * depth * depth / 3 - without, 0.1);
+  EXPECT_LT(volume("bull:6:1"), volume("flat:6"));
+  EXPECT_GT(volume("bull:6:1"), volume("ball:6"));
+}
+
 TEST_F(Simulate, wrong_words_are_refused) {
   for (const char* arguments :
-       {"--tool round:6", "--tool flat", "--tool flat:-3", "--tool v:6", "--tool bull-nose:6:4", "--tool x=flat:3",
+       {"--tool round:6", "--tool flat", "--tool flat:-3", "--tool vee:60", "--tool bull:6:4", "--tool x=flat:3",
         "--tool flat:6 --stock X0:10,Q3:4", "--tool flat:6 --stock X5:2", "--tool flat:6 --clamp X0:5",
         "--tool flat:6 --cell 0", "--tool flat:6 --stock X0:9000,Y0:9000,Z-1:0 --cell 0.1", "--tool flat:6 -p part.bmp",
         "--tool flat:6 --compare part.png"}) {

@@ -6,13 +6,13 @@ namespace passo {
 namespace {
 
 constexpr const char* simulate_examples =
-    R"(Tools: flat:D, ball:D, v:D:ANGLE[:TIP], bull-nose:D:CORNER, tapered-ball:D:ANGLE:TIP; diameters D and TIP, the radius of
-the corners, the angle between the two sides. 2=ball:3 is tool 2, ball:3 every tool that has no shape of its own.
+    R"(Tools: flat:D, ball:D, bull:D:CORNER (radius), vee:ANGLE:D[:TIP] (between the sides), taper:TIP:ANGLE:D (of the ball, degrees a
+side); D and TIP are diameters. 2=ball:3 is tool 2, ball:3 every tool that has no shape of its own.
 
 Examples:
   passo simulate part.ngc --tool flat:6                        what it takes off, and what is wrong; the stock as it needs it
   passo simulate part.ngc --tool ball:3 --picture part.png     and how it looks
-  passo simulate part.ngc --stock X0:100,Y0:80,Z-12:0 --tool 1=flat:6 --tool 2=v:6:60 --stl part.stl
+  passo simulate part.ngc --stock X0:100,Y0:80,Z-12:0 --tool 1=flat:6 --tool 2=vee:60:6 --stl part.stl
   passo simulate part.ngc --tool-table tools.toml --clamp X-20:5,Y30:50,Z12
   passo simulate finish.ngc --tool ball:3 --compare part.stl --picture left.png      material left and gouges, in colour
   passo simulate part.ngc --tool flat:6 -m router.toml         along the curves that this machine drives at corners
@@ -30,8 +30,7 @@ CLI::App& add_simulate_command(CLI::App& app, SimulateArguments& arguments) {
                      "the block, as X0:100,Y0:80,Z-10:0; axes that are not named reach as far as the feeds need");
   command.add_option("--cell", arguments.cell,
                      "of the height field, mm; without it some million cells: 0.1 on 100 x 100 mm");
-  command.add_option("--tool", arguments.tools, "[NUMBER=]SHAPE:DIAMETER..., see below; may be given again")
-      ->take_all();
+  command.add_option("--tool", arguments.tools, "[NUMBER=]SHAPE:NUMBERS, see below; may be given again")->take_all();
   command.add_option("--tool-table", arguments.tool_table, "the tools' shapes, flutes and holders (TOML)");
   command.add_option("--clamp", arguments.clamps, "what stands in the way, as X0:10,Y0:20,Z15; may be given again")
       ->take_all();

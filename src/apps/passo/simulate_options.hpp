@@ -19,7 +19,7 @@ struct SimulateArguments {
   std::string machine;                // its smoothed path is cut; empty: the path as the program has it
   std::string stock;                  // "X0:100,Y0:80,Z-10:0"; axes that it does not name are as the feeds need them
   std::optional<double> cell;         // mm
-  std::vector<std::string> tools;     // "ball:3", "2=v:6:60"
+  std::vector<std::string> tools;     // "ball:3", "2=vee:60:6"
   std::string tool_table;             // TOML; empty: none
   std::vector<std::string> clamps;    // "X0:10,Y0:20,Z15"
   std::vector<std::string> pictures;  // .svg or .png

@@ -75,8 +75,7 @@ Result<StockBlock, std::string> parse_clamp(std::string_view text) {
 Result<WishedTool, std::string> parse_tool(std::string_view text) {
   const auto refuse = [&](const std::string& why) {
     return Failure{fmt::format(
-        "--tool '{}': {}; expected [NUMBER=]SHAPE:DIAMETER..., as flat:6, 2=ball:3, v:6:60, bull-nose:6:1 or "
-        "tapered-ball:6:12:1",
+        "--tool '{}': {}; expected [NUMBER=]SHAPE:NUMBERS, as flat:6, 2=ball:3, bull:6:1, vee:60:6 or taper:1:5:6",
         text, why)};
   };
   WishedTool tool;
@@ -105,12 +104,21 @@ Result<WishedTool, std::string> parse_tool(std::string_view text) {
   if (*kind == ToolShape::Kind::bull_nose) least = most = 2;
   if (*kind == ToolShape::Kind::tapered_ball) least = most = 3;
   if (numbers.size() < least || numbers.size() > most) return refuse(fmt::format("{} numbers", numbers.size()));
-  shape.radius = Mm(numbers[0] / 2);
-  if (*kind == ToolShape::Kind::bull_nose) {
-    shape.tip_radius = Mm(numbers[1]);
-  } else if (numbers.size() > 1) {
-    shape.half_angle = numbers[1] * std::numbers::pi / 360;
-    shape.tip_radius = Mm(numbers.size() > 2 ? numbers[2] / 2 : 0);
+  constexpr double degree = std::numbers::pi / 180;
+  switch (*kind) {
+    case ToolShape::Kind::bull_nose: shape.tip_radius = Mm(numbers[1]); [[fallthrough]];
+    case ToolShape::Kind::flat:
+    case ToolShape::Kind::ball: shape.radius = Mm(numbers[0] / 2); break;
+    case ToolShape::Kind::v:
+      shape.half_angle = numbers[0] / 2 * degree;
+      shape.radius = Mm(numbers[1] / 2);
+      shape.tip_radius = Mm(numbers.size() > 2 ? numbers[2] / 2 : 0);
+      break;
+    case ToolShape::Kind::tapered_ball:
+      shape.tip_radius = Mm(numbers[0] / 2);
+      shape.half_angle = numbers[1] * degree;
+      shape.radius = Mm(numbers[2] / 2);
+      break;
   }
   if (const std::string flaw = flaw_of(shape); !flaw.empty()) return refuse(flaw);
   return tool;

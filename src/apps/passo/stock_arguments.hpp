@@ -32,7 +32,7 @@ struct WishedTool {
   std::optional<std::int32_t> number;  // nothing: of every tool that has no shape of its own
   ToolShape shape;
 };
-// "ball:3", "2=v:6:60".
+// "ball:3", "2=vee:60:6": flat:D, ball:D, bull:D:CORNER, vee:ANGLE:D[:TIP], taper:TIP:DEGREES_A_SIDE:D.
 Result<WishedTool, std::string> parse_tool(std::string_view text);
 
 }  // namespace passo

@@ -18,17 +18,17 @@ holder_diameter_mm = 30
 holder_from_mm = 28
 
 [tool.7]
-shape = "v"
+shape = "vee"
 diameter_mm = 8
 angle_deg = 60
 
 [tool.8]
-shape = "bull-nose"
+shape = "bull"
 diameter_mm = 6
 corner_radius_mm = 1
 
 [tool.9]
-shape = "tapered-ball"
+shape = "taper"
 diameter_mm = 6
 tip_diameter_mm = 1
 angle_deg = 12
@@ -61,7 +61,7 @@ TEST(ToolShapesFile, refuses_what_is_no_tool) {
   EXPECT_EQ(first_of("[tool.1]\nshape = \"round\"\ndiameter_mm = 3\n"), "2 tools.shape");
   EXPECT_EQ(first_of("[tool.1]\nshape = \"flat\"\ndiameter_mm = 3\ncorner_mm = 1\n"), "4 tools.unknown-key");
   EXPECT_EQ(first_of("[tool.1]\nshape = \"flat\"\ndiameter_mm = -3\n"), "3 tools.out-of-range");
-  EXPECT_EQ(first_of("[tool.1]\nshape = \"bull-nose\"\ndiameter_mm = 3\ncorner_radius_mm = 2\n"), "1 tools.tool");
+  EXPECT_EQ(first_of("[tool.1]\nshape = \"bull\"\ndiameter_mm = 3\ncorner_radius_mm = 2\n"), "1 tools.tool");
   EXPECT_EQ(first_of("[tool.1\nshape = \"flat\"\n"), "1 tools.syntax");
 }
 

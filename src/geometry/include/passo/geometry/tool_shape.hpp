@@ -41,11 +41,11 @@ struct ToolShape {
   Mm height_at(Mm distance) const;
 };
 
-// "flat", "ball", "v", "bull-nose", "tapered-ball".
+// "flat", "ball", "vee", "bull", "taper".
 std::string_view name_of(ToolShape::Kind kind);
 std::optional<ToolShape::Kind> tool_kind_of(std::string_view name);
 // All names, for messages.
-inline constexpr const char* tool_kind_names = "flat, ball, v, bull-nose or tapered-ball";
+inline constexpr const char* tool_kind_names = "flat, ball, bull, vee or taper";
 
 // Why there is no such tool, in words for the user who asked for it. Empty: there is.
 std::string flaw_of(const ToolShape& tool);

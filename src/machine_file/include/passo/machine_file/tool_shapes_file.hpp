@@ -1,11 +1,11 @@
 // read_tool_shapes: the shapes of the cutters, from a file in TOML with a table for each tool:
 //
 //     [tool.1]                    # T1 in the program
-//     shape = "tapered-ball"      # flat, ball, v, bull-nose, tapered-ball
+//     shape = "taper"             # flat, ball, bull, vee, taper
 //     diameter_mm = 6             # where it is widest
-//     tip_diameter_mm = 1         # v: of its flat tip, 0 without; tapered-ball: of the ball
-//     angle_deg = 12              # v, tapered-ball: between the two sides
-//     corner_radius_mm = 0.5      # bull-nose
+//     tip_diameter_mm = 1         # vee: of its flat tip, 0 without; taper: of the ball
+//     angle_deg = 12              # vee, taper: between the two sides
+//     corner_radius_mm = 0.5      # bull: of its round corners
 //     flute_length_mm = 22        # all below may be left out
 //     holder_diameter_mm = 30
 //     holder_from_mm = 28         # from the tip up to the holder
