@@ -22,7 +22,7 @@ Every option, and what is read: docs/manual/cam.md.)";
 }  // namespace
 
 CLI::App& add_cam_command(CLI::App& app, CamDrillArguments& arguments) {
-  CLI::App& cam = *app.add_subcommand("cam", "make programs of drawings: the holes of circuit boards");
+  CLI::App& cam = *app.add_subcommand("cam", "make programs of drawings and pictures: circuit boards, reliefs");
   cam.require_subcommand(1);
   CLI::App& drill = *cam.add_subcommand("drill", "drill the holes of DXF drawings and Excellon drill files");
   drill.add_option("FILE", arguments.files, "DXF drawings and drill files; the kind is seen from what is in them")

@@ -1,7 +1,7 @@
 // The program `passo`: reads the command line and calls the command.
 //
-// Only this file, command_words.cpp, board_options.cpp, cam_options.cpp, study_options.cpp and tuning_options.cpp know
-// CLI11, because CLI11 compiles slowly. Each command is in a file of its own.
+// Only this file, command_words.cpp, board_options.cpp, cam_options.cpp, cam_relief_options.cpp, study_options.cpp and
+// tuning_options.cpp know CLI11, because CLI11 compiles slowly. Each command is in a file of its own.
 #include <algorithm>
 #include <cstdio>
 #include <exception>
@@ -296,6 +296,8 @@ int parse_and_run(int argc, char** argv) {
 
   CamDrillArguments cam_drill_arguments;
   CLI::App& cam_drill_command = add_cam_command(app, cam_drill_arguments);
+  CamReliefArguments cam_relief_arguments;
+  CLI::App& cam_relief_command = add_cam_relief_command(*app.get_subcommand("cam"), cam_relief_arguments);
 
   InterpolateArguments interpolate_arguments;
   CLI::App& interpolate_command = add_interpolate_command(app, interpolate_arguments);
@@ -330,6 +332,7 @@ int parse_and_run(int argc, char** argv) {
   if (explain_command.parsed()) return explain(explain_arguments);
   if (board_command.parsed()) return board_arguments.chosen();
   if (cam_drill_command.parsed()) return cam_drill(cam_drill_arguments);
+  if (cam_relief_command.parsed()) return cam_relief(cam_relief_arguments);
   if (interpolate_command.parsed()) return interpolate(interpolate_arguments);
   if (motor_command.parsed()) return motor(motor_arguments);
   if (loop_command.parsed()) return loop(loop_arguments);
