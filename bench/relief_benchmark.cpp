@@ -23,16 +23,33 @@ namespace {
 using namespace passo;
 namespace fs = std::filesystem;
 
-// A flower of sixteen petals on rings of waves, within a frame. `u`, `v`: -1 to 1.
+// The highest of eight petals: domes with a vein, around the middle.
+double petals(double u, double v, double turned, double away, double length, double width) {
+  double highest = 0;
+  for (int i = 0; i < 8; ++i) {
+    const double angle = turned + i * M_PI / 4;
+    const double along = u * std::cos(angle) + v * std::sin(angle) - away;
+    const double across = v * std::cos(angle) - u * std::sin(angle);
+    const double out = along * along / (length * length) + across * across / (width * width);
+    const double vein = 0.12 * std::exp(-across * across / 0.0003);
+    if (out < 1) highest = std::max(highest, std::sqrt(1 - out) * (1 - vein));
+  }
+  return highest;
+}
+
+// A flower in rings of waves, within a frame. `u`, `v`: -1 to 1.
 double flower(double u, double v) {
   const double away = std::hypot(u, v);
-  const double angle = std::atan2(v, u);
-  const double petals = 0.5 + 0.5 * std::cos(8 * angle + 2.5 * away);
-  const double bud = std::exp(-30 * away * away);
-  const double bloom = std::exp(-6 * (away - 0.42) * (away - 0.42)) * std::sqrt(petals);
-  const double waves = 0.06 * std::cos(55 * away) * std::clamp(2 * (away - 0.55), 0.0, 1.0);
+  const double ground = 0.12 + 0.05 * std::cos(50 * away) * std::clamp(3 * (away - 0.6), 0.0, 1.0);
+  const double outer = 0.5 * petals(u, v, 0, 0.5, 0.32, 0.19);
+  const double inner = 0.3 + 0.4 * petals(u, v, M_PI / 8, 0.29, 0.2, 0.12);
+  const double bud =
+      0.6 + 0.4 * std::sqrt(std::max(0.0, 1 - away * away / 0.018)) + 0.03 * std::cos(90 * u) * std::cos(90 * v);
+  double level = std::max(ground, outer);
+  if (inner > 0.3) level = std::max(level, inner);
+  if (away * away < 0.018) level = std::max(level, bud);
   const double frame = std::clamp((std::max(std::abs(u), std::abs(v)) - 0.9) * 25, 0.0, 1.0);
-  return std::clamp(0.18 + 0.62 * bloom + 0.5 * bud + waves, 0.0, 1.0) * (1 - frame) + 0.9 * frame;
+  return std::clamp(level, 0.0, 1.0) * (1 - frame) + 0.9 * frame;
 }
 
 LevelPicture flower_picture(std::size_t side) {

@@ -42,8 +42,8 @@ std::string draw_carved(const CarvedSurface& carved, Mm pitch_x, Mm pitch_y, std
         (0.5 * slope_x - 0.5 * slope_y + 0.7071) / std::sqrt(slope_x * slope_x + slope_y * slope_y + 1);
     return std::clamp(light, 0.0, 1.0);
   };
-  const auto nodes_x = static_cast<std::ptrdiff_t>(std::max(1.0, std::floor(pixel / px)));
-  const auto nodes_y = static_cast<std::ptrdiff_t>(std::max(1.0, std::floor(pixel / py)));
+  const auto nodes_x = static_cast<std::ptrdiff_t>(std::max(1.0, std::ceil(pixel / px - 0.01)));
+  const auto nodes_y = static_cast<std::ptrdiff_t>(std::max(1.0, std::ceil(pixel / py - 0.01)));
   std::vector<std::uint8_t> colours;
   colours.reserve(columns * rows * 3);
   for (std::size_t row = 0; row < rows; ++row) {

@@ -243,6 +243,8 @@ int cam_relief(const CamReliefArguments& arguments) {
     show(findings);
     return exit_bad_program;
   }
+  // A rim that stays is the stock's edge, or its face goes on: nothing is cut beyond.
+  if (job.shape.margin.value() > 0 && job.shape.margin_at_top && !job.program.overrun) job.program.overrun = Mm(0);
   place(arguments, read->grid, reading, job.program);
   if (!reading.message().empty()) return fail(exit_bad_program, reading.message());
   const std::string what = std::filesystem::path(arguments.file).filename().string();

@@ -52,7 +52,8 @@ void add_finishing(CLI::App& relief, CamReliefArguments& arguments) {
   relief.add_option("--tolerance", arguments.tolerance, "how far lines may be above the exact path")
       ->capture_default_str();
   relief.add_option("--clearance", arguments.clearance, "height of the rapids above the stock")->capture_default_str();
-  relief.add_option("--overrun", arguments.overrun, "how far cutters go beyond the edge; without it their radius");
+  relief.add_option("--overrun", arguments.overrun,
+                    "how far cutters go beyond the edge; without it their radius, 0 with a rim at the top");
   relief.add_option("--entry", arguments.entry, "how cutters go into the stock: ramp or plunge")
       ->check(CLI::IsMember({"ramp", "plunge"}))
       ->capture_default_str();

@@ -93,6 +93,6 @@ ReliefReport write_relief(const HeightGrid& surface, const ReliefProgramOptions&
 
 // A shaded view of a carved surface, light from the upper left, as a PNG of at most `most_side` pixels a side. Empty:
 // it could not be made.
-std::string draw_carved(const CarvedSurface& carved, Mm pitch_x, Mm pitch_y, std::size_t most_side = 1600);
+std::string draw_carved(const CarvedSurface& carved, Mm pitch_x, Mm pitch_y, std::size_t most_side = 900);
 
 }  // namespace passo
