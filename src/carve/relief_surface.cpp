@@ -26,7 +26,14 @@ Sides sides_of(const ReliefShape& shape, double across, double up, Mm usual) {
 // The surface with nodes no farther apart than wanted, and with the rim.
 HeightGrid completed(HeightGrid grid, const ReliefShape& shape, const std::string& name, Diagnostics& diagnostics) {
   const Mm widest = std::max(grid.pitch_x, grid.pitch_y);
-  const double parts = shape.pitch ? std::max(1.0, std::ceil(widest / *shape.pitch - 1e-9)) : 1;
+  double parts = 1;
+  if (shape.pitch) {
+    parts = std::max(1.0, std::ceil(widest / *shape.pitch - 1e-9));
+  } else if (shape.wished_pitch) {
+    const double most =
+        std::floor(std::sqrt(static_cast<double>(most_fine_nodes) / static_cast<double>(grid.heights.size())));
+    parts = std::max(1.0, std::min(most, std::ceil(widest / *shape.wished_pitch - 1e-9)));
+  }
   const double rim_x = std::ceil(shape.margin / grid.pitch_x * parts - 1e-9);
   const double rim_y = std::ceil(shape.margin / grid.pitch_y * parts - 1e-9);
   const double nodes =
@@ -113,6 +120,7 @@ HeightGrid relief_of(const Surface& body, const ReliefShape& shape, const std::s
   }
   ReliefShape sampled = shape;
   sampled.pitch.reset();
+  sampled.wished_pitch.reset();
   return completed(std::move(grid), sampled, name, diagnostics);
 }
 

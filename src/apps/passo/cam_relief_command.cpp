@@ -145,7 +145,7 @@ std::optional<ReliefGrid> read_relief(const CamReliefArguments& arguments, const
     const PixelLevel level = arguments.channel == "alpha" ? PixelLevel::alpha : PixelLevel::luminance;
     const LevelPicture picture = read_level_picture(arguments.file, *bytes, level, findings);
     if (picture.columns == 0) return std::nullopt;
-    if (!shape.pitch) shape.pitch = pitch_for(job.program);
+    shape.wished_pitch = pitch_for(job.program);
     read.grid = relief_of(picture, shape, arguments.file, findings);
     read.words = fmt::format("{} x {} pixels, {}, {}", picture.columns, picture.rows, picture.kind, arguments.channel);
   } else {

@@ -111,6 +111,13 @@ TEST(Relief, with_finer_nodes_is_the_same_surface) {
   EXPECT_EQ(fine.at(6, 2), (-2 - 1 - 4 + 0) / 4.0F);
 }
 
+TEST(Relief, becomes_finer_by_itself_as_far_as_memory_should_go) {
+  EXPECT_EQ(relief({.width = Mm(20), .depth = Mm(5), .wished_pitch = Mm(2.5)}).columns, 9U);
+  const HeightGrid finest = relief({.width = Mm(20), .depth = Mm(5), .wished_pitch = Mm(0.001)});
+  EXPECT_LE(finest.heights.size(), most_fine_nodes);
+  EXPECT_GT(finest.columns, 1000U);
+}
+
 TEST(Relief, of_too_many_nodes_is_refused) {
   Diagnostics diagnostics;
   LevelPicture picture{.columns = 2, .rows = 2, .levels = {0, 1, 2, 3}};

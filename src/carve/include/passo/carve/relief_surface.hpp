@@ -14,6 +14,8 @@
 
 namespace passo {
 
+inline constexpr std::size_t most_fine_nodes = 20'000'000;
+
 struct ReliefShape {
   std::optional<Mm> width = {};   // in X; with `length` empty, the other side follows
   std::optional<Mm> length = {};  // in Y
@@ -24,6 +26,8 @@ struct ReliefShape {
   Mm margin{0};                   // width of a flat rim around it
   bool margin_at_top = false;     // the rim stays at the top; else it is cut down to the depth
   std::optional<Mm> pitch = {};   // of a body: the distance of its samples; of a picture: at most this, by finer nodes
+  // Where `pitch` is empty, a picture's nodes become so fine, as far as `most_fine_nodes` allow.
+  std::optional<Mm> wished_pitch = {};
 };
 
 // The height of the lowest node that a surface may have.
