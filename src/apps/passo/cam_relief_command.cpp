@@ -5,7 +5,7 @@
 #include <numbers>
 #include <thread>
 
-#include "commands.hpp"
+#include "cam_arguments.hpp"
 #include "length_argument.hpp"
 #include "named_files.hpp"
 #include "program_input.hpp"

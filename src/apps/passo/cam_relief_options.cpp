@@ -67,7 +67,8 @@ void add_finishing(CLI::App& relief, CamReliefArguments& arguments) {
 
 }  // namespace
 
-CLI::App& add_cam_relief_command(CLI::App& cam, CamReliefArguments& arguments) {
+void add_relief_command(CLI::App& cam, CamArguments& all) {
+  CamReliefArguments& arguments = all.relief;
   CLI::App& relief = *cam.add_subcommand("relief", "carve a picture, or a body seen from above");
   relief.add_option("FILE", arguments.file, "a PNG picture (bright is high), an STL file or a height map x,y,z")
       ->required();
@@ -85,7 +86,7 @@ CLI::App& add_cam_relief_command(CLI::App& cam, CamReliefArguments& arguments) {
   relief.add_option("--rest-least", arguments.rest_least, "what the other cutter may leave")->capture_default_str();
   relief.add_option("--rest-feed", arguments.rest_feed, "a minute; without it --feed");
   relief.footer(relief_examples);
-  return relief;
+  relief.callback([&all] { all.chosen = [&all] { return cam_relief(all.relief); }; });
 }
 
 }  // namespace passo
