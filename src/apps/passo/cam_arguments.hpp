@@ -129,4 +129,44 @@ struct CamShowArguments {
 };
 int cam_show(const CamShowArguments& arguments);
 
+// Lengths without a unit are in mm. Cutters are texts for parse_cutter().
+struct CamReliefArguments {
+  std::string file;     // PNG, STL or height map
+  std::string output;   // empty: standard output
+  std::string picture;  // .png; empty: none
+  std::string width;    // empty: as `length` says, else 100 mm, or as the body is
+  std::string length;
+  std::string depth;  // empty: 3 mm, or as the body is
+  double gamma = 1;
+  bool invert = false;
+  bool mirror = false;
+  std::string channel = "luminance";  // or alpha
+  std::string margin = "0mm";
+  std::string margin_level = "bottom";  // or top
+  std::string pitch;                    // empty: as fine as the cutters need
+  std::string origin = "lower-left";    // a corner, center or X,Y
+  std::string cutter = "ball:3";
+  std::string way = "rows";  // columns, both or spiral
+  std::string step;          // empty: as `scallop` says
+  std::string scallop = "0.02mm";
+  std::string tolerance = "0.01mm";
+  std::string clearance = "5mm";
+  std::string overrun;         // empty: the cutter's radius
+  std::string entry = "ramp";  // or plunge
+  double ramp_angle = 5;       // degrees
+  std::string feed = "1000mm";
+  std::string plunge = "300mm";
+  std::string rough;  // a cutter; empty: no roughing
+  std::string rough_step;
+  std::string rough_down = "2mm";
+  std::string rough_stock = "0.3mm";
+  std::string rough_feed;  // empty: as `feed`
+  std::string rest;        // a cutter; empty: no rest finishing
+  std::string rest_step;
+  std::string rest_least = "0.05mm";
+  std::string rest_feed;                 // empty: as `feed`
+  std::optional<std::uint32_t> spindle;  // turns a minute
+};
+int cam_relief(const CamReliefArguments& arguments);
+
 }  // namespace passo

@@ -1,7 +1,8 @@
 // The program `passo`: reads the command line and calls the command.
 //
-// Only this file, command_words.cpp, board_options.cpp, cam_options.cpp, cam_mill_options.cpp, simulate_options.cpp, study_options.cpp and
-// tuning_options.cpp know CLI11, because CLI11 compiles slowly. Each command is in a file of its own.
+// Only this file, command_words.cpp, board_options.cpp, cam_options.cpp, cam_mill_options.cpp, cam_relief_options.cpp,
+// simulate_options.cpp, study_options.cpp and tuning_options.cpp know CLI11, because CLI11 compiles slowly. Each
+// command is in a file of its own.
 #include <algorithm>
 #include <cstdio>
 #include <exception>
