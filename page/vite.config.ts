@@ -1,3 +1,4 @@
+import { existsSync, readFileSync } from 'node:fs';
 import { brotliCompressSync, constants, gzipSync } from 'node:zlib';
 import type { Plugin } from 'vite';
 import { defineConfig } from 'vitest/config';
@@ -22,10 +23,31 @@ function precompressed(): Plugin {
   };
 }
 
+// The lab's module, which CMake makes of the program's own sources. Without it the page has all but the lab.
+const labModule = process.env.PASSO_LAB_WASM ?? '../build/release/src/lab/lab.wasm';
+function lab(): Plugin {
+  return {
+    name: 'lab',
+    generateBundle() {
+      if (existsSync(labModule)) {
+        this.emitFile({ type: 'asset', fileName: 'lab.wasm', source: readFileSync(labModule) });
+      } else {
+        this.warn(`${labModule} is not there: the page has no lab`);
+      }
+    },
+    configureServer(server) {
+      server.middlewares.use('/lab.wasm', (_, reply) => {
+        reply.setHeader('Content-Type', 'application/wasm');
+        reply.end(readFileSync(labModule));
+      });
+    },
+  };
+}
+
 export default defineConfig({
   base: './',
   esbuild: { jsx: 'automatic', jsxImportSource: 'preact' },
-  plugins: [precompressed()],
+  plugins: [lab(), precompressed()],
   build: {
     target: 'es2022',
     outDir: process.env.PASSO_PAGE_OUT ?? '../build/page',

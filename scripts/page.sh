@@ -27,8 +27,12 @@ if ! cmp --silent package-lock.json node_modules/.passo-lock; then
   fi
   cp package-lock.json node_modules/.passo-lock
 fi
+# The lab's module is made of the program's sources, where CMake was set up and finds what it needs.
+if [[ -e ../build/release/build.ninja && -n $(find ../build/release/src/lab -name lab.dir 2>/dev/null) ]]; then
+  cmake --build ../build/release --target lab >/dev/null || echo "lab.wasm could not be built: the page has no lab." >&2
+fi
 # What has not changed is not built again.
-newest=$(find . -path ./node_modules -prune -o -type f -newer ../build/page/index.html -print 2>/dev/null | head -1 || true)
+newest=$(find . ../build/release/src/lab/lab.wasm -path ./node_modules -prune -o -type f -newer ../build/page/index.html -print 2>/dev/null | head -1 || true)
 if [[ ! -e ../build/page/index.html || -n $newest ]]; then
   # A wrong type is an error; the lines of the build itself interest nobody.
   npm run --silent build -- --logLevel warn

@@ -16,4 +16,5 @@ export const pages: readonly Page[] = [
   { path: 'files', title: 'page.files', icon: 'files', load: async () => (await import('./files')).FilesPage },
   { path: 'console', title: 'page.console', icon: 'console', load: async () => (await import('./console')).ConsolePage },
   { path: 'machine', title: 'page.machine', icon: 'machine', load: async () => (await import('./machine')).MachinePage },
+  { path: 'lab', title: 'page.lab', icon: 'lab', load: async () => (await import('../lab/LabPage')).LabPage },
 ];
