@@ -29,7 +29,7 @@ endif()
 
 set(PASSO_WASM_OPTIONS
   --target=wasm32-wasi -std=c++20 -O2 -fno-exceptions -fno-rtti -fno-threadsafe-statics
-  -ffunction-sections -fdata-sections -Wall -Wextra -Wshadow
+  -ffunction-sections -fdata-sections -Wall -Wextra -Wconversion -Wshadow
   -DFMT_HEADER_ONLY=1 -isystem "${PROJECT_BINARY_DIR}/wasm_include")
 
 # passo_wasm_module(NAME SOURCES module/file… [MODULES module…])

@@ -38,6 +38,9 @@ std::string torque_answer(const TorqueQuestion& question) {
     if (!good) return error_answer(good.error().message);
   }
   if (!(question.margin > 0 && question.margin <= 1)) return error_answer("the margin is a share, above 0 to 1");
+  if (!(question.acceleration.value >= 0 && std::isfinite(question.acceleration.value))) {
+    return error_answer("the acceleration is 0 rad/s² or more");
+  }
   if (question.rows < 2 || question.rows > most_entries) return error_answer("expected 2 rows or more");
   const auto curve = TorqueCurve::from_motor(question.motor, question.drive);
   if (!curve) return error_answer(curve.error().message);
@@ -46,7 +49,12 @@ std::string torque_answer(const TorqueQuestion& question) {
   std::vector<double> pull_out;
   std::vector<double> pull_in;
   std::vector<double> friction;
+  std::vector<double> needed;
   std::vector<double> acceleration;
+  // What accelerates is felt as friction that is the same at any speed.
+  Load accelerated = question.load;
+  accelerated.friction.value +=
+      (curve->rotor().inertia.value + question.load.inertia.value) * question.acceleration.value;
   for (std::int32_t i = 0; i < question.rows; ++i) {
     const Hertz rate(end.value() * i / (question.rows - 1));
     const RadiansPerSecond speed = curve->speed_at(rate);
@@ -54,6 +62,7 @@ std::string torque_answer(const TorqueQuestion& question) {
     pull_out.push_back(curve->pull_out(speed).value);
     pull_in.push_back(curve->pull_in(speed, question.load.inertia).value);
     friction.push_back(question.load.friction_at(speed).value);
+    needed.push_back(accelerated.friction_at(speed).value);
     acceleration.push_back(curve->available_acceleration(speed, question.load, question.margin).value);
   }
   JsonText json;
@@ -61,11 +70,15 @@ std::string torque_answer(const TorqueQuestion& question) {
   json.list("pull_out_nm", pull_out);
   json.list("pull_in_nm", pull_in);
   json.list("friction_nm", friction);
+  json.list("needed_nm", needed);
   json.list("acceleration_rad_s2", acceleration);
   json.number("standstill_torque_nm", curve->pull_out({0}).value);
   json.number("starting_rate_hz", curve->rate_at(curve->maximum_starting_speed(question.load)).value());
-  const auto fastest = curve->fastest_speed(question.load);
-  json.number("fastest_rate_hz", fastest ? std::optional(curve->rate_at(*fastest).value()) : std::nullopt);
+  const auto rate_of = [&](const std::optional<RadiansPerSecond>& speed) {
+    return speed ? std::optional(curve->rate_at(*speed).value()) : std::nullopt;
+  };
+  json.number("fastest_rate_hz", rate_of(curve->fastest_speed(question.load)));
+  json.number("accelerated_rate_hz", rate_of(curve->fastest_speed(accelerated)));
   return json.take();
 }
 

@@ -92,10 +92,12 @@ export interface Torque {
   pull_out_nm: number[];
   pull_in_nm: number[];
   friction_nm: number[];
+  needed_nm: number[];
   acceleration_rad_s2: number[];
   standstill_torque_nm: number;
   starting_rate_hz: number;
   fastest_rate_hz: number | null;
+  accelerated_rate_hz: number | null;
 }
 
 // --- ramps ---
@@ -210,9 +212,9 @@ export class LabCore {
       ask.wholeMove ? 1 : 0, ask.wholeTicks ? 1 : 0, ask.rate, ask.start, ask.jerk, ask.tableSize,
     );
   }
-  torque(motor: Motor, margin: number, rows: number): Answer<Torque> {
+  torque(motor: Motor, margin: number, acceleration: number, rows: number): Answer<Torque> {
     this.#setMotor(motor);
-    return this.#ask('lab_torque', margin, 0, rows);
+    return this.#ask('lab_torque', margin, acceleration, rows);
   }
   loop(motor: Motor, ask: LoopRequest): Answer<Loop> {
     this.#setMotor(motor);

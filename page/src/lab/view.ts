@@ -96,6 +96,7 @@ export const fields = {
   loadgcm2: real(0, 1e6, 68),
   friction: real(0, 100, 0.1),
   margin: real(0.05, 1, 0.7),
+  wants: real(0, 1e6, 8000), // rad/s²
   // loop
   of: choice(['speed', 'position'], 'speed'),
   jump: real(0.1, 1000, 30),

@@ -92,6 +92,8 @@ TEST(TorqueAnswer, HasPullOutAboveTheFrictionUpToTheFastestRate) {
   const MotorSetup motor = small_motor();
   TorqueQuestion question{.motor = motor.motor, .drive = motor.drive, .load = motor.load, .rows = 5};
   EXPECT_THAT(torque_answer(question), HasSubstr("\"pull_out_nm\":[0.318"));
+  question.acceleration = {5000};
+  EXPECT_THAT(torque_answer(question), HasSubstr("\"needed_nm\":[0.078,"));
   question.margin = 2;
   EXPECT_THAT(torque_answer(question), HasSubstr("margin"));
   question.motor.resistance = {0};

@@ -161,10 +161,13 @@ motor.push('--rotor-inertia', 68, '--supply', 24, '--load-inertia', 68, '--frict
 for (const [regulation, name] of ['chopper', 'resistive'].entries()) {
   const printed = columnsOf(passo('motor', ...motor, '--rows', 60, '--margin', 0.7, '--regulation', name));
   lab.lab_motor(200, 68e-7, 0.45, 1.7, 1.5, 2.8e-3, 24, regulation, 68e-7, 0.01);
-  const mine = ask('lab_torque', 0.7, 0, 60);
+  const mine = ask('lab_torque', 0.7, 5000, 60);
   for (const column of ['rate_hz', 'pull_out_nm', 'pull_in_nm', 'acceleration_rad_s2']) {
     assertSame(mine[column], printed[column], 9, `motor, ${name}: ${column}`);
   }
+  const loaded = [...motor.slice(0, -1), 0.01 + (68e-7 + 68e-7) * 5000];
+  const fastest = JSON.parse(passo('motor', ...loaded, '--regulation', name, '--json')).fastest_rate_hz;
+  assertSame([mine.accelerated_rate_hz], [fastest], 9, 'the rate to which the motor has the torque');
   ++compared;
 }
 

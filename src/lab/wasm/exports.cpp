@@ -122,13 +122,13 @@ void PASSO_EXPORT(lab_motor)(int steps_per_turn, double rotor_inertia, double ho
       .load = {.inertia = {load_inertia}, .friction = {friction}}};
 }
 
-std::size_t PASSO_EXPORT(lab_torque)(double margin, double end, int rows) {
+std::size_t PASSO_EXPORT(lab_torque)(double margin, double acceleration, int rows) {
   const AskedMotor& motor = asked_motor();
   return answered(torque_answer({.motor = motor.data,
                                  .drive = motor.drive,
                                  .load = motor.load,
                                  .margin = margin,
-                                 .end = Hertz(end),
+                                 .acceleration = {acceleration},
                                  .rows = rows}));
 }
 

@@ -136,6 +136,9 @@ export const en = {
   friction: 'Friction',
   leftLesson:
     'What pull-out leaves above the friction accelerates: margin · (pull-out − friction) / (inertia of rotor and load). More supply voltage keeps the torque up at high rates; more current does not.',
+  wantedAcceleration: 'Wanted acceleration',
+  acceleratedRate: 'Accelerates up to',
+  neededTorque: 'Needed to accelerate',
   accelerationLeft: 'Acceleration that is left',
   margin: 'Margin, share of the torque',
   regulation: 'Driver',

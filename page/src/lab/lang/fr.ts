@@ -135,6 +135,9 @@ export const fr: LabWords = {
   friction: 'Frottement',
   leftLesson:
     'Ce que le pull-out laisse au-dessus du frottement accélère : marge · (pull-out − frottement) / (inertie du rotor et de la charge). Plus de tension maintient le couple aux hautes fréquences ; plus de courant, non.',
+  wantedAcceleration: 'Accélération voulue',
+  acceleratedRate: 'Accélère jusqu’à',
+  neededTorque: 'Nécessaire pour accélérer',
   accelerationLeft: 'Accélération disponible',
   margin: 'Marge, part du couple',
   regulation: 'Étage de puissance',

@@ -135,6 +135,9 @@ export const it: LabWords = {
   friction: 'Attrito',
   leftLesson:
     'Ciò che il pull-out lascia sopra l’attrito accelera: margine · (pull-out − attrito) / (inerzia di rotore e carico). Più tensione di alimentazione tiene alta la coppia alle alte frequenze; più corrente no.',
+  wantedAcceleration: 'Accelerazione voluta',
+  acceleratedRate: 'Accelera fino a',
+  neededTorque: 'Serve per accelerare',
   accelerationLeft: 'Accelerazione disponibile',
   margin: 'Margine, quota della coppia',
   regulation: 'Azionamento',

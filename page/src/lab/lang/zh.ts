@@ -133,6 +133,9 @@ export const zh: LabWords = {
   friction: '摩擦',
   leftLesson:
     '失步转矩超出摩擦的部分用于加速：余量 ·（失步转矩 − 摩擦）/（转子与负载的惯量）。提高电源电压可保持高频时的转矩，加大电流则不能。',
+  wantedAcceleration: '期望加速度',
+  acceleratedRate: '可加速到',
+  neededTorque: '加速所需',
   accelerationLeft: '可用加速度',
   margin: '余量，转矩的份额',
   regulation: '驱动器',

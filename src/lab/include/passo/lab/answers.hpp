@@ -33,12 +33,14 @@ std::string windings_answer(const Excitation& excitation, std::int32_t full_step
 std::string ramp_answer(const RampRequest& request);
 
 // Pull-out, pull-in and the acceleration that is left, at `rows` rates from 0 to `end`. `margin`: the share of the
-// torque to use, above 0 to 1. `end` 0: where the motor is spent.
+// torque to use, above 0 to 1. `end` 0: where the motor is spent. `acceleration` asks how much torque it needs beside
+// the friction, and up to which rate the motor has that.
 struct TorqueQuestion {
   MotorData motor;
   MotorDrive drive;
   Load load;
   double margin = 1;
+  RadiansPerSecond2 acceleration = {};
   Hertz end{0};
   std::int32_t rows = 100;
 };
