@@ -91,7 +91,7 @@ export const zh: Words = {
   'run.position': '位置',
   'run.trust.unknown': '位置未知',
   'run.trust.commanded': '未回原点',
-  'run.trust.counted': '位置由控制板计数',
+  'run.trust.counted': '已计数,未回原点',
   'run.trust.homed': '已回原点',
   'run.speed': '速度',
   'run.progress': '进度',
