@@ -19,9 +19,10 @@ export class Daemon {
     private readonly folder: string,
   ) {}
 
-  static async start(...more: string[]): Promise<Daemon> {
+  static async start({ port = '0', machine }: { port?: string; machine?: string } = {}): Promise<Daemon> {
     const folder = mkdtempSync(join(tmpdir(), 'passo-story-'));
-    const words = ['serve', '--http', '127.0.0.1:0', '--grbl-tcp', '127.0.0.1:0', '--page', pageFolder, '--data', folder, ...more];
+    const words = ['serve', '--http', `127.0.0.1:${port}`, '--grbl-tcp', '127.0.0.1:0', '--page', pageFolder, '--data', folder];
+    if (machine !== undefined) words.push('--machine', machine);
     const child = spawn(passo, words, { stdio: ['ignore', 'pipe', 'inherit'] });
     const address = await new Promise<string>((done, fail) => {
       let said = '';
@@ -93,6 +94,7 @@ export async function visit(browser: Browser, daemon: Daemon, path: string, how:
     deviceScaleFactor: how.density ?? 1,
   });
   const page = await context.newPage();
+  page.setDefaultTimeout(20_000);
   const errors: string[] = [];
   page.on('pageerror', (error) => errors.push(String(error)));
   page.on('console', (message) => {

@@ -36,7 +36,7 @@ async function startFrom(page: import('playwright-core').Page, daemon: Daemon): 
 mkdirSync(folder, { recursive: true });
 const browser = await openBrowser();
 for (const theme of ['dark', 'light'] as const) {
-  const daemon = await Daemon.start('-m', example('machines/router.toml'));
+  const daemon = await Daemon.start({ machine: example('machines/router.toml') });
   await prepare(daemon);
   for (const size of sizes) {
     const density = size.name === 'phone' ? 2 : 1;

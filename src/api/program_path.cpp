@@ -9,7 +9,7 @@ namespace passo {
 namespace {
 
 constexpr double most_places = 65'535;
-constexpr int most_chords = 720;    // of one arc
+constexpr int most_chords = 720;  // of one arc
 constexpr int spline_chords = 24;
 // Of the diagonal of the program's box: what a level may leave out.
 constexpr std::array<double, ProgramPath::levels> left_out = {0, 1.0 / 2000, 1.0 / 400};
@@ -75,7 +75,8 @@ void ProgramPath::add(const PathItem& item) {
   if (points_ == 0) add_point(start, line, flags);
   note(start);
   for (int i = 1; i <= chords; ++i) {
-    const Point point = i == chords ? segment->curve.end() : segment->curve.at(segment->curve.length() * (double(i) / chords));
+    const Point point =
+        i == chords ? segment->curve.end() : segment->curve.at(segment->curve.length() * (double(i) / chords));
     const Coordinates place = place_of(point);
     note(place);
     add_point(place, line, flags);

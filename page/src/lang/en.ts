@@ -8,6 +8,7 @@ export const en = {
   'page.machine': 'Machine',
   'page.lab': 'Lab',
   'frame.pages': 'Pages',
+  'frame.actions': 'Always at hand',
   'frame.skip': 'To the content',
   'frame.settings': 'View',
   'frame.shortcuts': 'Shortcuts',

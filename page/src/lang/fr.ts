@@ -8,6 +8,7 @@ export const fr: Words = {
   'page.machine': 'Machine',
   'page.lab': 'Laboratoire',
   'frame.pages': 'Pages',
+  'frame.actions': 'Toujours à portée',
   'frame.skip': 'Au contenu',
   'frame.settings': 'Affichage',
   'frame.shortcuts': 'Raccourcis',

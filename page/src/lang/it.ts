@@ -8,6 +8,7 @@ export const it: Words = {
   'page.machine': 'Macchina',
   'page.lab': 'Laboratorio',
   'frame.pages': 'Pagine',
+  'frame.actions': 'Sempre a portata',
   'frame.skip': 'Al contenuto',
   'frame.settings': 'Vista',
   'frame.shortcuts': 'Scorciatoie',

@@ -8,6 +8,7 @@ export const zh: Words = {
   'page.machine': '机床',
   'page.lab': '实验室',
   'frame.pages': '页面',
+  'frame.actions': '常用操作',
   'frame.skip': '跳到内容',
   'frame.settings': '显示',
   'frame.shortcuts': '快捷键',

@@ -95,7 +95,7 @@ function ShownProgram() {
   const whyDelete = runs ? say('why.state', { state: say(`state.${status.value?.state ?? 'Run'}`) }) : isLive.value ? '' : say('why.lost');
   return (
     <section class="panel" aria-label={program.name}>
-      <h1 class="job-name">{program.name}</h1>
+      <h2 class="title">{program.name}</h2>
       <p class={`verdict big ${program.state}`} data-testid="verdict">
         <Icon name={iconOf(program)} /> {say(warned(program) ? 'files.state.warned' : `files.state.${program.state}`)}
       </p>

@@ -25,7 +25,7 @@ export function MachinePage() {
   return (
     <div class="machine">
       <section class="panel" aria-label={say('machine.title')}>
-        <h1>{known.name}</h1>
+        <h2 class="title">{known.name}</h2>
         <p class="dim">{say('machine.version', { version: known.version })}</p>
         <div class="wide-table" tabIndex={0} role="region" aria-label={say('machine.title')}>
           <table>

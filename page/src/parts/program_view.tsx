@@ -79,7 +79,7 @@ export function ProgramView() {
     byItself.current = false;
   };
   return (
-    <section class="panel text" aria-label={say('run.program')}>
+    <div class="panel text">
       <div class="text-box" ref={box} onScroll={scroll} tabIndex={0} role="region" aria-label={say('run.program')}>
         <div class="text-spacer" style={{ height: `${spacerOf(scrolled)}px` }}>
           <div class="text-window" style={{ height: `${size.height}px` }}>
@@ -95,6 +95,6 @@ export function ProgramView() {
           {say('run.follow')}
         </button>
       )}
-    </section>
+    </div>
   );
 }

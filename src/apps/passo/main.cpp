@@ -142,7 +142,8 @@ CLI::App& add_serve(CLI::App& app, ServeArguments& arguments) {
   command.add_option("-m,--machine", arguments.machine, "machine file (TOML); without it an example");
   add_board(command, arguments.board);
   command.add_option("--grbl-tcp", arguments.grbl_tcp,
-                     "HOST:PORT for senders; without any line 127.0.0.1:7071, and browsers at 127.0.0.1:7080. Port 0: any that is free");
+                     "HOST:PORT for senders; without any line 127.0.0.1:7071, and browsers at 127.0.0.1:7080. Port 0: "
+                     "any that is free");
   command.add_option("--grbl-pty", arguments.grbl_pty,
                      "LINK: a pseudo-terminal for senders that know serial ports alone");
   command.add_flag("--anybody-may-drive", arguments.anybody_may_drive,

@@ -1,9 +1,9 @@
 // ProgramPath: the path of a program as points, for viewers. It is made while the program is checked.
 //
 // The points come in chunks. Each chunk has a box of its own, within which 16 bits a coordinate place each point: 12
-// bytes a point in all, and a point is off by at most 1/131,000 of its chunk's box. Point i of a chunk is the end of the
-// motion from point i - 1; the first point of a chunk is the last one of the chunk before. Coarser levels leave points
-// out where nobody sees them.
+// bytes a point in all, and a point is off by at most 1/131,000 of its chunk's box. Point i of a chunk is the end of
+// the motion from point i - 1; the first point of a chunk is the last one of the chunk before. Coarser levels leave
+// points out where nobody sees them.
 //
 // Lengths are mm, machine coordinates of X, Y and Z. Memory is bounded: beyond `most_points` the rest is left out.
 #pragma once
@@ -44,9 +44,9 @@ class ProgramPath {
   bool cut_off() const { return cut_off_; }
   std::size_t points() const { return points_; }
   std::size_t chunks() const { return chunks_.size(); }
-  const Range& all() const { return all_; }        // machine coordinates
-  const Range& cuts() const { return cuts_; }      // feeds alone, machine coordinates
-  const Range& work() const { return work_; }      // feeds alone, in the work coordinates that were in force
+  const Range& all() const { return all_; }    // machine coordinates
+  const Range& cuts() const { return cuts_; }  // feeds alone, machine coordinates
+  const Range& work() const { return work_; }  // feeds alone, in the work coordinates that were in force
   std::size_t bytes() const { return points_ * (sizeof(Packed) + sizeof(std::uint32_t)); }
 
   // A chunk as docs/api/openapi.json describes it, little-endian. `chunk` < chunks(), `level` < levels.
