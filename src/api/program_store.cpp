@@ -73,12 +73,15 @@ void ProgramStore::check(std::uint64_t id, const MachineDescription& machine, co
   checked_ = id;
   checker_ = std::make_unique<ProgramChecker>(ProgramReader::from_text(program.name, program.text), machine, options,
                                               program.findings);
+  path_ = PathFingerprint();
+  checker_->watch([this](const PathItem& item) { path_.add(item); });
 }
 
 void ProgramStore::turn() {
   if (!checker_ || !checker_->go_on(items_a_turn)) return;
   StoredProgram& program = programs_.at(checked_);
   program.check = checker_->result();
+  program.path = path_.value();
   program.state = program.check.good ? UploadState::good : UploadState::bad;
   checker_.reset();
 }

@@ -14,6 +14,7 @@
 #include "passo/activity/program.hpp"
 #include "passo/diagnostics/diagnostic.hpp"
 #include "passo/interpreter/interpreter.hpp"
+#include "passo/journal/path_fingerprint.hpp"
 #include "passo/machine_file/machine_description.hpp"
 
 namespace passo {
@@ -29,6 +30,7 @@ struct StoredProgram {
   std::uint64_t lines = 0;
   UploadState state = UploadState::unchecked;
   ProgramCheck check;
+  std::uint64_t path = 0;  // the fingerprint of its path, after a good check
   Diagnostics findings;
 };
 
@@ -58,6 +60,7 @@ class ProgramStore {
   std::uint64_t last_id_ = 0;
   std::uint64_t checked_ = 0;  // the program that is checked
   std::unique_ptr<ProgramChecker> checker_;
+  PathFingerprint path_;  // of what is checked
 };
 
 }  // namespace passo
