@@ -90,7 +90,9 @@ void KeptJob::find_way_back(const std::string& text) {
   interrupted_->back_at = find_resume_point(program.again(), machine_, options(), found.done);
   hello_at_ = session_.status().position.place;
   is_compared_ = found.refused != ResumeRefusal::board_reset;
-  if (!is_compared_) {
+  // A job that has not come beyond its beginning may still have been on its way there.
+  const bool is_on_its_path = found.done != found.head.place;
+  if (!is_compared_ && is_on_its_path) {
     interrupted_->range = range_between(program.again(), machine_, options(), found.done, found.farthest);
   }
 }
