@@ -27,8 +27,9 @@ function(passo_module module)
     add_library(passo_${module} STATIC ${ARG_SOURCES})
     target_include_directories(passo_${module} PUBLIC include)
     target_link_libraries(passo_${module} PUBLIC ${layers} PRIVATE ${ARG_LIBRARIES} passo_compiler)
+    passo_headers_once(passo_${module})
     if(PASSO_SANITIZE)
-      passo_sanitized_library(passo_${module})
+      set_target_properties(passo_${module} PROPERTIES EXCLUDE_FROM_ALL ON)
     endif()
   else()
     add_library(passo_${module} INTERFACE)
@@ -47,20 +48,21 @@ endfunction()
 # tests, and of the tests of the whole street one program (tests/CMakeLists.txt). Libraries are built that these need.
 set(PASSO_SANITIZED_MODULES base diagnostics gcode interpreter machine_file geometry path trajectory wire firmware link)
 
-# clang reads the standard headers once for all libraries: a quarter of the time. In other builds each file includes what
-# it uses, or does not compile.
-function(passo_sanitized_library name)
-  set_target_properties(${name} PROPERTIES EXCLUDE_FROM_ALL ON)
+# clang reads the standard headers once for all libraries: a quarter of the time. g++ 12 needs as long to read what it has
+# compiled of them; so in its builds each file includes what it uses, or does not compile.
+function(passo_headers_once name)
   if(NOT CMAKE_CXX_COMPILER_ID MATCHES "Clang")
     return()
   endif()
+  find_package(fmt REQUIRED)
   if(NOT TARGET passo_standard_headers)
     file(CONFIGURE OUTPUT "${PROJECT_BINARY_DIR}/standard_headers.cpp" CONTENT "")
     add_library(passo_standard_headers OBJECT "${PROJECT_BINARY_DIR}/standard_headers.cpp")
-    target_link_libraries(passo_standard_headers PRIVATE passo_compiler)
+    target_link_libraries(passo_standard_headers PRIVATE fmt::fmt passo_compiler)
     target_precompile_headers(passo_standard_headers PRIVATE <algorithm> <array> <cmath> <functional> <map> <memory>
-      <optional> <ostream> <span> <string> <string_view> <variant> <vector>)
+      <optional> <ostream> <span> <string> <string_view> <utility> <variant> <vector> <fmt/format.h>)
   endif()
+  target_link_libraries(${name} PRIVATE fmt::fmt)  # its macros are a part of the compiled headers
   target_precompile_headers(${name} REUSE_FROM passo_standard_headers)
 endfunction()
 
@@ -106,7 +108,11 @@ function(passo_test name)
     list(APPEND properties LABELS "${ARG_LABELS}")
   endif()
   if(PASSO_SANITIZE)
-    list(APPEND properties ENVIRONMENT "LSAN_OPTIONS=suppressions=${PROJECT_SOURCE_DIR}/cmake/leaks_of_libraries.txt")
+    # One process a program: under sanitizers half of a short test's time is its process's start.
+    add_test(NAME ${name} COMMAND ${name})
+    set_tests_properties(${name} PROPERTIES ${properties}
+      ENVIRONMENT "LSAN_OPTIONS=suppressions=${PROJECT_SOURCE_DIR}/cmake/leaks_of_libraries.txt")
+    return()
   endif()
   gtest_discover_tests(${name} DISCOVERY_TIMEOUT 60 PROPERTIES ${properties})
 endfunction()

@@ -5,7 +5,7 @@ set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
 
 cmake --preset clang >/dev/null
-cmake --build build/clang --parallel "$(nproc)" --target passo_test_headers
+cmake --build build/clang --parallel "$(nproc)" --target passo_test_headers passo_standard_headers
 # An object has one name in both builds.
 commands=()
 while read -r object && read -r command; do

@@ -6,8 +6,10 @@
 namespace passo {
 namespace {
 
-constexpr double sweep = 15;         // seconds
-constexpr double first_rate = 20;    // full steps a second
+constexpr double sweep = 15;       // seconds
+constexpr double dwell = 3;        // seconds at the fastest rate: a swing needs time to grow
+constexpr double first_rate = 20;  // full steps a second
+constexpr double just_below = 0.999;
 constexpr double averaging = 0.02;   // seconds, of the lag
 constexpr double most_swing = 0.7;   // full steps about the mean: twice that between the ends, near the edge at 2
 constexpr double most_coarse = 1.4;  // with full and half steps each step makes the rotor ring
@@ -22,7 +24,7 @@ Hertz calm_up_to(const MotorSetup& setup, Hertz fastest, double late) {
   double now = 0;
   double mean = 0;
   double rate = first_rate;
-  while (rate < fastest.value()) {
+  while (now < sweep + dwell) {
     const double interval = 1 / (rate * parts);
     even += interval;
     // The grid of a faster motor's events.
@@ -31,10 +33,11 @@ Hertz calm_up_to(const MotorSetup& setup, Hertz fastest, double late) {
     motor.run(Seconds(at - now));
     const double before = motor.lag();
     mean += (before - mean) * std::min((at - now) / averaging, 1.0);
-    if (motor.slipped() != 0 || std::abs(before - mean) > allowed) return Hertz(rate);
+    if (motor.slipped() != 0 || std::abs(before - mean) > allowed)
+      return Hertz(std::min(rate, just_below * fastest.value()));
     now = at;
     motor.step(1);
-    rate = first_rate + (fastest.value() - first_rate) * now / sweep;
+    rate = std::min(first_rate + (fastest.value() - first_rate) * now / sweep, fastest.value());
   }
   return fastest;
 }

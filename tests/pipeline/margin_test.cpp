@@ -16,7 +16,7 @@ namespace {
 // its steps with all motors of the trial, but swings far; on 518 a motion turns round on the border between two steps;
 // 725 loses steps with some strengths only, in the midst of others.
 TEST(Margin, nothing_that_is_called_safe_loses_steps) {
-  for (const std::uint64_t seed : {29, 197, 44, 469, 518, 725, 9, 24}) {
+  for (const std::uint64_t seed : {29U, 197U, 44U, 469U, 518U, 725U, 9U, 24U}) {
     const test::JudgedRun run = test::judged_run(seed);
     EXPECT_FALSE(run.verdict == Verdict::safe && run.lost) << seed;
     EXPECT_FALSE(run.verdict == Verdict::lost && !run.lost) << seed;

@@ -43,6 +43,19 @@ void add_strokes(std::string& text, const AxisDescription& axis) {
   text += fmt::format("G0{}\nG4 P0.1\n", word(axis, 0));
 }
 
+// A motor's steps wait for the events of a faster one. How late they come depends on the slant and on the speed.
+void add_slants(std::string& text, const AxisDescription& one, const AxisDescription& other) {
+  const double reach = std::min(reach_of(one), reach_of(other));
+  for (const double slant : {0.87, 0.618, 0.3}) {
+    const double most = std::min(one.velocity.value(), other.velocity.value() / slant);
+    for (const double share : {1.0, 0.85}) {
+      const double feed = 60 * share * most * std::hypot(1, slant);
+      text += fmt::format("G1 F{:.3f}{}{}\nG1{}{}\n", feed, word(one, reach), word(other, slant * reach),
+                          word(one, -reach), word(other, -slant * reach));
+    }
+  }
+}
+
 void add_circles(std::string& text, const AxisDescription& x, const AxisDescription& y) {
   const double v = std::min(x.velocity, y.velocity).value();
   const double a = std::min(x.acceleration, y.acceleration).value();
@@ -107,6 +120,10 @@ std::string tuning_program(const MachineDescription& machine, const std::vector<
     middle += word(axis, 0);
   }
   if (axes.size() > 1) text += fmt::format("{}\n{}\n{}\n", high, low, middle);
+  for (std::size_t i = 0; i + 1 < axes.size(); ++i) {
+    add_slants(text, *axis_of(machine, axes[i]), *axis_of(machine, axes[i + 1]));
+    add_slants(text, *axis_of(machine, axes[i + 1]), *axis_of(machine, axes[i]));
+  }
   const auto has = [&](Axis axis) { return std::ranges::find(axes, axis) != axes.end(); };
   if (has(Axis::x) && has(Axis::y)) add_circles(text, *axis_of(machine, Axis::x), *axis_of(machine, Axis::y));
   return text + "M2\n";
