@@ -96,7 +96,11 @@ void ProgramStore::check(std::uint64_t id, const MachineDescription& machine, co
   checked_ = id;
   checker_ = std::make_unique<ProgramChecker>(ProgramReader::from_text(program.name, program.text), machine, options,
                                               program.findings);
-  checker_->watch([path = &program.path_points](const PathItem& item) { path->add(item); });
+  path_ = PathFingerprint();
+  checker_->watch([this, path = &program.path_points](const PathItem& item) {
+    path->add(item);
+    path_.add(item);
+  });
 }
 
 void ProgramStore::make_room_for_path(std::uint64_t id) {
@@ -123,6 +127,7 @@ void ProgramStore::turn() {
   StoredProgram& program = programs_.at(checked_);
   program.check = checker_->result();
   program.path_points.finish();
+  program.path = path_.value();
   program.state = program.check.good ? UploadState::good : UploadState::bad;
   checker_.reset();
 }

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "kit/command_line.hpp"
+#include "kit/served_board.hpp"
 #include <arpa/inet.h>
 #include <gmock/gmock.h>
 #include <netinet/in.h>
@@ -19,13 +19,13 @@ using passo::test::read;
 using testing::HasSubstr;
 using testing::Not;
 
-class ServeHttp : public passo::test::CommandLine {
+class ServeHttp : public passo::test::ServedBoard {
  protected:
   ~ServeHttp() override { end(); }
 
   void serve(const std::vector<std::string>& more = {}) {
-    const std::string said = path("said");
-    write("said", "");
+    const std::string said = path("http-said");
+    write("http-said", "");
     server_ = fork();
     if (server_ == 0) {
       if (std::freopen(said.c_str(), "w", stdout) == nullptr) _exit(1);
@@ -131,6 +131,41 @@ TEST_F(ServeHttp, keeps_its_jobs_when_it_is_killed) {
   EXPECT_EQ(json("GET", "/history")["jobs"][0]["state"], "interrupted");
   EXPECT_EQ(json("GET", "/status")["state"], "Idle") << "it starts nothing by itself";
   EXPECT_EQ(passo("serve --data " + path("data")).code, 2) << "without --http";
+}
+
+// kill -9 amid a move, twice; and a job that is told to end. The board counts as if nothing had been.
+TEST_F(ServeHttp, resumes_a_job_amid_a_move_after_it_was_killed) {
+  const std::string router = std::string(PASSO_SOURCE_DIR) + "/examples/machines/router.toml";
+  const std::string text =
+      "G21 G90 G64 P.02 F2400 M3 S1000\nG2 X6 Y0 I3 J0\nG3 X9 I1.5\nG1 X30 Y3\nX12 Z-1\nX2 Y2\nM2\n";
+  const std::string board = ServedBoard::serve("", router);
+  const std::vector<std::string> options = {"--data", path("data"), "-m", router, "--board", board};
+  const auto key = [&] { return "X-Passo-Key: " + json("POST", "/owner", "{}").value("key", "") + "\r\n"; };
+  const auto is_amid = [&](double x) { return until([&] { return json("GET", "/status")["place"]["x"] > x; }); };
+  serve(options);
+  json("POST", "/position", R"({"place": {"x": 0, "y": 0, "z": 0}})", key());
+  const auto id = json("POST", "/programs?name=part.ngc", text).value("id", 0);
+  json("POST", "/programs/" + std::to_string(id) + "/run", "", key());
+  EXPECT_TRUE(is_amid(3));
+  EXPECT_EQ(end(SIGKILL), -SIGKILL);
+  for (const int signal : {SIGKILL, SIGTERM}) {
+    serve(options);
+    const auto told = json("GET", "/interrupted")["interrupted"];
+    EXPECT_EQ(told["goes_on"], true) << told;
+    EXPECT_EQ(told["job"]["name"], "part.ngc");
+    EXPECT_EQ(json("POST", "/interrupted/resume", "", key())["state"], "checking");
+    EXPECT_TRUE(is_amid(signal == SIGKILL ? 10 : 20));
+    end(signal);
+  }
+  serve(options);
+  json("POST", "/interrupted/resume", "", key());
+  EXPECT_TRUE(until([&] { return json("GET", "/status")["job"]["state"] == "done"; })) << json("GET", "/status");
+  end();
+  const auto alone = nlohmann::json::parse(passo("run " + write("p.ngc", text) + " --json -m " + router).out)["steps"];
+  const auto counted = nlohmann::json::parse(passo("board info --json " + board).out)["status"]["positions"];
+  EXPECT_EQ(counted[0], alone["X"]["net"]);
+  EXPECT_EQ(counted[1], alone["Y"]["net"]);
+  EXPECT_EQ(counted[2], alone["Z"]["net"]);
 }
 
 TEST_F(ServeHttp, asks_for_the_token_and_for_its_own_name) {

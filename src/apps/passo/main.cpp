@@ -207,6 +207,11 @@ int parse_and_run(int argc, char** argv) {
                        "over a line: the machine stands at machine zero, as you see to; else its place must be known");
   run_command.add_flag("--resume", run_arguments.resume,
                        "over a line: goes on where this program was broken off on that board");
+  run_command
+      .add_option("--from-line", run_arguments.from_line,
+                  "N: begins at the first motion of line N, with all that the lines before have set: up, spindle on, "
+                  "over, down; shows these steps and asks")
+      ->check(CLI::PositiveNumber);
   run_command.add_option("--journal", run_arguments.journal,
                          "FILE: where a run over a line notes what --resume needs; without it "
                          "$XDG_STATE_HOME/passo/BOARD.journal or ~/.local/state/passo/BOARD.journal");

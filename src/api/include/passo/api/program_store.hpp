@@ -17,6 +17,7 @@
 #include "passo/api/program_path.hpp"
 #include "passo/diagnostics/diagnostic.hpp"
 #include "passo/interpreter/interpreter.hpp"
+#include "passo/journal/path_fingerprint.hpp"
 #include "passo/machine_file/machine_description.hpp"
 
 namespace passo {
@@ -32,6 +33,7 @@ struct StoredProgram {
   std::uint64_t lines = 0;
   UploadState state = UploadState::unchecked;
   ProgramCheck check;
+  std::uint64_t path = 0;  // the fingerprint of its path, after a good check
   Diagnostics findings;
   ProgramPath path_points;                 // of the last check; for viewers
   std::vector<std::size_t> line_starts{};  // where every so many lines begin in the text
@@ -75,6 +77,7 @@ class ProgramStore {
   Point work_zero_;
   std::uint64_t checked_ = 0;  // the program that is checked
   std::unique_ptr<ProgramChecker> checker_;
+  PathFingerprint path_;  // of what is checked
 };
 
 }  // namespace passo
