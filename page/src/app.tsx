@@ -43,6 +43,7 @@ function Shown() {
   document.title = `${title} · Passo`;
   return (
     <main id="content" class={`content page-${page.path}`} tabIndex={-1} aria-label={title}>
+      <h1 class="unseen">{title}</h1>
       {loaded?.path === page.path ? <loaded.Content /> : <p class="dim">{say('frame.loading')}</p>}
     </main>
   );

@@ -22,8 +22,14 @@ Json as_json(const MotionOwner& owner);
 Json as_json(const ApiJob& job);
 Json as_json(const StoredProgram& program, bool with_findings);
 Json as_json(const HistoryJob& job);
+// What viewers ask of a program.
+WebAnswer path_answer(const StoredProgram& program, std::string_view query);
+WebAnswer text_answer(const StoredProgram& program, std::string_view query);
 Json machine_json(const MachineDescription& machine, std::string_view version);
 
+// {"place": {…}}: some of the axes, the others as in `start`. Empty, with the reason: the body is none.
+std::optional<Point> read_place(const Json& body, const MachineDescription& machine, const Point& start,
+                                std::string& reason);
 // The session's request in the body of a POST. Empty, with the reason: the body is none.
 std::optional<Request> read_request(std::string_view path, const Json& body, const MachineDescription& machine,
                                     std::string& reason);

@@ -14,6 +14,8 @@ constexpr ApiRoute routes[] = {
     {"GET", "/api/v1/openapi.json"},
     {"GET", "/api/v1/programs"},
     {"GET", "/api/v1/programs/{id}"},
+    {"GET", "/api/v1/programs/{id}/path"},
+    {"GET", "/api/v1/programs/{id}/text"},
     {"GET", "/api/v1/queue"},
     {"GET", "/api/v1/status"},
     {"GET", "/api/v1/stream"},
@@ -39,6 +41,7 @@ constexpr ApiRoute routes[] = {
     {"POST", "/api/v1/sleep", true},
     {"POST", "/api/v1/stop"},
     {"POST", "/api/v1/wake", true},
+    {"POST", "/api/v1/work", true},
 };
 constexpr std::string_view id_place = "{id}";
 

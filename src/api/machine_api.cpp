@@ -99,7 +99,7 @@ WebAnswer MachineApi::answer(const WebRequest& request) {
   if (found.route == nullptr) {
     if (found.knows_path) return refusal(405);
     const bool looks = request.method == "GET" && options_.page;
-    if (const auto page = looks ? options_.page(request.path) : std::nullopt) return *page;
+    if (const auto page = looks ? options_.page(request) : std::nullopt) return *page;
     return refusal(404);
   }
   if (found.route->moves && !owner_.is_client(request.key)) {
@@ -144,7 +144,10 @@ WebAnswer MachineApi::look(const FoundRoute& found, const WebRequest& request) {
     return json_answer(200, {{"programs", std::move(list)}});
   }
   const StoredProgram* const program = programs_.find(found.id);
-  return program == nullptr ? refusal(404) : json_answer(200, as_json(*program, true));
+  if (program == nullptr) return refusal(404);
+  if (path.ends_with("/path")) return path_answer(*program, request.query);
+  if (path.ends_with("/text")) return text_answer(*program, request.query);
+  return json_answer(200, as_json(*program, true));
 }
 
 WebAnswer MachineApi::change(const FoundRoute& found, const WebRequest& request) {
@@ -158,6 +161,7 @@ WebAnswer MachineApi::change(const FoundRoute& found, const WebRequest& request)
     return json_answer(200, as_json(owner_));
   }
   const Json body = request.body.empty() ? Json::object() : Json::parse(request.body, nullptr, false);
+  if (path == "/api/v1/work") return set_work_zero(request.body);
   std::string reason;
   auto wanted = read_request(path, body, machine_, reason);
   if (!wanted) return error_answer(400, "http.bad-body", reason);
@@ -168,6 +172,20 @@ WebAnswer MachineApi::change(const FoundRoute& found, const WebRequest& request)
     return json_answer(200, {{"ticket", 0}});
   }
   return ask(std::move(*wanted));
+}
+
+// The tool stands at this place of the work.
+WebAnswer MachineApi::set_work_zero(std::string_view body) {
+  const MachineStatus status = session_.status();
+  if (status.state != MachineState::idle || job_.state == JobState::checking) {
+    return error_answer(409, "machine.busy", fmt::format("the machine is not idle: {}", name_of(status.state)));
+  }
+  const Point& zero = programs_.work_zero();
+  std::string reason;
+  const auto place = read_place(Json::parse(body, nullptr, false), machine_, status.position.place - zero, reason);
+  if (!place) return error_answer(400, "http.bad-body", reason);
+  programs_.set_work_zero(status.position.place - *place);
+  return json_answer(200, {{"work_offset", as_json(machine_, programs_.work_zero())}});
 }
 
 WebAnswer MachineApi::ask(Request wanted) {
@@ -354,6 +372,7 @@ void MachineApi::turn() {
 
 std::string MachineApi::status_text() const {
   Json json = as_json(machine_, session_.status());
+  json["work_offset"] = as_json(machine_, programs_.work_zero());
   json["owner"] = as_json(owner_);
   json["job"] = as_json(job_);
   return json.dump() + "\n";

@@ -141,6 +141,8 @@ Json machine_json(const MachineDescription& machine, std::string_view version) {
                     {"low", axis.travel_low},
                     {"high", axis.travel_high},
                     {"speed", axis.velocity.value() * a_minute},
+                    {"acceleration", axis.acceleration.value()},
+                    {"steps_per_unit", axis.steps_per_unit},
                     {"homes", axis.home.has_value()}});
   }
   return {{"name", machine.name}, {"version", version}, {"axes", std::move(axes)}};

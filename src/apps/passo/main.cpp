@@ -142,7 +142,8 @@ CLI::App& add_serve(CLI::App& app, ServeArguments& arguments) {
   command.add_option("-m,--machine", arguments.machine, "machine file (TOML); without it an example");
   add_board(command, arguments.board);
   command.add_option("--grbl-tcp", arguments.grbl_tcp,
-                     "HOST:PORT for senders; without any line 127.0.0.1:7071. Port 0: any that is free");
+                     "HOST:PORT for senders; without any line 127.0.0.1:7071, and browsers at 127.0.0.1:7080. Port 0: "
+                     "any that is free");
   command.add_option("--grbl-pty", arguments.grbl_pty,
                      "LINK: a pseudo-terminal for senders that know serial ports alone");
   command.add_flag("--anybody-may-drive", arguments.anybody_may_drive,
@@ -152,7 +153,7 @@ CLI::App& add_serve(CLI::App& app, ServeArguments& arguments) {
                      "FILE with a token that HTTP then asks for; needed where other computers reach HOST");
   command.add_option("--http-name", arguments.http_names, "a NAME by which browsers know this server, as a proxy's");
   command.add_option("--data", arguments.data, "DIR for the queue of jobs, their history and alarms");
-  command.add_option("--page", arguments.page, "DIR with a web page to serve");
+  command.add_option("--page", arguments.page, "DIR with the page for browsers; without it the one beside the program");
   command.footer(
       "Examples:\n  passo serve                                    a virtual machine: try a sender on it\n"
       "  passo serve -m router.toml                     your machine file, still virtual\n"

@@ -80,9 +80,20 @@ bool replace_file(const std::string& file, const std::string& before, const std:
   return output->commit().has_value();
 }
 
+// Without any line, senders and browsers of this computer find the machine at its usual ports.
+ServeArguments with_usual(ServeArguments arguments) {
+  if (arguments.grbl_tcp.empty() && arguments.grbl_pty.empty() && arguments.http.empty() && arguments.data.empty()) {
+    arguments.grbl_tcp = "127.0.0.1:7071";
+    arguments.http = "127.0.0.1:7080";
+  }
+  if (arguments.page.empty()) arguments.page = usual_page_folder();
+  return arguments;
+}
+
 }  // namespace
 
-int serve(const ServeArguments& arguments) {
+int serve(const ServeArguments& given) {
+  const ServeArguments arguments = with_usual(given);
   const auto text = machine_text(arguments.machine);
   const auto machine = text ? described(*text, arguments.machine) : std::nullopt;
   if (!machine) return exit_bad_machine;

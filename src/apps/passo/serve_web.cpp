@@ -19,6 +19,10 @@ constexpr auto between_signs_of_life = std::chrono::seconds(1);
 constexpr Seconds web_look{0.004};
 constexpr std::size_t shortest_token = 16;
 
+constexpr const char* no_page =
+    "There is no page here yet: scripts/page.sh builds it, and --page DIR names another folder.\n"
+    "Programs find the machine at /api/v1/status.\n";
+
 // 128 bits that nobody guesses.
 std::string new_key() {
   std::random_device random;
@@ -44,7 +48,11 @@ ApiOptions api_options(const PageFolder* page, JobHistory* history) {
   ApiOptions options{.version = PASSO_VERSION, .openapi = openapi_text, .make_key = new_key};
   options.history = history;
   options.wall_time = seconds_since_1970;
-  if (page != nullptr) options.page = [page](std::string_view path) { return page->file(path); };
+  options.page = [page](const WebRequest& request) -> std::optional<WebAnswer> {
+    if (page != nullptr) return page->answer(request);
+    if (request.path != "/") return {};
+    return WebAnswer{.status = 404, .type = "text/plain; charset=utf-8", .body = no_page};
+  };
   return options;
 }
 
@@ -71,6 +79,7 @@ ServedWeb::ServedWeb(const ServeArguments& arguments, const MachineDescription& 
     : session_(session),
       owner_(owner),
       page_(arguments.page),
+      has_page_(!arguments.page.empty()),
       history_(std::move(history)),
       api_(machine, session, owner, api_options(arguments.page.empty() ? nullptr : &page_, history_.get())) {}
 
@@ -131,7 +140,7 @@ std::unique_ptr<ServedWeb> ServedWeb::open(const ServeArguments& arguments, cons
 }
 
 std::string ServedWeb::name() const {
-  return fmt::format("http://{}:{}/api/v1/", host_, server_->port());
+  return fmt::format("http://{}:{}/{}", host_, server_->port(), has_page_ ? "" : "api/v1/");
 }
 
 Seconds ServedWeb::most_wait(Seconds most) const {

@@ -46,6 +46,7 @@ class ServedWeb {
   MachineSession& session_;
   MotionOwner& owner_;
   PageFolder page_;
+  bool has_page_ = false;
   std::unique_ptr<JobHistory> history_;  // may be null
   std::string host_;
   MachineApi api_;

@@ -47,7 +47,7 @@ struct ApiOptions {
   std::string openapi;                    // the text of docs/api/openapi.json
   std::function<std::string()> make_key;  // a text that nobody guesses, for an owner of motion
   // What serves other paths: a folder with a page. Empty: nothing does.
-  std::function<std::optional<WebAnswer>(std::string_view path)> page = {};
+  std::function<std::optional<WebAnswer>(const WebRequest& request)> page = {};
   // Keeps the queue of jobs and what became of them; outlives this. Null: there is no queue, and nothing is kept.
   JobHistory* history = nullptr;
   std::function<double()> wall_time = {};  // seconds since 1970, for the history
@@ -61,6 +61,10 @@ class MachineApi final : public WebHandler {
   WebAnswer answer(const WebRequest& request) override;
   WebAnswer refusal(unsigned status) override;
   std::size_t longest_body(const WebRequest& request) override;
+  // The page itself is no secret: what it asks of the API needs the token.
+  bool is_public(const WebRequest& request) override {
+    return options_.page && request.method == "GET" && !request.path.starts_with("/api/");
+  }
   bool is_stream(std::string_view path) override { return path == "/api/v1/stream"; }
   // {"do": "/api/v1/jog/renew", "key": "…", "body": {…}} is a POST; the answer has "do", "status" and "body".
   std::string hear(std::string_view message) override;
@@ -89,6 +93,7 @@ class MachineApi final : public WebHandler {
   WebAnswer change_queue(const FoundRoute& found, const WebRequest& request);
   WebAnswer take_ownership(const WebRequest& request);
   WebAnswer ask(Request wanted);
+  WebAnswer set_work_zero(std::string_view body);
   WebAnswer begin_job(const StoredProgram& program, std::int64_t history);
   void note_alarm();
   double wall_time() const { return options_.wall_time ? options_.wall_time() : 0; }
