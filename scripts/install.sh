@@ -15,6 +15,8 @@ build_packages=(
   libcairo2-dev libpng-dev   # pictures
   libsqlite3-dev             # jobs and history of passo serve
   libboost1.74-dev           # HTTP and WebSocket of passo serve
+  libpolyclipping-dev        # unions and offsets of copper in passo cam
+  libminizip-dev             # zip archives of board files
   libassimp-dev              # bodies in STL files
   fonts-dejavu-core          # letters in pictures
   pkg-config                 # finds cairo
@@ -30,6 +32,7 @@ test_packages=(
   gputils gpsim              # assembler and emulator for the PIC
   clang-format clang-tidy    # style
   git ccache                 # checks of the tracked files; builds again in seconds
+  gerbv                      # draws circuit boards beside passo's reader
   jq                         # the table of scripts/motion_table.sh
   chromium                   # the stories of the page of passo serve
 )

@@ -8,6 +8,7 @@
 
 #include <fmt/format.h>
 
+#include "passo/cam/bulge.hpp"
 #include "passo/cam/route.hpp"
 
 namespace passo {
@@ -200,36 +201,18 @@ void DrillPlanner::drill_slot(const WantedCut& cut, Nanometres drill) {
   DrillTool& tool = drill_of(drill);
   ++tool.slots;
   ++slots_as_holes_;
-  const auto add = [&](double x, double y) {
-    const DrawnPoint at{{std::llround(x)}, {std::llround(y)}};
-    tool.targets.push_back({.kind = DrillTarget::Kind::hole, .points = {{at}}, .radius = {}});
-  };
   const std::vector<PathPoint>& points = cut.slot->points;
   for (std::size_t i = 0; i + 1 < points.size(); ++i) {
     const DrawnPoint a = points[i].at;
     const DrawnPoint b = points[i + 1].at;
-    const double chord = distance_nm(a, b);
-    // An arc of this bulge sweeps 4 atan(bulge) about a centre beside the chord.
-    const double sweep = 4 * std::atan(points[i].bulge);
-    const double way = sweep == 0 ? chord : std::abs(sweep) * chord / 2 / std::sin(std::abs(sweep) / 2);
+    const double way = way_nm(a, b, points[i].bulge);
     const double step = std::max(1.0, static_cast<double>(drill.count) / 2);
     constexpr double most_holes = 10'000;
     const auto count = static_cast<std::size_t>(std::clamp(std::ceil(way / step), 1.0, most_holes));
-    const auto ax = static_cast<double>(a.x.count);
-    const auto ay = static_cast<double>(a.y.count);
-    const double dx = static_cast<double>(b.x.count) - ax;
-    const double dy = static_cast<double>(b.y.count) - ay;
     for (std::size_t k = i == 0 ? 0 : 1; k <= count; ++k) {
       const double share = static_cast<double>(k) / static_cast<double>(count);
-      if (sweep == 0) {
-        add(ax + share * dx, ay + share * dy);
-        continue;
-      }
-      // The chord from the start to a point at this share of the arc turns by half the rest of the sweep.
-      const double lean = -sweep * (1 - share) / 2;
-      const double factor = std::sin(sweep * share / 2) / std::sin(sweep / 2);
-      add(ax + factor * (dx * std::cos(lean) - dy * std::sin(lean)),
-          ay + factor * (dx * std::sin(lean) + dy * std::cos(lean)));
+      const DrawnPoint at = point_along(a, b, points[i].bulge, share);
+      tool.targets.push_back({.kind = DrillTarget::Kind::hole, .points = {{at}}, .radius = {}});
     }
   }
 }

@@ -2,26 +2,20 @@
 
 #include <algorithm>
 #include <cmath>
-#include <string_view>
+#include <utility>
 
+#include "program_text.hpp"
 #include <fmt/format.h>
+
+#include "passo/cam/bulge.hpp"
 
 namespace passo {
 namespace {
 
-// Text that may stand in a comment of G-code.
-std::string in_comment(std::string_view text) {
-  std::string words(text);
-  const auto breaks = [](char c) { return c == '(' || c == ')' || c == '%' || static_cast<unsigned char>(c) < ' '; };
-  std::ranges::replace_if(words, breaks, '_');
-  constexpr std::size_t longest = 120;
-  if (words.size() > longest) words = "..." + words.substr(words.size() - longest);
-  return words;
-}
-
 class DrillProgram {
  public:
-  DrillProgram(const DrillPlan& plan, const DrillProgramOptions& options) : plan_(plan), options_(options) {}
+  DrillProgram(const DrillPlan& plan, const DrillProgramOptions& options)
+      : plan_(plan), options_(options), text_(options.units) {}
 
   std::string write() {
     begin();
@@ -29,14 +23,13 @@ class DrillProgram {
     if (options_.spindle) line("M5");
     line("G0 {}", place(options_.park));
     line("M2");
-    return std::move(text_);
+    return text_.take();
   }
 
  private:
   template <class... T>
   void line(fmt::format_string<T...> words, T&&... values) {
-    fmt::format_to(std::back_inserter(text_), words, std::forward<T>(values)...);
-    text_ += '\n';
+    text_.line(words, std::forward<T>(values)...);
   }
   void begin();
   void write_tool(const DrillTool& tool, std::size_t number);
@@ -48,33 +41,16 @@ class DrillProgram {
   void arc(DrawnPoint from, DrawnPoint to, double bulge);
   std::vector<Nanometres> depths() const;
 
-  // A length in the program's units, without zeros at its end.
-  std::string number(Nanometres length) const {
-    const double mm = to_mm(length).value();
-    const double value = options_.units == ProgramUnits::mm   ? mm
-                         : options_.units == ProgramUnits::cm ? mm / 10
-                                                              : mm / mm_per_inch;
-    std::string digits = fmt::format("{:.{}f}", value, options_.units == ProgramUnits::mm ? 4 : 5);
-    digits.erase(digits.find_last_not_of('0') + 1);
-    if (digits.back() == '.') digits.pop_back();
-    return digits == "-0" ? "0" : digits;
-  }
-  std::string place(DrawnPoint at) const { return "X" + number(at.x) + " Y" + number(at.y); }
+  std::string number(Nanometres length) const { return text_.number(length); }
+  std::string place(DrawnPoint at) const { return text_.place(at); }
   std::string diameter_words(const DrillTool& tool) const {
-    return fmt::format("{} {} {}", tool.is_mill ? "mill" : "drill", number(tool.diameter), unit_name());
-  }
-  const char* unit_name() const {
-    return options_.units == ProgramUnits::mm ? "mm" : options_.units == ProgramUnits::cm ? "cm" : "inch";
+    return fmt::format("{} {} {}", tool.is_mill ? "mill" : "drill", number(tool.diameter), text_.unit_name());
   }
 
   const DrillPlan& plan_;
   const DrillProgramOptions& options_;
-  std::string text_;
+  ProgramText text_;
 };
-
-std::string counted(std::size_t count, const char* what) {
-  return fmt::format("{} {}{}", count, what, count == 1 ? "" : "s");
-}
 
 std::string contents_of(const DrillTool& tool) {
   if (tool.slots == 0) return counted(tool.holes, "hole");
@@ -89,12 +65,7 @@ void DrillProgram::begin() {
     line("(tool {}: {}, {})", i + 1, diameter_words(plan_.tools[i]), contents_of(plan_.tools[i]));
   }
   line("(X0 Y0 is the drawing's zero, Z0 the face of the board)");
-  if (options_.units == ProgramUnits::cm) {
-    line("(all lengths are centimetres: for a machine that counts in centimetres)");
-    line("G17 G40 G80 G90 G94");
-  } else {
-    line("G17 {} G40 G80 G90 G94", options_.units == ProgramUnits::mm ? "G21" : "G20");
-  }
+  text_.begin_modes();
   line("G0 Z{}", number(options_.clearance));
 }
 
@@ -217,14 +188,8 @@ void DrillProgram::arc(DrawnPoint from, DrawnPoint to, double bulge) {
     line("G1 {}", place(to));
     return;
   }
-  // The centre lies beside the middle of the chord: to its left where the arc is counterclockwise and below a half
-  // circle.
-  const double off = (1 - bulge * bulge) / (4 * bulge);
-  const auto dx = static_cast<double>(to.x.count - from.x.count);
-  const auto dy = static_cast<double>(to.y.count - from.y.count);
-  const Nanometres i{std::llround(dx / 2 - dy * off)};
-  const Nanometres j{std::llround(dy / 2 + dx * off)};
-  line("{} {} I{} J{}", bulge > 0 ? "G3" : "G2", place(to), number(i), number(j));
+  const DrawnPoint centre = to_centre(from, to, bulge);
+  line("{} {} I{} J{}", bulge > 0 ? "G3" : "G2", place(to), number(centre.x), number(centre.y));
 }
 
 }  // namespace

@@ -4,6 +4,7 @@
 // surface and context. cairo keeps the first error, and finish() returns it.
 #pragma once
 
+#include <cstdint>
 #include <memory>
 #include <string>
 #include <vector>
@@ -32,6 +33,13 @@ struct Area {
   double bottom() const { return y + height; }
 };
 
+// A picture made of pixels, row by row from the upper left corner: 0xAARRGGBB, the colours multiplied by A.
+struct PixelMap {
+  int width = 0;
+  int height = 0;
+  std::vector<std::uint32_t> pixels;
+};
+
 struct Pen {
   Colour colour;
   double width = 1;
@@ -58,6 +66,8 @@ class Canvas {
   void fill(const std::vector<Spot>& polygon, const Colour& colour, double opacity = 1);
   // Fills the area with the map of speeds, from left to right.
   void fill_with_speeds(const Area& area);
+  // Fills the area with the pixels.
+  void image(const Area& area, PixelMap map);
   void frame(const Area& area, const Pen& pen);
   void line(Spot from, Spot to, const Pen& pen);
   void disc(Spot centre, double radius, const Colour& colour);
@@ -65,10 +75,12 @@ class Canvas {
   void text(Spot place, const std::string& text, const Font& font, Align align = Align::left);
   double text_width(const std::string& text, const Font& font);
 
-  // These two build a path, which may have several pieces. stroke() draws the path.
+  // These two build a path, which may have several pieces. stroke() draws the path. fill_path() fills what an odd
+  // number of its pieces surround, so a piece in another is a hole.
   void move_to(Spot spot);
   void line_to(Spot spot);
   void stroke(const Pen& pen);
+  void fill_path(const Colour& colour);
 
   // Between clip() and end_clip(), drawing shows only inside `area`.
   void clip(const Area& area);

@@ -1,66 +1,26 @@
 #include "passo/report/drill_picture.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 
+#include "plan_view.hpp"
 #include "sheet.hpp"
 #include <fmt/format.h>
+
+#include "passo/cam/bulge.hpp"
 
 namespace passo {
 namespace {
 
-constexpr std::array<Colour, 6> tool_colours = {{{0.12, 0.40, 0.70},
-                                                 {0.80, 0.35, 0.10},
-                                                 {0.18, 0.55, 0.34},
-                                                 {0.55, 0.30, 0.65},
-                                                 {0.70, 0.55, 0.05},
-                                                 {0.75, 0.15, 0.30}}};
-const Pen rapid_pen{.colour = {0.62, 0.66, 0.71}, .width = 0.9};
-
-const Colour& colour_of(std::size_t tool) {
-  return tool_colours[tool % tool_colours.size()];
-}
-
-// From places of the plan to places of the paper.
-class PlanView {
- public:
-  PlanView(const DrillPlan& plan, DrawnPoint park, const Area& area) : area_(area) {
-    take(park);
-    for (const DrillTool& tool : plan.tools) {
-      for (const DrillTarget& target : tool.targets) {
-        for (const PathPoint& point : target.points) take(point.at);
-      }
+PlanView view_of(const DrillPlan& plan, DrawnPoint park, const Area& area) {
+  DrawnBox box{park, park};
+  for (const DrillTool& tool : plan.tools) {
+    for (const DrillTarget& target : tool.targets) {
+      for (const PathPoint& point : target.points) take_into(box, point.at);
     }
-    constexpr double air = 2e6;  // nm, around the outermost holes
-    low_.x -= air;
-    low_.y -= air;
-    const double width = high_.x + air - low_.x;
-    const double height = high_.y + air - low_.y;
-    pixels_ = std::min(area.width / width, area.height / height);
-    area_.x += (area.width - width * pixels_) / 2;
-    area_.y += (area.height - height * pixels_) / 2;
-    area_.height = height * pixels_;
   }
-
-  Spot spot(DrawnPoint at) const {
-    return {area_.x + (static_cast<double>(at.x.count) - low_.x) * pixels_,
-            area_.bottom() - (static_cast<double>(at.y.count) - low_.y) * pixels_};
-  }
-  double pixels(Nanometres length) const { return static_cast<double>(length.count) * pixels_; }
-
- private:
-  void take(DrawnPoint at) {
-    const Spot place{static_cast<double>(at.x.count), static_cast<double>(at.y.count)};
-    low_ = {std::min(low_.x, place.x), std::min(low_.y, place.y)};
-    high_ = {std::max(high_.x, place.x), std::max(high_.y, place.y)};
-  }
-
-  Area area_;
-  Spot low_{1e300, 1e300};
-  Spot high_{-1e300, -1e300};
-  double pixels_ = 1;
-};
+  return {box, area};
+}
 
 void draw_rapids(Canvas& canvas, const PlanView& view, const DrillPlan& plan, DrawnPoint park) {
   for (const DrillTool& tool : plan.tools) {
@@ -86,15 +46,10 @@ void draw_target(Canvas& canvas, const PlanView& view, const DrillTarget& target
   for (std::size_t i = 0; i < count; ++i) {
     const DrawnPoint from = target.points[i].at;
     const DrawnPoint to = target.points[(i + 1) % target.points.size()].at;
-    const double sweep = 4 * std::atan(target.points[i].bulge);
-    for (int k = 1; k <= (sweep == 0 ? 1 : pieces); ++k) {
-      const double share = sweep == 0 ? 1 : static_cast<double>(k) / pieces;
-      const double factor = sweep == 0 ? 1 : std::sin(sweep * share / 2) / std::sin(sweep / 2);
-      const double lean = -sweep * (1 - share) / 2;
-      const auto dx = static_cast<double>(to.x.count - from.x.count);
-      const auto dy = static_cast<double>(to.y.count - from.y.count);
-      canvas.line_to(view.spot({{from.x.count + std::llround(factor * (dx * std::cos(lean) - dy * std::sin(lean)))},
-                                {from.y.count + std::llround(factor * (dx * std::sin(lean) + dy * std::cos(lean)))}}));
+    const double bulge = target.points[i].bulge;
+    const int count_of_pieces = bulge == 0 ? 1 : pieces;
+    for (int k = 1; k <= count_of_pieces; ++k) {
+      canvas.line_to(view.spot(point_along(from, to, bulge, static_cast<double>(k) / count_of_pieces)));
     }
   }
   canvas.stroke({.colour = colour, .width = std::max(least, view.pixels(diameter))});
@@ -115,17 +70,17 @@ Status<OutputError> draw_drill_plan(const DrillPlan& plan, DrawnPoint park, cons
               fmt::format("{} holes and slots   \u00B7   {} tools   \u00B7   {:.1f} mm of rapids", holes,
                           plan.tools.size(), rapids / nanometres_per_mm));
   const Area area{sheet::margin, 100, options.width - 2 * sheet::margin, options.height - 190.0};
-  const PlanView view(plan, park, area);
+  const PlanView view = view_of(plan, park, area);
   draw_rapids(canvas, view, plan, park);
   for (std::size_t i = 0; i < plan.tools.size(); ++i) {
     const DrillTool& tool = plan.tools[i];
-    for (const DrillTarget& target : tool.targets) draw_target(canvas, view, target, tool.diameter, colour_of(i));
+    for (const DrillTarget& target : tool.targets) draw_target(canvas, view, target, tool.diameter, colour_of_tool(i));
   }
   constexpr std::size_t most_named = 6;
   Legend legend(canvas, {sheet::margin, options.height - 40.0});
   for (std::size_t i = 0; i < std::min(most_named, plan.tools.size()); ++i) {
     const DrillTool& tool = plan.tools[i];
-    legend.dot(6, colour_of(i),
+    legend.dot(6, colour_of_tool(i),
                fmt::format("{} {:.4g} mm: {}", tool.is_mill ? "Mill" : "Drill", to_mm(tool.diameter).value(),
                            tool.holes + tool.slots));
   }

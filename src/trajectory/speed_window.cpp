@@ -23,9 +23,9 @@ struct Corner {
 
 // A convex region: the rectangle, cut by one half plane after the other (Sutherland and Hodgman).
 template <std::size_t most_corners>
-class Region {
+class SpeedRegion {
  public:
-  Region(double width, double height) {
+  SpeedRegion(double width, double height) {
     corners_[0] = {0, 0};
     corners_[1] = {width, 0};
     corners_[2] = {width, height};
@@ -194,7 +194,7 @@ double largest_entry_with(std::span<const AxisDemand> demands, std::span<const F
                   [&](double p, double q, double limit) { at_most.keep(p, q, limit, exit_most); });
   if (!at_most.is_empty() && !at_most.shrinks()) return at_most.high;
 
-  Region<corners_of_stripes + 4 * axis_count> region(entry_most, exit_most);
+  SpeedRegion<corners_of_stripes + 4 * axis_count> region(entry_most, exit_most);
   cut_stripes(demands, region);
   for_each_demand(demands, falling, lines, [&](double p, double q, double limit) { region.cut(p, q, limit); });
   return region.largest_x();
@@ -255,7 +255,7 @@ double largest_entry(std::span<const AxisDemand> demands, double entry_most, dou
   const double corner = corner_below(demands, entry_most, exit_most, at_most);
   if (corner >= 0) return corner;
 
-  Region<corners_of_stripes> region(entry_most, exit_most);
+  SpeedRegion<corners_of_stripes> region(entry_most, exit_most);
   cut_stripes(demands, region);
   return region.largest_x();
 }

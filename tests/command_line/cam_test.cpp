@@ -121,4 +121,20 @@ TEST_F(CamDrill, what_is_wrong_is_told_and_nothing_is_written) {
   EXPECT_FALSE(std::filesystem::exists(path("b.ngc")));
 }
 
+TEST_F(CamDrill, layers_of_a_job_are_told_and_drawn) {
+  const std::string boards = std::string(PASSO_SOURCE_DIR) + "/examples/boards";
+  const Outcome shown = passo("cam show " + boards + " -p " + path("board.svg"));
+  EXPECT_EQ(shown.code, 0) << shown.err;
+  EXPECT_THAT(shown.out, HasSubstr("bottom copper     attribute"));
+  EXPECT_THAT(shown.out, HasSubstr("25 holes, 2 slots"));
+  EXPECT_THAT(shown.out, HasSubstr("board: 55.88 x 45.72 mm"));
+  EXPECT_THAT(read(path("board.svg")), HasSubstr("<svg"));
+  const Outcome json = passo("cam show --json " + boards);
+  EXPECT_THAT(json.out, HasSubstr("\"layer\": \"bottom mask\""));
+  const Outcome wrong = passo("cam show " + write("x.gbr", "%FSLAX33Y33*%\n%MOMM*%\nD10*\nX0Y0D03*\nM02*\n"));
+  EXPECT_NE(wrong.code, 0);
+  EXPECT_THAT(wrong.err, HasSubstr("x.gbr:4:1: error"));
+  EXPECT_THAT(wrong.err, HasSubstr("[gerber.no-aperture]"));
+}
+
 }  // namespace

@@ -1,9 +1,11 @@
 // passo cam drill: a program that drills the holes of circuit boards, from DXF drawings and drill files.
+#include <algorithm>
 #include <cmath>
 #include <filesystem>
 
+#include "cam_job.hpp"
 #include "commands.hpp"
-#include "length_argument.hpp"
+#include "length_arguments.hpp"
 #include "named_files.hpp"
 #include "program_input.hpp"
 #include <fmt/format.h>
@@ -17,63 +19,20 @@
 namespace passo {
 namespace {
 
-// Reads the lengths of the arguments. Keeps the first message of what is wrong.
-class LengthArguments {
- public:
-  explicit LengthArguments(double unit_mm) : unit_mm_(unit_mm) {}
-
-  Nanometres any(const char* option, const std::string& text) {
-    const Result<Mm, std::string> length = parse_length(option, text, unit_mm_);
-    if (length) return to_nanometres(*length);
-    refuse(length.error());
-    return {};
-  }
-  Nanometres above_0(const char* option, const std::string& text) {
-    const Nanometres length = any(option, text);
-    if (length.count <= 0) refuse(fmt::format("{}: expected a length above 0, found '{}'", option, text));
-    return length;
-  }
-  std::optional<Nanometres> perhaps(const char* option, const std::string& text) {
-    if (text.empty()) return std::nullopt;
-    return above_0(option, text);
-  }
-  std::vector<Nanometres> list(const char* option, const std::string& text) {
-    const Result<std::vector<Mm>, std::string> lengths = parse_lengths(option, text, unit_mm_);
-    std::vector<Nanometres> all;
-    if (!lengths) {
-      refuse(lengths.error());
-    } else {
-      for (const Mm length : *lengths) all.push_back(to_nanometres(length));
-    }
-    return all;
-  }
-  void refuse(const std::string& message) {
-    if (message_.empty()) message_ = message;
-  }
-  const std::string& message() const { return message_; }
-
- private:
-  double unit_mm_;
-  std::string message_;
-};
-
 struct DrillJob {
   DrawingFileOptions reading;
   DrillOptions plan;
   DrillProgramOptions program;
+  Mirror mirror;
+  ZeroPlace zero;
+  Drawing align;  // the holes that hold the board
 };
 
 Result<DrillJob, std::string> job_of(const CamDrillArguments& arguments) {
   const double unit = *mm_of_unit(arguments.units);
   LengthArguments lengths(unit);
   DrillJob job;
-  if (arguments.scale || !arguments.input.empty()) {
-    const double scale = arguments.scale.value_or(1);
-    if (!(scale > 1e-9 && scale < 1e9))
-      lengths.refuse(fmt::format("--scale: expected a number above 0, found {:g}", scale));
-    job.reading.dxf.unit = Mm(scale * (arguments.input.empty() ? unit : *mm_of_unit(arguments.input)));
-  }
-  job.reading.dxf.layers = arguments.layers;
+  job.reading.dxf = dxf_options_of(arguments, unit, lengths);
   if (!arguments.input.empty()) job.reading.excellon.inch = arguments.input == "inch";
   if (!arguments.zeros.empty()) {
     job.reading.excellon.zeros = arguments.zeros == "leading" ? LeftOutZeros::leading : LeftOutZeros::trailing;
@@ -91,19 +50,20 @@ Result<DrillJob, std::string> job_of(const CamDrillArguments& arguments) {
   if (job.plan.tolerance.count < 0) lengths.refuse("--tolerance: expected a length of 0 or more");
   job.plan.one_drill = lengths.perhaps("--drill", arguments.drill);
   job.plan.mill = lengths.perhaps("--mill", arguments.mill);
-  const std::vector<Nanometres> park = lengths.list("--park", arguments.park);
-  if (park.size() == 2) job.plan.park = {park[0], park[1]};
-  if (park.size() != 2) lengths.refuse(fmt::format("--park: expected X,Y, found '{}'", arguments.park));
+  job.plan.park = lengths.place("--park", arguments.park);
   job.plan.route_steps = arguments.route_steps;
+  job.mirror = mirror_of(arguments.mirror, arguments.mirror_at, lengths);
+  job.zero = zero_of(arguments.zero, lengths);
+  job.align.file = "--align";
+  const Nanometres align_drill = lengths.above_0("--align-drill", arguments.align_drill);
+  for (const DrawnPoint at : align_holes_of(arguments.align, lengths)) job.align.holes.push_back({at, align_drill});
 
   DrillProgramOptions& program = job.program;
   program.name = arguments.output.empty() ? "board" : std::filesystem::path(arguments.output).filename().string();
   for (const std::string& file : arguments.files) {
     program.files.push_back(std::filesystem::path(file).filename().string());
   }
-  program.units = arguments.units == "cm"     ? ProgramUnits::cm
-                  : arguments.units == "inch" ? ProgramUnits::inch
-                                              : ProgramUnits::mm;
+  program.units = program_units_of(arguments.units);
   program.clearance = lengths.above_0("--clearance", arguments.clearance);
   program.depth = lengths.any("--depth", arguments.depth);
   if (program.depth.count >= 0) {
@@ -152,12 +112,18 @@ std::string summary_of(const std::vector<Drawing>& drawings, const DrillPlan& pl
   return text;
 }
 
-int write(const std::string& path, const std::string& text) {
-  Result<OutputFile, OutputError> file = OutputFile::open(path.empty() ? "-" : path);
-  if (!file) return fail(exit_failed, file.error().message);
-  file->write(text);
-  const Status<OutputError> written = file->commit();
-  return written ? exit_done : fail(exit_failed, written.error().message);
+// Adds the holes of --align, turns the board over, and moves it to its zero.
+void place(std::vector<Drawing>& drawings, const DrillJob& job) {
+  const auto turn = [&](Drawing& drawing) { mirror_drawing(drawing, job.mirror); };
+  std::ranges::for_each(drawings, turn);
+  const DrawnPoint corner = lower_left_of(drawings);  // of the board's own holes
+  if (!job.align.holes.empty()) {
+    drawings.push_back(job.align);
+    turn(drawings.back());
+  }
+  const std::optional<DrawnPoint> zero = job.zero.is_lower_left ? std::optional(corner) : job.zero.at;
+  if (!zero) return;
+  for (Drawing& drawing : drawings) move_zero_to(*zero, drawing);
 }
 
 int draw(const DrillPlan& plan, const CamDrillArguments& arguments, PictureFormat format, DrawnPoint park) {
@@ -173,7 +139,7 @@ int draw(const DrillPlan& plan, const CamDrillArguments& arguments, PictureForma
 
 }  // namespace
 
-int cam_drill(const CamDrillArguments& arguments) {
+int cam_drill(const CamDrillArguments& arguments, const CamSources* given, CamMade* made) {
   NamedFiles files;
   for (const std::string& file : arguments.files) files.reads("the file", file);
   files.writes("--output", arguments.output);
@@ -188,7 +154,9 @@ int cam_drill(const CamDrillArguments& arguments) {
 
   Diagnostics findings;
   std::vector<Drawing> drawings;
-  for (const std::string& file : arguments.files) {
+  if (given != nullptr) drawings = given->drills;
+  for (std::size_t i = 0; given == nullptr && i < arguments.files.size(); ++i) {
+    const std::string& file = arguments.files[i];
     drawings.push_back(read_drawing(file, job->reading, findings));
     for (const std::string& words : drawings.back().notes) note(file + ": " + words);
   }
@@ -196,21 +164,27 @@ int cam_drill(const CamDrillArguments& arguments) {
     show(findings);
     return exit_bad_program;
   }
-  if (arguments.zero == "lower-left") {
-    const DrawnPoint corner = lower_left_of(drawings);
-    for (Drawing& drawing : drawings) move_zero_to(corner, drawing);
-  }
+  place(drawings, *job);
   const DrillPlan plan = plan_drilling(drawings, job->plan, findings);
   for (const std::string& words : plan.notes) note(words);
   if (findings.any_error()) {
     show(findings);
     return exit_bad_program;
   }
-  if (const int code = write(arguments.output, write_drill_program(plan, job->program)); code != exit_done) return code;
+  if (const int code = write_text(arguments.output, write_drill_program(plan, job->program)); code != exit_done)
+    return code;
   if (format) {
     if (const int code = draw(plan, arguments, *format, job->plan.park); code != exit_done) return code;
   }
-  if (!arguments.output.empty() && arguments.output != "-") fmt::print("{}", summary_of(drawings, plan, arguments));
+  const std::string words = summary_of(drawings, plan, arguments);
+  if (made != nullptr) {
+    for (const DrillTool& tool : plan.tools) {
+      made->tools.push_back(fmt::format("{} {:.4g} mm", tool.is_mill ? "mill" : "drill", to_mm(tool.diameter).value()));
+    }
+    made->summary = words;
+  } else if (!arguments.output.empty() && arguments.output != "-") {
+    fmt::print("{}", words);
+  }
   return exit_done;
 }
 

@@ -19,11 +19,27 @@ Examples:
 
 Every option, and what is read: docs/manual/cam.md.)";
 
+constexpr const char* show_examples =
+    R"(Examples:
+  passo cam show board.zip                     what the layout program has exported, a line for each layer
+  passo cam show gerbers/ -p board.png         a folder, and how the board will look from above and from below
+  passo cam show board.GTL board.GKO board.TXT --json
+
+Layers are known by their attributes or by their names: docs/manual/cam.md.)";
+
+void add_show_command(CLI::App& cam, CamArguments& all) {
+  CamShowArguments& arguments = all.show;
+  CLI::App& show = *cam.add_subcommand("show", "say and draw which layers a circuit board's files have");
+  show.add_option("FILE", arguments.files, "Gerber and drill files, folders and zip archives of them")->required();
+  show.add_option("-p,--picture", arguments.picture, "draw the board from above and from below (FILE.svg or FILE.png)");
+  show.add_flag("--json", arguments.json, "the same for scripts");
+  show.footer(show_examples);
+  show.callback([&all] { all.chosen = [&all] { return cam_show(all.show); }; });
+}
 }  // namespace
 
-CLI::App& add_cam_command(CLI::App& app, CamDrillArguments& arguments) {
-  CLI::App& cam = *app.add_subcommand("cam", "make programs of drawings: the holes of circuit boards");
-  cam.require_subcommand(1);
+void add_drill_command(CLI::App& cam, CamArguments& all) {
+  CamDrillArguments& arguments = all.drill;
   CLI::App& drill = *cam.add_subcommand("drill", "drill the holes of DXF drawings and Excellon drill files");
   drill.add_option("FILE", arguments.files, "DXF drawings and drill files; the kind is seen from what is in them")
       ->required();
@@ -40,9 +56,14 @@ CLI::App& add_cam_command(CLI::App& app, CamDrillArguments& arguments) {
       ->check(CLI::IsMember({"leading", "trailing"}));
   drill.add_option("--layer", arguments.layers, "DXF: read this layer; may be given again. Without it all that are on")
       ->take_all();
-  drill.add_option("--zero", arguments.zero, "where X0 Y0 is: file, or lower-left of all holes")
-      ->check(CLI::IsMember({"file", "lower-left"}))
+  drill.add_option("--zero", arguments.zero, "where X0 Y0 is: file, lower-left of all holes, or X,Y")
       ->capture_default_str();
+  drill
+      .add_option("--mirror", arguments.mirror, "the board is turned over: x from left to right, y from top to bottom")
+      ->check(CLI::IsMember({"x", "y"}));
+  drill.add_option("--mirror-at", arguments.mirror_at, "about this X or Y of the drawing; without it 0");
+  drill.add_option("--align", arguments.align, "X,Y,X,Y: drill two more holes, for pins that hold the board");
+  drill.add_option("--align-drill", arguments.align_drill, "diameter of these holes")->capture_default_str();
   drill.add_option("--tools", arguments.tools, "the drills at hand, as 0.8,1.0,1.3; without it one for each diameter");
   drill.add_option("--tolerance", arguments.tolerance, "how far a drill of --tools may be off")->capture_default_str();
   drill.add_option("--drill", arguments.drill, "this one drill makes every hole");
@@ -60,7 +81,18 @@ CLI::App& add_cam_command(CLI::App& app, CamDrillArguments& arguments) {
       ->check(CLI::Range(std::uint64_t{0}, std::uint64_t{10'000'000'000}))
       ->capture_default_str();
   drill.footer(drill_examples);
-  return drill;
+  drill.callback([&all] { all.chosen = [&all] { return cam_drill(all.drill); }; });
+}
+
+CLI::App& add_cam_command(CLI::App& app, CamArguments& arguments) {
+  CLI::App& cam = *app.add_subcommand("cam", "make programs of drawings: circuit boards, drilled, milled and cut out");
+  cam.require_subcommand(1);
+  add_show_command(cam, arguments);
+  add_drill_command(cam, arguments);
+  add_isolate_command(cam, arguments);
+  add_outline_command(cam, arguments);
+  add_cam_board_command(cam, arguments);
+  return cam;
 }
 
 }  // namespace passo

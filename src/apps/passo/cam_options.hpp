@@ -1,7 +1,9 @@
 // The options of `passo cam`, which makes programs of drawings.
 #pragma once
 
-#include "commands.hpp"
+#include <functional>
+
+#include "cam_arguments.hpp"
 
 namespace CLI {
 class App;
@@ -9,7 +11,21 @@ class App;
 
 namespace passo {
 
-// Returns the command `cam drill`.
-CLI::App& add_cam_command(CLI::App& app, CamDrillArguments& arguments);
+struct CamArguments {
+  CamShowArguments show;
+  CamDrillArguments drill;
+  CamIsolateArguments isolate;
+  CamOutlineArguments outline;
+  CamBoardArguments board;
+  std::function<int()> chosen;  // the chosen command, after parsing
+};
+
+CLI::App& add_cam_command(CLI::App& app, CamArguments& arguments);
+
+// Add the commands to `cam`.
+void add_drill_command(CLI::App& cam, CamArguments& arguments);
+void add_isolate_command(CLI::App& cam, CamArguments& arguments);
+void add_outline_command(CLI::App& cam, CamArguments& arguments);
+void add_cam_board_command(CLI::App& cam, CamArguments& arguments);
 
 }  // namespace passo

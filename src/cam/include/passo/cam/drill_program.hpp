@@ -5,8 +5,8 @@
 // tools are changed with M6 at the park place, with a message to the operator before. The program begins and ends at
 // the park place, at the clearance height.
 //
-// Numbers are in mm (G21), inches (G20), or centimetres, for which there is no code: the program then says so in a
-// comment, and is for machines that count in centimetres. The program's arcs are exact to the last digit written.
+// Numbers are in mm (G21), inches (G20) or centimetres (ProgramUnits). The program's arcs are exact to the last digit
+// written.
 #pragma once
 
 #include <cstdint>
@@ -15,10 +15,9 @@
 #include <vector>
 
 #include "passo/cam/drill_plan.hpp"
+#include "passo/cam/program_units.hpp"
 
 namespace passo {
-
-enum class ProgramUnits : std::uint8_t { mm, cm, inch };
 
 struct DrillProgramOptions {
   std::string name = {};                // of the program, for its first comment

@@ -1,0 +1,132 @@
+// The commands of `passo cam`, a function each, and their arguments.
+//
+// `given`: what was read already, instead of the files. `made`: what is printed otherwise. Null: nothing.
+// Lengths are texts for parse_length(); a number without a unit is in `units`.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "commands.hpp"
+
+#include "passo/cam/board_layer.hpp"
+
+namespace passo {
+
+// What a command would read from its files, if it was read already.
+struct CamSources {
+  std::vector<Drawing> drills = {};
+  BoardLayer layer = {};  // of the copper, or of the edge
+  Region board = {};      // inside the edge; empty: there is none
+};
+
+// What a command has made.
+struct CamMade {
+  std::vector<std::string> tools = {};  // for the operator, in the order in which they are used
+  std::string summary = {};
+};
+
+struct CamDrillArguments {
+  std::vector<std::string> files;   // DXF or Excellon
+  std::string output;               // empty: standard output
+  std::string picture;              // .svg or .png; empty: none
+  std::string units = "mm";         // of the program and of lengths without a unit: mm, cm or inch
+  std::optional<double> scale;      // of the numbers of DXF files
+  std::string input;                // unit of the files' numbers; empty: as they say, with --scale as `units`
+  std::string zeros;                // left out in drill files: leading or trailing; empty: as they say
+  std::vector<std::string> layers;  // of DXF files; empty: all that are on
+  std::string zero = "file";        // where X0 Y0 is: file, lower-left or X,Y
+  std::string mirror;               // x or y; empty: the board is not turned over
+  std::string mirror_at;            // the line about which it is; empty: X0 or Y0
+  std::string align;                // X,Y,X,Y: two more holes; empty: none
+  std::string align_drill = "3mm";  // their diameter
+  std::string tools;                // the rack: diameters with commas between; empty: a drill for each diameter
+  std::string tolerance = "0.05mm";
+  std::string drill;  // one drill for all holes; empty: none
+  std::string mill;   // the milling cutter; empty: none
+  std::string mill_step = "0.5mm";
+  std::string clearance = "2mm";
+  std::string depth = "-2mm";
+  std::string peck;  // empty: none
+  std::string feed = "100mm";
+  std::string mill_feed = "150mm";
+  std::string park = "0,0";
+  std::optional<std::uint32_t> spindle;     // turns a minute
+  std::uint64_t route_steps = 200'000'000;  // of shorten_route()
+  bool plain = false;                       // no canned cycles
+};
+int cam_drill(const CamDrillArguments& arguments, const CamSources* given = nullptr, CamMade* made = nullptr);
+
+// What both have.
+struct CamMillArguments {
+  std::vector<std::string> files;   // Gerber or DXF
+  std::string output;               // empty: standard output
+  std::string picture;              // .svg or .png; empty: none
+  bool json = false;                // what was done, on standard output
+  std::string units = "mm";         // of the program and of lengths without a unit: mm, cm or inch
+  std::optional<double> scale;      // of the numbers of DXF files
+  std::string input;                // unit of the files' numbers; empty: as they say, with --scale as `units`
+  std::vector<std::string> layers;  // of DXF files; empty: all that are on
+  std::string zero = "file";        // where X0 Y0 is: file, lower-left or X,Y
+  std::string mirror;               // x or y; empty: the board is not turned over
+  std::string mirror_at;            // the line about which it is; empty: X0 or Y0
+  std::string align;                // X,Y,X,Y: two holes midway between which that line runs
+  bool conventional = false;        // else climb milling
+  std::string clearance = "2mm";
+  std::string feed = "200mm";
+  std::string plunge_feed = "60mm";
+  std::string park = "0,0";
+  std::optional<std::uint32_t> spindle;  // turns a minute
+};
+
+struct CamIsolateArguments : CamMillArguments {
+  std::string edge;   // file of the board's edge; empty: none
+  std::string tools;  // widths of cutters with commas between
+  std::string v;      // ANGLE,TIP of a V-shaped cutter
+  std::string depth = "-0.05mm";
+  std::uint32_t passes = 1;
+  std::string width;    // free ground around the copper; empty: as the passes make
+  double overlap = 50;  // percent
+  bool clear = false;
+  std::string tolerance = "0.004mm";
+};
+int cam_isolate(const CamIsolateArguments& arguments, const CamSources* given = nullptr, CamMade* made = nullptr);
+
+struct CamOutlineArguments : CamMillArguments {
+  std::string tool = "2mm";
+  std::string depth = "-1.8mm";
+  std::string step = "0.5mm";
+  std::string join = "0.1mm";
+  std::uint32_t tabs = 0;
+  std::vector<std::string> tab_places;  // X,Y each
+  std::string tab_width = "2mm";
+  std::string tab_height = "0.6mm";
+  double ramp = 0;   // degrees
+  std::string lead;  // empty: none
+  bool dog_bones = false;
+};
+int cam_outline(const CamOutlineArguments& arguments, const CamSources* given = nullptr, CamMade* made = nullptr);
+
+// The three commands at once, on all files of a board.
+struct CamBoardArguments {
+  std::vector<std::string> paths;    // of Gerber and drill files, folders, or a zip archive
+  std::string output = ".";          // the folder for programs, pictures and the page
+  std::string profile;               // options of the three commands (TOML); empty: none
+  std::string machine;               // machine file, for the times; empty: none
+  std::string turn = "x";            // how a board is turned over: x or y
+  std::string margin = "10mm";       // of the board's lower left corner from X0 and from Y0
+  std::string pin_distance = "5mm";  // of the alignment holes from the board's edge; 0: none
+};
+int cam_board(const CamBoardArguments& arguments, CamDrillArguments drill, CamIsolateArguments isolate,
+              CamOutlineArguments outline);
+
+struct CamShowArguments {
+  std::vector<std::string> files;  // Gerber and drill files, folders, zip archives
+  std::string picture;             // .svg or .png; empty: none
+  bool json = false;
+};
+int cam_show(const CamShowArguments& arguments);
+
+}  // namespace passo

@@ -1,0 +1,259 @@
+// passo cam board: from the files of a board to numbered programs, a picture each, and a page that says what to do
+// when.
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+
+#include "cam_board_page.hpp"
+#include "cam_job.hpp"
+#include "check_page.hpp"
+
+#include "passo/cam/board_job.hpp"
+#include "passo/machine_file/machine_description.hpp"
+
+namespace passo {
+namespace {
+
+// The board, and where it lies.
+struct BoardPlan {
+  std::vector<Drawing> drills;
+  std::optional<BoardLayer> front;
+  std::optional<BoardLayer> back;
+  std::optional<BoardLayer> edge;
+  Region face;
+  DrawnBox box;
+};
+
+std::string exact(Nanometres length) {
+  return fmt::format("{:.6f}mm", to_mm(length).value());
+}
+
+BoardPlan plan_of(const BoardJob& job, Nanometres join, Diagnostics& findings) {
+  BoardPlan plan;
+  std::vector<Region> fronts;
+  std::vector<Region> backs;
+  std::string edge_name;
+  for (const BoardFile& file : job.files) {
+    if (file.drills && file.kind.role == BoardRole::drill) plan.drills.push_back(*file.drills);
+    if (!file.layer) continue;
+    if (file.kind.role == BoardRole::outline) {
+      plan.edge = BoardLayer{file.layer->dark, file.layer->strokes};
+      edge_name = file.name;
+    }
+    if (file.kind.role != BoardRole::copper) continue;
+    if (file.kind.side == BoardSide::top) fronts.push_back(file.layer->dark);
+    if (file.kind.side == BoardSide::bottom) backs.push_back(file.layer->dark);
+  }
+  if (plan.edge) {
+    plan.edge->lines.file = edge_name;
+    plan.face = board_edge(*plan.edge, join, findings).board;
+    if (plan.face.empty() && !findings.any_error()) {
+      note(edge_name + ": there is no closed edge in it, so no board is cut out");
+      plan.edge.reset();
+    }
+  }
+  if (!fronts.empty()) plan.front = BoardLayer{united(fronts), {}};
+  if (!backs.empty()) plan.back = BoardLayer{united(backs), {}};
+  std::vector<Region> all = {plan.face};
+  for (const auto& layer : {plan.front, plan.back}) {
+    if (layer && plan.face.empty()) all.push_back(layer->face);
+  }
+  plan.box = bounds(united(all)).value_or(DrawnBox{});
+  return plan;
+}
+
+// How long the program takes, by the planner. Empty: it has errors, which are shown.
+std::optional<Seconds> time_of(const std::string& program, const MachineDescription& machine) {
+  ProgramArguments arguments;
+  arguments.program = program;
+  std::optional<ProgramReader> reader = open_program(arguments);
+  const std::optional<InterpreterOptions> options = machine_options(arguments);
+  if (!reader || !options) return std::nullopt;
+  Diagnostics findings;
+  const ProgramCheck checked = check_program(reader->again(), machine, *options, findings);
+  if (!checked.good) {
+    show(findings);
+    return std::nullopt;
+  }
+  return judge(std::move(*reader), machine, *options, checked, {}, [](double) {}).summary.time();
+}
+
+class BoardMaker {
+ public:
+  BoardMaker(const CamBoardArguments& arguments, const BoardPlan& plan, const MachineDescription* machine)
+      : arguments_(arguments), plan_(plan), machine_(machine) {}
+
+  int make(CamDrillArguments drill, CamIsolateArguments isolate, CamOutlineArguments outline);
+  BoardPage page;
+
+ private:
+  bool is_x() const { return arguments_.turn == "x"; }
+  Nanometres middle() const {
+    const DrawnBox& box = plan_.box;
+    return {is_x() ? (box.least.x.count + box.most.x.count) / 2 : (box.least.y.count + box.most.y.count) / 2};
+  }
+  // Both sides have one zero: the board is turned over about its middle.
+  template <class Arguments>
+  void place(Arguments& arguments, bool is_turned) const {
+    const DrawnPoint corner = plan_.box.least;
+    arguments.zero = exact(corner.x - margin_) + "," + exact(corner.y - margin_);
+    arguments.mirror = is_turned ? arguments_.turn : "";
+    arguments.mirror_at = is_turned ? exact(middle()) : "";
+  }
+  // The names of the step's files.
+  template <class Arguments>
+  void name(Arguments& arguments, const char* what) {
+    const std::string stem = fmt::format("{}-{}", ++programs_, what);
+    const std::filesystem::path folder = arguments_.output;
+    arguments.output = (folder / (stem + ".ngc")).string();
+    arguments.picture = (folder / (stem + ".svg")).string();
+  }
+  template <class Arguments>
+  int add(Arguments arguments, int (*command)(const Arguments&, const CamSources*, CamMade*), const CamSources& sources,
+          std::string title, std::vector<std::string> words);
+  std::string pins(Nanometres distance) const;
+
+  const CamBoardArguments& arguments_;
+  const BoardPlan& plan_;
+  const MachineDescription* machine_;
+  Nanometres margin_;
+  int programs_ = 0;
+};
+
+template <class Arguments>
+int BoardMaker::add(Arguments arguments, int (*command)(const Arguments&, const CamSources*, CamMade*),
+                    const CamSources& sources, std::string title, std::vector<std::string> words) {
+  CamMade made;
+  if (const int code = command(arguments, &sources, &made); code != exit_done) return code;
+  BoardStep step{.title = std::move(title),
+                 .program = std::filesystem::path(arguments.output).filename().string(),
+                 .tools = made.tools,
+                 .words = std::move(words),
+                 .figures = made.summary,
+                 .time = "",
+                 .picture = ""};
+  std::ifstream picture(arguments.picture, std::ios::binary);
+  step.picture.assign(std::istreambuf_iterator<char>(picture), {});
+  if (machine_ != nullptr) {
+    if (const std::optional<Seconds> time = time_of(arguments.output, *machine_)) step.time = clock_words(*time);
+  }
+  fmt::print("{}: {}{}\n{}", step.program, step.title, step.time.empty() ? "" : ", " + step.time, step.figures);
+  page.steps.push_back(std::move(step));
+  return exit_done;
+}
+
+// Two holes beside the board, midway between which it is turned over.
+std::string BoardMaker::pins(Nanometres distance) const {
+  const DrawnBox& box = plan_.box;
+  const DrawnPoint centre{{(box.least.x.count + box.most.x.count) / 2}, {(box.least.y.count + box.most.y.count) / 2}};
+  // The same distance from the middle on both sides, so that each hole comes to where the other was.
+  const std::int64_t off =
+      distance.count + (is_x() ? box.most.x.count - box.least.x.count : box.most.y.count - box.least.y.count) / 2;
+  const DrawnPoint a{{centre.x.count - (is_x() ? off : 0)}, {centre.y.count - (is_x() ? 0 : off)}};
+  const DrawnPoint b{{2 * middle().count - a.x.count}, {2 * middle().count - a.y.count}};
+  return fmt::format("{},{},{},{}", exact(a.x), exact(a.y), exact(is_x() ? b.x : a.x), exact(is_x() ? a.y : b.y));
+}
+
+int BoardMaker::make(CamDrillArguments drill, CamIsolateArguments isolate, CamOutlineArguments outline) {
+  const bool two_sides = plan_.front && plan_.back;
+  const bool only_back = plan_.back && !plan_.front;
+  LengthArguments lengths(1);
+  margin_ = lengths.any("--margin", arguments_.margin);
+  const Nanometres distance = lengths.any("--pins", arguments_.pin_distance);
+  if (!lengths.message().empty()) return fail(exit_bad_program, lengths.message());
+  const std::string zero =
+      fmt::format("The lower left corner of the board lies at X{0:.4g} Y{0:.4g} mm; Z0 is the face of the blank.",
+                  to_mm(margin_).value());
+  const std::string over = is_x() ? "from left to right" : "from top to bottom";
+  page.steps.push_back({.title = "Fix the blank",
+                        .program = "",
+                        .tools = {},
+                        .words = {fmt::format("The board is {:.4g} x {:.4g} mm; leave room around it.",
+                                              to_mm(plan_.box.most.x - plan_.box.least.x).value(),
+                                              to_mm(plan_.box.most.y - plan_.box.least.y).value()),
+                                  only_back ? "The copper (the back of the board) is up." : "The front is up.", zero},
+                        .figures = "",
+                        .time = "",
+                        .picture = ""});
+  CamSources sources{.drills = plan_.drills, .layer = {}, .board = plan_.face};
+  const bool has_pins = two_sides && distance.count > 0;
+  if (has_pins) drill.align = pins(distance);
+  if (!plan_.drills.empty() || has_pins) {
+    place(drill, only_back);
+    name(drill, "drill");
+    std::vector<std::string> words = {"Run the program; at each message change the drill, and set Z0 again."};
+    if (has_pins)
+      words.emplace_back("Two of the holes are for pins: drill them on into the table, and do not move the blank.");
+    if (const int code = add(drill, &cam_drill, sources, "Drill", std::move(words)); code != exit_done) return code;
+  }
+  for (const bool is_back : {false, true}) {
+    const std::optional<BoardLayer>& side = is_back ? plan_.back : plan_.front;
+    if (!side) continue;
+    if (is_back && two_sides) {
+      page.steps.push_back({.title = "Turn the board over",
+                            .program = "",
+                            .tools = {},
+                            .words = {fmt::format("Turn it over {}{}.", over, has_pins ? ", and put the pins in" : ""),
+                                      "X0 Y0 stays where it is; set Z0 to the face that is up now."},
+                            .figures = "",
+                            .time = "",
+                            .picture = ""});
+    }
+    CamIsolateArguments copper = isolate;
+    place(copper, is_back);
+    name(copper, is_back ? "isolate-back" : "isolate-front");
+    sources.layer = *side;
+    const int code =
+        add(copper, &cam_isolate, sources, is_back ? "Mill the back" : "Mill the front",
+            {"Put the cutter in, and set Z0 with care: its width depends on the depth.", "Run the program."});
+    if (code != exit_done) return code;
+  }
+  if (!plan_.edge) return exit_done;
+  place(outline, plan_.back.has_value());
+  name(outline, "outline");
+  sources.layer = *plan_.edge;
+  return add(outline, &cam_outline, sources, "Cut the board out",
+             {"Put the cutter in, and set Z0.", "Run the program.", "Cut the tabs, if there are some."});
+}
+
+}  // namespace
+
+int cam_board(const CamBoardArguments& arguments, CamDrillArguments drill, CamIsolateArguments isolate,
+              CamOutlineArguments outline) {
+  Diagnostics findings;
+  std::optional<MachineDescription> machine;
+  if (!arguments.machine.empty()) {
+    machine = load_machine_file(arguments.machine, findings);
+    show(findings);
+    if (!machine) return exit_bad_machine;
+  }
+  const BoardJob job = read_board_job(arguments.paths, findings);
+  LengthArguments lengths(*mm_of_unit(outline.units));
+  const BoardPlan plan = plan_of(job, lengths.any("--join", outline.join), findings);
+  if (!lengths.message().empty()) return fail(exit_bad_program, lengths.message());
+  show(findings);
+  if (findings.any_error()) return exit_bad_program;
+  if (plan.drills.empty() && !plan.front && !plan.back && !plan.edge) {
+    return fail(exit_bad_program, "there is no copper, no edge and no drill file among these files");
+  }
+  std::error_code error;
+  std::filesystem::create_directories(arguments.output, error);
+  if (error) return fail(exit_failed, arguments.output + ": " + error.message());
+  if (isolate.tools.empty() && isolate.v.empty()) isolate.tools = "0.2mm";
+
+  BoardMaker maker(arguments, plan, machine ? &*machine : nullptr);
+  maker.page.name = std::filesystem::path(arguments.paths.front()).filename().string();
+  if (maker.page.name.empty()) maker.page.name = arguments.paths.front();  // "gerbers/"
+  if (machine) maker.page.machine = machine->name;
+  for (const BoardFile& file : job.files) {
+    maker.page.files.push_back(
+        fmt::format("{}: {} (told by its {})", file.name, words_for(file.kind), file.kind.told_by));
+    fmt::print("{}\n", maker.page.files.back());
+  }
+  maker.page.left_out = job.left_out;
+  const int code = maker.make(std::move(drill), std::move(isolate), std::move(outline));
+  if (code != exit_done) return code;
+  return write_text((std::filesystem::path(arguments.output) / "board.html").string(), to_html(maker.page));
+}
+
+}  // namespace passo

@@ -1,0 +1,181 @@
+// passo cam isolate: a program that mills free the copper of a layer.
+#include <cmath>
+
+#include "cam_job.hpp"
+#include <nlohmann/json.hpp>
+
+#include "passo/cam/isolation.hpp"
+#include "passo/cam/isolation_proof.hpp"
+
+namespace passo {
+namespace {
+
+std::string mm_words(Nanometres length) {
+  return fmt::format("{:.4g} mm", to_mm(length).value());
+}
+
+void add_v_cutter(const CamIsolateArguments& arguments, Nanometres depth, LengthArguments& lengths,
+                  std::vector<IsolationCutter>& cutters) {
+  const std::size_t comma = arguments.v.find(',');
+  double angle = 0;
+  try {
+    angle = std::stod(arguments.v);
+  } catch (const std::exception&) {
+    angle = 0;
+  }
+  if (comma == std::string::npos || !(angle > 0 && angle < 180)) {
+    lengths.refuse(
+        fmt::format("--v: expected ANGLE,TIP with an angle in degrees, as in 30,0.1, found '{}'", arguments.v));
+    return;
+  }
+  const Nanometres tip = lengths.any("--v", arguments.v.substr(comma + 1));
+  const Nanometres width = v_cutter_width(tip, angle, {-depth.count});
+  if (tip.count < 0 || width.count <= 0) lengths.refuse("--v: expected a tip of 0 or more");
+  cutters.push_back(
+      {width, fmt::format("V {:g} degrees, tip {}: {} at the face", angle, mm_words(tip), mm_words(width))});
+}
+
+IsolationOptions options_of(const CamIsolateArguments& arguments, const MillJob& job, LengthArguments& lengths) {
+  IsolationOptions options;
+  options.depth = lengths.below_0("--depth", arguments.depth, "-0.05");
+  if (!arguments.tools.empty()) {
+    for (const Nanometres width : lengths.list("--tool", arguments.tools)) {
+      constexpr std::int64_t finest = 1'000;  // nm
+      if (width.count < finest) lengths.refuse("--tool: expected widths of 0.001 mm or more");
+      options.cutters.push_back({width, "cutter " + mm_words(width)});
+    }
+  }
+  if (!arguments.v.empty()) add_v_cutter(arguments, options.depth, lengths, options.cutters);
+  if (options.cutters.empty()) lengths.refuse("expected a cutter: --tool 0.2, or --v 30,0.1 (angle, width of the tip)");
+  options.passes = arguments.passes;
+  options.width = lengths.perhaps("--width", arguments.width);
+  options.overlap = arguments.overlap / 100;
+  options.clear = arguments.clear;
+  options.climb = !arguments.conventional;
+  options.tolerance = lengths.above_0("--tolerance", arguments.tolerance);
+  options.park = job.program.park;
+  return options;
+}
+
+nlohmann::ordered_json as_json(const IsolationPlan& plan, const IsolationProof& proof, DrawnPoint park) {
+  nlohmann::ordered_json tools = nlohmann::ordered_json::array();
+  for (const MillTool& tool : plan.mill.tools) {
+    const MillLengths lengths = lengths_of(tool, park);
+    tools.push_back({{"words", tool.words},
+                     {"width_mm", to_mm(tool.width).value()},
+                     {"runs", lengths.runs},
+                     {"milled_mm", lengths.milled_nm / nanometres_per_mm},
+                     {"rapids_mm", lengths.rapids_nm / nanometres_per_mm}});
+  }
+  nlohmann::ordered_json gaps = nlohmann::ordered_json::array();
+  for (const CopperGap& gap : plan.gaps) {
+    gaps.push_back(
+        {{"x_mm", to_mm(gap.at.x).value()}, {"y_mm", to_mm(gap.at.y).value()}, {"width_mm", to_mm(gap.width).value()}});
+  }
+  return {{"tools", tools},
+          {"islands", proof.islands},
+          {"gaps", gaps},
+          {"proof",
+           {{"copper_mm2", proof.copper_mm2},
+            {"lost_mm2", proof.lost_mm2},
+            {"milled_mm2", proof.milled_mm2},
+            {"joined", proof.joined},
+            {"groups", proof.groups}}}};
+}
+
+std::string proof_words(const IsolationProof& proof) {
+  std::string text = fmt::format("proof: {:.4g} mm² milled, {:g} of {:.4g} mm² of copper lost; {} islands",
+                                 proof.milled_mm2, proof.lost_mm2, proof.copper_mm2, proof.islands);
+  return text + (proof.joined == 0
+                     ? ", all apart\n"
+                     : fmt::format(", {} of them still joined in {} pieces\n", proof.joined, proof.groups));
+}
+
+void note_gaps(const IsolationPlan& plan) {
+  constexpr std::size_t most_told = 5;
+  for (std::size_t i = 0; i < std::min(most_told, plan.gaps.size()); ++i) {
+    const CopperGap& gap = plan.gaps[i];
+    note(fmt::format("the cutter does not fit between two islands at X{:.4f} Y{:.4f} mm: they are {} apart",
+                     to_mm(gap.at.x).value(), to_mm(gap.at.y).value(), mm_words(gap.width)));
+  }
+  if (plan.gaps.size() > most_told) {
+    note(fmt::format("and {} more such gaps: --json lists them, --picture marks them", plan.gaps.size() - most_told));
+  }
+}
+
+// The board inside the edge drawing; its findings are shown.
+std::optional<Region> board_of(const std::string& edge, const MillJob& job) {
+  const std::optional<BoardLayer> layer = read_layers({edge}, job);
+  if (!layer) return std::nullopt;
+  Diagnostics findings;
+  constexpr Nanometres join{100'000};
+  Region board = board_edge(*layer, join, findings).board;
+  show(findings);
+  if (findings.any_error()) return std::nullopt;
+  return board;
+}
+
+std::optional<CamSources> read(const CamIsolateArguments& arguments, const MillJob& job) {
+  CamSources sources;
+  std::optional<BoardLayer> layer = read_layers(arguments.files, job);
+  if (!layer) return std::nullopt;
+  sources.layer = std::move(*layer);
+  if (arguments.edge.empty()) return sources;
+  std::optional<Region> board = board_of(arguments.edge, job);
+  if (!board) return std::nullopt;
+  sources.board = std::move(*board);
+  return sources;
+}
+
+}  // namespace
+
+int cam_isolate(const CamIsolateArguments& arguments, const CamSources* given, CamMade* made) {
+  if (!outputs_are_good(arguments, arguments.edge)) return exit_bad_program;
+  LengthArguments lengths(*mm_of_unit(arguments.units));
+  MillJob job = mill_job_of(arguments, "passo cam isolate", lengths);
+  IsolationOptions options = options_of(arguments, job, lengths);
+  if (!lengths.message().empty()) return fail(exit_bad_program, lengths.message());
+
+  const std::optional<CamSources> sources = given != nullptr ? *given : read(arguments, job);
+  if (!sources) return exit_bad_program;
+  Region copper = mirrored(sources->layer.face, job.mirror);
+  options.board = mirrored(sources->board, job.mirror);
+  if (const std::optional<DrawnBox> box = bounds(copper); options.clear && options.board.empty() && box) {
+    options.board = grown(filled({rectangle(*box)}), {2'000'000});
+  }
+  move_to_zero(job.zero, options.board.empty() ? copper : options.board, {&copper, &options.board});
+
+  Diagnostics findings;
+  const IsolationPlan plan = plan_isolation(copper, options, findings);
+  if (findings.any_error()) {
+    show(findings);
+    return exit_bad_program;
+  }
+  const IsolationProof proof = prove_isolation(copper, plan.mill);
+  if (proof.lost_mm2 > 0) {
+    return fail(
+        exit_failed,
+        fmt::format("the program would take {:g} mm² of copper that is wanted: no program is written", proof.lost_mm2));
+  }
+  for (const std::string& words : plan.mill.notes) note(words);
+  note_gaps(plan);
+  if (const int code = write_text(arguments.output, write_mill_program(plan.mill, job.program)); code != exit_done) {
+    return code;
+  }
+  if (!arguments.picture.empty()) {
+    MillScene scene{plan.mill, copper, "Copper", plan.unmilled, {}, "Gap too narrow", options.park};
+    for (const CopperGap& gap : plan.gaps) scene.marks.push_back(gap.at);
+    const int code = write_picture(
+        arguments.picture, job.program.name,
+        [&](const PictureOptions& picture, OutputFile& file) { return draw_mill_plan(scene, picture, file); });
+    if (code != exit_done) return code;
+  }
+  if (arguments.json) {
+    fmt::print("{}\n", as_json(plan, proof, options.park).dump(2));
+    return exit_done;
+  }
+  return tell(arguments.output, plan.mill, summary_of(plan.mill, options.park, arguments.units) + proof_words(proof),
+              made);
+}
+
+}  // namespace passo

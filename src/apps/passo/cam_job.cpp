@@ -1,0 +1,180 @@
+#include "cam_job.hpp"
+
+#include <cmath>
+#include <filesystem>
+
+#include "named_files.hpp"
+
+namespace passo {
+
+ProgramUnits program_units_of(const std::string& name) {
+  return name == "cm" ? ProgramUnits::cm : name == "inch" ? ProgramUnits::inch : ProgramUnits::mm;
+}
+
+int write_text(const std::string& path, const std::string& text) {
+  Result<OutputFile, OutputError> file = OutputFile::open(path.empty() ? "-" : path);
+  if (!file) return fail(exit_failed, file.error().message);
+  file->write(text);
+  const Status<OutputError> written = file->commit();
+  return written ? exit_done : fail(exit_failed, written.error().message);
+}
+
+int write_picture(const std::string& path, const std::string& title,
+                  const std::function<Status<OutputError>(const PictureOptions&, OutputFile&)>& draw) {
+  Result<OutputFile, OutputError> file = OutputFile::open(path);
+  if (!file) return fail(exit_failed, file.error().message);
+  PictureOptions options;
+  options.format = picture_format_of(path).value_or(PictureFormat::svg);
+  options.program = title;
+  Status<OutputError> done = draw(options, *file);
+  if (done) done = file->commit();
+  return done ? exit_done : fail(exit_failed, done.error().message);
+}
+
+ZeroPlace zero_of(const std::string& zero, LengthArguments& lengths) {
+  if (zero == "file") return {};
+  if (zero == "lower-left") return {.is_lower_left = true};
+  if (zero.find(',') == std::string::npos) {
+    lengths.refuse(fmt::format("--zero: expected file, lower-left or X,Y, found '{}'", zero));
+    return {};
+  }
+  return {.at = lengths.place("--zero", zero)};
+}
+
+Mirror mirror_of(const std::string& turned, const std::string& at, LengthArguments& lengths) {
+  Mirror mirror;
+  if (turned == "x") mirror.turned = Mirror::Turned::x;
+  if (turned == "y") mirror.turned = Mirror::Turned::y;
+  if (at.empty()) return mirror;
+  if (turned.empty()) lengths.refuse("--mirror-at: expected --mirror x or --mirror y, too");
+  mirror.at = lengths.any("--mirror-at", at);
+  return mirror;
+}
+
+std::vector<DrawnPoint> align_holes_of(const std::string& align, LengthArguments& lengths) {
+  if (align.empty()) return {};
+  const std::vector<Nanometres> holes = lengths.list("--align", align);
+  if (holes.size() == 4 && (holes[0] == holes[2]) != (holes[1] == holes[3])) {
+    return {{holes[0], holes[1]}, {holes[2], holes[3]}};
+  }
+  lengths.refuse(
+      fmt::format("--align: expected X,Y,X,Y of two holes side by side (one Y) or one above the other "
+                  "(one X), found '{}'",
+                  align));
+  return {};
+}
+
+namespace {
+
+Mirror mirror_of(const CamMillArguments& arguments, LengthArguments& lengths) {
+  const std::vector<DrawnPoint> holes = align_holes_of(arguments.align, lengths);
+  if (holes.empty()) return mirror_of(arguments.mirror, arguments.mirror_at, lengths);
+  if (!arguments.mirror.empty() || !arguments.mirror_at.empty()) {
+    lengths.refuse("--align says about what the board is turned over: leave --mirror and --mirror-at out");
+  }
+  const bool side_by_side = holes[0].y == holes[1].y;
+  return {side_by_side ? Mirror::Turned::x : Mirror::Turned::y,
+          {side_by_side ? (holes[0].x.count + holes[1].x.count) / 2 : (holes[0].y.count + holes[1].y.count) / 2}};
+}
+
+}  // namespace
+
+MillJob mill_job_of(const CamMillArguments& arguments, const char* command, LengthArguments& lengths) {
+  MillJob job;
+  job.reading.dxf = dxf_options_of(arguments, *mm_of_unit(arguments.units), lengths);
+  job.mirror = mirror_of(arguments, lengths);
+  MillProgramOptions& program = job.program;
+  program.name = arguments.output.empty() ? "board" : std::filesystem::path(arguments.output).filename().string();
+  program.command = command;
+  for (const std::string& file : arguments.files) {
+    program.files.push_back(std::filesystem::path(file).filename().string());
+  }
+  job.zero = zero_of(arguments.zero, lengths);
+  const std::string zero = job.zero.is_lower_left ? "the lower left corner"
+                           : job.zero.at          ? fmt::format("X{:.6g} Y{:.6g} mm of the drawing",
+                                                                to_mm(job.zero.at->x).value(), to_mm(job.zero.at->y).value())
+                                                  : "the drawing's zero";
+  program.remarks.push_back(fmt::format("X0 Y0 is {}, Z0 the face of the board", zero));
+  if (job.mirror.turned != Mirror::Turned::no) {
+    const bool is_x = job.mirror.turned == Mirror::Turned::x;
+    program.remarks.push_back(fmt::format("the board is turned over {}, about {}{:.6g} mm of the drawing",
+                                          is_x ? "from left to right" : "from top to bottom", is_x ? "X" : "Y",
+                                          to_mm(job.mirror.at).value()));
+  }
+  program.units = program_units_of(arguments.units);
+  program.clearance = lengths.above_0("--clearance", arguments.clearance);
+  program.feed = lengths.above_0("--feed", arguments.feed);
+  program.plunge_feed = lengths.above_0("--plunge-feed", arguments.plunge_feed);
+  program.spindle = arguments.spindle;
+  program.park = lengths.place("--park", arguments.park);
+  return job;
+}
+
+bool outputs_are_good(const CamMillArguments& arguments, const std::string& edge) {
+  NamedFiles files;
+  for (const std::string& file : arguments.files) files.reads("the file", file);
+  files.reads("--edge", edge);
+  files.writes("--output", arguments.output);
+  files.writes("--picture", arguments.picture);
+  if (!files.are_apart()) return false;
+  if (!arguments.picture.empty() && !picture_format_of(arguments.picture)) {
+    fail(exit_bad_program, fmt::format("--picture: '{}' should end in .svg or .png", arguments.picture));
+    return false;
+  }
+  const bool has_no_room = arguments.json && (arguments.output.empty() || arguments.output == "-");
+  if (has_no_room) fail(exit_bad_program, "--json goes to standard output: the program needs --output FILE");
+  return !has_no_room;
+}
+
+std::optional<BoardLayer> read_layers(const std::vector<std::string>& files, const MillJob& job) {
+  Diagnostics findings;
+  BoardLayer all;
+  std::vector<Region> faces;
+  for (const std::string& file : files) {
+    BoardLayer layer = read_board_layer(file, job.reading, findings);
+    for (const std::string& words : layer.lines.notes) note(file + ": " + words);
+    faces.push_back(std::move(layer.face));
+    all.lines.file = file;
+    std::ranges::move(layer.lines.holes, std::back_inserter(all.lines.holes));
+    std::ranges::move(layer.lines.paths, std::back_inserter(all.lines.paths));
+  }
+  show(findings);
+  if (findings.any_error()) return std::nullopt;
+  all.face = faces.size() == 1 ? std::move(faces.front()) : united(faces);
+  return all;
+}
+
+void move_to_zero(const ZeroPlace& zero, const Region& whole, const std::vector<Region*>& regions) {
+  const std::optional<DrawnBox> box = bounds(whole);
+  const std::optional<DrawnPoint> at = zero.is_lower_left && box ? std::optional(box->least) : zero.at;
+  if (!at) return;
+  for (Region* region : regions) {
+    for (DrawnRing& ring : region->rings) {
+      for (DrawnPoint& point : ring) point = {point.x - at->x, point.y - at->y};
+    }
+  }
+}
+
+int tell(const std::string& output, const MillPlan& plan, const std::string& words, CamMade* made) {
+  if (made != nullptr) {
+    for (const MillTool& tool : plan.tools) made->tools.push_back(tool.words);
+    made->summary = words;
+  } else if (!output.empty() && output != "-") {
+    fmt::print("{}", words);
+  }
+  return exit_done;
+}
+
+std::string summary_of(const MillPlan& plan, DrawnPoint park, const std::string& units) {
+  const double unit_nm = *mm_of_unit(units) * nanometres_per_mm;
+  std::string text;
+  for (std::size_t i = 0; i < plan.tools.size(); ++i) {
+    const MillLengths lengths = lengths_of(plan.tools[i], park);
+    text +=
+        fmt::format("tool {}: {}: {} times down, {:.1f} {} milled, {:.1f} {} of rapids\n", i + 1, plan.tools[i].words,
+                    lengths.runs, lengths.milled_nm / unit_nm, units, lengths.rapids_nm / unit_nm, units);
+  }
+  return text;
+}
+
+}  // namespace passo

@@ -1,0 +1,102 @@
+// passo cam outline: a program that cuts boards out along their edge.
+#include <cmath>
+
+#include "cam_job.hpp"
+#include <nlohmann/json.hpp>
+
+#include "passo/cam/outline.hpp"
+
+namespace passo {
+namespace {
+
+OutlineOptions options_of(const CamOutlineArguments& arguments, const MillJob& job, LengthArguments& lengths) {
+  OutlineOptions options;
+  options.cutter = lengths.above_0("--tool", arguments.tool);
+  options.words = fmt::format("cutter {:.4g} mm", to_mm(options.cutter).value());
+  options.depth = lengths.below_0("--depth", arguments.depth, "-1.8");
+  options.step = lengths.above_0("--step", arguments.step);
+  constexpr std::int64_t finest_step = 1'000;  // nm: less makes programs without end
+  if (options.step.count < finest_step) lengths.refuse("--step: expected 0.001 mm or more");
+  options.tabs = arguments.tabs;
+  for (const std::string& place : arguments.tab_places) options.tab_places.push_back(lengths.place("--tab", place));
+  options.tab_width = lengths.above_0("--tab-width", arguments.tab_width);
+  options.tab_height = lengths.above_0("--tab-height", arguments.tab_height);
+  options.ramp_degrees = arguments.ramp;
+  options.lead = lengths.perhaps("--lead", arguments.lead).value_or(Nanometres{});
+  options.dog_bones = arguments.dog_bones;
+  options.climb = !arguments.conventional;
+  options.park = job.program.park;
+  return options;
+}
+
+std::string board_words(const Region& board, const OutlinePlan& plan, const EdgeLoops& loops) {
+  std::string text =
+      fmt::format("{} outlines and {} openings around {:.4g} mm² of board, {} tabs; {:g} mm² of it lost\n",
+                  plan.outsides, plan.openings, area_mm2(board), plan.tabs.size(), plan.lost_mm2);
+  if (loops.joined > 0) {
+    text += fmt::format("joined: {} ends that did not meet, at most {:.4g} mm apart\n", loops.joined,
+                        to_mm(loops.widest_joined).value());
+  }
+  return text;
+}
+
+nlohmann::ordered_json as_json(const OutlinePlan& plan, const EdgeLoops& loops, const Region& board, DrawnPoint park) {
+  MillLengths lengths;
+  if (!plan.mill.tools.empty()) lengths = lengths_of(plan.mill.tools.front(), park);
+  nlohmann::ordered_json tabs = nlohmann::ordered_json::array();
+  for (const DrawnPoint& tab : plan.tabs) {
+    tabs.push_back({{"x_mm", to_mm(tab.x).value()}, {"y_mm", to_mm(tab.y).value()}});
+  }
+  return {{"outsides", plan.outsides},
+          {"openings", plan.openings},
+          {"joined", loops.joined},
+          {"board_mm2", area_mm2(board)},
+          {"lost_mm2", plan.lost_mm2},
+          {"runs", lengths.runs},
+          {"milled_mm", lengths.milled_nm / nanometres_per_mm},
+          {"rapids_mm", lengths.rapids_nm / nanometres_per_mm},
+          {"tabs", tabs}};
+}
+
+}  // namespace
+
+int cam_outline(const CamOutlineArguments& arguments, const CamSources* given, CamMade* made) {
+  if (!outputs_are_good(arguments, "")) return exit_bad_program;
+  LengthArguments lengths(*mm_of_unit(arguments.units));
+  const MillJob job = mill_job_of(arguments, "passo cam outline", lengths);
+  const OutlineOptions options = options_of(arguments, job, lengths);
+  const Nanometres join = lengths.any("--join", arguments.join);
+  if (join.count < 0) lengths.refuse("--join: expected a length of 0 or more");
+  if (!lengths.message().empty()) return fail(exit_bad_program, lengths.message());
+
+  const std::optional<BoardLayer> layer = given != nullptr ? given->layer : read_layers(arguments.files, job);
+  if (!layer) return exit_bad_program;
+  Diagnostics findings;
+  const BoardEdge edge = board_edge(*layer, join, findings);
+  Region board = mirrored(edge.board, job.mirror);
+  move_to_zero(job.zero, board, {&board});
+  OutlinePlan plan;
+  if (!findings.any_error()) plan = plan_outline(board, options, findings);
+  show(findings);
+  if (findings.any_error()) return exit_bad_program;
+  for (const std::string& words : plan.mill.notes) note(words);
+  if (const int code = write_text(arguments.output, write_mill_program(plan.mill, job.program)); code != exit_done) {
+    return code;
+  }
+  if (!arguments.picture.empty()) {
+    const Region nothing;
+    const MillScene scene{plan.mill, board, "Board", nothing, plan.tabs, "Tab", options.park};
+    const int code = write_picture(
+        arguments.picture, job.program.name,
+        [&](const PictureOptions& picture, OutputFile& file) { return draw_mill_plan(scene, picture, file); });
+    if (code != exit_done) return code;
+  }
+  if (arguments.json) {
+    fmt::print("{}\n", as_json(plan, edge.loops, board, options.park).dump(2));
+    return exit_done;
+  }
+  const std::string words = summary_of(plan.mill, options.park, arguments.units) + board_words(board, plan, edge.loops);
+  return tell(arguments.output, plan.mill, words, made);
+}
+
+}  // namespace passo

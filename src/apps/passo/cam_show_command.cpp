@@ -1,0 +1,126 @@
+// passo cam show: which layers the files of a circuit board have.
+#include <algorithm>
+#include <filesystem>
+
+#include "cam_arguments.hpp"
+#include "findings_json.hpp"
+#include "named_files.hpp"
+#include "program_input.hpp"
+#include <fmt/format.h>
+
+#include "passo/cam/board_job.hpp"
+#include "passo/report/board_picture.hpp"
+
+namespace passo {
+namespace {
+
+const std::vector<std::string>& notes_of(const BoardFile& file) {
+  return file.layer ? file.layer->strokes.notes : file.drills->notes;
+}
+
+struct ShownSize {
+  double across = 0;  // mm
+  double up = 0;
+};
+ShownSize size_of(const std::optional<DrawnBox>& box) {
+  if (!box) return {};
+  return {to_mm(box->most.x - box->least.x).value(), to_mm(box->most.y - box->least.y).value()};
+}
+
+// Without folders.
+std::string short_name(const BoardFile& file) {
+  return std::filesystem::path(file.name).filename().string();
+}
+
+// A row of the table: what a user needs to tell whether this is the layer.
+std::string row_of(const BoardFile& file, std::size_t name_width) {
+  std::string row =
+      fmt::format("{:{}}  {:<16}  {:<9}  ", short_name(file), name_width, words_for(file.kind), file.kind.told_by);
+  if (file.layer) {
+    const ShownSize size = size_of(bounds(file.layer->dark));
+    return row + fmt::format("{:7.2f} x {:7.2f} mm  {:9.2f} mm²  {} pads, {} strokes\n", size.across, size.up,
+                             area_mm2(file.layer->dark), file.layer->pads.size(), file.layer->strokes.paths.size());
+  }
+  return row + fmt::format("{} holes, {} slots\n", file.drills->holes.size(), file.drills->paths.size());
+}
+
+nlohmann::ordered_json as_json(const BoardFile& file) {
+  nlohmann::ordered_json json = {
+      {"file", file.name}, {"layer", words_for(file.kind)}, {"told_by", file.kind.told_by}, {"notes", notes_of(file)}};
+  if (file.layer) {
+    const GerberLayer& layer = *file.layer;
+    if (const std::optional<DrawnBox> box = bounds(layer.dark)) {
+      json["least_mm"] = {to_mm(box->least.x).value(), to_mm(box->least.y).value()};
+      json["most_mm"] = {to_mm(box->most.x).value(), to_mm(box->most.y).value()};
+    }
+    json["area_mm2"] = area_mm2(layer.dark);
+    json["pads"] = layer.pads.size();
+    json["strokes"] = layer.strokes.paths.size();
+    json["apertures"] = layer.apertures.size();
+    json["nets"] = layer.nets.size() - 1;
+    json["negative"] = layer.is_negative;
+  } else {
+    json["holes"] = file.drills->holes.size();
+    json["slots"] = file.drills->paths.size();
+  }
+  return json;
+}
+
+void print_json(const BoardJob& job) {
+  nlohmann::ordered_json files = nlohmann::ordered_json::array();
+  for (const BoardFile& file : job.files) files.push_back(as_json(file));
+  const Region face = board_face(job);
+  const ShownSize size = size_of(bounds(face));
+  nlohmann::ordered_json json = {{"files", std::move(files)}, {"left_out", job.left_out}};
+  if (!face.empty()) json["board"] = {{"across_mm", size.across}, {"up_mm", size.up}, {"area_mm2", area_mm2(face)}};
+  fmt::print("{}\n", json.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace));
+}
+
+void print_table(const BoardJob& job) {
+  std::size_t width = 4;
+  for (const BoardFile& file : job.files) width = std::max(width, short_name(file).size());
+  for (const BoardFile& file : job.files) fmt::print("{}", row_of(file, width));
+  const Region face = board_face(job);
+  if (const std::optional<DrawnBox> box = bounds(face)) {
+    const ShownSize size = size_of(box);
+    fmt::print("board: {:.2f} x {:.2f} mm, {:.2f} mm² within its outline\n", size.across, size.up, area_mm2(face));
+  }
+}
+
+int draw(const BoardJob& job, const CamShowArguments& arguments, PictureFormat format) {
+  Result<OutputFile, OutputError> file = OutputFile::open(arguments.picture);
+  if (!file) return fail(exit_failed, file.error().message);
+  PictureOptions options;
+  options.format = format;
+  options.program = arguments.files.front();
+  Status<OutputError> done = draw_board(job, options, *file);
+  if (done) done = file->commit();
+  return done ? exit_done : fail(exit_failed, done.error().message);
+}
+
+}  // namespace
+
+int cam_show(const CamShowArguments& arguments) {
+  NamedFiles files;
+  for (const std::string& file : arguments.files) files.reads("the file", file);
+  files.writes("--picture", arguments.picture);
+  if (!files.are_apart()) return exit_bad_program;
+  const std::optional<PictureFormat> format = picture_format_of(arguments.picture);
+  if (!arguments.picture.empty() && !format) {
+    return fail(exit_bad_program, fmt::format("--picture: '{}' should end in .svg or .png", arguments.picture));
+  }
+  Diagnostics findings;
+  const BoardJob job = read_board_job(arguments.files, findings);
+  for (const BoardFile& file : job.files) {
+    for (const std::string& words : notes_of(file)) note(file.name + ": " + words);
+  }
+  if (!job.left_out.empty()) note(fmt::format("{} files are neither Gerber nor drill files", job.left_out.size()));
+  if (findings.any_error()) {
+    show(findings);
+    return exit_bad_program;
+  }
+  arguments.json ? print_json(job) : print_table(job);
+  return format ? draw(job, arguments, *format) : exit_done;
+}
+
+}  // namespace passo

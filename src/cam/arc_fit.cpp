@@ -1,0 +1,105 @@
+#include "arc_fit.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <optional>
+
+namespace passo {
+namespace {
+
+struct FlatVector {
+  double x;
+  double y;
+};
+
+FlatVector between(DrawnPoint from, DrawnPoint to) {
+  return {static_cast<double>(to.x.count - from.x.count), static_cast<double>(to.y.count - from.y.count)};
+}
+double cross(FlatVector a, FlatVector b) {
+  return a.x * b.y - a.y * b.x;
+}
+double dot(FlatVector a, FlatVector b) {
+  return a.x * b.x + a.y * b.y;
+}
+
+struct FoundArc {
+  double sweep;
+};
+
+class ArcFinder {
+ public:
+  ArcFinder(const std::vector<DrawnPoint>& points, const ArcFit& fit) : points_(points), fit_(fit) {}
+
+  // The arc from one point to the other, if all points between are on it.
+  std::optional<FoundArc> arc(std::size_t first, std::size_t last) const {
+    const DrawnPoint a = points_[first];
+    const FlatVector to_middle = between(a, points_[(first + last) / 2]);
+    const FlatVector to_last = between(a, points_[last]);
+    const double twice = 2 * cross(to_middle, to_last);
+    if (std::abs(twice) < 1) return std::nullopt;
+    // The centre of the circle through the three, from a.
+    const double middle = dot(to_middle, to_middle);
+    const double end = dot(to_last, to_last);
+    const FlatVector centre{(to_last.y * middle - to_middle.y * end) / twice,
+                            (to_middle.x * end - to_last.x * middle) / twice};
+    const double radius = std::hypot(centre.x, centre.y);
+    constexpr double widest = 1e10;    // nm; flatter is a line
+    constexpr double narrowest = 1e4;  // nm; smaller arcs suffer from the last digit of a program
+    if (radius > widest || radius < narrowest) return std::nullopt;
+    double sweep = 0;
+    FlatVector before{-centre.x, -centre.y};
+    for (std::size_t i = first + 1; i <= last; ++i) {
+      const FlatVector from_a = between(a, points_[i]);
+      const FlatVector now{from_a.x - centre.x, from_a.y - centre.y};
+      if (std::abs(std::hypot(now.x, now.y) - radius) > fit_.off_circle_nm) return std::nullopt;
+      const double turn = std::atan2(cross(before, now), dot(before, now));
+      const double off_chord = radius * (1 - std::cos(turn / 2));
+      if (turn * twice <= 0) return std::nullopt;
+      const bool is_of_offset = turn * fit_.rounded_turn > 0 && off_chord <= fit_.even_chord_nm;
+      if (off_chord > fit_.near_chord_nm && !(is_of_offset && is_even(first, i, last))) return std::nullopt;
+      sweep += turn;
+      before = now;
+    }
+    constexpr double most = std::numbers::pi * 1.01;
+    return std::abs(sweep) <= most ? std::optional(FoundArc{sweep}) : std::nullopt;
+  }
+
+ private:
+  // Whether the chord that ends at this index is as long as that in the middle.
+  bool is_even(std::size_t first, std::size_t index, std::size_t last) const {
+    const std::size_t middle = (first + last) / 2;
+    const double share =
+        distance_nm(points_[index - 1], points_[index]) / distance_nm(points_[middle], points_[middle + 1]);
+    const bool is_at_an_end = index == first + 1 || index == last;
+    return is_at_an_end ? share < 1.55 : std::abs(share - 1) < 0.05;
+  }
+
+  const std::vector<DrawnPoint>& points_;
+  const ArcFit& fit_;
+};
+
+}  // namespace
+
+std::vector<PathPoint> with_arcs(const std::vector<DrawnPoint>& points, const ArcFit& fit) {
+  constexpr std::size_t fewest_chords = 3;
+  const ArcFinder finder(points, fit);
+  std::vector<PathPoint> path;
+  std::size_t at = 0;
+  while (at + 1 < points.size()) {
+    std::size_t last = at + 1;
+    double bulge = 0;
+    for (std::size_t next = at + fewest_chords; next < points.size(); ++next) {
+      const std::optional<FoundArc> arc = finder.arc(at, next);
+      if (!arc) break;
+      last = next;
+      bulge = std::tan(arc->sweep / 4);
+    }
+    path.push_back({points[at], bulge});
+    at = last;
+  }
+  if (!points.empty()) path.push_back({points.back(), 0});
+  return path;
+}
+
+}  // namespace passo

@@ -1,0 +1,60 @@
+#include "passo/cam/board_layer.hpp"
+
+#include <map>
+
+#include "passo/cam/gerber.hpp"
+#include "passo/diagnostics/file_bytes.hpp"
+
+namespace passo {
+
+Region face_of(const Drawing& drawing) {
+  std::vector<DrawnRing> areas;
+  std::map<Nanometres, std::vector<DrawnRing>> strokes;  // by width
+  for (const DrawnHole& hole : drawing.holes) {
+    if (hole.diameter.count > 0) strokes[hole.diameter].push_back({hole.at});
+  }
+  for (const DrawnPath& path : drawing.paths) {
+    if (path.points.size() < 2) continue;
+    DrawnRing ring = chords_of_path(path.points, path.is_closed, usual_chord_tolerance);
+    if (path.width.count > 0) {
+      if (path.is_closed) ring.push_back(ring.front());
+      strokes[path.width].push_back(std::move(ring));
+    } else if (path.is_closed || ring.front() == ring.back()) {
+      areas.push_back(std::move(ring));
+    }
+  }
+  std::vector<Region> regions = {filled(std::move(areas))};
+  for (const auto& [width, ways] : strokes) regions.push_back(swept(ways, {width.count / 2}));
+  return regions.size() == 1 ? std::move(regions.front()) : united(regions);
+}
+
+BoardLayer read_board_layer(const std::string& path, const DrawingFileOptions& options, Diagnostics& diagnostics) {
+  BoardLayer layer;
+  layer.lines.file = path;
+  const FileKind kind{.area = "drawing", .expected = "a Gerber, DXF or drill file"};
+  const std::optional<std::string> bytes = read_bytes(path, kind, diagnostics);
+  if (!bytes) return layer;
+  if (!looks_like_gerber(*bytes)) {
+    layer.lines = read_drawing(path, options, diagnostics);
+    layer.face = face_of(layer.lines);
+    return layer;
+  }
+  GerberLayer gerber = read_gerber(path, *bytes, diagnostics);
+  layer.face = std::move(gerber.dark);
+  layer.lines = std::move(gerber.strokes);
+  layer.lines.file = path;
+  if (gerber.is_negative) layer.lines.notes.push_back("the layer is negative: what it draws is free of copper");
+  return layer;
+}
+
+BoardEdge board_edge(const BoardLayer& layer, Nanometres join, Diagnostics& diagnostics) {
+  Diagnostics found;
+  BoardEdge edge;
+  edge.loops = edge_loops(layer.lines, join, found);
+  edge.board = board_within(edge.loops);
+  for (const Diagnostic& one : found.all()) diagnostics.add(one);
+  if (edge.board.empty() && !found.any_error()) edge.board = layer.face;
+  return edge;
+}
+
+}  // namespace passo

@@ -1,0 +1,211 @@
+#include "passo/cam/edge_loops.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+#include <set>
+#include <tuple>
+
+#include "place_tree.hpp"
+#include <fmt/format.h>
+
+#include "passo/cam/bulge.hpp"
+
+namespace passo {
+namespace {
+
+constexpr Nanometres chords_of_board{250};
+
+std::vector<PathPoint> turned_around(const std::vector<PathPoint>& points) {
+  std::vector<PathPoint> turned;
+  for (std::size_t i = points.size(); i-- > 0;) turned.push_back({points[i].at, i == 0 ? 0 : -points[i - 1].bulge});
+  return turned;
+}
+
+// Ends are numbered: 2 k is the start of the open path k, 2 k + 1 its end.
+class EdgeJoiner {
+ public:
+  EdgeJoiner(const Drawing& drawing, Nanometres join, Diagnostics& diagnostics)
+      : drawing_(drawing), join_(join), diagnostics_(diagnostics) {}
+
+  EdgeLoops loops() {
+    collect();
+    join_ends();
+    std::vector<bool> is_used(open_.size());
+    for (std::size_t i = 0; i < open_.size(); ++i) {
+      if (!is_used[i]) follow(i, is_used);
+    }
+    return std::move(found_);
+  }
+
+ private:
+  DrawnPoint place(std::size_t end) const {
+    const std::vector<PathPoint>& points = open_[end / 2]->points;
+    return end % 2 == 0 ? points.front().at : points.back().at;
+  }
+  void collect();
+  void join_ends();
+  void follow(std::size_t path, std::vector<bool>& is_used);
+  void refuse(std::size_t end);
+  void append(std::vector<PathPoint>& loop, std::size_t first_end);
+
+  const Drawing& drawing_;
+  Nanometres join_;
+  Diagnostics& diagnostics_;
+  EdgeLoops found_;
+  std::vector<const DrawnPath*> open_;
+  std::vector<std::optional<std::size_t>> partners_;  // of each end
+};
+
+void EdgeJoiner::collect() {
+  for (const DrawnHole& hole : drawing_.holes) {
+    if (hole.diameter.count <= 0) continue;
+    const std::int64_t radius = hole.diameter.count / 2;
+    found_.loops.push_back(
+        {{{{hole.at.x.count + radius}, hole.at.y}, 1}, {{{hole.at.x.count - radius}, hole.at.y}, 1}});
+  }
+  std::set<std::tuple<DrawnPoint, DrawnPoint, DrawnPoint, std::size_t>> known;
+  for (const DrawnPath& path : drawing_.paths) {
+    if (path.points.size() < 2) continue;
+    const DrawnPoint first = path.points.front().at;
+    const DrawnPoint last = path.points.back().at;
+    const bool closes = path.is_closed || (first == last && path.points.size() > 2);
+    const DrawnPoint middle = point_along(path.points[0].at, path.points[1].at, path.points[0].bulge, 0.5);
+    if (!known.emplace(std::min(first, last), std::max(first, last), middle, path.points.size()).second) continue;
+    if (!closes) {
+      if (first != last) open_.push_back(&path);
+      continue;
+    }
+    found_.loops.push_back(path.points);
+    if (first == last) found_.loops.back().pop_back();
+  }
+}
+
+void EdgeJoiner::join_ends() {
+  std::vector<DrawnPoint> places;
+  for (std::size_t end = 0; end < 2 * open_.size(); ++end) places.push_back(place(end));
+  partners_.assign(places.size(), std::nullopt);
+  if (places.empty()) return;
+  PlaceTree tree(places);
+  struct Pair {
+    double distance;
+    std::size_t a;
+    std::size_t b;
+  };
+  std::vector<Pair> pairs;
+  std::vector<std::uint32_t> near;
+  for (std::uint32_t end = 0; end < places.size(); ++end) {
+    constexpr std::size_t looked_at = 8;
+    tree.nearest(end, looked_at, near);
+    for (const std::uint32_t other : near) {
+      const double distance = distance_nm(places[end], places[other]);
+      if (distance > static_cast<double>(join_.count)) break;
+      if (end < other || distance > 0) pairs.push_back({distance, std::min(end, other), std::max(end, other)});
+    }
+  }
+  std::ranges::sort(pairs, {}, [](const Pair& pair) { return std::tuple(pair.distance, pair.a, pair.b); });
+  for (const Pair& pair : pairs) {
+    if (partners_[pair.a] || partners_[pair.b]) continue;
+    partners_[pair.a] = pair.b;
+    partners_[pair.b] = pair.a;
+    if (pair.distance == 0) continue;
+    ++found_.joined;
+    found_.widest_joined = std::max(found_.widest_joined, Nanometres{std::llround(pair.distance)});
+  }
+}
+
+// The path from this end of it on.
+void EdgeJoiner::append(std::vector<PathPoint>& loop, std::size_t first_end) {
+  const std::vector<PathPoint>& drawn = open_[first_end / 2]->points;
+  std::vector<PathPoint> points = first_end % 2 == 0 ? drawn : turned_around(drawn);
+  points.back().bulge = 0;
+  if (!loop.empty() && loop.back().at == points.front().at) loop.pop_back();
+  loop.insert(loop.end(), points.begin(), points.end());
+}
+
+void EdgeJoiner::follow(std::size_t path, std::vector<bool>& is_used) {
+  std::vector<PathPoint> loop;
+  std::size_t end = 2 * path;
+  // Back to where the row of paths begins, if it begins anywhere.
+  for (std::size_t i = 0; i < open_.size() && partners_[end]; ++i) {
+    end = *partners_[end] ^ 1U;
+    if (end == 2 * path) break;
+  }
+  const std::size_t first = end;
+  for (;;) {
+    is_used[end / 2] = true;
+    append(loop, end);
+    const std::size_t far_end = end ^ 1U;
+    if (!partners_[far_end]) {
+      refuse(first);
+      refuse(far_end);
+      return;
+    }
+    end = *partners_[far_end];
+    if (end == first) break;
+  }
+  if (loop.size() > 2 && loop.front().at == loop.back().at) loop.pop_back();
+  if (loop.size() > 1) found_.loops.push_back(std::move(loop));
+}
+
+void EdgeJoiner::refuse(std::size_t end) {
+  if (diagnostics_.full()) return;
+  const DrawnPoint at = place(end);
+  double nearest = 1e300;
+  for (std::size_t other = 0; other < partners_.size(); ++other) {
+    if (other != end && !partners_[other]) nearest = std::min(nearest, distance_nm(at, place(other)));
+  }
+  const std::uint32_t line = open_[end / 2]->line;
+  std::string expected = "a closed line";
+  if (nearest < 1e300) {
+    expected += fmt::format("; the next open end is {:.4g} mm away: --join {:.4g}mm", nearest / nanometres_per_mm,
+                            std::ceil(nearest / 1e4) / 100);
+  }
+  diagnostics_.add({.code = "outline.open",
+                    .file = drawing_.file,
+                    .place = {line, line == 0 ? 0U : 1U, 1},
+                    .message = fmt::format("the edge ends at X{:.4g} Y{:.4g} mm, and meets no other line",
+                                           to_mm(at.x).value(), to_mm(at.y).value()),
+                    .expected = std::move(expected),
+                    .text = ""});
+}
+
+}  // namespace
+
+DrawnRing chords_of_path(const std::vector<PathPoint>& points, bool is_closed, Nanometres tolerance) {
+  DrawnRing ring;
+  const std::size_t count = points.size() - (is_closed ? 0 : 1);
+  for (std::size_t i = 0; i < count; ++i) {
+    const DrawnPoint from = points[i].at;
+    const DrawnPoint to = points[(i + 1) % points.size()].at;
+    ring.push_back(from);
+    const std::size_t pieces = chords_on(from, to, points[i].bulge, tolerance);
+    for (std::size_t k = 1; k < pieces; ++k) {
+      ring.push_back(point_along(from, to, points[i].bulge, static_cast<double>(k) / static_cast<double>(pieces)));
+    }
+  }
+  if (!is_closed) ring.push_back(points.back().at);
+  return ring;
+}
+
+EdgeLoops edge_loops(const Drawing& drawing, Nanometres join, Diagnostics& diagnostics) {
+  return EdgeJoiner(drawing, join, diagnostics).loops();
+}
+
+Region board_within(const EdgeLoops& loops) {
+  std::vector<Region> all;
+  for (const std::vector<PathPoint>& loop : loops.loops) {
+    all.push_back(filled({chords_of_path(loop, true, chords_of_board)}));
+  }
+  std::ranges::stable_sort(all, [](const Region& a, const Region& b) { return area_mm2(a) > area_mm2(b); });
+  Region board;
+  for (const Region& loop : all) {
+    if (loop.empty()) continue;
+    // Loops do not cross: what is in the board so far becomes an opening.
+    const DrawnPoint inside = loop.rings.front().front();
+    board = contains(board, inside) ? subtracted(board, loop) : united(board, loop);
+  }
+  return board;
+}
+
+}  // namespace passo

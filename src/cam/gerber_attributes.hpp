@@ -1,0 +1,34 @@
+// GerberAttributes: what a Gerber file says of itself, its apertures and its objects (TF, TA, TO, TD). Private to cam/.
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <string>
+#include <string_view>
+
+#include "passo/cam/gerber.hpp"
+
+namespace passo {
+
+class GerberAttributes {
+ public:
+  explicit GerberAttributes(GerberLayer& layer) : layer_(layer) {}
+
+  // "TF.FileFunction,Copper,L1,Top". Attributes that say nothing about copper are left alone.
+  void read(std::string_view words);
+  // "G04 #@! TF.FileFunction,Copper,L1,Top": the same for readers that know no attributes.
+  void read_comment(std::string_view words);
+
+  const std::string& aperture_function() const { return aperture_function_; }
+  std::uint32_t net() const { return net_; }
+
+ private:
+  void set_net(std::string_view name);
+
+  GerberLayer& layer_;
+  std::string aperture_function_;
+  std::uint32_t net_ = 0;
+  std::map<std::string, std::uint32_t, std::less<>> nets_;
+};
+
+}  // namespace passo

@@ -1,0 +1,53 @@
+// GerberFindings: what is wrong in the command that is being read, and notes. Private to cam/.
+#pragma once
+
+#include <algorithm>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "gerber_text.hpp"
+
+#include "passo/diagnostics/diagnostic.hpp"
+
+namespace passo {
+
+class GerberFindings {
+ public:
+  GerberFindings(const std::string& file, const GerberText& text, Diagnostics& diagnostics)
+      : file_(file), text_(text), diagnostics_(diagnostics) {}
+
+  GerberCommand command;  // that is being read
+
+  // Always false. `at` and `length` are in the command's words; length 0: up to their end.
+  bool refuse(std::size_t at, std::size_t length, const char* code, std::string message, std::string expected) {
+    return refuse_in(command, at, length == 0 ? command.words.size() - std::min(at, command.words.size()) : length,
+                     code, std::move(message), std::move(expected));
+  }
+  bool refuse_in(const GerberCommand& of, std::size_t at, std::size_t length, const char* code, std::string message,
+                 std::string expected) {
+    diagnostics_.add({.code = code,
+                      .file = file_,
+                      .place = text_.place(of, at, length),
+                      .message = std::move(message),
+                      .expected = std::move(expected),
+                      .text = std::string(text_.line_of(of, at))});
+    return false;
+  }
+  // The same words are noted once.
+  void note(std::string words) {
+    if (std::find(notes_.begin(), notes_.end(), words) == notes_.end()) notes_.push_back(std::move(words));
+  }
+  std::vector<std::string> take_notes() { return std::move(notes_); }
+  bool full() const { return diagnostics_.full(); }
+  bool any_error() const { return diagnostics_.any_error(); }
+
+ private:
+  const std::string& file_;
+  const GerberText& text_;
+  Diagnostics& diagnostics_;
+  std::vector<std::string> notes_;
+};
+
+}  // namespace passo

@@ -1,0 +1,159 @@
+#include "gerber_image.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <iterator>
+#include <tuple>
+
+namespace passo {
+namespace {
+
+constexpr std::size_t points_of_object = 4;  // what an object takes beside its points
+
+std::size_t points_of(const Region& region) {
+  std::size_t points = points_of_object;
+  for (const DrawnRing& ring : region.rings) points += ring.size();
+  return points;
+}
+
+bool overlap(const DrawnBox& a, const DrawnBox& b) {
+  return a.least.x <= b.most.x && b.least.x <= a.most.x && a.least.y <= b.most.y && b.least.y <= a.most.y;
+}
+
+// A dark object, and where it is.
+struct DarkObject {
+  Region region;
+  DrawnBox box;
+};
+
+// Clear objects take away from the dark objects that they touch, one by one: the others stay as they are.
+class Composition {
+ public:
+  explicit Composition(RegionBudget& budget) : budget_(budget) {}
+
+  void add(Region object) {
+    if (const std::optional<DrawnBox> box = bounds(object)) dark_.push_back({std::move(object), *box});
+  }
+
+  bool take_away(const std::vector<Region>& objects) {
+    if (!budget_.affords(objects)) return false;
+    const Region clear = united(objects);
+    const std::optional<DrawnBox> box = bounds(clear);
+    if (!box) return true;
+    looked_at_ += dark_.size();
+    if (looked_at_ > most_looked_at) return false;
+    for (DarkObject& dark : dark_) {
+      if (!overlap(dark.box, *box)) continue;
+      if (!budget_.affords({dark.region, clear})) return false;
+      dark.region = subtracted(dark.region, clear);
+    }
+    std::erase_if(dark_, [](const DarkObject& dark) { return dark.region.empty(); });
+    return true;
+  }
+
+  // Halves of the board are united first: a sweep over a half passes half as many edges at each stop.
+  std::optional<Region> take() {
+    std::vector<Region> all;
+    all.reserve(dark_.size());
+    std::sort(dark_.begin(), dark_.end(), [](const DarkObject& a, const DarkObject& b) {
+      return std::tie(a.box.least, a.box.most) < std::tie(b.box.least, b.box.most);
+    });
+    for (DarkObject& dark : dark_) all.push_back(std::move(dark.region));
+    dark_.clear();
+    return united_by_halves(std::move(all));
+  }
+
+ private:
+  std::optional<Region> united_by_halves(std::vector<Region> objects) {
+    std::size_t points = 0;
+    for (const Region& object : objects) points += points_of(object);
+    constexpr std::size_t few = 100'000;
+    if (points <= few || objects.size() < 4) {
+      if (!budget_.affords(objects)) return std::nullopt;
+      return united(objects);
+    }
+    const auto middle = objects.begin() + static_cast<std::ptrdiff_t>(objects.size() / 2);
+    std::vector<Region> right(std::make_move_iterator(middle), std::make_move_iterator(objects.end()));
+    objects.erase(middle, objects.end());
+    const std::optional<Region> a = united_by_halves(std::move(objects));
+    if (!a) return a;
+    const std::optional<Region> b = united_by_halves(std::move(right));
+    if (!b) return b;
+    if (!budget_.affords({*a, *b})) return std::nullopt;
+    return united(*a, *b);
+  }
+
+  static constexpr std::size_t most_looked_at = 2'000'000'000;
+  RegionBudget& budget_;
+  std::vector<DarkObject> dark_;
+  std::size_t looked_at_ = 0;
+};
+
+}  // namespace
+
+DrawnPoint GerberPlacement::placed(DrawnPoint point) const {
+  if (only_moves()) return moved(point, at);
+  Offset place{static_cast<double>(mirrors_x ? -point.x.count : point.x.count),
+               static_cast<double>(mirrors_y ? -point.y.count : point.y.count)};
+  if (radians != 0) place = turned(place, radians);
+  return moved(rounded({place.x * scale, place.y * scale}), at);
+}
+
+DrawnRing GerberPlacement::placed(const DrawnRing& ring) const {
+  DrawnRing result;
+  result.reserve(ring.size());
+  for (const DrawnPoint& point : ring) result.push_back(placed(point));
+  if (mirrors_x != mirrors_y) std::ranges::reverse(result);
+  return result;
+}
+
+Region GerberPlacement::placed(const Region& region) const {
+  Region result;
+  result.rings.reserve(region.rings.size());
+  for (const DrawnRing& ring : region.rings) result.rings.push_back(placed(ring));
+  return result;
+}
+
+void GerberImage::add(Region object, bool is_dark) {
+  if (object.empty()) return;
+  points += points_of(object);
+  if (runs.empty() || runs.back().is_dark != is_dark) runs.push_back({is_dark, {}});
+  runs.back().objects.push_back(std::move(object));
+}
+
+void GerberImage::add(const GerberImage& image, const GerberPlacement& placement, bool is_dark) {
+  for (const Run& run : image.runs) {
+    for (const Region& object : run.objects) add(placement.placed(object), run.is_dark == is_dark);
+  }
+  if (is_dark) {
+    for (GerberPad pad : image.pads) {
+      pad.at = placement.placed(pad.at);
+      pads.push_back(pad);
+    }
+    for (DrawnPath path : image.strokes) {
+      for (PathPoint& point : path.points) {
+        point.at = placement.placed(point.at);
+        if (placement.mirrors_x != placement.mirrors_y) point.bulge = -point.bulge;
+      }
+      path.width.count = std::llround(static_cast<double>(path.width.count) * placement.scale);
+      strokes.push_back(std::move(path));
+    }
+  }
+  points += 2 * image.pads.size() + points_of_object;
+  for (const DrawnPath& path : image.strokes) points += path.points.size();
+}
+
+std::optional<Region> composed(GerberImage image, RegionBudget& budget) {
+  Composition composition(budget);
+  for (GerberImage::Run& run : image.runs) {
+    if (run.is_dark) {
+      for (Region& object : run.objects) composition.add(std::move(object));
+    } else if (!composition.take_away(run.objects)) {
+      return std::nullopt;
+    }
+    run.objects = {};
+  }
+  return composition.take();
+}
+
+}  // namespace passo

@@ -1,0 +1,40 @@
+// GerberOldCodes: codes that move, scale, mirror or turn the whole image, which new files do not have. Private to cam/.
+#pragma once
+
+#include <string_view>
+
+#include "gerber_findings.hpp"
+#include "gerber_numbers.hpp"
+#include "gerber_shapes.hpp"
+
+namespace passo {
+
+class GerberOldCodes {
+ public:
+  GerberOldCodes(GerberFindings& findings, const GerberNumbers& numbers) : findings_(findings), numbers_(numbers) {}
+
+  // False: the command being read is none of these.
+  bool read();
+
+  // Where a coordinate of the file is in the image: axes exchanged (AS), mirrored (MI), scaled (SF), moved (OF).
+  DrawnPoint placed(Nanometres x, Nanometres y) const;
+  int quarter_turns() const { return quarter_turns_; }  // IR, of the whole image, counterclockwise
+  bool is_negative() const { return is_negative_; }     // IP
+
+ private:
+  bool read_axes(double& a, double& b);
+  void read_turn();
+
+  GerberFindings& findings_;
+  const GerberNumbers& numbers_;
+  bool exchanges_axes_ = false;
+  double mirror_x_ = 1;
+  double mirror_y_ = 1;
+  double scale_x_ = 1;
+  double scale_y_ = 1;
+  DrawnPoint offset_;
+  int quarter_turns_ = 0;
+  bool is_negative_ = false;
+};
+
+}  // namespace passo

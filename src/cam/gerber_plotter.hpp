@@ -1,0 +1,121 @@
+// GerberPlotter: draws what the commands of a Gerber file tell: flashes, strokes and contours, with the aperture,
+// polarity and mode of the moment, into an image or into a block. Private to cam/.
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "gerber_findings.hpp"
+#include "gerber_image.hpp"
+
+namespace passo {
+
+enum class Interpolation : std::uint8_t { linear, clockwise, counterclockwise };
+enum class Quadrants : std::uint8_t { unknown, single, multi };
+
+struct PlotterAperture {
+  std::size_t index = 0;  // of GerberLayer::apertures
+  bool is_round = false;
+  double diameter = 0;                 // if it is round, nm
+  Region shape = {};                   // about zero
+  std::unique_ptr<GerberImage> block;  // instead of a shape
+};
+
+// What a stroke says about its arc's centre.
+struct ArcWords {
+  Offset ij = {};
+  bool has_any = false;
+};
+
+class GerberPlotter {
+ public:
+  GerberPlotter(GerberLayer& layer, GerberFindings& findings) : layer_(layer), findings_(findings) {
+    frames_.emplace_back();
+  }
+
+  // Modes. `modal` is the aperture's transformation.
+  void set_dark(bool is_dark);
+  void set_modal(const GerberPlacement& modal);
+  const GerberPlacement& modal() const { return modal_; }
+  Interpolation interpolation = Interpolation::linear;
+  Quadrants quadrants = Quadrants::unknown;
+  std::uint32_t net = 0;
+
+  void define(std::uint32_t code, PlotterAperture aperture);
+  void select(std::uint32_t code);
+
+  DrawnPoint at() const { return at_; }
+  void move_to(DrawnPoint place);
+  void draw_to(DrawnPoint place, const ArcWords& words);
+  void flash(DrawnPoint place);
+  void begin_region();
+  void end_region();
+  bool in_region() const { return in_region_; }
+
+  void begin_block(std::uint32_t code);
+  void end_block();
+  void begin_repeat(std::int64_t across, std::int64_t up, DrawnPoint step);
+  void end_repeat();
+
+  // Counts points before they are made. False, and reported once: too many.
+  bool has_room_for(std::size_t points);
+  bool is_full() const { return is_full_; }
+  // The same for rings that are to be united.
+  bool can_unite(const std::vector<DrawnRing>& rings);
+  RegionBudget& budget() { return budget_; }
+
+  // All that was drawn. Blocks that are still open are closed, and noted.
+  GerberImage finish();
+
+ private:
+  struct Frame {
+    GerberImage image;
+    bool is_block = false;    // an aperture block
+    std::uint32_t code = 0;   // of a block
+    std::int64_t across = 1;  // of a repeat
+    std::int64_t up = 1;
+    DrawnPoint step = {};
+  };
+  // The aperture as it is drawn now.
+  struct Tool {
+    bool is_round = false;
+    double diameter = 0;
+    Region shape;
+    DrawnRing hull;
+  };
+
+  GerberImage& image() { return frames_.back().image; }
+  const PlotterAperture* aperture();
+  const Tool& tool();
+  void finish_stroke();
+  void finish_contour();
+  void draw_way(std::size_t first, std::size_t last);
+  void add_to_path(const GerberArc* arc, DrawnPoint to);
+  bool find_arc(DrawnPoint to, const ArcWords& words, GerberArc& arc);
+  void pop_frame();
+
+  GerberLayer& layer_;
+  GerberFindings& findings_;
+  std::vector<Frame> frames_;
+  std::map<std::uint32_t, PlotterAperture> apertures_;
+  std::uint32_t code_ = 0;  // of the selected aperture; 0: none
+  bool is_dark_ = true;
+  GerberPlacement modal_;
+  DrawnPoint at_;
+  bool in_region_ = false;
+  std::vector<DrawnPoint> way_;  // the stroke or contour that is being drawn, as chords
+  DrawnPath path_;               // the same stroke with its arcs
+  Tool tool_;
+  bool tool_is_new_ = true;
+  std::size_t points_ = 0;
+  bool is_full_ = false;
+  RegionBudget budget_;
+};
+
+// Adds where an aperture's shape goes to what a user is told of it.
+void measure(const Region& shape, GerberAperture& aperture);
+
+}  // namespace passo

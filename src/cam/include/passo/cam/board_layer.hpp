@@ -1,0 +1,35 @@
+// read_board_layer: a layer of a board as a face and as lines, from a Gerber file or a drawing.
+//
+// In a drawing (DXF) closed paths and circles are filled, and open paths with a width are as wide as that. An open path
+// without a width covers nothing; it is still among the lines, from which edge_loops() makes an outline.
+#pragma once
+
+#include <string>
+
+#include "passo/cam/drawing_file.hpp"
+#include "passo/cam/edge_loops.hpp"
+#include "passo/cam/region.hpp"
+
+namespace passo {
+
+struct BoardLayer {
+  Region face = {};    // all that the layer covers
+  Drawing lines = {};  // the middles of its strokes; its notes are those of the file
+};
+
+// Errors are those of the readers.
+BoardLayer read_board_layer(const std::string& path, const DrawingFileOptions& options, Diagnostics& diagnostics);
+
+// What a drawing covers.
+Region face_of(const Drawing& drawing);
+
+struct BoardEdge {
+  EdgeLoops loops = {};
+  Region board = {};  // inside the loops
+};
+
+// The board inside an edge layer: inside the middles of its strokes, or the face that it fills. Errors as those of
+// edge_loops().
+BoardEdge board_edge(const BoardLayer& layer, Nanometres join, Diagnostics& diagnostics);
+
+}  // namespace passo

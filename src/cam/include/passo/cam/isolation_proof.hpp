@@ -1,0 +1,26 @@
+// prove_isolation: what the cutters of a plan do to a layer, found without the plan's own geometry.
+//
+// Every run is swept by a disc of the cutter's width, and by as much more as the written program may be off. What the
+// discs reach is milled, the rest of the board's face is copper. The proof compares that with the layer.
+#pragma once
+
+#include <cstddef>
+#include <vector>
+
+#include "passo/cam/mill_plan.hpp"
+#include "passo/cam/region.hpp"
+
+namespace passo {
+
+struct IsolationProof {
+  double copper_mm2 = 0;  // of the layer
+  double lost_mm2 = 0;    // copper of the layer that is milled away
+  double milled_mm2 = 0;
+  std::size_t islands = 0;  // of the layer
+  std::size_t joined = 0;   // islands that are still joined to another one
+  std::size_t groups = 0;   // pieces of copper in which the joined ones hang together
+};
+
+IsolationProof prove_isolation(const Region& copper, const MillPlan& plan);
+
+}  // namespace passo

@@ -1,0 +1,140 @@
+#include "mill_order.hpp"
+
+#include <algorithm>
+#include <limits>
+
+#include "place_tree.hpp"
+
+#include "passo/cam/route.hpp"
+
+namespace passo {
+namespace {
+
+// A way, and the index of the point where the cutter comes to it.
+struct EnteredWay {
+  std::uint32_t way;
+  std::uint32_t entry;
+};
+using Chain = std::vector<EnteredWay>;  // ways between which the cutter stays down
+
+class WayOrderer {
+ public:
+  WayOrderer(const std::vector<CutterWay>& ways, const WayOrder& order) : ways_(ways), order_(order) {}
+
+  std::vector<MillRun> runs() {
+    chain();
+    shorten();
+    for (int round = 0; round < 2; ++round) turn_loops();
+    std::vector<MillRun> runs;
+    runs.reserve(chains_.size());
+    for (const Chain& chain : chains_) runs.push_back(run_of(chain));
+    return runs;
+  }
+
+ private:
+  const CutterWay& way(const EnteredWay& entered) const { return ways_[entered.way]; }
+  DrawnPoint start(const EnteredWay& entered) const { return way(entered).points[entered.entry]; }
+  DrawnPoint end(const EnteredWay& entered) const {
+    return way(entered).is_closed ? start(entered) : way(entered).points.back();
+  }
+  DrawnPoint start(const Chain& chain) const { return start(chain.front()); }
+  DrawnPoint end(const Chain& chain) const { return end(chain.back()); }
+
+  void chain();
+  void shorten();
+  void turn_loops();
+  double rapids(const std::vector<Chain>& chains) const;
+  MillRun run_of(const Chain& chain) const;
+
+  const std::vector<CutterWay>& ways_;
+  const WayOrder& order_;
+  std::vector<Chain> chains_;
+};
+
+// Always to the nearest way that is left.
+void WayOrderer::chain() {
+  std::vector<DrawnPoint> places;
+  std::vector<EnteredWay> entered;
+  std::vector<std::uint32_t> firsts;  // place of each way's first point
+  for (std::uint32_t i = 0; i < ways_.size(); ++i) {
+    firsts.push_back(static_cast<std::uint32_t>(places.size()));
+    const std::size_t count = ways_[i].is_closed ? ways_[i].points.size() : 1;
+    for (std::uint32_t k = 0; k < count; ++k) {
+      places.push_back(ways_[i].points[k]);
+      entered.push_back({i, k});
+    }
+  }
+  firsts.push_back(static_cast<std::uint32_t>(places.size()));
+  PlaceTree left(places);
+  DrawnPoint at = order_.park;
+  for (std::size_t done = 0; done < ways_.size(); ++done) {
+    const EnteredWay next = entered[left.nearest_left(at)];
+    const bool stays_down = !chains_.empty() && order_.may_link(at, start(next));
+    if (!stays_down) chains_.emplace_back();
+    chains_.back().push_back(next);
+    at = end(next);
+    for (std::uint32_t place = firsts[next.way]; place < firsts[next.way + 1]; ++place) left.forget(place);
+  }
+}
+
+double WayOrderer::rapids(const std::vector<Chain>& chains) const {
+  double length = 0;
+  DrawnPoint at = order_.park;
+  for (const Chain& chain : chains) {
+    length += distance_nm(at, start(chain));
+    at = end(chain);
+  }
+  return length + distance_nm(at, order_.park);
+}
+
+void WayOrderer::shorten() {
+  std::vector<DrawnPoint> places;
+  for (const Chain& chain : chains_) places.push_back(start(chain));
+  constexpr std::uint64_t enough_a_place = 5'000;
+  const std::uint64_t steps = std::min<std::uint64_t>(order_.route_steps, enough_a_place * places.size());
+  std::vector<Chain> shorter;
+  for (const std::uint32_t index : shorten_route(places, order_.park, order_.park, steps)) {
+    shorter.push_back(chains_[index]);
+  }
+  if (rapids(shorter) < rapids(chains_)) chains_ = std::move(shorter);
+}
+
+// A loop on its own begins where the way to it and on from it is shortest.
+void WayOrderer::turn_loops() {
+  for (std::size_t i = 0; i < chains_.size(); ++i) {
+    EnteredWay& loop = chains_[i].front();
+    if (chains_[i].size() > 1 || !way(loop).is_closed) continue;
+    const DrawnPoint before = i == 0 ? order_.park : end(chains_[i - 1]);
+    const DrawnPoint after = i + 1 == chains_.size() ? order_.park : start(chains_[i + 1]);
+    double best = std::numeric_limits<double>::max();
+    const DrawnRing& points = way(loop).points;
+    for (std::uint32_t k = 0; k < points.size(); ++k) {
+      const double length = distance_nm(before, points[k]) + distance_nm(points[k], after);
+      if (length < best) loop.entry = k;
+      best = std::min(best, length);
+    }
+  }
+}
+
+MillRun WayOrderer::run_of(const Chain& chain) const {
+  MillRun run;
+  for (const EnteredWay& entered : chain) {
+    const CutterWay& one = way(entered);
+    DrawnRing points = one.points;
+    if (one.is_closed) {
+      std::rotate(points.begin(), points.begin() + static_cast<std::ptrdiff_t>(entered.entry), points.end());
+      points.push_back(points.front());
+    }
+    for (const PathPoint& point : with_arcs(points, order_.arcs)) run.push_back({point.at, point.bulge, order_.z});
+  }
+  return run;
+}
+
+}  // namespace
+
+std::vector<MillRun> order_ways(const std::vector<CutterWay>& ways, const WayOrder& order) {
+  if (ways.empty()) return {};
+  return WayOrderer(ways, order).runs();
+}
+
+}  // namespace passo

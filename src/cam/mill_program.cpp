@@ -1,0 +1,113 @@
+#include "passo/cam/mill_program.hpp"
+
+#include <algorithm>
+#include <utility>
+
+#include "program_text.hpp"
+#include <fmt/format.h>
+
+#include "passo/cam/bulge.hpp"
+
+namespace passo {
+namespace {
+
+class MillProgram {
+ public:
+  MillProgram(const MillPlan& plan, const MillProgramOptions& options)
+      : plan_(plan), options_(options), text_(options.units) {}
+
+  std::string write() {
+    begin();
+    for (std::size_t i = 0; i < plan_.tools.size(); ++i) {
+      change_tool(i + 1);
+      for (const MillRun& run : plan_.tools[i].runs) mill(run);
+    }
+    if (options_.spindle) text_.line("M5");
+    text_.line("G0 {}", text_.place(options_.park));
+    text_.line("M2");
+    return text_.take();
+  }
+
+ private:
+  void begin();
+  void change_tool(std::size_t number);
+  void mill(const MillRun& run);
+  void go(const MillPoint& from, const MillPoint& to);
+  void feed(Nanometres feed) {
+    if (feed == feed_) return;
+    feed_ = feed;
+    text_.line("F{}", text_.number(feed));
+  }
+
+  const MillPlan& plan_;
+  const MillProgramOptions& options_;
+  ProgramText text_;
+  Nanometres feed_{};
+};
+
+void MillProgram::begin() {
+  text_.line("({}, by {})", in_comment(options_.name), in_comment(options_.command));
+  for (const std::string& file : options_.files) text_.line("(from {})", in_comment(file));
+  for (std::size_t i = 0; i < plan_.tools.size(); ++i) {
+    text_.line("(tool {}: {}, {})", i + 1, in_comment(plan_.tools[i].words),
+               counted(plan_.tools[i].runs.size(), "run"));
+  }
+  for (const std::string& remark : options_.remarks) text_.line("({})", in_comment(remark));
+  text_.begin_modes();
+  text_.line("G0 Z{}", text_.number(options_.clearance));
+}
+
+void MillProgram::change_tool(std::size_t number) {
+  const MillTool& tool = plan_.tools[number - 1];
+  text_.line("");
+  if (plan_.tools.size() > 1) {
+    if (number > 1) {
+      if (options_.spindle) text_.line("M5");
+      text_.line("G0 {}", text_.place(options_.park));
+    }
+    text_.line("(MSG, tool {}: {})", number, in_comment(tool.words));
+    text_.line("T{} M6", number);
+    text_.line("G0 Z{}", text_.number(options_.clearance));
+  }
+  if (options_.spindle) {
+    text_.line("M3 S{}", *options_.spindle);
+    text_.line("G4 P2 (the spindle reaches its speed)");
+  }
+  feed_ = {};
+}
+
+void MillProgram::mill(const MillRun& run) {
+  constexpr std::int64_t above = 500'000;  // where the feed into the board begins
+  text_.line("G0 {}", text_.place(run.front().at));
+  text_.line("G0 Z{}", text_.number({std::min(options_.clearance.count, above)}));
+  feed(options_.plunge_feed);
+  text_.line("G1 Z{}", text_.number(run.front().z));
+  for (std::size_t i = 0; i + 1 < run.size(); ++i) go(run[i], run[i + 1]);
+  text_.line("G0 Z{}", text_.number(options_.clearance));
+}
+
+void MillProgram::go(const MillPoint& from, const MillPoint& to) {
+  const std::string place = text_.place(to.at);
+  const std::string z = from.z == to.z ? "" : " Z" + text_.number(to.z);
+  if (place == text_.place(from.at)) {
+    if (z.empty()) return;
+    feed(options_.plunge_feed);
+    text_.line("G1{}", z);
+    return;
+  }
+  feed(options_.feed);
+  if (from.bulge == 0) {
+    text_.line("G1 {}{}", place, z);
+    return;
+  }
+  const DrawnPoint centre = to_centre(from.at, to.at, from.bulge);
+  text_.line("{} {}{} I{} J{}", from.bulge > 0 ? "G3" : "G2", place, z, text_.number(centre.x), text_.number(centre.y));
+}
+
+}  // namespace
+
+std::string write_mill_program(const MillPlan& plan, const MillProgramOptions& options) {
+  return MillProgram(plan, options).write();
+}
+
+}  // namespace passo

@@ -1,0 +1,333 @@
+#include "passo/cam/outline.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <optional>
+#include <utility>
+
+#include "arc_fit.hpp"
+#include "cut_track.hpp"
+#include "edge_grid.hpp"
+#include <fmt/format.h>
+
+#include "passo/cam/bulge.hpp"
+#include "passo/cam/mill_program.hpp"
+#include "passo/cam/route.hpp"
+
+namespace passo {
+namespace {
+
+constexpr Nanometres fine_chords{500};
+constexpr Nanometres board_room{2'000};  // the cutter stays so much farther from the board than half its width
+
+struct Flat {
+  double x;
+  double y;
+};
+
+Flat from_to(DrawnPoint from, DrawnPoint to) {
+  return {static_cast<double>(to.x.count - from.x.count), static_cast<double>(to.y.count - from.y.count)};
+}
+DrawnPoint moved(DrawnPoint from, Flat by) {
+  return {{from.x.count + std::llround(by.x)}, {from.y.count + std::llround(by.y)}};
+}
+
+struct OutlineCut {
+  DrawnRing ring;
+  bool is_outside;
+  std::size_t around = 0;  // how many cuts lie around it
+};
+
+class OutlinePlanner {
+ public:
+  OutlinePlanner(const Region& board, const OutlineOptions& options, Diagnostics& diagnostics)
+      : board_(board),
+        options_(options),
+        diagnostics_(diagnostics),
+        ways_(grown(board, {radius().count + board_room.count}, fine_chords)),
+        kept_free_(grid_of(grown(board, radius(), fine_chords))) {}
+
+  OutlinePlan plan() {
+    refuse_narrow_openings();
+    find_cuts();
+    order();
+    std::vector<CutTrack> tracks;
+    for (OutlineCut& cut : cuts_) tracks.push_back(track_of(std::move(cut.ring)));
+    put_tabs(tracks);
+    MillTool tool{options_.cutter, options_.words, {}};
+    for (const CutTrack& track : tracks) tool.runs.push_back(run_of(track));
+    measure_loss(tool);
+    if (!tool.runs.empty()) plan_.mill.tools.push_back(std::move(tool));
+    return std::move(plan_);
+  }
+
+ private:
+  Nanometres radius() const { return {(options_.cutter.count + 1) / 2}; }
+  static EdgeGrid grid_of(const Region& region);
+  void refuse_narrow_openings();
+  void find_cuts();
+  void order();
+  CutTrack track_of(DrawnRing ring) const;
+  void add_dog_bones(DrawnRing& ring) const;
+  void put_tabs(std::vector<CutTrack>& tracks);
+  std::vector<double> spread_tabs(const CutTrack& track, double wide) const;
+  MillRun run_of(const CutTrack& track);
+  bool is_clear(DrawnPoint from, DrawnPoint to, double bulge) const;
+  std::vector<DrawnPoint> lead_of(const CutTrack& track) const;
+  void measure_loss(const MillTool& tool);
+
+  const Region& board_;
+  const OutlineOptions& options_;
+  Diagnostics& diagnostics_;
+  Region ways_;
+  EdgeGrid kept_free_;  // the middle of the cutter never crosses these edges
+  std::vector<OutlineCut> cuts_;
+  OutlinePlan plan_;
+};
+
+EdgeGrid OutlinePlanner::grid_of(const Region& region) {
+  EdgeGrid grid(bounds(region).value_or(DrawnBox{}), {500'000});
+  for (const DrawnRing& ring : region.rings) grid.add(ring, 0);
+  grid.finish();
+  return grid;
+}
+
+void OutlinePlanner::refuse_narrow_openings() {
+  for (const DrawnRing& ring : board_.rings) {
+    if (area_mm2(ring) > 0) continue;
+    if (!grown(filled({ring}), {-radius().count - board_room.count}, fine_chords).empty()) continue;
+    const DrawnBox box = *bounds(Region{{ring}});
+    const DrawnPoint middle{{(box.least.x.count + box.most.x.count) / 2}, {(box.least.y.count + box.most.y.count) / 2}};
+    diagnostics_.add(
+        {.code = "outline.narrow-opening",
+         .file = "",
+         .place = {},
+         .message = fmt::format("the opening at X{:.4g} Y{:.4g} mm is narrower than the cutter",
+                                to_mm(middle.x).value(), to_mm(middle.y).value()),
+         .expected = fmt::format("a cutter of less than {:.4g} mm", std::min(to_mm(box.most.x - box.least.x).value(),
+                                                                             to_mm(box.most.y - box.least.y).value())),
+         .text = ""});
+  }
+}
+
+void OutlinePlanner::find_cuts() {
+  for (const DrawnRing& ring : ways_.rings) {
+    OutlineCut cut{ring, area_mm2(ring) > 0};
+    (cut.is_outside ? plan_.outsides : plan_.openings) += 1;
+    for (const DrawnRing& other : ways_.rings) {
+      if (&other == &ring) continue;
+      const Region around{{other}};
+      if (contains(area_mm2(other) > 0 ? around : filled({other}), ring.front())) ++cut.around;
+    }
+    cuts_.push_back(std::move(cut));
+  }
+  if (cuts_.empty()) {
+    diagnostics_.add({.code = "outline.no-edge",
+                      .file = "",
+                      .place = {},
+                      .message = "there is no closed edge in these files",
+                      .expected = "the outline of a board: lines and arcs that close",
+                      .text = ""});
+  }
+}
+
+// The innermost first; of those as deep inside, by the shortest way.
+void OutlinePlanner::order() {
+  std::ranges::stable_sort(cuts_, [](const OutlineCut& a, const OutlineCut& b) { return a.around > b.around; });
+  std::vector<OutlineCut> ordered;
+  DrawnPoint at = options_.park;
+  for (auto first = cuts_.begin(); first != cuts_.end();) {
+    const auto end =
+        std::find_if(first, cuts_.end(), [&](const OutlineCut& cut) { return cut.around != first->around; });
+    std::vector<DrawnPoint> places;
+    for (auto cut = first; cut != end; ++cut) places.push_back(cut->ring.front());
+    constexpr std::uint64_t steps = 1'000'000;
+    for (const std::uint32_t index : shorten_route(places, at, options_.park, steps)) {
+      ordered.push_back(std::move(*(first + static_cast<std::ptrdiff_t>(index))));
+    }
+    at = ordered.back().ring.front();
+    first = end;
+  }
+  cuts_ = std::move(ordered);
+}
+
+// At an inner corner the cutter goes on, until it touches the corner, and back.
+void OutlinePlanner::add_dog_bones(DrawnRing& ring) const {
+  const EdgeGrid edges = grid_of(board_);
+  DrawnRing boned;
+  for (std::size_t i = 0; i < ring.size(); ++i) {
+    const DrawnPoint at = ring[i];
+    boned.push_back(at);
+    const Flat in = from_to(ring[(i + ring.size() - 1) % ring.size()], at);
+    const Flat out = from_to(at, ring[(i + 1) % ring.size()]);
+    const double in_length = std::hypot(in.x, in.y);
+    const double out_length = std::hypot(out.x, out.y);
+    const double turn = std::atan2(in.x * out.y - in.y * out.x, in.x * out.x + in.y * out.y);
+    constexpr double least_turn = 20 * std::numbers::pi / 180;
+    if (turn > -least_turn || in_length == 0 || out_length == 0) continue;  // the board lies to the left
+    const Flat away{in.x / in_length - out.x / out_length, in.y / in_length - out.y / out_length};
+    const double to_corner = static_cast<double>(radius().count + board_room.count) / std::cos(turn / 2);
+    const double scale = to_corner / std::hypot(away.x, away.y);
+    const DrawnPoint corner = moved(at, {away.x * scale, away.y * scale});
+    constexpr double near_enough = 5'000;  // nm
+    const auto near = edges.nearest(corner, near_enough);
+    if (!near) continue;
+    const double share = (to_corner - static_cast<double>(radius().count)) / to_corner;
+    boned.push_back(moved(at, {away.x * scale * share, away.y * scale * share}));
+    boned.push_back(at);
+  }
+  ring = std::move(boned);
+}
+
+// Begins in the middle of the longest edge, away from corners.
+CutTrack OutlinePlanner::track_of(DrawnRing ring) const {
+  if (options_.dog_bones) add_dog_bones(ring);
+  std::size_t longest = 0;
+  const auto edge_length = [&](std::size_t i) { return distance_nm(ring[i], ring[(i + 1) % ring.size()]); };
+  for (std::size_t i = 1; i < ring.size(); ++i) {
+    if (edge_length(i) > edge_length(longest)) longest = i;
+  }
+  std::rotate(ring.begin(), ring.begin() + static_cast<std::ptrdiff_t>((longest + 1) % ring.size()), ring.end());
+  constexpr double straight = 1e6;  // nm; shorter edges may be chords of an arc
+  if (distance_nm(ring.back(), ring.front()) > straight) {
+    const Flat edge = from_to(ring.back(), ring.front());
+    ring.insert(ring.begin(), moved(ring.back(), {edge.x / 2, edge.y / 2}));
+  }
+  if (options_.climb) std::reverse(ring.begin() + 1, ring.end());
+  ring.push_back(ring.front());
+  std::vector<PathPoint> points = with_arcs(ring, {});
+  points.pop_back();
+  return CutTrack(points);
+}
+
+std::vector<double> OutlinePlanner::spread_tabs(const CutTrack& track, double wide) const {
+  std::vector<double> middles;
+  const double apart = track.length() / options_.tabs;
+  for (std::uint32_t k = 0; k < options_.tabs; ++k) {
+    const double wish = (k + 0.5) * apart;
+    double best = wish;
+    double least = 0.45 * apart;
+    for (const auto& [start, end] : track.straights()) {
+      if (end - start < wide) continue;
+      const double place = std::clamp(wish, start + wide / 2, end - wide / 2);
+      if (std::abs(place - wish) >= least) continue;
+      least = std::abs(place - wish);
+      best = place;
+    }
+    middles.push_back(best);
+  }
+  return middles;
+}
+
+void OutlinePlanner::put_tabs(std::vector<CutTrack>& tracks) {
+  const auto wide = static_cast<double>(options_.tab_width.count + options_.cutter.count);
+  std::vector<std::vector<double>> middles(tracks.size());
+  for (std::size_t i = 0; i < tracks.size(); ++i) {
+    if (!cuts_[i].is_outside || options_.tabs == 0) continue;
+    if (options_.tabs * wide > tracks[i].length() / 2) {
+      plan_.mill.notes.push_back(fmt::format("{} tabs are too many for an edge of {:.4g} mm: it has none",
+                                             options_.tabs, tracks[i].length() / nanometres_per_mm));
+      continue;
+    }
+    middles[i] = spread_tabs(tracks[i], wide);
+  }
+  for (const DrawnPoint& place : options_.tab_places) {
+    std::size_t best = 0;
+    for (std::size_t i = 1; i < tracks.size(); ++i) {
+      if (tracks[i].nearest(place).second < tracks[best].nearest(place).second) best = i;
+    }
+    if (!tracks.empty()) middles[best].push_back(tracks[best].nearest(place).first);
+  }
+  for (std::size_t i = 0; i < tracks.size(); ++i) {
+    std::vector<std::pair<double, double>> stretches;
+    for (const double middle : middles[i]) {
+      stretches.emplace_back(middle - wide / 2, middle + wide / 2);
+      plan_.tabs.push_back(tracks[i].at(middle));
+    }
+    const Nanometres top{std::min<std::int64_t>(0, options_.depth.count + options_.tab_height.count)};
+    tracks[i].keep_above(top, std::move(stretches));
+  }
+}
+
+// Whether the cutter takes nothing of the board on the way.
+bool OutlinePlanner::is_clear(DrawnPoint from, DrawnPoint to, double bulge) const {
+  constexpr int pieces = 8;
+  for (int k = 0; k < pieces; ++k) {
+    const DrawnPoint a = point_along(from, to, bulge, static_cast<double>(k) / pieces);
+    const DrawnPoint b = point_along(from, to, bulge, static_cast<double>(k + 1) / pieces);
+    if (kept_free_.is_crossed(a, b)) return false;
+  }
+  return true;
+}
+
+// From where a quarter of a circle leads to the track's start, and to where another one leads away; empty: there is no
+// room. The waste lies to the left where the cutter climbs.
+std::vector<DrawnPoint> OutlinePlanner::lead_of(const CutTrack& track) const {
+  const DrawnPoint start = track.at(0);
+  const double direction = track.direction(0);
+  const double side = options_.climb ? 1 : -1;
+  constexpr int halvings = 4;
+  auto size = static_cast<double>(options_.lead.count);
+  for (int i = 0; i < halvings && size > 0; ++i, size /= 2) {
+    const Flat along{std::cos(direction) * size, std::sin(direction) * size};
+    const Flat aside{-along.y * side, along.x * side};
+    const DrawnPoint from = moved(start, {aside.x - along.x, aside.y - along.y});
+    const DrawnPoint to = moved(start, {aside.x + along.x, aside.y + along.y});
+    const double quarter = std::tan(std::numbers::pi / 8) * side;
+    const bool is_free = is_clear(from, start, quarter) && is_clear(start, to, quarter) && is_clear(to, from, 0);
+    if (is_free) return {from, to};
+  }
+  return {};
+}
+
+MillRun OutlinePlanner::run_of(const CutTrack& track) {
+  const auto levels =
+      std::max<std::int64_t>(1, (-options_.depth.count + options_.step.count - 1) / options_.step.count);
+  const std::vector<DrawnPoint> lead = options_.lead.count > 0 ? lead_of(track) : std::vector<DrawnPoint>{};
+  const double quarter = std::tan(std::numbers::pi / 8) * (options_.climb ? 1 : -1);
+  if (options_.lead.count > 0 && lead.empty()) {
+    const DrawnPoint at = track.at(0);
+    plan_.mill.notes.push_back(
+        fmt::format("there is no room for a lead-in at X{:.4g} Y{:.4g} mm", to_mm(at.x).value(), to_mm(at.y).value()));
+  }
+  MillRun run;
+  double along = 0;
+  Nanometres z{};
+  for (std::int64_t level = 1; level <= levels; ++level) {
+    const Nanometres next{options_.depth.count * level / levels};
+    if (options_.ramp_degrees > 0) {
+      if (level == 1 && !lead.empty()) run.push_back({lead[0], quarter, z});
+      const double way =
+          static_cast<double>(z.count - next.count) / std::tan(options_.ramp_degrees / 180 * std::numbers::pi);
+      track.append(run, along, along + way, z, next);
+      along += way;
+    } else if (!lead.empty()) {
+      run.push_back({lead[0], quarter, next});
+    }
+    track.append(run, along, along + track.length(), next, next);
+    along += track.length();
+    const bool leads_out = !lead.empty() && options_.ramp_degrees <= 0;
+    if (leads_out) {
+      run.back().bulge = quarter;
+      run.push_back({lead[1], 0, next});
+      if (level < levels) run.push_back({lead[0], 0, next});
+    }
+    z = next;
+  }
+  return run;
+}
+
+void OutlinePlanner::measure_loss(const MillTool& tool) {
+  std::vector<DrawnRing> ways;
+  for (const MillRun& run : tool.runs) ways.push_back(chords_of(run, {200}));
+  plan_.lost_mm2 = area_mm2(common(board_, swept(ways, radius(), fine_chords)));
+}
+
+}  // namespace
+
+OutlinePlan plan_outline(const Region& board, const OutlineOptions& options, Diagnostics& diagnostics) {
+  return OutlinePlanner(board, options, diagnostics).plan();
+}
+
+}  // namespace passo

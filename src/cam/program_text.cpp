@@ -1,0 +1,38 @@
+#include "program_text.hpp"
+
+#include <algorithm>
+
+namespace passo {
+
+void ProgramText::begin_modes() {
+  if (units_ == ProgramUnits::cm) {
+    line("(all lengths are centimetres: for a machine that counts in centimetres)");
+    line("G17 G40 G80 G90 G94");
+  } else {
+    line("G17 {} G40 G80 G90 G94", units_ == ProgramUnits::mm ? "G21" : "G20");
+  }
+}
+
+std::string ProgramText::number(Nanometres length) const {
+  const double mm = to_mm(length).value();
+  const double value = units_ == ProgramUnits::mm ? mm : units_ == ProgramUnits::cm ? mm / 10 : mm / mm_per_inch;
+  std::string digits = fmt::format("{:.{}f}", value, units_ == ProgramUnits::mm ? 4 : 5);
+  digits.erase(digits.find_last_not_of('0') + 1);
+  if (digits.back() == '.') digits.pop_back();
+  return digits == "-0" ? "0" : digits;
+}
+
+std::string in_comment(std::string_view text) {
+  std::string words(text);
+  const auto breaks = [](char c) { return c == '(' || c == ')' || c == '%' || static_cast<unsigned char>(c) < ' '; };
+  std::ranges::replace_if(words, breaks, '_');
+  constexpr std::size_t longest = 120;
+  if (words.size() > longest) words = "..." + words.substr(words.size() - longest);
+  return words;
+}
+
+std::string counted(std::size_t count, const char* what) {
+  return fmt::format("{} {}{}", count, what, count == 1 ? "" : "s");
+}
+
+}  // namespace passo

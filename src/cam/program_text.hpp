@@ -1,0 +1,47 @@
+// ProgramText: G-code as text, line by line, with lengths in the program's units. Private to cam/.
+#pragma once
+
+#include <iterator>
+#include <string>
+#include <string_view>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "passo/cam/drawing.hpp"
+#include "passo/cam/program_units.hpp"
+
+namespace passo {
+
+class ProgramText {
+ public:
+  explicit ProgramText(ProgramUnits units) : units_(units) {}
+
+  template <class... T>
+  void line(fmt::format_string<T...> words, T&&... values) {
+    fmt::format_to(std::back_inserter(text_), words, std::forward<T>(values)...);
+    text_ += '\n';
+  }
+  // Plane, units, and no compensation or cycle of an earlier program; for centimetres a comment.
+  void begin_modes();
+
+  // A length in the program's units, without zeros at its end.
+  std::string number(Nanometres length) const;
+  // "X1.5 Y2".
+  std::string place(DrawnPoint at) const { return "X" + number(at.x) + " Y" + number(at.y); }
+  const char* unit_name() const {
+    return units_ == ProgramUnits::mm ? "mm" : units_ == ProgramUnits::cm ? "cm" : "inch";
+  }
+  std::string take() { return std::move(text_); }
+
+ private:
+  ProgramUnits units_;
+  std::string text_;
+};
+
+// Text that may stand in a comment of G-code.
+std::string in_comment(std::string_view text);
+// "1 hole", "2 holes".
+std::string counted(std::size_t count, const char* what);
+
+}  // namespace passo

@@ -1,0 +1,243 @@
+// The only file that sees Clipper.
+#include "passo/cam/region.hpp"
+
+#include <algorithm>
+#include <limits>
+
+#include <polyclipping/clipper.hpp>
+
+namespace passo {
+namespace {
+
+namespace clipper = ClipperLib;
+
+__extension__ using Wide = __int128;  // sums of products of two lengths
+
+clipper::cInt bounded(Nanometres length) {
+  return std::clamp(length.count, -farthest_of_region.count, farthest_of_region.count);
+}
+
+clipper::Path path_of(const DrawnRing& ring) {
+  clipper::Path path;
+  path.reserve(ring.size());
+  for (const DrawnPoint& point : ring) path.emplace_back(bounded(point.x), bounded(point.y));
+  return path;
+}
+
+clipper::Paths paths_of(const std::vector<DrawnRing>& rings) {
+  clipper::Paths paths;
+  paths.reserve(rings.size());
+  for (const DrawnRing& ring : rings) paths.push_back(path_of(ring));
+  return paths;
+}
+
+std::vector<DrawnRing> rings_of(const clipper::Paths& paths) {
+  std::vector<DrawnRing> rings;
+  rings.reserve(paths.size());
+  for (const clipper::Path& path : paths) {
+    DrawnRing& ring = rings.emplace_back();
+    ring.reserve(path.size());
+    for (const clipper::IntPoint& point : path) {
+      ring.push_back({{bounded({point.X})}, {bounded({point.Y})}});
+    }
+  }
+  return rings;
+}
+
+// Twice the area, in square nanometres.
+Wide doubled_area(const DrawnRing& ring) {
+  Wide sum = 0;
+  for (std::size_t i = 0, last = ring.size() - 1; i < ring.size(); last = i++) {
+    sum += static_cast<Wide>(ring[last].x.count) * ring[i].y.count -
+           static_cast<Wide>(ring[i].x.count) * ring[last].y.count;
+  }
+  return sum;
+}
+
+Region combined(clipper::ClipType how, const clipper::Paths& a, const clipper::Paths& b) {
+  clipper::Clipper clip;
+  clip.AddPaths(a, clipper::ptSubject, true);
+  clip.AddPaths(b, clipper::ptClip, true);
+  clipper::Paths found;
+  clip.Execute(how, found, clipper::pftNonZero, clipper::pftNonZero);
+  return {rings_of(found)};
+}
+
+Region offset(const clipper::Paths& paths, clipper::EndType end, double distance, Nanometres tolerance) {
+  // Clipper rounds the number of an arc's chords down by up to a half: a chord may be up to 1.5 times as long as asked
+  // for, and then lies 2.25 times as far from the arc.
+  constexpr double chords_left_out = 2.25;
+  constexpr double least_tolerance = 10;  // nm
+  clipper::ClipperOffset growth;
+  growth.ArcTolerance = std::max(least_tolerance, static_cast<double>(tolerance.count)) / chords_left_out;
+  growth.AddPaths(paths, clipper::jtRound, end);
+  clipper::Paths found;
+  growth.Execute(found, distance);
+  return {rings_of(found)};
+}
+
+// Whether the point is inside the ring (1), outside (0) or on its rim (-1).
+int place_of(DrawnPoint point, const DrawnRing& ring) {
+  bool inside = false;
+  for (std::size_t i = 0, last = ring.size() - 1; i < ring.size(); last = i++) {
+    const DrawnPoint a = ring[last];
+    const DrawnPoint b = ring[i];
+    if (std::min(a.y, b.y) > point.y || std::max(a.y, b.y) < point.y) continue;
+    const Wide side = static_cast<Wide>(b.x.count - a.x.count) * (point.y.count - a.y.count) -
+                      static_cast<Wide>(point.x.count - a.x.count) * (b.y.count - a.y.count);
+    if (side == 0 && std::min(a.x, b.x) <= point.x && point.x <= std::max(a.x, b.x)) return -1;
+    if ((a.y > point.y) != (b.y > point.y) && (side > 0) == (b.y > a.y)) inside = !inside;
+  }
+  return inside ? 1 : 0;
+}
+
+DrawnBox box_of(const DrawnRing& ring) {
+  DrawnBox box{ring.front(), ring.front()};
+  for (const DrawnPoint& point : ring) {
+    box.least = {std::min(box.least.x, point.x), std::min(box.least.y, point.y)};
+    box.most = {std::max(box.most.x, point.x), std::max(box.most.y, point.y)};
+  }
+  return box;
+}
+
+bool is_within(const DrawnBox& inner, const DrawnBox& outer) {
+  return inner.least.x >= outer.least.x && inner.least.y >= outer.least.y && inner.most.x <= outer.most.x &&
+         inner.most.y <= outer.most.y;
+}
+
+// Whether the ring `hole` lies in the ring `outer`. Rings of a region may touch, and do not cross.
+bool lies_in(const DrawnRing& hole, const DrawnRing& outer) {
+  for (const DrawnPoint& point : hole) {
+    const int place = place_of(point, outer);
+    if (place >= 0) return place == 1;
+  }
+  return true;
+}
+
+}  // namespace
+
+Region filled(std::vector<DrawnRing> rings) {
+  std::erase_if(rings, [](const DrawnRing& ring) { return ring.size() < 3; });
+  for (DrawnRing& ring : rings) {
+    if (doubled_area(ring) < 0) std::ranges::reverse(ring);
+  }
+  return combined(clipper::ctUnion, paths_of(rings), {});
+}
+
+Region united(const Region& a, const Region& b) {
+  return combined(clipper::ctUnion, paths_of(a.rings), paths_of(b.rings));
+}
+
+Region united(const std::vector<Region>& regions) {
+  clipper::Paths all;
+  for (const Region& region : regions) {
+    for (const DrawnRing& ring : region.rings) all.push_back(path_of(ring));
+  }
+  return combined(clipper::ctUnion, all, {});
+}
+
+Region subtracted(const Region& from, const Region& what) {
+  return combined(clipper::ctDifference, paths_of(from.rings), paths_of(what.rings));
+}
+
+Region common(const Region& a, const Region& b) {
+  return combined(clipper::ctIntersection, paths_of(a.rings), paths_of(b.rings));
+}
+
+Region grown(const Region& region, Nanometres distance, Nanometres tolerance) {
+  if (region.empty() || distance.count == 0) return region;
+  return offset(paths_of(region.rings), clipper::etClosedPolygon, static_cast<double>(bounded(distance)), tolerance);
+}
+
+Region swept(const std::vector<DrawnRing>& ways, Nanometres radius, Nanometres tolerance) {
+  if (radius.count <= 0) return {};
+  return offset(paths_of(ways), clipper::etOpenRound, static_cast<double>(bounded(radius)), tolerance);
+}
+
+std::vector<DrawnRing> ways_within(const std::vector<DrawnRing>& ways, const Region& region) {
+  clipper::Clipper clip;
+  clip.AddPaths(paths_of(ways), clipper::ptSubject, false);
+  clip.AddPaths(paths_of(region.rings), clipper::ptClip, true);
+  clipper::PolyTree found;
+  clip.Execute(clipper::ctIntersection, found, clipper::pftNonZero, clipper::pftNonZero);
+  clipper::Paths open;
+  clipper::OpenPathsFromPolyTree(found, open);
+  return rings_of(open);
+}
+
+std::vector<Region> parts_of(const Region& region) {
+  struct Outer {
+    std::size_t ring;
+    DrawnBox box;
+    Wide area;
+  };
+  std::vector<Outer> outers;
+  std::vector<Region> parts;
+  for (std::size_t i = 0; i < region.rings.size(); ++i) {
+    const Wide area = doubled_area(region.rings[i]);
+    if (area > 0) outers.push_back({i, box_of(region.rings[i]), area});
+  }
+  // From small to large: the first that a hole lies in is its own.
+  std::ranges::stable_sort(outers, [](const Outer& a, const Outer& b) { return a.area < b.area; });
+  for (const Outer& outer : outers) parts.push_back({{region.rings[outer.ring]}});
+  for (const DrawnRing& ring : region.rings) {
+    if (doubled_area(ring) >= 0) continue;
+    const DrawnBox box = box_of(ring);
+    for (std::size_t i = 0; i < outers.size(); ++i) {
+      if (!is_within(box, outers[i].box) || !lies_in(ring, region.rings[outers[i].ring])) continue;
+      parts[i].rings.push_back(ring);
+      break;
+    }
+  }
+  return parts;
+}
+
+std::vector<std::size_t> parts_with(const std::vector<Region>& islands, const std::vector<Region>& parts) {
+  std::vector<DrawnBox> boxes;
+  for (const Region& part : parts) boxes.push_back(bounds(part).value_or(DrawnBox{}));
+  std::vector<std::size_t> found;
+  for (const Region& island : islands) {
+    const DrawnPoint point = island.rings.front().front();
+    std::size_t i = 0;
+    while (i < parts.size() && !(is_within({point, point}, boxes[i]) && contains(parts[i], point))) ++i;
+    found.push_back(i);
+  }
+  return found;
+}
+
+double area_mm2(const DrawnRing& ring) {
+  return ring.empty() ? 0 : static_cast<double>(doubled_area(ring)) / (2 * nanometres_per_mm * nanometres_per_mm);
+}
+
+double area_mm2(const Region& region) {
+  Wide sum = 0;
+  for (const DrawnRing& ring : region.rings) sum += doubled_area(ring);
+  return static_cast<double>(sum) / (2 * nanometres_per_mm * nanometres_per_mm);
+}
+
+std::optional<DrawnBox> bounds(const Region& region) {
+  std::optional<DrawnBox> all;
+  for (const DrawnRing& ring : region.rings) {
+    const DrawnBox box = box_of(ring);
+    if (!all) all = box;
+    all->least = {std::min(all->least.x, box.least.x), std::min(all->least.y, box.least.y)};
+    all->most = {std::max(all->most.x, box.most.x), std::max(all->most.y, box.most.y)};
+  }
+  return all;
+}
+
+DrawnRing rectangle(const DrawnBox& box) {
+  return {box.least, {box.most.x, box.least.y}, box.most, {box.least.x, box.most.y}};
+}
+
+bool contains(const Region& region, DrawnPoint point) {
+  bool inside = false;
+  for (const DrawnRing& ring : region.rings) {
+    const int place = place_of(point, ring);
+    if (place < 0) return true;
+    if (place > 0) inside = !inside;
+  }
+  return inside;
+}
+
+}  // namespace passo

@@ -1,0 +1,217 @@
+#include "passo/cam/isolation.hpp"
+
+#include <cmath>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "passo/cam/isolation_proof.hpp"
+#include "passo/cam/mill_program.hpp"
+#include "passo/cam/mirror.hpp"
+
+namespace passo {
+namespace {
+
+DrawnPoint spot(double x, double y) {
+  return {to_nanometres(Mm(x)), to_nanometres(Mm(y))};
+}
+Nanometres wide(double mm) {
+  return to_nanometres(Mm(mm));
+}
+Region pad(double x, double y, double size) {
+  return filled({rectangle({spot(x - size / 2, y - size / 2), spot(x + size / 2, y + size / 2)})});
+}
+Region disc(double x, double y, double diameter) {
+  return swept({{spot(x, y)}}, wide(diameter / 2));
+}
+IsolationOptions with(std::vector<double> cutters) {
+  IsolationOptions options;
+  for (const double cutter : cutters) options.cutters.push_back({wide(cutter), "cutter"});
+  return options;
+}
+struct Isolated {
+  IsolationPlan plan;
+  IsolationProof proof;
+};
+Isolated isolated(const Region& copper, const IsolationOptions& options) {
+  Diagnostics findings;
+  Isolated result;
+  result.plan = plan_isolation(copper, options, findings);
+  EXPECT_FALSE(findings.any_error());
+  result.proof = prove_isolation(copper, result.plan.mill);
+  return result;
+}
+std::size_t runs_of(const IsolationPlan& plan) {
+  std::size_t runs = 0;
+  for (const MillTool& tool : plan.mill.tools) runs += tool.runs.size();
+  return runs;
+}
+double milled_mm(const IsolationPlan& plan) {
+  double milled = 0;
+  for (const MillTool& tool : plan.mill.tools) milled += lengths_of(tool, {}).milled_nm / nanometres_per_mm;
+  return milled;
+}
+// Two pads of 2 mm, this far apart.
+Region two_pads(double gap) {
+  return united(pad(0, 0, 2), pad(2 + gap, 0, 2));
+}
+
+TEST(Isolation, one_loop_around_each_island_parts_them_and_takes_no_copper) {
+  const auto [plan, proof] = isolated(two_pads(1), with({0.2}));
+  EXPECT_EQ(plan.islands, 2U);
+  EXPECT_EQ(runs_of(plan), 2U);
+  EXPECT_TRUE(plan.gaps.empty());
+  EXPECT_EQ(proof.lost_mm2, 0);
+  EXPECT_EQ(proof.joined, 0U);
+  // Around each pad four sides of 2 mm and four quarters of a circle of 0.107 mm.
+  EXPECT_NEAR(milled_mm(plan), 2 * (8 + 2 * M_PI * 0.107), 0.01);
+}
+
+TEST(Isolation, corners_are_arcs_and_sides_are_lines) {
+  const auto [plan, proof] = isolated(pad(0, 0, 2), with({0.2}));
+  ASSERT_EQ(plan.mill.tools.at(0).runs.size(), 1U);
+  std::size_t arcs = 0;
+  for (const MillPoint& point : plan.mill.tools[0].runs[0]) arcs += point.bulge != 0 ? 1 : 0;
+  EXPECT_GE(arcs, 4U);
+  EXPECT_LE(arcs, 5U);  // the loop may begin within one
+  EXPECT_LE(plan.mill.tools[0].runs[0].size(), 12U);
+}
+
+TEST(Isolation, copper_lies_to_the_right_when_climbing) {
+  IsolationOptions options = with({0.2});
+  for (const bool climb : {true, false}) {
+    options.climb = climb;
+    const auto [plan, proof] = isolated(pad(0, 0, 2), options);
+    EXPECT_EQ(area_mm2(chords_of(plan.mill.tools.at(0).runs.at(0), {1000})) < 0, climb);
+  }
+}
+
+TEST(Isolation, a_gap_too_narrow_is_told_with_its_place_and_width) {
+  const auto [plan, proof] = isolated(two_pads(0.15), with({0.2}));
+  ASSERT_EQ(plan.gaps.size(), 1U);
+  EXPECT_EQ(plan.gaps[0].width, wide(0.15));
+  EXPECT_EQ(plan.gaps[0].at.x, wide(1.075));
+  EXPECT_GT(area_mm2(plan.unmilled), 0.2);
+  EXPECT_EQ(proof.lost_mm2, 0);
+  EXPECT_EQ(proof.joined, 2U);
+  EXPECT_EQ(proof.groups, 1U);
+}
+
+TEST(Isolation, a_finer_cutter_mills_only_what_the_wide_one_left_between_islands) {
+  const Region copper = united(two_pads(0.3), disc(10, 0, 2));
+  const auto [alone, joined] = isolated(copper, with({1}));
+  EXPECT_EQ(joined.joined, 2U);
+  const auto [plan, proof] = isolated(copper, with({0.2, 1}));
+  ASSERT_EQ(plan.mill.tools.size(), 2U);
+  EXPECT_EQ(plan.mill.tools[0].width, wide(1));
+  EXPECT_EQ(proof.lost_mm2, 0);
+  EXPECT_EQ(proof.joined, 0U);
+  EXPECT_TRUE(plan.gaps.empty());
+  // Along both sides of the gap and a little beyond; not around the pads.
+  EXPECT_LT(lengths_of(plan.mill.tools[1], {}).milled_nm, 8e6);
+}
+
+TEST(Isolation, width_says_how_many_loops_and_the_cutter_stays_down_between) {
+  IsolationOptions options = with({0.2});
+  options.width = wide(0.6);
+  const auto [plan, proof] = isolated(pad(0, 0, 2), options);
+  EXPECT_EQ(runs_of(plan), 1U);
+  EXPECT_EQ(proof.lost_mm2, 0);
+  // 0.6 mm and the margin of 0.007 mm are free around the pad.
+  const double outside = area_mm2(grown(pad(0, 0, 2), wide(0.607)));
+  const double inside = area_mm2(grown(pad(0, 0, 2), wide(0.007)));
+  EXPECT_NEAR(proof.milled_mm2, outside - inside, 0.02);
+}
+
+TEST(Isolation, clearing_leaves_nothing_but_the_copper) {
+  const Region copper = united({pad(3, 3, 2), disc(8, 6, 3), pad(6.5, 2, 0.8)});
+  IsolationOptions options = with({0.4});
+  options.clear = true;
+  options.board = filled({rectangle({spot(0, 0), spot(12, 9)})});
+  const auto [plan, proof] = isolated(copper, options);
+  EXPECT_EQ(proof.lost_mm2, 0);
+  EXPECT_EQ(proof.joined, 0U);
+  std::vector<DrawnRing> ways;
+  for (const MillRun& run : plan.mill.tools.at(0).runs) ways.push_back(chords_of(run, {500}));
+  const Region left = subtracted(subtracted(options.board, grown(copper, wide(0.007))), swept(ways, wide(0.2)));
+  EXPECT_LT(area_mm2(left), 0.05);
+}
+
+TEST(Isolation, nothing_is_milled_beyond_the_edge) {
+  IsolationOptions options = with({0.2});
+  options.board = filled({rectangle({spot(-3, -3), spot(0.5, 3)})});
+  const auto [plan, proof] = isolated(pad(0, 0, 2), options);
+  ASSERT_EQ(runs_of(plan), 1U);
+  const MillRun& run = plan.mill.tools[0].runs[0];
+  for (const MillPoint& point : run) EXPECT_LE(point.at.x, wide(0.6));
+  // Climb milling: the copper is to the right of an open way, too.
+  EXPECT_LT(run.front().at.y, Nanometres{});
+  EXPECT_GT(run.back().at.y, Nanometres{});
+}
+
+TEST(Isolation, random_layouts_lose_no_copper_and_join_only_what_is_told) {
+  std::uint64_t state = 7;
+  const auto random = [&state](double least, double most) {
+    state = state * 6364136223846793005U + 1442695040888963407U;
+    return least + (most - least) * static_cast<double>(state >> 40U) / static_cast<double>(1U << 24U);
+  };
+  for (int layout = 0; layout < 15; ++layout) {
+    std::vector<Region> shapes;
+    for (int i = 0; i < 12; ++i) {
+      const DrawnPoint from = spot(random(0, 8), random(0, 8));
+      shapes.push_back(i % 3 == 0 ? pad(random(0, 8), random(0, 8), random(0.3, 1.5))
+                                  : swept({{from, spot(random(0, 8), random(0, 8))}}, wide(random(0.05, 0.3))));
+    }
+    IsolationOptions options = with({layout % 2 == 0 ? 0.2 : 0.35, 0.12});
+    options.passes = 1 + static_cast<std::uint32_t>(layout) % 3;
+    const auto [plan, proof] = isolated(united(shapes), options);
+    EXPECT_EQ(proof.lost_mm2, 0) << "layout " << layout;
+    EXPECT_EQ(proof.joined == 0, plan.gaps.empty()) << "layout " << layout;
+  }
+}
+
+TEST(Isolation, a_v_cutter_is_as_wide_as_its_depth_makes_it) {
+  EXPECT_EQ(v_cutter_width(wide(0.1), 90, wide(0.05)), wide(0.2));
+  EXPECT_NEAR(to_mm(v_cutter_width(wide(0.1), 30, wide(0.1))).value(), 0.1536, 1e-4);
+}
+
+TEST(Isolation, no_copper_is_an_error) {
+  Diagnostics findings;
+  plan_isolation({}, with({0.2}), findings);
+  ASSERT_EQ(findings.errors(), 1U);
+  EXPECT_EQ(findings.all()[0].code, "isolation.no-copper");
+}
+
+TEST(IsolationProof, counts_copper_that_a_plan_takes) {
+  MillPlan plan;
+  plan.tools.push_back({wide(0.2), "cutter", {{{spot(-2, 0), 0, {}}, {spot(2, 0), 0, {}}}}});
+  const IsolationProof proof = prove_isolation(pad(0, 0, 2), plan);
+  EXPECT_NEAR(proof.lost_mm2, 0.4, 0.005);
+  EXPECT_EQ(proof.copper_mm2, 4);
+}
+
+TEST(MillProgram, goes_down_along_and_up_and_ends_at_rest) {
+  MillPlan plan;
+  plan.tools.push_back({wide(0.2),
+                        "cutter 0.2 mm",
+                        {{{spot(1, 2), 0, wide(-0.1)}, {spot(3, 2), 1, wide(-0.1)}, {spot(5, 2), 0, wide(-0.1)}}}});
+  const std::string program =
+      write_mill_program(plan, {.name = "front.ngc", .command = "passo cam isolate", .spindle = 10'000});
+  EXPECT_THAT(program, testing::HasSubstr("G17 G21 G40 G80 G90 G94\nG0 Z2\n"));
+  EXPECT_THAT(program, testing::HasSubstr("M3 S10000\n"));
+  EXPECT_THAT(program, testing::HasSubstr("G0 X1 Y2\nG0 Z0.5\nF60\nG1 Z-0.1\nF200\nG1 X3 Y2\nG3 X5 Y2 I1 J0\nG0 Z2\n"));
+  EXPECT_THAT(program, testing::EndsWith("M5\nG0 X0 Y0\nM2\n"));
+}
+
+TEST(Mirror, turns_a_board_over_about_a_line) {
+  const Mirror mirror{Mirror::Turned::x, wide(10)};
+  EXPECT_EQ(mirrored(spot(3, 4), mirror), spot(17, 4));
+  EXPECT_EQ(mirrored(spot(3, 4), {Mirror::Turned::y, wide(1)}), spot(3, -2));
+  const Region turned = mirrored(pad(0, 0, 2), mirror);
+  EXPECT_EQ(area_mm2(turned), 4);
+  EXPECT_TRUE(contains(turned, spot(20, 0)));
+  EXPECT_EQ(mirrored(turned, mirror).rings.size(), 1U);
+}
+
+}  // namespace
+}  // namespace passo

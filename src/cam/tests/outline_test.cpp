@@ -1,0 +1,204 @@
+#include "passo/cam/outline.hpp"
+
+#include <cmath>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "passo/cam/bulge.hpp"
+
+namespace passo {
+namespace {
+
+DrawnPoint xy(double x, double y) {
+  return {to_nanometres(Mm(x)), to_nanometres(Mm(y))};
+}
+Nanometres lengthy(double mm) {
+  return to_nanometres(Mm(mm));
+}
+DrawnPath open_line(std::vector<PathPoint> points) {
+  const auto line = static_cast<std::uint32_t>(points.front().at.y.count / 1'000'000 + 3);
+  return {.points = std::move(points), .is_closed = false, .width = {}, .layer = 0, .line = line};
+}
+// 40 x 30 mm, drawn as four lines in any order and direction, with an opening of 6 mm.
+Drawing board_drawing(double gap = 0) {
+  Drawing drawing{.file = "edge.dxf", .layers = {"Edge"}, .holes = {}, .paths = {}, .notes = {}};
+  drawing.paths.push_back(open_line({{xy(0, 0)}, {xy(40, 0)}}));
+  drawing.paths.push_back(open_line({{xy(0, 30)}, {xy(0, 0)}}));
+  drawing.paths.push_back(open_line({{xy(40, 30 - gap)}, {xy(40, 0)}}));
+  drawing.paths.push_back(open_line({{xy(40, 30)}, {xy(0, 30)}}));
+  drawing.holes.push_back({xy(20, 15), lengthy(6), 0, 9});
+  return drawing;
+}
+struct Outlined {
+  EdgeLoops loops;
+  Region board;
+  OutlinePlan plan;
+  Diagnostics findings;
+};
+Outlined outlined(const Drawing& drawing, const OutlineOptions& options, double join = 0.1) {
+  Outlined result;
+  result.loops = edge_loops(drawing, lengthy(join), result.findings);
+  result.board = board_within(result.loops);
+  if (!result.findings.any_error()) result.plan = plan_outline(result.board, options, result.findings);
+  return result;
+}
+const MillRun& run_of(const Outlined& result, std::size_t index) {
+  return result.plan.mill.tools.at(0).runs.at(index);
+}
+
+TEST(EdgeLoops, joins_lines_in_any_order_and_direction) {
+  const Outlined result = outlined(board_drawing(), {});
+  EXPECT_FALSE(result.findings.any_error());
+  EXPECT_EQ(result.loops.loops.size(), 2U);
+  EXPECT_EQ(result.loops.joined, 0U);
+  EXPECT_NEAR(area_mm2(result.board), 1200 - 9 * M_PI, 0.01);
+}
+
+TEST(EdgeLoops, closes_gaps_within_the_tolerance_and_tells_wider_ones) {
+  const Outlined joined = outlined(board_drawing(0.08), {});
+  EXPECT_FALSE(joined.findings.any_error());
+  EXPECT_EQ(joined.loops.joined, 1U);
+  EXPECT_EQ(joined.loops.widest_joined, lengthy(0.08));
+  const Outlined open = outlined(board_drawing(0.25), {});
+  ASSERT_EQ(open.findings.errors(), 2U);
+  EXPECT_EQ(open.findings.all()[0].code, "outline.open");
+  EXPECT_THAT(open.findings.all()[0].expected, testing::HasSubstr("--join 0.25mm"));
+}
+
+TEST(EdgeLoops, lines_drawn_twice_count_once) {
+  Drawing drawing = board_drawing();
+  drawing.paths.push_back(open_line({{xy(40, 0)}, {xy(0, 0)}}));
+  EXPECT_FALSE(outlined(drawing, {}).findings.any_error());
+}
+
+TEST(EdgeLoops, a_loop_in_an_opening_is_board_again) {
+  Drawing drawing = board_drawing();
+  drawing.holes.push_back({xy(20, 15), lengthy(2), 0, 10});
+  EXPECT_NEAR(area_mm2(outlined(drawing, {.cutter = lengthy(1)}).board), 1200 - 9 * M_PI + M_PI, 0.01);
+}
+
+TEST(Outline, cuts_the_opening_first_in_even_turns_and_takes_nothing_of_the_board) {
+  const Outlined result =
+      outlined(board_drawing(), {.cutter = lengthy(2), .depth = lengthy(-1.8), .step = lengthy(0.5)});
+  ASSERT_EQ(result.plan.mill.tools.at(0).runs.size(), 2U);
+  EXPECT_EQ(result.plan.outsides, 1U);
+  EXPECT_EQ(result.plan.openings, 1U);
+  EXPECT_EQ(result.plan.lost_mm2, 0);
+  for (const MillPoint& point : run_of(result, 0)) EXPECT_NEAR(distance_nm(point.at, xy(20, 15)), 2e6, 2500);
+  EXPECT_EQ(run_of(result, 1).back().z, lengthy(-1.8));
+  const double once = 2 * M_PI * 1.998 + 140 + 2 * M_PI * 1.002;
+  EXPECT_NEAR(lengths_of(result.plan.mill.tools[0], {}).milled_nm / 1e6, 4 * once + 2 * (1.8 - 0.45), 0.05);
+}
+
+// The arcs of the drawing stay arcs, about the same centre.
+TEST(Outline, arcs_of_the_edge_are_arcs_of_the_way) {
+  const double quarter = std::tan(M_PI / 8);
+  Drawing drawing{.file = "edge.dxf", .layers = {"0"}, .holes = {}, .paths = {}, .notes = {}};
+  DrawnPath path = open_line({{xy(5, 0)},
+                              {xy(35, 0), quarter},
+                              {xy(40, 5)},
+                              {xy(40, 25), quarter},
+                              {xy(35, 30)},
+                              {xy(5, 30), quarter},
+                              {xy(0, 25)},
+                              {xy(0, 5), quarter}});
+  path.is_closed = true;
+  drawing.paths.push_back(path);
+  const Outlined result = outlined(drawing, {.cutter = lengthy(2), .depth = lengthy(-1), .step = lengthy(1)});
+  const MillRun& run = run_of(result, 0);
+  std::size_t arcs = 0;
+  for (std::size_t i = 0; i + 1 < run.size(); ++i) {
+    if (run[i].bulge == 0) continue;
+    ++arcs;
+    const DrawnPoint off = to_centre(run[i].at, run[i + 1].at, run[i].bulge);
+    const DrawnPoint centre{run[i].at.x + off.x, run[i].at.y + off.y};
+    const double cx = centre.x < lengthy(20) ? 5 : 35;
+    const double cy = centre.y < lengthy(15) ? 5 : 25;
+    EXPECT_LT(distance_nm(centre, xy(cx, cy)), 3000) << i;
+    EXPECT_NEAR(distance_nm(centre, run[i].at), 6.002e6, 1000);
+  }
+  EXPECT_EQ(arcs, 4U);
+  EXPECT_EQ(run.size(), 10U);
+  EXPECT_EQ(result.plan.lost_mm2, 0);
+}
+
+TEST(Outline, tabs_stay_at_their_height) {
+  OutlineOptions options{.cutter = lengthy(2), .depth = lengthy(-1.5), .step = lengthy(0.5), .tabs = 4};
+  options.tab_height = lengthy(0.6);
+  const Outlined result = outlined(board_drawing(), options);
+  EXPECT_EQ(result.plan.tabs.size(), 4U);
+  double above = 0;
+  const MillRun& run = run_of(result, 1);
+  for (std::size_t i = 0; i + 1 < run.size(); ++i) {
+    if (run[i].z == lengthy(-0.9) && run[i + 1].z == lengthy(-0.9)) {
+      above += way_nm(run[i].at, run[i + 1].at, run[i].bulge);
+    }
+    EXPECT_GE(run[i].z, lengthy(-1.5));
+  }
+  // Four tabs of 2 mm and the cutter's width, in the turns at -1 and -1.5 mm.
+  EXPECT_NEAR(above / 1e6, 2 * 4 * 4, 0.001);
+}
+
+TEST(Outline, tabs_by_place_lie_where_they_are_asked_for) {
+  OutlineOptions options{.cutter = lengthy(2), .tab_places = {xy(10, -1), xy(20, 17)}};
+  const Outlined result = outlined(board_drawing(), options);
+  ASSERT_EQ(result.plan.tabs.size(), 2U);
+  EXPECT_LT(distance_nm(result.plan.tabs[0], xy(20, 17)), 0.2e6);  // the opening is cut first
+  EXPECT_LT(distance_nm(result.plan.tabs[1], xy(10, -1)), 0.5e6);
+}
+
+TEST(Outline, a_ramp_goes_down_no_steeper_than_asked) {
+  OutlineOptions options{.cutter = lengthy(2), .depth = lengthy(-1), .step = lengthy(0.5), .ramp_degrees = 3};
+  const Outlined result = outlined(board_drawing(), options);
+  for (const MillRun& run : result.plan.mill.tools.at(0).runs) {
+    EXPECT_EQ(run.front().z, Nanometres{});
+    for (std::size_t i = 0; i + 1 < run.size(); ++i) {
+      const auto down = static_cast<double>(run[i].z.count - run[i + 1].z.count);
+      EXPECT_LE(down, way_nm(run[i].at, run[i + 1].at, run[i].bulge) * std::tan(3 * M_PI / 180) + 2);
+    }
+    EXPECT_EQ(run.back().z, lengthy(-1));
+  }
+}
+
+TEST(Outline, a_lead_in_comes_from_the_waste) {
+  OutlineOptions options{.cutter = lengthy(2), .depth = lengthy(-1), .step = lengthy(0.5), .lead = lengthy(1.5)};
+  const Outlined result = outlined(board_drawing(), options);
+  EXPECT_EQ(result.plan.lost_mm2, 0);
+  for (const MillRun& run : result.plan.mill.tools.at(0).runs) {
+    EXPECT_NE(run.front().bulge, 0);
+    EXPECT_FALSE(contains(grown(result.board, lengthy(1.0015)), run.front().at));
+  }
+}
+
+TEST(Outline, dog_bones_reach_inner_corners) {
+  Drawing drawing = board_drawing();
+  drawing.holes.clear();
+  DrawnPath slot = open_line({{xy(10, 10)}, {xy(20, 10)}, {xy(20, 20)}, {xy(10, 20)}});
+  slot.is_closed = true;
+  drawing.paths.push_back(slot);
+  OutlineOptions options{.cutter = lengthy(2), .depth = lengthy(-1), .step = lengthy(1), .dog_bones = true};
+  const Outlined result = outlined(drawing, options);
+  for (const DrawnPoint corner : {xy(10, 10), xy(20, 10), xy(20, 20), xy(10, 20)}) {
+    double nearest = 1e300;
+    for (const MillPoint& point : run_of(result, 0)) nearest = std::min(nearest, distance_nm(point.at, corner));
+    EXPECT_NEAR(nearest, 1e6, 5'000);
+  }
+}
+
+TEST(Outline, an_opening_narrower_than_the_cutter_is_an_error) {
+  const Outlined result = outlined(board_drawing(), {.cutter = lengthy(6.5)});
+  ASSERT_EQ(result.findings.errors(), 1U);
+  EXPECT_EQ(result.findings.all()[0].code, "outline.narrow-opening");
+  EXPECT_THAT(result.findings.all()[0].message, testing::HasSubstr("X20 Y15"));
+}
+
+TEST(Outline, no_edge_is_an_error) {
+  Diagnostics findings;
+  plan_outline({}, {}, findings);
+  ASSERT_EQ(findings.errors(), 1U);
+  EXPECT_EQ(findings.all()[0].code, "outline.no-edge");
+}
+
+}  // namespace
+}  // namespace passo

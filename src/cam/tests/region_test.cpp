@@ -1,0 +1,113 @@
+#include "passo/cam/region.hpp"
+
+#include <limits>
+#include <numbers>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+namespace passo {
+namespace {
+
+DrawnPoint at_mm(double x, double y) {
+  return {to_nanometres(Mm(x)), to_nanometres(Mm(y))};
+}
+DrawnRing box_mm(double x0, double y0, double x1, double y1) {
+  return rectangle({at_mm(x0, y0), at_mm(x1, y1)});
+}
+constexpr Nanometres one_mm{1'000'000};
+
+TEST(Region, unites_subtracts_and_shares_squares_exactly) {
+  const Region a = filled({box_mm(0, 0, 10, 10)});
+  const Region b = filled({box_mm(5, 5, 15, 15)});
+  EXPECT_EQ(area_mm2(united(a, b)), 175);
+  EXPECT_EQ(area_mm2(united({a, b, filled({box_mm(20, 0, 21, 1)})})), 176);
+  EXPECT_EQ(area_mm2(subtracted(a, b)), 75);
+  EXPECT_EQ(area_mm2(common(a, b)), 25);
+  EXPECT_TRUE(common(a, filled({box_mm(11, 0, 12, 1)})).empty());
+}
+
+TEST(Region, fills_rings_whichever_way_they_turn) {
+  DrawnRing clockwise = box_mm(5, 5, 15, 15);
+  std::ranges::reverse(clockwise);
+  EXPECT_EQ(area_mm2(filled({box_mm(0, 0, 10, 10), clockwise})), 175);
+  EXPECT_TRUE(filled({{at_mm(0, 0), at_mm(1, 1)}, {}}).empty());
+}
+
+TEST(Region, has_holes_clockwise_and_is_to_the_left_of_every_ring) {
+  const Region frame = subtracted(filled({box_mm(0, 0, 10, 10)}), filled({box_mm(2, 2, 4, 4)}));
+  ASSERT_EQ(frame.rings.size(), 2U);
+  EXPECT_EQ(area_mm2(frame), 96);
+  EXPECT_EQ(area_mm2(frame.rings[0]) + area_mm2(frame.rings[1]), 96);
+  EXPECT_LT(std::min(area_mm2(frame.rings[0]), area_mm2(frame.rings[1])), 0);
+}
+
+TEST(Region, grows_by_round_corners_within_the_tolerance_and_never_too_far) {
+  const Region square = filled({box_mm(0, 0, 10, 10)});
+  const double exact = 100 + 40 + std::numbers::pi;
+  for (const std::int64_t tolerance : {10'000, 1'000, 100}) {
+    const double grown_to = area_mm2(grown(square, one_mm, {tolerance}));
+    EXPECT_LE(grown_to, exact);
+    // The chords of the corners, in all 2 pi mm long, lie at most the tolerance inside.
+    EXPECT_GE(grown_to, exact - 2 * std::numbers::pi * static_cast<double>(tolerance) / nanometres_per_mm);
+  }
+  EXPECT_EQ(area_mm2(grown(square, {-1'000'000})), 64);
+  EXPECT_TRUE(grown(square, {-5'000'001}).empty());
+  EXPECT_EQ(area_mm2(grown(square, {})), 100);
+}
+
+TEST(Region, grows_holes_inwards) {
+  const Region frame = subtracted(filled({box_mm(0, 0, 10, 10)}), filled({box_mm(2, 2, 8, 8)}));
+  EXPECT_NEAR(area_mm2(grown(frame, one_mm)), 140 + std::numbers::pi - 16, 0.01);
+  EXPECT_NEAR(area_mm2(grown(frame, {3'000'001})), 100 + 120 + 9 * std::numbers::pi, 0.03);
+}
+
+TEST(Region, a_cutters_way_sweeps_a_rounded_strip) {
+  const double strip = area_mm2(swept({{at_mm(0, 0), at_mm(10, 0)}}, one_mm));
+  EXPECT_LE(strip, 20 + std::numbers::pi);
+  EXPECT_GE(strip, 20 + std::numbers::pi - 0.01);
+  EXPECT_NEAR(area_mm2(swept({{at_mm(3, 3)}}, one_mm)), std::numbers::pi, 0.01);
+  EXPECT_NEAR(area_mm2(swept({{at_mm(0, 0), at_mm(10, 0), at_mm(0, 0)}}, one_mm)), strip, 1e-4);
+  EXPECT_TRUE(swept({{at_mm(0, 0), at_mm(10, 0)}}, {}).empty());
+}
+
+TEST(Region, keeps_the_pieces_of_ways_that_lie_in_it) {
+  const Region frame = subtracted(filled({box_mm(0, 0, 10, 10)}), filled({box_mm(4, 0, 6, 10)}));
+  const std::vector<DrawnRing> pieces = ways_within({{at_mm(-5, 5), at_mm(15, 5)}}, frame);
+  ASSERT_EQ(pieces.size(), 2U);
+  for (const DrawnRing& piece : pieces) EXPECT_EQ(distance_nm(piece.front(), piece.back()), 4e6);
+}
+
+TEST(Region, parts_are_an_outer_ring_and_its_holes) {
+  const Region frame = subtracted(filled({box_mm(0, 0, 10, 10)}), filled({box_mm(2, 2, 8, 8)}));
+  const std::vector<Region> parts = parts_of(united(frame, filled({box_mm(4, 4, 6, 6)})));
+  ASSERT_EQ(parts.size(), 2U);
+  EXPECT_EQ(area_mm2(parts[0]), 4);
+  EXPECT_EQ(area_mm2(parts[1]), 64);
+}
+
+TEST(Region, knows_its_bounds_and_what_is_in_it) {
+  const Region frame = subtracted(filled({box_mm(-1, -2, 10, 10)}), filled({box_mm(2, 2, 8, 8)}));
+  ASSERT_TRUE(bounds(frame));
+  EXPECT_EQ(bounds(frame)->least, at_mm(-1, -2));
+  EXPECT_EQ(bounds(frame)->most, at_mm(10, 10));
+  EXPECT_FALSE(bounds(Region{}));
+  EXPECT_TRUE(contains(frame, at_mm(1, 1)));
+  EXPECT_TRUE(contains(frame, at_mm(2, 5)));  // on the rim
+  EXPECT_TRUE(contains(frame, at_mm(-1, -2)));
+  EXPECT_FALSE(contains(frame, at_mm(5, 5)));
+  EXPECT_FALSE(contains(frame, at_mm(11, 5)));
+}
+
+TEST(Region, keeps_far_places_within_its_bounds) {
+  constexpr std::int64_t most = std::numeric_limits<std::int64_t>::max();
+  const DrawnRing vast = rectangle({{{-most}, {-most}}, {{most}, {most}}});
+  const Region region = united(filled({vast}), filled({box_mm(0, 0, 1, 1)}));
+  ASSERT_TRUE(bounds(region));
+  EXPECT_EQ(bounds(region)->most.x, farthest_of_region);
+  EXPECT_EQ(area_mm2(region), 4e5 * 4e5);
+  EXPECT_EQ(bounds(grown(region, {most}))->most.x, farthest_of_region);
+}
+
+}  // namespace
+}  // namespace passo

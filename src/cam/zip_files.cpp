@@ -1,0 +1,63 @@
+// The only file that sees minizip.
+#include "zip_files.hpp"
+
+#include <array>
+#include <memory>
+
+#include <minizip/unzip.h>
+
+#include "passo/diagnostics/file_bytes.hpp"
+
+namespace passo {
+namespace {
+
+struct CloseZip {
+  void operator()(void* file) const { unzClose(file); }
+};
+
+}  // namespace
+
+bool looks_like_zip(std::string_view bytes) {
+  return bytes.starts_with("PK\x03\x04") || bytes.starts_with("PK\x05\x06");
+}
+
+std::vector<NamedBytes> read_zip(const std::string& path, Diagnostics& diagnostics) {
+  std::vector<NamedBytes> files;
+  const auto refuse = [&](const char* code, std::string message, std::string expected) {
+    diagnostics.add(of_file(code, path, std::move(message), std::move(expected)));
+    return std::vector<NamedBytes>();
+  };
+  const std::unique_ptr<void, CloseZip> zip(unzOpen64(path.c_str()));
+  if (!zip) return refuse("board.bad-zip", "the archive is broken", "a zip file that other programs open");
+  std::size_t bytes = 0;
+  std::size_t count = 0;
+  for (int state = unzGoToFirstFile(zip.get()); state == UNZ_OK; state = unzGoToNextFile(zip.get())) {
+    std::array<char, 1024> name{};
+    unz_file_info64 info{};
+    if (unzGetCurrentFileInfo64(zip.get(), &info, name.data(), name.size() - 1, nullptr, 0, nullptr, 0) != UNZ_OK) {
+      return refuse("board.bad-zip", "the archive is broken", "a zip file that other programs open");
+    }
+    NamedBytes file{name.data(), {}};
+    if (file.name.empty() || file.name.ends_with('/') || file.name.starts_with("__MACOSX/")) continue;
+    if (++count > most_board_files) return refuse("board.too-large", "the archive has over 1,000 files", "one board");
+    if ((info.flag & 1U) != 0 || unzOpenCurrentFile(zip.get()) != UNZ_OK) {
+      return refuse("board.bad-zip", "'" + file.name + "' cannot be unpacked", "an archive without a password");
+    }
+    // What the archive says of sizes may be wrong: what comes is counted.
+    std::array<char, 65'536> piece{};
+    int got = 0;
+    while ((got = unzReadCurrentFile(zip.get(), piece.data(), static_cast<unsigned>(piece.size()))) > 0) {
+      bytes += static_cast<std::size_t>(got);
+      if (bytes > most_board_bytes)
+        return refuse("board.too-large", "the archive unpacks to too much", "at most 256 MiB");
+      file.bytes.append(piece.data(), static_cast<std::size_t>(got));
+    }
+    if (got < 0 || unzCloseCurrentFile(zip.get()) != UNZ_OK) {
+      return refuse("board.bad-zip", "'" + file.name + "' is broken", "a zip file that other programs open");
+    }
+    files.push_back(std::move(file));
+  }
+  return files;
+}
+
+}  // namespace passo

@@ -1,0 +1,25 @@
+// read_zip: the files in a zip archive. Private to cam/.
+#pragma once
+
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "passo/diagnostics/diagnostic.hpp"
+
+namespace passo {
+
+struct NamedBytes {
+  std::string name;
+  std::string bytes;
+};
+
+inline constexpr std::size_t most_board_files = 1000;
+inline constexpr std::size_t most_board_bytes = std::size_t{256} * 1024 * 1024;  // of all files, unpacked
+
+bool looks_like_zip(std::string_view bytes);
+
+// An archive that is broken, encrypted or too large is an error, "board.…".
+std::vector<NamedBytes> read_zip(const std::string& path, Diagnostics& diagnostics);
+
+}  // namespace passo

@@ -1,0 +1,30 @@
+// read_option_profile: the options of commands, kept in a file: a table for each command, a key for each option.
+//
+//   [isolate]
+//   tool = "1,0.2"      # as --tool 1,0.2
+//   width = 0.5         # as --width 0.5
+//   clear = true        # as --clear; false: as without it
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "passo/diagnostics/diagnostic.hpp"
+
+namespace passo {
+
+struct OptionSection {
+  std::string name;                // of the table
+  std::uint32_t line = 0;          // of the file, from 1
+  std::vector<std::string> words;  // as on a command line: "--tool", "1,0.2"
+};
+
+// The tables must be of the names that are `known`. Empty if there is an error: those of TOML are "machine.…", others
+// "profile.…".
+std::optional<std::vector<OptionSection>> read_option_profile(const std::string& path,
+                                                              const std::vector<std::string>& known,
+                                                              Diagnostics& diagnostics);
+
+}  // namespace passo

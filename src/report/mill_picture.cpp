@@ -1,0 +1,115 @@
+#include "passo/report/mill_picture.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "plan_view.hpp"
+#include "sheet.hpp"
+#include <fmt/format.h>
+
+namespace passo {
+namespace {
+
+constexpr Colour face_colour{0.93, 0.80, 0.62};
+constexpr Colour warning_colour{0.80, 0.05, 0.05};
+constexpr Nanometres drawn_chords{20'000};
+
+PlanView view_of(const MillScene& scene, const Area& area) {
+  DrawnBox box = bounds(scene.face).value_or(DrawnBox{scene.park, scene.park});
+  take_into(box, scene.park);
+  for (const MillTool& tool : scene.plan.tools) {
+    for (const MillRun& run : tool.runs) {
+      for (const MillPoint& point : run) take_into(box, point.at);
+    }
+  }
+  return {box, area};
+}
+
+// From wide to narrow: a hole is paper on what it lies in.
+void fill_region(Canvas& canvas, const PlanView& view, const Region& region, const Colour& colour) {
+  std::vector<std::pair<double, const DrawnRing*>> rings;
+  for (const DrawnRing& ring : region.rings) rings.emplace_back(area_mm2(ring), &ring);
+  std::ranges::stable_sort(rings, [](const auto& a, const auto& b) { return std::abs(a.first) > std::abs(b.first); });
+  for (const auto& [area, ring] : rings) {
+    std::vector<Spot> polygon;
+    polygon.reserve(ring->size());
+    for (const DrawnPoint& point : *ring) polygon.push_back(view.spot(point));
+    canvas.fill(polygon, area > 0 ? colour : sheet::paper);
+  }
+}
+
+void draw_ways(Canvas& canvas, const PlanView& view, const MillTool& tool, const Pen& pen) {
+  for (const MillRun& run : tool.runs) {
+    const std::vector<DrawnPoint> points = chords_of(run, drawn_chords);
+    canvas.move_to(view.spot(points.front()));
+    for (std::size_t i = 1; i < points.size(); ++i) canvas.line_to(view.spot(points[i]));
+    canvas.stroke(pen);
+  }
+}
+
+void draw_rapids(Canvas& canvas, const PlanView& view, const MillTool& tool, DrawnPoint park) {
+  DrawnPoint at = park;
+  for (const MillRun& run : tool.runs) {
+    canvas.move_to(view.spot(at));
+    canvas.line_to(view.spot(run.front().at));
+    canvas.stroke(rapid_pen);
+    at = run.back().at;
+  }
+  canvas.move_to(view.spot(at));
+  canvas.line_to(view.spot(park));
+  canvas.stroke(rapid_pen);
+}
+
+void draw_mark(Canvas& canvas, Spot middle) {
+  constexpr double radius = 9;
+  constexpr int corners = 24;
+  for (int i = 0; i <= corners; ++i) {
+    const double angle = 2 * 3.14159265358979 * i / corners;
+    const Spot spot{middle.x + radius * std::cos(angle), middle.y + radius * std::sin(angle)};
+    i == 0 ? canvas.move_to(spot) : canvas.line_to(spot);
+  }
+  canvas.stroke({.colour = warning_colour, .width = 2});
+}
+
+}  // namespace
+
+Status<OutputError> draw_mill_plan(const MillScene& scene, const PictureOptions& options, OutputFile& file) {
+  Canvas canvas(options, file);
+  MillLengths all;
+  for (const MillTool& tool : scene.plan.tools) {
+    const MillLengths lengths = lengths_of(tool, scene.park);
+    all.runs += lengths.runs;
+    all.milled_nm += lengths.milled_nm;
+    all.rapids_nm += lengths.rapids_nm;
+  }
+  begin_sheet(canvas, options,
+              fmt::format("{} times down   \u00B7   {:.1f} mm milled   \u00B7   {:.1f} mm of rapids", all.runs,
+                          all.milled_nm / nanometres_per_mm, all.rapids_nm / nanometres_per_mm));
+  const Area area{sheet::margin, 100, options.width - 2 * sheet::margin, options.height - 190.0};
+  const PlanView view = view_of(scene, area);
+  fill_region(canvas, view, scene.face, face_colour);
+  fill_region(canvas, view, scene.warned, warning_colour);
+  constexpr double thinnest = 0.6;
+  for (std::size_t i = 0; i < scene.plan.tools.size(); ++i) {
+    const MillTool& tool = scene.plan.tools[i];
+    const double width = std::max(thinnest, view.pixels(tool.width));
+    draw_ways(canvas, view, tool, {.colour = colour_of_tool(i), .width = width, .opacity = 0.35});
+  }
+  for (std::size_t i = 0; i < scene.plan.tools.size(); ++i) {
+    draw_rapids(canvas, view, scene.plan.tools[i], scene.park);
+    draw_ways(canvas, view, scene.plan.tools[i], {.colour = colour_of_tool(i), .width = thinnest});
+  }
+  for (const DrawnPoint& mark : scene.marks) draw_mark(canvas, view.spot(mark));
+
+  constexpr std::size_t most_named = 5;
+  Legend legend(canvas, {sheet::margin, options.height - 40.0});
+  legend.patch(face_colour, scene.face_name);
+  for (std::size_t i = 0; i < std::min(most_named, scene.plan.tools.size()); ++i) {
+    legend.patch(colour_of_tool(i), scene.plan.tools[i].words);
+  }
+  legend.line(rapid_pen, "Rapids");
+  if (!scene.marks.empty()) legend.line({.colour = warning_colour, .width = 2}, scene.mark_name);
+  return canvas.finish();
+}
+
+}  // namespace passo

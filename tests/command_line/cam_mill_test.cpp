@@ -1,0 +1,130 @@
+// passo cam isolate, outline and board, as a user starts them: from Gerber files to programs that run.
+#include "kit/command_line.hpp"
+#include <gmock/gmock.h>
+
+namespace {
+
+using passo::test::Outcome;
+using passo::test::read;
+using testing::HasSubstr;
+using testing::Not;
+
+class CamMill : public passo::test::CommandLine {
+ protected:
+  static constexpr const char* begin = "%FSLAX46Y46*%\n%MOMM*%\n%LPD*%\n";
+  // Two pads 0.15 mm apart, a third one with a track.
+  std::string copper(const std::string& name = "board-F_Cu.gbr", const std::string& side = "Copper,L1,Top") const {
+    return write(name, "%TF.FileFunction," + side + "*%\n" + begin +
+                           "%ADD10R,2.0X2.0*%\n%ADD11C,0.4*%\nD10*\nX5000000Y5000000D03*\nX7150000Y5000000D03*\n"
+                           "X15000000Y5000000D03*\nD11*\nX15000000Y5000000D02*\nX15000000Y12000000D01*\nM02*\n");
+  }
+  // 20 x 15 mm with round corners of 2 mm on the right.
+  std::string edge() const {
+    return write(
+        "board-Edge_Cuts.gbr",
+        "%TF.FileFunction,Profile,NP*%\n" + std::string(begin) +
+            "%ADD10C,0.1*%\nD10*\nG75*\nX0Y0D02*\nG01*\nX18000000Y0D01*\nG03*\nX20000000Y2000000I0J2000000D01*\n"
+            "G01*\nX20000000Y13000000D01*\nG03*\nX18000000Y15000000I-2000000J0D01*\nG01*\nX0Y15000000D01*\n"
+            "X0Y0D01*\nM02*\n");
+  }
+  std::string drills() const {
+    return write("board-PTH.drl", "M48\nMETRIC,TZ\nT1C0.800\n%\nG90\nG05\nT1\nX5.0Y5.0\nX15.0Y5.0\nM30\n");
+  }
+  Outcome cam(const std::string& arguments) const { return passo("cam " + arguments); }
+  Outcome check(const std::string& program) const {
+    return passo("check " + program + " -m " + std::string(PASSO_SOURCE_DIR) + "/examples/machines/router.toml");
+  }
+};
+
+TEST_F(CamMill, an_isolated_layer_loses_no_copper_and_its_program_is_good) {
+  const Outcome made = cam("isolate " + copper() + " --tool 0.12 -o " + path("f.ngc") + " -p " + path("f.png"));
+  EXPECT_EQ(made.code, 0) << made.err;
+  EXPECT_THAT(made.out, HasSubstr(", 0 of "));
+  EXPECT_THAT(made.out, HasSubstr("3 islands, all apart"));
+  const std::string program = read(path("f.ngc"));
+  EXPECT_THAT(program, HasSubstr("\nG2 "));
+  EXPECT_THAT(program, testing::EndsWith("M2\n"));
+  EXPECT_GT(std::filesystem::file_size(path("f.png")), 1000U);
+  EXPECT_EQ(check(path("f.ngc")).code, 0);
+}
+
+TEST_F(CamMill, a_gap_too_narrow_is_told) {
+  const Outcome made = cam("isolate " + copper() + " --v 30,0.15 --depth -0.1 --json -o " + path("f.ngc"));
+  EXPECT_EQ(made.code, 0) << made.err;
+  EXPECT_THAT(made.err, HasSubstr("at X6.0750 Y"));
+  EXPECT_THAT(made.err, HasSubstr("they are 0.15 mm apart"));
+  EXPECT_THAT(made.out, HasSubstr("\"joined\": 2"));
+  EXPECT_THAT(made.out, HasSubstr("\"lost_mm2\": 0.0"));
+}
+
+TEST_F(CamMill, a_cleared_back_is_turned_over_about_two_holes) {
+  const Outcome made =
+      cam("isolate " + copper("b.gbr") + " --zero -5,-5 --edge " + edge() +
+          " --tool 1,0.2 --clear --align -5,7,25,7 --conventional --spindle 10000 -o " + path("b.ngc"));
+  EXPECT_EQ(made.code, 0) << made.err;
+  const std::string program = read(path("b.ngc"));
+  EXPECT_THAT(program, HasSubstr("turned over from left to right, about X10 mm"));
+  EXPECT_THAT(program, HasSubstr("T2 M6"));
+  EXPECT_THAT(program, HasSubstr("M3 S10000"));
+  EXPECT_EQ(check(path("b.ngc")).code, 0);
+}
+
+TEST_F(CamMill, an_outline_keeps_its_arcs_and_has_tabs) {
+  const Outcome made = cam("outline " + edge() + " --zero -5,-5 --tool 2 --tabs 4 --ramp 5 -o " + path("o.ngc") +
+                           " -p " + path("o.svg"));
+  EXPECT_EQ(made.code, 0) << made.err;
+  EXPECT_THAT(made.out, HasSubstr("1 outlines and 0 openings"));
+  EXPECT_THAT(made.out, HasSubstr("4 tabs; 0 mm² of it lost"));
+  EXPECT_THAT(read(path("o.ngc")), HasSubstr("\nG2 "));
+  EXPECT_EQ(check(path("o.ngc")).code, 0);
+}
+
+TEST_F(CamMill, wrong_options_are_told) {
+  EXPECT_THAT(cam("isolate " + copper()).err, HasSubstr("expected a cutter: --tool 0.2"));
+  EXPECT_THAT(cam("isolate " + copper() + " --v 200").err, HasSubstr("expected ANGLE,TIP"));
+  EXPECT_THAT(cam("outline " + edge() + " --depth 2").err, HasSubstr("expected a length below 0"));
+  EXPECT_THAT(cam("outline " + edge() + " --zero left").err, HasSubstr("expected file, lower-left or X,Y"));
+  EXPECT_THAT(cam("isolate " + copper() + " --tool 0.2 --align 1,2,3,4").err, HasSubstr("side by side"));
+  EXPECT_EQ(cam("isolate nowhere.gbr --tool 0.2").code, 2);
+}
+
+TEST_F(CamMill, a_whole_board_gets_numbered_programs_and_a_page) {
+  copper();
+  copper("board-B_Cu.gbr", "Copper,L2,Bot");
+  edge();
+  drills();
+  const std::string profile = write("profile.toml", "[isolate]\ntool = \"0.14\"\n[outline]\ntabs = 2\ndepth = -1.6\n");
+  const Outcome made = cam("board " + path("") + " --profile " + profile + " -m " + std::string(PASSO_SOURCE_DIR) +
+                           "/examples/machines/router.toml -o " + path("job"));
+  EXPECT_EQ(made.code, 0) << made.err;
+  for (const char* name : {"1-drill.ngc", "2-isolate-front.ngc", "3-isolate-back.ngc", "4-outline.ngc"}) {
+    EXPECT_EQ(check(path("job/" + std::string(name))).code, 0) << name;
+  }
+  const std::string page = read(path("job/board.html"));
+  EXPECT_THAT(page, HasSubstr("Turn it over from left to right"));
+  EXPECT_THAT(page, HasSubstr("<svg"));
+  EXPECT_THAT(page, HasSubstr("<dt>Time</dt>"));
+  EXPECT_THAT(page, Not(HasSubstr("<script")));
+  // Both sides lie in the same place: the pads of the back are mirrored about the middle of the board.
+  EXPECT_THAT(read(path("job/1-drill.ngc")), HasSubstr("X5 Y17.5"));
+  EXPECT_THAT(read(path("job/3-isolate-back.ngc")), HasSubstr("about X10 mm"));
+}
+
+TEST_F(CamMill, a_board_without_an_edge_is_not_cut_out) {
+  copper();
+  write("board-Edge_Cuts.gbr", "%TF.FileFunction,Profile,NP*%\n" + std::string(begin) + "M02*\n");
+  const Outcome made =
+      cam("board " + path("board-F_Cu.gbr") + " " + path("board-Edge_Cuts.gbr") + " -o " + path("job"));
+  EXPECT_EQ(made.code, 0) << made.err;
+  EXPECT_THAT(made.err, HasSubstr("no closed edge"));
+  EXPECT_TRUE(std::filesystem::exists(path("job/1-isolate-front.ngc")));
+}
+
+TEST_F(CamMill, a_wrong_profile_is_told) {
+  const std::string profile = write("profile.toml", "[isolate]\ntoool = 1\n");
+  const Outcome made = cam("board " + copper() + " --profile " + profile + " -o " + path("job"));
+  EXPECT_EQ(made.code, 2);
+  EXPECT_THAT(made.err, HasSubstr("[isolate]"));
+}
+
+}  // namespace
