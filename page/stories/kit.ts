@@ -24,6 +24,7 @@ export class Daemon {
     const words = ['serve', '--http', `127.0.0.1:${port}`, '--grbl-tcp', '127.0.0.1:0', '--page', pageFolder, '--data', folder];
     if (machine !== undefined) words.push('--machine', machine);
     const child = spawn(passo, words, { stdio: ['ignore', 'pipe', 'inherit'] });
+    process.once('exit', () => child.kill('SIGKILL')); // a story that fails leaves nobody behind
     const address = await new Promise<string>((done, fail) => {
       let said = '';
       child.stdout?.on('data', (bytes: Buffer) => {

@@ -28,8 +28,9 @@ async function prepare(daemon: Daemon): Promise<void> {
 async function startFrom(page: import('playwright-core').Page, daemon: Daemon): Promise<void> {
   await page.getByRole('button', { name: 'Start', exact: true }).click();
   await page.getByRole('dialog').getByRole('button', { name: 'Start' }).click();
-  await daemon.until((status) => status.state === 'Run' || status.state === 'Tool');
-  if ((await daemon.status()).state === 'Tool') await page.getByRole('button', { name: 'Done' }).click();
+  // The program begins with a tool change.
+  await daemon.until((status) => status.state === 'Tool', 60_000);
+  await page.getByRole('button', { name: 'Done', exact: true }).click();
   await daemon.until((status) => status.state === 'Run' && status.progress !== null && status.progress > 0.25, 60_000);
 }
 

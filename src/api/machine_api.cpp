@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <charconv>
+#include <cmath>
 #include <utility>
 
 #include "api_json.hpp"
@@ -17,6 +18,7 @@ constexpr std::string_view queue_path = "/api/v1/queue";
 constexpr std::string_view history_path = "/api/v1/history";
 constexpr std::string_view alarms_path = "/api/v1/alarms";
 constexpr std::int64_t shown_of_history = 100;
+constexpr double farthest_zero = 1e6;  // mm or degrees from the tool
 
 unsigned status_of(RefusalCode code) {
   return code == RefusalCode::bad_value ? 400 : 409;
@@ -184,6 +186,9 @@ WebAnswer MachineApi::set_work_zero(std::string_view body) {
   std::string reason;
   const auto place = read_place(Json::parse(body, nullptr, false), machine_, status.position.place - zero, reason);
   if (!place) return error_answer(400, "http.bad-body", reason);
+  const auto is_far = [](double value) { return std::abs(value) > farthest_zero; };
+  if (std::ranges::any_of(place->values, is_far))
+    return error_answer(400, "http.bad-body", "the place is too far away");
   programs_.set_work_zero(status.position.place - *place);
   return json_answer(200, {{"work_offset", as_json(machine_, programs_.work_zero())}});
 }

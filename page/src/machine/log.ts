@@ -16,7 +16,7 @@ let last = 0;
 export const log = signal<LogLine[]>([]);
 
 export function note(kind: LogKind, words: string): void {
-  log.value = [...log.value.slice(1 - most), { id: ++last, at: new Date(), kind, words }];
+  log.value = [...log.peek().slice(1 - most), { id: ++last, at: new Date(), kind, words }];
 }
 
 // Lines that have all the words, in any order and case.

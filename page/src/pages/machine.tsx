@@ -27,7 +27,7 @@ export function MachinePage() {
       <section class="panel" aria-label={say('machine.title')}>
         <h2 class="title">{known.name}</h2>
         <p class="dim">{say('machine.version', { version: known.version })}</p>
-        <div class="wide-table" tabIndex={0} role="region" aria-label={say('machine.title')}>
+        <div class="wide-table" tabIndex={0} role="region" aria-label={known.name}>
           <table>
             <thead>
               <tr>
