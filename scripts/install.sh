@@ -21,6 +21,7 @@ build_packages=(
   fonts-dejavu-core          # letters in pictures
   pkg-config                 # finds cairo
   clang gcc-avr avr-libc binutils-avr  # the firmware for the Uno and the Mega: compiler; libgcc, start-up code, linker
+  lld libc++-16-dev-wasm32 libc++abi-16-dev-wasm32 wasi-libc libclang-rt-14-dev-wasm32  # the lab of the page, as WebAssembly
   libsimavr-dev libelf-dev   # passo-emulate-avr runs it on emulated chips: sim:uno, sim:mega
 )
 test_packages=(
@@ -28,7 +29,6 @@ test_packages=(
   libbenchmark-dev           # benchmarks
   libclang-rt-14-dev         # sanitizers and fuzzers of clang
   avrdude arduino-core-avr   # writes to a chip; the Uno's boot loader, which the tests put on the emulated chip
-  lld                        # links for the Pico
   gputils gpsim              # assembler and emulator for the PIC
   clang-format clang-tidy    # style
   git ccache                 # checks of the tracked files; builds again in seconds

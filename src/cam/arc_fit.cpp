@@ -44,8 +44,9 @@ class ArcFinder {
     const FlatVector centre{(to_last.y * middle - to_middle.y * end) / twice,
                             (to_middle.x * end - to_last.x * middle) / twice};
     const double radius = std::hypot(centre.x, centre.y);
-    constexpr double widest = 1e10;  // nm; flatter is a line
-    if (radius > widest) return std::nullopt;
+    constexpr double widest = 1e10;    // nm; flatter is a line
+    constexpr double narrowest = 1e4;  // nm; smaller arcs suffer from the last digit of a program
+    if (radius > widest || radius < narrowest) return std::nullopt;
     double sweep = 0;
     FlatVector before{-centre.x, -centre.y};
     for (std::size_t i = first + 1; i <= last; ++i) {
@@ -53,7 +54,10 @@ class ArcFinder {
       const FlatVector now{from_a.x - centre.x, from_a.y - centre.y};
       if (std::abs(std::hypot(now.x, now.y) - radius) > fit_.off_circle_nm) return std::nullopt;
       const double turn = std::atan2(cross(before, now), dot(before, now));
-      if (turn * twice <= 0 || radius * (1 - std::cos(turn / 2)) > fit_.off_chord_nm) return std::nullopt;
+      const double off_chord = radius * (1 - std::cos(turn / 2));
+      if (turn * twice <= 0) return std::nullopt;
+      const bool is_of_offset = turn * fit_.rounded_turn > 0 && off_chord <= fit_.even_chord_nm;
+      if (off_chord > fit_.near_chord_nm && !(is_of_offset && is_even(first, i, last))) return std::nullopt;
       sweep += turn;
       before = now;
     }
@@ -62,6 +66,15 @@ class ArcFinder {
   }
 
  private:
+  // Whether the chord that ends at this index is as long as that in the middle.
+  bool is_even(std::size_t first, std::size_t index, std::size_t last) const {
+    const std::size_t middle = (first + last) / 2;
+    const double share =
+        distance_nm(points_[index - 1], points_[index]) / distance_nm(points_[middle], points_[middle + 1]);
+    const bool is_at_an_end = index == first + 1 || index == last;
+    return is_at_an_end ? share < 1.55 : std::abs(share - 1) < 0.05;
+  }
+
   const std::vector<DrawnPoint>& points_;
   const ArcFit& fit_;
 };

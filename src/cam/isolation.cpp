@@ -16,7 +16,7 @@ namespace passo {
 namespace {
 
 constexpr std::uint32_t most_loops = 2'000;   // around one island
-constexpr Nanometres chord_room{2'000};       // beyond the tolerance: arcs, the last digit of the program
+constexpr Nanometres chord_room{3'000};       // beyond the tolerance: arcs, the last digit of the program
 constexpr Nanometres notable_ground{10'000};  // ground less than twice as wide is no ground that was left
 
 class IsolationPlanner {
@@ -186,8 +186,10 @@ void IsolationPlanner::mill_with(const IsolationCutter& cutter, bool is_first, b
     if (is_in_the_open && (loops == 1 || !is_first || outer_rim.is_crossed(from, to))) return false;
     return !copper_rim.is_crossed(from, to);
   };
+  const ArcFit arcs{.even_chord_nm = static_cast<double>(options_.tolerance.count),
+                    .rounded_turn = options_.climb ? -1 : 1};
   MillTool tool{cutter.width, cutter.words, {}};
-  tool.runs = order_ways(loops_found.ways, {options_.park, options_.depth, options_.route_steps, may_link});
+  tool.runs = order_ways(loops_found.ways, {options_.park, options_.depth, options_.route_steps, arcs, may_link});
   if (is_followed) {
     std::vector<DrawnRing> ways;
     for (const MillRun& run : tool.runs) ways.push_back(chords_of(run, options_.tolerance));

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <limits>
 
-#include "arc_fit.hpp"
 #include "place_tree.hpp"
 
 #include "passo/cam/route.hpp"
@@ -123,10 +122,10 @@ MillRun WayOrderer::run_of(const Chain& chain) const {
     const CutterWay& one = way(entered);
     DrawnRing points = one.points;
     if (one.is_closed) {
-      std::ranges::rotate(points, points.begin() + static_cast<std::ptrdiff_t>(entered.entry));
+      std::rotate(points.begin(), points.begin() + static_cast<std::ptrdiff_t>(entered.entry), points.end());
       points.push_back(points.front());
     }
-    for (const PathPoint& point : with_arcs(points, {})) run.push_back({point.at, point.bulge, order_.z});
+    for (const PathPoint& point : with_arcs(points, order_.arcs)) run.push_back({point.at, point.bulge, order_.z});
   }
   return run;
 }

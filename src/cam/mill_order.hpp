@@ -6,6 +6,8 @@
 #include <functional>
 #include <vector>
 
+#include "arc_fit.hpp"
+
 #include "passo/cam/mill_plan.hpp"
 #include "passo/cam/region.hpp"
 
@@ -22,6 +24,7 @@ struct WayOrder {
   DrawnPoint park = {};
   Nanometres z = {};
   std::uint64_t route_steps = 0;
+  ArcFit arcs = {};
   // Whether the cutter may go straight from one place to the other in the ground.
   std::function<bool(DrawnPoint, DrawnPoint)> may_link = {};
 };

@@ -19,7 +19,7 @@ namespace passo {
 namespace {
 
 constexpr Nanometres fine_chords{500};
-constexpr Nanometres board_room{1'000};  // the cutter stays so much farther from the board than half its width
+constexpr Nanometres board_room{2'000};  // the cutter stays so much farther from the board than half its width
 
 struct Flat {
   double x;
@@ -112,13 +112,21 @@ void OutlinePlanner::refuse_narrow_openings() {
 }
 
 void OutlinePlanner::find_cuts() {
+  std::vector<Region> rings;
+  std::vector<DrawnBox> boxes;
   for (const DrawnRing& ring : ways_.rings) {
-    OutlineCut cut{ring, area_mm2(ring) > 0};
+    rings.push_back({{ring}});
+    boxes.push_back(bounds(rings.back()).value_or(DrawnBox{}));
+  }
+  for (std::size_t i = 0; i < rings.size(); ++i) {
+    OutlineCut cut{ways_.rings[i], area_mm2(ways_.rings[i]) > 0};
     (cut.is_outside ? plan_.outsides : plan_.openings) += 1;
-    for (const DrawnRing& other : ways_.rings) {
-      if (&other == &ring) continue;
-      const Region around{{other}};
-      if (contains(area_mm2(other) > 0 ? around : filled({other}), ring.front())) ++cut.around;
+    const DrawnPoint point = cut.ring.front();
+    for (std::size_t other = 0; other < rings.size(); ++other) {
+      const DrawnBox& box = boxes[other];
+      const bool is_in_box =
+          box.least.x <= point.x && point.x <= box.most.x && box.least.y <= point.y && point.y <= box.most.y;
+      if (other != i && is_in_box && contains(rings[other], point)) ++cut.around;
     }
     cuts_.push_back(std::move(cut));
   }
@@ -188,7 +196,7 @@ CutTrack OutlinePlanner::track_of(DrawnRing ring) const {
   for (std::size_t i = 1; i < ring.size(); ++i) {
     if (edge_length(i) > edge_length(longest)) longest = i;
   }
-  std::ranges::rotate(ring, ring.begin() + static_cast<std::ptrdiff_t>((longest + 1) % ring.size()));
+  std::rotate(ring.begin(), ring.begin() + static_cast<std::ptrdiff_t>((longest + 1) % ring.size()), ring.end());
   constexpr double straight = 1e6;  // nm; shorter edges may be chords of an arc
   if (distance_nm(ring.back(), ring.front()) > straight) {
     const Flat edge = from_to(ring.back(), ring.front());

@@ -11,12 +11,14 @@ constexpr std::string_view of_holes = "G-code, which passo cam drill makes of th
 constexpr std::string_view of_drawn_holes =
     "G-code, which a CAM program makes of the drawing, or passo cam drill of its holes";
 constexpr std::string_view of_picture = "G-code, which an engraving program makes of the picture";
+constexpr std::string_view of_png = "G-code, which passo cam relief makes of the picture";
+constexpr std::string_view of_stl = "G-code, which passo cam relief makes of the model, or a CAM program";
 constexpr std::string_view of_model = "G-code, which a CAM program makes of the model";
 constexpr std::string_view of_circuit = "G-code, which a program such as pcb2gcode makes of the circuit board";
 constexpr std::string_view of_archive = "the program itself, unpacked";
 constexpr std::string_view of_program = "G-code, which is text";
 
-constexpr ForeignFile png{"a PNG picture", of_picture};
+constexpr ForeignFile png{"a PNG picture", of_png};
 constexpr ForeignFile jpeg{"a JPEG picture", of_picture};
 constexpr ForeignFile tiff{"a TIFF picture", of_picture};
 constexpr ForeignFile gif{"a GIF picture", of_picture};
@@ -28,7 +30,7 @@ constexpr ForeignFile hpgl{"an HPGL plot", of_drawing};
 constexpr ForeignFile pdf{"a PDF document", of_drawing};
 constexpr ForeignFile gerber{"a Gerber file", of_circuit};
 constexpr ForeignFile excellon{"an Excellon drill file", of_holes};
-constexpr ForeignFile stl{"an STL model", of_model};
+constexpr ForeignFile stl{"an STL model", of_stl};
 constexpr ForeignFile step{"a STEP model", of_model};
 constexpr ForeignFile gzip{"a gzip archive", of_archive};
 constexpr ForeignFile zip{"a ZIP archive", of_archive};

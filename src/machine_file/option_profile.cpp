@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "fit_for_parser.hpp"
 #include "toml_document.hpp"
 #include <fmt/format.h>
 

@@ -206,9 +206,10 @@ void TableReader::report_unknown(const TomlEntry& entry, const std::vector<std::
   } else {
     expected = fmt::format("one of {}", fmt::join(known_, ", "));
   }
-  reporter_.error(is_table ? "machine.unknown-table" : "machine.unknown-key", entry.place,
-                  fmt::format("a machine file has no {} {}", is_table ? "table" : "key", full_name(entry.key)),
-                  expected);
+  reporter_.error(
+      is_table ? "machine.unknown-table" : "machine.unknown-key", entry.place,
+      fmt::format("{} has no {} {}", reporter_.kind_in_words(), is_table ? "table" : "key", full_name(entry.key)),
+      expected);
 }
 
 // One mistake makes one diagnostic: a misspelt key is not reported as missing too.

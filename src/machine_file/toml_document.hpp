@@ -43,9 +43,6 @@ struct TomlDocument {
   bool complete = true;  // false: lines with errors were left out, so a key that seems missing may be in one of them
 };
 
-// Refuses what the parser should not see: it recurses as deep as keys have dots. What is wrong goes to the reporter.
-bool is_fit_for_parser(const TomlReporter& reporter);
-
 // Every syntax error goes to the reporter. A wrong line is left out, and the rest is read again.
 TomlDocument parse_toml(std::string text, const TomlReporter& reporter);
 

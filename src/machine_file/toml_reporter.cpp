@@ -27,8 +27,8 @@ std::string printable(std::string text) {
 
 }  // namespace
 
-TomlReporter::TomlReporter(std::string_view text, std::string file, Diagnostics& diagnostics)
-    : file_(std::move(file)), diagnostics_(diagnostics) {
+TomlReporter::TomlReporter(std::string_view text, std::string file, Diagnostics& diagnostics, TomlFileKind kind)
+    : file_(std::move(file)), kind_(std::move(kind)), diagnostics_(diagnostics) {
   while (!text.empty()) {
     const std::size_t end = std::min(text.find('\n'), text.size());
     std::string_view line = text.substr(0, end);
@@ -41,7 +41,7 @@ TomlReporter::TomlReporter(std::string_view text, std::string file, Diagnostics&
 void TomlReporter::error(std::string_view code, const SourcePlace& place, std::string message,
                          std::string expected) const {
   diagnostics_.add({.severity = Severity::error,
-                    .code = std::string(code),
+                    .code = kind_.area + std::string(code.substr(std::min(code.find('.'), code.size()))),
                     .file = file_,
                     .place = place,
                     .message = printable(std::move(message)),

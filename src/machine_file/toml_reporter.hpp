@@ -1,5 +1,5 @@
 // TomlReporter: the text of a machine file, by lines. It turns a place in the file into a diagnostic with line and
-// caret.
+// caret. The codes of another file in TOML begin with its own area: "tools.unknown-key" for "machine.unknown-key".
 #pragma once
 
 #include <cstdint>
@@ -11,13 +11,19 @@
 
 namespace passo {
 
+struct TomlFileKind {
+  std::string area = "machine";
+  std::string words = "a machine file";  // for messages
+};
+
 class TomlReporter {
  public:
   // `text` must outlive the reporter.
-  TomlReporter(std::string_view text, std::string file, Diagnostics& diagnostics);
+  TomlReporter(std::string_view text, std::string file, Diagnostics& diagnostics, TomlFileKind kind = {});
 
   void error(std::string_view code, const SourcePlace& place, std::string message, std::string expected) const;
 
+  const std::string& kind_in_words() const { return kind_.words; }
   std::size_t line_count() const { return lines_.size(); }
   // The line without its line end. Lines count from 1.
   std::string_view line(std::uint32_t number) const;
@@ -27,6 +33,7 @@ class TomlReporter {
  private:
   std::vector<std::string_view> lines_;
   std::string file_;
+  TomlFileKind kind_;
   Diagnostics& diagnostics_;
 };
 

@@ -166,4 +166,12 @@ RadiansPerSecond2 TorqueCurve::available_acceleration(RadiansPerSecond speed, co
   return {margin * std::max(torque, 0.0) / (rotor_.inertia.value + load.inertia.value)};
 }
 
+Hertz natural_end(const TorqueCurve& curve, const Load& load) {
+  const double standstill = curve.pull_out({0}).value;
+  std::optional<RadiansPerSecond> end = curve.fastest_speed(load);
+  const std::optional<RadiansPerSecond> weak = curve.fastest_speed({.friction = {standstill / 20}});
+  if (!end || end->value == 0 || (weak && *weak < *end)) end = weak;
+  return Hertz(1.06 * curve.rate_at(end.value_or(RadiansPerSecond{1000})).value());
+}
+
 }  // namespace passo

@@ -93,6 +93,23 @@ void Canvas::fill_with_speeds(const Area& area) {
   cairo_pattern_destroy(pattern);
 }
 
+void Canvas::image(const Area& area, PixelMap map) {
+  auto* const bytes = reinterpret_cast<unsigned char*>(map.pixels.data());
+  const int stride = map.width * static_cast<int>(sizeof(std::uint32_t));
+  cairo_surface_t* const image =
+      cairo_image_surface_create_for_data(bytes, CAIRO_FORMAT_ARGB32, map.width, map.height, stride);
+  cairo_save(context_.get());
+  cairo_translate(context_.get(), area.x, area.y);
+  cairo_scale(context_.get(), area.width / map.width, area.height / map.height);
+  cairo_set_source_surface(context_.get(), image, 0, 0);
+  cairo_pattern_set_filter(cairo_get_source(context_.get()), CAIRO_FILTER_FAST);
+  cairo_paint(context_.get());
+  cairo_restore(context_.get());
+  // A drawing that is written at its end (SVG) has its own copy of the pixels from here on.
+  cairo_surface_finish(image);
+  cairo_surface_destroy(image);
+}
+
 void Canvas::frame(const Area& area, const Pen& pen) {
   cairo_rectangle(context_.get(), area.x, area.y, area.width, area.height);
   stroke(pen);

@@ -4,6 +4,7 @@
 // surface and context. cairo keeps the first error, and finish() returns it.
 #pragma once
 
+#include <cstdint>
 #include <memory>
 #include <string>
 #include <vector>
@@ -32,6 +33,13 @@ struct Area {
   double bottom() const { return y + height; }
 };
 
+// A picture made of pixels, row by row from the upper left corner: 0xAARRGGBB, the colours multiplied by A.
+struct PixelMap {
+  int width = 0;
+  int height = 0;
+  std::vector<std::uint32_t> pixels;
+};
+
 struct Pen {
   Colour colour;
   double width = 1;
@@ -58,6 +66,8 @@ class Canvas {
   void fill(const std::vector<Spot>& polygon, const Colour& colour, double opacity = 1);
   // Fills the area with the map of speeds, from left to right.
   void fill_with_speeds(const Area& area);
+  // Fills the area with the pixels.
+  void image(const Area& area, PixelMap map);
   void frame(const Area& area, const Pen& pen);
   void line(Spot from, Spot to, const Pen& pen);
   void disc(Spot centre, double radius, const Colour& colour);

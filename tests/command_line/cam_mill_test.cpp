@@ -37,12 +37,12 @@ class CamMill : public passo::test::CommandLine {
 };
 
 TEST_F(CamMill, an_isolated_layer_loses_no_copper_and_its_program_is_good) {
-  const Outcome made = cam("isolate " + copper() + " --tool 0.14 -o " + path("f.ngc") + " -p " + path("f.png"));
+  const Outcome made = cam("isolate " + copper() + " --tool 0.12 -o " + path("f.ngc") + " -p " + path("f.png"));
   EXPECT_EQ(made.code, 0) << made.err;
   EXPECT_THAT(made.out, HasSubstr(", 0 of "));
   EXPECT_THAT(made.out, HasSubstr("3 islands, all apart"));
   const std::string program = read(path("f.ngc"));
-  EXPECT_THAT(program, HasSubstr("\nG3 "));
+  EXPECT_THAT(program, HasSubstr("\nG2 "));
   EXPECT_THAT(program, testing::EndsWith("M2\n"));
   EXPECT_GT(std::filesystem::file_size(path("f.png")), 1000U);
   EXPECT_EQ(check(path("f.ngc")).code, 0);
@@ -108,6 +108,16 @@ TEST_F(CamMill, a_whole_board_gets_numbered_programs_and_a_page) {
   // Both sides lie in the same place: the pads of the back are mirrored about the middle of the board.
   EXPECT_THAT(read(path("job/1-drill.ngc")), HasSubstr("X5 Y17.5"));
   EXPECT_THAT(read(path("job/3-isolate-back.ngc")), HasSubstr("about X10 mm"));
+}
+
+TEST_F(CamMill, a_board_without_an_edge_is_not_cut_out) {
+  copper();
+  write("board-Edge_Cuts.gbr", "%TF.FileFunction,Profile,NP*%\n" + std::string(begin) + "M02*\n");
+  const Outcome made =
+      cam("board " + path("board-F_Cu.gbr") + " " + path("board-Edge_Cuts.gbr") + " -o " + path("job"));
+  EXPECT_EQ(made.code, 0) << made.err;
+  EXPECT_THAT(made.err, HasSubstr("no closed edge"));
+  EXPECT_TRUE(std::filesystem::exists(path("job/1-isolate-front.ngc")));
 }
 
 TEST_F(CamMill, a_wrong_profile_is_told) {

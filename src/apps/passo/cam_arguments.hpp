@@ -28,13 +28,36 @@ struct CamMade {
   std::string summary = {};
 };
 
-struct CamDrillingArguments : CamDrillArguments {
+struct CamDrillArguments {
+  std::vector<std::string> files;   // DXF or Excellon
+  std::string output;               // empty: standard output
+  std::string picture;              // .svg or .png; empty: none
+  std::string units = "mm";         // of the program and of lengths without a unit: mm, cm or inch
+  std::optional<double> scale;      // of the numbers of DXF files
+  std::string input;                // unit of the files' numbers; empty: as they say, with --scale as `units`
+  std::string zeros;                // left out in drill files: leading or trailing; empty: as they say
+  std::vector<std::string> layers;  // of DXF files; empty: all that are on
+  std::string zero = "file";        // where X0 Y0 is: file, lower-left or X,Y
   std::string mirror;               // x or y; empty: the board is not turned over
   std::string mirror_at;            // the line about which it is; empty: X0 or Y0
   std::string align;                // X,Y,X,Y: two more holes; empty: none
   std::string align_drill = "3mm";  // their diameter
+  std::string tools;                // the rack: diameters with commas between; empty: a drill for each diameter
+  std::string tolerance = "0.05mm";
+  std::string drill;  // one drill for all holes; empty: none
+  std::string mill;   // the milling cutter; empty: none
+  std::string mill_step = "0.5mm";
+  std::string clearance = "2mm";
+  std::string depth = "-2mm";
+  std::string peck;  // empty: none
+  std::string feed = "100mm";
+  std::string mill_feed = "150mm";
+  std::string park = "0,0";
+  std::optional<std::uint32_t> spindle;     // turns a minute
+  std::uint64_t route_steps = 200'000'000;  // of shorten_route()
+  bool plain = false;                       // no canned cycles
 };
-int cam_drill(const CamDrillingArguments& arguments, const CamSources* given = nullptr, CamMade* made = nullptr);
+int cam_drill(const CamDrillArguments& arguments, const CamSources* given = nullptr, CamMade* made = nullptr);
 
 // What both have.
 struct CamMillArguments {
@@ -96,7 +119,7 @@ struct CamBoardArguments {
   std::string margin = "10mm";       // of the board's lower left corner from X0 and from Y0
   std::string pin_distance = "5mm";  // of the alignment holes from the board's edge; 0: none
 };
-int cam_board(const CamBoardArguments& arguments, CamDrillingArguments drill, CamIsolateArguments isolate,
+int cam_board(const CamBoardArguments& arguments, CamDrillArguments drill, CamIsolateArguments isolate,
               CamOutlineArguments outline);
 
 struct CamShowArguments {
@@ -105,5 +128,45 @@ struct CamShowArguments {
   bool json = false;
 };
 int cam_show(const CamShowArguments& arguments);
+
+// Lengths without a unit are in mm. Cutters are texts for parse_cutter().
+struct CamReliefArguments {
+  std::string file;     // PNG, STL or height map
+  std::string output;   // empty: standard output
+  std::string picture;  // .png; empty: none
+  std::string width;    // empty: as `length` says, else 100 mm, or as the body is
+  std::string length;
+  std::string depth;  // empty: 3 mm, or as the body is
+  double gamma = 1;
+  bool invert = false;
+  bool mirror = false;
+  std::string channel = "luminance";  // or alpha
+  std::string margin = "0mm";
+  std::string margin_level = "bottom";  // or top
+  std::string pitch;                    // empty: as fine as the cutters need
+  std::string origin = "lower-left";    // a corner, center or X,Y
+  std::string cutter = "ball:3";
+  std::string way = "rows";  // columns, both or spiral
+  std::string step;          // empty: as `scallop` says
+  std::string scallop = "0.02mm";
+  std::string tolerance = "0.01mm";
+  std::string clearance = "5mm";
+  std::string overrun;         // empty: the cutter's radius
+  std::string entry = "ramp";  // or plunge
+  double ramp_angle = 5;       // degrees
+  std::string feed = "1000mm";
+  std::string plunge = "300mm";
+  std::string rough;  // a cutter; empty: no roughing
+  std::string rough_step;
+  std::string rough_down = "2mm";
+  std::string rough_stock = "0.3mm";
+  std::string rough_feed;  // empty: as `feed`
+  std::string rest;        // a cutter; empty: no rest finishing
+  std::string rest_step;
+  std::string rest_least = "0.05mm";
+  std::string rest_feed;                 // empty: as `feed`
+  std::optional<std::uint32_t> spindle;  // turns a minute
+};
+int cam_relief(const CamReliefArguments& arguments);
 
 }  // namespace passo

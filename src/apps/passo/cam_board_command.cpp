@@ -1,9 +1,8 @@
 // passo cam board: from the files of a board to numbered programs, a picture each, and a page that says what to do
 // when.
-#include <cmath>
 #include <filesystem>
 #include <fstream>
-#include <sstream>
+#include <iterator>
 
 #include "cam_board_page.hpp"
 #include "cam_job.hpp"
@@ -48,6 +47,10 @@ BoardPlan plan_of(const BoardJob& job, Nanometres join, Diagnostics& findings) {
   if (plan.edge) {
     plan.edge->lines.file = edge_name;
     plan.face = board_edge(*plan.edge, join, findings).board;
+    if (plan.face.empty() && !findings.any_error()) {
+      note(edge_name + ": there is no closed edge in it, so no board is cut out");
+      plan.edge.reset();
+    }
   }
   if (!fronts.empty()) plan.front = BoardLayer{united(fronts), {}};
   if (!backs.empty()) plan.back = BoardLayer{united(backs), {}};
@@ -80,7 +83,7 @@ class BoardMaker {
   BoardMaker(const CamBoardArguments& arguments, const BoardPlan& plan, const MachineDescription* machine)
       : arguments_(arguments), plan_(plan), machine_(machine) {}
 
-  int make(CamDrillingArguments drill, CamIsolateArguments isolate, CamOutlineArguments outline);
+  int make(CamDrillArguments drill, CamIsolateArguments isolate, CamOutlineArguments outline);
   BoardPage page;
 
  private:
@@ -151,7 +154,7 @@ std::string BoardMaker::pins(Nanometres distance) const {
   return fmt::format("{},{},{},{}", exact(a.x), exact(a.y), exact(is_x() ? b.x : a.x), exact(is_x() ? a.y : b.y));
 }
 
-int BoardMaker::make(CamDrillingArguments drill, CamIsolateArguments isolate, CamOutlineArguments outline) {
+int BoardMaker::make(CamDrillArguments drill, CamIsolateArguments isolate, CamOutlineArguments outline) {
   const bool two_sides = plan_.front && plan_.back;
   const bool only_back = plan_.back && !plan_.front;
   LengthArguments lengths(1);
@@ -215,7 +218,7 @@ int BoardMaker::make(CamDrillingArguments drill, CamIsolateArguments isolate, Ca
 
 }  // namespace
 
-int cam_board(const CamBoardArguments& arguments, CamDrillingArguments drill, CamIsolateArguments isolate,
+int cam_board(const CamBoardArguments& arguments, CamDrillArguments drill, CamIsolateArguments isolate,
               CamOutlineArguments outline) {
   Diagnostics findings;
   std::optional<MachineDescription> machine;
@@ -239,7 +242,8 @@ int cam_board(const CamBoardArguments& arguments, CamDrillingArguments drill, Ca
   if (isolate.tools.empty() && isolate.v.empty()) isolate.tools = "0.2mm";
 
   BoardMaker maker(arguments, plan, machine ? &*machine : nullptr);
-  maker.page.name = std::filesystem::path(arguments.paths.front()).lexically_normal().string();
+  maker.page.name = std::filesystem::path(arguments.paths.front()).filename().string();
+  if (maker.page.name.empty()) maker.page.name = arguments.paths.front();  // "gerbers/"
   if (machine) maker.page.machine = machine->name;
   for (const BoardFile& file : job.files) {
     maker.page.files.push_back(

@@ -8,6 +8,9 @@
 namespace passo {
 namespace {
 
+constexpr const char* picture_style =
+    "figure { margin: 1rem 0; } figure svg { display: block; width: 100%; height: auto; background: var(--sheet); }";
+
 std::string list_of(const std::vector<std::string>& items, const char* kind) {
   std::string html = fmt::format("<{}>", kind);
   for (const std::string& item : items) html += fmt::format("<li>{}</li>", html_text(item));
@@ -39,8 +42,8 @@ std::string to_html(const BoardPage& page) {
       "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n"
       "<meta http-equiv=\"Content-Security-Policy\" content=\"default-src 'none'; style-src 'unsafe-inline'; img-src "
       "data:\">\n";
-  html +=
-      fmt::format("<title>{} \u2013 passo cam board</title>\n<style>{}</style>\n</head>\n<body>\n", name, check_style);
+  html += fmt::format("<title>{} \u2013 passo cam board</title>\n<style>{}{}</style>\n</head>\n<body>\n", name,
+                      check_style, picture_style);
   html += fmt::format("<header><h1>{}</h1>\n", name);
   html += page.machine.empty()
               ? "<p class=\"quiet\">Without a machine file (-m) the times are unknown.</p></header>\n"

@@ -28,7 +28,7 @@ struct DrillJob {
   Drawing align;  // the holes that hold the board
 };
 
-Result<DrillJob, std::string> job_of(const CamDrillingArguments& arguments) {
+Result<DrillJob, std::string> job_of(const CamDrillArguments& arguments) {
   const double unit = *mm_of_unit(arguments.units);
   LengthArguments lengths(unit);
   DrillJob job;
@@ -85,7 +85,7 @@ Result<DrillJob, std::string> job_of(const CamDrillingArguments& arguments) {
 
 // What was read and planned, in the program's units.
 std::string summary_of(const std::vector<Drawing>& drawings, const DrillPlan& plan,
-                       const CamDrillingArguments& arguments) {
+                       const CamDrillArguments& arguments) {
   const double unit_nm = *mm_of_unit(arguments.units) * nanometres_per_mm;
   const auto words = [&](double nm) { return fmt::format("{:.6g} {}", nm / unit_nm, arguments.units); };
   const auto size = [&](Nanometres length) { return words(static_cast<double>(length.count)); };
@@ -126,7 +126,7 @@ void place(std::vector<Drawing>& drawings, const DrillJob& job) {
   for (Drawing& drawing : drawings) move_zero_to(*zero, drawing);
 }
 
-int draw(const DrillPlan& plan, const CamDrillingArguments& arguments, PictureFormat format, DrawnPoint park) {
+int draw(const DrillPlan& plan, const CamDrillArguments& arguments, PictureFormat format, DrawnPoint park) {
   Result<OutputFile, OutputError> file = OutputFile::open(arguments.picture);
   if (!file) return fail(exit_failed, file.error().message);
   PictureOptions options;
@@ -139,7 +139,7 @@ int draw(const DrillPlan& plan, const CamDrillingArguments& arguments, PictureFo
 
 }  // namespace
 
-int cam_drill(const CamDrillingArguments& arguments, const CamSources* given, CamMade* made) {
+int cam_drill(const CamDrillArguments& arguments, const CamSources* given, CamMade* made) {
   NamedFiles files;
   for (const std::string& file : arguments.files) files.reads("the file", file);
   files.writes("--output", arguments.output);

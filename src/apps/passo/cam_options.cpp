@@ -39,7 +39,7 @@ void add_show_command(CLI::App& cam, CamArguments& all) {
 }  // namespace
 
 void add_drill_command(CLI::App& cam, CamArguments& all) {
-  CamDrillingArguments& arguments = all.drill;
+  CamDrillArguments& arguments = all.drill;
   CLI::App& drill = *cam.add_subcommand("drill", "drill the holes of DXF drawings and Excellon drill files");
   drill.add_option("FILE", arguments.files, "DXF drawings and drill files; the kind is seen from what is in them")
       ->required();
@@ -85,13 +85,14 @@ void add_drill_command(CLI::App& cam, CamArguments& all) {
 }
 
 CLI::App& add_cam_command(CLI::App& app, CamArguments& arguments) {
-  CLI::App& cam = *app.add_subcommand("cam", "make programs of drawings: circuit boards, drilled, milled and cut out");
+  CLI::App& cam = *app.add_subcommand("cam", "make programs of drawings and pictures: circuit boards, reliefs");
   cam.require_subcommand(1);
   add_show_command(cam, arguments);
   add_drill_command(cam, arguments);
   add_isolate_command(cam, arguments);
   add_outline_command(cam, arguments);
   add_cam_board_command(cam, arguments);
+  add_relief_command(cam, arguments);
   return cam;
 }
 

@@ -13,10 +13,11 @@ namespace passo {
 
 struct CamArguments {
   CamShowArguments show;
-  CamDrillingArguments drill;
+  CamDrillArguments drill;
   CamIsolateArguments isolate;
   CamOutlineArguments outline;
   CamBoardArguments board;
+  CamReliefArguments relief;
   std::function<int()> chosen;  // the chosen command, after parsing
 };
 
@@ -27,5 +28,6 @@ void add_drill_command(CLI::App& cam, CamArguments& arguments);
 void add_isolate_command(CLI::App& cam, CamArguments& arguments);
 void add_outline_command(CLI::App& cam, CamArguments& arguments);
 void add_cam_board_command(CLI::App& cam, CamArguments& arguments);
+void add_relief_command(CLI::App& cam, CamArguments& arguments);
 
 }  // namespace passo

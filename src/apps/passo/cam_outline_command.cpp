@@ -17,6 +17,14 @@ OutlineOptions options_of(const CamOutlineArguments& arguments, const MillJob& j
   options.step = lengths.above_0("--step", arguments.step);
   constexpr std::int64_t finest_step = 1'000;  // nm: less makes programs without end
   if (options.step.count < finest_step) lengths.refuse("--step: expected 0.001 mm or more");
+  constexpr std::int64_t most_turns = 1'000;
+  if (options.step.count > 0 && -options.depth.count / options.step.count > most_turns) {
+    lengths.refuse(fmt::format("--step: expected a depth of at most {} steps", most_turns));
+  }
+  constexpr double flattest = 0.1;
+  if (arguments.ramp > 0 && arguments.ramp < flattest) {
+    lengths.refuse(fmt::format("--ramp: expected 0, or {} degrees or more, found {:g}", flattest, arguments.ramp));
+  }
   options.tabs = arguments.tabs;
   for (const std::string& place : arguments.tab_places) options.tab_places.push_back(lengths.place("--tab", place));
   options.tab_width = lengths.above_0("--tab-width", arguments.tab_width);

@@ -329,32 +329,4 @@ struct ChordsArguments {
 };
 int chords(const ChordsArguments& arguments);
 
-// Lengths are texts for parse_length(); a number without a unit is in `units`.
-struct CamDrillArguments {
-  std::vector<std::string> files;   // DXF or Excellon
-  std::string output;               // empty: standard output
-  std::string picture;              // .svg or .png; empty: none
-  std::string units = "mm";         // of the program and of lengths without a unit: mm, cm or inch
-  std::optional<double> scale;      // of the numbers of DXF files
-  std::string input;                // unit of the files' numbers; empty: as they say, with --scale as `units`
-  std::string zeros;                // left out in drill files: leading or trailing; empty: as they say
-  std::vector<std::string> layers;  // of DXF files; empty: all that are on
-  std::string zero = "file";        // where X0 Y0 is: file or lower-left
-  std::string tools;                // the rack: diameters with commas between; empty: a drill for each diameter
-  std::string tolerance = "0.05mm";
-  std::string drill;  // one drill for all holes; empty: none
-  std::string mill;   // the milling cutter; empty: none
-  std::string mill_step = "0.5mm";
-  std::string clearance = "2mm";
-  std::string depth = "-2mm";
-  std::string peck;  // empty: none
-  std::string feed = "100mm";
-  std::string mill_feed = "150mm";
-  std::string park = "0,0";
-  std::optional<std::uint32_t> spindle;     // turns a minute
-  std::uint64_t route_steps = 200'000'000;  // of shorten_route()
-  bool plain = false;                       // no canned cycles
-};
-int cam_drill(const CamDrillArguments& arguments);
-
 }  // namespace passo

@@ -1,7 +1,8 @@
 // The program `passo`: reads the command line and calls the command.
 //
-// Only this file, command_words.cpp, board_options.cpp, cam_options.cpp, cam_mill_options.cpp, study_options.cpp and
-// tuning_options.cpp know CLI11, because CLI11 compiles slowly. Each command is in a file of its own.
+// Only this file, command_words.cpp, board_options.cpp, cam_options.cpp, cam_mill_options.cpp, cam_relief_options.cpp,
+// simulate_options.cpp, study_options.cpp and tuning_options.cpp know CLI11, because CLI11 compiles slowly. Each
+// command is in a file of its own.
 #include <algorithm>
 #include <cstdio>
 #include <exception>
@@ -12,6 +13,7 @@
 #include "command_words.hpp"
 #include "commands.hpp"
 #include "program_input.hpp"
+#include "simulate_options.hpp"
 #include "study_options.hpp"
 #include "tuning_options.hpp"
 #include <CLI/CLI.hpp>
@@ -34,6 +36,7 @@ constexpr const char* examples = R"(Examples:
   passo check part.ngc -m router.toml                         what is wrong with it, without running it
   passo check part.ngc -m router.toml --motion                peaks of the motion against the limits; the least time
   passo tune --machine router.toml -o tuned.toml              velocities, accelerations and jerks that its motors can do
+  passo simulate part.ngc --tool flat:6 --picture part.png    what it cuts, before it is cut
   passo canon part.ngc                                        what it means, as canonical calls
   passo explain part.ngc:12                                   what line 12 does, and under which modes
   passo machine router.toml                                   what a machine file says
@@ -259,6 +262,11 @@ int parse_and_run(int argc, char** argv) {
   TuneArguments tune_arguments;
   CLI::App& tune_command = add_tune_command(app, tune_arguments);
 
+  SimulateArguments simulate_arguments;
+  CLI::App& simulate_command = add_simulate_command(app, simulate_arguments);
+  add_program(simulate_command, simulate_arguments.program);
+  add_files(simulate_command, simulate_arguments.program, false);
+
   CanonArguments canon_arguments;
   CLI::App& canon_command = *app.add_subcommand("canon", "print what a program means, as canonical calls");
   add_program(canon_command, canon_arguments.program);
@@ -326,6 +334,7 @@ int parse_and_run(int argc, char** argv) {
   if (serve_command.parsed()) return serve(serve_arguments);
   if (check_command.parsed()) return check(check_arguments);
   if (tune_command.parsed()) return tune(tune_arguments);
+  if (simulate_command.parsed()) return simulate(simulate_arguments);
   if (canon_command.parsed()) return canon(canon_arguments);
   if (explain_command.parsed()) return explain(explain_arguments);
   if (board_command.parsed()) return board_arguments.chosen();

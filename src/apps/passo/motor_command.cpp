@@ -106,16 +106,6 @@ Result<TorqueCurve, MotorError> curve_of(const MotorArguments& arguments) {
   return TorqueCurve::from_motor(data_of(arguments), drive_of(arguments));
 }
 
-// The rate at which tables and pictures end. The load can be driven up to some rate, and from some rate on less than a
-// twentieth of the torque is left. The result is a little above the lower of the two.
-Hertz natural_end(const TorqueCurve& curve, const Load& load) {
-  const double standstill = curve.pull_out({0}).value;
-  std::optional<RadiansPerSecond> end = curve.fastest_speed(load);
-  const std::optional<RadiansPerSecond> weak = curve.fastest_speed({.friction = {standstill / 20}});
-  if (!end || end->value == 0 || (weak && *weak < *end)) end = weak;
-  return Hertz(1.06 * curve.rate_at(end.value_or(RadiansPerSecond{1000})).value());
-}
-
 Result<MotorScene, MotorError> scene_of(const MotorArguments& arguments) {
   Result<TorqueCurve, MotorError> curve = curve_of(arguments);
   if (!curve) return Failure{curve.error()};

@@ -85,9 +85,9 @@ TEST(Outline, cuts_the_opening_first_in_even_turns_and_takes_nothing_of_the_boar
   EXPECT_EQ(result.plan.outsides, 1U);
   EXPECT_EQ(result.plan.openings, 1U);
   EXPECT_EQ(result.plan.lost_mm2, 0);
-  for (const MillPoint& point : run_of(result, 0)) EXPECT_NEAR(distance_nm(point.at, xy(20, 15)), 2e6, 1500);
+  for (const MillPoint& point : run_of(result, 0)) EXPECT_NEAR(distance_nm(point.at, xy(20, 15)), 2e6, 2500);
   EXPECT_EQ(run_of(result, 1).back().z, lengthy(-1.8));
-  const double once = 2 * M_PI * 1.999 + 140 + 2 * M_PI * 1.001;
+  const double once = 2 * M_PI * 1.998 + 140 + 2 * M_PI * 1.002;
   EXPECT_NEAR(lengths_of(result.plan.mill.tools[0], {}).milled_nm / 1e6, 4 * once + 2 * (1.8 - 0.45), 0.05);
 }
 
@@ -116,7 +116,7 @@ TEST(Outline, arcs_of_the_edge_are_arcs_of_the_way) {
     const double cx = centre.x < lengthy(20) ? 5 : 35;
     const double cy = centre.y < lengthy(15) ? 5 : 25;
     EXPECT_LT(distance_nm(centre, xy(cx, cy)), 3000) << i;
-    EXPECT_NEAR(distance_nm(centre, run[i].at), 6.001e6, 1000);
+    EXPECT_NEAR(distance_nm(centre, run[i].at), 6.002e6, 1000);
   }
   EXPECT_EQ(arcs, 4U);
   EXPECT_EQ(run.size(), 10U);
@@ -167,7 +167,7 @@ TEST(Outline, a_lead_in_comes_from_the_waste) {
   EXPECT_EQ(result.plan.lost_mm2, 0);
   for (const MillRun& run : result.plan.mill.tools.at(0).runs) {
     EXPECT_NE(run.front().bulge, 0);
-    EXPECT_FALSE(contains(grown(result.board, lengthy(1.001)), run.front().at));
+    EXPECT_FALSE(contains(grown(result.board, lengthy(1.0015)), run.front().at));
   }
 }
 

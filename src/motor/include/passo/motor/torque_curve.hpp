@@ -99,4 +99,8 @@ class TorqueCurve {
   double factor_ = 1;                     // of all torques
 };
 
+// The rate at which tables and pictures end. The load can be driven up to some rate, and from some rate on less than a
+// twentieth of the torque is left. The result is a little above the lower of the two.
+Hertz natural_end(const TorqueCurve& curve, const Load& load);
+
 }  // namespace passo

@@ -1,0 +1,29 @@
+// Signals that outlive the page: kept in the browser, on this computer only.
+import { effect, signal, type Signal } from '@preact/signals';
+
+// `sound` tells whether a value from an earlier visit is still one.
+export function kept<T>(name: string, otherwise: T, sound: (value: unknown) => value is T): Signal<T> {
+  const key = `passo.${name}`;
+  let first = otherwise;
+  try {
+    const text = localStorage.getItem(key);
+    const value: unknown = text === null ? undefined : JSON.parse(text);
+    if (sound(value)) first = value;
+  } catch {
+    // A browser that keeps nothing shows the usual.
+  }
+  const result = signal(first);
+  effect(() => {
+    const text = JSON.stringify(result.value);
+    try {
+      localStorage.setItem(key, text);
+    } catch {
+      // As above.
+    }
+  });
+  return result;
+}
+
+export function oneOf<T extends string>(...values: readonly T[]) {
+  return (value: unknown): value is T => values.some((one) => one === value);
+}

@@ -1,0 +1,43 @@
+// The words of the page, in four languages. A key that a language lacks is an error of the compiler.
+import { computed, effect } from '@preact/signals';
+import { en, type Words } from '../lang/en';
+import { fr } from '../lang/fr';
+import { it } from '../lang/it';
+import { zh } from '../lang/zh';
+import { kept, oneOf } from './kept';
+
+export const languages = { en: 'English', it: 'Italiano', fr: 'Français', zh: '中文' } as const;
+export type Language = keyof typeof languages;
+export type Key = keyof Words;
+
+const tables: Record<Language, Words> = { en, it, fr, zh };
+
+export function languageOf(wanted: readonly string[]): Language {
+  for (const one of wanted) {
+    const found = (Object.keys(languages) as Language[]).find((name) => one.toLowerCase().startsWith(name));
+    if (found) return found;
+  }
+  return 'en';
+}
+
+export const language = kept<Language>(
+  'language',
+  languageOf(typeof navigator === 'undefined' ? [] : navigator.languages),
+  oneOf('en', 'it', 'fr', 'zh'),
+);
+const table = computed(() => tables[language.value]);
+
+export function followLanguage(): void {
+  effect(() => {
+    document.documentElement.lang = language.value;
+  });
+}
+
+// The words of a key. {name} stands for a value: say('line', {n: 4}).
+export function say(key: Key, values: Record<string, string | number> = {}): string {
+  return fill(table.value[key], values);
+}
+
+export function fill(words: string, values: Record<string, string | number>): string {
+  return words.replace(/\{(\w+)\}/g, (all, name: string) => String(values[name] ?? all));
+}

@@ -1,0 +1,57 @@
+// The lab's view and its module, as signals. The address follows the view, a little later while something is dragged:
+// browsers bound how often an address may change.
+import { batch, effect, signal } from '@preact/signals';
+import { query, replaceQuery } from '../core/route';
+import { LabCore } from './core';
+import { type LabView, readView, sound, writeView } from './view';
+
+export const view = signal<LabView>(readView(new URLSearchParams()));
+export const core = signal<LabCore | undefined>(undefined);
+export const coreFailed = signal(false);
+
+export function change(what: Partial<LabView>): void {
+  view.value = sound({ ...view.value, ...what });
+}
+
+const writeAfter = 200; // ms
+
+// While the lab is shown. Returns what ends it.
+export function followAddress(): () => void {
+  let written: string | undefined;
+  let timer: ReturnType<typeof setTimeout> | undefined;
+  const endReading = effect(() => {
+    const text = query.value.toString();
+    if (text === written) return;
+    written = text;
+    view.value = readView(query.value);
+  });
+  const endWriting = effect(() => {
+    const wanted = writeView(view.value);
+    clearTimeout(timer);
+    if (wanted.toString() === written) return;
+    timer = setTimeout(() => {
+      written = wanted.toString();
+      replaceQuery(wanted);
+    }, writeAfter);
+  });
+  return () => {
+    endReading();
+    endWriting();
+    clearTimeout(timer);
+  };
+}
+
+export async function loadCore(): Promise<void> {
+  if (core.value) return;
+  try {
+    const reply = await fetch(new URL('lab.wasm', document.baseURI));
+    if (!reply.ok) throw new Error(reply.statusText);
+    const loaded = await LabCore.load(await reply.arrayBuffer());
+    batch(() => {
+      core.value = loaded;
+      coreFailed.value = false;
+    });
+  } catch {
+    coreFailed.value = true;
+  }
+}

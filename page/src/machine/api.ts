@@ -1,0 +1,142 @@
+// The requests of docs/api/openapi.json, and what they answer. Lengths are mm, speeds mm/min, times seconds.
+import { ownerKey } from './owner_key';
+import { token } from './token';
+
+export type Place = Record<string, number>;
+export type MachineState =
+  | 'Offline' | 'Idle' | 'Run' | 'Hold' | 'Jog' | 'Home' | 'Probe' | 'Tool' | 'Line' | 'Check' | 'Door' | 'Alarm' | 'Fault' | 'Sleep';
+
+export interface Job {
+  id: number;
+  program: number;
+  name: string;
+  state: 'checking' | 'running' | 'done' | 'stopped' | 'failed';
+  why: string;
+  history: number;
+}
+
+export interface Status {
+  version: number;
+  time: number;
+  state: MachineState;
+  rests: boolean;
+  holds: string[];
+  trust: 'unknown' | 'commanded' | 'counted' | 'homed';
+  place: Place;
+  work_offset?: Place;
+  speed: number;
+  line: number;
+  progress: number | null;
+  outputs: { spindle: 'off' | 'clockwise' | 'counterclockwise'; spindle_speed: number; mist: boolean; flood: boolean };
+  overrides: { feed: number; rapids: number; spindle: number };
+  inputs: { probe: boolean; door: boolean; hold: boolean };
+  waits_for_tool: number | null;
+  waits_for_operator: boolean;
+  trouble: string;
+  owner: { kind: 'nobody' | 'sender' | 'client'; name: string };
+  job: Job | null;
+}
+
+export interface MachineAxis {
+  axis: string;
+  low: number;
+  high: number;
+  speed: number;
+  homes: boolean;
+}
+export interface Machine {
+  name: string;
+  version: string;
+  axes: MachineAxis[];
+}
+
+export interface Finding {
+  severity: 'error' | 'warning';
+  code: string;
+  line: number;
+  column: number;
+  message: string;
+  expected: string;
+}
+export interface Program {
+  id: number;
+  name: string;
+  dialect: 'linuxcnc' | 'grbl';
+  bytes: number;
+  lines: number;
+  state: 'unchecked' | 'checking' | 'good' | 'bad';
+  seconds: number;
+  moves: number;
+  findings?: Finding[];
+}
+
+export interface HistoryJob {
+  id: number;
+  name: string;
+  bytes: number;
+  state: 'queued' | 'running' | 'done' | 'stopped' | 'failed' | 'interrupted';
+  why: string;
+  queued_at: number;
+  begun_at: number;
+  ended_at: number;
+}
+export interface Alarm {
+  at: number;
+  words: string;
+}
+
+// What the machine or the server refuses. Status 0: the server was not reached.
+export class Refused extends Error {
+  constructor(
+    readonly status: number,
+    readonly code: string,
+    message: string,
+  ) {
+    super(message);
+  }
+}
+
+const base = 'api/v1';
+
+export function headers(): Record<string, string> {
+  const all: Record<string, string> = {};
+  if (token.value !== '') all.Authorization = `Bearer ${token.value}`;
+  if (ownerKey.value !== '') all['X-Passo-Key'] = ownerKey.value;
+  return all;
+}
+
+async function refusalOf(answer: Response): Promise<Refused> {
+  try {
+    const said = (await answer.json()) as { error: { code: string; message: string } };
+    return new Refused(answer.status, said.error.code, said.error.message);
+  } catch {
+    return new Refused(answer.status, 'http.error', answer.statusText);
+  }
+}
+
+export async function ask(method: string, path: string, body?: BodyInit, within = 5000): Promise<Response> {
+  let answer: Response;
+  try {
+    answer = await fetch(`${base}${path}`, {
+      method,
+      headers: headers(),
+      ...(body === undefined ? {} : { body }),
+      signal: AbortSignal.timeout(within),
+    });
+  } catch (error) {
+    throw new Refused(0, 'page.unreached', String(error instanceof Error ? error.message : error));
+  }
+  if (!answer.ok) throw await refusalOf(answer);
+  return answer;
+}
+
+export const get = async <T>(path: string): Promise<T> => (await (await ask('GET', path)).json()) as T;
+export const post = async <T>(path: string, body?: object): Promise<T> =>
+  (await (await ask('POST', path, body === undefined ? undefined : JSON.stringify(body))).json()) as T;
+export const remove = async (path: string): Promise<unknown> => (await ask('DELETE', path)).json();
+
+export const upload = async <T>(path: string, name: string, text: BodyInit): Promise<T> =>
+  (await (await ask('POST', `${path}?name=${encodeName(name)}`, text, 120_000)).json()) as T;
+
+// Names reach the server as they are: it decodes nothing.
+export const encodeName = (name: string): string => name.replace(/[^A-Za-z0-9._-]+/g, '_').slice(0, 200);

@@ -1,0 +1,29 @@
+// Who may move the machine: one client at a time. This page takes the ownership when its person first wants motion.
+import { computed } from '@preact/signals';
+import { post, remove } from './api';
+import { connection, status } from './connection';
+import { ownerKey, pageName } from './owner_key';
+
+export type Ownership = 'mine' | 'free' | 'other';
+
+export const ownership = computed<Ownership>(() => {
+  const owner = status.value?.owner;
+  if (owner === undefined || owner.kind === 'nobody') return 'free';
+  return owner.kind === 'client' && ownerKey.value !== '' && owner.name === pageName() ? 'mine' : 'other';
+});
+
+export async function takeOwnership(): Promise<void> {
+  ownerKey.value = (await post<{ key: string }>('/owner', { name: pageName() })).key;
+}
+
+// Before a request that moves.
+export async function beOwner(): Promise<void> {
+  if (ownership.value !== 'mine') await takeOwnership();
+}
+
+export async function giveUpOwnership(): Promise<void> {
+  await remove('/owner');
+  ownerKey.value = '';
+}
+
+export const mayMove = computed(() => connection.value === 'live' && ownership.value !== 'other');

@@ -1,0 +1,96 @@
+// The programs that the daemon has, and the one that this page shows: the job's, else the chosen one, else the newest.
+import { computed, effect, signal } from '@preact/signals';
+import type { Program } from './api';
+import { get, post, remove, upload } from './api';
+import { isLive, status } from './connection';
+import { isUnderWay } from './words';
+
+export const programs = signal<Program[]>([]);
+export const chosen = signal<number | null>(null);
+export const sending = signal<string | null>(null);
+// Lines that the console runs are programs too; nobody wants to see them in a list.
+export const consoleName = 'console.ngc';
+
+const jobProgram = computed(() => {
+  const job = status.value?.job ?? null;
+  return isUnderWay(job) ? (job?.program ?? null) : null;
+});
+export const shownId = computed<number | null>(() => {
+  const all = programs.value.filter((one) => one.name !== consoleName);
+  const has = (id: number | null): boolean => id !== null && all.some((one) => one.id === id);
+  if (has(jobProgram.value)) return jobProgram.value;
+  if (has(chosen.value)) return chosen.value;
+  return all.at(-1)?.id ?? null;
+});
+
+// With its findings, which the list does not have.
+export const shown = signal<Program | null>(null);
+
+let refreshing = false;
+let again = false;
+
+export async function refreshPrograms(): Promise<void> {
+  if (refreshing) {
+    again = true;
+    return;
+  }
+  refreshing = true;
+  try {
+    programs.value = (await get<{ programs: Program[] }>('/programs')).programs;
+    const id = shownId.value;
+    shown.value = id === null ? null : await get<Program>(`/programs/${id}`);
+  } catch {
+    // The next time may be better; a lost connection is told elsewhere.
+  } finally {
+    refreshing = false;
+  }
+  if (again) {
+    again = false;
+    await refreshPrograms();
+  }
+}
+
+export async function sendProgram(file: File): Promise<void> {
+  sending.value = file.name;
+  try {
+    const program = await upload<Program>('/programs', file.name, file);
+    chosen.value = program.id;
+    await post(`/programs/${program.id}/check`);
+    await refreshPrograms();
+  } finally {
+    sending.value = null;
+  }
+}
+
+export async function checkProgram(id: number): Promise<void> {
+  await post(`/programs/${id}/check`);
+  await refreshPrograms();
+}
+
+export async function deleteProgram(id: number): Promise<void> {
+  await remove(`/programs/${id}`);
+  await refreshPrograms();
+}
+
+const whileChecking = 250; // ms
+const otherwise = 4000;
+
+export function followPrograms(): void {
+  effect(() => {
+    // A job that begins or ends, and a connection that comes back, change the list.
+    const job = status.value?.job;
+    void `${job?.id} ${job?.state} ${shownId.value}`;
+    if (isLive.value) void refreshPrograms();
+  });
+  const look = (): void => {
+    const checks = programs.value.some((one) => one.state === 'checking');
+    setTimeout(
+      () => {
+        if (isLive.value && !document.hidden) void refreshPrograms().then(look);
+        else look();
+      },
+      checks ? whileChecking : otherwise,
+    );
+  };
+  look();
+}

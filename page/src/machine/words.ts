@@ -1,0 +1,58 @@
+// What the machine does, in words, and what a person does next.
+import { say } from '../core/language';
+import type { Job, Status } from './api';
+
+export type Tone = 'calm' | 'go' | 'wait' | 'bad';
+
+export interface StateWords {
+  title: string;
+  next: string;
+  tone: Tone;
+}
+
+const tones: Record<Status['state'], Tone> = {
+  Offline: 'wait',
+  Idle: 'calm',
+  Run: 'go',
+  Hold: 'wait',
+  Jog: 'go',
+  Home: 'go',
+  Probe: 'go',
+  Tool: 'wait',
+  Line: 'calm',
+  Check: 'calm',
+  Door: 'bad',
+  Alarm: 'bad',
+  Fault: 'bad',
+  Sleep: 'calm',
+};
+
+export interface Facts {
+  status: Status;
+  hasProgram: boolean;
+  canHome: boolean;
+}
+
+function nextOf({ status, hasProgram, canHome }: Facts): string {
+  const { state } = status;
+  if (state === 'Idle') {
+    if (status.job !== null && status.job.state === 'failed') return status.job.why;
+    if (canHome && status.trust !== 'homed' && !hasProgram) return say('state.Idle.home');
+    return say(hasProgram ? 'state.Idle.next' : 'state.Idle.open');
+  }
+  if (state === 'Run') return say('state.Run.next', { line: status.line });
+  if (state === 'Tool') {
+    return status.waits_for_tool === null ? say('state.Tool.next') : say('state.Tool.tool', { tool: status.waits_for_tool });
+  }
+  const next = say(`state.${state}.next`);
+  const trouble = status.trouble;
+  return trouble === '' || (state !== 'Alarm' && state !== 'Fault') ? next : `${trouble}. ${next}`;
+}
+
+export function stateWords(facts: Facts): StateWords {
+  const { state, rests } = facts.status;
+  const title = state === 'Hold' && !rests ? say('state.Hold.braking') : say(`state.${state}`);
+  return { title, next: nextOf(facts), tone: tones[state] };
+}
+
+export const isUnderWay = (job: Job | null): boolean => job !== null && (job.state === 'running' || job.state === 'checking');

@@ -1,0 +1,25 @@
+import { render } from 'preact';
+import { App } from './app';
+import { followLanguage } from './core/language';
+import { followRoute } from './core/route';
+import { followShortcuts } from './core/shortcuts';
+import { followTheme } from './core/theme';
+import { connect } from './machine/connection';
+import { rememberOwnerKey } from './machine/owner_key';
+import { followPrograms } from './machine/programs';
+import { readToken } from './machine/token';
+import './style/theme.css';
+import './style/frame.css';
+import './style/parts.css';
+import './style/pages.css';
+
+readToken();
+rememberOwnerKey();
+followTheme();
+followLanguage();
+followRoute('run');
+followShortcuts();
+const place = document.getElementById('page');
+if (place !== null) render(<App />, place);
+connect();
+followPrograms();

@@ -1,0 +1,5 @@
+import { say } from '../core/language';
+
+export function MachinePage() {
+  return <h1>{say('page.machine')}</h1>;
+}

@@ -1,0 +1,50 @@
+// Start or go on, hold, stop: always at the same places, on each page.
+import { say } from '../core/language';
+import { done, hold, reset, resume, start, stop, wake, whyNoHold, whyNoResume, whyNoStart, whyNoStop, whyNot } from '../machine/actions';
+import { isLive, status } from '../machine/connection';
+import { axes, workPlace } from '../machine/place';
+import { path } from '../core/route';
+import { placeText } from '../core/units';
+import { Button } from './button';
+
+function GoButton() {
+  switch (status.value?.state) {
+    case 'Hold':
+    case 'Door':
+      return <Button class="act" kind="go" icon="resume" why={whyNoResume.value} onClick={resume} children={say('do.resume')} />;
+    case 'Tool':
+      return <Button class="act" kind="go" icon="done" why={whyNot('Tool')} onClick={done} children={say('do.done')} />;
+    case 'Alarm':
+    case 'Fault':
+      return <Button class="act" kind="go" icon="reset" why={whyNot('Alarm', 'Fault')} onClick={reset} children={say('do.reset')} />;
+    case 'Sleep':
+      return <Button class="act" kind="go" icon="run" why={whyNot('Sleep')} onClick={wake} children={say('do.wake')} />;
+    default:
+      return <Button class="act" kind="go" icon="run" why={whyNoStart.value} onClick={start} children={say('do.start')} />;
+  }
+}
+
+function SmallPosition() {
+  if (path.value === 'run' || path.value === 'jog') return null;
+  return (
+    <dl class={`small-position ${isLive.value ? '' : 'old'}`}>
+      {axes.value.map((axis) => (
+        <div key={axis}>
+          <dt>{axis.toUpperCase()}</dt>
+          <dd>{placeText(axis, workPlace.value[axis] ?? 0)}</dd>
+        </div>
+      ))}
+    </dl>
+  );
+}
+
+export function ActionBar() {
+  return (
+    <div class="actions" role="group" aria-label={say('page.run')}>
+      <SmallPosition />
+      <GoButton />
+      <Button class="act" kind="hold" icon="hold" why={whyNoHold.value} onClick={hold} children={say('do.hold')} />
+      <Button class="act" kind="stop" icon="stop" why={whyNoStop.value} onClick={stop} children={say('do.stop')} />
+    </div>
+  );
+}

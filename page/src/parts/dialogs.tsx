@@ -1,0 +1,68 @@
+// The one question that may be open, and what the page tells in passing.
+import type { ComponentChildren } from 'preact';
+import { useEffect, useRef } from 'preact/hooks';
+import { say } from '../core/language';
+import { dismiss, notices } from '../core/notices';
+import { asked } from '../core/question';
+import { Button } from './button';
+import { Icon } from './icon';
+
+export function Dialog({ title, onClose, children }: { title: string; onClose: () => void; children: ComponentChildren }) {
+  const box = useRef<HTMLDialogElement>(null);
+  useEffect(() => {
+    box.current?.showModal();
+  }, []);
+  return (
+    <dialog ref={box} class="dialog" aria-label={title} onClose={onClose} onCancel={onClose}>
+      <h2>{title}</h2>
+      {children}
+    </dialog>
+  );
+}
+
+export function QuestionDialog() {
+  const question = asked.value;
+  if (question === null) return null;
+  return (
+    <Dialog title={question.title} onClose={() => question.answer(false)} key={question.title}>
+      {question.facts[0] !== undefined && <p>{question.facts[0]}</p>}
+      {question.rows !== undefined && question.rows.length > 0 && (
+        <table class="facts">
+          <tbody>
+            {question.rows.map(([name, value]) => (
+              <tr key={name}>
+                <th scope="row">{name}</th>
+                <td>{value}</td>
+              </tr>
+            ))}
+          </tbody>
+        </table>
+      )}
+      {question.facts.slice(1).map((fact) => (
+        <p key={fact}>{fact}</p>
+      ))}
+      <div class="dialog-actions">
+        <Button onClick={() => question.answer(false)}>{say('frame.cancel')}</Button>
+        <Button kind={question.kind === 'plain' ? 'accent' : question.kind} onClick={() => question.answer(true)}>
+          {question.yes}
+        </Button>
+      </div>
+    </Dialog>
+  );
+}
+
+export function Notices() {
+  return (
+    <div class="notices" role="log" aria-live="polite" aria-label={say('console.log')}>
+      {notices.value.map((one) => (
+        <div key={one.id} class={`notice ${one.kind}`}>
+          <Icon name={one.kind === 'refused' ? 'warn' : 'calm'} />
+          <span>{one.words}</span>
+          <button type="button" class="bare" aria-label={say('frame.close')} onClick={() => dismiss(one.id)}>
+            <Icon name="close" />
+          </button>
+        </div>
+      ))}
+    </div>
+  );
+}

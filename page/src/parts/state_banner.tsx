@@ -1,0 +1,61 @@
+// The state in words, what to do next, and who has the motion.
+import { computed } from '@preact/signals';
+import { say } from '../core/language';
+import { attempt } from '../core/notices';
+import { confirm } from '../core/question';
+import { machine, status } from '../machine/connection';
+import { ownership, takeOwnership } from '../machine/owner';
+import { shown } from '../machine/programs';
+import { stateWords, type Tone } from '../machine/words';
+import { Button } from './button';
+import { Icon, type IconName } from './icon';
+
+const icons: Record<Tone, IconName> = { calm: 'calm', go: 'run', wait: 'hold', bad: 'bad' };
+
+const words = computed(() => {
+  const now = status.value;
+  if (now === null) return null;
+  const canHome = machine.value?.axes.some((one) => one.homes) ?? false;
+  return stateWords({ status: now, hasProgram: shown.value !== null, canHome });
+});
+
+export function StateBanner() {
+  const now = words.value;
+  if (now === null) return <div class="state calm">{say('connection.connecting')}</div>;
+  return (
+    <div class={`state ${now.tone}`}>
+      <Icon name={icons[now.tone]} />
+      <div class="state-words">
+        <strong class="state-title" role="status" data-testid="state">
+          {now.title}
+        </strong>
+        <span class="state-next">{now.next}</span>
+      </div>
+    </div>
+  );
+}
+
+const nameOfOwner = (): string => {
+  const owner = status.value?.owner;
+  return owner?.kind === 'sender' ? say('owner.sender') : (owner?.name ?? '');
+};
+
+async function takeOver(): Promise<void> {
+  const yes = await confirm({
+    title: say('owner.take.ask', { name: nameOfOwner() }),
+    facts: [say('owner.take.what')],
+    yes: say('owner.take'),
+    kind: 'plain',
+  });
+  if (yes) await attempt(takeOwnership);
+}
+
+export function OwnerBanner() {
+  if (ownership.value !== 'other') return null;
+  return (
+    <div class="owner" role="status">
+      <span>{say('owner.other', { name: nameOfOwner() })}</span>
+      <Button onClick={takeOver}>{say('owner.take')}</Button>
+    </div>
+  );
+}

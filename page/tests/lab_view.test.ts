@@ -1,0 +1,81 @@
+import { describe, expect, it } from 'vitest';
+import { nearest, niceStep, ticksOf } from '../src/lab/Chart';
+import { beatAt, shareOf } from '../src/lab/play';
+import { fields, methodsFor, moveOf, onCircle, readView, writeView } from '../src/lab/view';
+import { labTables } from '../src/lab/words';
+
+const read = (text: string) => readView(new URLSearchParams(text));
+const names = (words: string): string[] => (words.match(/\{\w+\}/g) ?? []).sort();
+
+describe('the lab in the address', () => {
+  it('is reproduced by a link, which says only what is not as usual', () => {
+    const link = 'to=13%2C-7&a=point-comparison&b=lean&beat=9&drive=half-step';
+    expect(writeView(read(link)).toString()).toBe(link);
+    expect(writeView(read('')).toString()).toBe('');
+  });
+
+  it('takes the usual for what makes no sense', () => {
+    const view = read('to=1e9,2&a=nothing&beat=-3&accel=NaN&part=secret&kp=&move=yes');
+    expect(view).toEqual(read(''));
+    expect(read('to=0,0').to).not.toEqual([0, 0]);
+  });
+
+  it('keeps methods to those that take the shape', () => {
+    expect(read('shape=arc&a=lean&b=slope-blocks')).toMatchObject({ a: 'midpoint', b: 'none' });
+    expect(methodsFor('line')).not.toContain('midpoint');
+  });
+
+  it('writes each field as it reads it', () => {
+    for (const field of Object.values(fields) as { usual: unknown; read: (text: string) => unknown; write: (value: unknown) => string }[]) {
+      expect(field.read(field.write(field.usual))).toEqual(field.usual);
+    }
+  });
+});
+
+describe('the end of an arc', () => {
+  it('is less than a step from its circle, wherever it is dragged', () => {
+    let worst = 0;
+    for (let radius = 1; radius <= 60; ++radius) {
+      for (let i = 0; i < 200; ++i) {
+        const place: [number, number] = [Math.round(70 * Math.cos(i * 1.7)), Math.round(45 * Math.sin(i * 0.9))];
+        const [x, y] = onCircle(radius, place);
+        worst = Math.max(worst, Math.abs(Math.hypot(x, y) - radius), Number.isInteger(x) && Number.isInteger(y) ? 0 : 1);
+      }
+    }
+    expect(worst).toBeLessThan(1);
+  });
+  it('becomes the end of the move', () => {
+    expect(moveOf(read('shape=arc&radius=5&end=0,9&cw=1'))).toEqual({
+      from: { x: 5, y: 0 }, to: { x: 0, y: 5 }, arc: { centre: { x: 0, y: 0 }, clockwise: true },
+    });
+  });
+});
+
+describe('playing', () => {
+  it('counts the pulses that have come', () => {
+    const clock = [0.25, 0.5, 0.5, 1];
+    expect([0, 0.24, 0.25, 0.6, 1].map((share) => beatAt(clock, share))).toEqual([0, 0, 1, 3, 4]);
+    expect([0, 1, 4, 99].map((beat) => shareOf(clock, beat))).toEqual([0, 0.25, 1, 1]);
+  });
+});
+
+describe('charts', () => {
+  it('has round ticks within the axis', () => {
+    expect(niceStep(900, 5)).toBe(200);
+    expect(ticksOf(0, 1, 5)).toEqual([0, 0.2, 0.4, 0.6000000000000001, 0.8, 1]);
+  });
+  it('finds the nearest entry', () => {
+    expect([-1, 0.4, 0.6, 9].map((at) => nearest([0, 1, 2], at))).toEqual([0, 0, 1, 2]);
+  });
+});
+
+describe('words', () => {
+  it('has the same places for values in each translation', () => {
+    for (const table of Object.values(labTables)) {
+      for (const key of Object.keys(labTables.en) as (keyof typeof labTables.en)[]) {
+        expect(names(table[key]), key).toEqual(names(labTables.en[key]));
+        expect(table[key].trim(), key).not.toBe('');
+      }
+    }
+  });
+});

@@ -1,0 +1,271 @@
+// passo cam relief: a program that carves a picture, or a body seen from above.
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <numbers>
+#include <thread>
+
+#include "cam_arguments.hpp"
+#include "length_argument.hpp"
+#include "named_files.hpp"
+#include "program_input.hpp"
+#include "progress_display.hpp"
+#include <fmt/format.h>
+
+#include "passo/carve/relief_program.hpp"
+#include "passo/carve/relief_surface.hpp"
+#include "passo/diagnostics/file_bytes.hpp"
+#include "passo/report/output_file.hpp"
+#include "passo/surface_file/surface_file.hpp"
+
+namespace passo {
+namespace {
+
+// Reads arguments. Keeps the first message of what is wrong.
+class ReliefReading {
+ public:
+  Mm length(const char* option, const std::string& text, Mm least, Mm most) {
+    const Result<Mm, std::string> read = parse_length(option, text, 1);
+    if (!read) {
+      refuse(read.error());
+    } else if (*read < least || *read > most) {
+      refuse(fmt::format("{}: expected {:g} to {:g} mm, found '{}'", option, least.value(), most.value(), text));
+    } else {
+      return *read;
+    }
+    return least;
+  }
+  std::optional<Mm> perhaps(const char* option, const std::string& text, Mm least, Mm most) {
+    if (text.empty()) return std::nullopt;
+    return length(option, text, least, most);
+  }
+  Cutter cutter(const char* option, const std::string& text) {
+    const Result<Cutter, std::string> read = parse_cutter(text);
+    if (read) return *read;
+    refuse(fmt::format("{}: {}", option, read.error()));
+    return {};
+  }
+  void refuse(const std::string& message) {
+    if (message_.empty()) message_ = message;
+  }
+  const std::string& message() const { return message_; }
+
+ private:
+  std::string message_;
+};
+
+struct ReliefJob {
+  ReliefShape shape;
+  ReliefProgramOptions program;
+};
+
+constexpr Mm least_length{0.001};
+constexpr Mm most_length{10'000};
+
+ReliefShape shape_of(const CamReliefArguments& arguments, ReliefReading& read) {
+  ReliefShape shape;
+  shape.width = read.perhaps("--width", arguments.width, Mm(0.1), most_length);
+  shape.length = read.perhaps("--length", arguments.length, Mm(0.1), most_length);
+  shape.depth = read.perhaps("--depth", arguments.depth, least_length, deepest_relief);
+  shape.gamma = arguments.gamma;
+  shape.invert = arguments.invert;
+  shape.mirror = arguments.mirror;
+  shape.margin = read.length("--margin", arguments.margin, Mm(0), Mm(1000));
+  shape.margin_at_top = arguments.margin_level == "top";
+  shape.pitch = read.perhaps("--pitch", arguments.pitch, least_length, most_length);
+  return shape;
+}
+
+ReliefTool tool_of(ReliefReading& read, const char* option, const std::string& cutter, const std::string& step,
+                   const std::string& feed, const CamReliefArguments& arguments) {
+  constexpr Mm fastest{100'000};
+  ReliefTool tool;
+  tool.cutter = read.cutter(option, cutter);
+  if (!step.empty()) tool.step_over = read.length(fmt::format("{}-step", option).c_str(), step, least_length, Mm(100));
+  tool.feed = read.length("--feed", feed.empty() ? arguments.feed : feed, Mm(1), fastest);
+  tool.plunge = read.length("--plunge", arguments.plunge, Mm(1), fastest);
+  return tool;
+}
+
+ReliefProgramOptions program_of(const CamReliefArguments& arguments, ReliefReading& read) {
+  ReliefProgramOptions program;
+  program.name = arguments.output.empty() ? "relief" : std::filesystem::path(arguments.output).filename().string();
+  program.finish = tool_of(read, "--cutter", arguments.cutter, arguments.step, arguments.feed, arguments);
+  program.way = arguments.way == "columns"  ? FinishWay::columns
+                : arguments.way == "both"   ? FinishWay::both
+                : arguments.way == "spiral" ? FinishWay::spiral
+                                            : FinishWay::rows;
+  if (!arguments.rough.empty()) {
+    program.roughing = ReliefRoughing{
+        .tool = tool_of(read, "--rough", arguments.rough, arguments.rough_step, arguments.rough_feed, arguments),
+        .step_down = read.length("--rough-down", arguments.rough_down, Mm(0.01), deepest_relief),
+        .stock = read.length("--rough-stock", arguments.rough_stock, Mm(0), Mm(50))};
+  }
+  if (!arguments.rest.empty()) {
+    program.rest =
+        ReliefRest{.tool = tool_of(read, "--rest", arguments.rest, arguments.rest_step, arguments.rest_feed, arguments),
+                   .least = read.length("--rest-least", arguments.rest_least, least_length, Mm(10))};
+  }
+  program.scallop = read.length("--scallop", arguments.scallop, Mm(0.0001), Mm(10));
+  program.tolerance = read.length("--tolerance", arguments.tolerance, Mm(0), Mm(1));
+  program.clearance = read.length("--clearance", arguments.clearance, Mm(0.1), Mm(1000));
+  program.overrun = read.perhaps("--overrun", arguments.overrun, Mm(0), Mm(200));
+  program.ramps = arguments.entry == "ramp";
+  program.ramp = {arguments.ramp_angle * std::numbers::pi / 180};
+  program.spindle = arguments.spindle;
+  program.threads = std::clamp(std::thread::hardware_concurrency(), 1U, 64U);
+  return program;
+}
+
+// A node must not be far apart for what the finest cutter can do.
+Mm pitch_for(const ReliefProgramOptions& program) {
+  const auto of_tool = [](const ReliefTool& tool) {
+    const Cutter& cutter = tool.cutter;
+    const Mm fine = cutter.corner.value() > 0 ? cutter.corner / 8 : cutter.radius / 16;
+    return tool.step_over.value() > 0 ? std::min(fine, tool.step_over) : fine;
+  };
+  Mm pitch = of_tool(program.finish);
+  if (program.rest) pitch = std::min(pitch, of_tool(program.rest->tool));
+  return std::max(pitch, Mm(0.01));
+}
+
+struct ReliefGrid {
+  HeightGrid grid;
+  std::string words;  // what was read
+};
+
+std::optional<ReliefGrid> read_relief(const CamReliefArguments& arguments, const ReliefJob& job,
+                                      Diagnostics& findings) {
+  const auto bytes =
+      read_bytes(arguments.file, {.area = "picture", .expected = "a PNG picture or an STL file"}, findings);
+  if (!bytes) return std::nullopt;
+  ReliefShape shape = job.shape;
+  ReliefGrid read;
+  if (is_png(*bytes)) {
+    const PixelLevel level = arguments.channel == "alpha" ? PixelLevel::alpha : PixelLevel::luminance;
+    const LevelPicture picture = read_level_picture(arguments.file, *bytes, level, findings);
+    if (picture.columns == 0) return std::nullopt;
+    shape.wished_pitch = pitch_for(job.program);
+    read.grid = relief_of(picture, shape, arguments.file, findings);
+    read.words = fmt::format("{} x {} pixels, {}, {}", picture.columns, picture.rows, picture.kind, arguments.channel);
+  } else {
+    const Surface body = read_surface(arguments.file, *bytes, findings);
+    if (findings.any_error()) return std::nullopt;
+    read.grid = relief_of(body, shape, arguments.file, findings);
+    read.words = fmt::format("{} triangles, seen from above", body.triangles());
+  }
+  if (read.grid.columns == 0) return std::nullopt;
+  return read;
+}
+
+// Where node (0, 0) is.
+void place(const CamReliefArguments& arguments, const HeightGrid& grid, ReliefReading& read,
+           ReliefProgramOptions& program) {
+  const std::string& origin = arguments.origin;
+  const double width = grid.width().value();
+  const double length = grid.length().value();
+  if (origin == "center" || origin == "centre") {
+    program.x0 = Mm(-width / 2);
+    program.y0 = Mm(-length / 2);
+    return;
+  }
+  for (const bool is_right : {false, true}) {
+    for (const bool is_upper : {false, true}) {
+      if (origin != fmt::format("{}-{}", is_upper ? "upper" : "lower", is_right ? "right" : "left")) continue;
+      program.x0 = Mm(is_right ? -width : 0);
+      program.y0 = Mm(is_upper ? -length : 0);
+      return;
+    }
+  }
+  const Result<std::vector<Mm>, std::string> lengths = parse_lengths("--origin", origin, 1);
+  if (!lengths || lengths->size() != 2) {
+    read.refuse(
+        fmt::format("--origin: expected lower-left, lower-right, upper-left, upper-right, center or X,Y, "
+                    "found '{}'",
+                    origin));
+    return;
+  }
+  program.x0 = (*lengths)[0];
+  program.y0 = (*lengths)[1];
+}
+
+std::string grid_words(const HeightGrid& grid) {
+  const std::string pitch = std::abs(grid.pitch_x / grid.pitch_y - 1) < 1e-6
+                                ? fmt::format("{:.4g}", grid.pitch_x.value())
+                                : fmt::format("{:.4g} x {:.4g}", grid.pitch_x.value(), grid.pitch_y.value());
+  return fmt::format("{:.6g} x {:.6g} mm, {:.5g} mm deep; {} x {} nodes, {} mm apart", grid.width().value(),
+                     grid.length().value(), -static_cast<double>(floor_of(grid)), grid.columns, grid.rows, pitch);
+}
+
+std::string minutes_words(double minutes) {
+  if (minutes < 1.5) return fmt::format("{:.0f} s", minutes * 60);
+  if (minutes < 90) return fmt::format("{:.0f} min", minutes);
+  return fmt::format("{:.0f} h {:02.0f} min", std::floor(minutes / 60), std::floor(std::fmod(minutes, 60)));
+}
+
+std::string summary_of(const ReliefReport& report) {
+  std::string text;
+  for (const ReliefPart& part : report.parts) {
+    text +=
+        fmt::format("{}: {}; rows {:.4g} mm apart, {} moves, {:.2f} m of work, {:.2f} m of rapids, {} at the feeds\n",
+                    part.what, part.tool, part.step.value(), part.moves, part.cut.value() / 1000,
+                    part.rapid.value() / 1000, minutes_words(part.minutes));
+  }
+  return text;
+}
+
+int draw(const std::string& path, const std::string& bytes) {
+  if (bytes.empty()) return fail(exit_failed, "the picture cannot be made: no memory");
+  Result<OutputFile, OutputError> file = OutputFile::open(path);
+  if (!file) return fail(exit_failed, file.error().message);
+  file->write(bytes);
+  const Status<OutputError> written = file->commit();
+  return written ? exit_done : fail(exit_failed, written.error().message);
+}
+
+}  // namespace
+
+int cam_relief(const CamReliefArguments& arguments) {
+  NamedFiles files;
+  files.reads("the file", arguments.file);
+  files.writes("--output", arguments.output);
+  files.writes("--picture", arguments.picture);
+  if (!files.are_apart()) return exit_bad_program;
+  ReliefReading reading;
+  ReliefJob job{.shape = shape_of(arguments, reading), .program = program_of(arguments, reading)};
+  if (!reading.message().empty()) return fail(exit_bad_program, reading.message());
+  if (!arguments.picture.empty() && !arguments.picture.ends_with(".png")) {
+    return fail(exit_bad_program, fmt::format("--picture: '{}' should end in .png", arguments.picture));
+  }
+  Diagnostics findings;
+  const std::optional<ReliefGrid> read = read_relief(arguments, job, findings);
+  if (!read) {
+    show(findings);
+    return exit_bad_program;
+  }
+  // A rim that stays is the stock's edge, or its face goes on: nothing is cut beyond.
+  if (job.shape.margin.value() > 0 && job.shape.margin_at_top && !job.program.overrun) job.program.overrun = Mm(0);
+  place(arguments, read->grid, reading, job.program);
+  if (!reading.message().empty()) return fail(exit_bad_program, reading.message());
+  const std::string what = std::filesystem::path(arguments.file).filename().string();
+  job.program.words = {fmt::format("from {}: {}", what, read->words), grid_words(read->grid)};
+
+  Result<OutputFile, OutputError> file = OutputFile::open(arguments.output.empty() ? "-" : arguments.output);
+  if (!file) return fail(exit_failed, file.error().message);
+  ProgressDisplay progress(what);
+  const ReliefReport report = write_relief(
+      read->grid, job.program, [&](std::string_view text) { file->write(text); },
+      [&](double share) { progress.update(share); }, !arguments.picture.empty());
+  progress.clear();
+  if (const Status<OutputError> written = file->commit(); !written) return fail(exit_failed, written.error().message);
+  if (!arguments.picture.empty()) {
+    const std::string picture = draw_carved(report.carved, read->grid.pitch_x, read->grid.pitch_y);
+    if (const int code = draw(arguments.picture, picture); code != exit_done) return code;
+  }
+  if (!arguments.output.empty() && arguments.output != "-") {
+    fmt::print("{}: {}\n{}\n{}", arguments.file, read->words, grid_words(read->grid), summary_of(report));
+  }
+  return exit_done;
+}
+
+}  // namespace passo

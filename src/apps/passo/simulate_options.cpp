@@ -1,0 +1,58 @@
+#include "simulate_options.hpp"
+
+#include <CLI/CLI.hpp>
+
+namespace passo {
+namespace {
+
+constexpr const char* simulate_examples =
+    R"(Tools: flat:D, ball:D, bull:D:CORNER (radius), vee:ANGLE:D[:TIP] (between the sides), taper:TIP:ANGLE:D (of the ball, degrees a
+side); D and TIP are diameters. 2=ball:3 is tool 2, ball:3 every tool that has no shape of its own.
+
+Examples:
+  passo simulate part.ngc --tool flat:6                        what it takes off, and what is wrong; the stock as it needs it
+  passo simulate part.ngc --tool ball:3 --picture part.png     and how it looks
+  passo simulate part.ngc --stock X0:100,Y0:80,Z-12:0 --tool 1=flat:6 --tool 2=vee:60:6 --stl part.stl
+  passo simulate part.ngc --tool-table tools.toml --clamp X-20:5,Y30:50,Z12
+  passo simulate finish.ngc --tool ball:3 --compare part.stl --picture left.png      material left and gouges, in colour
+  passo simulate part.ngc --tool flat:6 -m router.toml         along the curves that this machine drives at corners
+  passo simulate part.ngc --tool flat:6 --json | jq .removed_mm3
+
+Exit code 1: the cut would go wrong (a rapid through the stock, the holder, a clamp, the flutes, a gouge).
+See docs/manual/simulate.md.)";
+
+}  // namespace
+
+CLI::App& add_simulate_command(CLI::App& app, SimulateArguments& arguments) {
+  CLI::App& command =
+      *app.add_subcommand("simulate", "cut a piece of stock before it is cut: rapids, depths, what is left");
+  command.add_option("--stock", arguments.stock,
+                     "the block, as X0:100,Y0:80,Z-10:0; axes that are not named reach as far as the feeds need");
+  command.add_option("--cell", arguments.cell,
+                     "of the height field, mm; without it some million cells: 0.1 on 100 x 100 mm");
+  command.add_option("--tool", arguments.tools, "[NUMBER=]SHAPE:NUMBERS, see below; may be given again")->take_all();
+  command.add_option("--tool-table", arguments.tool_table, "the tools' shapes, flutes and holders (TOML)");
+  command.add_option("--clamp", arguments.clamps, "what stands in the way, as X0:10,Y0:20,Z15; may be given again")
+      ->take_all();
+  command.add_option("-m,--machine", arguments.machine,
+                     "machine file (TOML): cut along its path, corners rounded within the tolerance");
+  command.add_option("-p,--picture", arguments.pictures,
+                     "draw the stock, and with --compare the differences (.png, .svg)");
+  command.add_option("--stl", arguments.stl, "write the stock as a closed body (binary STL)");
+  command
+      .add_option("--stl-step", arguments.stl_step,
+                  "one cell of so many in each direction goes into the STL file; without it a million cells at most")
+      ->check(CLI::Range(std::size_t{1}, std::size_t{1000}));
+  command.add_option("--compare", arguments.compare,
+                     "the part as it should be: a body (.stl), a height map (.csv), or a program that makes it");
+  command.add_option("--tolerance", arguments.tolerance, "differences up to this count for nothing, mm")
+      ->check(CLI::NonNegativeNumber)
+      ->capture_default_str();
+  command.add_option("--threads", arguments.threads, "how many cut; without it as many as there are processors")
+      ->check(CLI::Range(1U, 64U));
+  command.add_flag("--json", arguments.json, "print it as JSON");
+  command.footer(simulate_examples);
+  return command;
+}
+
+}  // namespace passo

@@ -1,0 +1,38 @@
+// passo simulate: its arguments, and the options that only this command has.
+#pragma once
+
+#include <cstddef>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "commands.hpp"
+
+namespace CLI {
+class App;
+}
+
+namespace passo {
+
+struct SimulateArguments {
+  ProgramArguments program;
+  std::string machine;                // its smoothed path is cut; empty: the path as the program has it
+  std::string stock;                  // "X0:100,Y0:80,Z-10:0"; axes that it does not name are as the feeds need them
+  std::optional<double> cell;         // mm
+  std::vector<std::string> tools;     // "ball:3", "2=vee:60:6"
+  std::string tool_table;             // TOML; empty: none
+  std::vector<std::string> clamps;    // "X0:10,Y0:20,Z15"
+  std::vector<std::string> pictures;  // .svg or .png
+  std::string stl;
+  std::optional<std::size_t> stl_step;  // cells
+  std::string compare;                  // a surface (.stl, .csv) or a program
+  double tolerance = 0.02;              // mm, of the comparison
+  unsigned threads = 0;                 // 0: one for each processor
+  bool json = false;
+};
+int simulate(const SimulateArguments& arguments);
+
+// Adds the command, without the options that every command with a program has.
+CLI::App& add_simulate_command(CLI::App& app, SimulateArguments& arguments);
+
+}  // namespace passo

@@ -1,0 +1,199 @@
+#include "simulate_report.hpp"
+
+#include <cmath>
+#include <numbers>
+
+#include "findings_json.hpp"
+#include <fmt/format.h>
+
+namespace passo {
+namespace {
+
+std::string place_in_words(const Vector3& place) {
+  return fmt::format("X{:.2f} Y{:.2f} Z{:.2f}", place.x, place.y, place.z);
+}
+
+std::string mm_in_words(double mm) {
+  return fmt::format("{:.3f} mm", mm);
+}
+
+struct TroubleWords {
+  const char* code;
+  const char* message;  // with the tool and the depth
+  const char* expected;
+  Severity severity = Severity::error;
+};
+
+TroubleWords words_of(CutTrouble::Kind kind) {
+  switch (kind) {
+    case CutTrouble::Kind::rapid:
+      return {"simulate.rapid", "the rapid goes {1} deep through the stock with T{0}", "a way above the stock, or G1"};
+    case CutTrouble::Kind::flutes:
+      return {"simulate.flutes", "T{0} cuts {1} deeper than its flutes are long", "a longer tool, or several depths"};
+    case CutTrouble::Kind::holder:
+      return {"simulate.holder", "the holder of T{0} is {1} deep in the stock", "a tool that stands out farther"};
+    case CutTrouble::Kind::clamp:
+      return {"simulate.clamp", "T{0} is {1} deep in a clamp", "a way around or above the clamp"};
+    case CutTrouble::Kind::below: break;
+  }
+  return {"simulate.below", "T{0} cuts {1} below the stock: into what lies there", "", Severity::warning};
+}
+
+std::string shape_in_words(const ToolShape& tool) {
+  std::string words = fmt::format("{} {:g} mm", name_of(tool.kind), 2 * tool.radius.value());
+  const double degrees = tool.half_angle * 360 / std::numbers::pi;
+  switch (tool.kind) {
+    case ToolShape::Kind::flat:
+    case ToolShape::Kind::ball: break;
+    case ToolShape::Kind::v: words += fmt::format(" {:g}\u00B0", degrees); break;
+    case ToolShape::Kind::bull_nose: words += fmt::format(", corners {:g} mm", tool.tip_radius.value()); break;
+    case ToolShape::Kind::tapered_ball:
+      words += fmt::format(" {:g}\u00B0, ball {:g} mm", degrees, 2 * tool.tip_radius.value());
+      break;
+  }
+  return words;
+}
+
+std::string tools_in_words(const Simulation& simulation) {
+  std::string words;
+  for (std::size_t i = 0; i < simulation.tools.size(); ++i) {
+    words += fmt::format("{}T{} {}", i > 0 ? "; " : "", simulation.numbers[i], shape_in_words(simulation.tools[i]));
+  }
+  return words;
+}
+
+std::string line_in_words(const LargestOf& largest) {
+  return largest.line > 0 ? fmt::format(", line {}", largest.line) : "";
+}
+
+std::string side_in_words(const FieldDifference::Side& side) {
+  if (side.cells == 0) return "none";
+  return fmt::format("{:.3f} mm\u00B3, {} at most at {}", side.volume, mm_in_words(side.largest),
+                     place_in_words(side.place));
+}
+
+std::string duration_in_words(Seconds time) {
+  const auto seconds = static_cast<long>(std::lround(time.value()));
+  if (seconds < 60) return fmt::format("{:.1f} s", time.value());
+  return seconds < 3600 ? fmt::format("{}:{:02} min", seconds / 60, seconds % 60)
+                        : fmt::format("{}:{:02}:{:02} h", seconds / 3600, seconds / 60 % 60, seconds % 60);
+}
+
+nlohmann::ordered_json as_json(const Vector3& place) {
+  return {{"x", place.x}, {"y", place.y}, {"z", place.z}};
+}
+
+nlohmann::ordered_json as_json(const LargestOf& largest, const char* name) {
+  return {{name, largest.value}, {"line", largest.line}};
+}
+
+nlohmann::ordered_json as_json(const FieldDifference::Side& side) {
+  nlohmann::ordered_json json = {{"volume_mm3", side.volume}, {"largest_mm", side.largest}, {"cells", side.cells}};
+  if (side.cells > 0) json["place"] = as_json(side.place);
+  return json;
+}
+
+}  // namespace
+
+void add_findings(const Simulation& simulation, Diagnostics& findings) {
+  const auto add = [&](Severity severity, const char* code, std::uint32_t line, std::string message,
+                       const char* expected) {
+    findings.add({.severity = severity,
+                  .code = code,
+                  .file = simulation.program,
+                  .place = {.line = line, .column = 0, .length = 1},
+                  .message = std::move(message),
+                  .expected = expected,
+                  .text = {}});
+  };
+  for (const CutTrouble& trouble : simulation.summary.troubles()) {
+    const TroubleWords words = words_of(trouble.kind);
+    const std::string message =
+        fmt::format(fmt::runtime(words.message), simulation.numbers[trouble.tool], mm_in_words(trouble.depth));
+    add(words.severity, words.code, trouble.line, message + ", at " + place_in_words(trouble.place), words.expected);
+  }
+  if (!simulation.difference || simulation.difference->gouge.cells == 0) return;
+  const FieldDifference::Side& gouge = simulation.difference->gouge;
+  add(Severity::error, "simulate.gouge", 0,
+      fmt::format("{:.3f} mm\u00B3 are cut out of {}, {} deep at {}", gouge.volume, simulation.target,
+                  mm_in_words(gouge.largest), place_in_words(gouge.place)),
+      "");
+}
+
+std::string in_short(const Simulation& simulation) {
+  return fmt::format(
+      "{}   \u00B7   {:.1f} cm\u00B3 removed   \u00B7   {} at most in a move   \u00B7   cells of {:g} mm",
+      tools_in_words(simulation), simulation.summary.volume() / 1000, mm_in_words(simulation.summary.depth().value),
+      simulation.field.cell());
+}
+
+std::string to_text(const Simulation& simulation) {
+  const CutSummary& summary = simulation.summary;
+  const HeightField& field = simulation.field;
+  const StockBlock& block = field.block();
+  std::string text =
+      fmt::format("{}: {} moves, {} of them cut\n", simulation.program, summary.moves(), summary.cutting_moves());
+  const auto add = [&](const char* name, const std::string& words) { text += fmt::format("{:<16}{}\n", name, words); };
+  add("stock",
+      fmt::format("X {:g} to {:g}, Y {:g} to {:g}, Z {:g} to {:g}; {} x {} cells of {:g} mm", block.low.x, block.high.x,
+                  block.low.y, block.high.y, block.low.z, block.high.z, field.columns(), field.rows(), field.cell()));
+  add("tools", tools_in_words(simulation));
+  const double share = 100 * summary.volume() / simulation.volume_before;
+  add("removed", fmt::format("{:.2f} cm\u00B3, {:.1f} % of the stock", summary.volume() / 1000, share));
+  if (summary.cutting_moves() > 0) {
+    add("removal rate",
+        fmt::format("{:.2f} mm\u00B3/s in the mean of {} of cutting; {:.2f} at most{}", summary.mean_rate(),
+                    duration_in_words(summary.cutting_time()), summary.rate().value, line_in_words(summary.rate())));
+    add("depth of cut",
+        fmt::format("{} at most{}", mm_in_words(summary.depth().value), line_in_words(summary.depth())));
+    add("engagement", fmt::format("{:.0f} % of the diameter at most{}", 100 * summary.engagement().value,
+                                  line_in_words(summary.engagement())));
+  }
+  if (simulation.difference) {
+    add("material left", side_in_words(simulation.difference->left));
+    add("gouges", side_in_words(simulation.difference->gouge));
+  }
+  return text;
+}
+
+std::string to_json(const Simulation& simulation, const Diagnostics& findings) {
+  const CutSummary& summary = simulation.summary;
+  const HeightField& field = simulation.field;
+  nlohmann::ordered_json tools = nlohmann::ordered_json::array();
+  for (std::size_t i = 0; i < simulation.tools.size(); ++i) {
+    tools.push_back({{"tool", simulation.numbers[i]},
+                     {"shape", std::string(name_of(simulation.tools[i].kind))},
+                     {"diameter_mm", 2 * simulation.tools[i].radius.value()}});
+  }
+  nlohmann::ordered_json json = {{"good", !findings.any_error()},
+                                 {"moves", summary.moves()},
+                                 {"cutting_moves", summary.cutting_moves()},
+                                 {"stock",
+                                  {{"low", as_json(field.block().low)},
+                                   {"high", as_json(field.block().high)},
+                                   {"cell_mm", field.cell()},
+                                   {"columns", field.columns()},
+                                   {"rows", field.rows()}}},
+                                 {"tools", std::move(tools)},
+                                 {"removed_mm3", summary.volume()},
+                                 {"left_mm3", field.volume()},
+                                 {"cutting_time_s", summary.cutting_time().value()},
+                                 {"cutting_way_mm", summary.cutting_way()},
+                                 {"mean_removal_mm3_s", summary.mean_rate()},
+                                 {"largest_removal", as_json(summary.rate(), "mm3_s")},
+                                 {"largest_depth", as_json(summary.depth(), "mm")},
+                                 {"largest_engagement", as_json(summary.engagement(), "of_diameter")},
+                                 {"rapids_through_stock", summary.count(CutTrouble::Kind::rapid)},
+                                 {"cuts_deeper_than_flutes", summary.count(CutTrouble::Kind::flutes)},
+                                 {"holder_hits", summary.count(CutTrouble::Kind::holder)},
+                                 {"clamp_hits", summary.count(CutTrouble::Kind::clamp)},
+                                 {"cuts_below_stock", summary.count(CutTrouble::Kind::below)}};
+  if (simulation.difference) {
+    json["material_left"] = as_json(simulation.difference->left);
+    json["gouges"] = as_json(simulation.difference->gouge);
+  }
+  json["findings"] = as_json(findings.all());
+  return json.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n";
+}
+
+}  // namespace passo

@@ -1,0 +1,91 @@
+// NodeRun: a straight run of nodes with the tip's height at each, and how it becomes few lines.
+//
+// The tip's heights are the least that are free of gouges, at the nodes and on the straight lines between. So a line
+// that is nowhere below them at the nodes it passes is free of gouges too.
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <vector>
+
+#include "move_writer.hpp"
+
+namespace passo {
+
+// Where nodes are in the program.
+struct NodeLattice {
+  double x0 = 0;  // mm, of node (0, 0)
+  double y0 = 0;
+  double pitch_x = 0;
+  double pitch_y = 0;
+  bool turned = false;  // nodes along X and Y of the program are rows and columns here
+
+  CarvedPlace at(std::ptrdiff_t column, std::ptrdiff_t row, std::int64_t z) const {
+    const std::ptrdiff_t i = turned ? row : column;
+    const std::ptrdiff_t j = turned ? column : row;
+    return {std::llround((x0 + static_cast<double>(i) * pitch_x) * carved_units),
+            std::llround((y0 + static_cast<double>(j) * pitch_y) * carved_units), z};
+  }
+};
+
+// Upwards, but for what a grid's height may be rounded by: 1/65536 mm.
+inline std::int64_t carved_height(double z) {
+  constexpr double slack = 0.25;
+  return static_cast<std::int64_t>(std::ceil(z * carved_units - slack));
+}
+
+struct NodeRun {
+  std::ptrdiff_t column = 0;  // of the first node
+  std::ptrdiff_t row = 0;
+  int step_x = 1;  // from node to node: -1, 0 or 1
+  int step_y = 0;
+  std::vector<float> heights = {};
+
+  std::ptrdiff_t column_at(std::size_t i) const { return column + step_x * static_cast<std::ptrdiff_t>(i); }
+  std::ptrdiff_t row_at(std::size_t i) const { return row + step_y * static_cast<std::ptrdiff_t>(i); }
+
+  // The same run from its other end.
+  NodeRun backwards() const {
+    const std::size_t last = heights.size() - 1;
+    NodeRun other{.column = column_at(last), .row = row_at(last), .step_x = -step_x, .step_y = -step_y};
+    other.heights.assign(heights.rbegin(), heights.rend());
+    return other;
+  }
+};
+
+// Covers `heights` with straight lines that are nowhere below and at most `tolerance` above; the first begins at
+// `from`, at the first node. Calls emit(index, height in carved units) for the end of each. Each line reaches as far as
+// one can, and ends as low as it can. Source: the cone of slopes of Williams, "An efficient algorithm for the piecewise
+// linear approximation of planar curves", 1978.
+template <class Emit>
+void fit_lines(const std::vector<float>& heights, double from, double tolerance, const Emit& emit) {
+  const std::size_t count = heights.size();
+  for (std::size_t begin = 0; begin + 1 < count;) {
+    double low = heights[begin + 1] - from;
+    double high = low + tolerance;
+    std::size_t end = begin + 1;
+    for (std::size_t i = begin + 2; i < count; ++i) {
+      const auto steps = static_cast<double>(i - begin);
+      const double need = heights[i] - from;
+      if (need > high * steps || need + tolerance < low * steps) break;
+      // At most one of the two bounds is usually drawn closer: no division then.
+      if (need > low * steps) low = need / steps;
+      if (need + tolerance < high * steps) high = (need + tolerance) / steps;
+      end = i;
+    }
+    const std::int64_t height = carved_height(from + low * static_cast<double>(end - begin));
+    emit(end, height);
+    from = static_cast<double>(height) / carved_units;
+    begin = end;
+  }
+}
+
+// Cuts along the run. The tool is at its first node, at its height there or above.
+inline void cut_run(MoveWriter& writer, const NodeLattice& lattice, const NodeRun& run, double tolerance) {
+  const double from = static_cast<double>(writer.place().z) / carved_units;
+  fit_lines(run.heights, from, tolerance,
+            [&](std::size_t i, std::int64_t z) { writer.cut_to(lattice.at(run.column_at(i), run.row_at(i), z)); });
+}
+
+}  // namespace passo

@@ -1,0 +1,205 @@
+#include "relief_passes.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace passo {
+
+TipRecord::TipRecord(const HeightGrid& surface, std::size_t margin_x, std::size_t margin_y)
+    : margin_x_(static_cast<std::ptrdiff_t>(margin_x)),
+      margin_y_(static_cast<std::ptrdiff_t>(margin_y)),
+      depths_{.columns = surface.columns + 2 * margin_x,
+              .rows = surface.rows + 2 * margin_y,
+              .pitch_x = surface.pitch_x,
+              .pitch_y = surface.pitch_y} {
+  depths_.heights.assign(depths_.columns * depths_.rows, DroppedCutter::nothing);
+}
+
+void TipRecord::add(const NodeLattice& lattice, const NodeRun& run) {
+  for (std::size_t i = 0; i < run.heights.size(); ++i) {
+    const std::ptrdiff_t x = (lattice.turned ? run.row_at(i) : run.column_at(i)) + margin_x_;
+    const std::ptrdiff_t y = (lattice.turned ? run.column_at(i) : run.row_at(i)) + margin_y_;
+    float& depth = depths_.heights[static_cast<std::size_t>(y) * depths_.columns + static_cast<std::size_t>(x)];
+    depth = std::max(depth, -run.heights[i]);
+  }
+}
+
+// What is left is the lowest envelope of all places of the cutter: the same dilation, upside down.
+void TipRecord::carve(const Cutter& cutter, unsigned threads, CarvedSurface& carved) const {
+  const DroppedCutter lowest(depths_, cutter, 0, CutterTable::Kind::sampled);
+  std::vector<DroppedCutter::Scratch> scratch(threads);
+  std::vector<std::vector<float>> rows(threads, std::vector<float>(carved.columns));
+  for_each_row(carved.rows, threads, [&](std::size_t row, std::size_t thread) {
+    lowest.heights(static_cast<std::ptrdiff_t>(row) + margin_y_, margin_x_, rows[thread], scratch[thread]);
+    float* const to = &carved.heights[row * carved.columns];
+    for (std::size_t i = 0; i < carved.columns; ++i) to[i] = std::min(to[i], -rows[thread][i]);
+  });
+}
+
+void ReliefPass::lift() {
+  writer_.rapid_up_down(carved_height(options_.clearance.value()));
+}
+
+void ReliefPass::cut(const NodeRun& run) {
+  cut_run(writer_, lattice_, run, options_.tolerance.value());
+  if (record_ != nullptr) record_->add(lattice_, run);
+}
+
+void ReliefPass::go_to_work(const NodeRun& run, double free_above) {
+  lift();
+  const CarvedPlace first = lattice_.at(run.column, run.row, 0);
+  writer_.rapid_to(first.x, first.y);
+  constexpr double above = 0.5;  // mm, of the stock, where the feed begins
+  writer_.rapid_up_down(std::min(carved_height(free_above + above), carved_height(options_.clearance.value())));
+  const double pitch = run.step_x != 0 ? lattice_.pitch_x : lattice_.pitch_y;
+  const double turned_pitch = run.step_x != 0 ? lattice_.pitch_y : lattice_.pitch_x;
+  const double a_node = (lattice_.turned ? turned_pitch : pitch) * std::tan(options_.ramp.value);
+  const double deep = free_above - static_cast<double>(run.heights.front());
+  if (options_.ramps && deep > 0 && run.heights.size() > 1) {
+    constexpr double most_turns = 40;
+    const double nodes = std::ceil(deep / a_node);
+    const auto there = static_cast<double>(run.heights.size() - 1);
+    if (nodes <= most_turns * there) {
+      ramp_in(run, free_above, static_cast<std::size_t>(std::min(nodes, there)));
+      return;
+    }
+  }
+  writer_.cut_to(lattice_.at(run.column, run.row, carved_height(static_cast<double>(run.heights.front()))));
+}
+
+// There and back over the first nodes of the run, deeper at each, and back at the depth of the run.
+void ReliefPass::ramp_in(const NodeRun& run, double free_above, std::size_t nodes) {
+  const bool along_x = (run.step_x != 0) != lattice_.turned;
+  const double a_node = (along_x ? lattice_.pitch_x : lattice_.pitch_y) * std::tan(options_.ramp.value);
+  NodeRun part = run;
+  part.heights.resize(nodes + 1);
+  const CarvedPlace first = lattice_.at(run.column, run.row, carved_height(free_above));
+  writer_.cut_to(first);
+  double ramp = free_above;
+  bool is_deep = false;
+  bool is_back = true;  // at the first node
+  while (!is_deep || !is_back) {
+    NodeRun turn = is_back ? part : part.backwards();
+    is_deep = true;
+    for (float& height : turn.heights) {
+      if (ramp > static_cast<double>(height)) {
+        is_deep = false;
+        height = static_cast<float>(ramp);
+      }
+      ramp -= a_node;
+    }
+    ramp += a_node;  // the turn's last node is the next one's first
+    cut_run(writer_, lattice_, turn, options_.tolerance.value());
+    is_back = !is_back;
+  }
+}
+
+std::ptrdiff_t nodes_of(Mm distance, Mm pitch) {
+  return std::max<std::ptrdiff_t>(1, static_cast<std::ptrdiff_t>(std::ceil(distance / pitch - 1e-6)));
+}
+
+std::ptrdiff_t step_nodes(Mm step, Mm pitch) {
+  return std::max<std::ptrdiff_t>(1, static_cast<std::ptrdiff_t>(std::floor(step / pitch + 1e-6)));
+}
+
+Mm step_of(const ReliefTool& tool, const ReliefProgramOptions& options, bool is_roughing) {
+  if (tool.step_over.value() > 0) return tool.step_over;
+  const Mm diameter = tool.cutter.radius * 2;
+  constexpr double part_of_flat = 0.4;
+  if (is_roughing || tool.cutter.flat == tool.cutter.radius) return diameter * part_of_flat;
+  return std::min(tool.cutter.step_for_scallop(options.scallop), diameter * part_of_flat);
+}
+
+std::ptrdiff_t AreaSweep::row_of(std::size_t index) const {
+  return std::min(area_.first_row + static_cast<std::ptrdiff_t>(index) * area_.step, area_.end_row - 1);
+}
+
+void AreaSweep::find_stretches() {
+  stretches_.clear();
+  all_ = 0;
+  for (std::size_t index = 0;; ++index) {
+    const std::ptrdiff_t row = row_of(index);
+    std::vector<Stretch> here;
+    for (std::ptrdiff_t column = area_.first_column; column < area_.end_column; ++column) {
+      if (!wants_(column, row)) continue;
+      if (!here.empty() && column - here.back().last <= area_.gap + 1) {
+        here.back().last = column;
+      } else {
+        here.push_back({.first = column, .last = column});
+      }
+    }
+    all_ += here.size();
+    stretches_.push_back(std::move(here));
+    if (row == area_.end_row - 1) return;
+  }
+}
+
+NodeRun AreaSweep::run_along(std::ptrdiff_t row, std::ptrdiff_t from, std::ptrdiff_t to) const {
+  NodeRun run{.column = from, .row = row, .step_x = from <= to ? 1 : -1, .step_y = 0};
+  for (std::ptrdiff_t column = from;; column += run.step_x) {
+    run.heights.push_back(height_(column, row));
+    if (column == to) return run;
+  }
+}
+
+void AreaSweep::cut(const std::function<void(double)>& progress) {
+  find_stretches();
+  done_ = 0;
+  for (std::size_t index = 0; index < stretches_.size(); ++index) {
+    for (Stretch& stretch : stretches_[index]) {
+      if (stretch.done) continue;
+      cut_from(index, stretch);
+      progress(static_cast<double>(done_) / static_cast<double>(std::max<std::size_t>(1, all_)));
+    }
+  }
+}
+
+// Cuts a stretch, and then what lies on from its end, row after row.
+void AreaSweep::cut_from(std::size_t index, Stretch& first) {
+  const std::ptrdiff_t row = row_of(index);
+  NodeRun run = run_along(row, first.first, first.last);
+  pass_.go_to_work(run, static_cast<double>(free_above_(first.first, row)));
+  pass_.cut(run);
+  first.done = true;
+  ++done_;
+  const Stretch* last = &first;
+  std::ptrdiff_t column = first.last;
+  while (++index < stretches_.size()) {
+    Stretch* next = nullptr;
+    for (Stretch& candidate : stretches_[index]) {
+      if (!candidate.done && follow(index, *last, column, candidate)) {
+        next = &candidate;
+        break;
+      }
+    }
+    if (next == nullptr) return;
+    next->done = true;
+    ++done_;
+    last = next;
+  }
+}
+
+// From the end of the last stretch to the next one and along it, where all the way is wanted. `column` is where the
+// tool is, in the row before.
+bool AreaSweep::follow(std::size_t index, const Stretch& last, std::ptrdiff_t& column, Stretch& next) {
+  const std::ptrdiff_t across = std::clamp(column, next.first, next.last);
+  if (across < last.first || across > last.last) return false;
+  const std::ptrdiff_t from = row_of(index - 1);
+  const std::ptrdiff_t to = row_of(index);
+  NodeRun over{.column = across, .row = from, .step_x = 0, .step_y = 1};
+  for (std::ptrdiff_t row = from; row <= to; ++row) {
+    if (!wants_(across, row)) return false;
+    over.heights.push_back(height_(across, row));
+  }
+  if (across != column) pass_.cut(run_along(from, column, across));
+  pass_.cut(over);
+  const bool left_is_near = across - next.first < next.last - across;
+  const std::ptrdiff_t near_end = left_is_near ? next.first : next.last;
+  const std::ptrdiff_t far_end = left_is_near ? next.last : next.first;
+  if (near_end != across) pass_.cut(run_along(to, across, near_end));
+  if (far_end != near_end) pass_.cut(run_along(to, near_end, far_end));
+  column = far_end;
+  return true;
+}
+
+}  // namespace passo

@@ -1,0 +1,175 @@
+#include "passo/carve/relief_program.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <memory>
+#include <utility>
+
+#include "relief_passes.hpp"
+#include <fmt/format.h>
+
+namespace passo {
+namespace {
+
+// Text that may stand in a comment of G-code.
+std::string without_brackets(std::string_view text) {
+  std::string words(text.substr(0, 120));
+  for (char& c : words) {
+    if (c == '(' || c == ')' || c == '%' || static_cast<unsigned char>(c) < ' ') c = '_';
+  }
+  return words;
+}
+
+class ReliefProgram {
+ public:
+  ReliefProgram(const HeightGrid& surface, const ReliefProgramOptions& options, const ReliefSink& sink,
+                const ReliefProgress& progress)
+      : surface_(surface),
+        options_(options),
+        progress_(progress),
+        writer_(sink),
+        pass_(writer_, options),
+        lattice_{.x0 = options.x0.value(),
+                 .y0 = options.y0.value(),
+                 .pitch_x = surface.pitch_x.value(),
+                 .pitch_y = surface.pitch_y.value()} {}
+
+  ReliefReport write(bool wants_carved);
+
+ private:
+  using Cut = void (*)(ReliefPass&, const HeightGrid&, const NodeLattice&, const std::function<void(double)>&);
+
+  void begin();
+  void begin_tool(const char* what, const ReliefTool& tool);
+  void end_tool(const char* what, const ReliefTool& tool, Mm step);
+  void cut(Cut way, const HeightGrid& surface, bool turned);
+  void finish();
+  // What the report is to hold of this cutter.
+  void record(const ReliefTool& tool, const std::function<void()>& act);
+
+  const HeightGrid& surface_;
+  const ReliefProgramOptions& options_;
+  const ReliefProgress& progress_;
+  MoveWriter writer_;
+  ReliefPass pass_;
+  NodeLattice lattice_;
+  ReliefReport report_;
+  bool wants_carved_ = false;
+  int tools_ = 1;
+  int tool_ = 0;
+  double parts_done_ = 0;
+  double parts_ = 1;
+};
+
+void ReliefProgram::begin() {
+  writer_.line("({}: a relief, by passo cam relief)", without_brackets(options_.name));
+  for (const std::string& words : options_.words) writer_.line("({})", without_brackets(words));
+  writer_.line("(Z0 is the top of the stock)");
+  writer_.line("G17 G21 G40 G80 G90 G94");
+  writer_.line("G0 Z{:g}", options_.clearance.value());
+}
+
+void ReliefProgram::begin_tool(const char* what, const ReliefTool& tool) {
+  ++tool_;
+  const std::string words = describe(tool.cutter);
+  writer_.line("");
+  writer_.line("({}: {})", what, words);
+  if (tools_ > 1) {
+    if (tool_ > 1 && options_.spindle) writer_.line("M5");
+    writer_.line("(MSG, tool {}: {})", tool_, words);
+    writer_.line("T{} M6", tool_);
+    writer_.line("G0 Z{:g}", options_.clearance.value());
+  }
+  if (options_.spindle) {
+    writer_.line("M3 S{}", *options_.spindle);
+    writer_.line("G4 P2 (the spindle reaches its speed)");
+  }
+  writer_.begin_at(carved_height(options_.clearance.value()));
+  writer_.set_feeds({.along = tool.feed, .down = tool.plunge});
+}
+
+void ReliefProgram::end_tool(const char* what, const ReliefTool& tool, Mm step) {
+  pass_.lift();
+  const CarvingCost cost = writer_.take_cost();
+  report_.parts.push_back({.what = what,
+                           .tool = describe(tool.cutter),
+                           .step = step,
+                           .moves = cost.moves,
+                           .cut = Mm(cost.cut_mm),
+                           .rapid = Mm(cost.rapid_mm),
+                           .minutes = cost.feed_minutes});
+}
+
+void ReliefProgram::cut(Cut way, const HeightGrid& surface, bool turned) {
+  NodeLattice lattice = lattice_;
+  lattice.turned = turned;
+  way(pass_, surface, lattice, [&](double share) { progress_((parts_done_ + share) / parts_); });
+  parts_done_ += 1;
+}
+
+void ReliefProgram::record(const ReliefTool& tool, const std::function<void()>& act) {
+  if (!wants_carved_) {
+    act();
+    return;
+  }
+  const auto margin = [&](Mm pitch) {
+    return static_cast<std::size_t>(std::ceil(options_.overrun.value_or(tool.cutter.radius) / pitch)) + 1;
+  };
+  TipRecord tips(surface_, margin(surface_.pitch_x), margin(surface_.pitch_y));
+  pass_.set_record(&tips);
+  act();
+  pass_.set_record(nullptr);
+  tips.carve(tool.cutter, options_.threads, report_.carved);
+}
+
+void ReliefProgram::finish() {
+  if (options_.way == FinishWay::spiral) cut(finish_spiral, surface_, false);
+  if (options_.way == FinishWay::rows || options_.way == FinishWay::both) cut(finish_rows, surface_, false);
+  if (options_.way == FinishWay::columns || options_.way == FinishWay::both) {
+    cut(finish_rows, surface_.transposed(), true);
+  }
+}
+
+ReliefReport ReliefProgram::write(bool wants_carved) {
+  wants_carved_ = wants_carved;
+  if (wants_carved) {
+    report_.carved = {.columns = surface_.columns, .rows = surface_.rows};
+    report_.carved.heights.assign(surface_.heights.size(), 0.0F);
+  }
+  tools_ = 1 + (options_.roughing ? 1 : 0) + (options_.rest ? 1 : 0);
+  parts_ = tools_ + (options_.way == FinishWay::both ? 1 : 0);
+  begin();
+  const auto nodes_step = [&](const ReliefTool& tool, bool is_roughing, Mm pitch) {
+    return pitch * static_cast<double>(step_nodes(step_of(tool, options_, is_roughing), pitch));
+  };
+  if (options_.roughing) {
+    const ReliefTool& tool = options_.roughing->tool;
+    begin_tool("roughing", tool);
+    record(tool, [&] { cut(rough_out, surface_, false); });
+    end_tool("roughing", tool, nodes_step(tool, true, surface_.pitch_y));
+  }
+  begin_tool("finishing", options_.finish);
+  record(options_.finish, [&] { finish(); });
+  end_tool(
+      "finishing", options_.finish,
+      nodes_step(options_.finish, false, options_.way == FinishWay::columns ? surface_.pitch_x : surface_.pitch_y));
+  if (options_.rest) {
+    const ReliefTool& tool = options_.rest->tool;
+    begin_tool("rest finishing", tool);
+    record(tool, [&] { cut(finish_rest, surface_, false); });
+    end_tool("rest finishing", tool, nodes_step(tool, false, surface_.pitch_y));
+  }
+  if (options_.spindle) writer_.line("M5");
+  writer_.line("M2");
+  writer_.flush();
+  return std::move(report_);
+}
+
+}  // namespace
+
+ReliefReport write_relief(const HeightGrid& surface, const ReliefProgramOptions& options, const ReliefSink& sink,
+                          const ReliefProgress& progress, bool wants_carved) {
+  return ReliefProgram(surface, options, sink, progress).write(wants_carved);
+}
+
+}  // namespace passo

@@ -1,0 +1,115 @@
+#include "passo/lab/answers.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+namespace passo {
+namespace {
+
+using ::testing::HasSubstr;
+using ::testing::Not;
+using ::testing::StartsWith;
+
+StepMove line_to(std::int64_t x, std::int64_t y) {
+  return {.from = {0, 0}, .to = {x, y}, .arc = {}};
+}
+
+// The move of the reference: master and slaves, (10, 4).
+TEST(InterpolationAnswer, HasTheColumnsOfEachPulse) {
+  const std::string answer = interpolation_answer({.name = MethodName::lean}, line_to(10, 4));
+  EXPECT_THAT(answer, StartsWith(R"({"name":"lean","half_loaded":false,"title":"lean")"));
+  EXPECT_THAT(answer, HasSubstr(R"("pulses":10,"together":4,"idle":0)"));
+  EXPECT_THAT(answer, HasSubstr(R"("x":[1,2,3,4,5,6,7,8,9,10],"y":[0,1,1,2,2,2,3,3,4,4])"));
+  EXPECT_THAT(answer, HasSubstr(R"("judge":{"sum_x":["10",)"));
+  EXPECT_THAT(answer, HasSubstr(R"("ideal":{"x":[0,10],"y":[0,4]})"));
+}
+
+TEST(InterpolationAnswer, TellsTheFootOfTheToolOnThePath) {
+  const std::string answer = interpolation_answer({.name = MethodName::point_comparison}, line_to(1, 1));
+  EXPECT_THAT(answer, HasSubstr(R"("foot_x":[0.4999)"));
+}
+
+TEST(InterpolationAnswer, RefusesInWords) {
+  StepMove arc{.from = {5, 0}, .to = {0, 5}, .arc = StepMove::Arc{.centre = {0, 0}}};
+  EXPECT_EQ(interpolation_answer({.name = MethodName::slope_blocks}, arc),
+            R"({"error":"slope-blocks is for lines; arcs are for point-comparison, dda and midpoint"})");
+  EXPECT_THAT(interpolation_answer({}, line_to(std::int64_t{1} << 40, 1)), HasSubstr("goes beyond"));
+  EXPECT_THAT(interpolation_answer({}, line_to(most_entries + 1, 1)), HasSubstr("more than 20000 pulses"));
+  EXPECT_THAT(interpolation_answer({}, {.from = {0, 0, 0}, .to = {1, 2, 3}, .arc = {}}), HasSubstr("two axes"));
+}
+
+TEST(InterpolationAnswer, OfTheLongestMoveIsBounded) {
+  EXPECT_LT(interpolation_answer({.name = MethodName::dda}, line_to(16'000, 9'000)).size(), std::size_t{8} << 20);
+}
+
+TEST(ComparisonAnswer, HasEachMethodThatTakesTheMove) {
+  const std::string answer = comparison_answer(line_to(27, 10));
+  for (const char* name : {"master-slave", "lean", "dda, half loaded", "slope-blocks", "point-comparison"}) {
+    EXPECT_THAT(answer, HasSubstr(std::string("\"title\":\"") + name + "\""));
+  }
+  EXPECT_THAT(answer, Not(HasSubstr("midpoint")));
+  EXPECT_THAT(comparison_answer(line_to(most_entries, 0)), HasSubstr("too long"));
+}
+
+TEST(WindingsAnswer, HasTheStatesOfThePlaces) {
+  const std::string answer = windings_answer(*Excitation::named("two-on"), 200, -1, 1);
+  EXPECT_THAT(answer, HasSubstr(R"("pattern":[9,3,6])"));
+  EXPECT_THAT(answer, HasSubstr(R"("degrees":[-1.8,0,1.8])"));
+  EXPECT_THAT(windings_answer(*Excitation::named("wave"), 200, 5, 4), StartsWith(R"({"error")"));
+}
+
+TEST(RampAnswer, HasIntervalsErrorsAndTheIdealLine) {
+  RampRequest request;
+  request.setup = {.clock = Hertz(250'000), .steps_per_turn = 400, .acceleration = {50}};
+  request.method = RampMethod::table;
+  request.steps = 8;
+  const std::string answer = ramp_answer(request);
+  EXPECT_THAT(answer, HasSubstr("\"ticks\":[6266,2595,1991,"));
+  EXPECT_THAT(answer, HasSubstr("\"ideal_time_s\":[0,"));
+  EXPECT_THAT(answer, HasSubstr("\"whole_ticks\":true"));
+  request.setup.clock = Hertz(1e7);
+  EXPECT_THAT(ramp_answer(request), HasSubstr("more than a table method's 16 bits hold"));
+  request.steps = most_entries + 1;
+  EXPECT_THAT(ramp_answer(request), HasSubstr("expected 1 to 20000 steps"));
+  request.setup.clock = Hertz(0);
+  EXPECT_THAT(ramp_answer(request), HasSubstr("the clock must be above 0 Hz"));
+}
+
+MotorSetup small_motor() {
+  MotorSetup setup{.motor = {.rotor = {.steps_per_revolution = 200, .inertia = {68e-7}},
+                             .holding_torque = {0.45},
+                             .rated_current = {1.7},
+                             .resistance = {1.5},
+                             .inductance = {2.8e-3}},
+                   .drive = {.supply = {24}},
+                   .excitation = *Excitation::named("microsteps:64")};
+  setup.load = {.inertia = {68e-7}, .friction = {0.01}};
+  setup.damping = damping_of(setup.motor);
+  return setup;
+}
+
+TEST(TorqueAnswer, HasPullOutAboveTheFrictionUpToTheFastestRate) {
+  const MotorSetup motor = small_motor();
+  TorqueQuestion question{.motor = motor.motor, .drive = motor.drive, .load = motor.load, .rows = 5};
+  EXPECT_THAT(torque_answer(question), HasSubstr("\"pull_out_nm\":[0.318"));
+  question.acceleration = {5000};
+  EXPECT_THAT(torque_answer(question), HasSubstr("\"needed_nm\":[0.078,"));
+  question.margin = 2;
+  EXPECT_THAT(torque_answer(question), HasSubstr("margin"));
+  question.motor.resistance = {0};
+  EXPECT_THAT(torque_answer(question), HasSubstr("resistance"));
+}
+
+TEST(LoopAnswer, HasTheResponseAndItsFigures) {
+  LoopSetup setup{.motor = small_motor()};
+  setup.to = 30;
+  setup.gains = {.kp = 0.02, .ki = 2};
+  EXPECT_THAT(loop_answer(setup, Seconds(0.02)), HasSubstr("\"overshoot\":0.1"));
+  EXPECT_THAT(ultimate_answer(setup), HasSubstr("\"pi\":{\"kp\":0.04"));
+  EXPECT_THAT(loop_answer(setup, Seconds(100)), HasSubstr("periods"));
+  setup.to = 0;
+  EXPECT_THAT(loop_answer(setup, Seconds(0.02)), HasSubstr("no jump"));
+}
+
+}  // namespace
+}  // namespace passo

@@ -1,0 +1,51 @@
+// The pixels of a piece of stock under light: from above, and as a body. Private to report/.
+#pragma once
+
+#include "cairo_canvas.hpp"
+#include "projection.hpp"
+
+#include "passo/report/stock_picture.hpp"
+
+namespace passo {
+
+// The colours of differences, and of what does not differ.
+inline constexpr Colour left_colour{0.16, 0.42, 0.86};
+inline constexpr Colour gouge_colour{0.86, 0.16, 0.14};
+inline constexpr Colour even_colour{0.80, 0.80, 0.79};
+// What no tool has touched.
+inline constexpr Colour untouched_colour{0.87, 0.84, 0.78};
+
+class StockShading {
+ public:
+  explicit StockShading(const StockDrawing& drawing);
+
+  double deepest() const { return deepest_; }      // mm below the top
+  double largest_left() const { return left_; }    // mm
+  double largest_gouge() const { return gouge_; }  // mm
+
+  // The colour of a depth below the top, and of a difference (above 0: left), without light.
+  Colour colour_of_depth(double depth) const;
+  Colour colour_of_difference(double difference) const;
+
+  // The stock seen from above, X to the right and Y up, on so many pixels.
+  PixelMap from_above(int width, int height) const;
+  // The stock as `projection` shows it in `area`; `scale` pixels for a unit.
+  PixelMap as_body(const Projection& projection, const Area& area, int scale) const;
+
+ private:
+  // A piece of the face: its height and colour as they are seen.
+  struct Patch {
+    double height = 0;
+    std::uint32_t colour = 0;
+    std::uint32_t wall = 0;  // below it, seen from the side
+  };
+  Patch patch(double column, double row, double size) const;
+  double height_near(double column, double row) const;
+
+  const StockDrawing& drawing_;
+  double deepest_ = 0;
+  double left_ = 0;
+  double gouge_ = 0;
+};
+
+}  // namespace passo

@@ -1,0 +1,173 @@
+// SweptProfile: where a tool that goes straight down a slope has its lowest underside above a place. Private to stock/.
+//
+// The way runs along u and goes down by `slope` for each millimetre (slope >= 0); v is across. The tip is at s. Above
+// the place (u, v) the underside is at z(s) + h(d), d² = (u - s)² + v². h is convex and rises, so the sum is convex in
+// s and has one lowest place: reach(v) is how far beyond u the tip then is. The lowest place within a segment is that
+// one, or the end of the segment next to it. So no cell needs a search, and all of it is arithmetic on lanes.
+//
+// With w = s - u, the lowest place is where h'(d) w / d = slope:
+//   ball of radius r:      w = sqrt(r² - v²) slope / sqrt(1 + slope²), the slanted cylinder
+//   cone that rises by m:  w = |v| slope / sqrt(m² - slope²); where slope >= m, as far as the tool's rim reaches
+//   flat tip of radius r:  w = sqrt(r² - v²), its edge
+//   round corner (a ring): an equation of fourth degree; Newton from above, which a convex function cannot overshoot
+// Any w gives a height that the tool does reach: an error of w only leaves material, by its square.
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+
+#include "passo/geometry/tool_shape.hpp"
+
+namespace passo {
+
+inline float above_zero(float value) {
+  return value > 0 ? value : 0;
+}
+
+struct FlatProfile {
+  float radius2;
+  float edge;  // 1 on a slope, 0 on the level
+
+  FlatProfile(float radius, float slope) : radius2(radius * radius), edge(slope > 0 ? 1.0F : 0.0F) {}
+  float reach(float v2) const { return edge * std::sqrt(above_zero(radius2 - v2)); }
+  float height(float) const { return 0; }
+};
+
+struct BallProfile {
+  float radius;
+  float radius2;
+  float lean;
+
+  BallProfile(float ball, float slope)
+      : radius(ball), radius2(ball * ball), lean(slope / std::sqrt(1 + slope * slope)) {}
+  float reach(float v2) const { return lean * std::sqrt(above_zero(radius2 - v2)); }
+  float height(float d2) const { return radius - std::sqrt(above_zero(radius2 - d2)); }
+};
+
+// How far a cone that rises by `steepness` leans, for each |v|.
+inline float cone_lean(float steepness, float slope) {
+  constexpr float to_the_rim = 1e6F;
+  return slope < steepness ? std::min(to_the_rim, slope / std::sqrt(steepness * steepness - slope * slope))
+                           : to_the_rim;
+}
+
+struct ConeProfile {
+  float tip;
+  float tip2;
+  float rim2;
+  float steepness;
+  float lean;
+  float edge;
+  float least;  // 1: always to the rim
+
+  ConeProfile(float tip_radius, float rim, float rise, float slope)
+      : tip(tip_radius),
+        tip2(tip_radius * tip_radius),
+        rim2(rim * rim),
+        steepness(rise),
+        lean(cone_lean(rise, slope)),
+        edge(slope > 0 ? 1.0F : 0.0F),
+        least(slope < rise ? 0.0F : 1.0F) {}
+  float reach(float v2) const {
+    const float rim = std::sqrt(above_zero(rim2 - v2));
+    const float cone = std::max(lean * std::sqrt(v2), least * rim);
+    const float of_tip = edge * std::sqrt(above_zero(tip2 - v2));
+    return std::min(rim, std::max(cone, of_tip));
+  }
+  float height(float d2) const { return steepness * above_zero(std::sqrt(d2) - tip); }
+};
+
+struct TaperedProfile {
+  float ball;
+  float ball2;
+  float tangent;
+  float tangent2;
+  float tangent_height;
+  float rim2;
+  float steepness;
+  float lean;
+  float cone;
+  float least;
+
+  TaperedProfile(float tip_radius, float where, float rim, float rise, float slope)
+      : ball(tip_radius),
+        ball2(tip_radius * tip_radius),
+        tangent(where),
+        tangent2(where * where),
+        tangent_height(tip_radius - std::sqrt(above_zero(tip_radius * tip_radius - where * where))),
+        rim2(rim * rim),
+        steepness(rise),
+        lean(slope / std::sqrt(1 + slope * slope)),
+        cone(cone_lean(rise, slope)),
+        least(slope < rise ? 0.0F : 1.0F) {}
+  float reach(float v2) const {
+    const float rim = std::sqrt(above_zero(rim2 - v2));
+    const float of_ball = lean * std::sqrt(above_zero(ball2 - v2));
+    const float of_cone = std::max(cone * std::sqrt(v2), least * rim);
+    return std::min(rim, v2 + of_ball * of_ball <= tangent2 ? of_ball : of_cone);
+  }
+  float height(float d2) const {
+    const float on_ball = ball - std::sqrt(above_zero(ball2 - d2));
+    const float on_cone = tangent_height + steepness * (std::sqrt(d2) - tangent);
+    return d2 <= tangent2 ? on_ball : on_cone;
+  }
+};
+
+struct RingProfile {
+  // Flatter slopes are solved as if they were this steep: it leaves less than a tenth of a micrometre for a radius of
+  // 10 mm, and floats can tell the numbers apart.
+  static constexpr float flattest = 0.01F;
+
+  float corner;
+  float corner2;
+  float inner;  // the ring's radius: from the axis to the middle of the corner
+  float slope2;
+  float pull;  // corner * slope
+  float edge;
+
+  RingProfile(float corner_radius, float rim, float slope)
+      : corner(corner_radius),
+        corner2(corner_radius * corner_radius),
+        inner(rim - corner_radius),
+        slope2(std::max(slope, flattest) * std::max(slope, flattest)),
+        pull(corner_radius * std::max(slope, flattest)),
+        edge(slope > 0 ? 1.0F : 0.0F) {}
+
+  // The contact is at the angle t from the way, where |v| = f(sin t), f(x) = x (inner + pull / sqrt(slope² + 1 - x²)).
+  float reach(float v2) const {
+    const float v = std::sqrt(v2);
+    const float most = slope2 + 1;
+    float x = std::min(1.0F, v / (inner + pull / std::sqrt(most)));
+    for (int i = 0; i < 6; ++i) {
+      const float inverse = 1 / std::sqrt(most - x * x);
+      const float out = pull * inverse;
+      const float too_far = x * (inner + out) - v;
+      x = above_zero(x - too_far / (inner + out * most * inverse * inverse));
+    }
+    const float cosine2 = above_zero(1 - x * x);
+    return edge * (inner + pull / std::sqrt(slope2 + cosine2)) * std::sqrt(cosine2);
+  }
+  float height(float d2) const {
+    const float out = above_zero(std::sqrt(d2) - inner);
+    return corner - std::sqrt(above_zero(corner2 - out * out));
+  }
+};
+
+// Calls `use` with the profile of the tool. `slope`: how far the way goes down for each millimetre of its length in X
+// Y.
+template <class Use>
+void with_profile(const ToolShape& tool, float slope, Use&& use) {
+  const auto number = [](Mm length) { return static_cast<float>(length.value()); };
+  const float rim = number(tool.radius);
+  const auto rise = static_cast<float>(tool.steepness());
+  switch (tool.kind) {
+    case ToolShape::Kind::flat: return use(FlatProfile(rim, slope));
+    case ToolShape::Kind::ball: return use(BallProfile(rim, slope));
+    case ToolShape::Kind::v: return use(ConeProfile(number(tool.tip_radius), rim, rise, slope));
+    case ToolShape::Kind::bull_nose: return use(RingProfile(number(tool.tip_radius), rim, slope));
+    case ToolShape::Kind::tapered_ball:
+      return use(TaperedProfile(number(tool.tip_radius), number(tool.tangent_radius()), rim, rise, slope));
+  }
+}
+
+}  // namespace passo

@@ -1,0 +1,44 @@
+// TileSweep: one straight sweep of a tool over one tile of a field. Private to stock/.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+
+#include "passo/geometry/tool_shape.hpp"
+#include "passo/geometry/vector3.hpp"
+#include "passo/stock/height_field.hpp"
+
+namespace passo {
+
+// A straight way of a tool's tip, its ends ordered by height.
+struct Sweep {
+  Vector3 high;
+  Vector3 low;
+};
+Sweep sweep_between(const Vector3& a, const Vector3& b);
+
+inline constexpr std::size_t tile_size = 64;  // cells along each side
+
+struct Tile {
+  std::size_t column = 0;
+  std::size_t row = 0;
+  std::size_t columns = 0;  // at most tile_size
+  std::size_t rows = 0;
+};
+
+// What one sweep did in one tile.
+struct TileCut {
+  double drop = 0;  // the sum over all cells, mm
+  std::uint32_t cells = 0;
+  float deepest = 0;
+  std::uint32_t column = 0;  // where, of the field
+  std::uint32_t row = 0;
+  float before = 0;  // the height there before, from the stock's top
+};
+
+// Cuts the field. `rim`: the radius within which the tool takes material, its own or a little less.
+TileCut cut_tile(HeightField& field, const Tile& tile, const Sweep& sweep, const ToolShape& tool, double rim);
+// How deep the tool would be in the field; the field stays as it is.
+TileCut probe_tile(const HeightField& field, const Tile& tile, const Sweep& sweep, const ToolShape& tool, double rim);
+
+}  // namespace passo

@@ -1,0 +1,78 @@
+// passo cam relief, as a user starts it: from a picture to a program that a machine can run.
+#include "kit/command_line.hpp"
+#include <gmock/gmock.h>
+
+namespace {
+
+using passo::test::Outcome;
+using passo::test::read;
+using testing::HasSubstr;
+
+const std::string source = PASSO_SOURCE_DIR;
+const std::string flower = source + "/examples/reliefs/flower.png";
+
+class CamRelief : public passo::test::CommandLine {
+ protected:
+  Outcome relief(const std::string& arguments) const { return passo("cam relief " + arguments); }
+};
+
+TEST_F(CamRelief, three_cutters_carve_a_picture_and_a_machine_can_run_it) {
+  const Outcome made =
+      relief(flower +
+             " --width 20 --depth 3 --rough flat:4 --cutter ball:2 --rest ball:0.8 --scallop 0.2 --origin "
+             "center --spindle 12000 -o " +
+             path("f.ngc") + " -p " + path("f.png"));
+  EXPECT_EQ(made.code, 0) << made.err;
+  EXPECT_EQ(made.err, "");
+  EXPECT_THAT(made.out, HasSubstr("240 x 240 pixels, 16 bit grey, luminance\n20 x 20 mm, "));
+  EXPECT_THAT(made.out, HasSubstr("rest finishing: ball nose, 0.8 mm; rows "));
+  const std::string program = read(path("f.ngc"));
+  EXPECT_THAT(program, HasSubstr("(from flower.png: 240 x 240 pixels, 16 bit grey, luminance)"));
+  EXPECT_THAT(program, HasSubstr("(MSG, tool 3: ball nose, 0.8 mm)\nT3 M6\n"));
+  EXPECT_GT(std::filesystem::file_size(path("f.png")), 10'000U);
+  const Outcome checked = passo("check " + path("f.ngc") + " -m " + source + "/examples/machines/router.toml");
+  EXPECT_EQ(checked.code, 0) << checked.err;
+  EXPECT_THAT(checked.out, HasSubstr("no errors"));
+}
+
+TEST_F(CamRelief, without_output_the_program_goes_to_standard_output_and_is_always_the_same) {
+  const Outcome made = relief(flower + " --width 10 --way both --cutter vee:60:3:0.2 --step 1");
+  EXPECT_EQ(made.code, 0) << made.err;
+  EXPECT_THAT(made.out, HasSubstr("(finishing: V of 60 degrees, 3 mm, tip 0.2 mm)"));
+  EXPECT_THAT(made.out, HasSubstr("\nM2\n"));
+  EXPECT_EQ(relief(flower + " --width 10 --way both --cutter vee:60:3:0.2 --step 1").out, made.out);
+}
+
+TEST_F(CamRelief, a_height_map_is_carved_too) {
+  std::string map;
+  for (int y = 0; y < 3; ++y) {
+    for (int x = 0; x < 4; ++x)
+      map += std::to_string(x * 10) + "," + std::to_string(y * 10) + "," + std::to_string(x) + "\n";
+  }
+  const Outcome made = relief(write("map.csv", map) + " --cutter ball:6 --way spiral --pitch 1 -o " + path("m.ngc"));
+  EXPECT_EQ(made.code, 0) << made.err;
+  EXPECT_THAT(made.out, HasSubstr("12 triangles, seen from above\n30 x 20 mm, 3 mm deep; 31 x 21 nodes, 1 mm apart\n"));
+}
+
+TEST_F(CamRelief, what_is_wrong_is_told_and_nothing_is_written) {
+  const std::string out = " -o " + path("r.ngc");
+  const auto refused = [&](const std::string& arguments, const std::string& words) {
+    const Outcome outcome = relief(arguments + out);
+    EXPECT_EQ(outcome.code, 2) << arguments;
+    EXPECT_THAT(outcome.err, HasSubstr(words)) << arguments;
+  };
+  refused(path("none.png"), "[picture.unreadable]");
+  refused(write("cut.png", read(flower).substr(0, 20'000)), "the picture is not read: the file ends too early");
+  refused(write("noise.png", std::string("\x7f\0\1", 3)), "[surface.unknown-kind]");
+  refused(flower + " --channel alpha", "it has no alpha channel");
+  refused(flower + " --cutter ball", "--cutter: 'ball': expected ball:DIAMETER");
+  refused(flower + " --rest drill:1", "--rest: 'drill:1' is no cutter");
+  refused(flower + " --depth 300", "--depth: expected 0.001 to 250 mm, found '300'");
+  refused(flower + " --pitch 0.001", "[relief.too-many-nodes]");
+  refused(flower + " --origin top", "--origin: expected lower-left");
+  refused(flower + " -p view.svg", "should end in .png");
+  EXPECT_EQ(relief(flower + " -o " + flower).code, 2) << "the picture itself would be overwritten";
+  EXPECT_FALSE(std::filesystem::exists(path("r.ngc")));
+}
+
+}  // namespace
