@@ -1,23 +1,25 @@
 import { existsSync, readFileSync } from 'node:fs';
+import { readdir, readFile, writeFile } from 'node:fs/promises';
+import { join } from 'node:path';
 import { brotliCompressSync, constants, gzipSync } from 'node:zlib';
 import type { Plugin } from 'vite';
 import { defineConfig } from 'vitest/config';
 
 const worthCompressing = /\.(html|js|css|svg|json|wasm)$/;
 
-// Puts a .br and a .gz beside each file, so that the server never compresses.
+// Puts a .br and a .gz beside each file, so that the server never compresses. Other plugins still change the files while
+// the bundle is generated, so this is done when all are written.
 function precompressed(): Plugin {
   return {
     name: 'precompressed',
     apply: 'build',
-    enforce: 'post',
-    generateBundle(_, bundle) {
-      for (const [name, part] of Object.entries(bundle)) {
+    async writeBundle({ dir = '.' }) {
+      const params = { [constants.BROTLI_PARAM_QUALITY]: constants.BROTLI_MAX_QUALITY };
+      for (const name of await readdir(dir, { recursive: true })) {
         if (!worthCompressing.test(name)) continue;
-        const bytes = Buffer.from(part.type === 'chunk' ? part.code : part.source);
-        const params = { [constants.BROTLI_PARAM_QUALITY]: constants.BROTLI_MAX_QUALITY };
-        this.emitFile({ type: 'asset', fileName: `${name}.br`, source: brotliCompressSync(bytes, { params }) });
-        this.emitFile({ type: 'asset', fileName: `${name}.gz`, source: gzipSync(bytes, { level: 9 }) });
+        const bytes = await readFile(join(dir, name));
+        await writeFile(join(dir, `${name}.br`), brotliCompressSync(bytes, { params }));
+        await writeFile(join(dir, `${name}.gz`), gzipSync(bytes, { level: 9 }));
       }
     },
   };

@@ -34,11 +34,13 @@ test_packages=(
   git ccache                 # checks of the tracked files; builds again in seconds
   gerbv                      # draws circuit boards beside passo's reader
   jq                         # the table of scripts/motion_table.sh
+  chromium                   # the stories of the page of passo serve
 )
 
-# The Pico's emulator, rp2040js, runs on node, 18 or later. A node from elsewhere brings its own npm.
-command -v node >/dev/null || test_packages+=(nodejs)
-command -v npm >/dev/null || test_packages+=(npm)
+# The page of passo serve is built with node, 18 or later, and the Pico's emulator, rp2040js, runs on it. A node from
+# elsewhere brings its own npm.
+command -v node >/dev/null || build_packages+=(nodejs)
+command -v npm >/dev/null || build_packages+=(npm)
 pico_emulator=$(dirname "${BASH_SOURCE[0]}")/../src/emulator/pico
 fetch_pico_emulator() {
   [[ ${1-} != --build ]] || return 0

@@ -1,30 +1,32 @@
 #!/usr/bin/env bash
-# scripts/page.sh [--test]: builds the page that `passo serve` shows, into build/page.
+# scripts/page.sh [--test|--stories]: builds the page that `passo serve` shows, into build/page.
 #
-#   --test    also runs the tests of the page's parts
+#   --test      then runs the tests of the page's parts
+#   --stories   then runs whole stories: Chromium against build/release/passo (or $PASSO_PROGRAM) and its virtual machine
 #
-# It fetches what page/package-lock.json names, once. Needs node 18 or later with npm; without them it says so, and ends
-# well: all but the page works.
+# It fetches what page/package-lock.json names, once. It needs node 18 or later with npm. Where something is missing, it
+# says what: alone it ends well, because all but the page works; with an option it ends with 77, "skipped".
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/../page"
 
 case "${1-}" in
-  "" | --test) ;;
+  "" | --test | --stories) ;;
   *)
-    sed -n '2,7s/^# \{0,1\}//p' "../scripts/page.sh"
+    sed -n '2,8s/^# \{0,1\}//p' "../scripts/page.sh"
     exit 2
     ;;
 esac
-if ! command -v node >/dev/null || ! command -v npm >/dev/null; then
-  echo "The page is not built: there is no node or no npm. passo serve works without it." >&2
+lacking() {
+  echo "$1 passo serve works without the page." >&2
+  [[ -n ${2-} ]] && exit 77
   exit 0
+}
+if ! command -v node >/dev/null || ! command -v npm >/dev/null; then
+  lacking "The page is not built: there is no node or no npm." "${1-}"
 fi
 if ! cmp --silent package-lock.json node_modules/.passo-lock; then
   echo "+ npm ci in page"
-  if ! npm ci --ignore-scripts --no-audit --no-fund --silent; then
-    echo "The page is not built: its parts could not be fetched. passo serve works without it." >&2
-    exit 0
-  fi
+  npm ci --ignore-scripts --no-audit --no-fund --silent || lacking "The page is not built: its parts could not be fetched." "${1-}"
   cp package-lock.json node_modules/.passo-lock
 fi
 # The lab's module is made of the program's sources, where CMake was set up and finds what it needs.
@@ -34,8 +36,14 @@ fi
 # What has not changed is not built again.
 newest=$(find . ../build/release/src/lab/lab.wasm -path ./node_modules -prune -o -type f -newer ../build/page/index.html -print 2>/dev/null | head -1 || true)
 if [[ ! -e ../build/page/index.html || -n $newest ]]; then
-  # A wrong type is an error; the lines of the build itself interest nobody.
   npm run --silent build -- --logLevel warn
+  touch ../build/page/index.html
   echo "The page is in build/page."
 fi
-[[ ${1-} != --test ]] || npm run --silent test
+case "${1-}" in
+  --test) npm run --silent test ;;
+  --stories)
+    [[ -x ${PASSO_CHROMIUM:-/usr/bin/chromium} ]] || lacking "There is no Chromium: apt-get install chromium." --stories
+    npm run --silent stories
+    ;;
+esac

@@ -11,6 +11,7 @@ tests_off=(-DPASSO_BUILD_TESTS=OFF -DPASSO_BUILD_BENCHMARKS=OFF)
 [[ -f build/release/CMakeCache.txt ]] && tests_off=()
 cmake --preset release "${tests_off[@]}"
 cmake --build build/release --target passo emulated_boards --parallel "$(nproc)"
+scripts/page.sh
 
 mkdir -p out
 first_job=(build/release/passo run --yes examples/engrave.ngc
@@ -23,4 +24,5 @@ echo "+ ${first_job[*]}"
 echo
 echo "Picture: $PWD/out/engrave.png"
 echo "Report:  $PWD/out/report.json"
+echo "In a browser, at http://127.0.0.1:7080: build/release/passo serve"
 echo "The same on an emulated Uno: build/release/passo run --yes examples/engrave.ngc -m examples/machines/uno.toml --board sim:uno"

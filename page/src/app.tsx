@@ -42,7 +42,8 @@ function Shown() {
   const title = say(page.title);
   document.title = `${title} · Passo`;
   return (
-    <main id="content" class={`content page-${page.path}`} tabIndex={-1} aria-label={title}>
+    <main id="content" class={`content page-${page.path}`} tabIndex={-1}>
+      <h1 class="unseen">{title}</h1>
       {loaded?.path === page.path ? <loaded.Content /> : <p class="dim">{say('frame.loading')}</p>}
     </main>
   );

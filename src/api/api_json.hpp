@@ -16,13 +16,32 @@ WebAnswer json_answer(unsigned status, const Json& json);
 // {"error": {"code": …, "message": …}}
 WebAnswer error_answer(unsigned status, std::string_view code, std::string_view message);
 
+// The refusals of more than one file.
+WebAnswer no_history();
+WebAnswer no_line();
+WebAnswer no_room();
+
 Json as_json(const MachineDescription& machine, const Point& place);
 Json as_json(const MachineDescription& machine, const MachineStatus& status);
 Json as_json(const MotionOwner& owner);
 Json as_json(const ApiJob& job);
 Json as_json(const StoredProgram& program, bool with_findings);
 Json as_json(const HistoryJob& job);
+// What viewers ask of a program.
+WebAnswer path_answer(const StoredProgram& program, std::string_view query);
+WebAnswer text_answer(const StoredProgram& program, std::string_view query);
+
+// {"place": {…}}: some of the axes, the others as in `start`. Empty, with the reason: the body is none.
+std::optional<Point> read_place(const Json& body, const MachineDescription& machine, const Point& start,
+                                std::string& reason);
+
+using WayBack = Result<Reentry, ReentryProblem>;
+Json as_json(const MachineDescription& machine, const WayBack& way);
+Json as_json(const MachineDescription& machine, const InterruptedJob& job, const WayBack& way);
 Json machine_json(const MachineDescription& machine, std::string_view version);
+
+// A line of a program, from 1. Empty: it is none.
+std::optional<std::uint32_t> line_from(std::string_view text);
 
 // The session's request in the body of a POST. Empty, with the reason: the body is none.
 std::optional<Request> read_request(std::string_view path, const Json& body, const MachineDescription& machine,

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <charconv>
+#include <cmath>
 #include <utility>
 
 #include "api_json.hpp"
@@ -15,8 +16,10 @@ constexpr std::size_t longest_name = 200;
 constexpr std::string_view programs_path = "/api/v1/programs";
 constexpr std::string_view queue_path = "/api/v1/queue";
 constexpr std::string_view history_path = "/api/v1/history";
+constexpr std::string_view interrupted_path = "/api/v1/interrupted";
 constexpr std::string_view alarms_path = "/api/v1/alarms";
 constexpr std::int64_t shown_of_history = 100;
+constexpr double farthest_zero = 1e6;  // mm or degrees from the tool
 
 unsigned status_of(RefusalCode code) {
   return code == RefusalCode::bad_value ? 400 : 409;
@@ -40,22 +43,6 @@ std::optional<Dialect> dialect_from(std::string_view query) {
   return {};
 }
 
-WebAnswer no_history() {
-  return error_answer(404, "data.none", "passo serve keeps nothing: start it with --data DIR");
-}
-
-WebAnswer no_room() {
-  return error_answer(507, "programs.no-room", "there are too many programs: delete some first");
-}
-
-HistoryState history_state_of(JobState state) {
-  switch (state) {
-    case JobState::done: return HistoryState::done;
-    case JobState::failed: return HistoryState::failed;
-    default: return HistoryState::stopped;
-  }
-}
-
 }  // namespace
 
 std::string_view name_of(JobState state) {
@@ -66,13 +53,21 @@ std::string_view name_of(JobState state) {
     case JobState::done: return "done";
     case JobState::stopped: return "stopped";
     case JobState::failed: return "failed";
+    case JobState::interrupted: return "interrupted";
   }
   return "";
 }
 
 MachineApi::MachineApi(const MachineDescription& machine, MachineSession& session, MotionOwner& owner,
                        ApiOptions options)
-    : machine_(machine), session_(session), owner_(owner), options_(std::move(options)) {}
+    : machine_(machine), session_(session), owner_(owner), options_(std::move(options)) {
+  if (options_.keeper == nullptr || options_.history == nullptr) return;
+  kept_ = std::make_unique<KeptJob>(machine, session, *options_.keeper, *options_.history,
+                                    KeptJob::Names{.made_by = options_.version, .machine = options_.machine_file});
+  session.listen_before_hello(
+      [this](const BoardStatus& status, const Greeting& greeting) { kept_->hear(status, greeting); });
+  if (options_.broken_off) kept_->find(*options_.broken_off);
+}
 
 WebAnswer MachineApi::refusal(unsigned status) {
   switch (status) {
@@ -99,7 +94,7 @@ WebAnswer MachineApi::answer(const WebRequest& request) {
   if (found.route == nullptr) {
     if (found.knows_path) return refusal(405);
     const bool looks = request.method == "GET" && options_.page;
-    if (const auto page = looks ? options_.page(request.path) : std::nullopt) return *page;
+    if (const auto page = looks ? options_.page(request) : std::nullopt) return *page;
     return refusal(404);
   }
   if (found.route->moves && !owner_.is_client(request.key)) {
@@ -128,6 +123,11 @@ std::string MachineApi::hear(std::string_view message) {
 WebAnswer MachineApi::look(const FoundRoute& found, const WebRequest& request) {
   const std::string_view path = found.route->path;
   if (path == queue_path || path == history_path || path == alarms_path) return look_at_history(found, request);
+  if (path == interrupted_path) {
+    if (options_.history == nullptr) return no_history();
+    const InterruptedJob* const job = kept_ ? kept_->interrupted() : nullptr;
+    return json_answer(200, {{"interrupted", job != nullptr ? as_json(machine_, *job, kept_->reentry()) : Json()}});
+  }
   if (path.ends_with("/status")) return {.body = status_text()};
   if (path.ends_with("/machine")) return json_answer(200, machine_json(machine_, options_.version));
   if (path.ends_with("/openapi.json")) return {.body = options_.openapi};
@@ -144,13 +144,21 @@ WebAnswer MachineApi::look(const FoundRoute& found, const WebRequest& request) {
     return json_answer(200, {{"programs", std::move(list)}});
   }
   const StoredProgram* const program = programs_.find(found.id);
-  return program == nullptr ? refusal(404) : json_answer(200, as_json(*program, true));
+  if (program == nullptr) return refusal(404);
+  if (path.ends_with("/path")) return path_answer(*program, request.query);
+  if (path.ends_with("/text")) return text_answer(*program, request.query);
+  if (path.ends_with("/way")) {
+    const auto line = line_from(query_value(request.query, "from_line"));
+    return line ? json_answer(200, as_json(machine_, way_to(*program, *line))) : no_line();
+  }
+  return json_answer(200, as_json(*program, true));
 }
 
 WebAnswer MachineApi::change(const FoundRoute& found, const WebRequest& request) {
   const std::string_view path = found.route->path;
   if (path.starts_with(programs_path)) return change_programs(found, request);
   if (path.starts_with(queue_path)) return change_queue(found, request);
+  if (path.starts_with(interrupted_path)) return change_interrupted(found);
   if (path == "/api/v1/owner") {
     if (request.method == "POST") return take_ownership(request);
     if (!owner_.is_client(request.key)) return error_answer(403, "owner.not-you", "somebody else owns the motion");
@@ -158,6 +166,7 @@ WebAnswer MachineApi::change(const FoundRoute& found, const WebRequest& request)
     return json_answer(200, as_json(owner_));
   }
   const Json body = request.body.empty() ? Json::object() : Json::parse(request.body, nullptr, false);
+  if (path == "/api/v1/work") return set_work_zero(request.body);
   std::string reason;
   auto wanted = read_request(path, body, machine_, reason);
   if (!wanted) return error_answer(400, "http.bad-body", reason);
@@ -168,6 +177,23 @@ WebAnswer MachineApi::change(const FoundRoute& found, const WebRequest& request)
     return json_answer(200, {{"ticket", 0}});
   }
   return ask(std::move(*wanted));
+}
+
+// The tool stands at this place of the work.
+WebAnswer MachineApi::set_work_zero(std::string_view body) {
+  const MachineStatus status = session_.status();
+  if (status.state != MachineState::idle || job_.state == JobState::checking) {
+    return error_answer(409, "machine.busy", fmt::format("the machine is not idle: {}", name_of(status.state)));
+  }
+  const Point& zero = programs_.work_zero();
+  std::string reason;
+  const auto place = read_place(Json::parse(body, nullptr, false), machine_, status.position.place - zero, reason);
+  if (!place) return error_answer(400, "http.bad-body", reason);
+  const auto is_far = [](double value) { return std::abs(value) > farthest_zero; };
+  if (std::ranges::any_of(place->values, is_far))
+    return error_answer(400, "http.bad-body", "the place is too far away");
+  programs_.set_work_zero(status.position.place - *place);
+  return json_answer(200, {{"work_offset", as_json(machine_, programs_.work_zero())}});
 }
 
 WebAnswer MachineApi::ask(Request wanted) {
@@ -224,7 +250,7 @@ WebAnswer MachineApi::change_programs(const FoundRoute& found, const WebRequest&
     return json_answer(200, Json::object());
   }
   if (is_checked_for_job) return error_answer(409, "machine.busy", "a job is about to begin");
-  if (found.route->path.ends_with("/run")) return begin_job(*program, 0);
+  if (found.route->path.ends_with("/run")) return run_program(*program, query_value(request.query, "from_line"));
   programs_.check(found.id, machine_, session_.status().position.place);
   return json_answer(202, as_json(*program, false));
 }
@@ -276,84 +302,24 @@ WebAnswer MachineApi::change_queue(const FoundRoute& found, const WebRequest& re
   return answer;
 }
 
-WebAnswer MachineApi::begin_job(const StoredProgram& program, std::int64_t history) {
-  if (session_.state() != MachineState::idle) {
-    return error_answer(409, "machine.busy", fmt::format("the machine is not idle: {}", name_of(session_.state())));
-  }
-  if (const auto refused = session_.closed_limit()) return error_answer(409, code_of(refused->code), refused->message);
-  if (options_.history != nullptr && history == 0) {
-    const char* const dialect = program.dialect == Dialect::grbl ? "grbl" : "linuxcnc";
-    history = options_.history->add(program.name, dialect, program.text, wall_time()).value_or(0);
-    if (history == 0) return no_room();
-  }
-  job_ = {.id = job_.id + 1,
-          .program = program.id,
-          .name = program.name,
-          .state = JobState::checking,
-          .why = {},
-          .history = history};
-  if (history != 0) options_.history->begin(history, wall_time());
-  job_owner_ = owner_.changes();
-  programs_.check(program.id, machine_, session_.status().position.place);
-  return json_answer(202, as_json(job_));
-}
-
-// The check is done, and the machine stands where the check began.
-void MachineApi::start_job() {
-  const StoredProgram& program = *programs_.find(job_.program);
-  if (owner_.changes() != job_owner_) return end_job(JobState::stopped, "the ownership of motion was passed on");
-  if (program.state != UploadState::good) return end_job(JobState::failed, "the program has errors: see its findings");
-  findings_.clear();
-  request::Start start{.program = ProgramReader::from_text(program.name, program.text),
-                       .options = programs_.options_of(program)};
-  start.nominal_time = program.check.nominal_time;
-  start.findings = &findings_;
-  const auto ticket = session_.request(std::move(start));
-  if (!ticket) return end_job(JobState::failed, ticket.error().message);
-  ticket_ = *ticket;
-  job_.state = JobState::running;
-}
-
-void MachineApi::end_job(JobState state, std::string why) {
-  job_.state = state;
-  job_.why = std::move(why);
-  ticket_.reset();
-  ++jobs_ended_;
-  if (job_.history != 0) options_.history->end(job_.history, history_state_of(state), job_.why, wall_time());
-}
-
 void MachineApi::note_alarm() {
   ++alarms_;
   if (options_.history != nullptr) options_.history->note_alarm(session_.status().trouble_words, wall_time());
-}
-
-void MachineApi::heed(const std::vector<MachineChange>& changes) {
-  for (const MachineChange& change : changes) {
-    if (change.kind == MachineChange::Kind::rested_by_tail) ++late_;
-    if (change.kind == MachineChange::Kind::state &&
-        (change.state == MachineState::alarm || change.state == MachineState::fault)) {
-      note_alarm();
-    }
-    if (change.kind != MachineChange::Kind::answered || !ticket_ || change.ticket != *ticket_) continue;
-    switch (change.outcome) {
-      case Outcome::done: end_job(JobState::done); break;
-      case Outcome::stopped: end_job(JobState::stopped); break;
-      case Outcome::failed: end_job(JobState::failed, change.fault ? change.fault->message : ""); break;
-    }
-  }
 }
 
 void MachineApi::turn() {
   const bool is_silent = session_.now() - owner_heard_ > silent_owner;
   if (owner_.kind() == MotionOwner::Kind::client && is_silent && !session_.busy()) owner_.give_back();
   programs_.turn();
-  if (job_.state == JobState::checking && !programs_.checks()) start_job();
+  if (kept_) kept_->look();
+  if (job_.state == JobState::checking && !programs_.checks()) begin_checked_job();
   // The disk may take its time while nothing moves.
   if (options_.history != nullptr && !session_.busy()) options_.history->keep();
 }
 
 std::string MachineApi::status_text() const {
   Json json = as_json(machine_, session_.status());
+  json["work_offset"] = as_json(machine_, programs_.work_zero());
   json["owner"] = as_json(owner_);
   json["job"] = as_json(job_);
   return json.dump() + "\n";

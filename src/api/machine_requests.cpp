@@ -91,6 +91,14 @@ request::Jog read_jog(Members& members, const MachineDescription& machine) {
 
 }  // namespace
 
+std::optional<Point> read_place(const Json& body, const MachineDescription& machine, const Point& start,
+                                std::string& reason) {
+  Members members(body, reason);
+  const Point place = members.place("place", machine, start);
+  members.end();
+  return members.good() ? std::optional<Point>(place) : std::nullopt;
+}
+
 std::optional<Request> read_request(std::string_view path, const Json& body, const MachineDescription& machine,
                                     std::string& reason) {
   Members members(body, reason);

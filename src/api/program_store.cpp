@@ -7,6 +7,11 @@ namespace passo {
 namespace {
 
 constexpr std::uint64_t items_a_turn = 500;
+constexpr std::uint64_t lines_a_mark = 256;
+
+// The numbered parameters of G54 in RS274/NGC.
+constexpr int selected_system = 5220;
+constexpr int first_offset = 5221;
 
 }  // namespace
 
@@ -20,6 +25,17 @@ std::string_view name_of(UploadState state) {
   return "";
 }
 
+std::string_view StoredProgram::lines_from(std::uint64_t from, std::uint64_t count) const {
+  const std::string_view all = text;
+  const std::uint64_t first = std::max<std::uint64_t>(from, 1) - 1;
+  if (first >= lines) return {};
+  std::size_t at = line_starts[static_cast<std::size_t>(first / lines_a_mark)];
+  for (std::uint64_t i = 0; i < first % lines_a_mark; ++i) at = all.find('\n', at) + 1;
+  std::size_t end = at;
+  for (std::uint64_t i = 0; i < count && end < all.size(); ++i) end = std::min(all.find('\n', end), all.size() - 1) + 1;
+  return all.substr(at, end - at);
+}
+
 const StoredProgram* ProgramStore::add(std::string name, Dialect dialect, std::string text) {
   if (programs_.size() >= most_programs || text.size() > longest_program || bytes_ + text.size() > most_bytes) {
     return nullptr;
@@ -30,8 +46,9 @@ const StoredProgram* ProgramStore::add(std::string name, Dialect dialect, std::s
   program.id = id;
   program.name = std::move(name);
   program.dialect = dialect;
-  program.lines = static_cast<std::uint64_t>(std::ranges::count(text, '\n'));
-  if (!text.empty() && text.back() != '\n') ++program.lines;
+  for (std::size_t at = 0; at < text.size(); at = std::min(text.find('\n', at), text.size() - 1) + 1) {
+    if (program.lines++ % lines_a_mark == 0) program.line_starts.push_back(at);
+  }
   program.text = std::move(text);
   return &program;
 }
@@ -53,6 +70,10 @@ bool ProgramStore::remove(std::uint64_t id) {
 InterpreterOptions ProgramStore::options_of(const StoredProgram& program) const {
   InterpreterOptions options;
   options.dialect = program.dialect;
+  options.parameters[selected_system] = 1;
+  for (std::size_t i = 0; i < axis_count; ++i) {
+    options.parameters[first_offset + static_cast<int>(i)] = work_zero_.values[i];
+  }
   return options;
 }
 
@@ -67,18 +88,46 @@ void ProgramStore::check(std::uint64_t id, const MachineDescription& machine, co
   }
   StoredProgram& program = found->second;
   program.findings.clear();
+  program.path_points = ProgramPath();
+  make_room_for_path(id);
   program.state = UploadState::checking;
   InterpreterOptions options = options_of(program);
   options.start = start;
   checked_ = id;
   checker_ = std::make_unique<ProgramChecker>(ProgramReader::from_text(program.name, program.text), machine, options,
                                               program.findings);
+  path_ = PathFingerprint();
+  checker_->watch([this, path = &program.path_points](const PathItem& item) {
+    path->add(item);
+    path_.add(item);
+  });
+}
+
+void ProgramStore::make_room_for_path(std::uint64_t id) {
+  std::size_t bytes = 0;
+  for (const auto& [other, program] : programs_) bytes += program.path_points.bytes();
+  for (auto& [other, program] : programs_) {
+    if (bytes + programs_.at(id).text.size() <= most_path_bytes / 2) return;
+    bytes -= program.path_points.bytes();
+    program.path_points = ProgramPath();
+  }
+}
+
+void ProgramStore::set_work_zero(const Point& zero) {
+  work_zero_ = zero;
+  checker_.reset();
+  for (auto& [id, program] : programs_) {
+    program.state = UploadState::unchecked;
+    program.path_points = ProgramPath();
+  }
 }
 
 void ProgramStore::turn() {
   if (!checker_ || !checker_->go_on(items_a_turn)) return;
   StoredProgram& program = programs_.at(checked_);
   program.check = checker_->result();
+  program.path_points.finish();
+  program.path = path_.value();
   program.state = program.check.good ? UploadState::good : UploadState::bad;
   checker_.reset();
 }

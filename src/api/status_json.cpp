@@ -111,6 +111,32 @@ Json as_json(const HistoryJob& job) {
           {"ended_at", job.ended_at}};
 }
 
+Json as_json(const MachineDescription& machine, const WayBack& way) {
+  return {{"line", way ? Json(way->at.line) : Json()},
+          {"place", way ? as_json(machine, way->at.point) : Json()},
+          {"steps", way ? Json(way->steps) : Json::array()},
+          {"code", way ? "" : way.error().code},
+          {"why", way ? "" : way.error().why}};
+}
+
+// The counts of the motors from machine zero, of the axes by name.
+Json as_json(const MachineDescription& machine, const InterruptedJob& job, const WayBack& way) {
+  Json steps = Json::object();
+  const ResumePoint* const point = job.point ? &*job.point : nullptr;
+  for (std::size_t m = 0; point != nullptr && m < machine.axes.size(); ++m) {
+    steps[axis_key(machine.axes[m].axis)] = point->steps[m];
+  }
+  return {{"job", as_json(job.job)},
+          {"noted_at", job.journal.noted_at},
+          {"line", point != nullptr ? Json(point->line) : Json()},
+          {"place", point != nullptr ? as_json(machine, point->point) : Json()},
+          {"steps", std::move(steps)},
+          {"goes_on", job.code.empty()},
+          {"code", job.code},
+          {"why", job.why},
+          {"reentry", as_json(machine, way)}};
+}
+
 Json as_json(const StoredProgram& program, bool with_findings) {
   Json json = {{"id", program.id},
                {"name", program.name},
@@ -141,6 +167,8 @@ Json machine_json(const MachineDescription& machine, std::string_view version) {
                     {"low", axis.travel_low},
                     {"high", axis.travel_high},
                     {"speed", axis.velocity.value() * a_minute},
+                    {"acceleration", axis.acceleration.value()},
+                    {"steps_per_unit", axis.steps_per_unit},
                     {"homes", axis.home.has_value()}});
   }
   return {{"name", machine.name}, {"version", version}, {"axes", std::move(axes)}};

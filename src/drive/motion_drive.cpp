@@ -68,7 +68,8 @@ BacklashAtRest MotionDrive::backlash_at_rest(const StepOptions& steps) const {
 std::unique_ptr<Feed> MotionDrive::make_feed(const DriveOptions& options, const StepOptions& steps) {
   if (options.begin_at) {
     path_.keep();
-    path_.begin_at(*options.begin_at);
+    path_.begin_at(*options.begin_at, options.lead_in);
+    if (!options.tails) path_.forget_passed();
   }
   if (!options.tails) {
     auto direct = std::make_unique<DirectFeed>(DirectFeed::Stages{.planner = planner_,

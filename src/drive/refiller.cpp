@@ -61,6 +61,7 @@ Refiller::Refiller(const Stages& stages, const StepOptions& steps, const TailOpt
       behind_(stages.link.executed()),
       places_(static_cast<std::size_t>(std::max(stages.link.places(), 0))),
       given_(stages.path.place()),
+      done_(given_),
       speed_(stages.planner, places_, worth_sending),
       waits_for_operator_(waits_for_operator) {
   stages.path.keep();
@@ -221,6 +222,7 @@ void Refiller::note_executed() {
   auto& under_way = refills_under_way_;
   for (; under_way.size() > 1 && later_by(executed, under_way[1].first) >= 0; under_way.pop_front()) {
     motion_played_.show(under_way.front().tail.from);
+    done_ = under_way.front().from;
   }
   if (under_way.empty()) return;
   if (later_by(executed, under_way.front().first) < 0) {
@@ -235,6 +237,7 @@ void Refiller::note_executed() {
   on_tail_ = later_by(executed, under_way.front().last_of_motion) > 0;
   if (executed != under_way.front().last) return;
   rested_ = std::move(under_way.front().rest);
+  done_ = rested_.place;
   motion_played_.show(under_way.front().tail.from);
   if (on_tail_) motion_played_.show_tail(under_way.front().tail.moves);
   under_way.pop_front();
@@ -391,7 +394,7 @@ void Refiller::send(std::size_t items) {
   if (rest_watcher_) {
     // The items come after the frame that replaces.
     const auto last = static_cast<ItemNumber>(stages_.link.sent() + 1 + items_.size());
-    rest_watcher_({.executed = last, .place = tail.rest.place});
+    rest_watcher_({.executed = last, .place = tail.rest.place, .done = done_});
   }
   refill.first = stages_.link.replace(behind_, items_);
   for (std::size_t i = 0; i < items; ++i) {
@@ -438,8 +441,9 @@ Action Refiller::take_action() {
 void Refiller::switch_outputs(const BoardOutputs& outputs) {
   assert(refills_under_way_.empty() && pulled_.empty());
   if (rest_watcher_)
-    rest_watcher_(
-        {.executed = static_cast<ItemNumber>(stages_.link.sent() + 1), .place = before_action_.value_or(given_)});
+    rest_watcher_({.executed = static_cast<ItemNumber>(stages_.link.sent() + 1),
+                   .place = before_action_.value_or(given_),
+                   .done = done_});
   switched_ = outputs;
   stages_.link.send(outputs);
 }

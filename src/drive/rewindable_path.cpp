@@ -1,16 +1,20 @@
 #include "passo/drive/rewindable_path.hpp"
 
 #include <cassert>
+#include <utility>
 
 namespace passo {
 
 bool RewindablePath::next(PathItem& item) {
   if (!keeps_) return path_.next(item);
-  if (next_ == first_ + kept_.size()) {
-    for (; left_out_ > 0; --left_out_) {
-      if (!pull(item)) return false;
-    }
+  for (; left_out_ > 0; --left_out_) {
     if (!pull(item)) return false;
+  }
+  if (next_ == first_ + kept_.size()) {
+    if (!pull(item)) return false;
+    auto* segment = std::get_if<Segment>(&item);
+    const Mm left_out = std::exchange(left_out_of_item_, Mm(0));
+    if (segment != nullptr && left_out > Mm(0)) segment->curve = segment->curve.part(left_out, segment->curve.length());
     kept_.push_back(item);
   } else {
     item = kept_[next_ - first_];
@@ -21,6 +25,7 @@ bool RewindablePath::next(PathItem& item) {
     if (begun) segment->curve = segment->curve.part(rewound_.s, segment->curve.length());
   }
   ++next_;
+  if (forgets_) forget_before(next_ - 1);
   return true;
 }
 
@@ -32,10 +37,14 @@ bool RewindablePath::pull(PathItem& item) {
   return true;
 }
 
-void RewindablePath::begin_at(const PathPlace& place) {
+void RewindablePath::begin_at(const PathPlace& place, std::vector<PathItem> lead_in) {
   assert(keeps_ && kept_.empty() && next_ == 0);
   left_out_ = first_ = next_ = place.item;
   rewound_ = place;
+  if (lead_in.empty()) return;
+  rewound_.s = Mm(0);
+  left_out_of_item_ = place.s;
+  for (PathItem& item : lead_in) kept_.push_back(std::move(item));
 }
 
 PathPlace RewindablePath::behind(const PathPlace& place, const MotionItem& motion) const {

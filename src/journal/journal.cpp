@@ -10,9 +10,10 @@
 namespace passo {
 namespace {
 
-constexpr std::string_view title = "passo journal 2\n";
-// "serial executed item s check\n"
-constexpr std::size_t line_size = 20 + 1 + 5 + 1 + 20 + 1 + 24 + 1 + record_check_size + 1;
+constexpr std::string_view title = "passo journal 3\n";
+// "serial executed item s item s check\n"
+constexpr std::size_t place_size = 20 + 1 + 24;
+constexpr std::size_t line_size = 20 + 1 + 5 + 1 + place_size + 1 + place_size + 1 + record_check_size + 1;
 
 std::string text_of(const char* key, const FileStamp& stamp) {
   return fmt::format("{} {} {:016x} {}\n", key, stamp.size, stamp.fingerprint, record_name(stamp.name));
@@ -76,8 +77,8 @@ std::optional<JournalHead> read_head(std::string_view text) {
 }
 
 std::string line_of(std::uint64_t serial, const BoardRest& rest) {
-  std::string line =
-      fmt::format("{:20} {:5} {:20} {:24} ", serial, rest.executed, rest.place.item, rest.place.s.value());
+  std::string line = fmt::format("{:20} {:5} {:20} {:24} {:20} {:24} ", serial, rest.executed, rest.place.item,
+                                 rest.place.s.value(), rest.done.item, rest.done.s.value());
   line += record_check(line);
   return line + '\n';
 }
@@ -96,6 +97,7 @@ std::optional<Noted> read_line(std::string_view line) {
   noted.serial = words.number<std::uint64_t>();
   noted.rest.executed = words.number<ItemNumber>();
   noted.rest.place = place(words);
+  noted.rest.done = place(words);
   return words.good() ? std::optional(noted) : std::nullopt;
 }
 
@@ -147,6 +149,16 @@ bool Journal::is_journal(std::string_view text) {
 // heard them, it was reset.
 SessionNumbers::Stage Journal::stage_of(const BoardStatus& status) const {
   return head_.numbers.stage_of(status, rests_.empty() && torn_ == 0);
+}
+
+// The motion that a line calls done may still lag by a segment. When the next line is noted, a refill later, it is
+// done.
+PathPlace Journal::done() const {
+  return rests_.size() < 2 ? head_.place : rests_[1].done;
+}
+
+PathPlace Journal::farthest() const {
+  return rests_.empty() ? head_.place : rests_.front().place;
 }
 
 std::optional<PathPlace> Journal::place_of(const BoardStatus& status) const {

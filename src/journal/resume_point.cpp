@@ -18,6 +18,7 @@ class Passed {
 
   void pass(const PathItem& item) {
     if (const auto* segment = std::get_if<Segment>(&item)) {
+      note_speed(*segment);
       point_.point = segment->curve.end();
       point_.downs = segment->downs;
       waits_ = false;
@@ -34,9 +35,21 @@ class Passed {
       point_.spindle_wait += action.dwell;
     }
     point_.outputs = action.outputs;
+    if (action.kind == Action::Kind::tool_change) point_.tool = action.tool;
   }
 
  private:
+  void note_speed(const Segment& segment) {
+    const Point start = segment.curve.start();
+    const Point end = segment.curve.end();
+    const bool is_across = start[Axis::x] != end[Axis::x] || start[Axis::y] != end[Axis::y];
+    if (!segment.rapid) {
+      point_.feed = segment.speed;
+    } else if (is_across && start[Axis::z] == end[Axis::z]) {
+      point_.clearance = start[Axis::z];
+    }
+  }
+
   ResumePoint& point_;
   bool waits_ = false;  // the spindle was switched, and nothing has moved since
 };

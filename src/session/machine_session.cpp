@@ -109,6 +109,7 @@ void MachineSession::go_online(Seconds most) {
     if (!board_.settled() || board_.error()) return;
     asks_place_ = false;
     find_place_again();
+    if (before_hello_) before_hello_(*board_.status(), options_.greeting);
     greet(options_.greeting);
   }
   if (!greeted_) greet(options_.greeting);

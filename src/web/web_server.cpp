@@ -203,12 +203,15 @@ class WebServer::Implementation::Connection : public std::enable_shared_from_thi
                           .path = std::string(target.substr(0, mark)),
                           .query = std::string(target.substr(std::min(mark + 1, target.size()))),
                           .key = std::string(view(header["X-Passo-Key"])),
+                          .encodings = std::string(view(header[http::field::accept_encoding])),
+                          .known = std::string(view(header[http::field::if_none_match])),
                           .body = {}};
     const WebCaller caller{.host = view(header[http::field::host]),
                            .origin = view(header[http::field::origin]),
                            .authorization = view(header[http::field::authorization]),
                            .query = request_.query};
-    if (const auto status = server_.access.refuse(caller)) return refuse(*status);
+    const auto status = server_.access.refuse(caller);
+    if (status && !(*status == 401 && server_.handler.is_public(request_))) return refuse(*status);
     if (websocket::is_upgrade(header)) return upgrade();
     const std::size_t longest = server_.handler.longest_body(request_);
     const auto length = parser_->content_length();
@@ -266,9 +269,12 @@ class WebServer::Implementation::Connection : public std::enable_shared_from_thi
     response_.version(11);
     response_.result(answer.status);
     response_.set(http::field::content_type, answer.type);
-    response_.set(http::field::cache_control, "no-store");
+    response_.set(http::field::cache_control, answer.cache.empty() ? "no-store" : answer.cache);
     response_.set("X-Content-Type-Options", "nosniff");
-    response_.set("Content-Security-Policy", "frame-ancestors 'none'");
+    response_.set("Content-Security-Policy", answer.policy.empty() ? "frame-ancestors 'none'" : answer.policy);
+    if (!answer.version.empty()) response_.set(http::field::etag, answer.version);
+    if (!answer.cache.empty()) response_.set(http::field::vary, "Accept-Encoding");
+    if (!answer.encoding.empty()) response_.set(http::field::content_encoding, answer.encoding);
     if (answer.status == 401) response_.set(http::field::www_authenticate, "Bearer");
     response_.body() = std::move(answer.body);
     response_.keep_alive(keeps_alive);

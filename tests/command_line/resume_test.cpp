@@ -287,6 +287,28 @@ TEST_F(Resumed, from_the_usual_place_of_journals_a_board) {
   EXPECT_EQ(nowhere.code, 4);
 }
 
+TEST_F(Resumed, or_from_a_line_whose_steps_are_shown_first) {
+  const auto alone = nlohmann::json::parse(passo("run " + program_ + " --json -m " + machine_).out)["steps"];
+  const std::string from_line = "run " + program_ + " --json -m " + machine_ + " --from-line ";
+  const Outcome outcome = passo(from_line + "5");
+  ASSERT_EQ(outcome.code, 0) << outcome.err;
+  for (const char* step :
+       {"1. up to Z", "2. spindle on, clockwise at 1000", "3. over to X9.000 Y0.000", "goes on at line 5"}) {
+    EXPECT_NE(outcome.err.find(step), std::string::npos) << step << outcome.err;
+  }
+  for (const char* axis : {"X", "Y", "Z"}) {
+    EXPECT_EQ(nlohmann::json::parse(outcome.out)["steps"][axis]["net"], alone[axis]["net"]) << axis;
+  }
+  const Outcome nowhere = passo(from_line + "77");
+  EXPECT_EQ(nowhere.code, 2);
+  EXPECT_NE(nowhere.err.find("[reentry.no-motion]"), std::string::npos) << nowhere.err;
+  const Outcome unasked = passo(command("--from-line 5"));
+  EXPECT_EQ(unasked.code, 2);
+  EXPECT_NE(unasked.err.find("[run.from-line-unasked]"), std::string::npos) << unasked.err;
+  EXPECT_EQ(passo(command("--from-line 5 --yes")).code, 0);
+  expect_counts_of_the_whole_program();
+}
+
 TEST_F(Resumed, only_over_a_line) {
   const Outcome alone = passo("run " + program_ + " -m " + machine_ + " --resume");
   EXPECT_EQ(alone.code, 2);

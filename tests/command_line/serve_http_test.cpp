@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "kit/command_line.hpp"
+#include "kit/served_board.hpp"
 #include <arpa/inet.h>
 #include <gmock/gmock.h>
 #include <netinet/in.h>
@@ -19,13 +19,13 @@ using passo::test::read;
 using testing::HasSubstr;
 using testing::Not;
 
-class ServeHttp : public passo::test::CommandLine {
+class ServeHttp : public passo::test::ServedBoard {
  protected:
   ~ServeHttp() override { end(); }
 
   void serve(const std::vector<std::string>& more = {}) {
-    const std::string said = path("said");
-    write("said", "");
+    const std::string said = path("http-said");
+    write("http-said", "");
     server_ = fork();
     if (server_ == 0) {
       if (std::freopen(said.c_str(), "w", stdout) == nullptr) _exit(1);
@@ -102,7 +102,7 @@ TEST_F(ServeHttp, runs_a_program_that_was_uploaded) {
   EXPECT_TRUE(until([&] { return json("GET", "/status")["job"]["state"] == "done"; })) << json("GET", "/status");
   EXPECT_EQ(json("GET", "/status")["place"]["x"], 1.0);
   EXPECT_THAT(ask("GET", "/api/v1/metrics"), HasSubstr("passo_jobs_ended_total 1\n"));
-  EXPECT_THAT(ask("GET", "/"), HasSubstr("404 Not Found"));
+  EXPECT_THAT(ask("GET", "/nothing"), HasSubstr("404 Not Found"));
 }
 
 TEST_F(ServeHttp, brakes_before_it_ends) {
@@ -133,6 +133,41 @@ TEST_F(ServeHttp, keeps_its_jobs_when_it_is_killed) {
   EXPECT_EQ(passo("serve --data " + path("data")).code, 2) << "without --http";
 }
 
+// kill -9 amid a move, twice; and a job that is told to end. The board counts as if nothing had been.
+TEST_F(ServeHttp, resumes_a_job_amid_a_move_after_it_was_killed) {
+  const std::string router = std::string(PASSO_SOURCE_DIR) + "/examples/machines/router.toml";
+  const std::string text =
+      "G21 G90 G64 P.02 F2400 M3 S1000\nG2 X6 Y0 I3 J0\nG3 X9 I1.5\nG1 X30 Y3\nX12 Z-1\nX2 Y2\nM2\n";
+  const std::string board = ServedBoard::serve("", router);
+  const std::vector<std::string> options = {"--data", path("data"), "-m", router, "--board", board};
+  const auto key = [&] { return "X-Passo-Key: " + json("POST", "/owner", "{}").value("key", "") + "\r\n"; };
+  const auto is_amid = [&](double x) { return until([&] { return json("GET", "/status")["place"]["x"] > x; }); };
+  serve(options);
+  json("POST", "/position", R"({"place": {"x": 0, "y": 0, "z": 0}})", key());
+  const auto id = json("POST", "/programs?name=part.ngc", text).value("id", 0);
+  json("POST", "/programs/" + std::to_string(id) + "/run", "", key());
+  EXPECT_TRUE(is_amid(3));
+  EXPECT_EQ(end(SIGKILL), -SIGKILL);
+  for (const int signal : {SIGKILL, SIGTERM}) {
+    serve(options);
+    const auto told = json("GET", "/interrupted")["interrupted"];
+    EXPECT_EQ(told["goes_on"], true) << told;
+    EXPECT_EQ(told["job"]["name"], "part.ngc");
+    EXPECT_EQ(json("POST", "/interrupted/resume", "", key())["state"], "checking");
+    EXPECT_TRUE(is_amid(signal == SIGKILL ? 10 : 20));
+    end(signal);
+  }
+  serve(options);
+  json("POST", "/interrupted/resume", "", key());
+  EXPECT_TRUE(until([&] { return json("GET", "/status")["job"]["state"] == "done"; })) << json("GET", "/status");
+  end();
+  const auto alone = nlohmann::json::parse(passo("run " + write("p.ngc", text) + " --json -m " + router).out)["steps"];
+  const auto counted = nlohmann::json::parse(passo("board info --json " + board).out)["status"]["positions"];
+  EXPECT_EQ(counted[0], alone["X"]["net"]);
+  EXPECT_EQ(counted[1], alone["Y"]["net"]);
+  EXPECT_EQ(counted[2], alone["Z"]["net"]);
+}
+
 TEST_F(ServeHttp, asks_for_the_token_and_for_its_own_name) {
   const std::string token = write("token", "0123456789abcdef\n");
   serve({"--http-token", token});
@@ -141,6 +176,69 @@ TEST_F(ServeHttp, asks_for_the_token_and_for_its_own_name) {
   EXPECT_THAT(ask("GET", "/api/v1/status?token=0123456789abcdef"), HasSubstr("200 OK"));
   EXPECT_THAT(ask("GET", "/api/v1/status?token=0123456789abcdef", "", "Origin: http://evil.example\r\n"),
               HasSubstr("403 Forbidden"));
+}
+
+// A browser loads the page before it knows a token; what the page asks of the API needs one.
+TEST_F(ServeHttp, gives_the_page_without_the_token) {
+  std::filesystem::create_directory(path("page"));
+  write("page/index.html", "the page");
+  serve({"--http-token", write("token", "0123456789abcdef\n"), "--page", path("page")});
+  EXPECT_THAT(ask("GET", "/"), HasSubstr("the page"));
+  EXPECT_THAT(ask("GET", "/", "", "Origin: http://evil.example\r\n"), HasSubstr("403 Forbidden"));
+  EXPECT_THAT(ask("GET", "/api/v1/status"), HasSubstr("401 Unauthorized"));
+  EXPECT_THAT(ask("POST", "/"), HasSubstr("401 Unauthorized"));
+}
+
+TEST_F(ServeHttp, gives_files_compressed_and_only_when_they_are_new) {
+  std::filesystem::create_directories(path("page/assets"));
+  write("page/index.html", "the page");
+  write("page/index.html.br", "in brotli");
+  write("page/index.html.gz", "in gzip");
+  write("page/assets/a.js", "the script");
+  serve({"--page", path("page")});
+  const std::string plain = ask("GET", "/");
+  EXPECT_THAT(plain, HasSubstr("the page"));
+  EXPECT_THAT(plain, HasSubstr("Cache-Control: no-cache\r\n"));
+  EXPECT_THAT(plain, HasSubstr("Content-Security-Policy: default-src 'none'; script-src 'self'"));
+  const std::string brotli = ask("GET", "/", "", "Accept-Encoding: gzip, deflate, br;q=0.9\r\n");
+  EXPECT_THAT(brotli, HasSubstr("in brotli"));
+  EXPECT_THAT(brotli, HasSubstr("Content-Encoding: br\r\n"));
+  EXPECT_THAT(brotli, HasSubstr("Content-Type: text/html"));
+  EXPECT_THAT(ask("GET", "/", "", "Accept-Encoding: gzip, br;q=0\r\n"), HasSubstr("in gzip"));
+  EXPECT_THAT(ask("GET", "/assets/a.js"), HasSubstr("immutable"));
+  const std::size_t at = plain.find("ETag: ") + 6;
+  const std::string known = "If-None-Match: " + plain.substr(at, plain.find('\r', at) - at) + "\r\n";
+  EXPECT_THAT(ask("GET", "/", "", known), HasSubstr("304 Not Modified"));
+  EXPECT_THAT(ask("GET", "/", "", known), Not(HasSubstr("the page")));
+  EXPECT_THAT(ask("GET", "/", "", "Accept-Encoding: br\r\n" + known), HasSubstr("200 OK")) << "other bytes";
+}
+
+TEST_F(ServeHttp, tells_the_path_and_the_text_of_a_program_from_the_works_zero) {
+  serve();
+  const std::string key = "X-Passo-Key: " + json("POST", "/owner", "{}").value("key", "") + "\r\n";
+  // The tool stands at X -5 of the work, so that the work's zero is at X 5 of the machine.
+  EXPECT_EQ(json("POST", "/work", R"({"place": {"x": -5}})", key)["work_offset"]["x"], 5.0);
+  EXPECT_EQ(json("GET", "/status")["work_offset"]["x"], 5.0);
+  EXPECT_EQ(json("GET", "/status")["work_offset"]["y"], 0.0);
+  const auto program = json("POST", "/programs?name=p.ngc", "G21 G90\nG0 X10\nG1 Y20 F3000\nM2\n");
+  const std::string id = "/programs/" + std::to_string(program.value("id", 0));
+  EXPECT_EQ(json("GET", id + "/path")["complete"], false);
+  json("POST", id + "/check");
+  EXPECT_TRUE(until([&] { return json("GET", id)["state"] == "good"; })) << json("GET", id);
+  const auto path = json("GET", id + "/path");
+  EXPECT_EQ(path["points"], 3);
+  EXPECT_EQ(path["chunks"], 1);
+  EXPECT_EQ(path["all"]["high"], (std::vector<double>{15, 20, 0}));
+  EXPECT_EQ(path["work"]["low"], (std::vector<double>{10, 0, 0}));
+  const std::string chunk = ask("GET", "/api/v1" + id + "/path?chunk=0");
+  EXPECT_THAT(chunk, HasSubstr("Content-Length: 76\r\n"));
+  EXPECT_THAT(chunk, HasSubstr("\r\n\r\nPASP"));
+  EXPECT_THAT(ask("GET", "/api/v1" + id + "/path?chunk=1"), HasSubstr("400 Bad Request"));
+  EXPECT_THAT(ask("GET", "/api/v1" + id + "/path?chunk=0&level=3"), HasSubstr("400 Bad Request"));
+  EXPECT_THAT(ask("GET", "/api/v1" + id + "/text?from=2&lines=2"), testing::EndsWith("\r\n\r\nG0 X10\nG1 Y20 F3000\n"));
+  // Another zero: the check counts no longer.
+  json("POST", "/work", R"({"place": {"x": 0}})", key);
+  EXPECT_EQ(json("GET", id)["state"], "unchecked");
 }
 
 TEST_F(ServeHttp, refuses_to_listen_for_all_without_a_token) {

@@ -13,12 +13,12 @@ let last = 0;
 
 export function notify(kind: Notice['kind'], words: string): void {
   const notice = { id: ++last, kind, words };
-  notices.value = [...notices.value.filter((one) => one.words !== words), notice].slice(-most);
+  notices.value = [...notices.peek().filter((one) => one.words !== words), notice].slice(-most);
   setTimeout(() => dismiss(notice.id), shownFor);
 }
 
 export function dismiss(id: number): void {
-  notices.value = notices.value.filter((one) => one.id !== id);
+  notices.value = notices.peek().filter((one) => one.id !== id);
 }
 
 // Does what a button asks, and tells why it was refused.

@@ -4,10 +4,7 @@ import { pages } from '../pages/pages';
 import { openDialog } from '../parts/view_dialog';
 import { asked } from './question';
 import { goTo } from './route';
-
-export function isTyping(target: EventTarget | null): boolean {
-  return target instanceof HTMLElement && target.closest('input:not([type=radio]), textarea, select, [contenteditable]') !== null;
-}
+import { isTyping } from './typing';
 
 function act(event: KeyboardEvent): void {
   if (event.ctrlKey || event.altKey || event.metaKey || event.repeat || isTyping(event.target)) return;

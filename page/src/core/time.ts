@@ -8,7 +8,7 @@ export function durationText(seconds: number): string {
 }
 
 export function clockText(at: Date, language: string): string {
-  return at.toLocaleTimeString(language, { hour: '2-digit', minute: '2-digit' });
+  return at.toLocaleTimeString(language, { hour: '2-digit', minute: '2-digit', hourCycle: 'h23' });
 }
 
 export function momentText(secondsSince1970: number, language: string): string {

@@ -42,6 +42,8 @@ export interface MachineAxis {
   low: number;
   high: number;
   speed: number;
+  acceleration?: number;
+  steps_per_unit?: number;
   homes: boolean;
 }
 export interface Machine {

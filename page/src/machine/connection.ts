@@ -10,6 +10,7 @@ export type Connection = 'connecting' | 'live' | 'lost' | 'token';
 
 const rate = 30; // messages a second, at most
 const silentFor = 1700; // ms
+const openWithin = 8000; // ms
 const lookEvery = 150; // ms
 const retryAfter = 700; // ms
 
@@ -64,12 +65,16 @@ function open(): void {
   };
 }
 
-// A refused token looks like any failure to a WebSocket, so a plain request asks why.
-async function lookWhy(): Promise<void> {
+// A browser makes a WebSocket wait longer and longer after each failure. So a plain request looks whether the server is
+// there. It also tells whether the token is refused, which looks like any failure to a WebSocket.
+async function retry(): Promise<void> {
+  if (closed || socket !== undefined) return;
   try {
     await get('/status');
+    open();
   } catch (error) {
     if (error instanceof Refused && error.status === 401) connection.value = 'token';
+    setTimeout(() => void retry(), retryAfter);
   }
 }
 
@@ -77,17 +82,16 @@ function lose(): void {
   const before = socket;
   socket = undefined;
   before?.close();
+  // First of all: whatever else fails, the page tries again.
+  setTimeout(() => void retry(), retryAfter);
   if (connection.value !== 'token') connection.value = 'lost';
-  if (closed) return;
-  void lookWhy();
-  setTimeout(() => {
-    if (!closed && socket === undefined) open();
-  }, retryAfter);
 }
 
 function look(): void {
-  const now = performance.now();
-  if (socket !== undefined && now - Math.max(heardAt.value, openedAt) > silentFor) lose();
+  if (socket === undefined) return;
+  const patience = socket.readyState === WebSocket.CONNECTING ? openWithin : silentFor;
+  const silence = performance.now() - Math.max(heardAt.value, openedAt);
+  if (silence > patience) lose();
 }
 
 export function connect(): () => void {

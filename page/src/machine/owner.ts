@@ -1,6 +1,6 @@
 // Who may move the machine: one client at a time. This page takes the ownership when its person first wants motion.
 import { computed } from '@preact/signals';
-import { post, remove } from './api';
+import { headers, post, remove } from './api';
 import { connection, status } from './connection';
 import { ownerKey, pageName } from './owner_key';
 
@@ -24,6 +24,15 @@ export async function beOwner(): Promise<void> {
 export async function giveUpOwnership(): Promise<void> {
   await remove('/owner');
   ownerKey.value = '';
+}
+
+// A page that goes gives back what nobody moves with. A job keeps its owner: another page takes over.
+export function giveBackAtTheEnd(): void {
+  addEventListener('pagehide', () => {
+    if (ownership.value !== 'mine' || status.value?.state !== 'Idle') return;
+    void fetch('api/v1/owner', { method: 'DELETE', headers: headers(), keepalive: true }).catch(() => undefined);
+    ownerKey.value = '';
+  });
 }
 
 export const mayMove = computed(() => connection.value === 'live' && ownership.value !== 'other');

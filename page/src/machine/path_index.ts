@@ -1,13 +1,22 @@
-// What the daemon knows of the shown program's path: its chunks and its box, in work coordinates.
+// What the daemon knows of the shown program's path: how many chunks, and its boxes.
 import { computed, signal } from '@preact/signals';
 
-export interface PathIndex {
-  program: number;
-  complete: boolean;
-  chunks: number;
-  points: number;
+export interface Box {
   low: [number, number, number];
   high: [number, number, number];
 }
+export interface PathIndex {
+  program: number;
+  complete: boolean;
+  cut_off: boolean;
+  points: number;
+  chunks: number;
+  levels: number;
+  all: Box | null; // machine coordinates
+  cuts: Box | null;
+  work: Box | null; // feeds, work coordinates
+}
 export const pathIndex = signal<PathIndex | null>(null);
-export const pathBox = computed(() => (pathIndex.value !== null && pathIndex.value.points > 0 ? pathIndex.value : null));
+export const pathBox = computed<Box | null>(() => pathIndex.value?.work ?? null);
+// How much of the path has come: 0 to 1.
+export const pathLoaded = signal(1);

@@ -1,5 +1,300 @@
-import { say } from '../core/language';
+// Files and jobs: programs with what their check has found, the queue, the history.
+import { signal } from '@preact/signals';
+import { useEffect, useRef } from 'preact/hooks';
+import { language, say } from '../core/language';
+import { attempt } from '../core/notices';
+import { confirm } from '../core/question';
+import { goTo } from '../core/route';
+import { durationText, momentText } from '../core/time';
+import { lengthText, lengthUnit } from '../core/units';
+import { whyNot } from '../machine/actions';
+import type { HistoryJob, Program } from '../machine/api';
+import { ask, post, remove, upload } from '../machine/api';
+import { isLive, status } from '../machine/connection';
+import { alarms, ended, keeps, queue, refreshHistory } from '../machine/history';
+import { beOwner } from '../machine/owner';
+import { pathIndex } from '../machine/path_index';
+import { checkProgram, chosen, consoleName, deleteProgram, programs, sending, sendProgram, shown, shownId } from '../machine/programs';
+import { isUnderWay } from '../machine/words';
+import { Button } from '../parts/button';
+import { Icon, type IconName } from '../parts/icon';
+import { picked } from '../scene/stage';
+
+const over = signal(false);
+const mostFindings = 100;
+
+async function take(files: FileList | null | undefined): Promise<void> {
+  for (const file of files ?? []) await attempt(() => sendProgram(file));
+}
+
+function DropZone() {
+  const input = useRef<HTMLInputElement>(null);
+  const why = isLive.value ? '' : say('why.lost');
+  return (
+    <div
+      class={`drop ${over.value ? 'over' : ''}`}
+      onDragOver={(event) => {
+        event.preventDefault();
+        over.value = true;
+      }}
+      onDragLeave={() => (over.value = false)}
+      onDrop={(event) => {
+        event.preventDefault();
+        over.value = false;
+        void take(event.dataTransfer?.files);
+      }}
+    >
+      <Icon name="upload" />
+      <span>{sending.value === null ? say('files.drop') : say('files.uploading', { name: sending.value })}</span>
+      <Button kind="accent" why={why} onClick={() => input.current?.click()}>
+        {say('files.choose')}
+      </Button>
+      <input
+        ref={input}
+        type="file"
+        hidden
+        multiple
+        aria-label={say('files.choose')}
+        onChange={(event) => {
+          const field = event.currentTarget;
+          void take(field.files).then(() => (field.value = ''));
+        }}
+      />
+    </div>
+  );
+}
+
+const warned = (program: Program): boolean => program.state === 'good' && (program.findings?.length ?? 0) > 0;
+const iconOf = (program: Program): IconName => {
+  if (program.state === 'bad') return 'bad';
+  if (program.state === 'good') return warned(program) ? 'warn' : 'calm';
+  return 'reset';
+};
+
+function ProgramRow({ program }: { program: Program }) {
+  const isShown = program.id === shownId.value;
+  return (
+    <li>
+      <button type="button" class="file-row" aria-pressed={isShown} onClick={() => (chosen.value = program.id)}>
+        <span class={`verdict ${program.state}`}>
+          <Icon name={iconOf(program)} />
+        </span>
+        <span class="file-name">{program.name}</span>
+        <span class="dim">{say(`files.state.${program.state}`)}</span>
+        <span class="dim">{program.state === 'good' ? durationText(program.seconds) : ''}</span>
+      </button>
+    </li>
+  );
+}
+
+function ShownProgram() {
+  const program = shown.value;
+  if (program === null) return null;
+  const index = pathIndex.value?.program === program.id ? pathIndex.value : null;
+  const runs = isUnderWay(status.value?.job ?? null) && status.value?.job?.program === program.id;
+  const whyDelete = runs ? say('why.state', { state: say(`state.${status.value?.state ?? 'Run'}`) }) : isLive.value ? '' : say('why.lost');
+  return (
+    <section class="panel" aria-label={program.name}>
+      <h2 class="title">{program.name}</h2>
+      <p class={`verdict big ${program.state}`} data-testid="verdict">
+        <Icon name={iconOf(program)} /> {say(warned(program) ? 'files.state.warned' : `files.state.${program.state}`)}
+      </p>
+      <dl class="figures">
+        <div>
+          <dt>{say('run.whole')}</dt>
+          <dd class="figure">{durationText(program.seconds)}</dd>
+        </div>
+        <div>
+          <dt>{say('run.program')}</dt>
+          <dd>
+            {say('files.lines', { lines: program.lines.toLocaleString(language.value) })},{' '}
+            {say('files.moves', { moves: program.moves.toLocaleString(language.value) })}
+          </dd>
+        </div>
+        {index?.work != null && (
+          <div>
+            <dt>{say('files.extents')}</dt>
+            <dd>
+              {(['X', 'Y', 'Z'] as const).map((axis, i) => (
+                <div key={axis}>
+                  {axis} {lengthText(index.work?.low[i] ?? 0, 2)} … {lengthText(index.work?.high[i] ?? 0, 2)} {lengthUnit()}
+                </div>
+              ))}
+            </dd>
+          </div>
+        )}
+      </dl>
+      <div class="row">
+        <Button kind="accent" icon="run" onClick={() => goTo('run')}>
+          {say('files.show')}
+        </Button>
+        <Button why={whyNot('Idle')} icon="reset" onClick={() => attempt(() => checkProgram(program.id))}>
+          {say('files.check')}
+        </Button>
+        {keeps.value === true && (
+          <Button icon="plus" why={isLive.value ? '' : say('why.lost')} onClick={() => attempt(() => enqueue(program))}>
+            {say('files.queue')}
+          </Button>
+        )}
+        <Button icon="trash" why={whyDelete} onClick={() => deleteAsked(program)}>
+          {say('files.delete')}
+        </Button>
+      </div>
+      <Findings program={program} />
+    </section>
+  );
+}
+
+function Findings({ program }: { program: Program }) {
+  const all = program.findings ?? [];
+  if (program.state !== 'good' && program.state !== 'bad') return null;
+  return (
+    <>
+      <h2 class="findings-title">{say('files.findings')}</h2>
+      {all.length === 0 && <p class="dim">{say('files.findings.none')}</p>}
+      <ul class="findings">
+        {all.slice(0, mostFindings).map((one) => (
+          <li key={`${one.line} ${one.code} ${one.column}`} class={one.severity}>
+            <button
+              type="button"
+              class="finding"
+              onClick={() => {
+                picked.value = one.line;
+                goTo('run');
+              }}
+            >
+              <Icon name={one.severity === 'error' ? 'bad' : 'warn'} />
+              <span>
+                <b>{say('run.line', { line: one.line })}</b> {one.message}.{' '}
+                {one.expected !== '' && <span class="dim">{say('files.expected', { expected: one.expected })}</span>}{' '}
+                <code class="dim">{one.code}</code>
+              </span>
+            </button>
+          </li>
+        ))}
+      </ul>
+    </>
+  );
+}
+
+async function deleteAsked(program: Program): Promise<void> {
+  const yes = await confirm({
+    title: say('files.delete.ask', { name: program.name }),
+    facts: [say('files.delete.facts')],
+    yes: say('files.delete'),
+    kind: 'stop',
+  });
+  if (!yes) return;
+  await attempt(async () => {
+    await beOwner();
+    await deleteProgram(program.id);
+  });
+}
+
+async function enqueue(program: Program): Promise<void> {
+  const lines = 2000;
+  const parts: string[] = [];
+  for (let from = 1; from <= program.lines; from += lines) {
+    parts.push(await (await ask('GET', `/programs/${program.id}/text?from=${from}&lines=${lines}`)).text());
+  }
+  await upload('/queue', program.name, new Blob(parts));
+  await refreshHistory();
+}
+
+async function runQueued(job: HistoryJob): Promise<void> {
+  await attempt(async () => {
+    await beOwner();
+    await post(`/queue/${job.id}/run`);
+    goTo('run');
+  });
+}
+
+function JobList({ jobs, none, queued }: { jobs: readonly HistoryJob[]; none: string; queued: boolean }) {
+  if (jobs.length === 0) return <p class="dim">{none}</p>;
+  return (
+    <ul class="jobs">
+      {jobs.map((job) => (
+        <li key={job.id}>
+          <Icon name={job.state === 'done' ? 'calm' : job.state === 'failed' || job.state === 'interrupted' ? 'bad' : 'hold'} />
+          <span class="file-name">{job.name}</span>
+          <span class="dim">
+            {say(`files.job.${job.state}`)}
+            {job.why === '' ? '' : `: ${job.why}`}
+          </span>
+          <span class="dim">{momentText(queued ? job.queued_at : job.ended_at, language.value)}</span>
+          {queued && (
+            <span class="row">
+              <Button icon="run" why={whyNot('Idle')} onClick={() => runQueued(job)}>
+                {say('files.run')}
+              </Button>
+              <Button
+                icon="trash"
+                label={`${say('files.delete')}: ${job.name}`}
+                why={isLive.value ? '' : say('why.lost')}
+                onClick={() =>
+                  attempt(async () => {
+                    await beOwner();
+                    await remove(`/queue/${job.id}`);
+                    await refreshHistory();
+                  })
+                }
+              />
+            </span>
+          )}
+        </li>
+      ))}
+    </ul>
+  );
+}
 
 export function FilesPage() {
-  return <h1>{say('page.files')}</h1>;
+  const job = status.value?.job;
+  useEffect(() => {
+    void refreshHistory();
+  }, [job?.id, job?.state, isLive.value]);
+  const all = programs.value.filter((one) => one.name !== consoleName).reverse();
+  return (
+    <div class="files">
+      <div class="files-side">
+        <DropZone />
+        <section class="panel" aria-label={say('files.programs')}>
+          <h2>{say('files.programs')}</h2>
+          {all.length === 0 && <p class="dim">{say('files.none')}</p>}
+          <ul class="file-list">
+            {all.map((program) => (
+              <ProgramRow key={program.id} program={program} />
+            ))}
+          </ul>
+        </section>
+        {keeps.value === false && <p class="dim">{say('files.history.off')}</p>}
+        {keeps.value === true && (
+          <>
+            <section class="panel" aria-label={say('files.queued')}>
+              <h2>{say('files.queued')}</h2>
+              <JobList jobs={queue.value} none={say('files.queued.none')} queued={true} />
+            </section>
+            <section class="panel" aria-label={say('files.history')}>
+              <h2>{say('files.history')}</h2>
+              <JobList jobs={ended.value} none={say('files.history.none')} queued={false} />
+            </section>
+            <section class="panel" aria-label={say('files.alarms')}>
+              <h2>{say('files.alarms')}</h2>
+              {alarms.value.length === 0 && <p class="dim">{say('files.alarms.none')}</p>}
+              <ul class="jobs">
+                {alarms.value.map((one) => (
+                  <li key={one.at}>
+                    <Icon name="bad" />
+                    <span>{one.words}</span>
+                    <span class="dim">{momentText(one.at, language.value)}</span>
+                  </li>
+                ))}
+              </ul>
+            </section>
+          </>
+        )}
+      </div>
+      <ShownProgram />
+    </div>
+  );
 }
+

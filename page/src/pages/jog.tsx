@@ -1,5 +1,229 @@
+// Set up: jog, work zero, homing.
+import type { ComponentChildren } from 'preact';
+import { useRef } from 'preact/hooks';
 import { say } from '../core/language';
+import { confirm } from '../core/question';
+import { fromMm, lengthText, lengthUnit, speedText, speedUnit, units } from '../core/units';
+import { moveAs, whyNot } from '../machine/actions';
+import { machine, status } from '../machine/connection';
+import { runLine } from '../machine/console';
+import { beginHold, canJog, endHold, jogShare, jogSpeed, jogStep, movesNow, windowHasFocus, type Direction } from '../machine/jog';
+import { axes, placeWords, workPlace } from '../machine/place';
+import { Button } from '../parts/button';
+import { Icon } from '../parts/icon';
+import { Position } from '../parts/position';
+import { Choice } from '../parts/view_dialog';
+
+const nameOf = (direction: Direction): string =>
+  Object.entries(direction)
+    .map(([axis, sign]) => `${axis.toUpperCase()}${sign > 0 ? '+' : '−'}`)
+    .join(' ');
+const keyOf = (direction: Direction): string =>
+  Object.entries(direction)
+    .map(([axis, sign]) => axis + (sign > 0 ? '+' : '-'))
+    .join(' ');
+
+// Moves while a finger or a mouse button holds it.
+function PadButton({ direction, turn, children }: { direction: Direction; turn?: number; children?: ComponentChildren }) {
+  const holds = useRef(false);
+  const name = nameOf(direction);
+  const why = whyNot('Idle', 'Jog');
+  const begin = (event: PointerEvent): void => {
+    if (event.button !== 0 || !canJog()) return;
+    (event.currentTarget as HTMLElement).setPointerCapture(event.pointerId);
+    holds.current = true;
+    beginHold(direction);
+  };
+  const end = (): void => {
+    if (!holds.current) return;
+    holds.current = false;
+    endHold();
+  };
+  return (
+    <button
+      type="button"
+      class={`pad-button ${Object.keys(direction).length > 1 ? 'diagonal' : ''}`}
+      data-moves={movesNow.value === keyOf(direction)}
+      data-axis={Object.keys(direction).join('')}
+      aria-label={say('jog.towards', { direction: name })}
+      aria-disabled={why !== ''}
+      title={why === '' ? undefined : why}
+      onPointerDown={begin}
+      onPointerUp={end}
+      onPointerCancel={end}
+      onLostPointerCapture={end}
+      onContextMenu={(event) => event.preventDefault()}
+    >
+      <span style={turn === undefined ? undefined : { transform: `rotate(${turn}deg)` }}>
+        <Icon name="up" />
+      </span>
+      {children}
+    </button>
+  );
+}
+
+function Pad() {
+  const others = axes.value.filter((axis) => !'xyz'.includes(axis));
+  return (
+    <div class="pad-area">
+      <div class="pad" role="group" aria-label="X Y">
+        <PadButton direction={{ x: -1, y: 1 }} turn={-45} />
+        <PadButton direction={{ y: 1 }}>Y+</PadButton>
+        <PadButton direction={{ x: 1, y: 1 }} turn={45} />
+        <PadButton direction={{ x: -1 }} turn={-90}>
+          X−
+        </PadButton>
+        <div class="pad-middle">
+          <b>{jogStep.value === 0 ? '∞' : lengthText(jogStep.value, units.value === 'inch' ? 4 : 2)}</b>
+          <span>{jogStep.value === 0 ? '' : lengthUnit()}</span>
+        </div>
+        <PadButton direction={{ x: 1 }} turn={90}>
+          X+
+        </PadButton>
+        <PadButton direction={{ x: -1, y: -1 }} turn={-135} />
+        <PadButton direction={{ y: -1 }} turn={180}>
+          Y−
+        </PadButton>
+        <PadButton direction={{ x: 1, y: -1 }} turn={135} />
+      </div>
+      {['z', ...others]
+        .filter((axis) => axes.value.includes(axis))
+        .map((axis) => (
+          <div class="pad-column" role="group" aria-label={axis.toUpperCase()} key={axis}>
+            <PadButton direction={{ [axis]: 1 } as Direction}>{axis.toUpperCase()}+</PadButton>
+            <PadButton direction={{ [axis]: -1 } as Direction} turn={180}>
+              {axis.toUpperCase()}−
+            </PadButton>
+          </div>
+        ))}
+    </div>
+  );
+}
+
+// In mm, whatever is shown.
+const stepsOf = { mm: [0.01, 0.1, 1, 10, 100], inch: [0.0254, 0.254, 2.54, 25.4, 127] } as const;
+
+function JogPanel() {
+  const speed = jogSpeed({ x: 1 });
+  const steps = stepsOf[units.value];
+  const known = jogStep.value === 0 || steps.some((one) => one === jogStep.value);
+  return (
+    <section class="panel jog" aria-label={say('jog.title')}>
+      <Pad />
+      <Choice
+        title={`${say('jog.step')} (${lengthUnit()})`}
+        value={known ? String(jogStep.value) : String(steps[2])}
+        all={[['0', say('jog.continuous')], ...steps.map((mm) => [String(mm), String(Number(fromMm(mm).toFixed(4)))] as const)]}
+        set={(to) => (jogStep.value = Number(to))}
+      />
+      <label class="jog-speed">
+        <span class="dim">{say('jog.speed')}</span>
+        <input
+          type="range"
+          min="0.01"
+          max="1"
+          step="0.01"
+          value={jogShare.value}
+          onInput={(event) => (jogShare.value = Number(event.currentTarget.value))}
+        />
+        <b class="figure">
+          {speedText(speed)} <span class="unit">{speedUnit()}</span>
+        </b>
+      </label>
+      <p class={`keys-state ${windowHasFocus.value ? 'on' : ''}`}>
+        <Icon name={windowHasFocus.value ? 'jog' : 'close'} />
+        <span>
+          <b>{say(windowHasFocus.value ? 'jog.keys.on' : 'jog.keys.off')}</b> <span class="dim">{say('jog.keys')}</span>
+        </span>
+      </p>
+    </section>
+  );
+}
+
+async function makeZero(which: readonly string[]): Promise<void> {
+  const yes = await confirm({
+    title: say('jog.zero.ask', { axes: which.map((axis) => axis.toUpperCase()).join(', ') }),
+    facts: [say('jog.zero.facts', { place: placeWords(Object.fromEntries(which.map((axis) => [axis, workPlace.value[axis] ?? 0]))) })],
+    yes: say('jog.zero'),
+    kind: 'plain',
+  });
+  if (yes) await moveAs('/work', { place: Object.fromEntries(which.map((axis) => [axis, 0])) });
+}
+
+const clearance = 5; // mm above the work's zero
+
+async function goToZero(): Promise<void> {
+  const place = workPlace.value;
+  const yes = await confirm({
+    title: say('jog.goto.ask'),
+    facts: [
+      say('jog.goto.facts', {
+        height: `Z ${lengthText(clearance)} ${lengthUnit()}`,
+        distance: `${lengthText(Math.hypot(place.x ?? 0, place.y ?? 0))} ${lengthUnit()}`,
+      }),
+    ],
+    yes: say('jog.goto'),
+    kind: 'go',
+  });
+  if (!yes) return;
+  const rise = (workPlace.value.z ?? clearance) < clearance ? `G0 Z${clearance}\n` : '';
+  await runLine(`G21 G90 G54\n${rise}G0 X0 Y0\nM2`);
+}
+
+async function home(): Promise<void> {
+  const all = machine.value?.axes.filter((one) => one.homes).map((one) => one.axis.toUpperCase()) ?? [];
+  const yes = await confirm({
+    title: say('jog.home.ask'),
+    facts: [say('jog.home.facts', { axes: all.join(', ') })],
+    yes: say('jog.home'),
+    kind: 'go',
+  });
+  if (yes) await moveAs('/home');
+}
+
+function SetUpPanel() {
+  const why = whyNot('Idle');
+  const canHome = machine.value?.axes.some((one) => one.homes) ?? false;
+  const hasXy = ['x', 'y'].every((axis) => axes.value.includes(axis));
+  const xyz = axes.value.filter((axis) => 'xyz'.includes(axis));
+  return (
+    <section class="panel set-up" aria-label={say('jog.zero')}>
+      <h2>{say('jog.zero')}</h2>
+      <div class="set-up-buttons">
+        {axes.value.map((axis) => (
+          <Button key={axis} why={why} onClick={() => makeZero([axis])}>
+            {say('jog.zero.axis', { axis: axis.toUpperCase() })}
+          </Button>
+        ))}
+        <Button icon="zero" why={why} onClick={() => makeZero(xyz)}>
+          {say('jog.zero.all')}
+        </Button>
+        {hasXy && (
+          <Button icon="zero" why={why} onClick={goToZero}>
+            {say('jog.goto')}
+          </Button>
+        )}
+        <Button
+          kind={status.value?.trust === 'homed' ? 'plain' : 'accent'}
+          icon="home"
+          why={canHome ? why : say('jog.home.none')}
+          onClick={home}
+        >
+          {say('jog.home')}
+        </Button>
+      </div>
+    </section>
+  );
+}
 
 export function JogPage() {
-  return <h1>{say('page.jog')}</h1>;
+  return (
+    <div class="jog-page">
+      <div class="jog-side">
+        <Position />
+        <SetUpPanel />
+      </div>
+      <JogPanel />
+    </div>
+  );
 }

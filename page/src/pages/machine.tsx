@@ -1,5 +1,73 @@
-import { say } from '../core/language';
+// The machine: what its file says, and its inputs now.
+import { say, type Key } from '../core/language';
+import { isRotary, lengthText, lengthUnit, placeText, speedText, speedUnit } from '../core/units';
+import type { MachineAxis } from '../machine/api';
+import { machine, status } from '../machine/connection';
+
+const columns: readonly [Key, (axis: MachineAxis) => string, (() => string)?][] = [
+  ['machine.from', (axis) => placeText(axis.axis, axis.low), lengthUnit],
+  ['machine.to', (axis) => placeText(axis.axis, axis.high), lengthUnit],
+  ['machine.travel', (axis) => placeText(axis.axis, axis.high - axis.low), lengthUnit],
+  ['machine.speed', (axis) => speedText(axis.speed), speedUnit],
+  ['machine.acceleration', (axis) => lengthText(axis.acceleration ?? 0, 1), () => `${lengthUnit()}/s²`],
+  ['machine.steps', (axis) => String(axis.steps_per_unit ?? ''), () => '1/mm'],
+  ['machine.step', (axis) => stepText(axis), () => 'µm'],
+  ['machine.homes', (axis) => say(axis.homes ? 'machine.homes.yes' : 'machine.homes.no')],
+];
+
+const stepText = (axis: MachineAxis): string =>
+  axis.steps_per_unit === undefined ? '' : (1000 / axis.steps_per_unit).toFixed(isRotary(axis.axis) ? 1 : 2);
 
 export function MachinePage() {
-  return <h1>{say('page.machine')}</h1>;
+  const known = machine.value;
+  if (known === null) return <p class="dim">{say('frame.loading')}</p>;
+  const inputs = status.value?.inputs;
+  return (
+    <div class="machine">
+      <section class="panel" aria-label={say('machine.title')}>
+        <h2 class="title">{known.name}</h2>
+        <p class="dim">{say('machine.version', { version: known.version })}</p>
+        <div class="wide-table" tabIndex={0} role="region" aria-label={known.name}>
+          <table>
+            <thead>
+              <tr>
+                <th scope="col">{say('machine.axis')}</th>
+                {known.axes.map((axis) => (
+                  <th scope="col" key={axis.axis} class="axis-head" data-axis={axis.axis}>
+                    {axis.axis.toUpperCase()}
+                  </th>
+                ))}
+                <td />
+              </tr>
+            </thead>
+            <tbody>
+              {columns.map(([title, text, unit]) => (
+                <tr key={title}>
+                  <th scope="row">{say(title)}</th>
+                  {known.axes.map((axis) => (
+                    <td key={axis.axis}>{text(axis)}</td>
+                  ))}
+                  <td class="unit">{unit?.() ?? ''}</td>
+                </tr>
+              ))}
+            </tbody>
+          </table>
+        </div>
+        <p class="dim">{say('machine.file')}</p>
+      </section>
+      {inputs !== undefined && (
+        <section class="panel" aria-label={say('machine.inputs')}>
+          <h2>{say('machine.inputs')}</h2>
+          <ul class="inputs">
+            {(['probe', 'door', 'hold'] as const).map((one) => (
+              <li key={one} class={inputs[one] ? 'closed' : ''}>
+                <i aria-hidden="true" />
+                {say(`machine.input.${one}`)} <b>{say(inputs[one] ? 'machine.closed' : 'machine.open')}</b>
+              </li>
+            ))}
+          </ul>
+        </section>
+      )}
+    </div>
+  );
 }

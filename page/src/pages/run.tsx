@@ -1,5 +1,20 @@
-import { say } from '../core/language';
+// Run: the position, the program on its way, and the scene.
+import { JobProgress } from '../parts/job_progress';
+import { Overrides } from '../parts/overrides';
+import { Position } from '../parts/position';
+import { ProgramView } from '../parts/program_view';
+import { SceneView } from '../scene/scene_view';
 
 export function RunPage() {
-  return <h1>{say('page.run')}</h1>;
+  return (
+    <div class="run">
+      <Position />
+      <JobProgress />
+      <Overrides />
+      <div class="panel scene-panel">
+        <SceneView />
+      </div>
+      <ProgramView />
+    </div>
+  );
 }

@@ -40,11 +40,11 @@ function SmallPosition() {
 
 export function ActionBar() {
   return (
-    <div class="actions" role="group" aria-label={say('page.run')}>
+    <section class="actions" aria-label={say('frame.actions')}>
       <SmallPosition />
       <GoButton />
       <Button class="act" kind="hold" icon="hold" why={whyNoHold.value} onClick={hold} children={say('do.hold')} />
       <Button class="act" kind="stop" icon="stop" why={whyNoStop.value} onClick={stop} children={say('do.stop')} />
-    </div>
+    </section>
   );
 }

@@ -107,6 +107,15 @@ FileStamp stamp_of(const std::string& path) {
   return stamp;
 }
 
+FileStamp stamp_of_text(const std::string& path, std::string_view text) {
+  std::error_code none;
+  Fingerprint fingerprint;
+  fingerprint.add(text);
+  return {.name = path.empty() ? path : fs::absolute(path, none).string(),
+          .size = text.size(),
+          .fingerprint = fingerprint.value()};
+}
+
 JournalFile::~JournalFile() {
   if (descriptor_ >= 0) close(descriptor_);
 }

@@ -21,6 +21,8 @@ std::optional<std::string> read_state_file(const std::string& path);
 int replace_state_file(const std::string& path, std::string_view text);
 // The stamp of a file as it is now. Standard input and pipes, which can be read only once, have a stamp without a name.
 FileStamp stamp_of(const std::string& path);
+// The stamp of a text that was read from the file `path`.
+FileStamp stamp_of_text(const std::string& path, std::string_view text);
 
 class JournalFile final : public JournalStore {
  public:

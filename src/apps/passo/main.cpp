@@ -145,7 +145,8 @@ CLI::App& add_serve(CLI::App& app, ServeArguments& arguments) {
   command.add_option("-m,--machine", arguments.machine, "machine file (TOML); without it an example");
   add_board(command, arguments.board);
   command.add_option("--grbl-tcp", arguments.grbl_tcp,
-                     "HOST:PORT for senders; without any line 127.0.0.1:7071. Port 0: any that is free");
+                     "HOST:PORT for senders; without any line 127.0.0.1:7071, and browsers at 127.0.0.1:7080. Port 0: "
+                     "any that is free");
   command.add_option("--grbl-pty", arguments.grbl_pty,
                      "LINK: a pseudo-terminal for senders that know serial ports alone");
   command.add_flag("--anybody-may-drive", arguments.anybody_may_drive,
@@ -155,7 +156,7 @@ CLI::App& add_serve(CLI::App& app, ServeArguments& arguments) {
                      "FILE with a token that HTTP then asks for; needed where other computers reach HOST");
   command.add_option("--http-name", arguments.http_names, "a NAME by which browsers know this server, as a proxy's");
   command.add_option("--data", arguments.data, "DIR for the queue of jobs, their history and alarms");
-  command.add_option("--page", arguments.page, "DIR with a web page to serve");
+  command.add_option("--page", arguments.page, "DIR with the page for browsers; without it the one beside the program");
   command.footer(
       "Examples:\n  passo serve                                    a virtual machine: try a sender on it\n"
       "  passo serve -m router.toml                     your machine file, still virtual\n"
@@ -206,6 +207,11 @@ int parse_and_run(int argc, char** argv) {
                        "over a line: the machine stands at machine zero, as you see to; else its place must be known");
   run_command.add_flag("--resume", run_arguments.resume,
                        "over a line: goes on where this program was broken off on that board");
+  run_command
+      .add_option("--from-line", run_arguments.from_line,
+                  "N: begins at the first motion of line N, with all that the lines before have set: up, spindle on, "
+                  "over, down; shows these steps and asks")
+      ->check(CLI::PositiveNumber);
   run_command.add_option("--journal", run_arguments.journal,
                          "FILE: where a run over a line notes what --resume needs; without it "
                          "$XDG_STATE_HOME/passo/BOARD.journal or ~/.local/state/passo/BOARD.journal");

@@ -149,11 +149,17 @@ Result<KnownPosition, PlaceDoubt> OpenedMachine::place() const {
 // stranger's.
 Greeting OpenedMachine::any_greeting() const {
   if (!place_file_) return {.session = has_board() || line_ ? std::uint16_t{1} : std::uint16_t{0}};
-  Greeting greeting{.number = static_cast<std::uint8_t>(any_number(1, 255))};
+  return {.session = new_session_number(), .number = static_cast<std::uint8_t>(any_number(1, 255))};
+}
+
+std::uint16_t OpenedMachine::new_session_number() const {
+  const auto& status = session_->board().status();
+  const std::uint16_t present = status ? status->session : before_.session;
+  std::uint16_t number = 0;
   do {
-    greeting.session = static_cast<std::uint16_t>(any_number(2, 65535));
-  } while (greeting.session == before_.session);
-  return greeting;
+    number = static_cast<std::uint16_t>(any_number(2, 65535));
+  } while (number == present);
+  return number;
 }
 
 // What a board has heard it never forgets as long as it has power. So the record is written before the board hears.
@@ -241,11 +247,15 @@ bool OpenedMachine::greet(const Greeting& greeting, int& code) {
   return false;
 }
 
-bool OpenedMachine::name_session(std::uint16_t number, int& code) {
+void OpenedMachine::begin_session(std::uint16_t number) {
   const BoardStatus& status = *session_->board().status();
   numbers_ = {.session_before = status.session, .executed_before = status.executed, .greeting = 0, .session = number};
   keep_place();
   session_->name_session(number);
+}
+
+bool OpenedMachine::name_session(std::uint16_t number, int& code) {
+  begin_session(number);
   if (await(session_->board(), [&] { return session_->board().ready(); })) return true;
   code = fail(exit_failed, "the board: it does not answer any more");
   return false;

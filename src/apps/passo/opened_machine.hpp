@@ -70,7 +70,11 @@ class OpenedMachine {
   // What went to the board from the hello on, without the questions before it.
   std::uint64_t frames_sent() const { return session_->board().frames_sent() - frames_asked_; }
   std::uint64_t bytes_sent() const { return session_->board().bytes_sent() - bytes_asked_; }
-  // Gives the board another session number, after the hello and at rest. False, with a message: it does not answer.
+  // A number for a session that is not the board's present one.
+  std::uint16_t new_session_number() const;
+  // Begins to give the board another session number, after the hello and at rest. board().ready() tells when it has it.
+  void begin_session(std::uint16_t number);
+  // The same, and waits. False, with a message: it does not answer.
   [[nodiscard]] bool name_session(std::uint16_t number, int& code);
   // Writes down what has become of the place, for the next command.
   void keep_place();

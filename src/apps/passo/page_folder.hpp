@@ -1,9 +1,9 @@
 // PageFolder: the files of a folder, for browsers. Nothing outside the folder is given, no hidden file, and no link.
+// Where FILE.br or FILE.gz lies beside FILE, a browser that knows this compression gets it.
 #pragma once
 
 #include <optional>
 #include <string>
-#include <string_view>
 
 #include "passo/web/web_server.hpp"
 
@@ -13,10 +13,13 @@ class PageFolder {
  public:
   explicit PageFolder(std::string folder) : folder_(std::move(folder)) {}
   // "/" is index.html. Empty: there is no such file.
-  std::optional<WebAnswer> file(std::string_view path) const;
+  std::optional<WebAnswer> answer(const WebRequest& request) const;
 
  private:
   std::string folder_;
 };
+
+// The page's folder beside the running program, as scripts/page.sh makes it. Empty: there is none.
+std::string usual_page_folder();
 
 }  // namespace passo

@@ -129,6 +129,7 @@ bool ResumableRun::begin(OpenedMachine& machine, const ProgramReader& program, c
     }
     head_ = head_of_beginning(std::move(head_), status, steps_at(subject.machine, session.status().position.place),
                               subject.machine.axes.size());
+    if (subject.way) head_.place = subject.way->at.place;
   }
   const Greeting greeting = machine.any_greeting();
   head_.numbers.session = greeting.session;
@@ -158,7 +159,7 @@ bool ResumableRun::stands_there(const BoardSession& board, int& code) const {
 }
 
 void ResumableRun::add_to(request::Start& start) {
-  start.from = point_;
+  if (point_) start.from = point_;
   start.watchers.rests = [this](const BoardRest& rest) { writer_.note(rest); };
 }
 

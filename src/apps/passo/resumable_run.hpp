@@ -12,6 +12,7 @@
 #include "opened_machine.hpp"
 
 #include "passo/activity/program.hpp"
+#include "passo/journal/reentry.hpp"
 #include "passo/journal/resumption.hpp"
 
 namespace passo {
@@ -24,7 +25,8 @@ class ResumableRun {
     const MachineDescription& machine;
     const InterpreterOptions& options;
     const ProgramCheck& check;
-    std::uint64_t path;  // the path's fingerprint
+    std::uint64_t path;                 // the path's fingerprint
+    const std::optional<Reentry>& way;  // to the line where the program is to begin
   };
   // Reads the journal, if there is one. With --resume there must be a journal of this program on this machine. If there
   // is none, or if another program writes the journal, shows a message, sets `code` and returns null. If no journal can

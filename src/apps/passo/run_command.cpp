@@ -8,6 +8,7 @@
 
 #include "commands.hpp"
 #include "disturb_option.hpp"
+#include "from_line.hpp"
 #include "homing_run.hpp"
 #include "line_cost.hpp"
 #include "line_watch.hpp"
@@ -19,6 +20,7 @@
 #include "program_messages.hpp"
 #include "progress_display.hpp"
 #include "resumable_run.hpp"
+#include "run_arguments.hpp"
 #include "run_outputs.hpp"
 #include "run_signals.hpp"
 #include "stop_words.hpp"
@@ -38,11 +40,6 @@
 
 namespace passo {
 namespace {
-
-// An emulated board ends with the run, so its journal would be useless.
-bool keeps_journal(const RunArguments& arguments) {
-  return arguments.board != "virtual" && !arguments.board.starts_with("sim:");
-}
 
 // The clock for the progress line is read once in so many turns.
 constexpr unsigned turns_between_looks = 1024;
@@ -180,7 +177,7 @@ struct Run {
 std::optional<Seconds> time_without_line(const ResumableRun::Subject& subject, const ProgramReader& program,
                                          const OpenedMachine& opened, const MidRunChanges& changes) {
   const bool has_line = opened.has_board() || !subject.arguments.cable_cut.empty();
-  if (!has_line || subject.check.probes || subject.arguments.resume || changes.any()) return {};
+  if (!has_line || subject.way || subject.check.probes || subject.arguments.resume || changes.any()) return {};
   return planned_time(program.again(), subject.machine, subject.options, subject.check);
 }
 
@@ -209,7 +206,8 @@ RunSummary play(const Run& run, request::Start start, Answered& answered) {
   };
   start.watchers.probe = [&](const ProbeOutcome& outcome) { count(outcome, machine, probes); };
   run.outputs.watch(run.opened.machine(), start.watchers);
-  run.opened.follow(start.watchers, start.from ? start.from->point : session.status().position.place);
+  run.opened.follow(start.watchers,
+                    start.from && start.lead_in.empty() ? start.from->point : session.status().position.place);
   const Before before = before_program(run.opened);
   TailWatch tails;
   LineLoad load;
@@ -256,26 +254,6 @@ std::string stopped_words(const Answered& answered, const RunSummary& summary) {
   words += "the machine rests at";
   for (const AxisSummary& axis : summary.axes) words += fmt::format(" {}{:.3f}", letter_of(axis.axis), axis.position);
   return words + " (machine coordinates), and nothing was written";
-}
-
-// Whether the name of each picture and trace ends as it must, because the end of a name tells the kind of file.
-bool names_are_good(const RunArguments& arguments) {
-  for (const std::string& path : arguments.pictures) {
-    if (is_picture_name(path)) continue;
-    fail(exit_bad_program, path + ": a picture's name ends in .svg or .png");
-    return false;
-  }
-  for (const std::string& path : arguments.traces) {
-    if (is_trace_name(path)) continue;
-    fail(exit_bad_program, path + ": a trace's name ends in .vcd or .csv");
-    return false;
-  }
-  const bool has_look = arguments.colour_by != "speed" || arguments.view != "auto" || arguments.no_rapids;
-  if (has_look && arguments.pictures.empty()) {
-    fail(exit_bad_program, "--colour-by, --view and --no-rapids are for a --picture");
-    return false;
-  }
-  return true;
 }
 
 // Homes the machine before the program. Returns the exit code.
@@ -328,25 +306,6 @@ void tell_of_touch(const RunArguments& arguments, const Diagnostics& findings) {
              "plate) or --touch X10:60,Y10:50,Z:-2 (a block)\n");
 }
 
-bool suits_the_board(const RunArguments& arguments) {
-  const char* words = nullptr;
-  if ((arguments.resume || !arguments.journal.empty()) && !keeps_journal(arguments)) {
-    words = "--resume and --journal are for a board that outlives the run: serial: or tcp:";
-  } else if (!arguments.cable_cut.empty() && arguments.board != "virtual") {
-    words = "--cut-cable-at is for the virtual machine; of a board's cable, pull the plug";
-  } else if (!arguments.touches.empty() && keeps_journal(arguments)) {
-    words = "--touch is for the virtual machine and emulated boards";
-  } else if (arguments.physics && keeps_journal(arguments)) {
-    words = "--physics is for the virtual machine and emulated boards; a real machine has its own";
-  } else if (!arguments.disturbances.empty() && !arguments.physics) {
-    words = "--disturb needs --physics: without it the motors do what they are told, whatever holds them";
-  } else if (arguments.from_here && arguments.resume) {
-    words = "--resume knows where the job began, so --from-here has no place beside it";
-  }
-  if (words != nullptr) fail(exit_bad_program, words);
-  return words == nullptr;
-}
-
 // What is left to say and to write when a program has ended. Returns the exit code.
 int end_run(const Run& run, const Answered& answered, const RunSummary& summary, const Diagnostics& late,
             LengthUnits machine_units) {
@@ -396,6 +355,10 @@ int run_checked(const ResumableRun::Subject& subject, ProgramReader program, Ope
                        .waits_for_operator = !arguments.yes && (keeps_journal(arguments) || asks_operator()),
                        .live = changes.any(),
                        .findings = &late};
+  if (subject.way) {
+    start.from = subject.way->at;
+    start.lead_in = subject.way->lead_in;
+  }
   if (resumable != nullptr) resumable->add_to(start);
   if (!start.waits_for_operator && !arguments.yes) stops.tell(arguments);
   Answered answered;
@@ -442,7 +405,9 @@ int run_program(const RunArguments& arguments, const MachineDescription& machine
     if (arguments.resume) return refuse_to_resume_probing();
     resumable.reset();
   }
-  const ResumableRun::Subject subject{arguments, machine, options, check, path.value()};
+  std::optional<Reentry> way;
+  if (arguments.from_line > 0 && !(way = way_to_line(arguments, program, machine, options, code))) return code;
+  const ResumableRun::Subject subject{arguments, machine, options, check, path.value(), way};
   if (resumable && !resumable->suits(subject, code)) return code;
   return run_checked(subject, std::move(program), *opened, resumable.get(), changes, stops);
 }

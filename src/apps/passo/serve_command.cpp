@@ -1,5 +1,6 @@
 // passo serve: a machine that senders of G-code drive, as they drive a Grbl controller.
 #include <cstdio>
+#include <filesystem>
 #include <memory>
 #include <optional>
 #include <string>
@@ -11,6 +12,7 @@
 #include "run_signals.hpp"
 #include "serve_daemon.hpp"
 #include "serve_web.hpp"
+#include "served_journal.hpp"
 #include <fmt/format.h>
 
 #include "passo/grbl/grbl_controller.hpp"
@@ -80,9 +82,35 @@ bool replace_file(const std::string& file, const std::string& before, const std:
   return output->commit().has_value();
 }
 
+// Without any line, senders and browsers of this computer find the machine at its usual ports.
+ServeArguments with_usual(ServeArguments arguments) {
+  if (arguments.grbl_tcp.empty() && arguments.grbl_pty.empty() && arguments.http.empty() && arguments.data.empty()) {
+    arguments.grbl_tcp = "127.0.0.1:7071";
+    arguments.http = "127.0.0.1:7080";
+  }
+  if (arguments.page.empty()) arguments.page = usual_page_folder();
+  return arguments;
+}
+
+// The journal of the last job is read before the board hears of another session. Null, with a message.
+std::unique_ptr<ServedJournal> open_journal(const std::string& folder, OpenedMachine& opened,
+                                            const Greeting& greeting) {
+  if (const auto words = opened.wait_for_rest()) {
+    fail(exit_failed, "the board: " + *words);
+    return nullptr;
+  }
+  if (const auto place = opened.place()) opened.start_at(*place);
+  std::error_code error;
+  std::filesystem::create_directories(folder, error);
+  auto journal = ServedJournal::open(folder, opened);
+  if (!journal || !journal->take_up(greeting)) return nullptr;
+  return journal;
+}
+
 }  // namespace
 
-int serve(const ServeArguments& arguments) {
+int serve(const ServeArguments& given) {
+  const ServeArguments arguments = with_usual(given);
   const auto text = machine_text(arguments.machine);
   const auto machine = text ? described(*text, arguments.machine) : std::nullopt;
   if (!machine) return exit_bad_machine;
@@ -93,10 +121,19 @@ int serve(const ServeArguments& arguments) {
   ServeDaemon::Lines lines;
   if (!open_lines(arguments, lines, code)) return code;
   outlive_readers();
-  const auto opened = OpenedMachine::open(*machine, {.board = arguments.board, .tells_place = true}, code);
+  // A board that a killed program has left brakes by itself.
+  const bool keeps = !arguments.data.empty();
+  const auto opened =
+      OpenedMachine::open(*machine, {.board = arguments.board, .tells_place = true, .may_move = keeps}, code);
   if (!opened) return code;
   brake_on_signals();
-  if (!opened->greet(opened->any_greeting(), code)) return code;
+  std::unique_ptr<ServedJournal> journal;
+  const Greeting greeting = opened->any_greeting();
+  if (keeps && opened->is_on_a_line()) {
+    journal = open_journal(arguments.data, *opened, greeting);
+    if (!journal) return exit_failed;
+  }
+  if (!opened->greet(greeting, code)) return code;
   const KnownPosition position = opened->session().status().position;
   InterpreterOptions dialect;
   dialect.dialect = Dialect::grbl;
@@ -110,8 +147,9 @@ int serve(const ServeArguments& arguments) {
   }
   MotionOwner owner;
   std::unique_ptr<ServedWeb> web;
+  const ServedJobs jobs{.journal = journal.get(), .machine_file = stamp_of_text(arguments.machine, *text)};
   if (!arguments.http.empty()) {
-    web = ServedWeb::open(arguments, *machine, opened->session(), owner, code);
+    web = ServedWeb::open(arguments, *machine, opened->session(), owner, jobs, code);
     if (!web) return code;
   }
   fmt::print("{} on {}{}\n", machine->name, opened->has_board() ? arguments.board : "a virtual board",

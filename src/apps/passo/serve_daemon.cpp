@@ -32,6 +32,7 @@ void ServeDaemon::serve() {
 }
 
 void ServeDaemon::stop() {
+  if (web_ != nullptr) web_->leave();
   if (session_.busy()) try_request(session_, request::Stop{});
   while (session_.busy()) session_.turn(machine_.has_board() ? busy_look : Seconds(1));
   hear_changes();

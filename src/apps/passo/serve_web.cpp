@@ -19,6 +19,10 @@ constexpr auto between_signs_of_life = std::chrono::seconds(1);
 constexpr Seconds web_look{0.004};
 constexpr std::size_t shortest_token = 16;
 
+constexpr const char* no_page =
+    "There is no page here yet: scripts/page.sh builds it, and --page DIR names another folder.\n"
+    "Programs find the machine at /api/v1/status.\n";
+
 // 128 bits that nobody guesses.
 std::string new_key() {
   std::random_device random;
@@ -40,11 +44,18 @@ double seconds_since_1970() {
   return std::chrono::duration<double>(std::chrono::system_clock::now().time_since_epoch()).count();
 }
 
-ApiOptions api_options(const PageFolder* page, JobHistory* history) {
+ApiOptions api_options(const PageFolder* page, JobHistory* history, const ServedJobs& jobs) {
   ApiOptions options{.version = PASSO_VERSION, .openapi = openapi_text, .make_key = new_key};
   options.history = history;
   options.wall_time = seconds_since_1970;
-  if (page != nullptr) options.page = [page](std::string_view path) { return page->file(path); };
+  options.page = [page](const WebRequest& request) -> std::optional<WebAnswer> {
+    if (page != nullptr) return page->answer(request);
+    if (request.path != "/") return {};
+    return WebAnswer{.status = 404, .type = "text/plain; charset=utf-8", .body = no_page};
+  };
+  options.keeper = jobs.journal;
+  options.machine_file = jobs.machine_file;
+  if (jobs.journal != nullptr) options.broken_off = jobs.journal->found();
   return options;
 }
 
@@ -67,15 +78,17 @@ bool is_this_computer(const std::string& host) {
 }
 
 ServedWeb::ServedWeb(const ServeArguments& arguments, const MachineDescription& machine, MachineSession& session,
-                     MotionOwner& owner, std::unique_ptr<JobHistory> history)
+                     MotionOwner& owner, std::unique_ptr<JobHistory> history, const ServedJobs& jobs)
     : session_(session),
       owner_(owner),
       page_(arguments.page),
+      has_page_(!arguments.page.empty()),
       history_(std::move(history)),
-      api_(machine, session, owner, api_options(arguments.page.empty() ? nullptr : &page_, history_.get())) {}
+      api_(machine, session, owner, api_options(arguments.page.empty() ? nullptr : &page_, history_.get(), jobs)) {}
 
 std::unique_ptr<ServedWeb> ServedWeb::open(const ServeArguments& arguments, const MachineDescription& machine,
-                                           MachineSession& session, MotionOwner& owner, int& code) {
+                                           MachineSession& session, MotionOwner& owner, const ServedJobs& jobs,
+                                           int& code) {
   const auto address = read_address(arguments.http);
   if (!address) {
     code = fail(exit_bad_program, "--http: expected HOST:PORT, as 127.0.0.1:7080, not " + arguments.http);
@@ -118,7 +131,7 @@ std::unique_ptr<ServedWeb> ServedWeb::open(const ServeArguments& arguments, cons
     }
     history = std::move(*opened);
   }
-  std::unique_ptr<ServedWeb> web(new ServedWeb(arguments, machine, session, owner, std::move(history)));
+  std::unique_ptr<ServedWeb> web(new ServedWeb(arguments, machine, session, owner, std::move(history), jobs));
   auto server = WebServer::listen(address->host, address->port, std::move(access), web->api_);
   if (!server) {
     code = fail(exit_failed, server.error());
@@ -131,7 +144,7 @@ std::unique_ptr<ServedWeb> ServedWeb::open(const ServeArguments& arguments, cons
 }
 
 std::string ServedWeb::name() const {
-  return fmt::format("http://{}:{}/api/v1/", host_, server_->port());
+  return fmt::format("http://{}:{}/{}", host_, server_->port(), has_page_ ? "" : "api/v1/");
 }
 
 Seconds ServedWeb::most_wait(Seconds most) const {

@@ -8,6 +8,7 @@
 
 #include "commands.hpp"
 #include "page_folder.hpp"
+#include "served_journal.hpp"
 
 #include "passo/api/machine_api.hpp"
 #include "passo/web/web_server.hpp"
@@ -25,27 +26,37 @@ struct HostAndPort {
 std::optional<HostAndPort> read_address(std::string_view text);
 bool is_this_computer(const std::string& host);
 
+// What is kept of a job that runs.
+struct ServedJobs {
+  ServedJournal* journal = nullptr;  // null: none
+  FileStamp machine_file;
+};
+
 class ServedWeb {
  public:
   // Null, with a message and `code`: the address or the token is not good.
   static std::unique_ptr<ServedWeb> open(const ServeArguments& arguments, const MachineDescription& machine,
-                                         MachineSession& session, MotionOwner& owner, int& code);
+                                         MachineSession& session, MotionOwner& owner, const ServedJobs& jobs,
+                                         int& code);
 
   std::string name() const;
   // How long the loop may wait for others.
   Seconds most_wait(Seconds most) const;
   void hear_changes(const std::vector<MachineChange>& changes) { api_.heed(changes); }
+  // A job that is stopped from now on can go on when the program runs again.
+  void leave() { api_.leave(); }
   // Hears the clients, and tells those who watch what is new.
   void turn();
 
  private:
   ServedWeb(const ServeArguments& arguments, const MachineDescription& machine, MachineSession& session,
-            MotionOwner& owner, std::unique_ptr<JobHistory> history);
+            MotionOwner& owner, std::unique_ptr<JobHistory> history, const ServedJobs& jobs);
   void publish();
 
   MachineSession& session_;
   MotionOwner& owner_;
   PageFolder page_;
+  bool has_page_ = false;
   std::unique_ptr<JobHistory> history_;  // may be null
   std::string host_;
   MachineApi api_;

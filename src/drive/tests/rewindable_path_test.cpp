@@ -83,6 +83,26 @@ TEST_F(RewindablePathTest, begins_at_a_place_and_counts_from_the_beginning_all_t
   EXPECT_EQ(next_curve().start()[Axis::x], 18);
 }
 
+TEST_F(RewindablePathTest, hands_on_a_lead_in_before_the_place_and_counts_it) {
+  path_.begin_at({.item = 1, .s = Mm(5)},
+                 {Action{.kind = Action::Kind::outputs}, Segment{.curve = Curve::line(xyz(0, 9), xyz(15, 0))}});
+  PathItem item;
+  ASSERT_TRUE(path_.next(item));
+  EXPECT_TRUE(std::holds_alternative<Action>(item));
+  const Curve way = next_curve();
+  EXPECT_EQ(way.end()[Axis::x], 15);
+  const PathPlace amid = path_.behind({.item = 2}, motion(way, 3));
+  EXPECT_EQ(amid, (PathPlace{.item = 2, .s = Mm(3)}));
+  const Curve rest = next_curve();
+  EXPECT_EQ(rest.start()[Axis::x], 15);
+  EXPECT_EQ(rest.end()[Axis::x], 30);
+  EXPECT_EQ(path_.behind({.item = 3}, motion(rest, 3)), (PathPlace{.item = 3, .s = Mm(3)}));
+  path_.rewind(amid);
+  EXPECT_NEAR(next_curve().length().value(), way.length().value() - 3, 1e-9) << "of the lead-in";
+  EXPECT_EQ(next_curve().start()[Axis::x], 15);
+  EXPECT_EQ(test::drain(path_).size(), 2U);
+}
+
 TEST_F(RewindablePathTest, an_action_is_passed_but_for_a_hold_which_is_no_part_of_it) {
   EXPECT_EQ(path_.behind({.item = 2}, Action{.kind = Action::Kind::dwell}), (PathPlace{.item = 3}));
   const PathPlace amid{.item = 2, .s = Mm(1)};

@@ -57,6 +57,15 @@ TEST_F(Journals, know_the_rests_of_their_session_and_no_others) {
   EXPECT_FALSE(journal().place_of(status(301, 230)));
 }
 
+TEST_F(Journals, know_what_is_surely_executed) {
+  EXPECT_EQ(journal().done(), some_head().place);
+  writer_.note({.executed = 230, .place = {.item = 44, .s = Mm(1)}, .done = {.item = 41, .s = Mm(0.25)}});
+  EXPECT_EQ(journal().done(), some_head().place) << "a refill later";
+  writer_.note({.executed = 260, .place = {.item = 46, .s = Mm(0)}, .done = {.item = 43, .s = Mm(0)}});
+  EXPECT_EQ(journal().done(), (PathPlace{.item = 41, .s = Mm(0.25)}));
+  EXPECT_EQ(journal().farthest(), (PathPlace{.item = 46, .s = Mm(0)}));
+}
+
 TEST_F(Journals, know_a_board_that_has_not_heard_all_of_the_greeting) {
   EXPECT_EQ(journal().place_of(status(11, 65'000)), some_head().place) << "no hello came through";
   EXPECT_EQ(journal().place_of(status(0, 200)), some_head().place) << "but no session";

@@ -74,6 +74,8 @@ class HomingPath final : public Activity {
   const AxisDescription* axis() const { return axis_; }
   HomingStage stage() const { return stage_; }
   const std::vector<HomedAxis>& homed() const { return homed_; }
+  // Where the machine stood, as far as was known.
+  const Point& start() const { return start_; }
   std::optional<HomingFault> homing_fault() const { return fault_; }
   // All axes are homed.
   bool done() const { return axis_ == nullptr; }

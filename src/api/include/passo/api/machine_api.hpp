@@ -13,12 +13,14 @@
 
 #include <cstdint>
 #include <functional>
+#include <memory>
 #include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
 
 #include "passo/api/api_routes.hpp"
+#include "passo/api/kept_job.hpp"
 #include "passo/api/motion_owner.hpp"
 #include "passo/api/program_store.hpp"
 #include "passo/history/job_history.hpp"
@@ -28,7 +30,7 @@
 
 namespace passo {
 
-enum class JobState : std::uint8_t { none, checking, running, done, stopped, failed };
+enum class JobState : std::uint8_t { none, checking, running, done, stopped, failed, interrupted };
 std::string_view name_of(JobState state);
 
 // A program that was asked to run, and what has become of it.
@@ -47,10 +49,14 @@ struct ApiOptions {
   std::string openapi;                    // the text of docs/api/openapi.json
   std::function<std::string()> make_key;  // a text that nobody guesses, for an owner of motion
   // What serves other paths: a folder with a page. Empty: nothing does.
-  std::function<std::optional<WebAnswer>(std::string_view path)> page = {};
+  std::function<std::optional<WebAnswer>(const WebRequest& request)> page = {};
   // Keeps the queue of jobs and what became of them; outlives this. Null: there is no queue, and nothing is kept.
   JobHistory* history = nullptr;
   std::function<double()> wall_time = {};  // seconds since 1970, for the history
+  // Keeps the journal of a job, with a history; outlives this. Null: a job that is broken off cannot go on.
+  JobKeeper* keeper = nullptr;
+  FileStamp machine_file = {};               // for the journal
+  std::optional<BrokenOff> broken_off = {};  // the job of an earlier program
 };
 
 class MachineApi final : public WebHandler {
@@ -61,6 +67,10 @@ class MachineApi final : public WebHandler {
   WebAnswer answer(const WebRequest& request) override;
   WebAnswer refusal(unsigned status) override;
   std::size_t longest_body(const WebRequest& request) override;
+  // The page itself is no secret: what it asks of the API needs the token.
+  bool is_public(const WebRequest& request) override {
+    return options_.page && request.method == "GET" && !request.path.starts_with("/api/");
+  }
   bool is_stream(std::string_view path) override { return path == "/api/v1/stream"; }
   // {"do": "/api/v1/jog/renew", "key": "…", "body": {…}} is a POST; the answer has "do", "status" and "body".
   std::string hear(std::string_view message) override;
@@ -77,6 +87,8 @@ class MachineApi final : public WebHandler {
   // What web servers count, for the metrics.
   void watch(const WebServer& server) { server_ = &server; }
   const ApiJob& job() const { return job_; }
+  // From now on a job that is stopped was broken off: the program is about to end.
+  void leave() { leaves_ = true; }
 
   // A client that owns the motion, and was not heard for so long while nothing moved, owns it no longer.
   static constexpr Seconds silent_owner{300};
@@ -89,9 +101,16 @@ class MachineApi final : public WebHandler {
   WebAnswer change_queue(const FoundRoute& found, const WebRequest& request);
   WebAnswer take_ownership(const WebRequest& request);
   WebAnswer ask(Request wanted);
+  WebAnswer set_work_zero(std::string_view body);
+  WebAnswer change_interrupted(const FoundRoute& found);
   WebAnswer begin_job(const StoredProgram& program, std::int64_t history);
+  WebAnswer resume_job(bool by_a_way_back);
   void note_alarm();
   double wall_time() const { return options_.wall_time ? options_.wall_time() : 0; }
+  WebAnswer run_program(const StoredProgram& program, std::string_view from_line);
+  Result<Reentry, ReentryProblem> way_to(const StoredProgram& program, std::uint32_t line) const;
+  void begin_checked_job();
+  void name_job();
   void start_job();
   void end_job(JobState state, std::string why = {});
   std::string metrics() const;
@@ -104,7 +123,14 @@ class MachineApi final : public WebHandler {
   ProgramStore programs_;
   ApiJob job_;
   Seconds owner_heard_{0};
-  std::uint64_t job_owner_ = 0;  // MotionOwner::changes() when the job was asked for
+  std::uint64_t job_owner_ = 0;    // MotionOwner::changes() when the job was asked for
+  std::unique_ptr<KeptJob> kept_;  // null: no journal is kept
+  bool resumes_ = false;           // the job was broken off, and goes on
+  bool reenters_ = false;          // by a way back onto its path
+  bool named_ = false;             // the job's journal is begun
+  std::uint32_t from_line_ = 0;    // where the job is to begin; 0: at its beginning
+  std::optional<Reentry> way_;     // the way there
+  bool leaves_ = false;
   std::optional<Ticket> ticket_;
   Diagnostics findings_;  // of the run
   const WebServer* server_ = nullptr;

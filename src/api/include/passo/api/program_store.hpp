@@ -10,10 +10,14 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <string_view>
+#include <vector>
 
 #include "passo/activity/program.hpp"
+#include "passo/api/program_path.hpp"
 #include "passo/diagnostics/diagnostic.hpp"
 #include "passo/interpreter/interpreter.hpp"
+#include "passo/journal/path_fingerprint.hpp"
 #include "passo/machine_file/machine_description.hpp"
 
 namespace passo {
@@ -29,7 +33,13 @@ struct StoredProgram {
   std::uint64_t lines = 0;
   UploadState state = UploadState::unchecked;
   ProgramCheck check;
+  std::uint64_t path = 0;  // the fingerprint of its path, after a good check
   Diagnostics findings;
+  ProgramPath path_points;                 // of the last check; for viewers
+  std::vector<std::size_t> line_starts{};  // where every so many lines begin in the text
+
+  // A window of the text: `count` lines from line `from` on (1 is the first), fewer at the end.
+  std::string_view lines_from(std::uint64_t from, std::uint64_t count) const;
 };
 
 class ProgramStore {
@@ -37,6 +47,8 @@ class ProgramStore {
   static constexpr std::size_t most_programs = 64;
   static constexpr std::size_t longest_program = std::size_t{64} << 20;  // bytes
   static constexpr std::size_t most_bytes = std::size_t{256} << 20;
+  // Of all paths together. A check drops the paths of other programs if there is no room.
+  static constexpr std::size_t most_path_bytes = std::size_t{512} << 20;
 
   // Null: there is no room.
   const StoredProgram* add(std::string name, Dialect dialect, std::string text);
@@ -51,13 +63,21 @@ class ProgramStore {
   // Checks a bounded piece.
   void turn();
   InterpreterOptions options_of(const StoredProgram& program) const;
+  // Where the work's zero (G54) lies in machine coordinates, for all programs. Checks that were made before count no
+  // longer.
+  void set_work_zero(const Point& zero);
+  const Point& work_zero() const { return work_zero_; }
 
  private:
+  void make_room_for_path(std::uint64_t id);
+
   std::map<std::uint64_t, StoredProgram> programs_;
   std::size_t bytes_ = 0;
   std::uint64_t last_id_ = 0;
+  Point work_zero_;
   std::uint64_t checked_ = 0;  // the program that is checked
   std::unique_ptr<ProgramChecker> checker_;
+  PathFingerprint path_;  // of what is checked
 };
 
 }  // namespace passo

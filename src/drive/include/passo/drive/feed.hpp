@@ -20,6 +20,7 @@ namespace passo {
 struct BoardRest {
   ItemNumber executed = 0;
   PathPlace place;
+  PathPlace done = {};  // the board was known to be at least here when the rest was told
   friend bool operator==(const BoardRest&, const BoardRest&) = default;
 };
 

@@ -15,6 +15,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "passo/base/source.hpp"
 #include "passo/base/tap.hpp"
@@ -43,6 +44,8 @@ struct DriveOptions {
   Commitment live = endless_commitment;  // only for a board without a line
   // Where to begin in the middle of a path. Another host has done all before this place.
   std::optional<PathPlace> begin_at = {};
+  // Leads from where the machine stands to `begin_at`, and ends at rest. Empty: the machine stands there.
+  std::vector<PathItem> lead_in = {};
   Seconds spindle_wait{0};          // before motion goes on, after the board had switched its outputs off
   int counts_per_turn = 0;          // counts of the spindle's encoder; 0: nothing follows the spindle
   bool guards_by_probe = false;     // a touch outside a probe move stops the drive

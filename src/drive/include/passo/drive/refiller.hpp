@@ -197,6 +197,7 @@ class Refiller final : public Feed {
   std::optional<Seconds> told_ahead_;
   std::optional<Seconds> began_;  // by the board's clock
   PathPlace given_;               // up to here the planner has given motion
+  PathPlace done_;                // up to here the board is known to have executed
   Rest rested_;                   // the last rest
   SpeedForTails speed_;
   bool on_tail_ = false;  // the board plays a tail: nothing is sent before it rests

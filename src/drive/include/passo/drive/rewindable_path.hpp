@@ -8,6 +8,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <deque>
+#include <vector>
 
 #include "passo/base/source.hpp"
 #include "passo/path/segment.hpp"
@@ -29,7 +30,12 @@ class RewindablePath final : public Source<PathItem> {
   // Keeps items from now on. Call before the first next().
   void keep() { keeps_ = true; }
   // Leaves out all before `place`, because another session has done it. Call after keep() and before the first next().
-  void begin_at(const PathPlace& place);
+  // `lead_in` comes first: it leads from where the machine stands to the place, and its last item ends at rest. Its
+  // items are counted too: the numbers of what comes after it are greater by their count. Of the item amid which such a
+  // path begins only the rest is known, so its s is counted from the place.
+  void begin_at(const PathPlace& place, std::vector<PathItem> lead_in = {});
+  // Keeps only what was handed out last. There will be no rewind.
+  void forget_passed() { forgets_ = true; }
   // The place of the item that the next call of next() gives.
   PathPlace place() const { return {.item = next_, .s = next_ == rewound_.item ? rewound_.s : Mm(0)}; }
   [[nodiscard]] bool next(PathItem& item) override;
@@ -53,6 +59,8 @@ class RewindablePath final : public Source<PathItem> {
   bool pull(PathItem& item);
 
   bool keeps_ = false;
+  bool forgets_ = false;
+  Mm left_out_of_item_{0};      // of the first item after a lead-in
   std::uint64_t left_out_ = 0;  // items to leave out before the first one
   std::deque<PathItem> kept_;
   std::uint64_t first_ = 0;  // number of the first item kept

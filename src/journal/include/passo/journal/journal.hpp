@@ -90,6 +90,10 @@ class Journal {
   bool is_of(const BoardStatus& status) const { return stage_of(status) != SessionNumbers::Stage::another; }
   // Where on the path the board rests. The status must be one at rest. Empty: the journal does not know that rest.
   std::optional<PathPlace> place_of(const BoardStatus& status) const;
+  // All of the path before this place is executed, whatever has become of the board.
+  PathPlace done() const;
+  // Where the board comes to rest by itself, if it has got all that was sent.
+  PathPlace farthest() const;
   // Lines that were torn in writing.
   std::size_t torn() const { return torn_; }
 

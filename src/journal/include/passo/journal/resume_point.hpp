@@ -25,6 +25,10 @@ struct ResumePoint {
   Seconds spindle_wait{0};
   bool in_thread = false;  // the path there follows an encoder by place, and cannot begin there
   std::uint32_t line = 0;  // the program's line where the job goes on; 0: at its end
+  // What the program asked for last, for the way there.
+  std::int32_t tool = 0;                 // of its last tool change; 0: there was none
+  MmPerSecond feed{0};                   // 0: nothing was fed
+  std::optional<double> clearance = {};  // the height of its last rapid across, machine coordinates
 };
 
 // Finds `place` in a program that was checked and does not probe. Empty: the path has no such place.

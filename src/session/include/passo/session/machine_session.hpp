@@ -12,6 +12,7 @@
 
 #include <cstdint>
 #include <deque>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <string>
@@ -59,6 +60,11 @@ class MachineSession {
   void greet(const Greeting& greeting);
   // Gives the board another session number, between two programs.
   void name_session(std::uint16_t number);
+  // Before each further hello over a line, after a reset: the listener gets the board's status, and the greeting that
+  // follows.
+  void listen_before_hello(std::function<void(const BoardStatus&, const Greeting&)> listener) {
+    before_hello_ = std::move(listener);
+  }
 
   [[nodiscard]] Result<Ticket, Refusal> request(Request wanted);
   // Does one bounded step. Where the session can only wait for the board, time passes until there is news, but no
@@ -165,6 +171,7 @@ class MachineSession {
   const MachineDescription& machine_;
   SessionOptions options_;
   BoardSession board_;
+  std::function<void(const BoardStatus&, const Greeting&)> before_hello_;
   MachineState state_ = MachineState::offline;
   bool greeted_ = false;
   bool asks_place_ = false;    // the board is asked for its place before another hello

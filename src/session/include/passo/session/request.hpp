@@ -8,6 +8,7 @@
 #include <string>
 #include <string_view>
 #include <variant>
+#include <vector>
 
 #include "passo/activity/jog_line.hpp"
 #include "passo/activity/open_program.hpp"
@@ -41,7 +42,8 @@ struct Start {
   bool waits_for_operator = true;        // the run waits at M0, M1 and M6
   bool live = true;                      // reacts at once, and therefore reads less far ahead
   bool answers_probes = true;            // the board answers; else a probe move is touched at its end
-  std::optional<ResumePoint> from = {};  // where another host has left the job
+  std::optional<ResumePoint> from = {};  // where on its path the job goes on
+  std::vector<PathItem> lead_in = {};    // from where the machine stands to there; empty: it stands there
   Watchers watchers = {};
   Diagnostics* findings = nullptr;  // gets what is found during the run; outlives the run. Null: nobody looks
 };

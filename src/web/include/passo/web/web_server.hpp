@@ -25,7 +25,9 @@ struct WebRequest {
   std::string method = {};  // "GET", "POST" …
   std::string path = {};    // "/api/v1/status": without the query, not decoded
   std::string query = {};
-  std::string key = {};  // the header X-Passo-Key
+  std::string key = {};        // the header X-Passo-Key
+  std::string encodings = {};  // the header Accept-Encoding
+  std::string known = {};      // the header If-None-Match
   std::string body = {};
 };
 
@@ -33,6 +35,11 @@ struct WebAnswer {
   unsigned status = 200;
   std::string type = "application/json";
   std::string body = {};
+  // Headers; empty: the usual ones of an answer that is never kept.
+  std::string encoding = {};  // Content-Encoding
+  std::string version = {};   // ETag
+  std::string cache = {};     // Cache-Control
+  std::string policy = {};    // Content-Security-Policy
 };
 
 class WebHandler {
@@ -43,6 +50,8 @@ class WebHandler {
   virtual WebAnswer refusal(unsigned status) = 0;
   // How many bytes the body of such a request may have. Asked before the body is read.
   virtual std::size_t longest_body(const WebRequest& request) = 0;
+  // True: also those who do not know the token may ask this. Host and Origin are checked all the same.
+  virtual bool is_public(const WebRequest&) { return false; }
   // True: at this path is the stream, for WebSocket clients.
   virtual bool is_stream(std::string_view path) = 0;
   // A client of the stream has sent a message. Returns the answer; empty: none.

@@ -1,0 +1,39 @@
+// Lines that a person types: each is checked, and run as a program of its own.
+import { attempt } from '../core/notices';
+import type { Program } from './api';
+import { get, post, remove, upload } from './api';
+import { status } from './connection';
+import { note } from './log';
+import { beOwner } from './owner';
+import { consoleName, refreshPrograms } from './programs';
+
+const lookEvery = 120; // ms
+const most = 50; // looks
+
+export async function runLine(text: string): Promise<boolean> {
+  note('asked', text.replaceAll('\n', ' · '));
+  return attempt(async () => {
+    await beOwner();
+    const program = await upload<Program>('/programs', consoleName, `${text}\n`);
+    await post(`/programs/${program.id}/run`);
+    await tellFindings(program.id);
+    // The session has its own copy of what runs.
+    await remove(`/programs/${program.id}`);
+    await refreshPrograms();
+  });
+}
+
+async function tellFindings(id: number): Promise<void> {
+  for (let looks = 0; looks < most; ++looks) {
+    const program = await get<Program>(`/programs/${id}`);
+    if (program.state !== 'checking' && status.value?.job?.state !== 'checking') {
+      for (const one of program.findings ?? []) {
+        note(one.severity === 'error' ? 'refused' : 'warning', `${one.message}. ${one.expected} [${one.code}]`);
+      }
+      const first = program.findings?.find((one) => one.severity === 'error');
+      if (first !== undefined) throw new Error(first.message);
+      return;
+    }
+    await new Promise((resolve) => setTimeout(resolve, lookEvery));
+  }
+}

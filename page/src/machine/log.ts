@@ -1,0 +1,53 @@
+// What has happened since this page was opened: for the console.
+import { effect, signal } from '@preact/signals';
+import { say } from '../core/language';
+import { notices } from '../core/notices';
+import { connection, status } from './connection';
+
+export type LogKind = 'state' | 'asked' | 'done' | 'refused' | 'warning' | 'alarm';
+export interface LogLine {
+  id: number;
+  at: Date;
+  kind: LogKind;
+  words: string;
+}
+const most = 1000;
+let last = 0;
+export const log = signal<LogLine[]>([]);
+
+export function note(kind: LogKind, words: string): void {
+  log.value = [...log.peek().slice(1 - most), { id: ++last, at: new Date(), kind, words }];
+}
+
+// Lines that have all the words, in any order and case.
+export function search(lines: readonly LogLine[], text: string): LogLine[] {
+  const words = text.toLowerCase().split(/\s+/).filter((word) => word !== '');
+  return lines.filter((line) => words.every((word) => `${line.kind} ${line.words}`.toLowerCase().includes(word)));
+}
+
+export function followLog(): void {
+  let state = '';
+  let job = '';
+  let noticed = 0;
+  effect(() => {
+    const now = status.value;
+    if (now === null) return;
+    if (now.state !== state) {
+      const isBad = now.state === 'Alarm' || now.state === 'Fault';
+      note(isBad ? 'alarm' : 'state', `${say(`state.${now.state}`)}${isBad && now.trouble !== '' ? `: ${now.trouble}` : ''}`);
+      state = now.state;
+    }
+    const words = now.job === null ? '' : `${now.job.name}: ${now.job.state}${now.job.why === '' ? '' : `, ${now.job.why}`}`;
+    if (words !== job && words !== '') note(now.job?.state === 'failed' ? 'refused' : 'done', words);
+    job = words;
+  });
+  effect(() => {
+    if (connection.value === 'lost') note('alarm', say('connection.lost'));
+  });
+  effect(() => {
+    for (const one of notices.value) {
+      if (one.id > noticed) note(one.kind === 'refused' ? 'refused' : 'done', one.words);
+      noticed = Math.max(noticed, one.id);
+    }
+  });
+}

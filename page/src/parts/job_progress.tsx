@@ -1,0 +1,79 @@
+// The program, how far it is, and when it ends.
+import { computed } from '@preact/signals';
+import { language, say } from '../core/language';
+import { clockText, durationText } from '../core/time';
+import { goTo } from '../core/route';
+import { status } from '../machine/connection';
+import { shown } from '../machine/programs';
+import { RemainingTime } from '../machine/remaining';
+import { isUnderWay } from '../machine/words';
+import { Button } from './button';
+
+const remaining = new RemainingTime();
+
+// The job of the shown program, if it runs.
+const run = computed(() => {
+  const now = status.value;
+  const program = shown.value;
+  if (now === null || program === null || now.job === null || !isUnderWay(now.job) || now.job.program !== program.id) return null;
+  const left = remaining.tell(now.time, now.progress, program.seconds, now.state === 'Run');
+  return { progress: now.progress ?? 0, left, line: now.line };
+});
+
+export function JobProgress() {
+  const program = shown.value;
+  if (program === null) {
+    return (
+      <section class="panel job">
+        <h2>{say('run.program')}</h2>
+        <p class="row">
+          {say('run.no.program')}
+          <Button kind="accent" icon="files" onClick={() => goTo('files')}>
+            {say('run.open')}
+          </Button>
+        </p>
+      </section>
+    );
+  }
+  const now = run.value;
+  const percent = (now?.progress ?? 0) * 100;
+  return (
+    <section class="panel job">
+      <div class="position-head">
+        <h2 class="job-name">{program.name}</h2>
+        <span class={`verdict ${program.state}`}>{say(`files.state.${program.state}`)}</span>
+      </div>
+      <div
+        class="bar"
+        role="progressbar"
+        aria-label={say('run.progress')}
+        aria-valuemin={0}
+        aria-valuemax={100}
+        aria-valuenow={Math.floor(percent)}
+      >
+        <i style={{ width: `${percent}%` }} />
+      </div>
+      <div class="job-figures">
+        <div>
+          <span class="dim">{say('run.progress')}</span>
+          <b class="figure">{percent.toFixed(percent < 10 ? 1 : 0)} %</b>
+        </div>
+        <div>
+          <span class="dim">{say(now === null ? 'run.whole' : 'run.left')}</span>
+          <b class="figure" data-testid="left">
+            {now === null ? durationText(program.seconds) : now.left === undefined ? '–' : durationText(now.left)}
+          </b>
+        </div>
+        <div>
+          <span class="dim">{say('run.end')}</span>
+          <b class="figure">
+            {now?.left === undefined ? '–' : clockText(new Date(Date.now() + now.left * 1000), language.value)}
+          </b>
+        </div>
+      </div>
+      <p class="dim job-line">
+        {say('run.of.lines', { line: now?.line ?? 0, lines: program.lines.toLocaleString(language.value) })}
+      </p>
+    </section>
+  );
+}

@@ -1,0 +1,89 @@
+// The overrides, the spindle and the coolant.
+import { signal } from '@preact/signals';
+import { say } from '../core/language';
+import { moveAs, whyNot } from '../machine/actions';
+import type { Status } from '../machine/api';
+import { status } from '../machine/connection';
+import { Button } from './button';
+
+type Factor = 'feed' | 'rapids' | 'spindle';
+const bounds: Record<Factor, { least: number; most: number; step: number }> = {
+  feed: { least: 0, most: 200, step: 10 },
+  rapids: { least: 5, most: 100, step: 25 },
+  spindle: { least: 0, most: 200, step: 10 },
+};
+// What was asked for, until the daemon tells it: fast presses count one upon the other.
+const wanted = signal<Partial<Record<Factor, number>>>({});
+let settle: ReturnType<typeof setTimeout> | undefined;
+
+const percentOf = (now: Status, factor: Factor): number => wanted.value[factor] ?? Math.round(now.overrides[factor] * 100);
+
+function set(factor: Factor, percent: number): void {
+  const { least, most } = bounds[factor];
+  const bounded = Math.min(most, Math.max(least, percent));
+  wanted.value = { ...wanted.value, [factor]: bounded };
+  clearTimeout(settle);
+  settle = setTimeout(() => (wanted.value = {}), 800);
+  void moveAs('/override', { [factor]: bounded / 100 });
+}
+
+const anyState = ['Offline', 'Idle', 'Run', 'Hold', 'Jog', 'Home', 'Probe', 'Tool', 'Line', 'Check', 'Door', 'Sleep'];
+
+function Override({ factor }: { factor: Factor }) {
+  const now = status.value;
+  if (now === null) return null;
+  const name = say(`run.${factor}`);
+  const percent = percentOf(now, factor);
+  const { most, step } = bounds[factor];
+  const why = whyNot(...anyState);
+  return (
+    <div class="override" role="group" aria-label={name}>
+      <span class="override-name">{name}</span>
+      <Button icon="minus" why={why} label={say('run.less', { name })} onClick={() => set(factor, percent - step)} />
+      <button
+        type="button"
+        class={`override-value ${percent === 100 ? '' : 'changed'}`}
+        title={say('run.usual')}
+        aria-label={`${name} ${percent} %. ${say('run.usual')}`}
+        aria-disabled={why !== ''}
+        onClick={() => why === '' && set(factor, 100)}
+      >
+        <b class="figure">{percent}</b> %
+        <i style={{ width: `${(percent / most) * 100}%` }} />
+      </button>
+      <Button icon="plus" why={why} label={say('run.more', { name })} onClick={() => set(factor, percent + step)} />
+    </div>
+  );
+}
+
+export function Overrides() {
+  const now = status.value;
+  if (now === null) return null;
+  const { outputs } = now;
+  const whyOutputs = whyNot('Run', 'Hold', 'Tool', 'Line', 'Door');
+  return (
+    <section class="panel overrides" aria-label={say('run.overrides')}>
+      <h2>{say('run.overrides')}</h2>
+      <Override factor="feed" />
+      <Override factor="rapids" />
+      <Override factor="spindle" />
+      <div class="spindle">
+        <span class={`spindle-state ${outputs.spindle === 'off' ? '' : 'turns'}`}>
+          <span class="dim">{say('run.spindle')}</span> <b>{say(`run.spindle.${outputs.spindle}`)}</b>
+          {outputs.spindle !== 'off' && (
+            <span>
+              {' '}
+              <span class="figure">{Math.round(outputs.spindle_speed * now.overrides.spindle)}</span> {say('run.rpm')}
+            </span>
+          )}
+        </span>
+        <Button pressed={outputs.flood} why={whyOutputs} onClick={() => moveAs('/outputs', { flood: !outputs.flood })}>
+          {say('run.flood')}
+        </Button>
+        <Button pressed={outputs.mist} why={whyOutputs} onClick={() => moveAs('/outputs', { mist: !outputs.mist })}>
+          {say('run.mist')}
+        </Button>
+      </div>
+    </section>
+  );
+}

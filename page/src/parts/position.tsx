@@ -1,0 +1,48 @@
+// The position: big in work coordinates, small in the machine's.
+import { say } from '../core/language';
+import { lengthUnit, placeText, speedText, speedUnit } from '../core/units';
+import { machine, status } from '../machine/connection';
+import { axes, machinePlace, workPlace } from '../machine/place';
+import { Icon } from './icon';
+
+// The machine has switches, and has not been homed by them.
+const isDoubtful = (): boolean =>
+  status.value !== null && status.value.trust !== 'homed' && (machine.value?.axes.some((one) => one.homes) ?? false);
+
+export function Position() {
+  const trust = status.value?.trust ?? 'unknown';
+  return (
+    <section class="panel position" aria-label={say('run.position')}>
+      <div class="position-head">
+        <h2>
+          {say('run.work')} <span class="unit">{lengthUnit()}</span>
+        </h2>
+        <span class="unit">{say('run.machine')}</span>
+      </div>
+      <div class="axes">
+        {axes.value.map((axis) => (
+          <div class="axis" key={axis} data-axis={axis}>
+            <span class="axis-name">{axis.toUpperCase()}</span>
+            <span class="digits" data-testid={`work-${axis}`}>
+              {placeText(axis, workPlace.value[axis] ?? 0)}
+            </span>
+            <span class="axis-machine">
+              <span class="unseen">{say('run.machine')}: </span>
+              {placeText(axis, machinePlace.value[axis] ?? 0)}
+            </span>
+          </div>
+        ))}
+      </div>
+      <div class="position-foot">
+        <span>
+          <span class="dim">{say('run.speed')}</span> <b class="figure">{speedText(status.value?.speed ?? 0)}</b>{' '}
+          <span class="unit">{speedUnit()}</span>
+        </span>
+        <span class={`trust ${trust === 'homed' ? 'sure' : isDoubtful() ? 'doubt' : ''}`}>
+          <Icon name={trust === 'homed' ? 'home' : 'warn'} />
+          {say(`run.trust.${trust}`)}
+        </span>
+      </div>
+    </section>
+  );
+}

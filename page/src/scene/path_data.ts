@@ -1,0 +1,68 @@
+// The chunks of a program's path, as `GET /programs/{id}/path?chunk=…` gives them: see docs/api/openapi.json.
+
+export type Vector = [number, number, number];
+
+export interface PathPoints {
+  chunk: number;
+  level: number;
+  count: number;
+  origin: Vector;
+  step: Vector;
+  // Four numbers a point: x, y, z, flags. The place is origin + step * number, mm.
+  places: Uint16Array;
+  lines: Uint32Array;
+}
+
+export const flagRapid = 1;
+const magic = 0x50534150;
+const header = 40; // bytes
+
+export function readChunk(bytes: ArrayBuffer): PathPoints {
+  const view = new DataView(bytes);
+  if (bytes.byteLength < header || view.getUint32(0, true) !== magic) throw new Error('this is no chunk of a path');
+  const count = view.getUint32(4, true);
+  if (bytes.byteLength !== header + count * 12) throw new Error('this chunk of a path is cut off');
+  const vector = (at: number): Vector => [view.getFloat32(at, true), view.getFloat32(at + 4, true), view.getFloat32(at + 8, true)];
+  return {
+    count,
+    chunk: view.getUint32(8, true),
+    level: view.getUint32(12, true),
+    origin: vector(16),
+    step: vector(28),
+    places: new Uint16Array(bytes, header, count * 4),
+    lines: new Uint32Array(bytes, header + count * 8, count),
+  };
+}
+
+export function placeAt(points: PathPoints, i: number, into: Vector = [0, 0, 0]): Vector {
+  for (let k = 0; k < 3; ++k) into[k] = points.origin[k]! + points.step[k]! * points.places[i * 4 + k]!;
+  return into;
+}
+
+export function boxOf(points: PathPoints): { low: Vector; high: Vector } {
+  const high = points.origin.map((low, k) => low + points.step[k]! * 65535) as Vector;
+  return { low: points.origin, high };
+}
+
+export interface Spot {
+  chunk: number;
+  index: number; // of the point at which the motion ends
+  line: number;
+  place: Vector;
+}
+
+// The first motion of a line; where a coarse level has left it out, that of the nearest line.
+export function spotOfLine(all: readonly PathPoints[], line: number): Spot | null {
+  let best: Spot | null = null;
+  let nearest = Infinity;
+  for (const points of all) {
+    for (let i = 1; i < points.count; ++i) {
+      const away = Math.abs(points.lines[i]! - line);
+      if (away >= nearest) continue;
+      nearest = away;
+      best = { chunk: points.chunk, index: i, line: points.lines[i]!, place: placeAt(points, i) };
+      if (away === 0) return best;
+    }
+  }
+  return best;
+}

@@ -1,0 +1,128 @@
+// Gets the shown program's path from the daemon: coarse first for a long one, finer where somebody looks closer.
+import { effect } from '@preact/signals';
+import { ask, get, post } from '../machine/api';
+import { isLive, status } from '../machine/connection';
+import { pathIndex, pathLoaded, type PathIndex } from '../machine/path_index';
+import { shown } from '../machine/programs';
+import { readChunk, type PathPoints } from './path_data';
+
+const fewPoints = 80_000; // so many are shown without a coarse level
+const atOnce = 4; // requests
+const finest = 0;
+// What a level may leave out, as a share of the box's diagonal; as the daemon has it.
+const leftOut = [0, 1 / 2000, 1 / 400];
+
+export interface PathListener {
+  cleared: () => void;
+  added: (points: PathPoints) => void;
+}
+
+const listeners = new Set<PathListener>();
+const chunks = new Map<string, PathPoints>();
+const wanted = new Set<string>();
+let round = 0; // of loading; what belongs to an earlier one is dropped
+
+export const loadedChunks = (): Iterable<PathPoints> => chunks.values();
+export const baseLevel = (index: PathIndex): number => (index.points <= fewPoints ? finest : 1);
+
+// The finest loaded points of each chunk.
+export function finestChunks(): PathPoints[] {
+  const best = new Map<number, PathPoints>();
+  for (const one of chunks.values()) {
+    const before = best.get(one.chunk);
+    if (before === undefined || one.level < before.level) best.set(one.chunk, one);
+  }
+  return [...best.values()].sort((a, b) => a.chunk - b.chunk);
+}
+
+// The coarsest level that leaves out nothing of a pixel or more.
+export function levelFor(index: PathIndex, mmAPixel: number): number {
+  const box = index.all;
+  if (box === null || baseLevel(index) === finest) return finest;
+  const diagonal = Math.hypot(...box.high.map((high, k) => high - box.low[k]!));
+  return diagonal * leftOut[1]! <= mmAPixel * 1.2 ? 1 : finest;
+}
+
+async function fetchChunk(index: PathIndex, chunk: number, level: number, mine: number): Promise<void> {
+  const key = `${chunk}/${level}`;
+  if (wanted.has(key)) return;
+  wanted.add(key);
+  try {
+    const answer = await ask('GET', `/programs/${index.program}/path?chunk=${chunk}&level=${level}`, undefined, 20_000);
+    const points = readChunk(await answer.arrayBuffer());
+    if (mine !== round) return;
+    chunks.set(key, points);
+    for (const one of listeners) one.added(points);
+  } catch {
+    wanted.delete(key);
+  }
+}
+
+async function fetchAll(index: PathIndex, all: readonly number[], level: number, tell: boolean): Promise<void> {
+  const mine = round;
+  let next = 0;
+  let done = 0;
+  const work = async (): Promise<void> => {
+    while (next < all.length && mine === round) {
+      await fetchChunk(index, all[next++]!, level, mine);
+      ++done;
+      if (tell && mine === round) pathLoaded.value = done / all.length;
+    }
+  };
+  await Promise.all(Array.from({ length: atOnce }, work));
+}
+
+// Somebody looks closer at these chunks.
+export function wantFine(these: readonly number[]): void {
+  const index = pathIndex.value;
+  if (index !== null) void fetchAll(index, these, finest, false);
+}
+
+export async function loadPath(program: number): Promise<void> {
+  const mine = ++round;
+  const index = await get<PathIndex>(`/programs/${program}/path`);
+  if (mine !== round) return;
+  clear();
+  if (!index.complete) {
+    // The daemon has let the path go, for want of room: a check brings it back.
+    if (status.value?.state === 'Idle') await post(`/programs/${program}/check`);
+    return;
+  }
+  pathIndex.value = index;
+  pathLoaded.value = index.chunks === 0 ? 1 : 0;
+  await fetchAll(index, Array.from({ length: index.chunks }, (_, i) => i), baseLevel(index), true);
+}
+
+function clear(): void {
+  chunks.clear();
+  wanted.clear();
+  pathIndex.value = null;
+  pathLoaded.value = 1;
+  for (const one of listeners) one.cleared();
+}
+
+export function listenToPath(listener: PathListener): () => void {
+  listeners.add(listener);
+  for (const one of chunks.values()) listener.added(one);
+  return () => listeners.delete(listener);
+}
+
+// Loads the path of the shown program whenever another one is shown, or the same was checked again.
+export function followPath(): void {
+  let told = '';
+  effect(() => {
+    const program = shown.value;
+    const checked = program !== null && (program.state === 'good' || program.state === 'bad');
+    const now = program === null || !isLive.value ? '' : `${program.id} ${program.state} ${program.moves}`;
+    if (now === told) return;
+    told = now;
+    if (program === null) {
+      ++round;
+      clear();
+    } else if (checked) {
+      loadPath(program.id).catch(() => (told = ''));
+    } else if (program.state === 'unchecked' && status.peek()?.state === 'Idle') {
+      void post(`/programs/${program.id}/check`).catch(() => undefined);
+    }
+  });
+}

@@ -1,0 +1,203 @@
+// Draws the scene. It knows neither the daemon nor the page: it is given chunks, lines, a view and a tool's place.
+import { axesOf, matrixOf, project, type View } from './camera';
+import { asNumbers, cone, type Line } from './furniture';
+import { bufferOf, Program, quadCorners } from './gl';
+import type { PathPoints, Vector } from './path_data';
+import { boxOf } from './path_data';
+import { lineFragment, lineVertex, pathFragment, pathVertex, toolFragment, toolVertex } from './shaders';
+
+export type Colour = [number, number, number];
+export interface Colours {
+  ground: Colour;
+  cut: Colour;
+  rapid: Colour;
+  past: Colour;
+  tool: Colour;
+}
+
+interface DrawnChunk {
+  points: PathPoints;
+  array: WebGLVertexArrayObject;
+  buffer: WebGLBuffer;
+}
+
+export interface Picture {
+  view: View;
+  tool: Vector | null;
+  showsRapids: boolean;
+  // The motion that is being executed: all before it are done.
+  done: { chunk: number; share: number } | null;
+}
+
+export class Renderer {
+  private readonly gl: WebGL2RenderingContext;
+  private readonly path: Program;
+  private readonly line: Program;
+  private readonly tool: Program;
+  private readonly corners: WebGLBuffer;
+  private readonly cone: WebGLVertexArrayObject;
+  private readonly coneCount: number;
+  private readonly chunks = new Map<string, DrawnChunk>();
+  private furniture: { array: WebGLVertexArrayObject; count: number } | null = null;
+  private reach = 1000; // mm: beyond this nothing is drawn
+  colours: Colours = { ground: [0, 0, 0], cut: [1, 1, 1], rapid: [1, 1, 0], past: [0.5, 0.5, 0.5], tool: [1, 1, 0] };
+
+  // Throws where there is no WebGL2.
+  constructor(readonly canvas: HTMLCanvasElement) {
+    const gl = canvas.getContext('webgl2', { antialias: true, alpha: false, powerPreference: 'low-power' });
+    if (gl === null) throw new Error('there is no WebGL2');
+    this.gl = gl;
+    this.path = new Program(gl, pathVertex, pathFragment);
+    this.line = new Program(gl, lineVertex, lineFragment);
+    this.tool = new Program(gl, toolVertex, toolFragment);
+    this.corners = bufferOf(gl, quadCorners);
+    const numbers = cone();
+    this.coneCount = numbers.length / 6;
+    this.cone = gl.createVertexArray();
+    gl.bindVertexArray(this.cone);
+    bufferOf(gl, numbers);
+    this.attribute(0, 3, gl.FLOAT, 24, 0, 0);
+    this.attribute(1, 3, gl.FLOAT, 24, 12, 0);
+    gl.enable(gl.DEPTH_TEST);
+    gl.depthFunc(gl.LEQUAL);
+  }
+
+  private attribute(index: number, size: number, type: number, stride: number, offset: number, divisor: number): void {
+    this.gl.enableVertexAttribArray(index);
+    this.gl.vertexAttribPointer(index, size, type, false, stride, offset);
+    this.gl.vertexAttribDivisor(index, divisor);
+  }
+
+  private startArray(): WebGLVertexArrayObject {
+    const array = this.gl.createVertexArray();
+    this.gl.bindVertexArray(array);
+    this.gl.bindBuffer(this.gl.ARRAY_BUFFER, this.corners);
+    this.attribute(0, 2, this.gl.FLOAT, 8, 0, 0);
+    return array;
+  }
+
+  // Neighbouring motions share their points: an instance reads two of them.
+  addChunk(points: PathPoints): void {
+    if (points.count < 2) return;
+    const gl = this.gl;
+    const array = this.startArray();
+    const buffer = bufferOf(gl, points.places);
+    this.attribute(1, 4, gl.UNSIGNED_SHORT, 8, 0, 1);
+    this.attribute(2, 4, gl.UNSIGNED_SHORT, 8, 8, 1);
+    gl.bindVertexArray(null);
+    this.chunks.set(`${points.chunk}/${points.level}`, { points, array, buffer });
+  }
+
+  clearChunks(): void {
+    for (const one of this.chunks.values()) {
+      this.gl.deleteVertexArray(one.array);
+      this.gl.deleteBuffer(one.buffer);
+    }
+    this.chunks.clear();
+  }
+
+  setFurniture(lines: readonly Line[], reach: number): void {
+    if (this.furniture !== null) this.gl.deleteVertexArray(this.furniture.array);
+    this.reach = reach;
+    const array = this.startArray();
+    bufferOf(this.gl, asNumbers(lines));
+    this.attribute(1, 3, this.gl.FLOAT, 40, 0, 1);
+    this.attribute(2, 3, this.gl.FLOAT, 40, 12, 1);
+    this.attribute(3, 4, this.gl.FLOAT, 40, 24, 1);
+    this.gl.bindVertexArray(null);
+    this.furniture = { array, count: lines.length };
+  }
+
+  // The finest loaded level of each chunk that is seen, but not finer than `level` asks.
+  private seen(level: number, view: View, width: number, height: number): DrawnChunk[] {
+    const best = new Map<number, DrawnChunk>();
+    for (const one of this.chunks.values()) {
+      const before = best.get(one.points.chunk);
+      const better = (a: number, b: number): boolean => Math.abs(a - level) < Math.abs(b - level);
+      if (before === undefined || better(one.points.level, before.points.level)) best.set(one.points.chunk, one);
+    }
+    return [...best.values()].filter((one) => isSeen(one.points, view, width, height));
+  }
+
+  chunksInSight(view: View, width: number, height: number): number[] {
+    return this.seen(0, view, width, height).map((one) => one.points.chunk);
+  }
+
+  draw(picture: Picture, level: number): void {
+    const { gl, canvas } = this;
+    const density = canvas.width / Math.max(1, canvas.clientWidth);
+    const [width, height] = [canvas.clientWidth, canvas.clientHeight];
+    gl.viewport(0, 0, canvas.width, canvas.height);
+    gl.clearColor(...this.colours.ground, 1);
+    gl.clear(gl.COLOR_BUFFER_BIT | gl.DEPTH_BUFFER_BIT);
+    const camera = matrixOf(picture.view, width, height, this.reach * 2);
+    const window = [canvas.width, canvas.height];
+    if (this.furniture !== null && this.furniture.count > 0) {
+      this.line.use();
+      this.line.vector('camera', camera);
+      this.line.vector('window', window);
+      this.line.number('density', density);
+      gl.bindVertexArray(this.furniture.array);
+      gl.drawArraysInstanced(gl.TRIANGLE_STRIP, 0, 4, this.furniture.count);
+    }
+    this.drawPath(picture, level, camera, density);
+    if (picture.tool !== null) this.drawTool(picture.tool, camera, picture.view);
+    gl.bindVertexArray(null);
+  }
+
+  private drawPath(picture: Picture, level: number, camera: Float32Array, density: number): void {
+    const { gl, canvas, path } = this;
+    path.use();
+    path.vector('camera', camera);
+    path.vector('window', [canvas.width, canvas.height]);
+    path.vector('cutColour', this.colours.cut);
+    path.vector('rapidColour', this.colours.rapid);
+    path.vector('pastColour', this.colours.past);
+    path.number('thickness', 1.7 * density);
+    path.number('showsRapids', picture.showsRapids ? 1 : 0);
+    path.number('dash', 9 * density);
+    for (const one of this.seen(level, picture.view, canvas.clientWidth, canvas.clientHeight)) {
+      const { points } = one;
+      const { done } = picture;
+      const before = done !== null && points.chunk < done.chunk;
+      const within = done !== null && points.chunk === done.chunk ? Math.floor(done.share * (points.count - 1)) : 0;
+      path.vector('origin', points.origin);
+      path.vector('stepLength', points.step);
+      path.integer('done', before ? points.count : within);
+      gl.bindVertexArray(one.array);
+      gl.drawArraysInstanced(gl.TRIANGLE_STRIP, 0, 4, points.count - 1);
+    }
+  }
+
+  private drawTool(place: Vector, camera: Float32Array, view: View): void {
+    const { gl, tool } = this;
+    const { right, up, back } = axesOf(view);
+    const light = [0, 1, 2].map((k) => right[k]! * 0.35 + up[k]! * 0.45 + back[k]! * 0.82);
+    tool.use();
+    tool.vector('camera', camera);
+    tool.vector('tip', place);
+    tool.vector('light', light);
+    tool.vector('toolColour', this.colours.tool);
+    tool.number('size', 46 * view.scale);
+    gl.bindVertexArray(this.cone);
+    gl.drawArrays(gl.TRIANGLES, 0, this.coneCount);
+  }
+
+  bytes(): number {
+    let all = 0;
+    for (const one of this.chunks.values()) all += one.points.places.byteLength;
+    return all;
+  }
+}
+
+export function isSeen(points: PathPoints, view: View, width: number, height: number): boolean {
+  const { low, high } = boxOf(points);
+  const axes = axesOf(view);
+  let [left, right, top, bottom] = [Infinity, -Infinity, Infinity, -Infinity];
+  for (let corner = 0; corner < 8; ++corner) {
+    const place: Vector = [corner & 1 ? high[0] : low[0], corner & 2 ? high[1] : low[1], corner & 4 ? high[2] : low[2]];
+    const [x, y] = project(view, axes, place);
+    [left, right, top, bottom] = [Math.min(left, x), Math.max(right, x), Math.min(top, y), Math.max(bottom, y)];
+  }
+  return left < width / 2 && right > -width / 2 && top < height / 2 && bottom > -height / 2;
+}

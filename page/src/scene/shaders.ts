@@ -1,0 +1,109 @@
+// The scene's shaders. A line is a quad of as many pixels as it is wide: WebGL's own lines have one pixel, which nobody
+// sees on a 4K screen.
+
+// What both kinds of lines share: from the two ends to a corner of the quad. `corner.x` is 0 or 1 along the line,
+// `corner.y` -1 or 1 across it.
+const quad = `
+uniform mat4 camera;
+uniform vec2 window; // device pixels
+out float along;     // device pixels from the line's start
+vec4 cornerOf(vec3 from, vec3 to, vec2 corner, float width) {
+  vec4 a = camera * vec4(from, 1.0);
+  vec4 b = camera * vec4(to, 1.0);
+  vec2 way = (b.xy - a.xy) * window * 0.5;
+  float far = length(way);
+  vec2 ahead = far > 1e-4 ? way / far : vec2(1.0, 0.0);
+  vec2 aside = vec2(-ahead.y, ahead.x) * corner.y + ahead * (corner.x * 2.0 - 1.0) * 0.5;
+  vec4 place = corner.x < 0.5 ? a : b;
+  place.xy += aside * width / window;
+  along = corner.x * far;
+  return place;
+}`;
+
+export const pathVertex = `#version 300 es
+precision highp float;
+precision highp int;
+layout(location = 0) in vec2 corner;
+layout(location = 1) in vec4 start;  // three coordinates and flags, 0 to 65535
+layout(location = 2) in vec4 end;
+uniform vec3 origin;
+uniform vec3 stepLength;
+uniform int done;     // so many motions of this chunk are done
+uniform vec3 cutColour;
+uniform vec3 rapidColour;
+uniform vec3 pastColour;
+uniform float thickness;
+uniform float showsRapids;
+out vec3 colour;
+out float isRapid;
+${quad}
+void main() {
+  isRapid = mod(end.w, 2.0);
+  bool past = gl_InstanceID < done;
+  colour = isRapid > 0.5 ? rapidColour : past ? pastColour : cutColour;
+  float width = isRapid > 0.5 ? thickness * 0.7 * showsRapids : thickness;
+  gl_Position = cornerOf(origin + stepLength * start.xyz, origin + stepLength * end.xyz, corner, width);
+  if (isRapid > 0.5) gl_Position.z += 0.0005;
+  if (isRapid > 0.5 && showsRapids < 0.5) gl_Position = vec4(2.0, 2.0, 2.0, 1.0);
+}`;
+
+export const pathFragment = `#version 300 es
+precision highp float;
+in vec3 colour;
+in float isRapid;
+in float along;
+uniform float dash;
+out vec4 result;
+void main() {
+  if (isRapid > 0.5 && mod(along, dash) > dash * 0.55) discard;
+  result = vec4(colour, 1.0);
+}`;
+
+// Lines of the scene's furniture: the grid, the travel, the zero, a line that was picked.
+export const lineVertex = `#version 300 es
+precision highp float;
+layout(location = 0) in vec2 corner;
+layout(location = 1) in vec3 start;
+layout(location = 2) in vec3 end;
+layout(location = 3) in vec4 tint;  // colour, thickness
+uniform float density;
+out vec3 colour;
+${quad}
+void main() {
+  colour = tint.rgb;
+  gl_Position = cornerOf(start, end, corner, tint.a * density);
+}`;
+
+export const lineFragment = `#version 300 es
+precision highp float;
+in vec3 colour;
+in float along;
+out vec4 result;
+void main() {
+  result = vec4(colour, along < -1.0 ? 0.0 : 1.0);
+}`;
+
+// The tool: a cone that stands on its tip.
+export const toolVertex = `#version 300 es
+precision highp float;
+layout(location = 0) in vec3 corner;
+layout(location = 1) in vec3 normal;
+uniform mat4 camera;
+uniform vec3 tip;
+uniform float size;
+uniform vec3 light;
+out float shade;
+void main() {
+  shade = 0.55 + 0.45 * max(dot(normal, light), 0.0);
+  gl_Position = camera * vec4(tip + corner * size, 1.0);
+  gl_Position.z -= 0.001;
+}`;
+
+export const toolFragment = `#version 300 es
+precision highp float;
+in float shade;
+uniform vec3 toolColour;
+out vec4 result;
+void main() {
+  result = vec4(toolColour * shade, 1.0);
+}`;

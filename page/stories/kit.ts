@@ -1,0 +1,108 @@
+// What the stories share: the real daemon with its virtual machine, and the real browser.
+import { spawn, type ChildProcess } from 'node:child_process';
+import { existsSync, mkdtempSync, rmSync } from 'node:fs';
+import { tmpdir } from 'node:os';
+import { join, resolve } from 'node:path';
+import { chromium, type Browser, type BrowserContext, type Page } from 'playwright-core';
+import type { Status } from '../src/machine/api';
+
+const root = resolve(import.meta.dirname ?? '.', '../..');
+export const passo = process.env.PASSO_PROGRAM ?? join(root, 'build/release/passo');
+export const pageFolder = process.env.PASSO_PAGE ?? join(root, 'build/page');
+const browserPaths = [process.env.PASSO_CHROMIUM, '/usr/bin/chromium', '/usr/bin/google-chrome'];
+export const example = (name: string): string => join(root, 'examples', name);
+
+export class Daemon {
+  private constructor(
+    private readonly process: ChildProcess,
+    readonly address: string,
+    private readonly folder: string,
+  ) {}
+
+  static async start({ port = '0', machine }: { port?: string; machine?: string } = {}): Promise<Daemon> {
+    const folder = mkdtempSync(join(tmpdir(), 'passo-story-'));
+    const words = ['serve', '--http', `127.0.0.1:${port}`, '--grbl-tcp', '127.0.0.1:0', '--page', pageFolder, '--data', folder];
+    if (machine !== undefined) words.push('--machine', machine);
+    const child = spawn(passo, words, { stdio: ['ignore', 'pipe', 'inherit'] });
+    process.once('exit', () => child.kill('SIGKILL')); // a story that fails leaves nobody behind
+    const address = await new Promise<string>((done, fail) => {
+      let said = '';
+      child.stdout?.on('data', (bytes: Buffer) => {
+        said += bytes.toString();
+        const found = /http:\/\/127\.0\.0\.1:\d+\//.exec(said);
+        if (found !== null && said.includes('Ctrl-C')) done(found[0]);
+      });
+      child.on('exit', (code) => fail(new Error(`passo serve has ended with ${code}: ${said}`)));
+      child.on('error', fail);
+    });
+    return new Daemon(child, address, folder);
+  }
+
+  async get<T>(path: string): Promise<T> {
+    return (await (await fetch(`${this.address}api/v1${path}`)).json()) as T;
+  }
+  async post(path: string, body: string, key = ''): Promise<Record<string, unknown>> {
+    const answer = await fetch(`${this.address}api/v1${path}`, { method: 'POST', body, headers: { 'X-Passo-Key': key } });
+    return (await answer.json()) as Record<string, unknown>;
+  }
+  status(): Promise<Status> {
+    return this.get<Status>('/status');
+  }
+  async until(what: (status: Status) => boolean, within = 15_000): Promise<Status> {
+    const end = Date.now() + within;
+    for (;;) {
+      const status = await this.status();
+      if (what(status)) return status;
+      if (Date.now() > end) throw new Error(`waited in vain: ${JSON.stringify(status)}`);
+      await sleep(20);
+    }
+  }
+
+  async end(): Promise<void> {
+    const ended = new Promise((done) => this.process.once('exit', done));
+    this.process.kill('SIGTERM');
+    await ended;
+    rmSync(this.folder, { recursive: true, force: true });
+  }
+}
+
+export const sleep = (ms: number): Promise<void> => new Promise((done) => setTimeout(done, ms));
+
+export async function openBrowser(): Promise<Browser> {
+  const executablePath = browserPaths.find((one) => one !== undefined && existsSync(one));
+  if (executablePath === undefined) throw new Error('there is no Chromium: apt-get install chromium');
+  return chromium.launch({
+    executablePath,
+    args: ['--no-sandbox', '--disable-dev-shm-usage', '--enable-unsafe-swiftshader', '--use-angle=swiftshader', '--force-color-profile=srgb'],
+  });
+}
+
+export interface Visit {
+  language?: string;
+  theme?: 'dark' | 'light';
+  size?: { width: number; height: number };
+  units?: 'mm' | 'inch';
+  density?: number;
+}
+
+// A browser of another person: nothing of it is shared with others.
+export async function visit(browser: Browser, daemon: Daemon, path: string, how: Visit = {}): Promise<{ context: BrowserContext; page: Page; errors: string[] }> {
+  const context = await browser.newContext({
+    viewport: how.size ?? { width: 1280, height: 800 },
+    colorScheme: how.theme ?? 'dark',
+    locale: how.language ?? 'en',
+    reducedMotion: 'reduce',
+    deviceScaleFactor: how.density ?? 1,
+  });
+  const page = await context.newPage();
+  page.setDefaultTimeout(20_000);
+  const errors: string[] = [];
+  page.on('pageerror', (error) => errors.push(String(error)));
+  page.on('console', (message) => {
+    if (message.type() === 'error' && !message.text().includes('ERR_') && !message.text().includes('WebSocket')) errors.push(message.text());
+  });
+  if (how.units !== undefined) await page.addInitScript(`localStorage.setItem('passo.units', '"${how.units}"')`);
+  await page.goto(`${daemon.address}#/${path}`);
+  await page.getByTestId('state').waitFor();
+  return { context, page, errors };
+}

@@ -1,0 +1,294 @@
+// Whole stories, in the real browser, against the real daemon and its virtual machine. What has moved is asked of the
+// daemon.
+import { readFileSync } from 'node:fs';
+import { createRequire } from 'node:module';
+import type { Browser, Page } from 'playwright-core';
+import { afterAll, afterEach, beforeAll, describe, expect, it } from 'vitest';
+import { Daemon, openBrowser, sleep, visit } from './kit';
+
+let browser: Browser;
+let daemon: Daemon;
+beforeAll(async () => {
+  browser = await openBrowser();
+  daemon = await Daemon.start();
+});
+afterAll(async () => {
+  await browser?.close();
+  await daemon?.end();
+});
+
+const part = 'G21 G90 G17\nF1200\nG0 Z5\nG0 X10 Y10\nG1 Z-1\nG1 X60\nG2 X60 Y40 J15\nG1 X10\nG1 Y10\nG0 Z5\nM2\n';
+const click = (page: Page, name: string | RegExp): Promise<void> => page.getByRole('button', { name, exact: typeof name === 'string' }).first().click({ timeout: 8000 });
+const send = (page: Page, name: string, text: string): Promise<void> =>
+  page.setInputFiles('input[type=file]', { name, mimeType: 'text/plain', buffer: Buffer.from(text) });
+
+async function startProgram(page: Page): Promise<void> {
+  await click(page, 'Start');
+  await page.getByRole('dialog').getByRole('button', { name: 'Start' }).click();
+}
+// The motion may still be another page's that is gone.
+async function takeOver(page: Page): Promise<void> {
+  if ((await daemon.status()).owner.kind !== 'client') return;
+  await click(page, 'Take over');
+  await page.getByRole('dialog').getByRole('button', { name: 'Take over' }).click();
+  await page.locator('.owner').waitFor({ state: 'detached' });
+}
+async function rest(): Promise<void> {
+  await fetch(`${daemon.address}api/v1/stop`, { method: 'POST' });
+  await daemon.until((status) => status.state === 'Idle');
+}
+
+describe('first start to first cut', () => {
+  it('homes, jogs, zeroes, uploads, checks and runs', async () => {
+    const { page, context, errors } = await visit(browser, daemon, 'jog');
+    await click(page, 'Home');
+    await page.getByRole('dialog').getByRole('button', { name: 'Home' }).click();
+    await daemon.until((status) => status.trust === 'homed' && status.state === 'Idle', 40_000);
+    await page.getByText('Homed').waitFor();
+    // Steps so short that no lease ends amid them, however busy the computer is.
+    await page.getByRole('radio', { name: '1', exact: true }).check();
+    const at = (await daemon.status()).place;
+    await click(page, 'Jog X+');
+    await daemon.until((status) => status.state === 'Idle' && Math.abs((status.place.x ?? 0) - (at.x ?? 0) - 1) < 0.01);
+    // The part has to fit between the switches.
+    for (let steps = 1; steps <= 6; ++steps) {
+      await click(page, 'Jog Z−');
+      await daemon.until((status) => status.state === 'Idle' && Math.abs((status.place.z ?? 0) - (at.z ?? 0) + steps) < 0.01);
+    }
+    await click(page, 'Zero all');
+    await page.getByRole('dialog').getByRole('button', { name: 'Work zero' }).click();
+    await expect.poll(() => page.getByTestId('work-x').innerText()).toBe('0.000');
+    await page.goto(`${daemon.address}#/files`);
+    await send(page, 'part.ngc', part);
+    await expect.poll(() => page.getByTestId('verdict').innerText()).toContain('Good');
+    await page.getByText('X 10.00 … 60.00 mm').waitFor();
+    await click(page, 'Open');
+    await startProgram(page);
+    await daemon.until((status) => status.state === 'Run' && status.line >= 6);
+    await expect.poll(() => page.locator('.text-line.executed').count()).toBe(1);
+    const ended = await daemon.until((status) => status.job?.state === 'done', 30_000);
+    expect((ended.place.x ?? 0) - (ended.work_offset?.x ?? 0)).toBeCloseTo(10, 3);
+    expect(errors).toEqual([]);
+    await context.close();
+  });
+});
+
+describe('a program on its way', () => {
+  it('is held, overridden, seen by another page, and finished', async () => {
+    const first = await visit(browser, daemon, 'files');
+    await send(first.page, 'slow.ngc', part.replace('F1200', 'F400'));
+    await expect.poll(() => first.page.getByTestId('verdict').innerText()).toContain('Good');
+    await first.page.goto(`${daemon.address}#/run`);
+    await takeOver(first.page);
+    await startProgram(first.page);
+    await daemon.until((status) => status.state === 'Run');
+    await click(first.page, 'Hold');
+    const held = await daemon.until((status) => status.state === 'Hold' && status.rests);
+    await first.page.getByText('Held').waitFor();
+    await click(first.page, 'Feed more');
+    await click(first.page, 'Feed more');
+    await daemon.until((status) => Math.abs(status.overrides.feed - 1.2) < 1e-6);
+    // The page is closed: the machine goes on holding, and another page finds it so.
+    await first.context.close();
+    const second = await visit(browser, daemon, 'run');
+    expect(await second.page.getByTestId('state').innerText()).toBe('Held');
+    expect((await daemon.status()).place).toEqual(held.place);
+    await second.page.locator('.owner').waitFor();
+    await takeOver(second.page);
+    for (let presses = 0; presses < 8; ++presses) await click(second.page, 'Feed more');
+    await click(second.page, 'Resume');
+    await daemon.until((status) => status.state === 'Run');
+    await daemon.until((status) => status.job?.state === 'done', 40_000);
+    await expect.poll(() => second.page.getByTestId('state').innerText()).toBe('Ready');
+    expect(second.errors).toEqual([]);
+    await second.context.close();
+  });
+
+  it('has one owner among two browsers', async () => {
+    const one = await visit(browser, daemon, 'jog');
+    const other = await visit(browser, daemon, 'jog');
+    await takeOver(one.page);
+    await one.page.getByRole('radio', { name: '1', exact: true }).check();
+    await click(one.page, 'Jog X+');
+    await other.page.locator('.owner').waitFor();
+    const pad = other.page.getByRole('button', { name: 'Jog X+', exact: true });
+    expect(await pad.getAttribute('aria-disabled')).toBe('true');
+    expect(await pad.getAttribute('title')).toContain('Somebody else');
+    const before = (await daemon.until((status) => status.state === 'Idle')).place;
+    await pad.click();
+    await sleep(300);
+    expect((await daemon.status()).place).toEqual(before);
+    // Everybody may stop.
+    await one.page.getByRole('radio', { name: 'Continuous' }).check();
+    await one.page.getByRole('button', { name: 'Jog X−', exact: true }).hover();
+    await one.page.mouse.down();
+    await daemon.until((status) => status.state === 'Jog');
+    await expect.poll(() => other.page.getByRole('button', { name: 'Stop', exact: true }).getAttribute('aria-disabled')).toBe('false');
+    await click(other.page, 'Stop');
+    await daemon.until((status) => status.state === 'Idle');
+    await one.page.mouse.up();
+    await one.context.close();
+    await other.context.close();
+  });
+});
+
+describe('a jog by the keyboard', () => {
+  let page: Page;
+  let close: () => Promise<void>;
+  beforeAll(async () => {
+    const visited = await visit(browser, daemon, 'jog');
+    page = visited.page;
+    close = () => visited.context.close();
+    await takeOver(page);
+    await page.getByRole('radio', { name: 'Continuous' }).check();
+    await page.locator('h2').first().click();
+  });
+  afterAll(() => close());
+
+  afterEach(async () => {
+    for (const key of ['ArrowLeft', 'ArrowRight', 'ArrowUp', 'ArrowDown']) await page.keyboard.up(key);
+    await page.evaluate(() => window.dispatchEvent(new Event('focus')));
+  });
+
+  // Holds a key for longer than the lease. On a busy computer a renewal may come too late, and the motion ends, as it
+  // should: then again.
+  const hold = async (key: string): Promise<void> => {
+    await page.evaluate(() => (document.activeElement as HTMLElement | null)?.blur());
+    for (let tries = 0; tries < 20; ++tries) {
+      await daemon.until((status) => status.state === 'Idle');
+      await page.keyboard.down(key);
+      await daemon.until((status) => status.state === 'Jog', 3000).catch(() => undefined);
+      await sleep(400);
+      if ((await daemon.status()).state === 'Jog') return;
+      await page.keyboard.up(key);
+      await sleep(300);
+    }
+    throw new Error('no jog has lasted');
+  };
+  const hasStopped = async (): Promise<void> => {
+    const status = await daemon.until((one) => one.state === 'Idle' && one.rests, 5000);
+    await sleep(400);
+    expect((await daemon.status()).place).toEqual(status.place);
+  };
+
+  it('stops when the key goes up', async () => {
+    const before = (await daemon.status()).place.x ?? 0;
+    await hold('ArrowLeft');
+    await page.keyboard.up('ArrowLeft');
+    await hasStopped();
+    expect((await daemon.status()).place.x).toBeLessThan(before);
+  });
+
+  it('stops when the window loses the focus, and the key goes up elsewhere', async () => {
+    await hold('ArrowRight');
+    await page.evaluate(() => window.dispatchEvent(new Event('blur')));
+    await hasStopped();
+    await page.keyboard.up('ArrowRight');
+    await page.evaluate(() => window.dispatchEvent(new Event('focus')));
+  });
+
+  it('stops when the tab is hidden', async () => {
+    await hold('ArrowUp');
+    await page.evaluate(() => {
+      Object.defineProperty(document, 'hidden', { value: true, configurable: true });
+      document.dispatchEvent(new Event('visibilitychange'));
+    });
+    await hasStopped();
+    await page.keyboard.up('ArrowUp');
+    await page.evaluate(() => {
+      Object.defineProperty(document, 'hidden', { value: false, configurable: true });
+      document.dispatchEvent(new Event('visibilitychange'));
+    });
+  });
+
+  it('stops when the page freezes: nobody renews the lease', async () => {
+    await hold('ArrowDown');
+    const frozen = page.evaluate(() => {
+      const end = performance.now() + 3000;
+      while (performance.now() < end);
+    });
+    await daemon.until((status) => status.state === 'Idle', 3000);
+    await frozen;
+    await page.keyboard.up('ArrowDown');
+    await hasStopped();
+  });
+
+  it('stops when the network is gone, and the page says so within 2 s', async () => {
+    await hold('ArrowLeft');
+    const network = await page.context().newCDPSession(page);
+    await network.send('Network.enable');
+    // Chromium's own switch leaves open WebSockets alone: so the daemon's voice is cut in the page.
+    await page.evaluate(() => {
+      const say = WebSocket.prototype.send;
+      WebSocket.prototype.send = () => undefined;
+      Object.assign(window, { mend: () => (WebSocket.prototype.send = say) });
+    });
+    await page.context().setOffline(true);
+    await daemon.until((status) => status.state === 'Idle', 5000);
+    await hasStopped();
+    await page.keyboard.up('ArrowLeft');
+    await page.evaluate(() => (window as unknown as { mend: () => void }).mend());
+    await page.context().setOffline(false);
+  });
+});
+
+describe('a lost daemon', () => {
+  it('is told within 2 s, everything is disabled, and the page comes back by itself', async () => {
+    const own = await Daemon.start();
+    const { page, context } = await visit(browser, own, 'run');
+    const port = new URL(own.address).port;
+    await own.end();
+    const lost = page.getByRole('alert');
+    await lost.waitFor({ timeout: 6000 });
+    expect(await lost.innerText()).toContain('Connection lost');
+    for (const name of ['Start', 'Hold', 'Stop']) {
+      const button = page.getByRole('button', { name }).first();
+      expect(await button.getAttribute('aria-disabled')).toBe('true');
+      expect(await button.getAttribute('title')).toContain('connection');
+    }
+    const again = await Daemon.start({ port });
+    await lost.waitFor({ state: 'detached', timeout: 30_000 });
+    await context.close();
+    await again.end();
+  });
+});
+
+describe('a wrong program', () => {
+  it('is refused with its lines, and cannot be started', async () => {
+    const { page, context } = await visit(browser, daemon, 'files');
+    await takeOver(page);
+    await send(page, 'wrong.ngc', 'G21 G90\nG1 X10 F300\nG1 X9000\n');
+    await expect.poll(() => page.getByTestId('verdict').innerText()).toContain('Has errors');
+    await page.getByRole('button', { name: /Line 3/ }).first().waitFor();
+    const start = page.getByRole('button', { name: 'Start' }).first();
+    expect(await start.getAttribute('title')).toContain('errors');
+    await page.getByRole('button', { name: /Line 3/ }).first().click();
+    await page.locator('.text-line.picked').waitFor();
+    await context.close();
+  });
+});
+
+describe('every page', () => {
+  const axe = readFileSync(createRequire(import.meta.url).resolve('axe-core/axe.min.js'), 'utf8');
+
+  it('speaks four languages, and is fit for everybody', async () => {
+    for (const [language, words] of [['en', 'Ready'], ['it', 'Pronta'], ['fr', 'Prête'], ['zh', '就绪']] as const) {
+      const theme = language === 'it' || language === 'zh' ? 'light' : 'dark';
+      const size = language === 'fr' || language === 'zh' ? { width: 360, height: 740 } : { width: 1440, height: 900 };
+      const { page, context, errors } = await visit(browser, daemon, 'run', { language, theme, size });
+      await expect.poll(() => page.getByTestId('state').innerText()).toBe(words);
+      for (const path of ['run', 'jog', 'files', 'console', 'machine']) {
+        await page.goto(`${daemon.address}#/${path}`);
+        await page.locator(`main.page-${path} :is(section, form, .panel)`).first().waitFor();
+        expect(await page.evaluate(() => document.documentElement.scrollWidth <= innerWidth), `${path} is too wide`).toBe(true);
+        // As the project's own tool, not as a script of the page: the page's policy stays as it is.
+        const found = await page.evaluate(`(async () => { ${axe}; return (await axe.run(document, {resultTypes: ['violations']})).violations; })()`);
+        const told = (found as { id: string; nodes: { html: string }[] }[]).map((one) => `${one.id}: ${one.nodes.map((node) => node.html).join(' ')}`);
+        expect(told, `${path} in ${language}`).toEqual([]);
+      }
+      expect(errors).toEqual([]);
+      await context.close();
+    }
+    await rest();
+  });
+});

@@ -1,0 +1,143 @@
+import { afterEach, beforeEach, describe, expect, it, vi } from 'vitest';
+import { keyDirections, sumOf } from '../src/machine/jog';
+import { Jogger, renewEvery, type JogWay } from '../src/machine/jogger';
+
+const right: JogWay = { direction: { x: 1 }, speed: 600, distance: 0 };
+const up: JogWay = { direction: { y: 1 }, speed: 600, distance: 0 };
+const step: JogWay = { direction: { x: 1 }, speed: 600, distance: 1 };
+
+// A daemon that does as it is told, at once.
+class Machine {
+  said: string[] = [];
+  hears = true;
+  refuses = false;
+  errors: unknown[] = [];
+  readonly jogger = new Jogger(
+    {
+      begin: async (way) => {
+        this.said.push(`begin ${Object.keys(way.direction).join('')}${way.distance > 0 ? way.distance : ''}`);
+        await Promise.resolve();
+        if (this.refuses) throw new Error('no');
+      },
+      renew: () => {
+        this.said.push('renew');
+        return this.hears;
+      },
+      stop: () => void this.said.push('stop'),
+    },
+    (error) => this.errors.push(error),
+    () => Date.now(),
+  );
+  async settle(): Promise<void> {
+    await vi.advanceTimersByTimeAsync(0);
+  }
+}
+
+describe('Jogger', () => {
+  beforeEach(() => void vi.useFakeTimers());
+  afterEach(() => void vi.useRealTimers());
+
+  it('renews the lease while something is held, and stops when it is let go', async () => {
+    const m = new Machine();
+    m.jogger.hold(right);
+    await m.settle();
+    m.jogger.heard('Jog');
+    await vi.advanceTimersByTimeAsync(renewEvery * 2);
+    expect(m.said).toEqual(['begin x', 'renew', 'renew']);
+    m.jogger.release();
+    expect(m.said.at(-1)).toBe('stop');
+    await vi.advanceTimersByTimeAsync(renewEvery * 5);
+    expect(m.said.at(-1)).toBe('stop');
+    m.jogger.heard('Idle');
+    expect(m.jogger.rests).toBe(true);
+  });
+
+  it('stops when the key went up while the request was on its way', async () => {
+    const m = new Machine();
+    m.jogger.hold(right);
+    m.jogger.release();
+    await m.settle();
+    expect(m.said).toEqual(['begin x', 'stop']);
+  });
+
+  it('brakes before it goes another way', async () => {
+    const m = new Machine();
+    m.jogger.hold(right);
+    await m.settle();
+    m.jogger.heard('Jog');
+    m.jogger.hold(up);
+    expect(m.said).toEqual(['begin x', 'stop']);
+    m.jogger.heard('Jog');
+    m.jogger.heard('Idle');
+    await m.settle();
+    expect(m.said).toEqual(['begin x', 'stop', 'begin y']);
+  });
+
+  it('does not begin again at the end of the travel', async () => {
+    const m = new Machine();
+    m.jogger.hold(right);
+    await m.settle();
+    m.jogger.heard('Jog');
+    m.jogger.heard('Idle');
+    await m.settle();
+    expect(m.said).toEqual(['begin x']);
+  });
+
+  it('lets go when nobody hears its renewals', async () => {
+    const m = new Machine();
+    m.jogger.hold(right);
+    await m.settle();
+    m.hears = false;
+    await vi.advanceTimersByTimeAsync(renewEvery);
+    expect(m.said).toEqual(['begin x', 'renew', 'stop']);
+  });
+
+  it('makes as many steps as were asked for, one after the other, and drops them when told to end', async () => {
+    const m = new Machine();
+    m.jogger.step(step);
+    m.jogger.step(step);
+    m.jogger.step(step);
+    await m.settle();
+    expect(m.said).toEqual(['begin x1']);
+    m.jogger.heard('Jog');
+    m.jogger.heard('Idle');
+    await m.settle();
+    expect(m.said).toEqual(['begin x1', 'begin x1']);
+    m.jogger.release();
+    m.jogger.heard('Jog');
+    m.jogger.heard('Idle');
+    await m.settle();
+    expect(m.said).toEqual(['begin x1', 'begin x1', 'stop']);
+  });
+
+  it('ends a short step that no status has shown', async () => {
+    const m = new Machine();
+    m.jogger.step(step);
+    await m.settle();
+    m.jogger.heard('Idle');
+    expect(m.jogger.rests).toBe(false);
+    await vi.advanceTimersByTimeAsync(300);
+    m.jogger.heard('Idle');
+    expect(m.jogger.rests).toBe(true);
+  });
+
+  it('tells a refusal once, and rests', async () => {
+    const m = new Machine();
+    m.refuses = true;
+    m.jogger.hold(right);
+    await m.settle();
+    expect(m.errors).toHaveLength(1);
+    expect(m.jogger.rests).toBe(true);
+    await vi.advanceTimersByTimeAsync(1000);
+    expect(m.said).toEqual(['begin x']);
+  });
+});
+
+describe('keys', () => {
+  it('add up, and opposite ones rest', () => {
+    const of = (...codes: string[]) => sumOf(codes.map((code) => keyDirections[code] ?? {}));
+    expect(of('ArrowUp', 'ArrowRight')).toEqual({ x: 1, y: 1 });
+    expect(of('ArrowUp', 'ArrowDown')).toEqual({ y: 0 });
+    expect(of('Numpad9', 'ArrowLeft')).toEqual({ x: 0, y: 1 });
+  });
+});

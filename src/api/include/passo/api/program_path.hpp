@@ -1,0 +1,87 @@
+// ProgramPath: the path of a program as points, for viewers. It is made while the program is checked.
+//
+// The points come in chunks. Each chunk has a box of its own, within which 16 bits a coordinate place each point: 12
+// bytes a point in all, and a point is off by at most 1/131,000 of its chunk's box. Point i of a chunk is the end of
+// the motion from point i - 1; the first point of a chunk is the last one of the chunk before. Coarser levels leave
+// points out where nobody sees them.
+//
+// Lengths are mm, machine coordinates of X, Y and Z. Memory is bounded: beyond `most_points` the rest is left out.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "passo/path/segment.hpp"
+
+namespace passo {
+
+class ProgramPath {
+ public:
+  static constexpr std::size_t chunk_points = 16'384;
+  static constexpr std::size_t most_points = 24'000'000;
+  static constexpr unsigned levels = 3;  // 0: all points
+  static constexpr std::uint16_t flag_rapid = 1;
+
+  using Coordinates = std::array<double, 3>;
+  // An empty box has low above high.
+  struct Range {
+    Coordinates low{1e300, 1e300, 1e300};
+    Coordinates high{-1e300, -1e300, -1e300};
+    bool empty() const { return low[0] > high[0]; }
+    void add(const Coordinates& place);
+    double diagonal() const;
+  };
+
+  // Arcs become chords that leave the arc by less than `chord_error`.
+  void add(const PathItem& item);
+  // No more items come.
+  void finish();
+
+  bool complete() const { return complete_; }
+  bool cut_off() const { return cut_off_; }
+  std::size_t points() const { return points_; }
+  std::size_t chunks() const { return chunks_.size(); }
+  const Range& all() const { return all_; }    // machine coordinates
+  const Range& cuts() const { return cuts_; }  // feeds alone, machine coordinates
+  const Range& work() const { return work_; }  // feeds alone, in the work coordinates that were in force
+  std::size_t bytes() const { return points_ * (sizeof(Packed) + sizeof(std::uint32_t)); }
+
+  // A chunk as docs/api/openapi.json describes it, little-endian. `chunk` < chunks(), `level` < levels.
+  std::string chunk(std::size_t chunk, unsigned level) const;
+
+ private:
+  static constexpr double chord_error = 0.005;
+
+  struct Packed {
+    std::array<std::uint16_t, 3> place;
+    std::uint16_t flags;
+  };
+  struct Chunk {
+    std::array<float, 3> origin;
+    std::array<float, 3> step;
+    std::vector<Packed> points;
+    std::vector<std::uint32_t> lines;
+  };
+  struct Fresh {
+    Coordinates place;
+    std::uint32_t line;
+    std::uint16_t flags;
+  };
+
+  void add_point(const Coordinates& place, std::uint32_t line, std::uint16_t flags);
+  void close_chunk();
+
+  std::vector<Chunk> chunks_;
+  std::vector<Fresh> fresh_;  // of the chunk that is not full yet
+  std::size_t points_ = 0;
+  Range all_;
+  Range cuts_;
+  Range work_;
+  bool complete_ = false;
+  bool cut_off_ = false;
+};
+
+}  // namespace passo

@@ -1,0 +1,251 @@
+#include "passo/api/kept_job.hpp"
+
+#include <charconv>
+#include <utility>
+
+#include "passo/base/fingerprint.hpp"
+
+namespace passo {
+namespace {
+
+constexpr std::string_view stamp_title = "job ";
+
+FileStamp stamp_of(std::int64_t id, std::string_view text) {
+  Fingerprint fingerprint;
+  fingerprint.add(text);
+  return {
+      .name = std::string(stamp_title) + std::to_string(id), .size = text.size(), .fingerprint = fingerprint.value()};
+}
+
+// The number of a job in the history, from the name in its stamp. 0: it is none.
+std::int64_t number_of(std::string_view name) {
+  std::int64_t number = 0;
+  if (!name.starts_with(stamp_title)) return 0;
+  name.remove_prefix(stamp_title.size());
+  const auto [end, error] = std::from_chars(name.data(), name.data() + name.size(), number);
+  return error == std::errc() && end == name.data() + name.size() ? number : 0;
+}
+
+}  // namespace
+
+BrokenOff broken_off(const Journal& journal, const BoardStatus& status, const Greeting& greeting) {
+  BrokenOff found{.head = journal.head(),
+                  .refused = refuse_rest(journal, status),
+                  .done = journal.done(),
+                  .farthest = journal.farthest()};
+  if (!found.refused && (status.state & board_moves) != 0) found.refused = ResumeRefusal::rest_unknown;
+  if (found.refused) return found;
+  found.head.place = found.done = found.farthest = *journal.place_of(status);
+  found.head.numbers = {.session_before = status.session,
+                        .executed_before = status.executed,
+                        .greeting = greeting.number,
+                        .session = greeting.session};
+  return found;
+}
+
+KeptJob::KeptJob(const MachineDescription& machine, MachineSession& session, JobKeeper& keeper, JobHistory& history,
+                 Names names)
+    : machine_(machine),
+      session_(session),
+      keeper_(keeper),
+      history_(history),
+      names_(std::move(names)),
+      writer_(keeper.store()) {}
+
+void KeptJob::refuse(std::string_view code, std::string_view why) {
+  interrupted_->code = code;
+  interrupted_->why = why;
+}
+
+void KeptJob::find(const BrokenOff& found) {
+  const std::int64_t number = number_of(found.head.program.name);
+  const auto job = history_.find(number);
+  if (!job || job->state != HistoryState::interrupted) return keeper_.remove();
+  interrupted_.emplace();
+  interrupted_->job = *job;
+  interrupted_->journal = found;
+  const std::string text = program();
+  if (stamp_of(number, text) != found.head.program) {
+    return refuse("resume.program-changed", "the history has another program under the job's number");
+  }
+  if (found.head.made_by != names_.made_by) {
+    return refuse("resume.other-version", "the job was begun by version " + found.head.made_by);
+  }
+  if (found.head.machine != names_.machine) {
+    return refuse("resume.machine-changed", "the machine file is another, or was changed since");
+  }
+  find_way_back(text);
+  if (found.refused) return refuse(code_of(*found.refused), message_of(*found.refused));
+  interrupted_->point =
+      find_resume_point(ProgramReader::from_text(job->name, text), machine_, options(), found.head.place);
+  if (!interrupted_->point)
+    return refuse(code_of(ResumeRefusal::path_changed), message_of(ResumeRefusal::path_changed));
+  if (interrupted_->point->in_thread) refuse(code_of(ResumeRefusal::in_thread), message_of(ResumeRefusal::in_thread));
+}
+
+// The board's place is lost with its power. Then the switches tell how far the machine is from where it was.
+void KeptJob::find_way_back(const std::string& text) {
+  const BrokenOff& found = interrupted_->journal;
+  const auto program = ProgramReader::from_text(interrupted_->job.name, text);
+  interrupted_->back_at = find_resume_point(program.again(), machine_, options(), found.done);
+  hello_at_ = session_.status().position.place;
+  is_compared_ = found.refused != ResumeRefusal::board_reset;
+  // A job that has not come beyond its beginning may still have been on its way there.
+  const bool is_on_its_path = found.done != found.head.place;
+  if (!is_compared_ && is_on_its_path) {
+    interrupted_->range = range_between(program.again(), machine_, options(), found.done, found.farthest);
+  }
+}
+
+void KeptJob::compare_switches() {
+  const HomingPath* const homing = session_.homing();
+  if (is_compared_ || homing == nullptr || session_.busy() || session_.status().position.trust != Trust::homed) return;
+  is_compared_ = true;
+  if (!interrupted_->range) return;
+  interrupted_->shift = words_of_shift(machine_, homing->homed(), *interrupted_->range, homing->start() - hello_at_);
+}
+
+Result<Reentry, ReentryProblem> KeptJob::reentry() {
+  const KnownPosition position = session_.status().position;
+  if (!interrupted_->back_at) {
+    return Failure{ReentryProblem{.code = interrupted_->code, .why = interrupted_->why}};
+  }
+  if (position.trust == Trust::unknown) {
+    return Failure{
+        ReentryProblem{.code = "reentry.place-unknown", .why = "where the machine stands is not known: home it first"}};
+  }
+  if (!interrupted_->shift.empty())
+    return Failure{ReentryProblem{.code = "reentry.shifted", .why = interrupted_->shift}};
+  auto way = plan_reentry(machine_, *interrupted_->back_at, position.place);
+  if (way) return std::move(*way);
+  return Failure{ReentryProblem{.code = code_of(way.error()), .why = std::string(message_of(way.error()))}};
+}
+
+void KeptJob::hear(const BoardStatus& status, const Greeting& greeting) {
+  const auto journal = Journal::read(keeper_.read());
+  if (!journal) return;
+  heard_ = broken_off(*journal, status, greeting);
+  heard_->noted_at = keeper_.noted_at();
+  if (!heard_->refused) writer_.begin(heard_->head);
+}
+
+void KeptJob::look() {
+  if (interrupted_) compare_switches();
+  if (!heard_ || session_.state() == MachineState::offline) return;
+  find(*std::exchange(heard_, std::nullopt));
+}
+
+// Somebody may have moved the machine, and may have moved it back.
+void KeptJob::mind_place() {
+  const bool is_sure = interrupted_->point && !interrupted_->journal.refused && !interrupted_->point->in_thread;
+  const auto& status = session_.board().status();
+  if (!is_sure || session_.state() != MachineState::idle || !status) return;
+  interrupted_->code.clear();
+  interrupted_->why.clear();
+  JournalHead head = interrupted_->journal.head;
+  if (stands_at(head, *interrupted_->point, *status)) return;
+  refuse(code_of(ResumeRefusal::counts_differ), "the machine was moved since: move it back to the place of the job");
+}
+
+const InterruptedJob* KeptJob::interrupted() {
+  if (!interrupted_) return nullptr;
+  mind_place();
+  return &*interrupted_;
+}
+
+std::string KeptJob::program() const {
+  return history_.program_of(interrupted_->job.id).value_or("");
+}
+
+InterpreterOptions KeptJob::options() const {
+  InterpreterOptions options;
+  options.dialect = interrupted_->job.dialect == "grbl" ? Dialect::grbl : Dialect::linuxcnc;
+  options.start = interrupted_->journal.head.start;
+  return options;
+}
+
+void KeptJob::drop() {
+  interrupted_.reset();
+  keeper_.remove();
+}
+
+bool KeptJob::write(const JournalHead& head) {
+  writer_.begin(head);
+  if (writer_.failed()) return false;
+  keeper_.name_session(head.numbers.session);
+  return true;
+}
+
+bool KeptJob::begin(std::int64_t history, std::string_view text, std::uint64_t path, const PathPlace& place) {
+  resumes_ = false;
+  const auto& status = session_.board().status();
+  if (!status || !session_.zero_counts()) return false;
+  JournalHead head{.made_by = names_.made_by,
+                   .program = stamp_of(history, text),
+                   .machine = names_.machine,
+                   .path = path,
+                   .job_counts = {},
+                   .start = session_.status().position.place,
+                   .numbers = {.session_before = status->session,
+                               .executed_before = status->executed,
+                               .greeting = 0,
+                               .session = keeper_.new_number()},
+                   .place = place};
+  for (std::size_t m = 0; m < machine_.axes.size(); ++m) {
+    head.job_counts.push_back(static_cast<int>((*session_.zero_counts())[m]));
+  }
+  return write(head);
+}
+
+bool KeptJob::is_of(std::uint64_t path) {
+  if (path == interrupted_->journal.head.path) return true;
+  interrupted_->point.reset();
+  interrupted_->back_at.reset();
+  refuse(code_of(ResumeRefusal::path_changed), message_of(ResumeRefusal::path_changed));
+  return false;
+}
+
+bool KeptJob::reenter(std::uint64_t path) {
+  if (!is_of(path)) return false;
+  auto way = reentry();
+  if (!way) return false;
+  way_ = std::move(*way);
+  resumes_ = true;
+  JournalHead head = head_of_resumption(interrupted_->journal.head, *session_.board().status(), way_->at);
+  for (std::size_t m = 0; m < machine_.axes.size(); ++m) {
+    head.job_counts[m] = static_cast<int>((*session_.zero_counts())[m]);
+  }
+  head.numbers.greeting = 0;
+  head.numbers.session = keeper_.new_number();
+  return write(head);
+}
+
+bool KeptJob::resume(std::uint64_t path) {
+  if (!is_of(path)) return false;
+  way_.reset();
+  mind_place();
+  if (!interrupted_->code.empty()) return false;
+  resumes_ = true;
+  JournalHead head = head_of_resumption(interrupted_->journal.head, *session_.board().status(), *interrupted_->point);
+  head.numbers.greeting = 0;
+  head.numbers.session = keeper_.new_number();
+  return write(head);
+}
+
+void KeptJob::add_to(request::Start& start) {
+  if (resumes_) {
+    start.options = options();
+    start.from = interrupted_->point;
+    if (way_) {
+      start.from = way_->at;
+      start.lead_in = way_->lead_in;
+    }
+  }
+  start.watchers.rests = [this](const BoardRest& rest) { writer_.note(rest); };
+}
+
+void KeptJob::end(bool may_go_on) {
+  if (!may_go_on) keeper_.remove();
+}
+
+}  // namespace passo

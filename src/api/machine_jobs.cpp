@@ -1,0 +1,228 @@
+// MachineApi: how a program becomes a job, and what becomes of the job.
+#include <charconv>
+#include <utility>
+
+#include "api_json.hpp"
+#include <fmt/format.h>
+
+namespace passo {
+namespace {
+
+HistoryState history_state_of(JobState state) {
+  switch (state) {
+    case JobState::done: return HistoryState::done;
+    case JobState::failed: return HistoryState::failed;
+    case JobState::interrupted: return HistoryState::interrupted;
+    default: return HistoryState::stopped;
+  }
+}
+
+}  // namespace
+
+WebAnswer no_history() {
+  return error_answer(404, "data.none", "passo serve keeps nothing: start it with --data DIR");
+}
+
+WebAnswer no_room() {
+  return error_answer(507, "programs.no-room", "there are too many programs: delete some first");
+}
+
+WebAnswer no_line() {
+  return error_answer(400, "http.bad-body", "from_line: expected the number of a line, 1 or more");
+}
+
+std::optional<std::uint32_t> line_from(std::string_view text) {
+  std::uint32_t line = 0;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), line);
+  if (error != std::errc() || end != text.data() + text.size() || line == 0) return {};
+  return line;
+}
+
+// From where the machine stands to the first motion of a line. Goes through the program.
+Result<Reentry, ReentryProblem> MachineApi::way_to(const StoredProgram& program, std::uint32_t line) const {
+  const KnownPosition position = session_.status().position;
+  const auto refused = [](ReentryRefusal refusal) {
+    return Failure{ReentryProblem{.code = code_of(refusal), .why = std::string(message_of(refusal))}};
+  };
+  if (session_.busy() || position.trust == Trust::unknown) {
+    return Failure{ReentryProblem{
+        .code = "reentry.place-unknown",
+        .why = session_.busy() ? "the machine is busy" : "where the machine stands is not known: home it first"}};
+  }
+  InterpreterOptions options = programs_.options_of(program);
+  options.start = position.place;
+  const auto at = find_line(ProgramReader::from_text(program.name, program.text), machine_, options, line);
+  if (!at) return refused(at.error());
+  auto way = plan_reentry(machine_, *at, position.place);
+  if (!way) return refused(way.error());
+  return std::move(*way);
+}
+
+WebAnswer MachineApi::run_program(const StoredProgram& program, std::string_view from_line) {
+  if (from_line.empty()) return begin_job(program, 0);
+  const auto line = line_from(from_line);
+  if (!line) return no_line();
+  if (session_.state() == MachineState::idle) {
+    if (const auto way = way_to(program, *line); !way) return error_answer(409, way.error().code, way.error().why);
+  }
+  WebAnswer answer = begin_job(program, 0);
+  if (answer.status == 202) from_line_ = *line;
+  return answer;
+}
+
+WebAnswer MachineApi::begin_job(const StoredProgram& program, std::int64_t history) {
+  if (session_.state() != MachineState::idle) {
+    return error_answer(409, "machine.busy", fmt::format("the machine is not idle: {}", name_of(session_.state())));
+  }
+  if (const auto refused = session_.closed_limit()) return error_answer(409, code_of(refused->code), refused->message);
+  if (kept_ && kept_->interrupted() != nullptr) {
+    return error_answer(409, "jobs.interrupted", "a job was broken off: resume it or drop it first");
+  }
+  if (options_.history != nullptr && history == 0) {
+    const char* const dialect = program.dialect == Dialect::grbl ? "grbl" : "linuxcnc";
+    history = options_.history->add(program.name, dialect, program.text, wall_time()).value_or(0);
+    if (history == 0) return no_room();
+  }
+  resumes_ = reenters_ = named_ = false;
+  from_line_ = 0;
+  job_ = {.id = job_.id + 1,
+          .program = program.id,
+          .name = program.name,
+          .state = JobState::checking,
+          .why = {},
+          .history = history};
+  if (history != 0) options_.history->begin(history, wall_time());
+  job_owner_ = owner_.changes();
+  programs_.check(program.id, machine_, session_.status().position.place);
+  return json_answer(202, as_json(job_));
+}
+
+WebAnswer MachineApi::change_interrupted(const FoundRoute& found) {
+  if (options_.history == nullptr) return no_history();
+  if (!kept_ || kept_->interrupted() == nullptr) return refusal(404);
+  if (job_.state == JobState::checking) return error_answer(409, "machine.busy", "a job is about to begin");
+  if (found.route->path.ends_with("/resume")) return resume_job(false);
+  if (found.route->path.ends_with("/reenter")) return resume_job(true);
+  kept_->drop();
+  return json_answer(200, Json::object());
+}
+
+// The job that was broken off goes on amid its path. It is checked from where it began.
+WebAnswer MachineApi::resume_job(bool by_a_way_back) {
+  const InterruptedJob& broken = *kept_->interrupted();
+  if (session_.state() != MachineState::idle) {
+    return error_answer(409, "machine.busy", fmt::format("the machine is not idle: {}", name_of(session_.state())));
+  }
+  if (by_a_way_back) {
+    if (const auto way = kept_->reentry(); !way) return error_answer(409, way.error().code, way.error().why);
+  } else if (!broken.code.empty()) {
+    return error_answer(409, broken.code, broken.why);
+  }
+  if (const auto refused = session_.closed_limit()) return error_answer(409, code_of(refused->code), refused->message);
+  const InterpreterOptions options = kept_->options();
+  const StoredProgram* const program = programs_.add(broken.job.name, options.dialect, kept_->program());
+  if (program == nullptr) return no_room();
+  resumes_ = true;
+  reenters_ = by_a_way_back;
+  from_line_ = 0;
+  named_ = false;
+  job_ = {.id = job_.id + 1,
+          .program = program->id,
+          .name = program->name,
+          .state = JobState::checking,
+          .why = {},
+          .history = broken.job.id};
+  options_.history->begin(broken.job.id, wall_time());
+  job_owner_ = owner_.changes();
+  programs_.check(program->id, machine_, options.start);
+  return json_answer(202, as_json(job_));
+}
+
+void MachineApi::begin_checked_job() {
+  if (!named_) return name_job();
+  if (session_.state() != MachineState::idle) return end_job(JobState::interrupted, "the board was lost");
+  if (kept_->is_named()) start_job();
+}
+
+// The check is done, and the machine stands where the check began. With a journal, the board hears of the job first. A
+// program that probes keeps no journal: the way of its path depends on what the probe finds.
+void MachineApi::name_job() {
+  const StoredProgram& program = *programs_.find(job_.program);
+  if (owner_.changes() != job_owner_) return end_job(JobState::stopped, "the ownership of motion was passed on");
+  if (program.state != UploadState::good) return end_job(JobState::failed, "the program has errors: see its findings");
+  way_.reset();
+  if (from_line_ != 0) {
+    auto way = way_to(program, from_line_);
+    if (!way) return end_job(JobState::failed, way.error().why);
+    way_ = std::move(*way);
+  }
+  if (!kept_ || program.check.probes) return start_job();
+  if (session_.state() != MachineState::idle) return end_job(JobState::failed, "the machine is not idle any more");
+  const bool begun = reenters_ ? kept_->reenter(program.path)
+                     : resumes_
+                         ? kept_->resume(program.path)
+                         : kept_->begin(job_.history, program.text, program.path, way_ ? way_->at.place : PathPlace());
+  if (begun) {
+    named_ = true;
+  } else if (const InterruptedJob* const broken = kept_->interrupted(); resumes_ && broken != nullptr) {
+    end_job(JobState::interrupted, broken->why);
+  } else {
+    end_job(JobState::failed, "the journal of the job cannot be written");
+  }
+}
+
+void MachineApi::start_job() {
+  const StoredProgram& program = *programs_.find(job_.program);
+  findings_.clear();
+  request::Start start{.program = ProgramReader::from_text(program.name, program.text),
+                       .options = programs_.options_of(program)};
+  start.nominal_time = program.check.nominal_time;
+  start.findings = &findings_;
+  if (way_) {
+    start.from = way_->at;
+    start.lead_in = way_->lead_in;
+    start.options.start = session_.status().position.place;
+  }
+  if (named_) kept_->add_to(start);
+  const auto ticket = session_.request(std::move(start));
+  if (!ticket) return end_job(JobState::failed, ticket.error().message);
+  if (named_) kept_->forget_interrupted();
+  ticket_ = *ticket;
+  job_.state = JobState::running;
+}
+
+// A job that was broken off and did not begin again stays broken off.
+void MachineApi::end_job(JobState state, std::string why) {
+  if (resumes_ && kept_->interrupted() != nullptr) state = JobState::interrupted;
+  job_.state = state;
+  job_.why = std::move(why);
+  ticket_.reset();
+  ++jobs_ended_;
+  if (named_) kept_->end(state == JobState::interrupted);
+  named_ = false;
+  if (job_.history != 0) options_.history->end(job_.history, history_state_of(state), job_.why, wall_time());
+}
+
+void MachineApi::heed(const std::vector<MachineChange>& changes) {
+  for (const MachineChange& change : changes) {
+    if (change.kind == MachineChange::Kind::rested_by_tail) ++late_;
+    if (change.kind == MachineChange::Kind::state &&
+        (change.state == MachineState::alarm || change.state == MachineState::fault)) {
+      note_alarm();
+    }
+    if (change.kind != MachineChange::Kind::answered || !ticket_ || change.ticket != *ticket_) continue;
+    // What was broken off by the board, or because the program ends, may go on.
+    const bool is_broken_off =
+        change.outcome == Outcome::failed ? change.fault && change.fault->code.starts_with("board.") : leaves_;
+    switch (change.outcome) {
+      case Outcome::done: end_job(JobState::done); break;
+      case Outcome::stopped: end_job(named_ && is_broken_off ? JobState::interrupted : JobState::stopped); break;
+      case Outcome::failed:
+        end_job(named_ && is_broken_off ? JobState::interrupted : JobState::failed,
+                change.fault ? change.fault->message : "");
+        break;
+    }
+  }
+}
+
+}  // namespace passo

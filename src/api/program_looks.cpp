@@ -1,0 +1,60 @@
+// What viewers ask of a program: its path in chunks, and a window of its text.
+#include <algorithm>
+#include <charconv>
+#include <limits>
+
+#include "api_json.hpp"
+
+namespace passo {
+namespace {
+
+constexpr std::uint64_t most_lines = 2000;  // of one answer
+
+std::optional<std::uint64_t> number_of(std::string_view query, std::string_view key) {
+  const std::string_view digits = query_value(query, key);
+  std::uint64_t value = 0;
+  const auto [end, error] = std::from_chars(digits.data(), digits.data() + digits.size(), value);
+  if (digits.empty() || error != std::errc() || end != digits.data() + digits.size()) return {};
+  return value;
+}
+
+Json as_json(const ProgramPath::Range& range) {
+  if (range.empty()) return Json();
+  return {{"low", range.low}, {"high", range.high}};
+}
+
+WebAnswer bad_number(const std::string& what) {
+  return error_answer(400, "http.bad-body", what);
+}
+
+}  // namespace
+
+WebAnswer path_answer(const StoredProgram& program, std::string_view query) {
+  const ProgramPath& path = program.path_points;
+  if (query_value(query, "chunk").empty()) {
+    return json_answer(200, {{"program", program.id},
+                             {"complete", path.complete()},
+                             {"cut_off", path.cut_off()},
+                             {"points", path.points()},
+                             {"chunks", path.chunks()},
+                             {"levels", ProgramPath::levels},
+                             {"all", as_json(path.all())},
+                             {"cuts", as_json(path.cuts())},
+                             {"work", as_json(path.work())}});
+  }
+  const auto chunk = number_of(query, "chunk");
+  const auto level = query_value(query, "level").empty() ? std::optional<std::uint64_t>(0) : number_of(query, "level");
+  if (!chunk || !level || *chunk >= path.chunks() || *level >= ProgramPath::levels) {
+    return bad_number("there is no such chunk, or no such level");
+  }
+  return {.type = "application/octet-stream",
+          .body = path.chunk(static_cast<std::size_t>(*chunk), static_cast<unsigned>(*level))};
+}
+
+WebAnswer text_answer(const StoredProgram& program, std::string_view query) {
+  const std::uint64_t from = number_of(query, "from").value_or(1);
+  const std::uint64_t count = std::min(number_of(query, "lines").value_or(most_lines), most_lines);
+  return {.type = "text/plain; charset=utf-8", .body = std::string(program.lines_from(from, count))};
+}
+
+}  // namespace passo

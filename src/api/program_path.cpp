@@ -1,0 +1,156 @@
+#include "passo/api/program_path.hpp"
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <utility>
+
+namespace passo {
+namespace {
+
+constexpr double most_places = 65'535;
+constexpr int most_chords = 720;  // of one arc
+constexpr int spline_chords = 24;
+// Of the diagonal of the program's box: what a level may leave out.
+constexpr std::array<double, ProgramPath::levels> left_out = {0, 1.0 / 2000, 1.0 / 400};
+constexpr std::uint32_t magic = 0x50534150;  // "PASP"
+
+static_assert(std::endian::native == std::endian::little, "chunks are written as they lie in memory");
+
+ProgramPath::Coordinates place_of(const Point& point) {
+  return {point[Axis::x], point[Axis::y], point[Axis::z]};
+}
+
+// Into how many chords a curve is divided.
+int chords_of(const Curve& curve, double chord_error) {
+  if (curve.shape() == Curve::Shape::line) return 1;
+  if (curve.shape() == Curve::Shape::cubic) return spline_chords;
+  const Curve::ArcData& arc = curve.arc_data();
+  const double radius = std::max({arc.start_radius, arc.end_radius, chord_error});
+  const double turn = 2 * std::acos(1 - chord_error / radius);
+  return std::clamp(static_cast<int>(std::ceil(std::abs(arc.sweep) / turn)), 1, most_chords);
+}
+
+template <class Value>
+void append(std::string& bytes, const Value& value) {
+  bytes.append(reinterpret_cast<const char*>(&value), sizeof value);
+}
+
+template <class Value>
+void append_all(std::string& bytes, const std::vector<Value>& values) {
+  bytes.append(reinterpret_cast<const char*>(values.data()), values.size() * sizeof(Value));
+}
+
+}  // namespace
+
+void ProgramPath::Range::add(const Coordinates& place) {
+  for (std::size_t i = 0; i < place.size(); ++i) {
+    low[i] = std::min(low[i], place[i]);
+    high[i] = std::max(high[i], place[i]);
+  }
+}
+
+double ProgramPath::Range::diagonal() const {
+  return empty() ? 0 : std::hypot(high[0] - low[0], high[1] - low[1], high[2] - low[2]);
+}
+
+void ProgramPath::add(const PathItem& item) {
+  const auto* const segment = std::get_if<Segment>(&item);
+  if (segment == nullptr || segment->takes_up_backlash || !segment->curve.has_length()) return;
+  const int chords = chords_of(segment->curve, chord_error);
+  if (points_ + static_cast<std::size_t>(chords) > most_points) {
+    cut_off_ = true;
+    return;
+  }
+  const Coordinates zero = place_of(segment->work_zero);
+  const std::uint32_t line = segment->source.line;
+  const std::uint16_t flags = segment->rapid ? flag_rapid : 0;
+  const auto note = [&](const Coordinates& place) {
+    all_.add(place);
+    if (segment->rapid) return;
+    cuts_.add(place);
+    work_.add({place[0] - zero[0], place[1] - zero[1], place[2] - zero[2]});
+  };
+  const Coordinates start = place_of(segment->curve.start());
+  if (points_ == 0) add_point(start, line, flags);
+  note(start);
+  for (int i = 1; i <= chords; ++i) {
+    const Point point =
+        i == chords ? segment->curve.end() : segment->curve.at(segment->curve.length() * (double(i) / chords));
+    const Coordinates place = place_of(point);
+    note(place);
+    add_point(place, line, flags);
+  }
+}
+
+void ProgramPath::finish() {
+  if (fresh_.size() > 1) close_chunk();
+  fresh_.clear();
+  fresh_.shrink_to_fit();
+  complete_ = true;
+}
+
+void ProgramPath::add_point(const Coordinates& place, std::uint32_t line, std::uint16_t flags) {
+  fresh_.push_back({.place = place, .line = line, .flags = flags});
+  ++points_;
+  if (fresh_.size() < chunk_points) return;
+  close_chunk();
+  fresh_ = {Fresh{.place = place, .line = line, .flags = flags}};
+}
+
+void ProgramPath::close_chunk() {
+  Range range;
+  for (const Fresh& one : fresh_) range.add(one.place);
+  Chunk chunk{};
+  for (std::size_t i = 0; i < 3; ++i) {
+    chunk.origin[i] = static_cast<float>(range.low[i]);
+    chunk.step[i] = static_cast<float>((range.high[i] - range.low[i]) / most_places);
+  }
+  chunk.points.reserve(fresh_.size());
+  chunk.lines.reserve(fresh_.size());
+  for (const Fresh& one : fresh_) {
+    Packed packed{.place = {}, .flags = one.flags};
+    for (std::size_t i = 0; i < 3; ++i) {
+      const double span = range.high[i] - range.low[i];
+      const double share = span > 0 ? (one.place[i] - range.low[i]) / span : 0;
+      packed.place[i] = static_cast<std::uint16_t>(std::lround(share * most_places));
+    }
+    chunk.points.push_back(packed);
+    chunk.lines.push_back(one.line);
+  }
+  chunks_.push_back(std::move(chunk));
+}
+
+// A coarser level keeps a point that lies far enough from the last one, and each change between rapid and feed.
+std::string ProgramPath::chunk(std::size_t index, unsigned level) const {
+  const Chunk& all = chunks_.at(index);
+  const double nearest = all_.diagonal() * left_out.at(level);
+  std::vector<Packed> points;
+  std::vector<std::uint32_t> lines;
+  const std::size_t last = all.points.size() - 1;
+  for (std::size_t i = 0; i <= last; ++i) {
+    if (i > 0 && i < last && nearest > 0 && all.points[i + 1].flags == all.points[i].flags) {
+      const Packed& kept = points.back();
+      std::array<double, 3> way{};
+      for (std::size_t k = 0; k < 3; ++k) {
+        way[k] = (double(all.points[i].place[k]) - double(kept.place[k])) * double(all.step[k]);
+      }
+      if (std::hypot(way[0], way[1], way[2]) < nearest) continue;
+    }
+    points.push_back(all.points[i]);
+    lines.push_back(all.lines[i]);
+  }
+  std::string bytes;
+  bytes.reserve(40 + points.size() * (sizeof(Packed) + sizeof(std::uint32_t)));
+  append(bytes, magic);
+  append(bytes, static_cast<std::uint32_t>(points.size()));
+  append(bytes, static_cast<std::uint32_t>(index));
+  append(bytes, static_cast<std::uint32_t>(level));
+  append(bytes, all.origin);
+  append(bytes, all.step);
+  append_all(bytes, points);
+  append_all(bytes, lines);
+  return bytes;
+}
+
+}  // namespace passo

@@ -1,0 +1,53 @@
+#include "from_line.hpp"
+
+#include <cstdio>
+#include <iostream>
+#include <string>
+
+#include "operator_prompt.hpp"
+#include "program_input.hpp"
+#include <fmt/format.h>
+
+namespace passo {
+namespace {
+
+bool is_agreed() {
+  fmt::print(stderr, "passo: is that right, and nothing in the way? [y/N] ");
+  std::string answer;
+  return std::getline(std::cin, answer) && (answer == "y" || answer == "Y" || answer == "yes");
+}
+
+}  // namespace
+
+std::optional<Reentry> way_to_line(const RunArguments& arguments, const ProgramReader& program,
+                                   const MachineDescription& machine, const InterpreterOptions& options, int& code) {
+  const auto refuse = [&](ReentryRefusal refusal) {
+    code = fail(exit_bad_program,
+                fmt::format("--from-line {}: {} [{}]", arguments.from_line, message_of(refusal), code_of(refusal)));
+  };
+  const auto at = find_line(program, machine, options, arguments.from_line);
+  if (!at) {
+    refuse(at.error());
+    return {};
+  }
+  auto way = plan_reentry(machine, *at, options.start);
+  if (!way) {
+    refuse(way.error());
+    return {};
+  }
+  fmt::print(stderr, "passo: what will happen (machine coordinates):\n");
+  for (std::size_t i = 0; i < way->steps.size(); ++i) fmt::print(stderr, "  {}. {}\n", i + 1, way->steps[i]);
+  if (!arguments.yes && asks_operator() && !is_agreed()) {
+    code = fail(exit_failed, "nothing was moved");
+    return {};
+  }
+  if (!arguments.yes && !asks_operator() && arguments.board != "virtual") {
+    code = fail(exit_bad_program,
+                "--from-line asks before a real machine moves, and nobody is here to answer: add "
+                "--yes if the way above is right [run.from-line-unasked]");
+    return {};
+  }
+  return std::move(*way);
+}
+
+}  // namespace passo

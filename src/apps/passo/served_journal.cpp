@@ -1,0 +1,36 @@
+#include "served_journal.hpp"
+
+#include <filesystem>
+
+#include "program_input.hpp"
+#include <sys/stat.h>
+
+namespace passo {
+
+std::unique_ptr<ServedJournal> ServedJournal::open(const std::string& folder, OpenedMachine& machine) {
+  const std::string path = (std::filesystem::path(folder) / "job.journal").string();
+  std::unique_ptr<ServedJournal> journal(new ServedJournal(path, machine));
+  if (journal->file_.claim()) return journal;
+  fail(exit_failed, path + ": another passo that runs now keeps this journal [journal.in-use]");
+  return nullptr;
+}
+
+bool ServedJournal::take_up(const Greeting& greeting) {
+  const auto journal = Journal::read(read());
+  if (!journal) return true;
+  found_ = broken_off(*journal, machine_.before(), greeting);
+  found_->noted_at = noted_at();
+  if (found_->refused) return true;
+  JournalWriter writer(file_);
+  writer.begin(found_->head);
+  if (writer.failed()) fail(exit_failed, file_.path() + ": this journal cannot be written");
+  return !writer.failed();
+}
+
+double ServedJournal::noted_at() {
+  struct stat file {};
+  if (stat(file_.path().c_str(), &file) != 0) return 0;
+  return static_cast<double>(file.st_mtim.tv_sec) + static_cast<double>(file.st_mtim.tv_nsec) * 1e-9;
+}
+
+}  // namespace passo

@@ -1,0 +1,40 @@
+// ServedJournal: the journal of `passo serve --data`: the file job.journal in its folder, for the job that runs.
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <string>
+
+#include "journal_file.hpp"
+#include "opened_machine.hpp"
+
+#include "passo/api/kept_job.hpp"
+
+namespace passo {
+
+class ServedJournal final : public JobKeeper {
+ public:
+  // Null, with a message: another program has the journal. The machine outlives this.
+  static std::unique_ptr<ServedJournal> open(const std::string& folder, OpenedMachine& machine);
+
+  // Call at rest, before the machine is greeted: looks whether a job was broken off, and takes note that the board
+  // hears this greeting next. False, with a message: the journal cannot be written.
+  [[nodiscard]] bool take_up(const Greeting& greeting);
+  const std::optional<BrokenOff>& found() const { return found_; }
+
+  JournalStore& store() override { return file_; }
+  std::string read() override { return read_state_file(file_.path()).value_or(""); }
+  double noted_at() override;
+  void remove() override { file_.remove(); }
+  std::uint16_t new_number() override { return machine_.new_session_number(); }
+  void name_session(std::uint16_t number) override { machine_.begin_session(number); }
+
+ private:
+  ServedJournal(std::string path, OpenedMachine& machine) : file_(std::move(path)), machine_(machine) {}
+
+  JournalFile file_;
+  OpenedMachine& machine_;
+  std::optional<BrokenOff> found_;
+};
+
+}  // namespace passo

@@ -1,0 +1,58 @@
+// Reentry: how a machine that stands somewhere else gets back onto the path of a program: up, spindle on, over, down.
+//
+// The place on the path is found by interpreting the program from its beginning, so all modes, offsets and outputs are
+// those that the program itself has set there, and the path from there on is the same as in a whole run. Nothing moves
+// until somebody has seen the steps. See docs/decisions/0081.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "passo/activity/homing_path.hpp"
+#include "passo/base/result.hpp"
+#include "passo/journal/resume_point.hpp"
+
+namespace passo {
+
+enum class ReentryRefusal : std::uint8_t {
+  no_motion,     // no motion comes from that line on
+  done_often,    // the line is done more than once: it is in a loop or in a subprogram
+  other_file,    // a subprogram in another file has a line of that number too
+  after_probe,   // the way there depends on what a probe finds
+  path_changed,  // the path has no such place
+  in_thread,     // a thread begins only at its own beginning
+  backlash,      // the machine takes up backlash: a path begins with it taken up
+  bad_program,   // the program has errors
+};
+std::string_view code_of(ReentryRefusal refusal);
+// A sentence without a full stop.
+std::string_view message_of(ReentryRefusal refusal);
+
+// Where the motion of a line of the main program begins, or that of the next line with motion. A line that was merged
+// with lines before it, because they go straight on, begins where the merged one does. Memory: 24 bytes a line.
+Result<ResumePoint, ReentryRefusal> find_line(const ProgramReader& program, const MachineDescription& machine,
+                                              const InterpreterOptions& options, std::uint32_t line);
+
+struct Reentry {
+  ResumePoint at;
+  std::vector<PathItem> lead_in;   // from where the machine stands to the place; it ends at rest
+  std::vector<std::string> steps;  // the same for people, in order
+};
+
+// The range of each axis on a path between two places, the first of which comes first.
+std::optional<Box> range_between(ProgramReader program, const MachineDescription& machine,
+                                 const InterpreterOptions& options, const PathPlace& first, const PathPlace& last);
+
+// After a board has lost its place, and the machine was homed: whether the machine had stood where its path allows.
+// `range`: where the motors may have been stopped. `went`: how far the machine has gone from there to where homing
+// began. Returns a sentence without a full stop for an axis that stood elsewhere; empty: none did.
+std::string words_of_shift(const MachineDescription& machine, const std::vector<HomedAxis>& homed, const Box& range,
+                           const Point& went);
+
+// `from`: where the machine stands, machine coordinates.
+Result<Reentry, ReentryRefusal> plan_reentry(const MachineDescription& machine, const ResumePoint& at,
+                                             const Point& from);
+
+}  // namespace passo

@@ -1,0 +1,303 @@
+#include "passo/journal/reentry.hpp"
+
+#include <algorithm>
+#include <limits>
+#include <optional>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "passo/activity/program.hpp"
+#include "passo/activity/stage_options.hpp"
+#include "passo/drive/backlash_options.hpp"
+#include "passo/path/path_builder.hpp"
+#include "passo/path/path_smoother.hpp"
+
+namespace passo {
+namespace {
+
+// For a way down where the program has fed nothing yet.
+constexpr MmPerSecond careful_feed{2};
+
+// By how much a switch may close elsewhere the next time, mm or degrees.
+constexpr double repeatable_within = 0.05;
+// A motor that gets its current again turns to the nearest place where the driver's field holds it: with 32
+// microsteps, 64 of them.
+constexpr double steps_to_the_field = 64;
+
+std::uint32_t line_of(const PathItem& item) {
+  return std::visit([](const auto& what) { return what.source.line; }, item);
+}
+
+// What is known of the lines of a program from its path: before it is smoothed, and after. The smoother merges lines
+// that go straight on; the merged one has the number of the first.
+class LinesOfPath {
+ public:
+  void note_other_file(std::uint32_t line) { facts(line).is_in_other_file = true; }
+  void note_programmed(const PathItem& item) {
+    const auto* action = std::get_if<Action>(&item);
+    probes_ = probes_ || (action != nullptr && action->kind == Action::Kind::probe_begin);
+    if (action != nullptr || line_of(item) == line_) return;
+    Facts& here = facts(line_of(item));
+    if (here.times++ == 0) {
+      here.before = line_;
+      here.is_after_probe = probes_;
+    }
+    line_ = line_of(item);
+  }
+  void note_smoothed(const PathItem& item, std::uint64_t number) {
+    Facts& here = facts(line_of(item));
+    if (std::holds_alternative<Segment>(item)) here.item = std::min(here.item, number);
+  }
+
+  // Where the motion of this line begins, or that of the next line with motion. If that line was merged, where the
+  // merged one begins.
+  Result<PathPlace, ReentryRefusal> find(std::uint32_t line) const {
+    while (line < lines_.size() && lines_[line].times == 0) ++line;
+    if (line >= lines_.size()) return Failure{ReentryRefusal::no_motion};
+    for (; line != 0; line = lines_[line].before) {
+      const Facts& here = lines_[line];
+      if (here.is_in_other_file) return Failure{ReentryRefusal::other_file};
+      if (here.times > 1) return Failure{ReentryRefusal::done_often};
+      if (here.is_after_probe) return Failure{ReentryRefusal::after_probe};
+      if (here.item != none) return PathPlace{.item = here.item};
+    }
+    return Failure{ReentryRefusal::path_changed};
+  }
+
+ private:
+  static constexpr std::uint64_t none = UINT64_MAX;
+  struct Facts {
+    std::uint64_t item = none;  // of the smoothed path
+    std::uint32_t times = 0;    // how often the path comes to the line
+    std::uint32_t before = 0;   // the line of the motion before, the first time
+    bool is_after_probe = false;
+    bool is_in_other_file = false;
+  };
+  Facts& facts(std::uint32_t line) {
+    if (line >= lines_.size()) lines_.resize(std::size_t{line} + 1);
+    return lines_[line];
+  }
+
+  std::vector<Facts> lines_;
+  std::uint32_t line_ = 0;  // of the motion noted last
+  bool probes_ = false;
+};
+
+bool has_backlash(const MachineDescription& machine) {
+  const BacklashOptions options = backlash_options(step_options(machine), true);
+  return std::ranges::any_of(all_axes, [&](Axis axis) { return options.backlash[axis] > 0; });
+}
+
+std::string place_words(const MachineDescription& machine, const Point& place, bool with_z) {
+  std::string words;
+  for (const AxisDescription& axis : machine.axes) {
+    if (axis.axis == Axis::z && !with_z) continue;
+    words += fmt::format("{}{}{:.3f}", words.empty() ? "" : " ", letter_of(axis.axis), place[axis.axis]);
+  }
+  return words;
+}
+
+// Writes the lead-in, and the same for people.
+class LeadIn {
+ public:
+  LeadIn(const MachineDescription& machine, const ResumePoint& at, const Point& from, Reentry& way)
+      : machine_(machine), at_(at), now_(from), way_(way) {}
+
+  void plan() {
+    const auto z = std::ranges::find(machine_.axes, Axis::z, &AxisDescription::axis);
+    const bool has_z = z != machine_.axes.end();
+    const double top = has_z ? std::max(z->travel_high, now_[Axis::z]) : now_[Axis::z];
+    if (at_.tool > 0) say(fmt::format("tool {} is in the spindle (nothing is changed)", at_.tool));
+    if (has_z) go_to_height(top, "up to", {});
+    switch_on();
+    Point over = at_.point;
+    over[Axis::z] = now_[Axis::z];
+    if (over != now_) {
+      say(fmt::format("over to {}, at rapid speed", place_words(machine_, over, !has_z)));
+      go_to(over, {});
+    }
+    if (outputs_.flood != at_.outputs.flood || outputs_.mist != at_.outputs.mist) {
+      say(fmt::format("coolant on:{}{}", at_.outputs.flood ? " flood" : "", at_.outputs.mist ? " mist" : ""));
+      act(Action::Kind::outputs, at_.outputs, Seconds(0));
+    }
+    const double clearance = at_.clearance.value_or(top);
+    if (clearance > at_.point[Axis::z] && clearance < now_[Axis::z]) go_to_height(clearance, "down to", {});
+    go_to_height(at_.point[Axis::z], "down to", at_.feed > MmPerSecond(0) ? at_.feed : careful_feed);
+    say(at_.line == 0 ? "the program ends" : fmt::format("the program goes on at line {}", at_.line));
+    // A lead-in is never empty: the spindle is switched on in it.
+    if (way_.lead_in.empty()) act(Action::Kind::outputs, at_.outputs, Seconds(0));
+  }
+
+ private:
+  void say(std::string words) { way_.steps.push_back(std::move(words)); }
+  // Without a speed: a rapid.
+  void go_to(const Point& place, std::optional<MmPerSecond> speed) {
+    Segment segment{.curve = Curve::line(now_, place),
+                    .speed = speed.value_or(MmPerSecond(std::numeric_limits<double>::infinity()))};
+    segment.rapid = !speed;
+    segment.mode = PathMode::exact_stop;
+    segment.source.line = at_.line;
+    way_.lead_in.emplace_back(segment);
+    now_ = place;
+  }
+  void go_to_height(double height, const char* words, std::optional<MmPerSecond> speed) {
+    if (now_[Axis::z] == height) return;
+    Point place = now_;
+    place[Axis::z] = height;
+    say(fmt::format("{} Z{:.3f}, {}", words, height,
+                    speed ? fmt::format("at {:.0f} mm/min", speed->value() * 60) : "at rapid speed"));
+    go_to(place, speed);
+  }
+  void act(Action::Kind kind, const OutputState& outputs, Seconds dwell) {
+    Action action{.kind = kind, .dwell = dwell, .outputs = outputs};
+    action.source.line = at_.line;
+    way_.lead_in.emplace_back(action);
+    outputs_ = outputs;
+  }
+  void switch_on() {
+    if (at_.outputs.spindle == SpindleDirection::off) return;
+    const Seconds wait = std::max(at_.spindle_wait, machine_.silence.spindle_wait);
+    OutputState spindle = at_.outputs;
+    spindle.mist = spindle.flood = false;
+    say(fmt::format("spindle on, {} at {:.0f} turns a minute, and a wait of {:g} s",
+                    spindle.spindle == SpindleDirection::clockwise ? "clockwise" : "counterclockwise",
+                    spindle.revolutions_per_minute, wait.value()));
+    act(Action::Kind::outputs, spindle, Seconds(0));
+    act(Action::Kind::dwell, spindle, wait);
+  }
+
+  const MachineDescription& machine_;
+  const ResumePoint& at_;
+  Point now_;
+  Reentry& way_;
+  OutputState outputs_ = {};
+};
+
+}  // namespace
+
+std::string_view code_of(ReentryRefusal refusal) {
+  switch (refusal) {
+    case ReentryRefusal::no_motion: return "reentry.no-motion";
+    case ReentryRefusal::done_often: return "reentry.done-often";
+    case ReentryRefusal::other_file: return "reentry.other-file";
+    case ReentryRefusal::after_probe: return "reentry.after-probe";
+    case ReentryRefusal::path_changed: return "reentry.path-changed";
+    case ReentryRefusal::in_thread: return "reentry.in-thread";
+    case ReentryRefusal::backlash: return "reentry.backlash";
+    case ReentryRefusal::bad_program: return "reentry.bad-program";
+  }
+  return "reentry";
+}
+
+std::string_view message_of(ReentryRefusal refusal) {
+  switch (refusal) {
+    case ReentryRefusal::no_motion: return "nothing moves from that line on";
+    case ReentryRefusal::done_often:
+      return "that line is done more than once: it is in a loop or a subprogram; name a line outside it";
+    case ReentryRefusal::other_file:
+      return "a subprogram in another file has a line of that number too: name another line";
+    case ReentryRefusal::after_probe: return "the way to that line depends on what a probe move finds: begin before it";
+    case ReentryRefusal::path_changed: return "the program does not mean any more what it meant";
+    case ReentryRefusal::in_thread: return "that place is in a thread, which begins only at its own beginning";
+    case ReentryRefusal::backlash:
+      return "this machine takes up backlash, and a way back onto a path does not do that yet";
+    case ReentryRefusal::bad_program: return "the program has errors";
+  }
+  return "there is no way back onto the path";
+}
+
+Result<ResumePoint, ReentryRefusal> find_line(const ProgramReader& program, const MachineDescription& machine,
+                                              const InterpreterOptions& options, std::uint32_t line) {
+  Diagnostics diagnostics;
+  const PathOptions path_options_here = path_options(machine, program.name(), options.start);
+  Interpreter interpreter(program.again(), options, diagnostics);
+  Tap<Operation> operations(interpreter);
+  LinesOfPath lines;
+  operations.watch([&](const Operation& operation) {
+    if (!operation.file.empty() && operation.file != program.name()) lines.note_other_file(operation.source.line);
+  });
+  PathBuilder builder(operations, path_options_here, diagnostics);
+  Tap<PathItem> programmed(builder);
+  programmed.watch([&](const PathItem& item) { lines.note_programmed(item); });
+  PathSmoother smoother(programmed, smoothness(machine));
+  StepOptions steps = step_options(machine);
+  steps.start = options.start;
+  BacklashTaker backlash_taker(smoother, backlash_options(steps, true));
+  RewindablePath path(backlash_taker);
+  path.keep();
+  path.forget_passed();
+  PathItem item;
+  for (std::uint64_t number = 0; path.next(item); ++number) lines.note_smoothed(item, number);
+  if (diagnostics.any_error()) return Failure{ReentryRefusal::bad_program};
+  const auto place = lines.find(line);
+  if (!place) return Failure{place.error()};
+  const auto point = find_resume_point(program.again(), machine, options, *place);
+  if (!point) return Failure{ReentryRefusal::path_changed};
+  return *point;
+}
+
+namespace {
+
+void widen(Box& box, const Box& other) {
+  for (const Axis axis : all_axes) {
+    box.low[axis] = std::min(box.low[axis], other.low[axis]);
+    box.high[axis] = std::max(box.high[axis], other.high[axis]);
+  }
+}
+
+}  // namespace
+
+std::optional<Box> range_between(ProgramReader program, const MachineDescription& machine,
+                                 const InterpreterOptions& options, const PathPlace& first, const PathPlace& last) {
+  Diagnostics diagnostics;
+  const PathOptions path_options_here = path_options(machine, program.name(), options.start);
+  Interpreter interpreter(std::move(program), options, diagnostics);
+  PathBuilder builder(interpreter, path_options_here, diagnostics);
+  PathSmoother smoother(builder, smoothness(machine));
+  StepOptions steps = step_options(machine);
+  steps.start = options.start;
+  BacklashTaker backlash_taker(smoother, backlash_options(steps, true));
+  RewindablePath path(backlash_taker);
+  path.keep();
+  path.begin_at(first);
+  path.forget_passed();
+  std::optional<Box> range;
+  PathItem item;
+  for (std::uint64_t number = first.item; number <= last.item && path.next(item); ++number) {
+    const auto* segment = std::get_if<Segment>(&item);
+    if (segment == nullptr) continue;
+    const Box box = segment->curve.extents();
+    range ? widen(*range, box) : static_cast<void>(range = box);
+  }
+  return range;
+}
+
+std::string words_of_shift(const MachineDescription& machine, const std::vector<HomedAxis>& homed, const Box& range,
+                           const Point& went) {
+  for (const HomedAxis& one : homed) {
+    const auto axis = std::ranges::find(machine.axes, one.axis, &AxisDescription::axis);
+    if (axis == machine.axes.end() || !axis->home) continue;
+    const double stood = axis->home->switch_at - one.way - went[one.axis];
+    const double may_differ = repeatable_within + steps_to_the_field / axis->steps_per_unit;
+    const double low = range.low[one.axis] - may_differ;
+    const double high = range.high[one.axis] + may_differ;
+    if (stood >= low && stood <= high) continue;
+    return fmt::format(
+        "by its switch, {} was at {:.3f} when the board lost its place, and the path allows {:.3f} to "
+        "{:.3f}: it was moved, or the switch was",
+        letter_of(one.axis), stood, low, high);
+  }
+  return {};
+}
+
+Result<Reentry, ReentryRefusal> plan_reentry(const MachineDescription& machine, const ResumePoint& at,
+                                             const Point& from) {
+  if (at.in_thread) return Failure{ReentryRefusal::in_thread};
+  if (has_backlash(machine)) return Failure{ReentryRefusal::backlash};
+  Reentry way{.at = at, .lead_in = {}, .steps = {}};
+  LeadIn(machine, at, from, way).plan();
+  return way;
+}
+
+}  // namespace passo

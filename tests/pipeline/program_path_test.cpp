@@ -1,0 +1,154 @@
+#include "passo/api/program_path.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstring>
+#include <numbers>
+#include <string>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include "passo/api/program_store.hpp"
+
+namespace passo {
+namespace {
+
+Point at(double x, double y, double z) {
+  Point point;
+  point[Axis::x] = x;
+  point[Axis::y] = y;
+  point[Axis::z] = z;
+  return point;
+}
+
+Segment line(const Point& from, const Point& to, std::uint32_t number, bool rapid = false) {
+  Segment segment;
+  segment.curve = Curve::line(from, to);
+  segment.rapid = rapid;
+  segment.source.line = number;
+  return segment;
+}
+
+struct Read {
+  std::vector<std::array<double, 3>> places;
+  std::vector<std::uint16_t> flags;
+  std::vector<std::uint32_t> lines;
+};
+
+Read read_chunk(const std::string& bytes) {
+  std::uint32_t head[4];
+  float origin[3];
+  float step[3];
+  std::memcpy(head, bytes.data(), sizeof head);
+  std::memcpy(origin, bytes.data() + 16, sizeof origin);
+  std::memcpy(step, bytes.data() + 28, sizeof step);
+  EXPECT_EQ(bytes.size(), 40 + std::size_t{head[1]} * 12);
+  Read read;
+  for (std::uint32_t i = 0; i < head[1]; ++i) {
+    std::uint16_t packed[4];
+    std::memcpy(packed, bytes.data() + 40 + std::size_t{i} * 8, sizeof packed);
+    read.places.push_back({origin[0] + double(step[0]) * packed[0], origin[1] + double(step[1]) * packed[1],
+                           origin[2] + double(step[2]) * packed[2]});
+    read.flags.push_back(packed[3]);
+    std::uint32_t number = 0;
+    std::memcpy(&number, bytes.data() + 40 + std::size_t{head[1]} * 8 + std::size_t{i} * 4, sizeof number);
+    read.lines.push_back(number);
+  }
+  return read;
+}
+
+TEST(ProgramPath, has_a_point_for_each_end_of_a_motion) {
+  ProgramPath path;
+  path.add(line(at(0, 0, 0), at(10, 0, 5), 3, true));
+  path.add(line(at(10, 0, 5), at(10, 20, -1), 4));
+  path.finish();
+  ASSERT_EQ(path.chunks(), 1U);
+  const Read read = read_chunk(path.chunk(0, 0));
+  ASSERT_EQ(read.places.size(), 3U);
+  EXPECT_EQ(read.lines, (std::vector<std::uint32_t>{3, 3, 4}));
+  EXPECT_EQ(read.flags, (std::vector<std::uint16_t>{1, 1, 0}));
+  EXPECT_NEAR(read.places[1][0], 10, 1e-3);
+  EXPECT_NEAR(read.places[2][1], 20, 1e-3);
+  EXPECT_NEAR(read.places[2][2], -1, 1e-3);
+  EXPECT_EQ(path.all().low[0], 0);
+  EXPECT_EQ(path.cuts().low[0], 10) << "the rapid is no cut";
+}
+
+TEST(ProgramPath, keeps_chords_near_their_arc) {
+  ProgramPath path;
+  Segment segment;
+  segment.curve = Curve::arc(at(50, 0, 0), at(50, 0, -3), Axis::x, Axis::y, 0, 0, 2 * std::numbers::pi);
+  path.add(segment);
+  path.finish();
+  const Read read = read_chunk(path.chunk(0, 0));
+  EXPECT_GT(read.places.size(), 100U);
+  for (std::size_t i = 1; i < read.places.size(); ++i) {
+    const auto& a = read.places[i - 1];
+    const auto& b = read.places[i];
+    EXPECT_NEAR(std::hypot((a[0] + b[0]) / 2, (a[1] + b[1]) / 2), 50, 0.01);
+  }
+  EXPECT_NEAR(path.all().low[0], -50, 0.01);
+}
+
+// A long program: chunks go on where the one before has ended, and a coarse level loses no more than it may.
+TEST(ProgramPath, divides_a_long_program_and_thins_it) {
+  ProgramPath path;
+  const auto place = [](int i) { return at(100 * std::cos(i * 0.001), 100 * std::sin(i * 0.001), i * 1e-4); };
+  constexpr int moves = 40'000;
+  for (int i = 0; i < moves; ++i)
+    path.add(line(place(i), place(i + 1), static_cast<std::uint32_t>(i + 1), i % 10'000 == 0));
+  path.finish();
+  ASSERT_EQ(path.chunks(), 3U);
+  EXPECT_EQ(path.points(), std::size_t{moves + 1});
+  std::size_t whole = 0;
+  Read before;
+  for (std::size_t c = 0; c < path.chunks(); ++c) {
+    const Read fine = read_chunk(path.chunk(c, 0));
+    whole += fine.places.size() - 1;
+    for (std::size_t i = 0; i < fine.places.size(); ++i) {
+      const Point right = place(static_cast<int>(fine.lines[i]) - (c == 0 && i == 0 ? 1 : 0));
+      EXPECT_NEAR(fine.places[i][0], right[Axis::x], 200.0 / 65'535);
+      EXPECT_NEAR(fine.places[i][2], right[Axis::z], 200.0 / 65'535);
+    }
+    if (c > 0) {
+      EXPECT_EQ(fine.lines.front(), before.lines.back());
+    }
+    before = fine;
+    const Read coarse = read_chunk(path.chunk(c, 2));
+    EXPECT_LT(coarse.places.size() * 5, fine.places.size());
+    EXPECT_EQ(coarse.lines.front(), fine.lines.front());
+    EXPECT_EQ(coarse.lines.back(), fine.lines.back());
+    const auto rapids = [](const Read& read) { return std::count(read.flags.begin() + 1, read.flags.end(), 1); };
+    EXPECT_EQ(rapids(coarse), rapids(fine)) << "a rapid is never left out";
+  }
+  EXPECT_EQ(whole, std::size_t{moves});
+}
+
+TEST(ProgramPath, of_a_program_without_motion_is_empty) {
+  ProgramPath path;
+  path.finish();
+  EXPECT_TRUE(path.complete());
+  EXPECT_EQ(path.chunks(), 0U);
+  EXPECT_TRUE(path.all().empty());
+}
+
+TEST(ProgramStore, gives_windows_of_a_text) {
+  ProgramStore store;
+  std::string text;
+  for (int i = 1; i <= 1000; ++i) text += "N" + std::to_string(i) + "\n";
+  const StoredProgram* const program = store.add("long", Dialect::linuxcnc, text + "N1001");
+  EXPECT_EQ(program->lines, 1001U);
+  EXPECT_EQ(program->lines_from(1, 2), "N1\nN2\n");
+  EXPECT_EQ(program->lines_from(0, 1), "N1\n");
+  EXPECT_EQ(program->lines_from(257, 1), "N257\n");
+  EXPECT_EQ(program->lines_from(600, 2), "N600\nN601\n");
+  EXPECT_EQ(program->lines_from(1001, 5), "N1001");
+  EXPECT_EQ(program->lines_from(1002, 5), "");
+  EXPECT_EQ(store.add("empty", Dialect::linuxcnc, "")->lines, 0U);
+  EXPECT_EQ(store.add("end", Dialect::linuxcnc, "\n\n")->lines_from(2, 9), "\n");
+}
+
+}  // namespace
+}  // namespace passo

@@ -1,0 +1,263 @@
+// A board loses its power amid a job, or a job begins at a line: the machine is led back onto the path, and the part is
+// the same from there on.
+#include "passo/journal/reentry.hpp"
+
+#include <random>
+
+#include "job_kit.hpp"
+#include "kit/seed.hpp"
+#include "session_kit.hpp"
+
+namespace passo::test {
+namespace {
+
+const std::string pocket =
+    "G21 G90 G64 P.02 F1800 M3 S1000\nG4 P.1\nG0 X2 Y2 Z5\nG0 Z1\nG1 Z-1\nG2 X8 Y2 I3 J0\nM8\nG1 X8 Y9\nG3 X2 I-3\n"
+    "G1 Y2\nG0 Z5\nM5 M9\nG0 X0 Y0\nM2\n";
+
+// The last steps of each motor.
+void expect_same_end(const StepLog::Steps& run, const StepLog::Steps& whole, std::size_t most) {
+  for (unsigned m = 0; m < 3; ++m) {
+    const std::size_t count = std::min({most, run[m].size(), whole[m].size()});
+    for (std::size_t i = 1; i <= count; ++i) {
+      ASSERT_EQ(run[m][run[m].size() - i].down, whole[m][whole[m].size() - i].down) << "motor " << m << ", " << i;
+    }
+  }
+}
+
+struct WholeRun {
+  std::array<std::int64_t, StepLog::motors> truth{};
+  StepLog::Steps steps;
+};
+const WholeRun& whole_pocket() {
+  static const WholeRun whole = [] {
+    JobBench bench(short_router());
+    JobServer server(bench);
+    server.run(pocket);
+    EXPECT_TRUE(server.to_end());
+    EXPECT_EQ(server.job_state(), "done");
+    return WholeRun{.truth = bench.truth(), .steps = bench.log.steps};
+  }();
+  return whole;
+}
+
+void home(JobServer& server) {
+  server.post("/home");
+  ASSERT_EQ(server.status, 200U);
+  ASSERT_TRUE(server.turn_until([&] { return server.session().state() == MachineState::idle; }));
+  server.turn();
+  ASSERT_EQ(server.session().status().position.trust, Trust::homed);
+}
+
+class Reentered : public testing::Test {
+ protected:
+  // The board loses its power amid the job, and so does the server, perhaps.
+  void cut_power(JobServer& server, std::int64_t total_steps) {
+    server.run(pocket);
+    ASSERT_TRUE(server.turn_until([&] { return steps_made() >= total_steps; }));
+    bench_.board->reset_board();
+    ASSERT_TRUE(server.to_end());
+    EXPECT_EQ(server.job_state(), "interrupted");
+  }
+  std::int64_t steps_made() const {
+    std::int64_t steps = 0;
+    for (const auto& motor : bench_.log.steps) steps += static_cast<std::int64_t>(motor.size());
+    return steps;
+  }
+  void reset(JobServer& server) {
+    server.post("/reset");
+    ASSERT_TRUE(server.turn_until([&] { return server.session().state() == MachineState::idle; }));
+    server.turn();
+  }
+
+  JobBench bench_{short_router()};
+};
+
+TEST_F(Reentered, after_a_power_cut_it_homes_and_makes_the_same_part) {
+  JobServer server(bench_);
+  cut_power(server, 12000);
+  reset(server);
+  auto told = server.get("/interrupted")["interrupted"];
+  EXPECT_EQ(told["code"], "resume.board-reset") << told;
+  EXPECT_EQ(told["reentry"]["code"], "reentry.place-unknown");
+  EXPECT_EQ(server.post("/interrupted/reenter")["error"]["code"], "reentry.place-unknown");
+  EXPECT_EQ(server.get("/status")["trust"], "unknown");
+  home(server);
+  told = server.get("/interrupted")["interrupted"];
+  EXPECT_EQ(told["reentry"]["code"], "") << told;
+  EXPECT_EQ(told["reentry"]["steps"][0], "up to Z40.000, at rapid speed") << told;
+  server.post("/interrupted/reenter");
+  EXPECT_EQ(server.status, 202U);
+  ASSERT_TRUE(server.to_end());
+  EXPECT_EQ(server.job_state(), "done") << server.get("/status");
+  EXPECT_EQ(bench_.truth(), whole_pocket().truth);
+  expect_same_end(bench_.log.steps, whole_pocket().steps, 800);
+}
+
+TEST_F(Reentered, not_if_the_machine_was_moved_while_it_had_no_power) {
+  {
+    JobServer server(bench_);
+    cut_power(server, 12000);
+  }
+  Point at;
+  for (std::size_t m = 0; m < bench_.description.axes.size(); ++m) {
+    const AxisDescription& axis = bench_.description.axes[m];
+    at[axis.axis] = static_cast<double>(bench_.truth()[m]) / axis.steps_per_unit;
+  }
+  at[Axis::x] += 7;
+  bench_.power_up(at);
+  JobServer server(bench_);
+  EXPECT_EQ(server.get("/interrupted")["interrupted"]["code"], "resume.board-reset");
+  home(server);
+  const auto refused = server.post("/interrupted/reenter")["error"];
+  EXPECT_EQ(refused["code"], "reentry.shifted") << refused;
+  EXPECT_NE(refused["message"].get<std::string>().find("by its switch, X was at"), std::string::npos) << refused;
+}
+
+// Power is cut at random moments, also on the way back; the server dies with it or lives on.
+void cut_at_random(std::uint64_t seed) {
+  std::mt19937_64 random(seed);
+  JobBench bench(short_router());
+  std::unique_ptr<JobServer> server = std::make_unique<JobServer>(bench);
+  server->run(pocket);
+  const int cuts = 1 + static_cast<int>(random() % 3);
+  for (int cut = 0; cut < cuts; ++cut) {
+    const Seconds moment = server->session().now() + Seconds(0.05 + static_cast<double>(random() % 8000) / 1000);
+    server->turn_until(
+        [&] { return server->session().now() >= moment || server->api().job().state > JobState::running; });
+    if (server->api().job().state > JobState::running) break;
+    bench.board->reset_board();
+    const bool lives = random() % 2 == 0;
+    if (lives) {
+      ASSERT_TRUE(server->to_end());
+      server->post("/reset");
+      ASSERT_TRUE(server->turn_until([&] { return server->session().state() == MachineState::idle; }));
+      server->turn();
+    } else {
+      server.reset();
+      server = std::make_unique<JobServer>(bench);
+    }
+    const auto told = server->get("/interrupted")["interrupted"];
+    if (told.is_null()) return;  // it had not begun
+    home(*server);
+    server->post("/interrupted/reenter");
+    ASSERT_EQ(server->status, 202U) << server->get("/interrupted");
+  }
+  ASSERT_TRUE(server->to_end());
+  EXPECT_EQ(server->job_state(), "done") << server->get("/status");
+  EXPECT_EQ(bench.truth(), whole_pocket().truth);
+}
+
+int trials(int usual) {
+  const char* const wanted = std::getenv("PASSO_RUNS");
+  return wanted != nullptr ? std::atoi(wanted) : usual;
+}
+
+TEST(ReenteredAtRandom, makes_the_same_part) {
+  for (int i = 0; i < trials(3) && !testing::Test::HasFailure(); ++i) {
+    SCOPED_TRACE(fmt::format("PASSO_SEED={}, trial {}", seed(), i));
+    cut_at_random(seed() + static_cast<std::uint64_t>(i));
+  }
+}
+
+Result<ResumePoint, ReentryRefusal> line_of(const std::string& text, std::uint32_t line) {
+  static const MachineDescription machine = short_router();
+  return find_line(ProgramReader::from_text("t", text), machine, InterpreterOptions(), line);
+}
+
+TEST(FromLine, has_all_that_the_lines_before_have_set) {
+  const auto at = line_of(
+      "G21 G90 G61 F600\nG10 L2 P2 X10 Y5 Z-3\nG55 M6 T3\nM3 S900\nG0 X0 Y0 Z8\nM8\nG20\nG1 Z0 "
+      "F40\nX1\n\n(words)\nY1\nM2\n",
+      10);
+  ASSERT_TRUE(at);
+  EXPECT_EQ(at->line, 12U) << "the next line with motion";
+  EXPECT_NEAR(at->point[Axis::x], 10 + 25.4, 1e-9);
+  EXPECT_NEAR(at->point[Axis::y], 5, 1e-9);
+  EXPECT_NEAR(at->point[Axis::z], -3, 1e-9);
+  EXPECT_EQ(at->outputs.spindle, SpindleDirection::clockwise);
+  EXPECT_EQ(at->outputs.revolutions_per_minute, 900);
+  EXPECT_TRUE(at->outputs.flood);
+  EXPECT_EQ(at->tool, 3);
+  EXPECT_NEAR(at->feed.value() * 60, 40 * 25.4, 1e-6);
+}
+
+TEST(FromLine, a_spindle_that_the_line_itself_starts_turns_before_the_way_down) {
+  const auto at = line_of("G21 G90 F600\nG0 X5\nM3 S900\nG4 P2\nG1 X9\nM2\n", 3);
+  ASSERT_TRUE(at);
+  EXPECT_EQ(at->line, 5U);
+  EXPECT_EQ(at->outputs.spindle, SpindleDirection::clockwise);
+  EXPECT_EQ(at->spindle_wait, Seconds(2));
+}
+
+TEST(FromLine, is_refused_where_it_means_nothing) {
+  const std::string loop = "G21 G91 F600\no1 repeat [3]\nG1 X1\nX-1\no1 endrepeat\nG90 X5\nM2\n";
+  EXPECT_EQ(line_of(loop, 3).error(), ReentryRefusal::done_often);
+  EXPECT_EQ(line_of(loop, 6)->line, 6U);
+  const std::string sub = "o1 sub\nG1 X1\nX2\no1 endsub\nG21 G90 F600\no1 call\no1 call\nG1 X9\nM2\n";
+  EXPECT_EQ(line_of(sub, 2).error(), ReentryRefusal::done_often);
+  EXPECT_EQ(line_of(sub, 8).error(), ReentryRefusal::done_often)
+      << "goes straight on with a line of the sub: one motion";
+  const std::string straight = "G21 G90 F600\nG1 X1\nX2\nX3\nY1\nM2\n";
+  EXPECT_EQ(line_of(straight, 4)->line, 2U) << "merged: nothing is left out";
+  EXPECT_EQ(line_of(straight, 5)->line, 5U);
+  EXPECT_EQ(line_of(straight, 6).error(), ReentryRefusal::no_motion);
+  EXPECT_EQ(line_of("G21 G1 X1 F600\nM2\n", 99).error(), ReentryRefusal::no_motion);
+  EXPECT_EQ(line_of("G21 G38.3 Z-1 F60\nG1 X1\nM2\n", 2).error(), ReentryRefusal::after_probe);
+  EXPECT_EQ(line_of("G21 G38.3 Z-1 F60\nG1 X1\nM2\n", 1).error(), ReentryRefusal::after_probe) << "amid its actions";
+  EXPECT_EQ(line_of("G1 X1\nM2\n", 1).error(), ReentryRefusal::bad_program);
+}
+
+TEST(FromLine, leads_up_over_and_down) {
+  const MachineDescription machine = short_router();
+  const auto at = line_of("G21 G90 F600 M3 S900\nG0 X5 Y5 Z4\nX20\nZ1\nG1 Z-2\nM7\nG1 X30\nM2\n", 7);
+  ASSERT_TRUE(at);
+  const auto way = plan_reentry(machine, *at, {{{1, 2, -10}}});
+  ASSERT_TRUE(way);
+  std::string steps;
+  for (const std::string& step : way->steps) steps += step + "\n";
+  const double top = machine.axes[2].travel_high;
+  EXPECT_EQ(steps,
+            fmt::format("up to Z{:.3f}, at rapid speed\n"
+                        "spindle on, clockwise at 900 turns a minute, and a wait of {:g} s\n"
+                        "over to X20.000 Y5.000, at rapid speed\n"
+                        "coolant on: mist\n{}"
+                        "down to Z-2.000, at 600 mm/min\n"
+                        "the program goes on at line 7\n",
+                        top, machine.silence.spindle_wait.value(), top > 4 ? "down to Z4.000, at rapid speed\n" : ""));
+  EXPECT_EQ(std::get<Segment>(way->lead_in.back()).curve.end(), at->point);
+}
+
+// From each line on, the rest of the part is the same.
+TEST(FromLine, the_path_after_the_line_is_the_same) {
+  for (const int line : {6, 8, 9, 10}) {
+    SCOPED_TRACE(line);
+    JobBench bench(short_router());
+    JobServer server(bench);
+    const auto program = server.ask("POST", "/programs?name=part.ngc", pocket);
+    const std::string path = fmt::format("/programs/{}", program["id"].get<int>());
+    const auto way = server.get(fmt::format("{}/way?from_line={}", path, line));
+    EXPECT_EQ(way["line"], line) << way;
+    EXPECT_GT(way["steps"].size(), 3U);
+    server.post(fmt::format("{}/run?from_line={}", path, line));
+    ASSERT_EQ(server.status, 202U);
+    ASSERT_TRUE(server.to_end());
+    EXPECT_EQ(server.job_state(), "done") << server.get("/status");
+    EXPECT_EQ(bench.truth(), whole_pocket().truth);
+    expect_same_end(bench.log.steps, whole_pocket().steps, 800);
+  }
+}
+
+TEST(FromLine, is_refused_with_its_reason_by_the_api) {
+  JobBench bench(short_router());
+  JobServer server(bench);
+  server.ask("POST", "/programs", pocket);
+  EXPECT_EQ(server.post("/programs/1/run?from_line=99")["error"]["code"], "reentry.no-motion");
+  EXPECT_EQ(server.status, 409U);
+  EXPECT_EQ(server.post("/programs/1/run?from_line=x")["error"]["code"], "http.bad-body");
+  EXPECT_EQ(server.get("/programs/1/way?from_line=99")["code"], "reentry.no-motion");
+  EXPECT_EQ(server.get("/programs/1/way")["error"]["code"], "http.bad-body");
+}
+
+}  // namespace
+}  // namespace passo::test
