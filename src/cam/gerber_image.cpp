@@ -67,7 +67,7 @@ class Composition {
   std::optional<Region> united_by_halves(std::vector<Region> objects) {
     std::size_t points = 0;
     for (const Region& object : objects) points += points_of(object);
-    constexpr std::size_t few = 100'000;
+    constexpr std::size_t few = 20'000;
     if (points <= few || objects.size() < 4) {
       if (!budget_.affords(objects)) return std::nullopt;
       return united(objects);
@@ -79,8 +79,31 @@ class Composition {
     if (!a) return a;
     const std::optional<Region> b = united_by_halves(std::move(right));
     if (!b) return b;
-    if (!budget_.affords({*a, *b})) return std::nullopt;
-    return united(*a, *b);
+    return joined(*a, *b);
+  }
+
+  // A ring that lies clear of the other half stays as it is, and only those along the seam are united. A hole may stay
+  // while its outer ring is united: what is in it lies as clear of the other half as it does.
+  std::optional<Region> joined(const Region& a, const Region& b) {
+    const std::optional<DrawnBox> box_a = bounds(a);
+    const std::optional<DrawnBox> box_b = bounds(b);
+    if (!box_a) return b;
+    if (!box_b) return a;
+    std::vector<DrawnRing> clear;
+    Region seam_a;
+    Region seam_b;
+    const auto part = [&clear](const Region& from, const DrawnBox& other, Region& seam) {
+      for (const DrawnRing& ring : from.rings) {
+        const bool touches = overlap(*bounds(Region{{ring}}), other);
+        (touches ? seam.rings : clear).push_back(ring);
+      }
+    };
+    part(a, *box_b, seam_a);
+    part(b, *box_a, seam_b);
+    if (!budget_.affords({seam_a, seam_b})) return std::nullopt;
+    Region all = united(seam_a, seam_b);
+    all.rings.insert(all.rings.end(), std::make_move_iterator(clear.begin()), std::make_move_iterator(clear.end()));
+    return all;
   }
 
   static constexpr std::size_t most_looked_at = 2'000'000'000;
