@@ -39,7 +39,7 @@ std::optional<std::vector<OptionSection>> read_option_profile(const std::string&
       diagnostics);
   if (!text) return std::nullopt;
   Diagnostics found;
-  const TomlReporter reporter(*text, path, found);
+  const TomlReporter reporter(*text, path, found, {.area = "profile", .words = "a profile"});
   TomlDocument document;
   if (is_fit_for_parser(reporter)) document = parse_toml(*text, reporter);
   std::string names;
