@@ -44,9 +44,16 @@ function(passo_module module)
   endif()
 endfunction()
 
-# With PASSO_SANITIZE only the modules that read what others wrote, and those with the most arithmetic of indices, have
-# tests, and of the tests of the whole street one program (tests/CMakeLists.txt). Libraries are built that these need.
-set(PASSO_SANITIZED_MODULES base diagnostics gcode interpreter machine_file geometry path trajectory wire firmware link)
+# Slow tests make an eighth of their trials, or all of them, which takes an hour: scripts/test.sh --full.
+option(PASSO_TESTS_IN_FULL "Slow tests make all of their trials" OFF)
+
+# With PASSO_SANITIZE only the modules that read what others wrote have tests, and of the tests of the whole street one
+# program (tests/CMakeLists.txt). Libraries are built that these need. PASSO_TESTS_IN_FULL adds those with the most
+# arithmetic of indices.
+set(PASSO_SANITIZED_MODULES gcode interpreter machine_file wire link)
+if(PASSO_TESTS_IN_FULL)
+  list(APPEND PASSO_SANITIZED_MODULES base diagnostics geometry path trajectory firmware)
+endif()
 
 # clang reads the standard headers once for all libraries: a quarter of the time. g++ 12 needs as long to read what it has
 # compiled of them; so in its builds each file includes what it uses, or does not compile.
@@ -78,8 +85,6 @@ function(passo_test_headers)
   target_precompile_headers(passo_test_headers PRIVATE <gmock/gmock.h> <gtest/gtest.h>)
 endfunction()
 
-# Slow tests make an eighth of their trials, or all of them, which takes an hour: scripts/test.sh --full.
-option(PASSO_TESTS_IN_FULL "Slow tests make all of their trials" OFF)
 
 # passo_test(NAME SOURCES file… LIBRARIES target… [LABELS label…] [DEFINITIONS name=value…] [ONE_IN number])
 #

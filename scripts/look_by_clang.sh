@@ -1,15 +1,17 @@
 #!/usr/bin/env bash
 # scripts/look_by_clang.sh: has clang look for errors and warnings in all sources that the preset sanitize, once it is
-# built, has not compiled: the program, the rest of the tests, the benchmarks. No code is made.
+# built, has not compiled: the program and the benchmarks. No code is made. --tests: the rest of the tests too.
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
 
 cmake --preset clang >/dev/null
 cmake --build build/clang --parallel "$(nproc)" --target passo_test_headers passo_standard_headers
+tests=no
+[[ ${1-} == --tests ]] && tests=yes
 # An object has one name in both builds.
 commands=()
 while read -r object && read -r command; do
-  [[ -e build/sanitize/$object ]] || commands+=("$command -fsyntax-only")
+  [[ -e build/sanitize/$object || ($tests == no && $object =~ (_tests|_replay)\.dir/) ]] || commands+=("$command -fsyntax-only")
 done < <(jq -r '.[].command | capture(" -o (?<object>\\S+) ").object, .' build/clang/compile_commands.json)
 echo "clang looks at ${#commands[@]} sources"
 cd build/clang

@@ -1,8 +1,8 @@
 #!/usr/bin/env bash
 # scripts/test.sh [--all|--full]: builds Passo with all its tests and runs them.
 #
-#   --all    what CI wants, before that: the format check; what reads what others wrote, and what plans motion, by clang
-#            under AddressSanitizer and UndefinedBehaviorSanitizer, with its tests; and all else looked at by clang
+#   --all    what CI wants, before that: the format check; what reads what others wrote, and the whole street, by clang
+#            under AddressSanitizer and UndefinedBehaviorSanitizer; all else looked at by clang. Without benchmarks
 #   --full   slow tests make all of their trials and not an eighth: an hour and more
 #
 # The last lines are the summary of ctest, and its exit code is the script's.
@@ -32,8 +32,10 @@ if [[ ${1-} == --all ]]; then
   run_tests sanitize --label-exclude slow
   scripts/look_by_clang.sh
 fi
+benchmarks=ON
+if [[ ${1-} == --all ]]; then benchmarks=OFF; fi
 in_full=OFF
 if [[ ${1-} == --full ]]; then in_full=ON; fi
-cmake --preset release -DPASSO_BUILD_TESTS=ON -DPASSO_BUILD_BENCHMARKS=ON -DPASSO_TESTS_IN_FULL=$in_full
+cmake --preset release -DPASSO_BUILD_TESTS=ON -DPASSO_BUILD_BENCHMARKS=$benchmarks -DPASSO_TESTS_IN_FULL=$in_full
 build release
 run_tests release

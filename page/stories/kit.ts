@@ -1,6 +1,6 @@
 // What the stories share: the real daemon with its virtual machine, and the real browser.
 import { spawn, type ChildProcess } from 'node:child_process';
-import { existsSync, mkdtempSync, rmSync } from 'node:fs';
+import { existsSync, mkdtempSync, readFileSync, rmSync, writeFileSync } from 'node:fs';
 import { tmpdir } from 'node:os';
 import { join, resolve } from 'node:path';
 import { chromium, type Browser, type BrowserContext, type Page } from 'playwright-core';
@@ -12,6 +12,15 @@ export const pageFolder = process.env.PASSO_PAGE ?? join(root, 'build/page');
 const browserPaths = [process.env.PASSO_CHROMIUM, '/usr/bin/chromium', '/usr/bin/google-chrome'];
 export const example = (name: string): string => join(root, 'examples', name);
 
+// The usual machine, but so small that homing does not take a minute.
+function smallMachine(folder: string): string {
+  const file = join(folder, 'small.toml');
+  const text = readFileSync(join(root, 'examples/machines/router.toml'), 'utf8');
+  const smaller: [string, string][] = [['-400, 400', '-100, 100'], ['-401', '-101'], ['-300, 300', '-80, 80'], ['-301', '-81']];
+  writeFileSync(file, smaller.reduce((so, [was, is]) => so.replace(was, is), text));
+  return file;
+}
+
 export class Daemon {
   private constructor(
     private readonly process: ChildProcess,
@@ -22,7 +31,7 @@ export class Daemon {
   static async start({ port = '0', machine }: { port?: string; machine?: string } = {}): Promise<Daemon> {
     const folder = mkdtempSync(join(tmpdir(), 'passo-story-'));
     const words = ['serve', '--http', `127.0.0.1:${port}`, '--grbl-tcp', '127.0.0.1:0', '--page', pageFolder, '--data', folder];
-    if (machine !== undefined) words.push('--machine', machine);
+    words.push('--machine', machine ?? smallMachine(folder));
     const child = spawn(passo, words, { stdio: ['ignore', 'pipe', 'inherit'] });
     process.once('exit', () => child.kill('SIGKILL')); // a story that fails leaves nobody behind
     const address = await new Promise<string>((done, fail) => {
