@@ -144,7 +144,7 @@ struct RingProfile {
       const float too_far = x * (inner + out) - v;
       x = above_zero(x - too_far / (inner + out * most * inverse * inverse));
     }
-    const float cosine2 = above_zero(1 - x * x);
+    const float cosine2 = above_zero((1 - x) * (1 + x));
     return edge * (inner + pull / std::sqrt(slope2 + cosine2)) * std::sqrt(cosine2);
   }
   float height(float d2) const {

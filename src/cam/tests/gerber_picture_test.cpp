@@ -94,6 +94,18 @@ Bitmap bitmap_of(const Region& region, DrawnPoint corner, double nm_per_pixel, i
   return bitmap;
 }
 
+// Whether a pixel near by has this colour too: then the difference is one of an edge that runs between two pixels.
+bool is_near(const Bitmap& bitmap, int x, int y, std::uint8_t colour) {
+  for (int row = std::max(0, y - 1); row <= std::min(bitmap.height - 1, y + 1); ++row) {
+    for (int column = std::max(0, x - 1); column <= std::min(bitmap.width - 1, x + 1); ++column) {
+      const auto at =
+          static_cast<std::size_t>(row) * static_cast<std::size_t>(bitmap.width) + static_cast<std::size_t>(column);
+      if (bitmap.dark[at] == colour) return true;
+    }
+  }
+  return false;
+}
+
 void keep_picture(const std::string& name, const Bitmap& ours, const Bitmap& theirs) {
   const char* const folder = std::getenv("PASSO_GERBER_PICTURES");
   if (folder == nullptr) return;
@@ -159,17 +171,28 @@ bool compare(const fs::path& path) {
   const Bitmap ours = bitmap_of(layer.dark, {{std::llround(left * nm_per_inch)}, {std::llround(low * nm_per_inch)}},
                                 nm_per_inch / dpi, theirs.width, theirs.height);
   std::size_t differing = 0;
+  std::size_t beyond_edges = 0;
   std::size_t dark = 0;
   for (std::size_t i = 0; i < ours.dark.size(); ++i) {
-    differing += ours.dark[i] != theirs.dark[i] ? 1U : 0U;
     dark += ours.dark[i];
+    if (ours.dark[i] == theirs.dark[i]) continue;
+    ++differing;
+    const auto width = static_cast<std::size_t>(ours.width);
+    const int x = static_cast<int>(i % width);
+    const int y = static_cast<int>(i / width);
+    const bool is_edge = is_near(theirs, x, y, ours.dark[i]) && is_near(ours, x, y, theirs.dark[i]);
+    if (!is_edge) ++beyond_edges;
   }
   const double share = static_cast<double>(differing) / static_cast<double>(ours.dark.size());
-  fmt::print("{:60} {:5} dpi {:5} x {:5}  dark {:5.1f} %  differs {:.4f} %  read in {:.3f} s\n", name, dpi, ours.width,
-             ours.height, 100.0 * static_cast<double>(dark) / static_cast<double>(ours.dark.size()), share * 100,
+  fmt::print("{:60} {:5} dpi {:5} x {:5}  dark {:5.1f} %  differs {:.4f} %, {} pixels beyond edges  read in {:.3f} s\n",
+             name, dpi, ours.width, ours.height,
+             100.0 * static_cast<double>(dark) / static_cast<double>(ours.dark.size()), share * 100, beyond_edges,
              seconds);
   for (const std::string& note : layer.strokes.notes) fmt::print("    {}\n", note);
-  EXPECT_LT(share, 0.001) << name;
+  // Where many thin lines run along pixels, gerbv rounds each edge to one side: such a picture may differ more, by
+  // edges.
+  EXPECT_TRUE(share < 0.001 || beyond_edges == 0) << name;
+  EXPECT_LT(share, 0.005) << name;
   if (share >= 0.001) keep_picture(path.filename().string(), ours, theirs);
   return true;
 }

@@ -125,6 +125,9 @@ TEST_P(SweepOracle, finds_no_lower_and_no_higher_underside_than_the_closed_form)
   constexpr double cell = 0.25;
   const char* const given = std::getenv("PASSO_RUNS");
   const int runs = given != nullptr ? std::atoi(given) : 12;
+  // What docs/manual/simulate.md promises: less than a micrometre for round corners, whose root is found in single
+  // precision.
+  const double most = GetParam() == ToolShape::Kind::bull_nose ? 1e-3 : 5e-4;
   double worst = 0;
   for (int i = 0; i < runs; ++i) {
     const ToolShape cutter = tool();
@@ -140,7 +143,7 @@ TEST_P(SweepOracle, finds_no_lower_and_no_higher_underside_than_the_closed_form)
         if (from_edge(cutter, way_of_tip, x, y) < 2e-3) continue;
         const double expected = std::clamp(lowest(cutter, way_of_tip, x, y), -5.0, 0.0);
         worst = std::max(worst, std::abs(stock.field.height(column, row) - expected));
-        ASSERT_NEAR(stock.field.height(column, row), expected, 5e-4)
+        ASSERT_NEAR(stock.field.height(column, row), expected, most)
             << "move " << i << " at " << x << ", " << y << " radius " << cutter.radius.value() << " tip "
             << cutter.tip_radius.value() << " angle " << cutter.half_angle << " from " << way_of_tip.from.x << ", "
             << way_of_tip.from.y << ", " << way_of_tip.from.z << " to " << way_of_tip.to.x << ", " << way_of_tip.to.y
