@@ -11,6 +11,7 @@ tests=no
 # An object has one name in both builds.
 commands=()
 while read -r object && read -r command; do
+  [[ $object != *.pch ]] || continue
   [[ -e build/sanitize/$object || ($tests == no && $object =~ (_tests|_replay)\.dir/) ]] || commands+=("$command -fsyntax-only")
 done < <(jq -r '.[].command | capture(" -o (?<object>\\S+) ").object, .' build/clang/compile_commands.json)
 echo "clang looks at ${#commands[@]} sources"
