@@ -55,12 +55,29 @@ struct ApiOptions {
   std::function<double()> wall_time = {};  // seconds since 1970, for the history
   // Keeps the journal of a job, with a history; outlives this. Null: a job that is broken off cannot go on.
   JobKeeper* keeper = nullptr;
-  FileStamp machine_file = {};               // for the journal
+  FileStamp machine_file = {};  // for the journal
+  // The offsets and tools of the programs at the beginning, and what keeps them when they have changed.
+  SavedParameters parameters = {};
+  ToolTable tools = {};
+  std::function<void(const SavedParameters&, const ToolTable&)> keep_offsets = {};
   std::optional<BrokenOff> broken_off = {};  // the job of an earlier program
+};
+
+// What a job has said by (PRINT,…), (MSG,…) and (LOG,…).
+struct JobWords {
+  std::string_view kind;  // "print", "message" or "log"
+  std::uint32_t line = 0;
+  std::string text;
 };
 
 class MachineApi final : public WebHandler {
  public:
+  // More is not kept of one job.
+  static constexpr std::size_t most_words = 50'000;
+  static constexpr std::size_t longest_words = 200;
+  // The longest program that is levelled: a machine that rests waits for that.
+  static constexpr std::size_t longest_to_level = std::size_t{16} << 20;
+
   // All of them outlive this.
   MachineApi(const MachineDescription& machine, MachineSession& session, MotionOwner& owner, ApiOptions options);
 
@@ -102,6 +119,12 @@ class MachineApi final : public WebHandler {
   WebAnswer take_ownership(const WebRequest& request);
   WebAnswer ask(Request wanted);
   WebAnswer set_work_zero(std::string_view body);
+  WebAnswer begin_probing(std::string_view body);
+  WebAnswer take_height_map(const StoredProgram& program, const WebRequest& request);
+  WebAnswer level_program(const StoredProgram& program, std::string_view body);
+  WebAnswer words_answer() const;
+  void note_words(const Operation& operation);
+  void keep_results();
   WebAnswer change_interrupted(const FoundRoute& found);
   WebAnswer begin_job(const StoredProgram& program, std::int64_t history);
   WebAnswer resume_job(bool by_a_way_back);
@@ -133,6 +156,8 @@ class MachineApi final : public WebHandler {
   bool leaves_ = false;
   std::optional<Ticket> ticket_;
   Diagnostics findings_;  // of the run
+  std::vector<JobWords> words_;
+  std::uint64_t map_for_ = 0;  // the program that gets the height map which the job probes; 0: it probes none
   const WebServer* server_ = nullptr;
   std::uint64_t jobs_ended_ = 0;
   std::uint64_t alarms_ = 0;
