@@ -40,6 +40,13 @@ Json as_json(const MachineDescription& machine, const WayBack& way);
 Json as_json(const MachineDescription& machine, const InterruptedJob& job, const WayBack& way);
 Json machine_json(const MachineDescription& machine, std::string_view version);
 
+// {"severity", "code", "line", …} of each.
+Json as_json(const Diagnostics& findings);
+// The machine file for an editor. `in_force`: the file as passo serve has read it.
+WebAnswer machine_file_answer(const MachineFileAccess& file, const FileStamp& in_force);
+WebAnswer try_machine_file(const MachineFileAccess& file, std::string_view body);
+WebAnswer write_machine_file(const MachineFileAccess& file, const FileStamp& in_force, std::string_view body);
+
 // A line of a program, from 1. Empty: it is none.
 std::optional<std::uint32_t> line_from(std::string_view text);
 

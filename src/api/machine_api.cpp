@@ -16,6 +16,7 @@ constexpr std::size_t longest_name = 200;
 constexpr std::string_view programs_path = "/api/v1/programs";
 constexpr std::string_view queue_path = "/api/v1/queue";
 constexpr std::string_view history_path = "/api/v1/history";
+constexpr std::string_view machine_file_path = "/api/v1/machine/file";
 constexpr std::string_view interrupted_path = "/api/v1/interrupted";
 constexpr std::string_view alarms_path = "/api/v1/alarms";
 constexpr std::int64_t shown_of_history = 100;
@@ -129,6 +130,7 @@ WebAnswer MachineApi::look(const FoundRoute& found, const WebRequest& request) {
     return json_answer(200, {{"interrupted", job != nullptr ? as_json(machine_, *job, kept_->reentry()) : Json()}});
   }
   if (path.ends_with("/status")) return {.body = status_text()};
+  if (path == machine_file_path) return machine_file_answer(options_.machine_access, options_.machine_file);
   if (path.ends_with("/machine")) return json_answer(200, machine_json(machine_, options_.version));
   if (path.ends_with("/openapi.json")) return {.body = options_.openapi};
   if (path.ends_with("/metrics")) return {.type = "text/plain; version=0.0.4", .body = metrics()};
@@ -159,6 +161,7 @@ WebAnswer MachineApi::change(const FoundRoute& found, const WebRequest& request)
   if (path.starts_with(programs_path)) return change_programs(found, request);
   if (path.starts_with(queue_path)) return change_queue(found, request);
   if (path.starts_with(interrupted_path)) return change_interrupted(found);
+  if (path.starts_with(machine_file_path)) return change_machine_file(found, request);
   if (path == "/api/v1/owner") {
     if (request.method == "POST") return take_ownership(request);
     if (!owner_.is_client(request.key)) return error_answer(403, "owner.not-you", "somebody else owns the motion");
@@ -177,6 +180,15 @@ WebAnswer MachineApi::change(const FoundRoute& found, const WebRequest& request)
     return json_answer(200, {{"ticket", 0}});
   }
   return ask(std::move(*wanted));
+}
+
+// Reading a machine file may take some milliseconds: nothing waits for them while nothing moves.
+WebAnswer MachineApi::change_machine_file(const FoundRoute& found, const WebRequest& request) {
+  if (session_.busy() || job_.state == JobState::checking) {
+    return error_answer(409, "machine.busy", "the machine moves: the machine file can wait");
+  }
+  if (found.route->moves) return write_machine_file(options_.machine_access, options_.machine_file, request.body);
+  return try_machine_file(options_.machine_access, request.body);
 }
 
 // The tool stands at this place of the work.

@@ -272,4 +272,39 @@ TEST_F(ServeHttp, shows_a_page_and_nothing_beside_it) {
   }
 }
 
+TEST_F(ServeHttp, changes_the_machine_file_and_keeps_its_comments) {
+  const std::string file = path("mill.toml");
+  write("mill.toml", read(PASSO_SOURCE_DIR "/examples/machines/router.toml"));
+  serve({"--machine", file});
+  auto told = json("GET", "/machine/file");
+  ASSERT_TRUE(told["good"].get<bool>()) << told;
+  EXPECT_EQ(told["values"]["axis.X.microsteps"], 16);
+  EXPECT_TRUE(told["in_force"].get<bool>());
+  const auto draft = [&](const nlohmann::json& changes) {
+    return json("POST", "/machine/file/draft", nlohmann::json({{"text", told["text"]}, {"set", changes}}).dump());
+  };
+  const auto refused = draft({{"axis.X.home.switch_at_mm", 500}});
+  EXPECT_FALSE(refused["good"].get<bool>());
+  EXPECT_THAT(refused["findings"].dump(), HasSubstr("machine."));
+  // Two axes cannot have one motor.
+  const auto conflict = draft({{"axis.X.motor", 0}, {"axis.Y.motor", 0}, {"axis.Z.motor", 1}});
+  EXPECT_FALSE(conflict["good"].get<bool>()) << conflict;
+  EXPECT_FALSE(conflict["findings"].empty());
+  const auto good = draft({{"axis.X.microsteps", 8}, {"axis.X.max_velocity_mm_s", 90}});
+  ASSERT_TRUE(good["good"].get<bool>()) << good["findings"];
+  EXPECT_EQ(good["axes"][0]["steps_per_unit"], 320);
+  EXPECT_THAT(good["text"].get<std::string>(), HasSubstr("microsteps = 8              # as the switches"));
+  // A look changes nothing, and writing needs the ownership and the file as it was.
+  EXPECT_EQ(read(file), told["text"].get<std::string>());
+  const std::string body = nlohmann::json({{"text", good["text"]}, {"stamp", told["stamp"]}}).dump();
+  EXPECT_EQ(json("POST", "/machine/file", body)["error"]["code"], "owner.not-you");
+  const std::string key = "X-Passo-Key: " + json("POST", "/owner")["key"].get<std::string>() + "\r\n";
+  const std::string bad = nlohmann::json({{"text", refused["text"]}, {"stamp", told["stamp"]}}).dump();
+  EXPECT_EQ(json("POST", "/machine/file", bad, key)["error"]["code"], "machine-file.unsound");
+  const auto written = json("POST", "/machine/file", body, key);
+  EXPECT_FALSE(written["in_force"].get<bool>()) << written;
+  EXPECT_EQ(read(file), good["text"].get<std::string>());
+  EXPECT_EQ(json("POST", "/machine/file", body, key)["error"]["code"], "machine-file.changed");
+}
+
 }  // namespace

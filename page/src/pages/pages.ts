@@ -15,6 +15,7 @@ export const pages: readonly Page[] = [
   { path: 'jog', title: 'page.jog', icon: 'jog', load: async () => (await import('./jog')).JogPage },
   { path: 'files', title: 'page.files', icon: 'files', load: async () => (await import('./files')).FilesPage },
   { path: 'console', title: 'page.console', icon: 'console', load: async () => (await import('./console')).ConsolePage },
+  { path: 'pins', title: 'page.pins', icon: 'pins', load: async () => (await import('./pins')).PinsPage },
   { path: 'machine', title: 'page.machine', icon: 'machine', load: async () => (await import('./machine')).MachinePage },
   { path: 'lab', title: 'page.lab', icon: 'lab', load: async () => (await import('../lab/LabPage')).LabPage },
 ];

@@ -55,6 +55,7 @@ ApiOptions api_options(const PageFolder* page, JobHistory* history, const Served
   };
   options.keeper = jobs.journal;
   options.machine_file = jobs.machine_file;
+  options.machine_access = jobs.machine_access;
   if (jobs.journal != nullptr) options.broken_off = jobs.journal->found();
   return options;
 }

@@ -30,6 +30,7 @@ bool is_this_computer(const std::string& host);
 struct ServedJobs {
   ServedJournal* journal = nullptr;  // null: none
   FileStamp machine_file;
+  MachineFileAccess machine_access;
 };
 
 class ServedWeb {

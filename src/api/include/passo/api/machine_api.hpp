@@ -44,6 +44,14 @@ struct ApiJob {
   friend bool operator==(const ApiJob&, const ApiJob&) = default;
 };
 
+// The machine file on the disk.
+struct MachineFileAccess {
+  std::string name;  // for people
+  std::function<std::optional<std::string>()> read = {};
+  // Writes `after`, if the file is still as `before`. Null: the machine is no file.
+  std::function<bool(const std::string& before, const std::string& after)> write = {};
+};
+
 struct ApiOptions {
   std::string version;                    // of the program
   std::string openapi;                    // the text of docs/api/openapi.json
@@ -55,7 +63,8 @@ struct ApiOptions {
   std::function<double()> wall_time = {};  // seconds since 1970, for the history
   // Keeps the journal of a job, with a history; outlives this. Null: a job that is broken off cannot go on.
   JobKeeper* keeper = nullptr;
-  FileStamp machine_file = {};               // for the journal
+  FileStamp machine_file = {};               // as it was read
+  MachineFileAccess machine_access = {};     // for an editor
   std::optional<BrokenOff> broken_off = {};  // the job of an earlier program
 };
 
@@ -102,6 +111,7 @@ class MachineApi final : public WebHandler {
   WebAnswer take_ownership(const WebRequest& request);
   WebAnswer ask(Request wanted);
   WebAnswer set_work_zero(std::string_view body);
+  WebAnswer change_machine_file(const FoundRoute& found, const WebRequest& request);
   WebAnswer change_interrupted(const FoundRoute& found);
   WebAnswer begin_job(const StoredProgram& program, std::int64_t history);
   WebAnswer resume_job(bool by_a_way_back);
