@@ -12,6 +12,8 @@ namespace passo {
 
 using Json = nlohmann::ordered_json;
 
+inline constexpr double a_minute = 60;  // s; the API's speeds are mm/min
+
 WebAnswer json_answer(unsigned status, const Json& json);
 // {"error": {"code": …, "message": …}}
 WebAnswer error_answer(unsigned status, std::string_view code, std::string_view message);

@@ -25,7 +25,6 @@ Json as_json(const ProgramPath::Range& range) {
 
 Json as_json(const ProgramPath::Speeds& speeds) {
   if (speeds.empty()) return Json();
-  constexpr double a_minute = 60;
   return {{"low", speeds.low.value() * a_minute}, {"high", speeds.high.value() * a_minute}};
 }
 

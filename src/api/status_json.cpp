@@ -5,8 +5,6 @@
 namespace passo {
 namespace {
 
-constexpr double a_minute = 60;
-
 std::string axis_key(Axis axis) {
   return {static_cast<char>(letter_of(axis) - 'A' + 'a')};
 }

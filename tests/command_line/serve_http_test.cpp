@@ -307,4 +307,38 @@ TEST_F(ServeHttp, changes_the_machine_file_and_keeps_its_comments) {
   EXPECT_EQ(json("POST", "/machine/file", body, key)["error"]["code"], "machine-file.changed");
 }
 
+TEST_F(ServeHttp, makes_a_program_of_a_drill_file) {
+  serve();
+  const auto send = [&](const std::string& name, const std::string& text) {
+    return json("POST", "/make/files?name=" + name, text);
+  };
+  send("holes.drl", "M48\nMETRIC\nT1C0.800\n%\nT1\nX10.0Y10.0\nX20.0Y10.0\nM30\n");
+  EXPECT_EQ(send("wrong.drl", "this is no drill file\n")["files"], nlohmann::json({"holes.drl", "wrong.drl"}));
+  const auto make = [&](const std::string& order) {
+    json("POST", "/make", order);
+    until([&] { return json("GET", "/make")["state"] != "running"; });
+    return json("GET", "/make");
+  };
+  const auto made = make(R"({"job": "drill", "files": ["holes.drl"], "options": {"depth": -1.5, "plain": true}})");
+  ASSERT_EQ(made["state"], "done") << made;
+  ASSERT_TRUE(made["program"].is_number()) << made;
+  const std::string id = std::to_string(made["program"].get<int>());
+  EXPECT_EQ(json("GET", "/programs/" + id)["name"], "holes-drill.ngc");
+  EXPECT_THAT(ask("GET", "/api/v1/programs/" + id + "/text"), HasSubstr("Z-1.5"));
+  EXPECT_THAT(ask("GET", "/api/v1/make/picture"), HasSubstr("<svg"));
+  const auto failed = make(R"({"job": "drill", "files": ["wrong.drl"]})");
+  EXPECT_EQ(failed["state"], "failed");
+  EXPECT_THAT(failed["words"].get<std::string>(), HasSubstr("wrong.drl"));
+  // Nothing of this computer is read or written, but what was sent.
+  for (const char* const order :
+       {R"({"job": "board", "files": ["holes.drl"]})", R"({"job": "drill", "files": ["/etc/passwd"]})",
+        R"({"job": "drill", "files": ["holes.drl"], "options": {"output": "x"}})",
+        R"({"job": "isolate", "files": ["holes.drl"], "options": {"edge": "/etc/passwd"}})",
+        R"({"job": "isolate", "files": ["holes.drl"], "options": {"edge": "../x"}})"}) {
+    EXPECT_EQ(json("POST", "/make", order)["error"]["code"], "http.bad-body") << order;
+  }
+  EXPECT_EQ(send("../x", "a")["files"].dump().find('/'), std::string::npos);
+  EXPECT_TRUE(json("DELETE", "/make/files")["files"].empty());
+}
+
 }  // namespace
