@@ -62,7 +62,7 @@ describe('a job that was broken off', () => {
     await card.waitFor({ timeout: 30_000 });
     expect(await card.innerText()).toContain('part.ngc');
     expect(await card.innerText()).toContain('exactly where the machine stands');
-    expect(await page.locator('.act.go').getAttribute('title')).toContain('broken off');
+    await expect.poll(() => page.locator('.act.go').getAttribute('title'), { timeout: 10_000 }).toContain('broken off');
     // Other pages lead to it.
     await page.goto(`${second.address}#/files`);
     await page.getByText('The job part.ngc was broken off.').waitFor();
@@ -114,7 +114,7 @@ describe('a job that was broken off', () => {
     await context.close();
     await second.end();
     await board.end();
-  });
+  }, 300_000);
 });
 
 describe('a start amid a program', () => {
