@@ -40,6 +40,7 @@ CycleRun run_text(const std::string& text, const MachineDescription& machine, co
   options.start = start;
   options.on_machine = true;
   options.tools.name = "tools";
+  static_cast<void>(options.tools.add({.number = 7, .pocket = 7}));
   IdealPlant plant = plant_of(machine, start, things);
   test::DrivenProgram job(ProgramReader::from_text("cycle", text), machine, options, diagnostics, {.plant = &plant});
   job.program().operations().watch([&](const Operation& operation) {
@@ -55,7 +56,7 @@ CycleRun run_text(const std::string& text, const MachineDescription& machine, co
   for (std::size_t m = 0; m < machine.axes.size(); ++m) {
     const AxisDescription& axis = machine.axes[m];
     const auto steps = static_cast<double>(counts.motors[m].position);
-    result.end[axis.axis] = start[axis.axis] + (axis.inverted ? -steps : steps) / axis.steps_per_unit;
+    result.end[axis.axis] = (axis.inverted ? -steps : steps) / axis.steps_per_unit;
   }
   return result;
 }
@@ -237,9 +238,9 @@ TEST_F(ProbingCycles, a_map_is_exact_and_a_levelled_program_follows_it) {
       EXPECT_NEAR(map->height(x, y), height(x, y) + 12, 2 * step_of(machine_, Axis::z)) << x << ' ' << y;
   }
   std::string levelled;
-  write_levelled_program(
-      ProgramReader::from_text("part", "G0 X12 Y8 Z3\nG1 Z0 F800\nX55 Y40\nG2 X15 Y20 I-20 J-10\nG0 Z3\nM2\n"), {},
-      *map, {.tolerance = 0.005}, diagnostics, [&](std::string_view text) { levelled += text; });
+  write_levelled_program(ProgramReader::from_text(
+                             "part", "M3 S1000\nG0 X12 Y8 Z3\nG1 Z0 F800\nX55 Y40\nG2 X15 Y20 I-20 J-10\nG0 Z3\nM2\n"),
+                         {}, *map, {.tolerance = 0.005}, diagnostics, [&](std::string_view text) { levelled += text; });
   EXPECT_FALSE(diagnostics.any_error()) << render(diagnostics, false);
   // The program's Z0 is the surface: nowhere is its path off by more than the tolerances and a few steps.
   Diagnostics findings;

@@ -9,6 +9,7 @@
 #include "commands.hpp"
 #include "page_folder.hpp"
 #include "served_journal.hpp"
+#include "served_maker.hpp"
 #include "served_offsets.hpp"
 
 #include "passo/api/machine_api.hpp"
@@ -31,6 +32,7 @@ bool is_this_computer(const std::string& host);
 struct ServedJobs {
   ServedJournal* journal = nullptr;  // null: none
   FileStamp machine_file;
+  MachineFileAccess machine_access;
 };
 
 class ServedWeb {
@@ -62,6 +64,7 @@ class ServedWeb {
   std::unique_ptr<JobHistory> history_;     // may be null
   std::unique_ptr<ServedOffsets> offsets_;  // may be null
   std::string host_;
+  ServedMaker maker_;
   MachineApi api_;
   std::unique_ptr<WebServer> server_;
   std::chrono::steady_clock::time_point published_;
