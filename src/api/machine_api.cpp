@@ -278,7 +278,7 @@ WebAnswer MachineApi::change_programs(const FoundRoute& found, const WebRequest&
   const StoredProgram* const program = programs_.find(found.id);
   if (program == nullptr) return refusal(404);
   if (found.route->path.ends_with("/height-map")) return take_height_map(*program, request);
-  if (found.route->path.ends_with("/level")) return level_program(*program, request.body);
+  if (found.route->path.ends_with("/level")) return level_program(*program, request.query);
   const bool is_checked_for_job = job_.state == JobState::checking;
   if (request.method == "DELETE") {
     if (is_checked_for_job && job_.program == found.id) {

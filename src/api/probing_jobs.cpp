@@ -1,5 +1,5 @@
 // MachineApi: probing cycles as jobs, what a job says, height maps, and programs levelled by them.
-#include <cmath>
+#include <charconv>
 #include <utility>
 
 #include "api_json.hpp"
@@ -159,26 +159,26 @@ WebAnswer height_map_answer(const StoredProgram& program, std::string_view query
 }
 
 // A program of its own, so that it is seen and checked like any other.
-WebAnswer MachineApi::level_program(const StoredProgram& program, std::string_view body) {
+WebAnswer MachineApi::level_program(const StoredProgram& program, std::string_view query) {
   if (!program.height_map) return error_answer(404, "http.not-found", "this program has no height map");
   if (session_.state() != MachineState::idle || job_.state == JobState::checking) {
     return error_answer(409, "machine.busy", fmt::format("the machine is not idle: {}", name_of(session_.state())));
   }
   if (program.text.size() > longest_to_level) return refusal(413);
-  const Json wanted = body.empty() ? Json::object() : Json::parse(body, nullptr, false);
-  if (!wanted.is_object()) return error_answer(400, "http.bad-body", "the body is no JSON object");
   LevelOptions wish;
-  const auto tolerance = wanted.find("tolerance");
-  if (tolerance != wanted.end()) wish.tolerance = tolerance->is_number() ? tolerance->get<double>() : 0;
+  if (const std::string_view tolerance = query_value(query, "tolerance"); !tolerance.empty()) {
+    wish.tolerance = 0;
+    std::from_chars(tolerance.data(), tolerance.data() + tolerance.size(), wish.tolerance);
+  }
   if (!(wish.tolerance >= finest_tolerance && wish.tolerance <= coarsest_tolerance)) {
     return error_answer(400, "http.bad-body",
                         fmt::format("tolerance: expected {:g} to {:g} mm", finest_tolerance, coarsest_tolerance));
   }
-  const auto holes = wanted.find("holes");
-  if (holes != wanted.end() && !holes->is_boolean()) {
+  const std::string_view holes = query_value(query, "holes");
+  if (!holes.empty() && holes != "true" && holes != "false") {
     return error_answer(400, "http.bad-body", "holes: expected true or false");
   }
-  wish.holes = holes != wanted.end() && holes->get<bool>();
+  wish.holes = holes == "true";
   Diagnostics findings;
   InterpreterOptions options = programs_.options_of(program);
   options.start = session_.status().position.place;

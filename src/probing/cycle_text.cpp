@@ -83,8 +83,8 @@ void CycleText::write_subs() {
 // The machine rests a little behind the contact. G10 L20 says which work coordinate that place has.
 void CycleText::set_zero(char axis, int sign, double height) {
   const int number = axis - 'X';
-  const double edge = axis == 'Z' ? height : -sign * cycle_.ball / 2;
-  line("G10 L20 P{} {}[#{}-#{}+{:.6f}]", system_, axis, 5420 + number, 5061 + number, edge);
+  const double edge = axis == 'Z' ? height : -sign * cycle_.ball / 2 + 0.0;  // no -0
+  line("G10 L20 P{} {}[#{}-#{}{:+.6f}]", system_, axis, 5420 + number, 5061 + number, edge);
 }
 
 void CycleText::surface() {

@@ -19,7 +19,7 @@ TEST(ApiProbing, a_surface_becomes_the_zero_of_all_programs) {
   run.own();
   const Json job = run.post("/probe", R"({"cycle": "surface", "height": 0.5, "reach": 30})");
   ASSERT_EQ(run.status, 202U) << job;
-  ASSERT_TRUE(run.turn_until([&] { return run.get("/status")["job"]["state"] == "done"; })) << run.get("/status");
+  ASSERT_TRUE(run.turn_until([&] { return run.api.job().state == JobState::done; })) << run.get("/status");
   EXPECT_NEAR(run.get("/status")["work_offset"]["z"].get<double>(), -13, 0.004);
   ASSERT_EQ(kept.size(), 1U);
   const Json words = run.get("/log")["words"];
@@ -28,7 +28,7 @@ TEST(ApiProbing, a_surface_becomes_the_zero_of_all_programs) {
   // The next program counts from there.
   const std::uint64_t id = run.upload("G0 Z5\nM2\n");
   run.post(fmt::format("/programs/{}/run", id));
-  ASSERT_TRUE(run.turn_until([&] { return run.get("/status")["job"]["state"] == "done"; }));
+  ASSERT_TRUE(run.turn_until([&] { return run.api.job().state == JobState::done; }));
   EXPECT_NEAR(run.get("/status")["place"]["z"].get<double>(), -8, 0.01);
 }
 
@@ -37,10 +37,10 @@ TEST(ApiProbing, a_tool_is_measured_and_used) {
   run.own();
   run.post("/probe", R"({"cycle": "tool", "tool": 4, "reach": 40, "zero_z": -45})");
   ASSERT_EQ(run.status, 202U);
-  ASSERT_TRUE(run.turn_until([&] { return run.get("/status")["job"]["state"] == "done"; })) << run.get("/status");
+  ASSERT_TRUE(run.turn_until([&] { return run.api.job().state == JobState::done; })) << run.get("/status");
   const std::uint64_t id = run.upload("G43 H4\nG0 Z-40\nM2\n");
   run.post(fmt::format("/programs/{}/run", id));
-  ASSERT_TRUE(run.turn_until([&] { return run.get("/status")["job"]["state"] == "done"; })) << run.get("/status");
+  ASSERT_TRUE(run.turn_until([&] { return run.api.job().state == JobState::done; })) << run.get("/status");
   EXPECT_NEAR(run.get("/status")["place"]["z"].get<double>(), -15, 0.01);
 }
 
@@ -58,7 +58,7 @@ TEST(ApiProbing, a_height_map_is_stored_with_its_program_and_levels_it) {
   ASSERT_EQ(run.status, 202U) << job;
   run.post(of_it + "/level");
   EXPECT_NE(run.status, 201U);
-  ASSERT_TRUE(run.turn_until([&] { return run.get("/status")["job"]["state"] == "done"; })) << run.get("/status");
+  ASSERT_TRUE(run.turn_until([&] { return run.api.job().state == JobState::done; })) << run.get("/status");
   const Json map = run.get(of_it + "/height-map");
   EXPECT_EQ(map["columns"], Json({10.0, 20.0, 30.0}));
   EXPECT_EQ(map["rows"], Json({10.0, 30.0}));
@@ -67,7 +67,7 @@ TEST(ApiProbing, a_height_map_is_stored_with_its_program_and_levels_it) {
   EXPECT_EQ(
       run.api.answer({.method = "GET", .path = "/api/v1" + of_it + "/height-map", .query = "as=csv"}).body.substr(0, 6),
       "x,y,z\n");
-  const Json levelled = run.post(of_it + "/level", R"({"tolerance": 0.01})");
+  const Json levelled = run.post(of_it + "/level?tolerance=0.01");
   ASSERT_EQ(run.status, 201U) << levelled;
   EXPECT_EQ(levelled["name"], "level part.ngc");
   const std::string text =
@@ -99,9 +99,9 @@ TEST(ApiProbing, refuses_what_is_no_cycle_no_map_and_no_wish) {
   }
   run.post(of_it + "/height-map", "0,0,1\n0,9,1\n9,0,1\n9,9,1\n");
   EXPECT_EQ(run.status, 200U);
-  for (const char* body : {"[]", R"({"tolerance": 0})", R"({"tolerance": "x"})", R"({"holes": 1})"}) {
-    run.post(of_it + "/level", body);
-    EXPECT_EQ(run.status, 400U) << body;
+  for (const char* wish : {"tolerance=0", "tolerance=x", "tolerance=nan", "holes=1"}) {
+    run.post(of_it + "/level?" + wish);
+    EXPECT_EQ(run.status, 400U) << wish;
   }
   EXPECT_EQ(run.post(of_it + "/level")["error"]["code"], "level.cannot");
   EXPECT_EQ(run.status, 409U);

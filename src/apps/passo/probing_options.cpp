@@ -10,7 +10,7 @@ constexpr const char* probe_examples =
 Examples:
   passo probe surface --height 0.5 -o z.ngc              Z0 is half a millimetre below what is touched (a plate)
   passo run z.ngc -m router.toml --parameters work.var   runs it; work.var keeps what is found
-  passo probe corner --side front-left | passo run - -m router.toml --touch X42.3:90,Y31.75:70,Z-50:-11.2 --from-here
+  passo probe corner --side front-left | passo run - -m router.toml --touch X-8:40,Y-9:30,Z-50:-11.2
   passo probe bore --ball 2                              the middle of a bore
   passo probe tool --tool 3 --x 10 --y 190 --zero-z -60  a tool's length; passo run --tools FILE keeps it
   passo probe angle --side y+ --along 80                 turns G54 along an edge

@@ -133,7 +133,7 @@ class MachineApi final : public WebHandler {
   WebAnswer set_work_zero(std::string_view body);
   WebAnswer begin_probing(std::string_view body);
   WebAnswer take_height_map(const StoredProgram& program, const WebRequest& request);
-  WebAnswer level_program(const StoredProgram& program, std::string_view body);
+  WebAnswer level_program(const StoredProgram& program, std::string_view query);
   WebAnswer words_answer() const;
   void note_words(const Operation& operation);
   void keep_results();
