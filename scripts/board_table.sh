@@ -103,11 +103,11 @@ table() {
 pico_table() {
   echo "| program | board | without a line, s | over the line, s | ratio | rests for want of more | sent |"
   echo "|---|---|---:|---:|---:|---|---:|"
-  for board in Pico Pico-jerk; do
-    for program in "$work"/{circles-F6000,rapids,moves-3d,chords-spiral,chords-relief}.ngc examples/{pocket,engrave,drill-board}.ngc; do
-      row "$program" "$board"
-    done
+  local name
+  for name in "$work"/{circles-F6000,rapids,moves-3d,chords-spiral,chords-relief}.ngc examples/{pocket,engrave,drill-board}.ngc; do
+    row "$name" Pico
   done
+  for name in "$work"/{circles-F6000,rapids,moves-3d,chords-spiral}.ngc examples/engrave.ngc; do row "$name" Pico-jerk; done
 }
 if (($# > 0)) && [[ $1 != --pico ]]; then
   table "$@"
