@@ -196,6 +196,23 @@ TEST_F(Boards, that_are_not_there_are_said_to_be_missing) {
   EXPECT_NE(list.out.find("no serial line"), std::string::npos) << list.out;
 }
 
+// Five motors of a Mega, faster than 90 kHz.
+TEST_F(Boards, that_stand_still_amid_motion_are_told_of) {
+  std::string machine = "name = 'five'\n[board]\nclock_hz = 16e6\nmax_event_rate_hz = 110e3\nheld_items = 100\n";
+  for (const std::string letter : {"X", "Y", "Z", "U", "V"}) {
+    machine += "[axis." + letter +
+               "]\nsteps_per_mm = 640\nmax_velocity_mm_s = 165\nmax_acceleration_mm_s2 = 2000\ntravel_mm = [0, 99]\n";
+  }
+  const std::string files = write("p.ngc", "G21 G90\nG0 X80 Y79 Z78 U77 V76\nM2\n") + " -m " + write("m.toml", machine);
+  const Outcome run = passo("run --from-here --board sim:mega " + files);
+  if (passo::test::lacks_an_emulator(run)) GTEST_SKIP() << run.err;
+  EXPECT_EQ(run.code, 0) << run.err;
+  EXPECT_NE(run.err.find("the board stood still amid motion"), std::string::npos) << run.err;
+  const Outcome slow = passo("run --from-here --board sim:uno " + write("q.ngc", "G21 F600 G1 X0.5\nM2\n") +
+                             " -m " PASSO_SOURCE_DIR "/examples/machines/uno.toml");
+  EXPECT_EQ(slow.err.find("stood still"), std::string::npos) << slow.err;
+}
+
 TEST_F(Boards, are_flashed_by_avrdude_after_what_they_held_was_kept) {
   const Outcome outcome =
       passo("board flash uno -d /dev/x --backup " + path("old.hex") + " --image " + image(), fake_avrdude());
