@@ -67,7 +67,7 @@ TEST_F(JobRestart, tells_what_was_broken_off_and_goes_on_when_asked) {
 }
 
 TEST_F(JobRestart, a_job_that_counts_from_a_zero_of_the_work_goes_on_from_the_same_zero) {
-  const std::string far = R"({"place": {"x": -3, "y": -2, "z": 1}})";
+  const std::string far = R"({"place": {"z": 1}})";
   JobBench whole(example_machine("router"));
   {
     JobServer server(whole);
