@@ -39,6 +39,8 @@ constexpr double lower_cap = 0.9995;
 // Of the square of a speed. A deeper notch in an even cap makes the acceleration go to and fro beside it, and then the
 // cells there exceed the cap: with 0.9995 a slow program with soft limits of jerk took six times as long to plan.
 constexpr double lower_pace = 0.9999;
+// Of the square of a speed: above its cap by so little it is lowered as it is, without a lift.
+constexpr double most_trimmed = 1.01;
 constexpr std::size_t nearby = 14;  // cells on both sides of one that are lifted again with it
 constexpr int rounds_nearby = 4;    // later rounds take more cells
 constexpr double beyond = 0.9999;   // slowed a little more, against rounding
@@ -136,8 +138,9 @@ void JerkProfile::guess_from(std::size_t node, bool backwards, double growth) {
       // With constant jerk from rest, x = (j² (6 s)⁴)^(1/3) / 4.
       const double jerk = guessed_jerk * cell.jerk;
       const double sixfold = 6 * way;
-      most = std::min(x[node] > 0 ? most : infinity,
-                      std::cbrt(jerk * sixfold * jerk * sixfold) * std::cbrt(sixfold * sixfold) / 4);
+      const double with_jerk = std::cbrt(jerk * sixfold * jerk * sixfold) * std::cbrt(sixfold * sixfold) / 4;
+      // Where cells before had more jerk, the motion is faster already, and may stay so.
+      most = std::min(x[node] > 0 ? most : infinity, std::max(with_jerk, x[node]));
     }
     x[next] = std::min(x[next], most);
     node = next;
@@ -224,11 +227,29 @@ bool JerkProfile::lift(const Stretch& stretch) {
                      stretch.first, stretch.last, states_);
 }
 
+// Lowers the speeds of a cell that is too fast only, and by little, to its cap. Returns whether it and the cell before
+// keep their limits then; else nothing changes. The cell after is looked at later, if it is in the same stretch.
+bool JerkProfile::trim(std::size_t i, const Excess& worst, const Stretch& lifted) {
+  if (worst.pace > most_trimmed || std::max(worst.force, worst.jolt) > 1 || (i == 0 && in_motion_)) return false;
+  const NodeState in = states_[i];
+  const NodeState out = states_[i + 1];
+  const double factor = std::sqrt(lower_pace / worst.pace);
+  states_[i].speed *= factor;
+  states_[i + 1].speed *= factor;
+  const bool is_last = i + 1 == lifted.last && i + 1 < cells_.size();
+  if (excess(i).most() <= 1 && (i == 0 || excess(i - 1).most() <= 1) && (!is_last || excess(i + 1).most() <= 1)) {
+    return true;
+  }
+  states_[i] = in;
+  states_[i + 1] = out;
+  return false;
+}
+
 void JerkProfile::find_exceeded(const Stretch& lifted) {
   for (std::size_t i = lifted.first; i < lifted.last; ++i) {
     const Excess worst = excess(i);
     const double most = worst.most();
-    if (most <= 1) continue;
+    if (most <= 1 || trim(i, worst, lifted)) continue;
     exceeded_.push_back(i);
     if (std::max(worst.force, worst.jolt) > 1) share_[i] *= std::clamp(safely / most, most_lowering, least_lowering);
     if (worst.force > 1) {  // the speed may be the reason
@@ -360,6 +381,7 @@ bool JerkProfile::find_motion_from_slow() {
     even_out();
     prepare();
     begin_with_guess();
+    for (NodeState& state : states_) state.acceleration = 0;  // then every cell has phases
     if (!slow_down()) return false;
   }
   kept_ = states_;

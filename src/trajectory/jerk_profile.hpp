@@ -105,6 +105,7 @@ class JerkProfile {
   bool find_motion_from_slow();
   bool lift(const Stretch& stretch);
   bool mend();
+  bool trim(std::size_t i, const Excess& worst, const Stretch& lifted);
   void find_exceeded(const Stretch& lifted);
   double slowing() const;
   void slow_by(double factor);
