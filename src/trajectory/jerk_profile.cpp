@@ -25,6 +25,8 @@ constexpr double at_cap = 1 - 1e-9;
 constexpr double rises_to_settle = 1;  // times the rise of the acceleration from 0 to its limit
 constexpr double room_to_lift = 0.5;   // for squares of speeds: with that all limits have room
 constexpr int most_lifts = 8;
+constexpr std::size_t wider = 32;       // nodes on each side, where a part between steady nodes cannot be lifted
+constexpr double gentle_leaving = 0.2;  // share of the acceleration
 constexpr int most_attempts = 6;
 // A window that begins in motion and is not lifted at once begins too fast for the path ahead, mostly because it must
 // brake harder than its jerk allows from the first cell on. Of 107 such windows further attempts lifted none.
@@ -345,13 +347,49 @@ bool JerkProfile::lift_between_steady() {
   for (std::size_t k = 1; k < n; ++k) {
     if (steady_[k]) states_[k] = {.speed = std::sqrt(node_cap_[k]), .acceleration = 0};
   }
-  for (std::size_t first = 0; first < n;) {
-    std::size_t last = first + 1;
-    while (last < n && !steady_[last]) ++last;
-    if (last > first + 1 && !lift({.first = first, .last = last})) return false;
-    first = last;
+  for (Stretch part; part.last < n;) {
+    part.first = part.last++;
+    while (part.last < n && !steady_[part.last]) ++part.last;
+    if (part.last > part.first + 1 && !lift_wider(part)) return false;
   }
   return true;
+}
+
+// Lifts a part between steady nodes. If that fails, steady nodes on both sides may be too near: where the acceleration
+// falls with the speed, the cap is reached later than the guess says. Then the part takes in some of them.
+bool JerkProfile::lift_wider(Stretch& part) {
+  leave_caps(part);
+  if (lift(part)) return true;
+  const auto loosen = [this](std::size_t node) {
+    steady_[node] = false;
+    states_[node] = {.speed = std::sqrt(guess_[node]), .acceleration = 0};
+  };
+  const std::size_t n = cells_.size();
+  const Stretch before = part;
+  while (part.first > 0 && before.first - part.first < wider && steady_[part.first - 1]) loosen(part.first--);
+  while (part.last < n && (part.last - before.last < wider || !steady_[part.last])) loosen(part.last++);
+  if (part.first == before.first && part.last == before.last) return false;
+  leave_caps(part);
+  return lift(part);
+}
+
+// The guess is at a share of all caps. Beside a steady node, which is at its cap, it goes down gently from there, but
+// not where the guess is lower because it only begins to speed up.
+void JerkProfile::leave_caps(const Stretch& part) {
+  const auto leave = [this, &part](std::size_t node, bool backwards) {
+    if (!steady_[node]) return;
+    double least = states_[node].speed * states_[node].speed;
+    for (std::size_t left = part.last - part.first - 1; left > 0; --left) {
+      const JerkCell& cell = cells_[backwards ? --node : node++];
+      const double acceleration = gentle_leaving * cell.acceleration;
+      least -= 2 * acceleration * cell.length;
+      const double x = states_[node].speed * states_[node].speed;
+      if (!(least > x) || x < at_cap * guessed_speed_squared * node_cap_[node]) return;
+      states_[node] = {.speed = std::sqrt(least), .acceleration = backwards ? acceleration : -acceleration};
+    }
+  };
+  leave(part.first, false);
+  leave(part.last, true);
 }
 
 // Finds a motion over all cells that keeps the limits.
@@ -398,8 +436,9 @@ std::size_t JerkProfile::plan(bool closed) {
   kept_.assign(states_.begin(), states_.end());
   if (cells_.size() < fewest_cells && planned_ == 0) even_out();
   grade();
+  const bool fell_back_before = fell_back_;
   fell_back_ = !find_motion();
-  if (fell_back_) return go_on_as_planned();
+  if (fell_back_) return go_on_as_planned(fell_back_before);
   planned_ = cells_.size();
   return closed ? planned_ : decided_of_open();
 }
@@ -415,12 +454,13 @@ std::size_t JerkProfile::decided_of_open() const {
   return k >= 2 ? k : 0;
 }
 
-// Goes on with the last good plan, which ends at rest at the end of the path known then. Part of it is played.
-std::size_t JerkProfile::go_on_as_planned() {
+// Goes on with the last good plan, which ends at rest at the end of the path known then. Half of it is played; all of
+// it if that did not help before. Each attempt plans the whole window.
+std::size_t JerkProfile::go_on_as_planned(bool again) {
   states_.assign(kept_.begin(), kept_.end());
   states_.resize(cells_.size() + 1);
   std::fill(states_.begin() + static_cast<std::ptrdiff_t>(planned_) + 1, states_.end(), NodeState{});
-  return std::max<std::size_t>(planned_ / 4, 1);
+  return std::max<std::size_t>(again ? planned_ : planned_ / 2, 1);
 }
 
 void JerkProfile::drop(std::size_t count) {

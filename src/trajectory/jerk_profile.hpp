@@ -101,6 +101,8 @@ class JerkProfile {
   void find_steady();
   double narrow_steady(std::size_t node, std::size_t cell, double left);
   bool lift_between_steady();
+  bool lift_wider(Stretch& part);
+  void leave_caps(const Stretch& part);
   bool find_motion();
   bool find_motion_from_slow();
   bool lift(const Stretch& stretch);
@@ -110,7 +112,7 @@ class JerkProfile {
   double slowing() const;
   void slow_by(double factor);
   bool slow_down();
-  std::size_t go_on_as_planned();
+  std::size_t go_on_as_planned(bool again);
   std::size_t decided_of_open() const;
 
   Pair pair_of(std::size_t i) const;
