@@ -61,6 +61,8 @@ class JerkProfile {
   bool fell_back() const { return fell_back_; }
 
  private:
+  static constexpr std::size_t fewest_cells = 4;
+
   struct Pair {  // the two phases of a cell, each of half the time
     double half = 0;
     double first = 0;  // the jerk of the first phase

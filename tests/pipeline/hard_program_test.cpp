@@ -164,6 +164,97 @@ TEST(HardPrograms, are_planned_in_a_bounded_number_of_phases) {
   }
 }
 
+// A machine of four axes with any mixture of limits.
+MachineDescription mixed_machine(test::Random& random) {
+  MachineDescription machine;
+  machine.name = "mixed";
+  machine.path_tolerance = Mm(std::exp(random.between(-7, -2)));
+  machine.board.highest_event_rate = Hertz(1e6);
+  const double velocity = std::exp(random.between(3, 6));
+  const double acceleration = std::exp(random.between(4.5, 9));
+  const double rise = std::exp(random.between(-7, -1.5));
+  enum class Jerk : std::uint8_t { none, all, some, uneven };
+  const auto jerk = static_cast<Jerk>(random.between(0, 3.999));
+  const bool torque = random.chance(0.5);
+  const auto part = [&] { return random.chance(0.5) ? 1 : random.between(0.2, 1); };
+  for (const Axis axis : {Axis::x, Axis::y, Axis::z, Axis::a}) {
+    AxisDescription own;
+    own.axis = axis;
+    own.steps_per_unit = 20;
+    const double turns = axis == Axis::a ? std::exp(random.between(-1, 4)) : 1;
+    own.velocity = MmPerSecond(std::min(4e4, velocity * turns * part()));
+    own.acceleration = MmPerSecond2(acceleration * turns * part());
+    const bool limited = jerk != Jerk::none && (jerk != Jerk::some || random.chance(0.5));
+    const double slower = limited && jerk == Jerk::uneven ? std::exp(random.between(0, 2)) : 1;
+    if (limited) own.jerk = MmPerSecond3(own.acceleration.value() / rise / slower);
+    own.travel_low = -1e7;
+    own.travel_high = 1e7;
+    if (torque) own.motor = test::random_motor(random, own);
+    machine.axes.push_back(own);
+  }
+  return machine;
+}
+
+// One, two or three sorts of lines by turns. In each sort every axis stands, goes on, swings, jumps to and fro or goes
+// anywhere, by micrometres or by centimetres.
+std::string mixed_program(test::Random& random) {
+  struct Sort {
+    std::array<double, 4> size{};
+    std::array<double, 4> swing{};
+    std::array<int, 4> way{};
+    bool is_arc = false;
+    bool has_feed = false;
+    double feed = 0;
+  };
+  std::string program = random.chance(0.5) ? "G21 G90 G17 G64 F6000\n" : "G21 G90 G17 G64 P0.005 F6000\n";
+  std::vector<Sort> sorts(static_cast<std::size_t>(random.between(1, 3.999)));
+  for (Sort& sort : sorts) {
+    for (std::size_t k = 0; k < 4; ++k) {
+      sort.size[k] = random.chance(0.45) ? 0 : std::exp(random.between(-9, k == 3 ? 5 : 3));
+      sort.swing[k] = random.between(0.1, 3.1);
+      sort.way[k] = static_cast<int>(random.between(0, 3.999));
+    }
+    sort.is_arc = random.chance(0.15);
+    sort.has_feed = random.chance(0.2);
+    sort.feed = std::exp(random.between(1, 10));
+  }
+  std::array<double, 4> at{};
+  for (int i = 1; i <= line_count(); ++i) {
+    const Sort& sort = sorts[static_cast<std::size_t>(i) % sorts.size()];
+    if (sort.is_arc) {
+      const double radius = std::max(0.002, sort.size[0]);
+      at[0] += 2 * radius;
+      program += fmt::format("G2 X{:.5f} Y{:.5f} I{:.5f} J0\n", at[0], at[1], radius);
+      continue;
+    }
+    std::string line;
+    for (std::size_t k = 0; k < 4; ++k) {
+      if (sort.size[k] == 0) continue;
+      const std::array<double, 3> ways = {1, std::sin(sort.swing[k] * i), i % 2 == 0 ? -1.0 : 1.0};
+      at[k] += sort.size[k] * (sort.way[k] < 3 ? ways[static_cast<std::size_t>(sort.way[k])] : random.between(-1, 1));
+      line += fmt::format(" {}{:.5f}", "XYZA"[k], at[k]);
+    }
+    if (line.empty()) continue;
+    program += "G1" + line + (sort.has_feed ? fmt::format(" F{:.2f}\n", sort.feed / (i % 2 == 0 ? 7 : 1)) : "\n");
+  }
+  return program + "M2\n";
+}
+
+// PASSO_SEED=S PASSO_RUNS=N hunts for programs that take long to plan.
+TEST(HardPrograms, of_any_mixture_are_planned_in_a_bounded_number_of_phases) {
+  const std::uint64_t first = test::number_of("PASSO_SEED", 1);
+  const std::uint64_t runs = test::number_of("PASSO_RUNS", 2);
+  for (std::uint64_t number = first; number < first + runs; ++number) {
+    SCOPED_TRACE("PASSO_SEED=" + std::to_string(number));
+    test::Random random = test::Random::of(number);
+    const MachineDescription machine = mixed_machine(random);
+    const Planned planned = plan(mixed_program(random), machine, smoothness(machine));
+    EXPECT_LE(planned.phases, most_phases * static_cast<std::size_t>(line_count()));
+    std::printf("%6.2f s of the processor, %9.1f s of motion, %8zu phases: number %llu\n", planned.seconds,
+                planned.time, planned.phases, static_cast<unsigned long long>(number));
+  }
+}
+
 // At a creeping feed the limits of jerk matter only where the speed changes, for a moment. Where a speed exceeded its
 // cap by rounding, the cap was lowered so far that its neighbours exceeded theirs. That took six times as long to plan,
 // and the motion took up to 0.3 % more time.
