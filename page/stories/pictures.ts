@@ -1,5 +1,5 @@
 // Pictures of each page, in both themes and two sizes: scripts/page_pictures.sh FOLDER
-import { mkdirSync, readFileSync } from 'node:fs';
+import { existsSync, mkdirSync, readdirSync, readFileSync } from 'node:fs';
 import { join } from 'node:path';
 import { Daemon, example, openBrowser, sleep, visit } from './kit';
 
@@ -34,6 +34,35 @@ async function startFrom(page: import('playwright-core').Page, daemon: Daemon): 
   await daemon.until((status) => status.state === 'Run' && status.progress !== null && status.progress > 0.25, 60_000);
 }
 
+// The holes of an example board.
+async function make(page: import('playwright-core').Page): Promise<void> {
+  if ((await page.getByRole('checkbox', { name: 'timer.drl' }).count()) === 0) {
+    await page.setInputFiles('input[type=file]', example('boards/timer.drl'));
+  } else {
+    await page.getByRole('checkbox', { name: 'timer.drl' }).check();
+  }
+  await page.locator('.make-result img').waitFor();
+  await sleep(300);
+}
+
+// The four pictures of a page on one sheet, for the documentation.
+async function sheets(browser: import('playwright-core').Browser): Promise<void> {
+  const page = await browser.newPage({ viewport: { width: 1600, height: 1000 } });
+  const names = readdirSync(folder).flatMap((name) => /^(\w+)-dark-wide\.png$/.exec(name)?.[1] ?? []);
+  for (const name of names) {
+    const image = (theme: string, size: string): string => {
+      const file = join(folder, `${name}-${theme}-${size}.png`);
+      return existsSync(file) ? `<img class="${size}" src="data:image/png;base64,${readFileSync(file, 'base64')}">` : '';
+    };
+    const four = ['dark', 'light'].map((theme) => `<div>${image(theme, 'wide')}${image(theme, 'phone')}</div>`).join('');
+    await page.setContent(
+      `<style>body{margin:0;background:#808a94;width:1180px}div{display:flex;gap:12px;padding:8px 12px}.wide{height:512px}.phone{height:512px}</style>${four}`,
+    );
+    await page.locator('body').screenshot({ path: join(folder, `page-${name}.jpg`), type: 'jpeg', quality: 82 });
+  }
+  await page.close();
+}
+
 mkdirSync(folder, { recursive: true });
 const browser = await openBrowser();
 for (const theme of ['dark', 'light'] as const) {
@@ -45,6 +74,7 @@ for (const theme of ['dark', 'light'] as const) {
     for (const path of pages) {
       await page.goto(`${daemon.address}#/${path}`);
       await sleep(900);
+      if (path === 'make') await make(page);
       await page.screenshot({ path: join(folder, `${path}-${theme}-${size.name}.png`) });
     }
     if (size.name === 'wide' && pages.includes('run')) {
@@ -60,4 +90,5 @@ for (const theme of ['dark', 'light'] as const) {
   }
   await daemon.end();
 }
+await sheets(browser);
 await browser.close();
