@@ -2,6 +2,7 @@
 #include <algorithm>
 
 #include "cam_options.hpp"
+#include "number_range.hpp"
 #include "program_input.hpp"
 #include <CLI/CLI.hpp>
 
@@ -21,6 +22,8 @@ Examples:
                                                           all other copper off, the wide cutter first
   passo cam isolate back.gbr --tool 0.2 --mirror x --mirror-at 50 -p back.png -o back.ngc
                                                           the back, turned over about X50
+  passo cam isolate board.kicad_pcb --layer B.Cu --edge board.kicad_pcb --tool 0.2 -o back.ngc
+                                                          a layer of a KiCad board, without an export
 
 Every option, and what is proved: docs/manual/circuit-boards.md.)";
 
@@ -36,6 +39,7 @@ Every option: docs/manual/circuit-boards.md.)";
 constexpr const char* board_examples =
     R"(Examples:
   passo cam board gerbers/ -o job                    programs, a picture each, and job/board.html: what to do when
+  passo cam board board.kicad_pcb -o job             the same of a KiCad board, without an export
   passo cam board board.zip --profile mine.toml -m router.toml -o job      with your options, and times
 
 A profile has a table for each command: [drill], [isolate], [outline], with the options as keys:
@@ -58,7 +62,8 @@ void add_common(CLI::App& command, CamMillArguments& arguments) {
   command.add_option("--scale", arguments.scale,
                      "DXF: the numbers times this are in the unit of --input, without it of --units");
   command
-      .add_option("--layer", arguments.layers, "DXF: read this layer; may be given again. Without it all that are on")
+      .add_option("--layer", arguments.layers,
+                  "DXF, KiCad: read this layer; may be given again. Without it all that are on")
       ->take_all();
   command.add_option("--zero", arguments.zero, "where X0 Y0 is: file, lower-left of the board, or X,Y")
       ->capture_default_str();
@@ -81,9 +86,11 @@ void add_common(CLI::App& command, CamMillArguments& arguments) {
 void add_isolate_command(CLI::App& cam, CamArguments& all) {
   CamIsolateArguments& arguments = all.isolate;
   CLI::App& isolate = *cam.add_subcommand("isolate", "mill the copper of a layer free of the copper around it");
-  isolate.add_option("COPPER", arguments.files, "copper layers, which are united: Gerber, or DXF with filled areas")
+  isolate
+      .add_option("COPPER", arguments.files,
+                  "copper layers, which are united: Gerber, a KiCad board, or DXF with filled areas")
       ->required();
-  isolate.add_option("--edge", arguments.edge, "the board's edge: nothing beyond it is milled (Gerber or DXF)");
+  isolate.add_option("--edge", arguments.edge, "the board's edge: nothing beyond it is milled (Gerber, KiCad or DXF)");
   isolate.add_option("--tool", arguments.tools, "widths of the cutters at hand, as 1,0.2: the widest goes first");
   isolate.add_option("--v", arguments.v, "a V-shaped cutter: ANGLE,TIP in degrees and width of the tip");
   isolate.add_option("--depth", arguments.depth, "into the board, below 0")->capture_default_str();
@@ -92,7 +99,7 @@ void add_isolate_command(CLI::App& cam, CamArguments& all) {
       ->capture_default_str();
   isolate.add_option("--width", arguments.width, "free ground around the copper; says how many loops");
   isolate.add_option("--overlap", arguments.overlap, "percent of the cutter's width that two loops have in common")
-      ->check(CLI::Range(0.0, 95.0))
+      ->check(number_range(0.0, 95.0))
       ->capture_default_str();
   isolate.add_flag("--clear", arguments.clear, "take all copper off the board that is not wanted");
   isolate.add_option("--tolerance", arguments.tolerance, "how much farther from the copper the cutter stays")
@@ -105,7 +112,7 @@ void add_isolate_command(CLI::App& cam, CamArguments& all) {
 void add_outline_command(CLI::App& cam, CamArguments& all) {
   CamOutlineArguments& arguments = all.outline;
   CLI::App& outline = *cam.add_subcommand("outline", "cut boards out along their edge, and the openings in them");
-  outline.add_option("EDGE", arguments.files, "drawings of the edge: Gerber or DXF")->required();
+  outline.add_option("EDGE", arguments.files, "drawings of the edge: Gerber, a KiCad board or DXF")->required();
   outline.add_option("--tool", arguments.tool, "diameter of the cutter")->capture_default_str();
   outline.add_option("--depth", arguments.depth, "of the cut, below 0")->capture_default_str();
   outline.add_option("--step", arguments.step, "how deep a turn goes, at most")->capture_default_str();
@@ -118,7 +125,7 @@ void add_outline_command(CLI::App& cam, CamArguments& all) {
   outline.add_option("--tab-width", arguments.tab_width, "of the tab that stays")->capture_default_str();
   outline.add_option("--tab-height", arguments.tab_height, "of the tab, above the full depth")->capture_default_str();
   outline.add_option("--ramp", arguments.ramp, "go down along the way, this steep in degrees; 0: straight down")
-      ->check(CLI::Range(0.0, 60.0))
+      ->check(number_range(0.0, 60.0))
       ->capture_default_str();
   outline.add_option("--lead", arguments.lead, "come to the edge on a quarter of a circle of this radius");
   outline.add_flag("--dog-bones", arguments.dog_bones, "cut inner corners so that a sharp corner fits in");
@@ -165,7 +172,8 @@ void add_cam_board_command(CLI::App& cam, CamArguments& all) {
   CamBoardArguments& arguments = all.board;
   CLI::App& board =
       *cam.add_subcommand("board", "everything for a board: drill, isolate and cut out, and what to do when");
-  board.add_option("JOB", arguments.paths, "Gerber and drill files, folders of them, or a zip archive")->required();
+  board.add_option("JOB", arguments.paths, "Gerber and drill files, folders of them, a zip archive, or a KiCad board")
+      ->required();
   board.add_option("-o,--output", arguments.output, "folder for programs, pictures and board.html")
       ->capture_default_str();
   board.add_option("--profile", arguments.profile, "options of drill, isolate and outline (TOML)");

@@ -11,11 +11,12 @@
 namespace passo {
 
 struct DrawingFileOptions {
-  DxfOptions dxf = {};
+  DxfOptions dxf = {};  // its layers choose those of a KiCad board, too
   ExcellonOptions excellon = {};
+  bool is_edge = false;  // of a KiCad board: the edge is wanted, if no layer is chosen
 };
 
-// Errors are in `diagnostics`: "drawing.…", "dxf.…" and "excellon.…".
+// Of a KiCad board: its holes. Errors are in `diagnostics`: "drawing.…", "dxf.…", "excellon.…" and "kicad.…".
 Drawing read_drawing(const std::string& path, const DrawingFileOptions& options, Diagnostics& diagnostics);
 
 }  // namespace passo
