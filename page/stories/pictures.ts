@@ -5,6 +5,7 @@ import { Daemon, example, openBrowser, sleep, visit } from './kit';
 
 const folder = process.argv[2] ?? 'pictures';
 const pages = process.argv[3]?.split(',') ?? ['run', 'jog', 'files', 'make', 'console', 'pins', 'machine', 'lab'];
+const patience = 120_000; // ms, on a busy computer
 const sizes = [
   { name: 'wide', width: 1440, height: 900 },
   { name: 'phone', width: 360, height: 740 },
@@ -41,7 +42,7 @@ async function make(page: import('playwright-core').Page): Promise<void> {
   } else {
     await page.getByRole('checkbox', { name: 'timer.drl' }).check();
   }
-  await page.locator('.make-result img').waitFor();
+  await page.locator('.make-result img').waitFor({ timeout: patience });
   await sleep(300);
 }
 
@@ -56,9 +57,9 @@ async function sheets(browser: import('playwright-core').Browser): Promise<void>
     };
     const four = ['dark', 'light'].map((theme) => `<div>${image(theme, 'wide')}${image(theme, 'phone')}</div>`).join('');
     await page.setContent(
-      `<style>body{margin:0;background:#808a94;width:1180px}div{display:flex;gap:12px;padding:8px 12px}.wide{height:512px}.phone{height:512px}</style>${four}`,
+      `<style>body{margin:0;background:#808a94;width:1100px}div{display:flex;gap:12px;padding:8px 12px}.wide{height:512px}.phone{height:512px}</style>${four}`,
     );
-    await page.locator('body').screenshot({ path: join(folder, `page-${name}.jpg`), type: 'jpeg', quality: 82 });
+    await page.locator('body').screenshot({ path: join(folder, `page-${name}.jpg`), type: 'jpeg', quality: 82, timeout: patience });
   }
   await page.close();
 }
@@ -75,13 +76,18 @@ for (const theme of ['dark', 'light'] as const) {
       await page.goto(`${daemon.address}#/${path}`);
       await sleep(900);
       if (path === 'make') await make(page);
-      await page.screenshot({ path: join(folder, `${path}-${theme}-${size.name}.png`) });
+      if (path === 'run') {
+        await page.locator('.scene:not([data-shown=""])').waitFor({ timeout: patience });
+        await page.locator('.text-line code span').first().waitFor({ state: 'attached', timeout: patience });
+        await sleep(500);
+      }
+      await page.screenshot({ path: join(folder, `${path}-${theme}-${size.name}.png`), timeout: patience });
     }
     if (size.name === 'wide' && pages.includes('run')) {
       await page.goto(`${daemon.address}#/run`);
       await startFrom(page, daemon);
       await sleep(300);
-      await page.screenshot({ path: join(folder, `running-${theme}-${size.name}.png`) });
+      await page.screenshot({ path: join(folder, `running-${theme}-${size.name}.png`), timeout: patience });
       await fetch(`${daemon.address}api/v1/stop`, { method: 'POST' });
       await daemon.until((status) => status.state === 'Idle');
       await sleep(1500);
