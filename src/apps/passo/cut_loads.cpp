@@ -31,14 +31,8 @@ double reach_at(const ToolShape& tool, double depth) {
   return high;
 }
 
-// N for each mm/s along the way. `revolutions`: a minute, above 0.
-double newtons_per_speed(const MoveCut& cut, const ToolShape& tool, double specific_force, double revolutions) {
-  if (!(cut.way > 0) || !(cut.volume > 0)) return 0;
-  constexpr double seconds_a_minute = 60;
-  const double cutting_speed = 2 * std::numbers::pi * reach_at(tool, cut.depth) * revolutions / seconds_a_minute;
-  return specific_force * cut.volume / cut.way / cutting_speed;
-}
-
+// Watches the cuts, and gives each feed its force. Many short feeds in a row are one stretch, as long as the tool's
+// radius: a column of cells more or less in a tiny feed says nothing.
 class ForceMeter {
  public:
   ForceMeter(CutOutcome& outcome, const CutMaterial& material) : outcome_(outcome), material_(material) {}
@@ -49,18 +43,33 @@ class ForceMeter {
   // The cuts come in the order in which they were expected; cuts of rapids are not expected.
   void watch(const MoveCut& cut) {
     outcome_.simulation.summary.add(cut);
-    if (cut.move.rapid) return;
+    if (cut.move.rapid) return finish();
     const Expected feed = expected_.front();
     expected_.pop_front();
-    if (!(cut.volume > 0)) return;
-    if (!(feed.revolutions > 0)) {
-      if (silent_line_ == 0) silent_line_ = cut.move.line;
-      return;
+    if (cut.volume > 0 && !(feed.revolutions > 0) && silent_line_ == 0) silent_line_ = cut.move.line;
+    if (!feeds_.empty() && (cut.move.tool != tool_ || feed.revolutions != feeds_.back().revolutions)) finish();
+    tool_ = cut.move.tool;
+    feeds_.push_back(feed);
+    line_ = cut.move.line;
+    way_ += cut.way;
+    volume_ += cut.volume;
+    depth_ = std::max(depth_, cut.depth);
+    if (way_ >= outcome_.simulation.tools[tool_].radius.value()) finish();
+  }
+  // Call it at the end.
+  void finish() {
+    constexpr double least_cells = 5;
+    constexpr double seconds_a_minute = 60;
+    if (volume_ > 0 && feeds_.back().revolutions > 0) {
+      const double way = std::max(way_, least_cells * outcome_.simulation.field.cell());
+      const double reach = reach_at(outcome_.simulation.tools[tool_], depth_);
+      const double cutting_speed = 2 * std::numbers::pi * reach * feeds_.back().revolutions / seconds_a_minute;
+      give(material_.specific_force * volume_ / way / cutting_speed);
     }
-    const ToolShape& tool = outcome_.simulation.tools[cut.move.tool];
-    const double force = newtons_per_speed(cut, tool, material_.specific_force, feed.revolutions);
-    outcome_.loads.raise(feed.index, force);
-    if (force * feed.speed > outcome_.force.value) outcome_.force = {force * feed.speed, cut.move.line};
+    feeds_.clear();
+    way_ = 0;
+    volume_ = 0;
+    depth_ = 0;
   }
   // The first line that cuts and has no spindle speed; 0: all have one.
   std::uint32_t silent_line() const { return silent_line_; }
@@ -71,10 +80,26 @@ class ForceMeter {
     double revolutions = 0;
     double speed = 0;
   };
+
+  void give(double newtons_per_speed) {
+    for (const Expected& feed : feeds_) {
+      outcome_.loads.raise(feed.index, newtons_per_speed);
+      const double force = newtons_per_speed * feed.speed;
+      if (force > outcome_.force.value) outcome_.force = {force, line_};
+    }
+  }
+
   CutOutcome& outcome_;
   CutMaterial material_;
   std::deque<Expected> expected_;
   std::uint32_t silent_line_ = 0;
+  // The stretch.
+  std::vector<Expected> feeds_;
+  std::size_t tool_ = 0;
+  std::uint32_t line_ = 0;
+  double way_ = 0;
+  double volume_ = 0;
+  double depth_ = 0;
 };
 
 void cut_feed(StockCutter& cutter, ForceMeter& meter, const TipMove& move, const StockMove& kind, std::size_t index,
@@ -187,6 +212,7 @@ std::optional<CutOutcome> cut_by_program(const StockJob& job, const StockWishes&
     }
   }
   cutter.finish();
+  meter.finish();
   add_findings(simulation, findings);
   add_silent(meter.silent_line(), simulation.program, findings);
   return outcome;
