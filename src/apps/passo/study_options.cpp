@@ -365,7 +365,8 @@ CLI::App& add_follower_command(CLI::App& app, FollowerArguments& arguments) {
       ->capture_default_str();
   command.add_option("-k,--key", arguments.keys, "KEY@FROM[:TO]: a key is held, else for 0.1 s; as 6@0.5:0.9 or #@0.1");
   command.add_option("--line", arguments.lines, "LINE@FROM[:TO]: a line is high, as relay@0.3:0.6 or direction.x@0.5");
-  command.add_option("--image", arguments.image, "another file than the one that the build made");
+  command.add_option("--image", arguments.image,
+                     "another file than the one that the build made: .elf, .cod, or .hex, which is flashed");
   command.add_option("-t,--trace", arguments.traces, "write lines and outputs (FILE.vcd or FILE.csv), no table");
   command.add_option("-p,--picture", arguments.picture, "draw them (FILE.svg or FILE.png), no table");
   command.footer(
