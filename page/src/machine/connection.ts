@@ -46,7 +46,8 @@ async function learnMachine(): Promise<void> {
   try {
     machine.value = await get<Machine>('/machine');
   } catch {
-    // The next connection asks again.
+    // A busy computer may take too long: without the machine half of the page would be missing.
+    if (connection.value === 'live') setTimeout(() => void learnMachine(), retryAfter);
   }
 }
 
