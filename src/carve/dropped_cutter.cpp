@@ -129,10 +129,12 @@ void CutterTable::count() {
   }
 }
 
-DroppedCutter::DroppedCutter(const HeightGrid& grid, const Cutter& cutter, float floor, CutterTable::Kind kind)
+DroppedCutter::DroppedCutter(const HeightGrid& grid, const Cutter& cutter, float floor, CutterTable::Kind kind,
+                             BesideGrid beside)
     : grid_(grid),
       table_(cutter, grid.pitch_x, grid.pitch_y, kind),
       floor_(floor),
+      goes_on_level_(beside == BesideGrid::level),
       blocks_((grid.columns + chunk - 1) / chunk),
       tops_(blocks_ * grid.rows, nothing) {
   for (std::size_t y = 0; y < grid.rows; ++y) {
@@ -143,7 +145,24 @@ DroppedCutter::DroppedCutter(const HeightGrid& grid, const Cutter& cutter, float
   }
 }
 
+// Away from the grid all of its nodes are farther off, so the tip might be lower there than at the nearest node.
 void DroppedCutter::heights(std::ptrdiff_t row, std::ptrdiff_t column, std::span<float> out, Scratch& scratch) const {
+  if (!goes_on_level_) {
+    drop_row(row, column, out, scratch);
+    return;
+  }
+  const auto count = static_cast<std::ptrdiff_t>(out.size());
+  const auto last = static_cast<std::ptrdiff_t>(grid_.columns) - 1;
+  const std::ptrdiff_t first = std::clamp<std::ptrdiff_t>(-column, 0, count - 1);
+  const std::ptrdiff_t end = std::clamp<std::ptrdiff_t>(last + 1 - column, first + 1, count);
+  const std::span<float> above = out.subspan(static_cast<std::size_t>(first), static_cast<std::size_t>(end - first));
+  drop_row(std::clamp<std::ptrdiff_t>(row, 0, static_cast<std::ptrdiff_t>(grid_.rows) - 1),
+           std::clamp<std::ptrdiff_t>(column + first, 0, last), above, scratch);
+  std::fill_n(out.begin(), first, above.front());
+  std::fill(out.begin() + end, out.end(), above.back());
+}
+
+void DroppedCutter::drop_row(std::ptrdiff_t row, std::ptrdiff_t column, std::span<float> out, Scratch& scratch) const {
   float dropped[chunk];
   for (std::size_t i = 0; i < out.size(); i += chunk) {
     drop(row, column + static_cast<std::ptrdiff_t>(i), dropped, scratch);

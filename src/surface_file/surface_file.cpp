@@ -76,8 +76,12 @@ std::vector<SurfaceTriangle> read_stl(const std::string& name, std::string_view 
 
 }  // namespace
 
+bool looks_like_body(std::string_view bytes) {
+  return binary_triangles(bytes) || looks_like_text_stl(bytes);
+}
+
 Surface read_surface(const std::string& name, std::string_view bytes, Diagnostics& diagnostics) {
-  if (binary_triangles(bytes) || looks_like_text_stl(bytes)) return Surface(read_stl(name, bytes, diagnostics));
+  if (looks_like_body(bytes)) return Surface(read_stl(name, bytes, diagnostics));
   if (is_text(bytes)) return Surface(read_height_map(name, bytes, diagnostics));
   diagnostics.add(of_file("surface.unknown-kind", name, "this is neither an STL file nor a height map",
                           "STL, text or binary, or lines x,y,z"));

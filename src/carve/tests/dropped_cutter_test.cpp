@@ -1,5 +1,6 @@
 #include "passo/carve/dropped_cutter.hpp"
 
+#include <algorithm>
 #include <random>
 
 #include "gouge_oracle.hpp"
@@ -129,6 +130,32 @@ TEST(DroppedCutter, skips_nothing_that_counts) {
         }
       }
     }
+  }
+}
+
+TEST(DroppedCutter, goes_on_level_beside_the_grid_where_it_is_told_to) {
+  std::mt19937_64 random(seed());
+  const HeightGrid grid = random_surface(random, 37, 9, Mm(0.3), Mm(0.4));
+  for (const OracleCutter& cutter : oracle_cutters()) {
+    const TipMap low = drop_everywhere(DroppedCutter(grid, parsed(cutter), -4), 50, 50, 1);
+    const DroppedCutter dropped(grid, parsed(cutter), -4, CutterTable::Kind::below, BesideGrid::level);
+    const TipMap level = drop_everywhere(dropped, 50, 50, 1);
+    for (std::ptrdiff_t y = -50; y < 59; ++y) {
+      for (std::ptrdiff_t x = -50; x < 87; ++x) {
+        const auto nearest = [&](std::ptrdiff_t column, std::ptrdiff_t row) {
+          return low.at(std::clamp<std::ptrdiff_t>(column, 0, 36), std::clamp<std::ptrdiff_t>(row, 0, 8));
+        };
+        ASSERT_EQ(level.at(x, y), nearest(x, y)) << cutter.text << " at " << x << ", " << y;
+        ASSERT_GE(level.at(x, y), low.at(x, y)) << cutter.text << " at " << x << ", " << y;
+      }
+    }
+    // Parts of a row that lie beside the grid altogether.
+    DroppedCutter::Scratch scratch;
+    std::vector<float> row(5);
+    dropped.heights(3, -40, row, scratch);
+    EXPECT_EQ(row, std::vector<float>(5, low.at(0, 3)));
+    dropped.heights(3, 60, row, scratch);
+    EXPECT_EQ(row, std::vector<float>(5, low.at(36, 3)));
   }
 }
 

@@ -59,13 +59,17 @@ class CutterTable {
   std::vector<float> least_;
 };
 
+// Where the tip goes beside the grid: as low as it can, for there is nothing; or on level, as high as at the nearest
+// node.
+enum class BesideGrid : std::uint8_t { nothing, level };
+
 class DroppedCutter {
  public:
   static constexpr float nothing = -std::numeric_limits<float>::infinity();
 
   // `grid` outlives this. `floor`: the tip goes nowhere below.
   DroppedCutter(const HeightGrid& grid, const Cutter& cutter, float floor,
-                CutterTable::Kind kind = CutterTable::Kind::below);
+                CutterTable::Kind kind = CutterTable::Kind::below, BesideGrid beside = BesideGrid::nothing);
 
   const HeightGrid& grid() const { return grid_; }
   const CutterTable& table() const { return table_; }
@@ -80,11 +84,13 @@ class DroppedCutter {
 
  private:
   void drop(std::ptrdiff_t row, std::ptrdiff_t column, float* out, Scratch& scratch) const;
+  void drop_row(std::ptrdiff_t row, std::ptrdiff_t column, std::span<float> out, Scratch& scratch) const;
   bool combine(std::ptrdiff_t row, std::ptrdiff_t column, std::size_t away, float least, Scratch& scratch) const;
 
   const HeightGrid& grid_;
   CutterTable table_;
   float floor_;
+  bool goes_on_level_;
   std::size_t blocks_ = 0;   // in a row of the grid
   std::vector<float> tops_;  // the greatest height of each 32 columns of each row
 };
