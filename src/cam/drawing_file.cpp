@@ -11,9 +11,10 @@ Drawing read_drawing(const std::string& path, const DrawingFileOptions& options,
       read_bytes(path, {.area = "drawing", .expected = "a DXF or drill file"}, diagnostics);
   if (!bytes) return nothing;
   if (looks_like_dxf(*bytes)) return read_dxf(path, *bytes, options.dxf, diagnostics);
+  if (looks_like_svg(*bytes)) return read_svg(path, *bytes, options.svg, diagnostics);
   if (looks_like_excellon(*bytes)) return read_excellon(path, *bytes, options.excellon, diagnostics);
-  diagnostics.add(of_file("drawing.unknown-kind", path, "this is neither a DXF drawing nor a drill file",
-                          "a file that begins with SECTION (DXF), or with M48, METRIC, INCH or tools (Excellon)"));
+  diagnostics.add(of_file("drawing.unknown-kind", path, "this is no DXF or SVG drawing, and no drill file",
+                          "a file that begins with SECTION (DXF), <svg, or M48, METRIC, INCH or tools (Excellon)"));
   return nothing;
 }
 

@@ -7,15 +7,17 @@
 
 #include "passo/cam/dxf.hpp"
 #include "passo/cam/excellon.hpp"
+#include "passo/cam/svg.hpp"
 
 namespace passo {
 
 struct DrawingFileOptions {
   DxfOptions dxf = {};
   ExcellonOptions excellon = {};
+  SvgOptions svg = {};
 };
 
-// Errors are in `diagnostics`: "drawing.…", "dxf.…" and "excellon.…".
+// Errors are in `diagnostics`: "drawing.…", "dxf.…", "svg.…" and "excellon.…".
 Drawing read_drawing(const std::string& path, const DrawingFileOptions& options, Diagnostics& diagnostics);
 
 }  // namespace passo
