@@ -9,6 +9,7 @@ import { ActionBar } from './parts/action_bar';
 import { ConnectionBanner } from './parts/connection_banner';
 import { Notices, QuestionDialog } from './parts/dialogs';
 import { Icon } from './parts/icon';
+import { InterruptedBanner } from './parts/interrupted_card';
 import { OwnerBanner, StateBanner } from './parts/state_banner';
 import { openDialog, ViewDialogs } from './parts/view_dialog';
 
@@ -71,6 +72,7 @@ export function App() {
       <div class="banners">
         <ConnectionBanner />
         <OwnerBanner />
+        <InterruptedBanner />
       </div>
       <Shown />
       <ActionBar />

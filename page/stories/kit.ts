@@ -13,12 +13,58 @@ const browserPaths = [process.env.PASSO_CHROMIUM, '/usr/bin/chromium', '/usr/bin
 export const example = (name: string): string => join(root, 'examples', name);
 
 // The usual machine, but so small that homing does not take a minute.
-function smallMachine(folder: string): string {
+export function smallMachine(folder: string): string {
   const file = join(folder, 'small.toml');
   const text = readFileSync(join(root, 'examples/machines/router.toml'), 'utf8');
   const smaller: [string, string][] = [['-400, 400', '-100, 100'], ['-401', '-101'], ['-300, 300', '-80, 80'], ['-301', '-81']];
   writeFileSync(file, smaller.reduce((so, [was, is]) => so.replace(was, is), text));
   return file;
+}
+
+// What a program says until it is ready.
+async function saying(child: ChildProcess, ready: (said: string) => boolean): Promise<string> {
+  return new Promise<string>((done, fail) => {
+    let said = '';
+    child.stdout?.on('data', (bytes: Buffer) => {
+      said += bytes.toString();
+      if (ready(said)) done(said);
+    });
+    child.on('exit', (code) => fail(new Error(`the program has ended with ${code}: ${said}`)));
+    child.on('error', fail);
+  });
+}
+
+const kill = async (child: ChildProcess, signal: 'SIGTERM' | 'SIGKILL'): Promise<void> => {
+  if (child.exitCode !== null || child.signalCode !== null) return;
+  const ended = new Promise((done) => child.once('exit', done));
+  child.kill(signal);
+  await ended;
+};
+
+// A virtual board as a program of its own, which outlives the daemon.
+export class Board {
+  private constructor(
+    private readonly process: ChildProcess,
+    readonly port: string,
+  ) {}
+  static async start(machine: string): Promise<Board> {
+    const child = spawn(passo, ['board', 'serve', '--port', '0', '--machine', machine], { stdio: ['ignore', 'pipe', 'inherit'] });
+    process.once('exit', () => child.kill('SIGKILL')); // as with the daemon
+    const said = await saying(child, (all) => /tcp:[\d.]+:\d+/.test(all));
+    return new Board(child, /tcp:[\d.]+:(\d+)/.exec(said)?.[1] ?? '');
+  }
+  // It forgets all, and the motors stay where they are.
+  cutPower(): void {
+    this.process.kill('SIGUSR1');
+  }
+  end = (): Promise<void> => kill(this.process, 'SIGTERM');
+}
+
+interface Start {
+  port?: string;
+  machine?: string;
+  board?: Board;
+  data?: string; // a folder that outlives the daemon
 }
 
 export class Daemon {
@@ -28,23 +74,16 @@ export class Daemon {
     private readonly folder: string,
   ) {}
 
-  static async start({ port = '0', machine }: { port?: string; machine?: string } = {}): Promise<Daemon> {
+  static async start({ port = '0', machine, board, data }: Start = {}): Promise<Daemon> {
     const folder = mkdtempSync(join(tmpdir(), 'passo-story-'));
-    const words = ['serve', '--http', `127.0.0.1:${port}`, '--grbl-tcp', '127.0.0.1:0', '--page', pageFolder, '--data', folder];
+    const words = ['serve', '--http', `127.0.0.1:${port}`, '--grbl-tcp', '127.0.0.1:0', '--page', pageFolder, '--data', data ?? folder];
     words.push('--machine', machine ?? smallMachine(folder));
+    if (board !== undefined) words.push('--board', `tcp:127.0.0.1:${board.port}`);
     const child = spawn(passo, words, { stdio: ['ignore', 'pipe', 'inherit'] });
     process.once('exit', () => child.kill('SIGKILL')); // a story that fails leaves nobody behind
-    const address = await new Promise<string>((done, fail) => {
-      let said = '';
-      child.stdout?.on('data', (bytes: Buffer) => {
-        said += bytes.toString();
-        const found = /http:\/\/127\.0\.0\.1:\d+\//.exec(said);
-        if (found !== null && said.includes('Ctrl-C')) done(found[0]);
-      });
-      child.on('exit', (code) => fail(new Error(`passo serve has ended with ${code}: ${said}`)));
-      child.on('error', fail);
-    });
-    return new Daemon(child, address, folder);
+    const found = /http:\/\/127\.0\.0\.1:\d+\//;
+    const said = await saying(child, (all) => found.test(all) && all.includes('Ctrl-C'));
+    return new Daemon(child, found.exec(said)?.[0] ?? '', folder);
   }
 
   async get<T>(path: string): Promise<T> {
@@ -67,10 +106,8 @@ export class Daemon {
     }
   }
 
-  async end(): Promise<void> {
-    const ended = new Promise((done) => this.process.once('exit', done));
-    this.process.kill('SIGTERM');
-    await ended;
+  async end(signal: 'SIGTERM' | 'SIGKILL' = 'SIGTERM'): Promise<void> {
+    await kill(this.process, signal);
     rmSync(this.folder, { recursive: true, force: true });
   }
 }

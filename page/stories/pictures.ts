@@ -4,7 +4,7 @@ import { join } from 'node:path';
 import { Daemon, example, openBrowser, sleep, visit } from './kit';
 
 const folder = process.argv[2] ?? 'pictures';
-const pages = process.argv[3]?.split(',') ?? ['run', 'jog', 'files', 'console', 'machine', 'lab'];
+const pages = process.argv[3]?.split(',') ?? ['run', 'jog', 'files', 'make', 'console', 'pins', 'machine', 'lab'];
 const sizes = [
   { name: 'wide', width: 1440, height: 900 },
   { name: 'phone', width: 360, height: 740 },

@@ -2,7 +2,7 @@ import { describe, expect, it } from 'vitest';
 import { axesOf, fit, pan, project, views, zoom, type View } from '../src/scene/camera';
 import { gridStep } from '../src/scene/furniture';
 import { colourOf } from '../src/scene/gl';
-import { placeAt, readChunk, spotOfLine } from '../src/scene/path_data';
+import { placeAt, readChunk, speedCode, spotOfLine } from '../src/scene/path_data';
 import { pick } from '../src/scene/pick';
 import { doneOf } from '../src/scene/progress';
 
@@ -22,6 +22,12 @@ function chunk(xs: number[], lines: number[]): ArrayBuffer {
 const points = () => readChunk(chunk([0, 1000, 2000, 65535], [4, 4, 5, 9]));
 
 describe('a chunk of the path', () => {
+  it('has the speed as the daemon codes it', () => {
+    expect(speedCode(60)).toBe(96);
+    expect(Math.abs(2 ** (speedCode(1500) / 16 - 6) - 25)).toBeLessThan(0.6);
+    expect([speedCode(0.001), speedCode(1e9)]).toEqual([1, 255]);
+  });
+
   it('is read as the daemon writes it', () => {
     const read = points();
     expect([read.chunk, read.level, read.count]).toEqual([3, 0, 4]);

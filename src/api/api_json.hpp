@@ -12,6 +12,8 @@ namespace passo {
 
 using Json = nlohmann::ordered_json;
 
+inline constexpr double a_minute = 60;  // s; the API's speeds are mm/min
+
 WebAnswer json_answer(unsigned status, const Json& json);
 // {"error": {"code": …, "message": …}}
 WebAnswer error_answer(unsigned status, std::string_view code, std::string_view message);
@@ -39,6 +41,13 @@ using WayBack = Result<Reentry, ReentryProblem>;
 Json as_json(const MachineDescription& machine, const WayBack& way);
 Json as_json(const MachineDescription& machine, const InterruptedJob& job, const WayBack& way);
 Json machine_json(const MachineDescription& machine, std::string_view version);
+
+// {"severity", "code", "line", …} of each.
+Json as_json(const Diagnostics& findings);
+// The machine file for an editor. `in_force`: the file as passo serve has read it.
+WebAnswer machine_file_answer(const MachineFileAccess& file, const FileStamp& in_force);
+WebAnswer try_machine_file(const MachineFileAccess& file, std::string_view body);
+WebAnswer write_machine_file(const MachineFileAccess& file, const FileStamp& in_force, std::string_view body);
 
 // A line of a program, from 1. Empty: it is none.
 std::optional<std::uint32_t> line_from(std::string_view text);

@@ -16,6 +16,9 @@ constexpr std::size_t longest_name = 200;
 constexpr std::string_view programs_path = "/api/v1/programs";
 constexpr std::string_view queue_path = "/api/v1/queue";
 constexpr std::string_view history_path = "/api/v1/history";
+constexpr std::string_view machine_file_path = "/api/v1/machine/file";
+constexpr std::string_view make_path = "/api/v1/make";
+constexpr std::string_view make_files_path = "/api/v1/make/files";
 constexpr std::string_view interrupted_path = "/api/v1/interrupted";
 constexpr std::string_view alarms_path = "/api/v1/alarms";
 constexpr std::int64_t shown_of_history = 100;
@@ -85,6 +88,9 @@ WebAnswer MachineApi::refusal(unsigned status) {
 
 std::size_t MachineApi::longest_body(const WebRequest& request) {
   const bool uploads = request.path == programs_path || (request.path == queue_path && options_.history != nullptr);
+  if (request.method == "POST" && request.path == make_files_path && options_.maker != nullptr) {
+    return Maker::longest_file;
+  }
   return request.method == "POST" && uploads ? ProgramStore::longest_program : small_body;
 }
 
@@ -129,6 +135,9 @@ WebAnswer MachineApi::look(const FoundRoute& found, const WebRequest& request) {
     return json_answer(200, {{"interrupted", job != nullptr ? as_json(machine_, *job, kept_->reentry()) : Json()}});
   }
   if (path.ends_with("/status")) return {.body = status_text()};
+  if (path == make_path) return make_answer();
+  if (path.starts_with(make_path)) return made_picture();
+  if (path == machine_file_path) return machine_file_answer(options_.machine_access, options_.machine_file);
   if (path.ends_with("/machine")) return json_answer(200, machine_json(machine_, options_.version));
   if (path.ends_with("/openapi.json")) return {.body = options_.openapi};
   if (path.ends_with("/metrics")) return {.type = "text/plain; version=0.0.4", .body = metrics()};
@@ -158,7 +167,9 @@ WebAnswer MachineApi::change(const FoundRoute& found, const WebRequest& request)
   const std::string_view path = found.route->path;
   if (path.starts_with(programs_path)) return change_programs(found, request);
   if (path.starts_with(queue_path)) return change_queue(found, request);
+  if (path.starts_with(make_path)) return change_making(found, request);
   if (path.starts_with(interrupted_path)) return change_interrupted(found);
+  if (path.starts_with(machine_file_path)) return change_machine_file(found, request);
   if (path == "/api/v1/owner") {
     if (request.method == "POST") return take_ownership(request);
     if (!owner_.is_client(request.key)) return error_answer(403, "owner.not-you", "somebody else owns the motion");
@@ -177,6 +188,21 @@ WebAnswer MachineApi::change(const FoundRoute& found, const WebRequest& request)
     return json_answer(200, {{"ticket", 0}});
   }
   return ask(std::move(*wanted));
+}
+
+// Reading a machine file may take some milliseconds: nothing waits for them while nothing moves.
+WebAnswer MachineApi::change_machine_file(const FoundRoute& found, const WebRequest& request) {
+  if (session_.busy() || job_.state == JobState::checking) {
+    return error_answer(409, "machine.busy", "the machine moves: the machine file can wait");
+  }
+  if (found.route->moves) return write_machine_file(options_.machine_access, options_.machine_file, request.body);
+  return try_machine_file(options_.machine_access, request.body);
+}
+
+WebAnswer MachineApi::change_making(const FoundRoute& found, const WebRequest& request) {
+  if (found.route->path == make_path) return begin_making(request.body);
+  if (request.method == "DELETE") return clear_make_files();
+  return keep_make_file(name_from(query_value(request.query, "name"), ""), request.body);
 }
 
 // The tool stands at this place of the work.
@@ -311,6 +337,7 @@ void MachineApi::turn() {
   const bool is_silent = session_.now() - owner_heard_ > silent_owner;
   if (owner_.kind() == MotionOwner::Kind::client && is_silent && !session_.busy()) owner_.give_back();
   programs_.turn();
+  heed_maker();
   if (kept_) kept_->look();
   if (job_.state == JobState::checking && !programs_.checks()) begin_checked_job();
   // The disk may take its time while nothing moves.

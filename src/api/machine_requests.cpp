@@ -8,8 +8,6 @@
 namespace passo {
 namespace {
 
-constexpr double a_minute = 60;
-
 // Reads members of an object, and notes what is wrong.
 class Members {
  public:

@@ -23,6 +23,11 @@ Json as_json(const ProgramPath::Range& range) {
   return {{"low", range.low}, {"high", range.high}};
 }
 
+Json as_json(const ProgramPath::Speeds& speeds) {
+  if (speeds.empty()) return Json();
+  return {{"low", speeds.low.value() * a_minute}, {"high", speeds.high.value() * a_minute}};
+}
+
 WebAnswer bad_number(const std::string& what) {
   return error_answer(400, "http.bad-body", what);
 }
@@ -40,7 +45,8 @@ WebAnswer path_answer(const StoredProgram& program, std::string_view query) {
                              {"levels", ProgramPath::levels},
                              {"all", as_json(path.all())},
                              {"cuts", as_json(path.cuts())},
-                             {"work", as_json(path.work())}});
+                             {"work", as_json(path.work())},
+                             {"speeds", as_json(path.speeds())}});
   }
   const auto chunk = number_of(query, "chunk");
   const auto level = query_value(query, "level").empty() ? std::optional<std::uint64_t>(0) : number_of(query, "level");

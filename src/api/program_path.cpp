@@ -54,6 +54,12 @@ double ProgramPath::Range::diagonal() const {
   return empty() ? 0 : std::hypot(high[0] - low[0], high[1] - low[1], high[2] - low[2]);
 }
 
+std::uint16_t ProgramPath::speed_flags(MmPerSecond speed) {
+  if (!(speed.value() > 0) || !std::isfinite(speed.value())) return 0;
+  const double code = std::clamp(std::round(16 * (std::log2(speed.value()) + 6)), 1.0, 255.0);
+  return static_cast<std::uint16_t>(static_cast<unsigned>(code) << 8U);
+}
+
 void ProgramPath::add(const PathItem& item) {
   const auto* const segment = std::get_if<Segment>(&item);
   if (segment == nullptr || segment->takes_up_backlash || !segment->curve.has_length()) return;
@@ -64,7 +70,11 @@ void ProgramPath::add(const PathItem& item) {
   }
   const Coordinates zero = place_of(segment->work_zero);
   const std::uint32_t line = segment->source.line;
-  const std::uint16_t flags = segment->rapid ? flag_rapid : 0;
+  const std::uint16_t flags = segment->rapid ? flag_rapid : speed_flags(segment->speed);
+  if (flags > flag_rapid) {
+    speeds_.low = std::min(speeds_.low, segment->speed);
+    speeds_.high = std::max(speeds_.high, segment->speed);
+  }
   const auto note = [&](const Coordinates& place) {
     all_.add(place);
     if (segment->rapid) return;
@@ -129,7 +139,8 @@ std::string ProgramPath::chunk(std::size_t index, unsigned level) const {
   std::vector<std::uint32_t> lines;
   const std::size_t last = all.points.size() - 1;
   for (std::size_t i = 0; i <= last; ++i) {
-    if (i > 0 && i < last && nearest > 0 && all.points[i + 1].flags == all.points[i].flags) {
+    const bool turns_rapid = i < last && ((all.points[i + 1].flags ^ all.points[i].flags) & flag_rapid) != 0;
+    if (i > 0 && i < last && nearest > 0 && !turns_rapid) {
       const Packed& kept = points.back();
       std::array<double, 3> way{};
       for (std::size_t k = 0; k < 3; ++k) {

@@ -5,8 +5,6 @@
 namespace passo {
 namespace {
 
-constexpr double a_minute = 60;
-
 std::string axis_key(Axis axis) {
   return {static_cast<char>(letter_of(axis) - 'A' + 'a')};
 }
@@ -27,6 +25,53 @@ Json names_of(const HoldReasons& holds) {
 // Six decimals: a tenth of a step of a fine machine.
 double rounded(double value) {
   return std::round(value * 1e6) / 1e6 + 0.0;
+}
+
+// The numbers of the closed limit switches.
+Json closed_limits(const MachineDescription& machine, std::uint16_t inputs) {
+  Json list = Json::array();
+  for (unsigned i = 0; i < machine.motor_count(); ++i) {
+    if (((inputs >> i) & input_limit) != 0) list.push_back(i);
+  }
+  return list;
+}
+
+// The motors with their axes, in the order of the board's motors, and the levels at which its pins are on.
+Json motors_json(const MachineDescription& machine) {
+  Json motors = Json::array();
+  const auto add = [&](const AxisDescription& axis, std::size_t motor, bool second, bool inverted, int input) {
+    Json one = {{"axis", axis_key(axis.axis)}, {"second", second}, {"inverted", inverted}, {"limit", Json()}};
+    if (axis.home) one["limit"] = input < 0 ? static_cast<int>(motor) : input;
+    motors.push_back(std::move(one));
+  };
+  for (std::size_t i = 0; i < machine.axes.size(); ++i) {
+    const AxisDescription& axis = machine.axes[i];
+    add(axis, i, false, axis.inverted, axis.home ? axis.home->input : -1);
+  }
+  for (std::size_t i = 0; i < machine.axes.size(); ++i) {
+    const AxisDescription& axis = machine.axes[i];
+    if (axis.second) add(axis, machine.second_motor_of(i), true, axis.second->inverted, axis.second->input);
+  }
+  return motors;
+}
+
+Json pins_json(const MachineDescription& machine) {
+  const PinsDescription& pins = machine.pins;
+  const auto level = [](bool high) { return high ? "high" : "low"; };
+  Json limits = Json::array();
+  for (unsigned i = 0; i < machine.motor_count(); ++i) limits.push_back(level(pins.limits_high[i]));
+  return {{"limits", std::move(limits)},
+          {"probe", level(pins.probe_high)},
+          {"door", level(pins.door_high)},
+          {"emergency_stop", level(pins.emergency_stop_high)},
+          {"hold", level(pins.feed_hold_high)},
+          {"start", level(pins.cycle_start_high)},
+          {"driver_enable", level(pins.driver_enable_high)},
+          {"step", level(!pins.step_low)},
+          {"spindle", level(!pins.spindle_low)},
+          {"spindle_reverse", level(!pins.spindle_reverse_low)},
+          {"mist", level(!pins.mist_low)},
+          {"flood", level(!pins.flood_low)}};
 }
 
 const char* name_of(SpindleDirection direction) {
@@ -78,7 +123,10 @@ Json as_json(const MachineDescription& machine, const MachineStatus& status) {
       {"inputs",
        {{"probe", (status.inputs & input_probe) != 0},
         {"door", (status.inputs & input_door) != 0},
-        {"hold", (status.inputs & input_hold) != 0}}},
+        {"hold", (status.inputs & input_hold) != 0},
+        {"start", (status.inputs & input_start) != 0},
+        {"emergency_stop", (status.inputs & input_emergency_stop) != 0},
+        {"limits", closed_limits(machine, status.inputs)}}},
       {"waits_for_tool", Json()},
       {"waits_for_operator", status.waits_for.has_value()},
       {"trouble", status.trouble_words}};
@@ -137,6 +185,19 @@ Json as_json(const MachineDescription& machine, const InterruptedJob& job, const
           {"reentry", as_json(machine, way)}};
 }
 
+Json as_json(const Diagnostics& findings) {
+  Json list = Json::array();
+  for (const Diagnostic& one : findings.all()) {
+    list.push_back({{"severity", one.severity == Severity::error ? "error" : "warning"},
+                    {"code", one.code},
+                    {"line", one.place.line},
+                    {"column", one.place.column},
+                    {"message", one.message},
+                    {"expected", one.expected}});
+  }
+  return list;
+}
+
 Json as_json(const StoredProgram& program, bool with_findings) {
   Json json = {{"id", program.id},
                {"name", program.name},
@@ -146,17 +207,7 @@ Json as_json(const StoredProgram& program, bool with_findings) {
                {"state", name_of(program.state)},
                {"seconds", rounded(program.check.nominal_time.value())},
                {"moves", program.check.moves}};
-  if (!with_findings) return json;
-  Json findings = Json::array();
-  for (const Diagnostic& one : program.findings.all()) {
-    findings.push_back({{"severity", one.severity == Severity::error ? "error" : "warning"},
-                        {"code", one.code},
-                        {"line", one.place.line},
-                        {"column", one.place.column},
-                        {"message", one.message},
-                        {"expected", one.expected}});
-  }
-  json["findings"] = std::move(findings);
+  if (with_findings) json["findings"] = as_json(program.findings);
   return json;
 }
 
@@ -171,7 +222,8 @@ Json machine_json(const MachineDescription& machine, std::string_view version) {
                     {"steps_per_unit", axis.steps_per_unit},
                     {"homes", axis.home.has_value()}});
   }
-  return {{"name", machine.name}, {"version", version}, {"axes", std::move(axes)}};
+  return {{"name", machine.name},           {"version", version},         {"axes", std::move(axes)},
+          {"motors", motors_json(machine)}, {"pins", pins_json(machine)}, {"highest_rpm", machine.tool.highest_rpm}};
 }
 
 }  // namespace passo

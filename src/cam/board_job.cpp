@@ -9,6 +9,7 @@
 
 #include "passo/cam/board_layer.hpp"
 #include "passo/cam/excellon.hpp"
+#include "passo/cam/kicad_board.hpp"
 #include "passo/diagnostics/file_bytes.hpp"
 
 namespace passo {
@@ -29,6 +30,7 @@ class JobReader {
   void read_folder(const std::string& path);
   void read_file(const std::string& path);
   void add(const std::string& name, const std::string& bytes);
+  void add_kicad(const std::string& name, const std::string& bytes);
   bool has_room_for(const std::string& path, std::size_t bytes);
 
   Diagnostics& diagnostics_;
@@ -77,7 +79,8 @@ void JobReader::read_folder(const std::string& path) {
 
 void JobReader::read_file(const std::string& path) {
   const std::optional<std::string> bytes = read_bytes(
-      path, {.area = "board", .expected = "a Gerber file, a drill file, a folder or a zip archive"}, diagnostics_);
+      path, {.area = "board", .expected = "a Gerber file, a drill file, a board of KiCad, a folder or a zip archive"},
+      diagnostics_);
   if (!bytes || !has_room_for(path, bytes->size())) return;
   if (!looks_like_zip(*bytes)) return add(path, *bytes);
   for (const NamedBytes& file : read_zip(path, diagnostics_)) {
@@ -93,6 +96,9 @@ void JobReader::add(const std::string& name, const std::string& bytes) {
     file.layer = read_gerber(name, bytes, diagnostics_);
     file.kind = kind_by_function(file.layer->function);
     if (file.kind.role == BoardRole::unknown) file.kind = kind_by_name(fs::path(name).filename().string());
+  } else if (looks_like_kicad_board(bytes)) {
+    add_kicad(name, bytes);
+    return;
   } else if (looks_like_excellon(bytes)) {
     file.drills = read_excellon(name, bytes, {}, diagnostics_);
     file.kind = {BoardRole::drill, BoardSide::both, 0, "content"};
@@ -101,6 +107,28 @@ void JobReader::add(const std::string& name, const std::string& bytes) {
     return;
   }
   job_.files.push_back(std::move(file));
+}
+
+// Each layer is a file of the job. Copper with nothing on it is none.
+void JobReader::add_kicad(const std::string& name, const std::string& bytes) {
+  KicadBoard board = read_kicad_board(name, bytes, diagnostics_);
+  const auto add_layer = [&](const std::string& layer, BoardFileKind kind, GerberLayer content) {
+    kind.told_by = "content";
+    job_.files.push_back({name + ": " + layer, kind, std::move(content), {}});
+  };
+  std::uint32_t number = 0;  // as in the attributes of Gerber files
+  for (KicadLayer& one : board.copper) {
+    ++number;
+    if (one.layer.dark.empty() && one.layer.strokes.notes.empty()) continue;
+    const BoardSide side = one.name == "F.Cu"   ? BoardSide::top
+                           : one.name == "B.Cu" ? BoardSide::bottom
+                                                : BoardSide::inner;
+    add_layer(one.name, {BoardRole::copper, side, side == BoardSide::inner ? number : 0U}, std::move(one.layer));
+  }
+  if (!board.edge.strokes.paths.empty()) add_layer("Edge.Cuts", {BoardRole::outline}, std::move(board.edge));
+  if (board.drills.holes.empty() && board.drills.paths.empty()) return;
+  job_.files.push_back(
+      {name + ": holes", {BoardRole::drill, BoardSide::both, 0, "content"}, {}, std::move(board.drills)});
 }
 
 BoardJob JobReader::take() {
@@ -115,7 +143,8 @@ BoardJob JobReader::take() {
                    [&](const BoardFile& a, const BoardFile& b) { return rank(a) < rank(b); });
   if (job_.files.empty() && !diagnostics_.any_error()) {
     diagnostics_.add(of_file("board.no-layers", job_.left_out.empty() ? "" : job_.left_out.front(),
-                             "there is neither a Gerber file nor a drill file", "what the layout program exports"));
+                             "there is neither a Gerber file, nor a drill file, nor a board of KiCad",
+                             "what the layout program exports"));
   }
   return std::move(job_);
 }

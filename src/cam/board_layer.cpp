@@ -1,8 +1,11 @@
 #include "passo/cam/board_layer.hpp"
 
+#include <algorithm>
+#include <iterator>
 #include <map>
 
 #include "passo/cam/gerber.hpp"
+#include "passo/cam/kicad_board.hpp"
 #include "passo/diagnostics/file_bytes.hpp"
 
 namespace passo {
@@ -28,12 +31,57 @@ Region face_of(const Drawing& drawing) {
   return regions.size() == 1 ? std::move(regions.front()) : united(regions);
 }
 
+namespace {
+
+// The layers of the board that are chosen; none is chosen: the edge, or the only one with copper.
+BoardLayer layer_of(KicadBoard board, const std::string& path, const DrawingFileOptions& options,
+                    Diagnostics& diagnostics) {
+  BoardLayer layer;
+  layer.lines.file = path;
+  std::vector<Region> faces;
+  const auto take = [&](GerberLayer& from) {
+    faces.push_back(std::move(from.dark));
+    std::ranges::move(from.strokes.paths, std::back_inserter(layer.lines.paths));
+    std::ranges::move(from.strokes.notes, std::back_inserter(layer.lines.notes));
+  };
+  std::vector<std::string> wanted = options.dxf.layers;
+  if (wanted.empty() && options.is_edge) wanted = {"Edge.Cuts"};
+  std::string known;  // layers that have something on them
+  std::size_t with_copper = 0;
+  for (const KicadLayer& one : board.copper) {
+    if (one.layer.dark.empty()) continue;
+    known += (known.empty() ? "--layer " : " or ") + one.name;
+    if (++with_copper == 1 && options.dxf.layers.empty() && !options.is_edge) wanted = {one.name};
+  }
+  if (options.dxf.layers.empty() && !options.is_edge && with_copper > 1) {
+    diagnostics.add(of_file("kicad.which-layer", path, "the board has copper on several layers", known));
+    return layer;
+  }
+  for (const std::string& name : wanted) {
+    const auto found = std::ranges::find_if(board.copper, [&](const KicadLayer& one) { return one.name == name; });
+    if (name != "Edge.Cuts" && found == board.copper.end()) {
+      diagnostics.add(of_file("kicad.no-layer", path, "there is no layer of copper '" + name + "'",
+                              known + (known.empty() ? "--layer Edge.Cuts" : " or Edge.Cuts")));
+      return layer;
+    }
+    take(name == "Edge.Cuts" ? board.edge : found->layer);
+  }
+  layer.face = faces.size() == 1 ? std::move(faces.front()) : united(faces);
+  return layer;
+}
+
+}  // namespace
+
 BoardLayer read_board_layer(const std::string& path, const DrawingFileOptions& options, Diagnostics& diagnostics) {
   BoardLayer layer;
   layer.lines.file = path;
-  const FileKind kind{.area = "drawing", .expected = "a Gerber, DXF or drill file"};
+  const FileKind kind{.area = "drawing", .expected = "a Gerber, DXF or drill file, or a board of KiCad"};
   const std::optional<std::string> bytes = read_bytes(path, kind, diagnostics);
   if (!bytes) return layer;
+  if (looks_like_kicad_board(*bytes)) {
+    KicadBoard board = read_kicad_board(path, *bytes, diagnostics);
+    return diagnostics.any_error() ? layer : layer_of(std::move(board), path, options, diagnostics);
+  }
   if (!looks_like_gerber(*bytes)) {
     layer.lines = read_drawing(path, options, diagnostics);
     layer.face = face_of(layer.lines);

@@ -262,11 +262,50 @@ Change Setter::add_table(const std::string& path, const std::string& key, const 
   return {.at = text_.size(), .words = added + fmt::format("[{}]{}{} = {}{}", path, end, key, words, end)};
 }
 
+std::optional<TomlText::Setting> setting_of(const toml::node& node) {
+  if (const auto flag = node.as_boolean()) return TomlText::Setting(flag->get());
+  if (const auto text = node.as_string()) return TomlText::Setting(text->get());
+  if (node.is_number()) return TomlText::Setting(node.value<double>().value_or(0));
+  const toml::array* const array = node.as_array();
+  if (array == nullptr) return {};
+  std::vector<double> list;
+  for (const toml::node& one : *array) {
+    if (!one.is_number()) return {};
+    list.push_back(one.value<double>().value_or(0));
+  }
+  return TomlText::Setting(std::move(list));
+}
+
+struct Placed {
+  toml::source_position at;
+  TomlText::Value value;
+};
+
+void collect(const toml::table& table, const std::string& before, std::vector<Placed>& all) {
+  for (const auto& [key, node] : table) {
+    const std::string path = before + std::string(key.str());
+    if (const toml::table* const inner = node.as_table()) {
+      collect(*inner, path + ".", all);
+    } else if (auto setting = is_plain(key.str()) ? setting_of(node) : std::nullopt) {
+      all.push_back({key.source().begin, {path, std::move(*setting)}});
+    }
+  }
+}
+
 }  // namespace
 
 Result<TomlText, TomlTextError> TomlText::read(std::string text) {
   if (auto tree = parsed(text); !tree) return Failure{tree.error()};
   return TomlText(std::move(text));
+}
+
+std::vector<TomlText::Value> TomlText::values() const {
+  std::vector<Placed> all;
+  if (const auto tree = parsed(text_)) collect(*tree, "", all);
+  std::ranges::stable_sort(all, [](const Placed& a, const Placed& b) { return a.at < b.at; });
+  std::vector<Value> values;
+  for (Placed& one : all) values.push_back(std::move(one.value));
+  return values;
 }
 
 Status<TomlTextError> TomlText::set(std::string_view path, const Setting& setting) {

@@ -4,12 +4,12 @@
 #include <cmath>
 #include <optional>
 
-#include "height_map.hpp"
 #include <assimp/Importer.hpp>
 #include <assimp/scene.h>
 #include <fmt/format.h>
 
 #include "passo/diagnostics/file_bytes.hpp"
+#include "passo/levelling/height_map.hpp"
 
 namespace passo {
 namespace {
@@ -74,6 +74,21 @@ std::vector<SurfaceTriangle> read_stl(const std::string& name, std::string_view 
   return all;
 }
 
+std::vector<SurfaceTriangle> triangles_of(const HeightMap& map) {
+  const auto corner = [&](std::size_t column, std::size_t row) {
+    return SurfacePoint{map.columns()[column], map.rows()[row], map.at(column, row)};
+  };
+  std::vector<SurfaceTriangle> all;
+  all.reserve(2 * map.columns().size() * map.rows().size());
+  for (std::size_t y = 0; y + 1 < map.rows().size(); ++y) {
+    for (std::size_t x = 0; x + 1 < map.columns().size(); ++x) {
+      all.push_back({corner(x, y), corner(x + 1, y), corner(x + 1, y + 1)});
+      all.push_back({corner(x, y), corner(x + 1, y + 1), corner(x, y + 1)});
+    }
+  }
+  return all;
+}
+
 }  // namespace
 
 bool looks_like_body(std::string_view bytes) {
@@ -82,7 +97,10 @@ bool looks_like_body(std::string_view bytes) {
 
 Surface read_surface(const std::string& name, std::string_view bytes, Diagnostics& diagnostics) {
   if (looks_like_body(bytes)) return Surface(read_stl(name, bytes, diagnostics));
-  if (is_text(bytes)) return Surface(read_height_map(name, bytes, diagnostics));
+  if (is_text(bytes)) {
+    const std::optional<HeightMap> map = read_height_map(name, bytes, diagnostics);
+    return map ? Surface(triangles_of(*map)) : Surface();
+  }
   diagnostics.add(of_file("surface.unknown-kind", name, "this is neither an STL file nor a height map",
                           "STL, text or binary, or lines x,y,z"));
   return {};

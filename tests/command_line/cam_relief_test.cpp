@@ -76,7 +76,7 @@ TEST_F(CamRelief, what_is_wrong_is_told_and_nothing_is_written) {
   refused(write("cut.png", read(flower).substr(0, 20'000)), "the picture is not read: the file ends too early");
   refused(write("noise.png", std::string("\x7f\0\1", 3)), "[surface.unknown-kind]");
   const std::string essay = write("essay.txt", "Dear reader,\nthis is no relief.\nNot at all.\n");
-  refused(essay, "this is neither an STL file nor a height map: its first line is no point");
+  refused(essay, "this is no height map: 'this' is no length that is read");
   EXPECT_THAT(relief(essay).err, HasSubstr("1 error"));
   refused(write("logo.svg", "<svg xmlns='http://www.w3.org/2000/svg'/>\n"), "this is an SVG drawing");
   refused(flower + " --channel alpha", "it has no alpha channel");

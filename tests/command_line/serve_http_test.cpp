@@ -272,4 +272,73 @@ TEST_F(ServeHttp, shows_a_page_and_nothing_beside_it) {
   }
 }
 
+TEST_F(ServeHttp, changes_the_machine_file_and_keeps_its_comments) {
+  const std::string file = path("mill.toml");
+  write("mill.toml", read(PASSO_SOURCE_DIR "/examples/machines/router.toml"));
+  serve({"--machine", file});
+  auto told = json("GET", "/machine/file");
+  ASSERT_TRUE(told["good"].get<bool>()) << told;
+  EXPECT_EQ(told["values"]["axis.X.microsteps"], 16);
+  EXPECT_TRUE(told["in_force"].get<bool>());
+  const auto draft = [&](const nlohmann::json& changes) {
+    return json("POST", "/machine/file/draft", nlohmann::json({{"text", told["text"]}, {"set", changes}}).dump());
+  };
+  const auto refused = draft({{"axis.X.home.switch_at_mm", 500}});
+  EXPECT_FALSE(refused["good"].get<bool>());
+  EXPECT_THAT(refused["findings"].dump(), HasSubstr("machine."));
+  // Two axes cannot have one motor.
+  const auto conflict = draft({{"axis.X.motor", 0}, {"axis.Y.motor", 0}, {"axis.Z.motor", 1}});
+  EXPECT_FALSE(conflict["good"].get<bool>()) << conflict;
+  EXPECT_FALSE(conflict["findings"].empty());
+  const auto good = draft({{"axis.X.microsteps", 8}, {"axis.X.max_velocity_mm_s", 90}});
+  ASSERT_TRUE(good["good"].get<bool>()) << good["findings"];
+  EXPECT_EQ(good["axes"][0]["steps_per_unit"], 320);
+  EXPECT_THAT(good["text"].get<std::string>(), HasSubstr("microsteps = 8              # as the switches"));
+  // A look changes nothing, and writing needs the ownership and the file as it was.
+  EXPECT_EQ(read(file), told["text"].get<std::string>());
+  const std::string body = nlohmann::json({{"text", good["text"]}, {"stamp", told["stamp"]}}).dump();
+  EXPECT_EQ(json("POST", "/machine/file", body)["error"]["code"], "owner.not-you");
+  const std::string key = "X-Passo-Key: " + json("POST", "/owner")["key"].get<std::string>() + "\r\n";
+  const std::string bad = nlohmann::json({{"text", refused["text"]}, {"stamp", told["stamp"]}}).dump();
+  EXPECT_EQ(json("POST", "/machine/file", bad, key)["error"]["code"], "machine-file.unsound");
+  const auto written = json("POST", "/machine/file", body, key);
+  EXPECT_FALSE(written["in_force"].get<bool>()) << written;
+  EXPECT_EQ(read(file), good["text"].get<std::string>());
+  EXPECT_EQ(json("POST", "/machine/file", body, key)["error"]["code"], "machine-file.changed");
+}
+
+TEST_F(ServeHttp, makes_a_program_of_a_drill_file) {
+  serve();
+  const auto send = [&](const std::string& name, const std::string& text) {
+    return json("POST", "/make/files?name=" + name, text);
+  };
+  send("holes.drl", "M48\nMETRIC\nT1C0.800\n%\nT1\nX10.0Y10.0\nX20.0Y10.0\nM30\n");
+  EXPECT_EQ(send("wrong.drl", "this is no drill file\n")["files"], nlohmann::json({"holes.drl", "wrong.drl"}));
+  const auto make = [&](const std::string& order) {
+    json("POST", "/make", order);
+    until([&] { return json("GET", "/make")["state"] != "running"; });
+    return json("GET", "/make");
+  };
+  const auto made = make(R"({"job": "drill", "files": ["holes.drl"], "options": {"depth": -1.5, "plain": true}})");
+  ASSERT_EQ(made["state"], "done") << made;
+  ASSERT_TRUE(made["program"].is_number()) << made;
+  const std::string id = std::to_string(made["program"].get<int>());
+  EXPECT_EQ(json("GET", "/programs/" + id)["name"], "holes-drill.ngc");
+  EXPECT_THAT(ask("GET", "/api/v1/programs/" + id + "/text"), HasSubstr("Z-1.5"));
+  EXPECT_THAT(ask("GET", "/api/v1/make/picture"), HasSubstr("<svg"));
+  const auto failed = make(R"({"job": "drill", "files": ["wrong.drl"]})");
+  EXPECT_EQ(failed["state"], "failed");
+  EXPECT_THAT(failed["words"].get<std::string>(), HasSubstr("wrong.drl"));
+  // Nothing of this computer is read or written, but what was sent.
+  for (const char* const order :
+       {R"({"job": "board", "files": ["holes.drl"]})", R"({"job": "drill", "files": ["/etc/passwd"]})",
+        R"({"job": "drill", "files": ["holes.drl"], "options": {"output": "x"}})",
+        R"({"job": "isolate", "files": ["holes.drl"], "options": {"edge": "/etc/passwd"}})",
+        R"({"job": "isolate", "files": ["holes.drl"], "options": {"edge": "../x"}})"}) {
+    EXPECT_EQ(json("POST", "/make", order)["error"]["code"], "http.bad-body") << order;
+  }
+  EXPECT_EQ(send("../x", "a")["files"].dump().find('/'), std::string::npos);
+  EXPECT_TRUE(json("DELETE", "/make/files")["files"].empty());
+}
+
 }  // namespace

@@ -76,6 +76,24 @@ TEST(ProgramPath, has_a_point_for_each_end_of_a_motion) {
   EXPECT_EQ(path.cuts().low[0], 10) << "the rapid is no cut";
 }
 
+TEST(ProgramPath, tells_the_programmed_speed_of_each_feed) {
+  ProgramPath path;
+  for (const double speed : {0.01, 1.0, 25.0, 5000.0}) {
+    Segment segment = line(at(0, 0, 0), at(10, 0, 0), 1);
+    segment.speed = MmPerSecond(speed);
+    path.add(segment);
+  }
+  path.finish();
+  const Read read = read_chunk(path.chunk(0, 0));
+  ASSERT_EQ(read.flags.size(), 5U);
+  EXPECT_EQ(read.flags[1] >> 8U, 1U) << "slower ones look like this";
+  EXPECT_EQ(read.flags[2] >> 8U, 96U);
+  EXPECT_NEAR(std::exp2((read.flags[3] >> 8U) / 16.0 - 6), 25, 0.6);
+  EXPECT_EQ(read.flags[4] >> 8U, 255U) << "faster ones look like this";
+  EXPECT_EQ(path.speeds().low, MmPerSecond(0.01));
+  EXPECT_EQ(path.speeds().high, MmPerSecond(5000));
+}
+
 TEST(ProgramPath, keeps_chords_near_their_arc) {
   ProgramPath path;
   Segment segment;

@@ -5,6 +5,7 @@ export interface Question {
   title: string;
   facts: string[];
   rows?: [string, string][];
+  steps?: string[]; // what happens, in this order; the daemon's words
   yes: string;
   kind: 'go' | 'stop' | 'plain';
 }

@@ -60,7 +60,7 @@ export function LabPage(): JSX.Element {
 function CopyLink(): JSX.Element | null {
   if (typeof navigator === 'undefined' || !('clipboard' in navigator)) return null;
   return (
-    <button type="button" class="lab-copy" onClick={() => void navigator.clipboard.writeText(location.href)}>
+    <button type="button" class="button lab-copy" onClick={() => void navigator.clipboard.writeText(location.href)}>
       {say('copyLink')}
     </button>
   );

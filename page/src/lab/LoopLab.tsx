@@ -44,7 +44,7 @@ export function LoopLab({ core }: { core: LabCore }): JSX.Element {
   const tops = places ? { kp: 3000, ki: 1e6, kd: 1 } : { kp: 0.2, ki: 100, kd: 1e-4 };
   return (
     <div class="lab-study">
-      <div class="lab-controls">
+      <div class="panel lab-controls">
         <Lesson>{say('loopLesson')}</Lesson>
         <Segments
           label={say('controlled')} value={now.of} onChange={switchTo}
@@ -56,7 +56,7 @@ export function LoopLab({ core }: { core: LabCore }): JSX.Element {
         <div class="lab-buttons" role="group" aria-label={say('byTheRule')}>
           <span>{say('byTheRule')}</span>
           {(['p', 'pi', 'pid'] as const).map((rule) => (
-            <button key={rule} type="button" onClick={() => take(rule)}>{rule.toUpperCase()}</button>
+            <button key={rule} type="button" class="button" onClick={() => take(rule)}>{rule.toUpperCase()}</button>
           ))}
         </div>
         {swing !== undefined && <p class="lab-lesson" role="status">{swing}</p>}
@@ -73,7 +73,7 @@ export function LoopLab({ core }: { core: LabCore }): JSX.Element {
           <MotorFields friction="drag" />
         </details>
       </div>
-      <div class="lab-charts">
+      <div class="panel lab-charts">
         {isFailed(answer) ? (
           <Refused words={answer.error} />
         ) : (

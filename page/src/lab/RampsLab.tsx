@@ -43,7 +43,7 @@ export function RampsLab({ core }: { core: LabCore }): JSX.Element {
   );
   return (
     <div class="lab-study">
-      <div class="lab-controls">
+      <div class="panel lab-controls">
         <Lesson>{say('rampsLesson')}</Lesson>
         <div class="lab-ticks-row">
           {(['exact', 'recursive', 'tabled', 'curved'] as const).map((key, i) => (
@@ -62,7 +62,7 @@ export function RampsLab({ core }: { core: LabCore }): JSX.Element {
           {number('jerk', say('jerk'), 'rad/s³', 100, 0, 1e9)}
         </div>
       </div>
-      <div class="lab-charts">
+      <div class="panel lab-charts">
         {shown.map(({ key, answer }) => isFailed(answer) && <Refused key={key} words={`${say(key)}: ${answer.error}`} />)}
         {good.length > 0 && (
           <>

@@ -16,13 +16,13 @@ export function TorqueLab({ core }: { core: LabCore }): JSX.Element {
   const answer = useMemo(() => core.torque(motor, now.margin, now.wants, rows), [core, JSON.stringify(motor), now.margin, now.wants]);
   return (
     <div class="lab-study">
-      <div class="lab-controls">
+      <div class="panel lab-controls">
         <Lesson>{say('torqueLesson')}</Lesson>
         <MotorFields friction="friction" />
         <NumberField label={say('wantedAcceleration')} unit="rad/s²" value={now.wants} step={500} from={0} to={1e6} onChange={(wants) => change({ wants })} />
         <NumberField label={say('margin')} value={now.margin} step={0.05} from={0.05} to={1} onChange={(margin) => change({ margin })} />
       </div>
-      <div class="lab-charts">
+      <div class="panel lab-charts">
         {isFailed(answer) ? (
           <Refused words={answer.error} />
         ) : (

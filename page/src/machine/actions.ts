@@ -7,6 +7,7 @@ import { durationText } from '../core/time';
 import { lengthText, lengthUnit } from '../core/units';
 import { post } from './api';
 import { connection, status } from './connection';
+import { interrupted } from './interrupted';
 import { beOwner, ownership } from './owner';
 import { pathBox } from './path_index';
 import { shown } from './programs';
@@ -29,6 +30,7 @@ export function whyNot(...states: string[]): string {
 export const whyNoStart = computed(() => {
   const why = whyNot('Idle');
   if (why !== '') return why;
+  if (interrupted.value !== null) return say('why.broken');
   if (shown.value === null) return say('why.none');
   if (shown.value.state === 'bad') return say('why.bad');
   return shown.value.state === 'checking' || status.value?.job?.state === 'checking' ? say('why.checking') : '';

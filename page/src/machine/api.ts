@@ -10,7 +10,7 @@ export interface Job {
   id: number;
   program: number;
   name: string;
-  state: 'checking' | 'running' | 'done' | 'stopped' | 'failed';
+  state: 'checking' | 'running' | 'done' | 'stopped' | 'failed' | 'interrupted';
   why: string;
   history: number;
 }
@@ -29,7 +29,7 @@ export interface Status {
   progress: number | null;
   outputs: { spindle: 'off' | 'clockwise' | 'counterclockwise'; spindle_speed: number; mist: boolean; flood: boolean };
   overrides: { feed: number; rapids: number; spindle: number };
-  inputs: { probe: boolean; door: boolean; hold: boolean };
+  inputs: { probe: boolean; door: boolean; hold: boolean; start: boolean; emergency_stop: boolean; limits: number[] };
   waits_for_tool: number | null;
   waits_for_operator: boolean;
   trouble: string;
@@ -46,10 +46,22 @@ export interface MachineAxis {
   steps_per_unit?: number;
   homes: boolean;
 }
+export interface Motor {
+  axis: string;
+  second: boolean; // the second one of its axis
+  inverted: boolean;
+  limit: number | null; // the number of its limit switch
+}
+export type Level = 'high' | 'low';
+export type PinName =
+  | 'probe' | 'door' | 'emergency_stop' | 'hold' | 'start' | 'driver_enable' | 'step' | 'spindle' | 'spindle_reverse' | 'mist' | 'flood';
 export interface Machine {
   name: string;
   version: string;
   axes: MachineAxis[];
+  motors: Motor[];
+  pins: Record<PinName, Level> & { limits: Level[] }; // the level at which each is on
+  highest_rpm: number;
 }
 
 export interface Finding {

@@ -10,11 +10,11 @@ import { consoleName, refreshPrograms } from './programs';
 const lookEvery = 120; // ms
 const most = 50; // looks
 
-export async function runLine(text: string): Promise<boolean> {
+export async function runLine(text: string, name = consoleName): Promise<boolean> {
   note('asked', text.replaceAll('\n', ' · '));
   return attempt(async () => {
     await beOwner();
-    const program = await upload<Program>('/programs', consoleName, `${text}\n`);
+    const program = await upload<Program>('/programs', name, `${text}\n`);
     await post(`/programs/${program.id}/run`);
     await tellFindings(program.id);
     // The session has its own copy of what runs.

@@ -33,7 +33,7 @@ export const jogger = new Jogger(
 
 export type Direction = Readonly<Record<string, -1 | 0 | 1>>;
 
-const nameOf = (direction: Direction): string =>
+export const nameOf = (direction: Direction): string =>
   Object.entries(direction)
     .filter(([, sign]) => sign !== 0)
     .map(([axis, sign]) => axis + (sign > 0 ? '+' : '-'))

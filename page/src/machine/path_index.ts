@@ -15,6 +15,7 @@ export interface PathIndex {
   all: Box | null; // machine coordinates
   cuts: Box | null;
   work: Box | null; // feeds, work coordinates
+  speeds: { low: number; high: number } | null; // programmed feeds, mm/min
 }
 export const pathIndex = signal<PathIndex | null>(null);
 export const pathBox = computed<Box | null>(() => pathIndex.value?.work ?? null);

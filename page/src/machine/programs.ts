@@ -8,15 +8,18 @@ import { isUnderWay } from './words';
 export const programs = signal<Program[]>([]);
 export const chosen = signal<number | null>(null);
 export const sending = signal<string | null>(null);
-// Lines that the console runs are programs too; nobody wants to see them in a list.
+// Lines that the console runs are programs too, and so is the set-up mode of the outputs; nobody wants to see them in a
+// list.
 export const consoleName = 'console.ngc';
+export const setUpName = 'set-up.ngc';
+export const isListed = (program: Program): boolean => program.name !== consoleName && program.name !== setUpName;
 
 const jobProgram = computed(() => {
   const job = status.value?.job ?? null;
   return isUnderWay(job) ? (job?.program ?? null) : null;
 });
 export const shownId = computed<number | null>(() => {
-  const all = programs.value.filter((one) => one.name !== consoleName);
+  const all = programs.value.filter(isListed);
   const has = (id: number | null): boolean => id !== null && all.some((one) => one.id === id);
   if (has(jobProgram.value)) return jobProgram.value;
   if (has(chosen.value)) return chosen.value;

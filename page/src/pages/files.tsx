@@ -14,7 +14,7 @@ import { isLive, status } from '../machine/connection';
 import { alarms, ended, keeps, queue, refreshHistory } from '../machine/history';
 import { beOwner } from '../machine/owner';
 import { pathIndex } from '../machine/path_index';
-import { checkProgram, chosen, consoleName, deleteProgram, programs, sending, sendProgram, shown, shownId } from '../machine/programs';
+import { checkProgram, chosen, deleteProgram, isListed, programs, sending, sendProgram, shown, shownId } from '../machine/programs';
 import { isUnderWay } from '../machine/words';
 import { Button } from '../parts/button';
 import { Icon, type IconName } from '../parts/icon';
@@ -252,7 +252,7 @@ export function FilesPage() {
   useEffect(() => {
     void refreshHistory();
   }, [job?.id, job?.state, isLive.value]);
-  const all = programs.value.filter((one) => one.name !== consoleName).reverse();
+  const all = programs.value.filter(isListed).reverse();
   return (
     <div class="files">
       <div class="files-side">

@@ -2,13 +2,13 @@
 import type { ComponentChildren } from 'preact';
 import { useRef } from 'preact/hooks';
 import { say } from '../core/language';
-import { confirm } from '../core/question';
 import { fromMm, lengthText, lengthUnit, speedText, speedUnit, units } from '../core/units';
-import { moveAs, whyNot } from '../machine/actions';
+import { whyNot } from '../machine/actions';
 import { machine, status } from '../machine/connection';
-import { runLine } from '../machine/console';
+import { gamepad } from '../machine/gamepad';
 import { beginHold, canJog, endHold, jogShare, jogSpeed, jogStep, movesNow, windowHasFocus, type Direction } from '../machine/jog';
-import { axes, placeWords, workPlace } from '../machine/place';
+import { axes } from '../machine/place';
+import { goToZero, home, makeZero } from '../machine/set_up';
 import { Button } from '../parts/button';
 import { Icon } from '../parts/icon';
 import { Position } from '../parts/position';
@@ -134,51 +134,11 @@ function JogPanel() {
         <Icon name={windowHasFocus.value ? 'jog' : 'close'} />
         <span>
           <b>{say(windowHasFocus.value ? 'jog.keys.on' : 'jog.keys.off')}</b> <span class="dim">{say('jog.keys')}</span>
+          {gamepad.value !== '' && <span> {say('jog.gamepad', { name: gamepad.value })}</span>}
         </span>
       </p>
     </section>
   );
-}
-
-async function makeZero(which: readonly string[]): Promise<void> {
-  const yes = await confirm({
-    title: say('jog.zero.ask', { axes: which.map((axis) => axis.toUpperCase()).join(', ') }),
-    facts: [say('jog.zero.facts', { place: placeWords(Object.fromEntries(which.map((axis) => [axis, workPlace.value[axis] ?? 0]))) })],
-    yes: say('jog.zero'),
-    kind: 'plain',
-  });
-  if (yes) await moveAs('/work', { place: Object.fromEntries(which.map((axis) => [axis, 0])) });
-}
-
-const clearance = 5; // mm above the work's zero
-
-async function goToZero(): Promise<void> {
-  const place = workPlace.value;
-  const yes = await confirm({
-    title: say('jog.goto.ask'),
-    facts: [
-      say('jog.goto.facts', {
-        height: `Z ${lengthText(clearance)} ${lengthUnit()}`,
-        distance: `${lengthText(Math.hypot(place.x ?? 0, place.y ?? 0))} ${lengthUnit()}`,
-      }),
-    ],
-    yes: say('jog.goto'),
-    kind: 'go',
-  });
-  if (!yes) return;
-  const rise = (workPlace.value.z ?? clearance) < clearance ? `G0 Z${clearance}\n` : '';
-  await runLine(`G21 G90 G54\n${rise}G0 X0 Y0\nM2`);
-}
-
-async function home(): Promise<void> {
-  const all = machine.value?.axes.filter((one) => one.homes).map((one) => one.axis.toUpperCase()) ?? [];
-  const yes = await confirm({
-    title: say('jog.home.ask'),
-    facts: [say('jog.home.facts', { axes: all.join(', ') })],
-    yes: say('jog.home'),
-    kind: 'go',
-  });
-  if (yes) await moveAs('/home');
 }
 
 function SetUpPanel() {

@@ -3,6 +3,7 @@ import { say, type Key } from '../core/language';
 import { isRotary, lengthText, lengthUnit, placeText, speedText, speedUnit } from '../core/units';
 import type { MachineAxis } from '../machine/api';
 import { machine, status } from '../machine/connection';
+import { MachineEditor } from './machine_editor';
 
 const columns: readonly [Key, (axis: MachineAxis) => string, (() => string)?][] = [
   ['machine.from', (axis) => placeText(axis.axis, axis.low), lengthUnit],
@@ -55,6 +56,7 @@ export function MachinePage() {
         </div>
         <p class="dim">{say('machine.file')}</p>
       </section>
+      <MachineEditor />
       {inputs !== undefined && (
         <section class="panel" aria-label={say('machine.inputs')}>
           <h2>{say('machine.inputs')}</h2>

@@ -1,4 +1,5 @@
 // Run: the position, the program on its way, and the scene.
+import { InterruptedCard } from '../parts/interrupted_card';
 import { JobProgress } from '../parts/job_progress';
 import { Overrides } from '../parts/overrides';
 import { Position } from '../parts/position';
@@ -7,14 +8,17 @@ import { SceneView } from '../scene/scene_view';
 
 export function RunPage() {
   return (
-    <div class="run">
-      <Position />
-      <JobProgress />
-      <Overrides />
-      <div class="panel scene-panel">
-        <SceneView />
+    <>
+      <InterruptedCard />
+      <div class="run">
+        <Position />
+        <JobProgress />
+        <Overrides />
+        <div class="panel scene-panel">
+          <SceneView />
+        </div>
+        <ProgramView />
       </div>
-      <ProgramView />
-    </div>
+    </>
   );
 }

@@ -38,6 +38,13 @@ export function QuestionDialog() {
           </tbody>
         </table>
       )}
+      {question.steps !== undefined && (
+        <ol class="steps" lang="en">
+          {question.steps.map((step) => (
+            <li key={step}>{step}</li>
+          ))}
+        </ol>
+      )}
       {question.facts.slice(1).map((fact) => (
         <p key={fact}>{fact}</p>
       ))}

@@ -8,6 +8,7 @@ import { shown } from '../machine/programs';
 import { isUnderWay } from '../machine/words';
 import { picked } from '../scene/stage';
 import { Code } from './code';
+import { PickedLine } from './picked_line';
 
 const follows = signal(true);
 
@@ -90,6 +91,7 @@ export function ProgramView() {
           </div>
         </div>
       </div>
+      {!runs && <PickedLine />}
       {runs && !follows.value && (
         <button type="button" class="chip text-follow" onClick={() => (follows.value = true)}>
           {say('run.follow')}

@@ -14,6 +14,8 @@ export interface PathPoints {
 }
 
 export const flagRapid = 1;
+// Bits 8 to 15 of the flags: the programmed speed.
+export const speedCode = (mmAMinute: number): number => Math.min(255, Math.max(1, Math.round(16 * (Math.log2(mmAMinute / 60) + 6))));
 const magic = 0x50534150;
 const header = 40; // bytes
 

@@ -13,6 +13,8 @@ export interface Colours {
   rapid: Colour;
   past: Colour;
   tool: Colour;
+  low: Colour;
+  high: Colour;
 }
 
 interface DrawnChunk {
@@ -27,6 +29,15 @@ export interface Picture {
   showsRapids: boolean;
   // The motion that is being executed: all before it are done.
   done: { chunk: number; share: number } | null;
+  colouring: Colouring;
+  section: number; // mm: nothing above it is drawn
+}
+
+// What the colour of a cut tells, and between which values: of the speed's code, or of the height in mm.
+export interface Colouring {
+  tells: 'nothing' | 'speed' | 'depth';
+  low: number;
+  high: number;
 }
 
 export class Renderer {
@@ -40,7 +51,7 @@ export class Renderer {
   private readonly chunks = new Map<string, DrawnChunk>();
   private furniture: { array: WebGLVertexArrayObject; count: number } | null = null;
   private reach = 1000; // mm: beyond this nothing is drawn
-  colours: Colours = { ground: [0, 0, 0], cut: [1, 1, 1], rapid: [1, 1, 0], past: [0.5, 0.5, 0.5], tool: [1, 1, 0] };
+  colours: Colours = { ground: [0, 0, 0], cut: [1, 1, 1], rapid: [1, 1, 0], past: [0.5, 0.5, 0.5], tool: [1, 1, 0], low: [0, 0, 1], high: [1, 0, 0] };
 
   // Throws where there is no WebGL2.
   constructor(readonly canvas: HTMLCanvasElement) {
@@ -156,6 +167,11 @@ export class Renderer {
     path.number('thickness', 1.7 * density);
     path.number('showsRapids', picture.showsRapids ? 1 : 0);
     path.number('dash', 9 * density);
+    path.integer('tells', ['nothing', 'speed', 'depth'].indexOf(picture.colouring.tells));
+    path.vector('range', [picture.colouring.low, picture.colouring.high]);
+    path.vector('lowColour', this.colours.low);
+    path.vector('highColour', this.colours.high);
+    path.number('section', picture.section);
     for (const one of this.seen(level, picture.view, canvas.clientWidth, canvas.clientHeight)) {
       const { points } = one;
       const { done } = picture;

@@ -34,13 +34,22 @@ uniform vec3 rapidColour;
 uniform vec3 pastColour;
 uniform float thickness;
 uniform float showsRapids;
+uniform int tells;        // what the colour of a cut tells: 0 nothing, 1 its speed, 2 its depth
+uniform vec2 range;       // of that: its value for the low and for the high colour
+uniform vec3 lowColour;
+uniform vec3 highColour;
 out vec3 colour;
 out float isRapid;
+out float height;         // mm
 ${quad}
 void main() {
   isRapid = mod(end.w, 2.0);
   bool past = gl_InstanceID < done;
-  colour = isRapid > 0.5 ? rapidColour : past ? pastColour : cutColour;
+  height = origin.z + stepLength.z * (corner.x < 0.5 ? start.z : end.z);
+  float told = tells == 1 ? floor(end.w / 256.0) : height;
+  float share = clamp((told - range.x) / max(range.y - range.x, 1e-6), 0.0, 1.0);
+  vec3 ownColour = tells == 0 ? cutColour : mix(lowColour, highColour, share);
+  colour = isRapid > 0.5 ? rapidColour : past ? pastColour : ownColour;
   float width = isRapid > 0.5 ? thickness * 0.7 * showsRapids : thickness;
   gl_Position = cornerOf(origin + stepLength * start.xyz, origin + stepLength * end.xyz, corner, width);
   if (isRapid > 0.5) gl_Position.z += 0.0005;
@@ -51,10 +60,13 @@ export const pathFragment = `#version 300 es
 precision highp float;
 in vec3 colour;
 in float isRapid;
+in float height;
 in float along;
 uniform float dash;
+uniform float section;  // mm: nothing above it is drawn
 out vec4 result;
 void main() {
+  if (height > section) discard;
   if (isRapid > 0.5 && mod(along, dash) > dash * 0.55) discard;
   result = vec4(colour, 1.0);
 }`;

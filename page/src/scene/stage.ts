@@ -5,6 +5,7 @@ import { machine, status } from '../machine/connection';
 import { pathIndex } from '../machine/path_index';
 import { workOffset } from '../machine/place';
 import { isUnderWay } from '../machine/words';
+import { colouring, section } from './colouring';
 import { axesOf, fit, orbit, pan, project, views, zoom, type View } from './camera';
 import { box, grid, gridStep, triad } from './furniture';
 import { colourOf } from './gl';
@@ -49,7 +50,7 @@ export class Stage {
       }),
       effect(() => {
         // What changes the picture.
-        void [status.value, showsRapids.value, followsTool.value, picked.value];
+        void [status.value, showsRapids.value, followsTool.value, picked.value, colouring.value, section.value];
         this.soon();
       }),
     );
@@ -95,7 +96,7 @@ export class Stage {
     const of = (name: string): Colour => colourOf(themeColour(name));
     // The theme's variables count once the document has its new theme.
     requestAnimationFrame(() => {
-      this.renderer.colours = { ground: of('--scene'), cut: of('--cut'), rapid: of('--rapid'), past: of('--past'), tool: of('--tool') };
+      this.renderer.colours = { ground: of('--scene'), cut: of('--cut'), rapid: of('--rapid'), past: of('--past'), tool: of('--tool'), low: of('--slow'), high: of('--fast') };
       this.furnish();
     });
   }
@@ -151,7 +152,10 @@ export class Stage {
     if (tool !== null && followsTool.peek()) this.view = { ...this.view, centre: tool };
     const runs = now !== null && isUnderWay(now.job) && now.line > 0;
     const done = runs && tool !== null ? doneOf(finestChunks(), now.line, tool) : null;
-    this.renderer.draw({ view: this.view, tool, showsRapids: showsRapids.peek(), done }, this.level());
+    this.renderer.draw(
+      { view: this.view, tool, showsRapids: showsRapids.peek(), done, colouring: colouring.peek(), section: section.peek() },
+      this.level(),
+    );
     this.label();
   }
 

@@ -67,7 +67,8 @@ CLI::App& add_board_command(CLI::App& app, BoardArguments& arguments) {
   flash.add_flag("--dry-run", arguments.flash.dry_run, "only say what would be done");
   flash.callback([&arguments] { arguments.chosen = [&arguments] { return board_flash(arguments.flash); }; });
 
-  CLI::App& serve = *board.add_subcommand("serve", "be a virtual board, in real time, on 127.0.0.1");
+  CLI::App& serve =
+      *board.add_subcommand("serve", "be a virtual board, in real time, on 127.0.0.1; SIGUSR1 is its reset button");
   serve.add_option("--port", arguments.serve.port, "TCP; 0: any that is free")
       ->check(CLI::Range(0, 65535))
       ->capture_default_str();

@@ -1,6 +1,7 @@
 // passo board serve: the virtual machine as a board in the network, in real time. It is for people without a board.
 #include <algorithm>
 #include <chrono>
+#include <csignal>
 #include <cstdio>
 #include <optional>
 
@@ -52,6 +53,12 @@ class RealTime {
   bool plays_ = false;
 };
 
+volatile std::sig_atomic_t reset_pressed = 0;
+
+extern "C" void press_reset(int /*signal*/) {
+  reset_pressed = 1;
+}
+
 // Until Ctrl-C; with `once`, until the last program has left.
 void serve(BoardServer& server, VirtualMachine& machine, bool once) {
   RealTime time(machine);
@@ -59,6 +66,9 @@ void serve(BoardServer& server, VirtualMachine& machine, bool once) {
     server.wait(time.patience());
     time.catch_up(server);
     server.attend(machine);
+    if (reset_pressed == 0) continue;
+    reset_pressed = 0;
+    machine.reset_board();
   }
 }
 
@@ -88,6 +98,7 @@ int board_serve(const BoardServeArguments& arguments) {
   machine.connect(plant);
   machine.wire(wiring);
   note_signals();
+  std::signal(SIGUSR1, press_reset);
   fmt::print("A virtual board of {} motors, {:.0f} ticks a second: tcp:127.0.0.1:{}\n", motors, clock.value(),
              (*server)->port());
   std::fflush(stdout);

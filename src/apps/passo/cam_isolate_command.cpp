@@ -104,7 +104,9 @@ void note_gaps(const IsolationPlan& plan) {
 }
 
 // The board inside the edge drawing; its findings are shown.
-std::optional<Region> board_of(const std::string& edge, const MillJob& job) {
+std::optional<Region> board_of(const std::string& edge, MillJob job) {
+  job.reading.is_edge = true;
+  job.reading.dxf.layers.clear();  // they are of the copper
   const std::optional<BoardLayer> layer = read_layers({edge}, job);
   if (!layer) return std::nullopt;
   Diagnostics findings;

@@ -21,6 +21,8 @@ Examples:
                                                           all other copper off, the wide cutter first
   passo cam isolate back.gbr --tool 0.2 --mirror x --mirror-at 50 -p back.png -o back.ngc
                                                           the back, turned over about X50
+  passo cam isolate board.kicad_pcb --layer B.Cu --edge board.kicad_pcb --tool 0.2 -o back.ngc
+                                                          a layer of a KiCad board, without an export
 
 Every option, and what is proved: docs/manual/circuit-boards.md.)";
 
@@ -36,6 +38,7 @@ Every option: docs/manual/circuit-boards.md.)";
 constexpr const char* board_examples =
     R"(Examples:
   passo cam board gerbers/ -o job                    programs, a picture each, and job/board.html: what to do when
+  passo cam board board.kicad_pcb -o job             the same of a KiCad board, without an export
   passo cam board board.zip --profile mine.toml -m router.toml -o job      with your options, and times
 
 A profile has a table for each command: [drill], [isolate], [outline], with the options as keys:
@@ -60,7 +63,8 @@ void add_mill_options(CLI::App& command, CamMillArguments& arguments) {
   command.add_option("--scale", arguments.scale,
                      "DXF: the numbers times this are in the unit of --input, without it of --units");
   command
-      .add_option("--layer", arguments.layers, "DXF: read this layer; may be given again. Without it all that are on")
+      .add_option("--layer", arguments.layers,
+                  "DXF, KiCad: read this layer; may be given again. Without it all that are on")
       ->take_all();
   command.add_option("--zero", arguments.zero, "where X0 Y0 is: file, lower-left of the board, or X,Y")
       ->capture_default_str();
@@ -81,9 +85,11 @@ void add_mill_options(CLI::App& command, CamMillArguments& arguments) {
 void add_isolate_command(CLI::App& cam, CamArguments& all) {
   CamIsolateArguments& arguments = all.isolate;
   CLI::App& isolate = *cam.add_subcommand("isolate", "mill the copper of a layer free of the copper around it");
-  isolate.add_option("COPPER", arguments.files, "copper layers, which are united: Gerber, or DXF with filled areas")
+  isolate
+      .add_option("COPPER", arguments.files,
+                  "copper layers, which are united: Gerber, a KiCad board, or DXF with filled areas")
       ->required();
-  isolate.add_option("--edge", arguments.edge, "the board's edge: nothing beyond it is milled (Gerber or DXF)");
+  isolate.add_option("--edge", arguments.edge, "the board's edge: nothing beyond it is milled (Gerber, KiCad or DXF)");
   isolate.add_option("--tool", arguments.tools, "widths of the cutters at hand, as 1,0.2: the widest goes first");
   isolate.add_option("--v", arguments.v, "a V-shaped cutter: ANGLE,TIP in degrees and width of the tip");
   isolate.add_option("--depth", arguments.depth, "into the board, below 0")->capture_default_str();
@@ -124,7 +130,7 @@ void add_edge_options(CLI::App& command, CamOutlineArguments& arguments) {
 void add_outline_command(CLI::App& cam, CamArguments& all) {
   CamOutlineArguments& arguments = all.outline;
   CLI::App& outline = *cam.add_subcommand("outline", "cut boards out along their edge, and the openings in them");
-  outline.add_option("EDGE", arguments.files, "drawings of the edge: Gerber or DXF")->required();
+  outline.add_option("EDGE", arguments.files, "drawings of the edge: Gerber, a KiCad board, DXF or SVG")->required();
   add_edge_options(outline, arguments);
   add_mill_options(outline, arguments);
   outline.footer(outline_examples);
@@ -169,7 +175,8 @@ void add_cam_board_command(CLI::App& cam, CamArguments& all) {
   CamBoardArguments& arguments = all.board;
   CLI::App& board =
       *cam.add_subcommand("board", "everything for a board: drill, isolate and cut out, and what to do when");
-  board.add_option("JOB", arguments.paths, "Gerber and drill files, folders of them, or a zip archive")->required();
+  board.add_option("JOB", arguments.paths, "Gerber and drill files, folders of them, a zip archive, or a KiCad board")
+      ->required();
   board.add_option("-o,--output", arguments.output, "folder for programs, pictures and board.html")
       ->capture_default_str();
   board.add_option("--profile", arguments.profile, "options of drill, isolate and outline (TOML)");

@@ -14,6 +14,7 @@ Examples:
   passo cam drill board.drl --mill 1 --depth -1.8 -o b.ngc    holes wider than 1 mm, and slots, are milled
   passo cam drill board.drl --zero lower-left -p board.svg -o board.ngc
   passo cam drill pads.dxf --layer Pads --drill 0.8 -o b.ngc  one drill for all, of one layer
+  passo cam drill board.kicad_pcb --mill 1 -o board.ngc       the holes of a KiCad board, without an export
   passo cam drill pads.dxf --scale 0.1 --units cm --drill 0.075 --clearance 0.2 --depth -0.3 -o fori.gc
                                                               drawn in mm, made in cm: the classic chain
 
@@ -24,13 +25,15 @@ constexpr const char* show_examples =
   passo cam show board.zip                     what the layout program has exported, a line for each layer
   passo cam show gerbers/ -p board.png         a folder, and how the board will look from above and from below
   passo cam show board.GTL board.GKO board.TXT --json
+  passo cam show board.kicad_pcb               a board of KiCad, without an export
 
 Layers are known by their attributes or by their names: docs/manual/cam.md.)";
 
 void add_show_command(CLI::App& cam, CamArguments& all) {
   CamShowArguments& arguments = all.show;
   CLI::App& show = *cam.add_subcommand("show", "say and draw which layers a circuit board's files have");
-  show.add_option("FILE", arguments.files, "Gerber and drill files, folders and zip archives of them")->required();
+  show.add_option("FILE", arguments.files, "Gerber and drill files, KiCad boards, folders and zip archives of them")
+      ->required();
   show.add_option("-p,--picture", arguments.picture, "draw the board from above and from below (FILE.svg or FILE.png)");
   show.add_flag("--json", arguments.json, "the same for scripts");
   show.footer(show_examples);
@@ -40,8 +43,11 @@ void add_show_command(CLI::App& cam, CamArguments& all) {
 
 void add_drill_command(CLI::App& cam, CamArguments& all) {
   CamDrillArguments& arguments = all.drill;
-  CLI::App& drill = *cam.add_subcommand("drill", "drill the holes of DXF drawings and Excellon drill files");
-  drill.add_option("FILE", arguments.files, "DXF drawings and drill files; the kind is seen from what is in them")
+  CLI::App& drill =
+      *cam.add_subcommand("drill", "drill the holes of DXF drawings, Excellon drill files and KiCad boards");
+  drill
+      .add_option("FILE", arguments.files,
+                  "DXF drawings, drill files, KiCad boards; the kind is seen from what is in them")
       ->required();
   drill.add_option("-o,--output", arguments.output, "write the program to a file; without it to standard output");
   drill.add_option("-p,--picture", arguments.picture, "draw holes, tools and rapids (FILE.svg or FILE.png)");

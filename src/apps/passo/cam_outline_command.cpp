@@ -72,7 +72,8 @@ nlohmann::ordered_json as_json(const OutlinePlan& plan, const EdgeLoops& loops, 
 int cam_outline(const CamOutlineArguments& arguments, const CamSources* given, CamMade* made) {
   if (!outputs_are_good(arguments, "")) return exit_bad_program;
   LengthArguments lengths(*mm_of_unit(arguments.units));
-  const MillJob job = mill_job_of(arguments, "passo cam outline", lengths);
+  MillJob job = mill_job_of(arguments, "passo cam outline", lengths);
+  job.reading.is_edge = true;
   const OutlineOptions options = outline_options_of(arguments, job, lengths);
   const Nanometres join = lengths.any("--join", arguments.join);
   if (join.count < 0) lengths.refuse("--join: expected a length of 0 or more");

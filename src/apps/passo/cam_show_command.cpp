@@ -114,7 +114,8 @@ int cam_show(const CamShowArguments& arguments) {
   for (const BoardFile& file : job.files) {
     for (const std::string& words : notes_of(file)) note(file.name + ": " + words);
   }
-  if (!job.left_out.empty()) note(fmt::format("{} left out: neither Gerber nor drill files", job.left_out.size()));
+  if (!job.left_out.empty())
+    note(fmt::format("{} left out: no Gerber files, drill files or KiCad boards", job.left_out.size()));
   if (findings.any_error()) {
     show(findings);
     return exit_bad_program;

@@ -82,6 +82,18 @@ bool replace_file(const std::string& file, const std::string& before, const std:
   return output->commit().has_value();
 }
 
+MachineFileAccess access_to(const std::string& file) {
+  if (file.empty()) return {.name = "the example machine", .read = [] { return std::string(example_machine_text); }};
+  return {.name = std::filesystem::path(file).filename().string(),
+          .read =
+              [file] {
+                Diagnostics ignored;
+                return machine_file_text(file, ignored);
+              },
+          .write = [file](const std::string& before,
+                          const std::string& after) { return replace_file(file, before, after); }};
+}
+
 // Without any line, senders and browsers of this computer find the machine at its usual ports.
 ServeArguments with_usual(ServeArguments arguments) {
   if (arguments.grbl_tcp.empty() && arguments.grbl_pty.empty() && arguments.http.empty() && arguments.data.empty()) {
@@ -147,7 +159,9 @@ int serve(const ServeArguments& given) {
   }
   MotionOwner owner;
   std::unique_ptr<ServedWeb> web;
-  const ServedJobs jobs{.journal = journal.get(), .machine_file = stamp_of_text(arguments.machine, *text)};
+  const ServedJobs jobs{.journal = journal.get(),
+                        .machine_file = stamp_of_text(arguments.machine, *text),
+                        .machine_access = access_to(arguments.machine)};
   if (!arguments.http.empty()) {
     web = ServedWeb::open(arguments, *machine, opened->session(), owner, jobs, code);
     if (!web) return code;

@@ -44,7 +44,7 @@ double seconds_since_1970() {
   return std::chrono::duration<double>(std::chrono::system_clock::now().time_since_epoch()).count();
 }
 
-ApiOptions api_options(const PageFolder* page, JobHistory* history, const ServedJobs& jobs) {
+ApiOptions api_options(const PageFolder* page, JobHistory* history, const ServedJobs& jobs, Maker& maker) {
   ApiOptions options{.version = PASSO_VERSION, .openapi = openapi_text, .make_key = new_key};
   options.history = history;
   options.wall_time = seconds_since_1970;
@@ -55,6 +55,8 @@ ApiOptions api_options(const PageFolder* page, JobHistory* history, const Served
   };
   options.keeper = jobs.journal;
   options.machine_file = jobs.machine_file;
+  options.machine_access = jobs.machine_access;
+  options.maker = &maker;
   if (jobs.journal != nullptr) options.broken_off = jobs.journal->found();
   return options;
 }
@@ -84,7 +86,8 @@ ServedWeb::ServedWeb(const ServeArguments& arguments, const MachineDescription& 
       page_(arguments.page),
       has_page_(!arguments.page.empty()),
       history_(std::move(history)),
-      api_(machine, session, owner, api_options(arguments.page.empty() ? nullptr : &page_, history_.get(), jobs)) {}
+      api_(machine, session, owner,
+           api_options(arguments.page.empty() ? nullptr : &page_, history_.get(), jobs, maker_)) {}
 
 std::unique_ptr<ServedWeb> ServedWeb::open(const ServeArguments& arguments, const MachineDescription& machine,
                                            MachineSession& session, MotionOwner& owner, const ServedJobs& jobs,

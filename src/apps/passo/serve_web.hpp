@@ -9,6 +9,7 @@
 #include "commands.hpp"
 #include "page_folder.hpp"
 #include "served_journal.hpp"
+#include "served_maker.hpp"
 
 #include "passo/api/machine_api.hpp"
 #include "passo/web/web_server.hpp"
@@ -30,6 +31,7 @@ bool is_this_computer(const std::string& host);
 struct ServedJobs {
   ServedJournal* journal = nullptr;  // null: none
   FileStamp machine_file;
+  MachineFileAccess machine_access;
 };
 
 class ServedWeb {
@@ -59,6 +61,7 @@ class ServedWeb {
   bool has_page_ = false;
   std::unique_ptr<JobHistory> history_;  // may be null
   std::string host_;
+  ServedMaker maker_;
   MachineApi api_;
   std::unique_ptr<WebServer> server_;
   std::chrono::steady_clock::time_point published_;

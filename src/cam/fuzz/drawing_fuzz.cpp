@@ -5,7 +5,7 @@
 #include <string>
 #include <string_view>
 
-#include "kit/require.hpp"
+#include "layer_checks.hpp"
 
 #include "passo/cam/drill_plan.hpp"
 #include "passo/cam/drill_program.hpp"
@@ -15,6 +15,7 @@
 namespace passo {
 namespace {
 
+using test::check_findings;
 using test::require;
 
 void check_place(DrawnPoint at) {
@@ -36,15 +37,6 @@ void check_drawing(const Drawing& drawing) {
     }
   }
   require(points <= most_drawn, "too many points");
-}
-
-void check_findings(const Diagnostics& findings) {
-  for (const Diagnostic& finding : findings.all()) {
-    require(!finding.code.empty() && !finding.message.empty(), "a finding without words");
-    require(finding.place.column == 0 || finding.text.empty() || finding.place.column - 1 <= finding.text.size(),
-            "a finding outside its line");
-    static_cast<void>(render(finding, true));
-  }
 }
 
 void check_plan(const Drawing& drawing) {

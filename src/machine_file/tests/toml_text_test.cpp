@@ -98,5 +98,21 @@ TEST(TomlText, changes_one_line_of_an_example) {
   }
 }
 
+TEST(TomlText, tells_the_values_that_can_be_set_in_their_order) {
+  const auto toml = TomlText::read(
+      "name = \"m\"\n[b]\nlist = [1, 2.5]\npoints = [[1, 2]]\nday = 2020-01-01\n[a]\nin = { flag = true }\nn = 3\n");
+  ASSERT_TRUE(toml);
+  std::string told;
+  for (const TomlText::Value& one : toml->values()) {
+    // What is told can be set.
+    auto again = *toml;
+    EXPECT_TRUE(again.set(one.path, one.setting)) << one.path;
+    told += one.path + " ";
+  }
+  EXPECT_EQ(told, "name b.list a.in.flag a.n ");
+  EXPECT_EQ(std::get<std::vector<double>>(toml->values()[1].setting), (std::vector<double>{1, 2.5}));
+  EXPECT_EQ(std::get<double>(toml->values()[3].setting), 3);
+}
+
 }  // namespace
 }  // namespace passo

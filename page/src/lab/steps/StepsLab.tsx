@@ -72,13 +72,13 @@ export function StepsLab({ core }: { core: LabCore }): JSX.Element {
         event.preventDefault();
       }}
     >
-      <div class="lab-stage">
+      <div class="panel lab-stage">
         <div class="lab-player">
-          <button type="button" onClick={() => goTo(0)} aria-label={say('toStart')}><PlayerIcon shape="M6 5v14M20 5L9 12l11 7z" /></button>
-          <button type="button" onClick={() => goTo(beat - 1)} aria-label={say('back')}><PlayerIcon shape="M17 5L7 12l10 7z" /></button>
-          <button type="button" class="lab-play" onClick={play}>{playing ? say('pause') : say('play')}</button>
-          <button type="button" onClick={() => goTo(beat + 1)} aria-label={say('next')}><PlayerIcon shape="M7 5l10 7-10 7z" /></button>
-          <button type="button" onClick={() => goTo(a.pulses)} aria-label={say('toEnd')}><PlayerIcon shape="M18 5v14M4 5l11 7-11 7z" /></button>
+          <button type="button" class="button" onClick={() => goTo(0)} aria-label={say('toStart')}><PlayerIcon shape="M6 5v14M20 5L9 12l11 7z" /></button>
+          <button type="button" class="button" onClick={() => goTo(beat - 1)} aria-label={say('back')}><PlayerIcon shape="M17 5L7 12l10 7z" /></button>
+          <button type="button" class="button lab-play" onClick={play}>{playing ? say('pause') : say('play')}</button>
+          <button type="button" class="button" onClick={() => goTo(beat + 1)} aria-label={say('next')}><PlayerIcon shape="M7 5l10 7-10 7z" /></button>
+          <button type="button" class="button" onClick={() => goTo(a.pulses)} aria-label={say('toEnd')}><PlayerIcon shape="M18 5v14M4 5l11 7-11 7z" /></button>
           <input
             type="range"
             min={0}
@@ -102,7 +102,7 @@ export function StepsLab({ core }: { core: LabCore }): JSX.Element {
           }}
         />
       </div>
-      <div class="lab-controls">
+      <div class="panel lab-controls">
         <Segments
           label={say('shape')}
           value={now.shape}
@@ -152,7 +152,7 @@ export function StepsLab({ core }: { core: LabCore }): JSX.Element {
         </dl>
         <Lesson>{methodLesson(now.a)}</Lesson>
       </div>
-      <section class="lab-wide">
+      <section class="panel lab-wide">
         <h2>{say('stripsTitle')}</h2>
         <Lesson>{say('stripsLesson')}</Lesson>
         <Strips
@@ -165,7 +165,7 @@ export function StepsLab({ core }: { core: LabCore }): JSX.Element {
         />
       </section>
       <div class="lab-halves lab-wide">
-      <section>
+      <section class="panel">
         <h2>{say('motorsTitle')}</h2>
         <Lesson>{say('motorsLesson')}</Lesson>
         <div class="lab-pair">
@@ -177,13 +177,13 @@ export function StepsLab({ core }: { core: LabCore }): JSX.Element {
           {second && <MotorView axis="Y" windings={second} place={place(1)} fullSteps={Number(now.rotor)} />}
         </div>
       </section>
-      <section>
+      <section class="panel">
         <h2>{say('beatsTitle')}</h2>
         <Lesson>{say('beatsLesson')}</Lesson>
         <BeatTable answer={a} beat={beat} onBeat={goTo} />
       </section>
       </div>
-      <section class="lab-wide">
+      <section class="panel lab-wide">
         <h2>{say('comparison')}</h2>
         <Lesson>{say('comparisonLesson')}</Lesson>
         {!isFailed(answers.all) && (

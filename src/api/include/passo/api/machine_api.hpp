@@ -21,6 +21,7 @@
 
 #include "passo/api/api_routes.hpp"
 #include "passo/api/kept_job.hpp"
+#include "passo/api/maker.hpp"
 #include "passo/api/motion_owner.hpp"
 #include "passo/api/program_store.hpp"
 #include "passo/history/job_history.hpp"
@@ -44,6 +45,14 @@ struct ApiJob {
   friend bool operator==(const ApiJob&, const ApiJob&) = default;
 };
 
+// The machine file on the disk.
+struct MachineFileAccess {
+  std::string name;  // for people
+  std::function<std::optional<std::string>()> read = {};
+  // Writes `after`, if the file is still as `before`. Null: the machine is no file.
+  std::function<bool(const std::string& before, const std::string& after)> write = {};
+};
+
 struct ApiOptions {
   std::string version;                    // of the program
   std::string openapi;                    // the text of docs/api/openapi.json
@@ -55,8 +64,11 @@ struct ApiOptions {
   std::function<double()> wall_time = {};  // seconds since 1970, for the history
   // Keeps the journal of a job, with a history; outlives this. Null: a job that is broken off cannot go on.
   JobKeeper* keeper = nullptr;
-  FileStamp machine_file = {};               // for the journal
+  FileStamp machine_file = {};               // as it was read
+  MachineFileAccess machine_access = {};     // for an editor
   std::optional<BrokenOff> broken_off = {};  // the job of an earlier program
+  // Makes programs of drawings; outlives this. Null: nobody does.
+  Maker* maker = nullptr;
 };
 
 class MachineApi final : public WebHandler {
@@ -102,7 +114,15 @@ class MachineApi final : public WebHandler {
   WebAnswer take_ownership(const WebRequest& request);
   WebAnswer ask(Request wanted);
   WebAnswer set_work_zero(std::string_view body);
+  WebAnswer change_machine_file(const FoundRoute& found, const WebRequest& request);
   WebAnswer change_interrupted(const FoundRoute& found);
+  WebAnswer change_making(const FoundRoute& found, const WebRequest& request);
+  WebAnswer make_answer();
+  WebAnswer made_picture() const;
+  WebAnswer keep_make_file(std::string_view name, std::string_view bytes);
+  WebAnswer clear_make_files();
+  WebAnswer begin_making(std::string_view body);
+  void heed_maker();
   WebAnswer begin_job(const StoredProgram& program, std::int64_t history);
   WebAnswer resume_job(bool by_a_way_back);
   void note_alarm();
@@ -131,6 +151,9 @@ class MachineApi final : public WebHandler {
   std::uint32_t from_line_ = 0;    // where the job is to begin; 0: at its beginning
   std::optional<Reentry> way_;     // the way there
   bool leaves_ = false;
+  bool heeds_maker_ = false;       // an order runs
+  std::uint64_t made_ = 0;         // the program of the last order; 0: none
+  std::uint64_t made_before_ = 0;  // of the order before
   std::optional<Ticket> ticket_;
   Diagnostics findings_;  // of the run
   const WebServer* server_ = nullptr;

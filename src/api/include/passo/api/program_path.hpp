@@ -24,6 +24,8 @@ class ProgramPath {
   static constexpr std::size_t most_points = 24'000'000;
   static constexpr unsigned levels = 3;  // 0: all points
   static constexpr std::uint16_t flag_rapid = 1;
+  // Bits 8 to 15 of the flags: the programmed speed, as 16 (log2(mm/s) + 6), 1 to 255; 0: a rapid, or no speed.
+  static std::uint16_t speed_flags(MmPerSecond speed);
 
   using Coordinates = std::array<double, 3>;
   // An empty box has low above high.
@@ -46,6 +48,13 @@ class ProgramPath {
   std::size_t chunks() const { return chunks_.size(); }
   const Range& all() const { return all_; }    // machine coordinates
   const Range& cuts() const { return cuts_; }  // feeds alone, machine coordinates
+  // Programmed speeds of the feeds. Empty: there is none.
+  struct Speeds {
+    MmPerSecond low{1e300};
+    MmPerSecond high{0};
+    bool empty() const { return low > high; }
+  };
+  const Speeds& speeds() const { return speeds_; }
   const Range& work() const { return work_; }  // feeds alone, in the work coordinates that were in force
   std::size_t bytes() const { return points_ * (sizeof(Packed) + sizeof(std::uint32_t)); }
 
@@ -80,6 +89,7 @@ class ProgramPath {
   Range all_;
   Range cuts_;
   Range work_;
+  Speeds speeds_;
   bool complete_ = false;
   bool cut_off_ = false;
 };

@@ -1,4 +1,4 @@
-// read_board_layer: a layer of a board as a face and as lines, from a Gerber file or a drawing.
+// read_board_layer: a layer of a board as a face and as lines, from a Gerber file, a board of KiCad or a drawing.
 //
 // In a drawing (DXF) closed paths and circles are filled, and open paths with a width are as wide as that. An open path
 // without a width covers nothing; it is still among the lines, from which edge_loops() makes an outline.
@@ -17,7 +17,7 @@ struct BoardLayer {
   Drawing lines = {};  // the middles of its strokes; its notes are those of the file
 };
 
-// Errors are those of the readers.
+// Errors are those of the readers, and of a KiCad board "kicad.which-layer" and "kicad.no-layer".
 BoardLayer read_board_layer(const std::string& path, const DrawingFileOptions& options, Diagnostics& diagnostics);
 
 // What a drawing covers.

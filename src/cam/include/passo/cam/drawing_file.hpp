@@ -12,12 +12,13 @@
 namespace passo {
 
 struct DrawingFileOptions {
-  DxfOptions dxf = {};
+  DxfOptions dxf = {};  // its layers choose those of a KiCad board, too
   ExcellonOptions excellon = {};
   SvgOptions svg = {};
+  bool is_edge = false;  // of a KiCad board: the edge is wanted, if no layer is chosen
 };
 
-// Errors are in `diagnostics`: "drawing.…", "dxf.…", "svg.…" and "excellon.…".
+// Of a KiCad board: its holes. Errors are in `diagnostics`: "drawing.…", "dxf.…", "svg.…", "excellon.…" and "kicad.…".
 Drawing read_drawing(const std::string& path, const DrawingFileOptions& options, Diagnostics& diagnostics);
 
 }  // namespace passo

@@ -39,6 +39,13 @@ class TomlText {
 
   const std::string& text() const { return text_; }
 
+  // All values that could be set, by their paths, in the order of the file. Others are left out: lists of lists, dates.
+  struct Value {
+    std::string path;
+    Setting setting;
+  };
+  std::vector<Value> values() const;
+
  private:
   explicit TomlText(std::string text) : text_(std::move(text)) {}
 

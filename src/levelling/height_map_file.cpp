@@ -1,14 +1,13 @@
-#include "height_map.hpp"
-
 #include <algorithm>
 #include <charconv>
 #include <cmath>
 #include <cstdint>
 #include <optional>
+#include <utility>
 
 #include <fmt/format.h>
 
-#include "passo/surface_file/surface_file.hpp"
+#include "passo/levelling/height_map.hpp"
 
 namespace passo {
 namespace {
@@ -16,7 +15,9 @@ namespace {
 constexpr std::string_view between = " \t,;\r";
 
 struct MapPoint {
-  SurfacePoint at;
+  double x = 0;
+  double y = 0;
+  double z = 0;
   std::uint32_t line = 0;
 };
 
@@ -24,12 +25,12 @@ class HeightMapReader {
  public:
   HeightMapReader(const std::string& name, Diagnostics& diagnostics) : name_(name), diagnostics_(diagnostics) {}
 
-  std::vector<SurfaceTriangle> read(std::string_view text);
+  std::optional<HeightMap> read(std::string_view text);
 
  private:
   void read_line(std::string_view line);
   bool looks_like_names(std::string_view line) const;
-  std::vector<SurfaceTriangle> triangles();
+  std::optional<HeightMap> grid();
   void error(std::uint32_t line, std::size_t column, std::size_t length, std::string_view text, std::string message,
              std::string expected);
 
@@ -43,7 +44,7 @@ class HeightMapReader {
 
 void HeightMapReader::error(std::uint32_t line, std::size_t column, std::size_t length, std::string_view text,
                             std::string message, std::string expected) {
-  diagnostics_.add({.code = is_none_ ? "surface.unknown-kind" : "surface.height-map",
+  diagnostics_.add({.code = "surface.height-map",
                     .file = name_,
                     .place = {.line = line,
                               .column = static_cast<std::uint32_t>(column + 1),
@@ -53,7 +54,7 @@ void HeightMapReader::error(std::uint32_t line, std::size_t column, std::size_t 
                     .text = std::string(text.substr(0, 1000))});
 }
 
-std::vector<SurfaceTriangle> HeightMapReader::read(std::string_view text) {
+std::optional<HeightMap> HeightMapReader::read(std::string_view text) {
   while (!text.empty() && !diagnostics_.full() && !is_none_) {
     const std::size_t end = std::min(text.find('\n'), text.size());
     ++line_;
@@ -61,7 +62,7 @@ std::vector<SurfaceTriangle> HeightMapReader::read(std::string_view text) {
     text.remove_prefix(std::min(end + 1, text.size()));
   }
   if (diagnostics_.any_error()) return {};
-  return triangles();
+  return grid();
 }
 
 bool HeightMapReader::looks_like_names(std::string_view line) const {
@@ -82,13 +83,13 @@ void HeightMapReader::read_line(std::string_view line) {
         at == std::string_view::npos ? at : std::min(words.find_first_of(between, at), words.size());
     const std::string_view word = at == std::string_view::npos ? "" : words.substr(at, end - at);
     const auto [last, fault] = std::from_chars(word.data(), word.data() + word.size(), values[i]);
-    if (fault != std::errc() || last != word.data() + word.size() || !(std::abs(values[i]) <= farthest_surface)) {
+    if (fault != std::errc() || last != word.data() + word.size() || !(std::abs(values[i]) <= HeightMap::farthest)) {
       is_none_ = points_.empty();
       error(line_, at == std::string_view::npos ? words.size() : at, word.size(), line,
-            (is_none_ ? std::string("this is neither an STL file nor a height map: ") : std::string()) +
+            (is_none_ ? std::string("this is no height map: ") : std::string()) +
                 (word.empty() ? "a number is missing"
                               : fmt::format("'{}' is no length that is read", word.substr(0, 40))),
-            fmt::format("x, y and z of a point in mm, each at most {:g}", farthest_surface));
+            fmt::format("x, y and z of a point in mm, each at most {:g}", HeightMap::farthest));
       return;
     }
     at = words.find_first_not_of(between, end);
@@ -97,7 +98,7 @@ void HeightMapReader::read_line(std::string_view line) {
     error(line_, at, words.size() - at, line, "there is more than a point on this line", "x, y and z");
     return;
   }
-  points_.push_back({.at = {values[0], values[1], values[2]}, .line = line_});
+  points_.push_back({.x = values[0], .y = values[1], .z = values[2], .line = line_});
 }
 
 std::vector<double> sorted_once(std::vector<double> values) {
@@ -110,12 +111,12 @@ std::size_t index_of(const std::vector<double>& values, double value) {
   return static_cast<std::size_t>(std::ranges::lower_bound(values, value) - values.begin());
 }
 
-std::vector<SurfaceTriangle> HeightMapReader::triangles() {
+std::optional<HeightMap> HeightMapReader::grid() {
   std::vector<double> columns;
   std::vector<double> rows;
   for (const MapPoint& point : points_) {
-    columns.push_back(point.at.x);
-    rows.push_back(point.at.y);
+    columns.push_back(point.x);
+    rows.push_back(point.y);
   }
   columns = sorted_once(std::move(columns));
   rows = sorted_once(std::move(rows));
@@ -135,36 +136,25 @@ std::vector<SurfaceTriangle> HeightMapReader::triangles() {
                       static_cast<double>(columns.size()) * static_cast<double>(rows.size())));
     return {};
   }
-  std::vector<std::optional<SurfacePoint>> grid(columns.size() * rows.size());
+  std::vector<std::optional<double>> heights(columns.size() * rows.size());
   for (const MapPoint& point : points_) {
-    std::optional<SurfacePoint>& place =
-        grid[index_of(rows, point.at.y) * columns.size() + index_of(columns, point.at.x)];
+    std::optional<double>& place = heights[index_of(rows, point.y) * columns.size() + index_of(columns, point.x)];
     if (place) {
-      error(point.line, 0, 1, "", fmt::format("X{:g} Y{:g} has two heights", point.at.x, point.at.y),
+      error(point.line, 0, 1, "", fmt::format("X{:g} Y{:g} has two heights", point.x, point.y),
             "each point of the grid once");
       return {};
     }
-    place = point.at;
+    place = point.z;
   }
-  std::vector<SurfaceTriangle> all;
-  all.reserve(2 * grid.size());
-  for (std::size_t y = 0; y + 1 < rows.size(); ++y) {
-    for (std::size_t x = 0; x + 1 < columns.size(); ++x) {
-      const std::size_t first = y * columns.size() + x;
-      const SurfacePoint& a = *grid[first];
-      const SurfacePoint& b = *grid[first + 1];
-      const SurfacePoint& c = *grid[first + columns.size() + 1];
-      const SurfacePoint& d = *grid[first + columns.size()];
-      all.push_back({a, b, c});
-      all.push_back({a, c, d});
-    }
-  }
-  return all;
+  std::vector<double> all;
+  all.reserve(heights.size());
+  for (const std::optional<double>& height : heights) all.push_back(*height);
+  return HeightMap(std::move(columns), std::move(rows), std::move(all));
 }
 
 }  // namespace
 
-std::vector<SurfaceTriangle> read_height_map(const std::string& name, std::string_view text, Diagnostics& diagnostics) {
+std::optional<HeightMap> read_height_map(const std::string& name, std::string_view text, Diagnostics& diagnostics) {
   return HeightMapReader(name, diagnostics).read(text);
 }
 

@@ -1,0 +1,46 @@
+// A job that was broken off, and how it goes on: with `passo serve --data` and a board alone.
+import { effect, signal } from '@preact/signals';
+import { get, type HistoryJob, type Place } from './api';
+import { isLive, status } from './connection';
+import { isUnderWay } from './words';
+
+// What happens before a program goes on amid its path, step by step, in the machine's coordinates. With a `code` there is
+// no such way, and `why` tells the reason.
+export interface Way {
+  line: number | null;
+  place: Place | null;
+  steps: string[];
+  code: string;
+  why: string;
+}
+export interface Interrupted {
+  job: HistoryJob;
+  noted_at: number;
+  line: number | null;
+  place: Place | null;
+  steps: Record<string, number>;
+  goes_on: boolean;
+  code: string;
+  why: string;
+  reentry: Way;
+}
+
+export const interrupted = signal<Interrupted | null>(null);
+
+export async function refreshInterrupted(): Promise<void> {
+  try {
+    interrupted.value = (await get<{ interrupted: Interrupted | null }>('/interrupted')).interrupted;
+  } catch {
+    interrupted.value = null; // nothing is kept, or the connection is lost: both are told elsewhere
+  }
+}
+
+// Homing, a jog and a job change whether and how it goes on.
+export function followInterrupted(): void {
+  effect(() => {
+    const now = status.value;
+    void `${now?.state} ${now?.trust} ${now?.job?.id} ${now?.job?.state}`;
+    if (isLive.value && !isUnderWay(now?.job ?? null)) void refreshInterrupted();
+    else interrupted.value = null;
+  });
+}

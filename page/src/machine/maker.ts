@@ -1,0 +1,74 @@
+// Programs made of drawings and pictures: the daemon makes them as `passo cam` does, beside the machine.
+import { signal } from '@preact/signals';
+import { attempt } from '../core/notices';
+import { get, post, remove, upload } from './api';
+import { chosen, refreshPrograms } from './programs';
+
+export interface Make {
+  jobs: string[];
+  files: string[];
+  state: 'none' | 'running' | 'done' | 'failed';
+  job: string;
+  words: string;
+  picture: string;
+  program: number | null;
+}
+export const make = signal<Make | null>(null);
+// Counts the orders that have ended, so that each has a picture of its own.
+export const madeCount = signal(0);
+
+const lookEvery = 150; // ms
+const settle = 500; // ms after the last change of a form
+
+export async function refreshMake(): Promise<void> {
+  await attempt(async () => (make.value = await get<Make>('/make')));
+}
+
+export async function sendDrawing(file: File): Promise<void> {
+  await attempt(async () => (make.value = await upload<Make>('/make/files', file.name, file)));
+}
+
+export async function clearDrawings(): Promise<void> {
+  await attempt(async () => {
+    make.value = (await remove('/make/files')) as Make;
+  });
+}
+
+export interface Order {
+  job: string;
+  files: string[];
+  options: Record<string, string | number | boolean>;
+}
+
+let wanted: Order | null = null;
+let works = false;
+let timer: ReturnType<typeof setTimeout> | undefined;
+
+// Makes it soon; a later order before its turn takes its place.
+export function order(next: Order): void {
+  wanted = next;
+  clearTimeout(timer);
+  timer = setTimeout(() => void work(), settle);
+}
+
+async function work(): Promise<void> {
+  if (works) return;
+  works = true;
+  while (wanted !== null) {
+    const now = wanted;
+    wanted = null;
+    await attempt(async () => {
+      make.value = await post<Make>('/make', now);
+      while (make.value?.state === 'running') {
+        await new Promise((resolve) => setTimeout(resolve, lookEvery));
+        make.value = await get<Make>('/make');
+      }
+      ++madeCount.value;
+      if (make.value?.program != null) {
+        chosen.value = make.value.program;
+        await refreshPrograms();
+      }
+    });
+  }
+  works = false;
+}

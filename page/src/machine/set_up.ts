@@ -1,0 +1,49 @@
+// What prepares the machine: the work's zero, the way to it, homing. Each asks first, with facts.
+import { say } from '../core/language';
+import { confirm } from '../core/question';
+import { lengthText, lengthUnit } from '../core/units';
+import { moveAs } from './actions';
+import { machine } from './connection';
+import { runLine } from './console';
+import { placeWords, workPlace } from './place';
+
+export async function makeZero(which: readonly string[]): Promise<void> {
+  const yes = await confirm({
+    title: say('jog.zero.ask', { axes: which.map((axis) => axis.toUpperCase()).join(', ') }),
+    facts: [say('jog.zero.facts', { place: placeWords(Object.fromEntries(which.map((axis) => [axis, workPlace.value[axis] ?? 0]))) })],
+    yes: say('jog.zero'),
+    kind: 'plain',
+  });
+  if (yes) await moveAs('/work', { place: Object.fromEntries(which.map((axis) => [axis, 0])) });
+}
+
+const clearance = 5; // mm above the work's zero
+
+export async function goToZero(): Promise<void> {
+  const place = workPlace.value;
+  const yes = await confirm({
+    title: say('jog.goto.ask'),
+    facts: [
+      say('jog.goto.facts', {
+        height: `Z ${lengthText(clearance)} ${lengthUnit()}`,
+        distance: `${lengthText(Math.hypot(place.x ?? 0, place.y ?? 0))} ${lengthUnit()}`,
+      }),
+    ],
+    yes: say('jog.goto'),
+    kind: 'go',
+  });
+  if (!yes) return;
+  const rise = (workPlace.value.z ?? clearance) < clearance ? `G0 Z${clearance}\n` : '';
+  await runLine(`G21 G90 G54\n${rise}G0 X0 Y0\nM2`);
+}
+
+export async function home(): Promise<void> {
+  const all = machine.value?.axes.filter((one) => one.homes).map((one) => one.axis.toUpperCase()) ?? [];
+  const yes = await confirm({
+    title: say('jog.home.ask'),
+    facts: [say('jog.home.facts', { axes: all.join(', ') })],
+    yes: say('jog.home'),
+    kind: 'go',
+  });
+  if (yes) await moveAs('/home');
+}

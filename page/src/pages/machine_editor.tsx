@@ -1,0 +1,317 @@
+// The machine file as a guided table. Nothing counts before it is written, and what is written counts when passo serve
+// starts again.
+import { Fragment } from 'preact';
+import { useEffect, useRef } from 'preact/hooks';
+import { language, say, type Key } from '../core/language';
+import { confirm } from '../core/question';
+import { fromMm, isRotary, lengthUnit, toMm, units } from '../core/units';
+import { whyNot } from '../machine/actions';
+import { isLive, machine, status } from '../machine/connection';
+import {
+  canUndo, changes, draft, file, isChanged, lastChanged, loadFile, scaleOf, setValue, takeText, undo, values, writeFile, type Value,
+} from '../machine/machine_file';
+import { Button } from '../parts/button';
+import { Icon } from '../parts/icon';
+
+interface Row {
+  title: Key;
+  key: string; // of lengths; a rotary axis has the other
+  rotary?: string;
+  unit?: string; // after the length's unit
+  kind: 'plain' | 'length' | 'flag' | 'choice';
+  at?: number; // of a list
+  choices?: readonly string[];
+}
+const rows: readonly Row[] = [
+  { title: 'file.turn', key: 'steps_per_turn', kind: 'plain' },
+  { title: 'file.micro', key: 'microsteps', kind: 'plain' },
+  { title: 'file.pitch', key: 'screw_pitch_mm', rotary: 'gear_ratio', kind: 'length' },
+  { title: 'file.direct', key: 'steps_per_mm', rotary: 'steps_per_deg', kind: 'plain' },
+  { title: 'machine.from', key: 'travel_mm', rotary: 'travel_deg', kind: 'length', at: 0 },
+  { title: 'machine.to', key: 'travel_mm', rotary: 'travel_deg', kind: 'length', at: 1 },
+  { title: 'machine.speed', key: 'max_velocity_mm_s', rotary: 'max_velocity_deg_s', kind: 'length', unit: '/s' },
+  { title: 'machine.acceleration', key: 'max_acceleration_mm_s2', rotary: 'max_acceleration_deg_s2', kind: 'length', unit: '/s²' },
+  { title: 'file.jerk', key: 'max_jerk_mm_s3', rotary: 'max_jerk_deg_s3', kind: 'length', unit: '/s³' },
+  { title: 'file.inverted', key: 'inverted', kind: 'flag' },
+  { title: 'file.motor', key: 'motor', kind: 'plain' },
+  { title: 'file.home', key: 'home.direction', kind: 'choice', choices: ['low', 'high'] },
+  { title: 'file.home.at', key: 'home.switch_at_mm', rotary: 'home.switch_at_deg', kind: 'length' },
+  { title: 'file.home.seek', key: 'home.seek_mm_s', rotary: 'home.seek_deg_s', kind: 'length', unit: '/s' },
+  { title: 'file.home.latch', key: 'home.latch_mm_s', rotary: 'home.latch_deg_s', kind: 'length', unit: '/s' },
+  { title: 'file.home.off', key: 'home.pull_off_mm', rotary: 'home.pull_off_deg', kind: 'length' },
+  { title: 'file.home.input', key: 'home.input', kind: 'plain' },
+];
+const guided = (path: string): boolean => /^axis\.[A-Z]\./.test(path) && rows.some((row) => [row.key, row.rotary].includes(path.slice(7)));
+
+const digits = (value: number): string => String(Number(value.toPrecision(9)));
+const readNumber = (text: string): number | undefined => {
+  const plain = text.trim().replace(',', '.');
+  return /^[-+]?(\d+\.?\d*|\.\d+)(e[-+]?\d+)?$/i.test(plain) ? Number(plain) : undefined;
+};
+
+interface FieldProps {
+  label: string;
+  path: string;
+  kind: Row['kind'];
+  at?: number | undefined;
+  choices?: readonly string[] | undefined;
+}
+function Field({ label, path, kind, at, choices }: FieldProps) {
+  const whole = values.value[path];
+  const value = at !== undefined && Array.isArray(whole) ? whole[at] : whole;
+  const set = (to: Value): void => {
+    if (at === undefined) return void setValue(path, to);
+    const list = Array.isArray(whole) ? [...whole] : [0, 0];
+    list[at] = Number(to);
+    void setValue(path, list);
+  };
+  const isWrong = draft.value?.good === false && lastChanged.value === path;
+  const shared = { 'aria-label': label, 'aria-invalid': isWrong, 'data-path': path } as const;
+  if (kind === 'flag' || typeof value === 'boolean') {
+    return <input type="checkbox" {...shared} checked={value === true} onChange={(event) => set(event.currentTarget.checked)} />;
+  }
+  if (kind === 'choice') {
+    return (
+      <select {...shared} value={typeof value === 'string' ? value : ''} onChange={(event) => event.currentTarget.value !== '' && set(event.currentTarget.value)}>
+        <option value="">–</option>
+        {(choices ?? []).map((one) => (
+          <option key={one} value={one}>
+            {say(one === 'low' ? 'file.low' : 'file.high')}
+          </option>
+        ))}
+      </select>
+    );
+  }
+  if (typeof value === 'string') {
+    return <input type="text" {...shared} value={value} onChange={(event) => set(event.currentTarget.value)} />;
+  }
+  const isLength = kind === 'length';
+  const text = Array.isArray(value) ? value.join(', ') : value === undefined ? '' : digits(isLength ? fromMm(value) : value);
+  return (
+    <input
+      type="text"
+      inputMode="decimal"
+      {...shared}
+      value={text}
+      placeholder="–"
+      onChange={(event) => {
+        const field = event.currentTarget;
+        if (Array.isArray(value)) {
+          const list = field.value.split(',').map((one) => readNumber(one));
+          if (list.every((one) => one !== undefined)) return set(list);
+        } else {
+          const number = readNumber(field.value);
+          if (number !== undefined) return set(isLength ? Number(toMm(number).toPrecision(9)) : number);
+        }
+        field.value = text; // no number: as it was
+      }}
+    />
+  );
+}
+
+function AxesTable({ axes }: { axes: readonly string[] }) {
+  return (
+    <div class="wide-table editor" tabIndex={0} role="region" aria-label={say('file.axes')}>
+      <table>
+        <thead>
+          <tr>
+            <th scope="col">{say('machine.axis')}</th>
+            {axes.map((axis) => (
+              <th scope="col" key={axis} class="axis-head" data-axis={axis.toLowerCase()}>
+                {axis}
+              </th>
+            ))}
+            <td />
+          </tr>
+        </thead>
+        <tbody>
+          {rows.map((row, i) => (
+            <Fragment key={row.title}>
+              <tr>
+                <th scope="row">{say(row.title)}</th>
+                {axes.map((axis) => {
+                  const rotary = isRotary(axis.toLowerCase());
+                  return (
+                    <td key={axis}>
+                      <Field
+                        label={`${axis} ${say(row.title)}`}
+                        path={`axis.${axis}.${rotary ? (row.rotary ?? row.key) : row.key}`}
+                        kind={rotary && row.kind === 'length' ? 'plain' : row.kind}
+                        at={row.at}
+                        choices={row.choices}
+                      />
+                    </td>
+                  );
+                })}
+                <td class="unit">{row.kind === 'length' ? `${lengthUnit()}${row.unit ?? ''}` : ''}</td>
+              </tr>
+              {i === 3 && <ScaleRow axes={axes} />}
+            </Fragment>
+          ))}
+        </tbody>
+      </table>
+    </div>
+  );
+}
+
+// The arithmetic, as a person would do it.
+function ScaleRow({ axes }: { axes: readonly string[] }) {
+  return (
+    <tr class="scale">
+      <th scope="row">{say('file.scale')}</th>
+      {axes.map((axis) => {
+        const rotary = isRotary(axis.toLowerCase());
+        const scale = scaleOf(values.value, axis, rotary);
+        if (scale === undefined) return <td key={axis}>–</td>;
+        return (
+          <td key={axis} data-testid={`scale-${axis}`}>
+            <span class="dim">{scale.words} =</span> <b>{digits(scale.steps)}</b>
+            <br />
+            <span class="dim">{say('file.one', { step: rotary ? `${(1 / scale.steps).toPrecision(3)}°` : `${(1000 / scale.steps).toPrecision(3)} µm` })}</span>
+          </td>
+        );
+      })}
+      <td class="unit">{say('file.steps.unit')}</td>
+    </tr>
+  );
+}
+
+function Others() {
+  const paths = Object.keys(values.value).filter((path) => !guided(path));
+  return (
+    <details>
+      <summary>{say('file.others', { count: paths.length })}</summary>
+      <table class="facts editor">
+        <tbody>
+          {paths.map((path) => (
+            <tr key={path}>
+              <th scope="row">
+                <code>{path}</code>
+              </th>
+              <td>
+                <Field label={path} path={path} kind="plain" />
+              </td>
+            </tr>
+          ))}
+        </tbody>
+      </table>
+    </details>
+  );
+}
+
+const wordsOf = (value: Value | undefined): string =>
+  value === undefined ? '–' : Array.isArray(value) ? value.join(' … ') : String(value);
+
+async function write(): Promise<void> {
+  const yes = await confirm({
+    title: say('file.write.ask', { name: file.value?.name ?? '' }),
+    facts: [say('file.write.facts'), say('file.write.when')],
+    rows: changes.value.map(([path, before, after]) => [path, `${wordsOf(before)} → ${wordsOf(after)}`]),
+    yes: say('file.write'),
+    kind: 'go',
+  });
+  if (yes) await writeFile();
+}
+
+function download(): void {
+  const url = URL.createObjectURL(new Blob([draft.value?.text ?? ''], { type: 'application/toml' }));
+  const link = document.createElement('a');
+  link.href = url;
+  link.download = /\.toml$/.test(file.value?.name ?? '') ? (file.value?.name ?? '') : 'machine.toml';
+  link.click();
+  URL.revokeObjectURL(url);
+}
+
+function Findings() {
+  const now = draft.value;
+  if (now === null || now.good) return null;
+  const lines = now.text.split('\n');
+  return (
+    <div class="refusal" role="alert">
+      <Icon name="warn" />
+      <div>
+        <strong>{say('file.refused')}</strong>
+        <ul lang="en">
+          {now.findings.map((one) => (
+            <li key={`${one.line} ${one.message}`}>
+              {one.message}. {one.expected} <code class="dim">{one.code}</code>
+              {one.line > 0 && <code class="finding-line">{`${one.line}: ${lines[one.line - 1] ?? ''}`}</code>}
+            </li>
+          ))}
+        </ul>
+      </div>
+    </div>
+  );
+}
+
+export function MachineEditor() {
+  const input = useRef<HTMLInputElement>(null);
+  useEffect(() => {
+    if (isLive.value && file.value === null) void loadFile();
+  }, [isLive.value]);
+  const known = file.value;
+  const now = draft.value;
+  if (known === null || now === null) return null;
+  void [units.value, language.value];
+  const moves = isLive.value && !['Idle', 'Alarm', 'Sleep'].includes(status.value?.state ?? '') ? whyNot('Idle') : '';
+  const why = isLive.value ? moves : say('why.lost');
+  const axes = [...new Set(Object.keys(values.value).flatMap((path) => /^axis\.([A-Z])\./.exec(path)?.[1] ?? []))];
+  const whyWrite = !known.writable
+    ? say('file.none')
+    : !isChanged.value
+      ? say('file.same')
+      : now.good
+        ? whyNot('Idle')
+        : say('file.refused');
+  return (
+    <section class="panel machine-file" aria-label={say('file.title')}>
+      <h2 class="title">
+        {say('file.title')}: {known.name}
+      </h2>
+      <p class="dim">{say('file.what')}</p>
+      {!known.in_force && (
+        <p class="refusal" role="status">
+          <Icon name="warn" /> <span>{say('file.later')}</span>
+        </p>
+      )}
+      <div class="row">
+        <Button kind="accent" icon="done" why={whyWrite} onClick={write}>
+          {say('file.write')}
+        </Button>
+        <Button icon="reset" why={canUndo.value ? why : say('file.undo.none')} onClick={undo}>
+          {say('file.undo')}
+        </Button>
+        <Button icon="reset" why={why} onClick={loadFile}>
+          {say('file.load')}
+        </Button>
+        <Button icon="files" onClick={download}>
+          {say('file.out')}
+        </Button>
+        <Button icon="upload" why={why} onClick={() => input.current?.click()}>
+          {say('file.in')}
+        </Button>
+        <input
+          type="file"
+          accept=".toml"
+          hidden
+          ref={input}
+          aria-label={say('file.in')}
+          onChange={(event) => {
+            const field = event.currentTarget;
+            void field.files?.[0]?.text().then((text) => takeText(text).then(() => (field.value = '')));
+          }}
+        />
+      </div>
+      <Findings />
+      {axes.length > 0 && <AxesTable axes={axes} />}
+      {axes.length > 0 && <Others />}
+      <details>
+        <summary>{say('file.text')}</summary>
+        <pre class="toml" lang="en" tabIndex={0}>
+          {now.text}
+        </pre>
+      </details>
+      {machine.value === null && <p class="dim">{say('why.lost')}</p>}
+    </section>
+  );
+}

@@ -1,0 +1,145 @@
+// The machine file in the editor, the pins and the outputs by hand, and a gamepad.
+import { mkdtempSync, readFileSync, rmSync, writeFileSync } from 'node:fs';
+import { tmpdir } from 'node:os';
+import { join } from 'node:path';
+import type { Browser, Page } from 'playwright-core';
+import { afterAll, beforeAll, describe, expect, it } from 'vitest';
+import { Daemon, openBrowser, smallMachine, visit } from './kit';
+
+let browser: Browser;
+let daemon: Daemon;
+let folder: string;
+let machine: string;
+beforeAll(async () => {
+  browser = await openBrowser();
+  folder = mkdtempSync(join(tmpdir(), 'passo-machine-'));
+  machine = smallMachine(folder);
+  daemon = await Daemon.start({ machine });
+});
+afterAll(async () => {
+  await browser?.close();
+  await daemon?.end();
+  rmSync(folder, { recursive: true, force: true });
+});
+
+const click = (page: Page, name: string): Promise<void> => page.getByRole('button', { name, exact: true }).first().click({ timeout: 8000 });
+const agree = (page: Page, name: string): Promise<void> => page.getByRole('dialog').getByRole('button', { name }).click();
+const enter = async (page: Page, field: string, text: string): Promise<void> => {
+  await page.getByRole('textbox', { name: field, exact: true }).fill(text);
+  await page.keyboard.press('Tab');
+};
+
+describe('the machine file', () => {
+  it('shows its arithmetic, refuses with the reason, goes back, and keeps comments', async () => {
+    const { page, context, errors } = await visit(browser, daemon, 'machine');
+    const scale = page.getByTestId('scale-X');
+    await expect.poll(() => scale.innerText()).toContain('200 × 16 ÷ 5 =');
+    expect(await scale.innerText()).toContain('640');
+    await enter(page, 'X Microsteps', '8');
+    await expect.poll(() => scale.innerText()).toContain('320');
+    // A wrong setting: the machine would rest beyond its travel.
+    await enter(page, 'X Switch closes at', '500');
+    const refusal = page.getByRole('alert');
+    await refusal.waitFor();
+    expect(await refusal.innerText()).toContain('machine.');
+    const write = page.getByRole('button', { name: /^Write the file/ });
+    expect(await write.getAttribute('aria-disabled')).toBe('true');
+    await click(page, 'Undo');
+    await refusal.waitFor({ state: 'detached' });
+    // A conflict of pins: two axes with one motor.
+    for (const [axis, motor] of [['X', '0'], ['Y', '0'], ['Z', '1']] as const) await enter(page, `${axis} Motor of the board`, motor);
+    await refusal.waitFor();
+    expect(await refusal.innerText()).toContain('motor');
+    for (let steps = 0; steps < 3; ++steps) await click(page, 'Undo');
+    await refusal.waitFor({ state: 'detached' });
+    await click(page, 'Write the file');
+    await page.getByRole('dialog').getByText('16 → 8').waitFor();
+    await agree(page, 'Write the file');
+    await page.getByText('It counts when passo serve starts again.').waitFor();
+    expect(readFileSync(machine, 'utf8')).toContain('microsteps = 8              # as the switches');
+    // Somebody else changes the file: it is not overwritten.
+    await enter(page, 'X Microsteps', '4');
+    writeFileSync(machine, `${readFileSync(machine, 'utf8')}# by hand\n`);
+    await click(page, 'Write the file');
+    await agree(page, 'Write the file');
+    await page.getByText('somebody has changed the machine file meanwhile').first().waitFor();
+    await click(page, 'Load again');
+    await expect.poll(() => scale.innerText()).toContain('320');
+    expect(readFileSync(machine, 'utf8')).toContain('# by hand');
+    expect(errors.filter((one) => !one.includes('Failed to load'))).toEqual([]);
+    await context.close();
+  });
+
+  it('comes as TOML, and a text that is no machine is refused with its lines', async () => {
+    const { page, context } = await visit(browser, daemon, 'machine');
+    await page.getByTestId('scale-X').waitFor();
+    await page.setInputFiles('input[type=file]', { name: 'x.toml', mimeType: 'text/plain', buffer: Buffer.from('name = "X"\nspeed = 3\n') });
+    const refusal = page.getByRole('alert');
+    await refusal.waitFor();
+    expect(await refusal.innerText()).toContain('2: speed = 3');
+    await click(page, 'Undo');
+    await page.getByTestId('scale-X').waitFor();
+    await context.close();
+  });
+});
+
+describe('inputs and outputs', () => {
+  it('are live, and outputs are switched in the set-up mode only', async () => {
+    const { page, context, errors } = await visit(browser, daemon, 'pins');
+    const flood = page.getByRole('region', { name: 'Outputs by hand' }).getByRole('button', { name: /^Flood/ });
+    expect(await flood.getAttribute('title')).toContain('Only in the set-up mode');
+    if ((await daemon.status()).owner.kind === 'client') {
+      await click(page, 'Take over');
+      await agree(page, 'Take over');
+    }
+    await page.getByRole('button', { name: /^Set-up mode/ }).click();
+    await agree(page, 'Set-up mode');
+    await page.getByRole('button', { name: 'End the set-up mode' }).waitFor();
+    await flood.click();
+    await daemon.until((status) => status.outputs.flood);
+    await expect.poll(() => page.getByTestId('pin-flood').innerText()).toBe('on');
+    await page.getByRole('button', { name: 'Spindle clockwise', exact: true }).click();
+    await agree(page, 'Turn it');
+    await daemon.until((status) => status.outputs.spindle === 'clockwise' && status.outputs.flood, 20_000);
+    await page.getByRole('button', { name: 'End the set-up mode' }).click();
+    await daemon.until((status) => status.state === 'Idle' && !status.outputs.flood && status.outputs.spindle === 'off');
+    await expect.poll(() => page.getByTestId('pin-flood').innerText()).toBe('off');
+    expect(errors).toEqual([]);
+    await context.close();
+  });
+});
+
+describe('a gamepad', () => {
+  it('moves while its cross is held, and no longer', async () => {
+    const { page, context } = await visit(browser, daemon, 'console');
+    await page.evaluate(() => {
+      const pad = { id: 'Pad', mapping: 'standard', connected: true, axes: [0, 0, 0, 0], buttons: Array.from({ length: 17 }, () => ({ pressed: false })) };
+      Object.assign(window, { pad });
+      navigator.getGamepads = () => [pad as unknown as Gamepad];
+    });
+    const press = (pressed: boolean): Promise<void> =>
+      page.evaluate((to) => void ((window as unknown as { pad: { buttons: { pressed: boolean }[] } }).pad.buttons[15]!.pressed = to), pressed);
+    // Elsewhere than on the page "Set up" it does nothing.
+    await press(true);
+    await page.goto(`${daemon.address}#/jog`);
+    await page.getByText('Gamepad Pad').waitFor();
+    await page.getByRole('radio', { name: 'Continuous' }).check();
+    expect((await daemon.status()).state).toBe('Idle');
+    await press(false);
+    await page.waitForTimeout(200);
+    if ((await daemon.status()).owner.kind === 'client') {
+      await click(page, 'Take over');
+      await agree(page, 'Take over');
+      await page.locator('.owner').waitFor({ state: 'detached' });
+    }
+    await page.bringToFront();
+    const before = (await daemon.status()).place.x ?? 0;
+    await press(true);
+    await daemon.until((status) => (status.place.x ?? 0) > before + 0.5);
+    await press(false);
+    const rest = await daemon.until((status) => status.state === 'Idle' && status.rests);
+    await page.waitForTimeout(400);
+    expect((await daemon.status()).place).toEqual(rest.place);
+    await context.close();
+  });
+});

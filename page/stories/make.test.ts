@@ -1,0 +1,51 @@
+// Drawings become programs, with a picture that follows the form.
+import type { Browser } from 'playwright-core';
+import { afterAll, beforeAll, describe, expect, it } from 'vitest';
+import { Daemon, openBrowser, visit } from './kit';
+
+let browser: Browser;
+let daemon: Daemon;
+beforeAll(async () => {
+  browser = await openBrowser();
+  daemon = await Daemon.start();
+});
+afterAll(async () => {
+  await browser?.close();
+  await daemon?.end();
+});
+
+const holes = 'M48\nMETRIC\nT1C0.800\n%\nT1\nX10.0Y10.0\nX20.0Y10.0\nX20.0Y25.0\nM30\n';
+
+describe('a drill file', () => {
+  it('becomes a program whose picture follows the form, and what is wrong is told', async () => {
+    const { page, context, errors } = await visit(browser, daemon, 'make');
+    const send = (name: string, text: string): Promise<void> =>
+      page.setInputFiles('input[type=file]', { name, mimeType: 'text/plain', buffer: Buffer.from(text) });
+    await send('holes.drl', holes);
+    await expect.poll(() => page.getByTestId('make-state').innerText(), { timeout: 20_000 }).toBe('Made');
+    const picture = page.getByRole('img', { name: 'What is cut' });
+    await picture.waitFor();
+    expect(await picture.evaluate((one) => (one as HTMLImageElement).naturalWidth)).toBeGreaterThan(0);
+    const before = await picture.getAttribute('src');
+    await page.getByRole('textbox', { name: 'Depth' }).fill('-3.25');
+    await page.getByRole('checkbox', { name: 'Plain moves, no cycles' }).check();
+    await expect.poll(() => picture.getAttribute('src'), { timeout: 20_000 }).not.toBe(before);
+    const text = async (): Promise<string> => {
+      const { programs } = await daemon.get<{ programs: { id: number }[] }>('/programs');
+      // Made again, it takes the place of the one before.
+      expect(programs.length).toBe(1);
+      return (await fetch(`${daemon.address}api/v1/programs/${programs[0]?.id}/text`)).text();
+    };
+    await expect.poll(text, { timeout: 20_000 }).toContain('Z-3.25');
+    await page.getByRole('button', { name: 'To the program' }).click();
+    await expect.poll(() => page.getByTestId('verdict').innerText(), { timeout: 20_000 }).toContain('Good');
+    await page.goto(`${daemon.address}#/make`);
+    await send('wrong.drl', 'this is no drill file\n');
+    await page.getByRole('checkbox', { name: 'holes.drl' }).uncheck();
+    await page.getByRole('checkbox', { name: 'wrong.drl' }).check();
+    await expect.poll(() => page.getByTestId('make-state').innerText(), { timeout: 20_000 }).toBe('Not made');
+    expect(await page.locator('.make-result pre').innerText()).toContain('wrong.drl');
+    expect(errors).toEqual([]);
+    await context.close();
+  });
+});

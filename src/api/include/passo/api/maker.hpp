@@ -1,0 +1,48 @@
+// Maker: makes programs of drawings and pictures beside the machine, as `passo cam` does.
+//
+// Place: the API's view of a helper that the program provides. One order at a time. The files of an order are kept by
+// name until they are cleared. Memory, time and files are bounded by whoever implements this.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace passo {
+
+struct MakeOrder {
+  std::string job;                   // "drill"
+  std::vector<std::string> files;    // names that were kept
+  std::vector<std::string> options;  // "--depth=-2"
+};
+
+struct MakeResult {
+  enum class State : std::uint8_t { none, running, done, failed };
+  State state = State::none;
+  std::string job;
+  std::string name;          // of the program
+  std::string words;         // what was said; why it failed
+  std::string picture_type;  // "image/svg+xml"; empty: there is no picture
+};
+
+class Maker {
+ public:
+  static constexpr std::size_t longest_file = std::size_t{48} << 20;  // bytes
+
+  virtual ~Maker() = default;
+  virtual std::vector<std::string> files() const = 0;
+  // Keeps a file for orders; one of the same name is replaced. `name`: letters, digits and " ._-()". False: no room.
+  virtual bool keep(const std::string& name, std::string_view bytes) = 0;
+  // Forgets all files, and ends the order that runs.
+  virtual void clear() = 0;
+  // False: an order runs, or none can begin.
+  virtual bool begin(const MakeOrder& order) = 0;
+  // How it goes. Call often: it is cheap while nothing changes.
+  virtual const MakeResult& look() = 0;
+  // Of the last order that is done.
+  virtual std::string program() const = 0;
+  virtual std::string picture() const = 0;
+};
+
+}  // namespace passo

@@ -1,0 +1,179 @@
+// MachineApi: programs made of drawings and pictures.
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <utility>
+
+#include "api_json.hpp"
+#include <fmt/format.h>
+
+namespace passo {
+namespace {
+
+constexpr std::array<std::string_view, 4> jobs = {"drill", "isolate", "outline", "relief"};
+// Options that name files of this computer, or that belong to the program itself.
+constexpr std::array<std::string_view, 6> own_options = {"output", "picture", "json", "profile", "machine", "help"};
+constexpr std::size_t longest_value = 200;
+constexpr std::size_t most_options = 60;
+
+const char* name_of(MakeResult::State state) {
+  switch (state) {
+    case MakeResult::State::none: return "none";
+    case MakeResult::State::running: return "running";
+    case MakeResult::State::done: return "done";
+    case MakeResult::State::failed: return "failed";
+  }
+  return "";
+}
+
+template <class List>
+bool has(const List& list, std::string_view one) {
+  return std::ranges::find(list, one) != std::ranges::end(list);
+}
+
+bool is_digit(char c) {
+  return c >= '0' && c <= '9';
+}
+
+bool is_option(std::string_view name) {
+  return !name.empty() && name.size() < 40 && name.front() != '-' && !has(own_options, name) &&
+         std::ranges::all_of(name, [](char c) { return (c >= 'a' && c <= 'z') || is_digit(c) || c == '-'; });
+}
+
+// Lengths, names and numbers: 1/32in has a slash between digits, and no other value has one.
+bool is_value(std::string_view value) {
+  if (value.size() > longest_value || value.find("..") != std::string_view::npos) return false;
+  for (std::size_t i = 0; i < value.size(); ++i) {
+    const char c = value[i];
+    if (c == '/') {
+      if (i == 0 || i + 1 == value.size() || !is_digit(value[i - 1]) || !is_digit(value[i + 1])) return false;
+    } else if (static_cast<unsigned char>(c) < 0x20 || c == 0x7f || c == '\\') {
+      return false;
+    }
+  }
+  return true;
+}
+
+// Empty, with a reason: the options are none.
+std::optional<std::vector<std::string>> options_of(const Json& json, std::string& reason) {
+  std::vector<std::string> options;
+  if (!json.is_object() || json.size() > most_options) {
+    reason = "\"options\": expected an object";
+    return {};
+  }
+  for (const auto& [name, value] : json.items()) {
+    reason = fmt::format("there is no option \"{}\" here", name.substr(0, 40));
+    if (!is_option(name)) return {};
+    if (value.is_boolean()) {
+      if (value.get<bool>()) options.push_back("--" + name);
+      continue;
+    }
+    reason = fmt::format("\"{}\": expected a text, a number, true or false", name);
+    const bool is_number = value.is_number() && std::isfinite(value.get<double>());
+    if (!is_number && !value.is_string()) return {};
+    const std::string text = is_number ? fmt::format("{}", value.get<double>()) : value.get<std::string>();
+    if (text.empty()) continue;
+    if (!is_value(text)) return {};
+    options.push_back(fmt::format("--{}={}", name, text));
+  }
+  reason.clear();
+  return options;
+}
+
+WebAnswer no_maker() {
+  return error_answer(404, "make.none", "this server makes no programs");
+}
+
+WebAnswer bad_order(std::string_view reason) {
+  return error_answer(400, "http.bad-body", reason);
+}
+
+}  // namespace
+
+WebAnswer MachineApi::make_answer() {
+  if (options_.maker == nullptr) return no_maker();
+  heed_maker();
+  const MakeResult& result = options_.maker->look();
+  return json_answer(200, {{"jobs", jobs},
+                           {"files", options_.maker->files()},
+                           {"state", name_of(result.state)},
+                           {"job", result.job},
+                           {"words", result.words},
+                           {"picture", result.picture_type},
+                           {"program", made_ != 0 ? Json(made_) : Json()}});
+}
+
+WebAnswer MachineApi::made_picture() const {
+  if (options_.maker == nullptr) return no_maker();
+  const MakeResult& result = options_.maker->look();
+  if (result.state != MakeResult::State::done || result.picture_type.empty()) {
+    return error_answer(404, "http.not-found", "there is no picture");
+  }
+  return {.type = result.picture_type, .body = options_.maker->picture()};
+}
+
+WebAnswer MachineApi::keep_make_file(std::string_view name, std::string_view bytes) {
+  if (options_.maker == nullptr) return no_maker();
+  if (name.empty() || name.front() == '.' || name.front() == '-') return bad_order("the file has no name");
+  if (!options_.maker->keep(std::string(name), bytes)) {
+    return error_answer(507, "make.no-room", "there is no room for this file: clear the others first");
+  }
+  return make_answer();
+}
+
+WebAnswer MachineApi::clear_make_files() {
+  if (options_.maker == nullptr) return no_maker();
+  options_.maker->clear();
+  made_ = 0;
+  return make_answer();
+}
+
+WebAnswer MachineApi::begin_making(std::string_view body) {
+  const Json said = Json::parse(body, nullptr, false);
+  if (!said.is_object()) return bad_order("the body is no JSON object");
+  for (const auto& [name, value] : said.items()) {
+    if (name != "job" && name != "files" && name != "options")
+      return bad_order("there is no \"" + name.substr(0, 40) + "\"");
+  }
+  if (options_.maker == nullptr) return no_maker();
+  MakeOrder order;
+  const Json job = said.value("job", Json());
+  if (!job.is_string() || !has(jobs, job.get<std::string>())) return bad_order("\"job\": expected one of GET /make");
+  order.job = job.get<std::string>();
+  const Json files = said.value("files", Json());
+  const std::vector<std::string> kept = options_.maker->files();
+  if (!files.is_array() || files.empty()) return bad_order("\"files\": expected names of files that were sent");
+  for (const Json& one : files) {
+    if (!one.is_string() || !has(kept, one.get<std::string>())) {
+      return bad_order("\"files\": expected names of files that were sent");
+    }
+    order.files.push_back(one.get<std::string>());
+  }
+  std::string reason;
+  auto options = options_of(said.value("options", Json::object()), reason);
+  if (!options) return bad_order(reason);
+  order.options = std::move(*options);
+  if (!options_.maker->begin(order)) return error_answer(409, "make.busy", "another program is being made");
+  made_before_ = std::exchange(made_, 0);
+  heeds_maker_ = true;
+  WebAnswer answer = make_answer();
+  answer.status = 202;
+  return answer;
+}
+
+// A program that is made goes to the others. One that is made again takes the place of the one before.
+void MachineApi::heed_maker() {
+  if (!heeds_maker_) return;
+  const MakeResult& result = options_.maker->look();
+  if (result.state == MakeResult::State::running) return;
+  heeds_maker_ = false;
+  if (result.state != MakeResult::State::done) return;
+  const StoredProgram* const before = programs_.find(made_before_);
+  const bool is_used =
+      job_.program == made_before_ && (job_.state == JobState::checking || job_.state == JobState::running);
+  if (before != nullptr && before->name == result.name && !is_used) programs_.remove(made_before_);
+  const StoredProgram* const program = programs_.add(result.name, Dialect::linuxcnc, options_.maker->program());
+  if (program != nullptr) made_ = program->id;
+}
+
+}  // namespace passo
