@@ -218,7 +218,9 @@ void PocketPlanner::add_runs(std::vector<DrawnRing> rings, std::vector<MillRun>&
       } else {
         run.push_back({start, 0, next});
       }
-      track.append(run, along, along + track.length(), next, next);
+      // All of it at this depth, and on to where it began: the next loop begins near there.
+      const double laps = std::ceil((along + track.length()) / track.length() - 1e-9);
+      track.append(run, along, laps * track.length(), next, next);
       is_first = false;
     }
     z = next;

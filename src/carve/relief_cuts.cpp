@@ -233,12 +233,13 @@ void finish_rest(ReliefPass& pass, const HeightGrid& surface, const NodeLattice&
   const ReliefProgramOptions& options = pass.options();
   const ReliefRest& rest = *options.rest;
   const float floor = lowest_of(surface);
-  const std::ptrdiff_t rim_x = nodes_of(rest.tool.cutter.radius, surface.pitch_x) + 1;
-  const std::ptrdiff_t rim_y = nodes_of(rest.tool.cutter.radius, surface.pitch_y) + 1;
+  const Mm overrun = rest_overrun(options);
+  const std::ptrdiff_t rim_x = nodes_of(rest.tool.cutter.radius + overrun, surface.pitch_x) + 1;
+  const std::ptrdiff_t rim_y = nodes_of(rest.tool.cutter.radius + overrun, surface.pitch_y) + 1;
   TipMap touching = tips_of(left_by_finishing(surface, options, rim_x, rim_y), rest.tool.cutter, floor, Mm(0), options);
   touching.margin_x = rim_x;  // it counts from the surface's first node
   touching.margin_y = rim_y;
-  const TipMap tips = tips_of(surface, rest.tool.cutter, floor, Mm(0), options);
+  const TipMap tips = tips_of(surface, rest.tool.cutter, floor, overrun, options);
   pass.set_lattice(lattice);
   pass.writer().set_feeds({.along = rest.tool.feed, .down = rest.tool.plunge});
   const std::ptrdiff_t step = step_nodes(step_of(rest.tool, options, false), surface.pitch_y);

@@ -116,6 +116,7 @@ Mm step_of(const ReliefTool& tool, const ReliefProgramOptions& options, bool is_
 // no stock beside the surface that nobody has roughed.
 Mm finishing_overrun(const ReliefProgramOptions& options);
 Mm roughing_overrun(const ReliefProgramOptions& options);
+Mm rest_overrun(const ReliefProgramOptions& options);
 
 void rough_out(ReliefPass& pass, const HeightGrid& surface, const NodeLattice& lattice,
                const std::function<void(double)>& progress);

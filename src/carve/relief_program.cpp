@@ -154,7 +154,7 @@ ReliefReport ReliefProgram::write(bool wants_carved) {
   if (options_.rest) {
     const ReliefTool& tool = options_.rest->tool;
     begin_tool("rest finishing", tool);
-    record(tool, Mm(0), [&] { cut(finish_rest, surface_, false); });
+    record(tool, rest_overrun(options_), [&] { cut(finish_rest, surface_, false); });
     end_tool("rest finishing", tool, nodes_step(tool, false, surface_.pitch_y));
   }
   if (options_.spindle) writer_.line("M5");

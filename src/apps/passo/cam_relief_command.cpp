@@ -255,7 +255,7 @@ int cam_relief(const CamReliefArguments& arguments) {
   // A rim that stays is the stock's edge, or its face goes on: nothing is cut beyond.
   if (job.shape.margin.value() > 0 && job.shape.margin_at_top && !job.program.overrun) job.program.overrun = Mm(0);
   // A body ends at its edges, and its sides are cut. A picture's edges are where it was cut off.
-  job.program.beside = read->is_body ? BesideGrid::nothing : BesideGrid::level;
+  job.program.beside = read->is_body ? BesideGrid::nothing : BesideGrid::goes_on;
   place(arguments, read->grid, reading, job.program);
   if (!reading.message().empty()) return fail(exit_bad_program, reading.message());
   const std::string what = std::filesystem::path(arguments.file).filename().string();

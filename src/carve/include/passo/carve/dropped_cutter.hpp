@@ -59,9 +59,9 @@ class CutterTable {
   std::vector<float> least_;
 };
 
-// Where the tip goes beside the grid: as low as it can, for there is nothing; or on level, as high as at the nearest
-// node.
-enum class BesideGrid : std::uint8_t { nothing, level };
+// What is beside the grid: nothing, or the surface goes on: level, or where it falls towards the edge falling as on its
+// other side, down to the floor.
+enum class BesideGrid : std::uint8_t { nothing, goes_on };
 
 class DroppedCutter {
  public:
@@ -84,13 +84,13 @@ class DroppedCutter {
 
  private:
   void drop(std::ptrdiff_t row, std::ptrdiff_t column, float* out, Scratch& scratch) const;
-  void drop_row(std::ptrdiff_t row, std::ptrdiff_t column, std::span<float> out, Scratch& scratch) const;
+  float beside(std::ptrdiff_t column, std::ptrdiff_t row) const;
   bool combine(std::ptrdiff_t row, std::ptrdiff_t column, std::size_t away, float least, Scratch& scratch) const;
 
   const HeightGrid& grid_;
   CutterTable table_;
   float floor_;
-  bool goes_on_level_;
+  bool goes_on_;
   std::size_t blocks_ = 0;   // in a row of the grid
   std::vector<float> tops_;  // the greatest height of each 32 columns of each row
 };

@@ -3,8 +3,8 @@
 // The program is in mm (G21), Z 0 at the top of the stock. It is handed on in pieces while it is made: memory grows
 // with the surface, not with the program. Each feed move keeps clear of the surface, over its whole length
 // (passo/carve/dropped_cutter.hpp), and is at most `tolerance` higher than it must be. The cutters go beyond the
-// surface by `overrun`, so its edges are cut fully. There they go on level, or nothing bounds them but the floor, its
-// lowest height (`beside`).
+// surface by `overrun`, so its edges are cut fully. There the surface goes on, or nothing bounds them but the floor,
+// its lowest height (`beside`).
 //
 // The same surface and options make the same bytes, for any number of threads.
 #pragma once
@@ -61,7 +61,7 @@ struct ReliefProgramOptions {
   Mm y0{0};
   // Empty: the radius of the finishing cutter; of the roughing cutter at least its own.
   std::optional<Mm> overrun = {};
-  BesideGrid beside = BesideGrid::level;
+  BesideGrid beside = BesideGrid::goes_on;
   unsigned threads = 1;  // 1 or more
 };
 
