@@ -7,6 +7,7 @@
 
 #include <benchmark/benchmark.h>
 
+#include "passo/motor/example_motor.hpp"
 #include "passo/plant/rotor_plant.hpp"
 
 namespace passo {
@@ -14,16 +15,7 @@ namespace {
 
 // Sixteen microsteps; 20 kHz are six turns a second.
 MotorSetup motor_of_a_small_machine() {
-  MotorSetup setup{.motor = {.rotor = {.steps_per_revolution = 200, .inertia = {6.8e-6}},
-                             .holding_torque = {0.45},
-                             .rated_current = {1.7},
-                             .resistance = {1.5},
-                             .inductance = {2.8e-3}},
-                   .drive = {.supply = {24}},
-                   .excitation = *Excitation::named("microsteps:16")};
-  setup.load = {.inertia = {6.8e-6}, .friction = {0.03}, .friction_per_speed = {}};
-  setup.damping = damping_of(setup.motor);
-  return setup;
+  return small_motor_setup("microsteps:16", {0.03});
 }
 
 struct Event {

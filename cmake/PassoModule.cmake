@@ -3,10 +3,14 @@
 # One module of the street: a static library passo_NAME with its public headers under
 # include/passo/NAME/. What it may use is read from docs/layers.txt, the only place where that is written.
 # TESTS become one test program NAME_tests. They are compiled several at a time (a unity build); those whose own names
-# clash with the others' are TESTS_APART. With TOGETHER a Release build does the same with SOURCES, except APART. Other
-# builds, clang's look among them, see each file alone, so each includes what it uses.
+# clash with the others' are TESTS_APART. With TOGETHER Release and sanitized builds do the same with SOURCES, except APART.
+# Other builds, clang's look among them, see each file alone, so each includes what it uses.
 file(STRINGS "${PROJECT_SOURCE_DIR}/docs/layers.txt" PASSO_LAYER_LINES REGEX "^[a-z_]+\\*?:")
 set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS "${PROJECT_SOURCE_DIR}/docs/layers.txt")
+
+# Files that are compiled together may shadow one another's names. Each alone may not: clang looks at them so.
+add_library(passo_together INTERFACE)
+target_compile_options(passo_together INTERFACE -Wno-shadow)
 
 function(passo_layers module out)
   foreach(line IN LISTS PASSO_LAYER_LINES)
@@ -26,12 +30,13 @@ function(passo_module module)
 
   if(ARG_SOURCES)
     add_library(passo_${module} STATIC ${ARG_SOURCES} ${ARG_APART})
-    if(ARG_TOGETHER AND CMAKE_BUILD_TYPE STREQUAL "Release")
-      set_target_properties(passo_${module} PROPERTIES UNITY_BUILD ON UNITY_BUILD_BATCH_SIZE 6)
-      set_source_files_properties(${ARG_APART} PROPERTIES SKIP_UNITY_BUILD_INCLUSION ON)
-    endif()
     target_include_directories(passo_${module} PUBLIC include)
     target_link_libraries(passo_${module} PUBLIC ${layers} PRIVATE ${ARG_LIBRARIES} passo_compiler)
+    if(ARG_TOGETHER AND (PASSO_SANITIZE OR CMAKE_BUILD_TYPE STREQUAL "Release"))
+      set_target_properties(passo_${module} PROPERTIES UNITY_BUILD ON UNITY_BUILD_BATCH_SIZE 6)
+      set_source_files_properties(${ARG_APART} PROPERTIES SKIP_UNITY_BUILD_INCLUSION ON)
+      target_link_libraries(passo_${module} PRIVATE passo_together)
+    endif()
     passo_headers_once(passo_${module})
     if(PASSO_SANITIZE)
       set_target_properties(passo_${module} PROPERTIES EXCLUDE_FROM_ALL ON)

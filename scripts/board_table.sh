@@ -1,7 +1,8 @@
 #!/usr/bin/env bash
-# scripts/board_table.sh [PROGRAM...]: how long jobs take over a line to an Uno and a Mega, beside the time that they take
-# without a line. Writes the table into docs/boards.md, between its marks; with PROGRAM, these programs only, just printed.
-# Where they are at hand, the programs of ../shared/peers/motion-mm come after that, in a table that is printed only.
+# scripts/board_table.sh [--pico | PROGRAM...]: how long jobs take over a line to an Uno, a Mega and a Pico, beside the time
+# that they take without a line. Writes the tables into docs/boards.md, between their marks; with --pico, that of the Pico
+# only; with PROGRAM, these programs only, just printed. Where they are at hand, the programs of ../shared/peers/motion-mm
+# come after that, in a table that is printed only.
 #
 # The boards are virtual, with the places and the rates of the real ones, on a line of 500 kbaud. scripts/board_rates.sh
 # measures what the chips themselves keep up with.
@@ -38,6 +39,19 @@ for feed in 1200 2400 3600 6000; do circles "$feed" >"$work/circles-F$feed.ngc";
   echo M2
 } >"$work/moves-3d.ngc"
 
+# Chords of 0.1 mm at 100 mm/s: a spiral, and rows of a relief.
+{
+  echo "G21 G90 G64 S8000 M3 F6000"
+  awk 'BEGIN { for (r = 5; r < 30; r = 5 + a / 3.14159) { printf "G1 X%.4f Y%.4f\n", r * cos(a), r * sin(a); a += 0.1 / r } }'
+  echo M2
+} >"$work/chords-spiral.ngc"
+{
+  echo "G21 G90 G64 S8000 M3 F6000"
+  awk 'BEGIN { for (row = 0; row < 4; ++row) for (i = 0; i <= 600; ++i) { x = (row % 2 ? 600 - i : i) / 10
+    printf "G1 X%.3f Y%.3f Z%.3f\n", x, row / 5, -2 + 1.5 * sin(0.7 * x) * cos(row) + 0.3 * sin(3 * x) } }'
+  echo M2
+} >"$work/chords-relief.ngc"
+
 # machine NAME PLACES RATE VELOCITY JERK: the router of examples/machines/uno.toml.
 machine() {
   sed -e "s/^held_items = [0-9]*/held_items = $2/" -e "s/^max_event_rate_hz = [0-9_]*/max_event_rate_hz = $3/" \
@@ -48,6 +62,9 @@ machine Uno 31 140000 100 none
 machine Mega 100 110000 100 none
 machine Uno-jerk 31 140000 100 10000
 machine Mega-jerk 100 110000 100 10000
+# The Pico's own machine, with the most places that a virtual board has: 10 fewer than the Pico's.
+sed 's/^\(max_event_rate_hz = .*\)/\1\nheld_items = 240/' examples/machines/pico.toml >"$work/Pico.toml"
+sed 's/^\(max_acceleration_mm_s2 = [0-9]*\).*/\1\nmax_jerk_mm_s3 = 10000/' "$work/Pico.toml" >"$work/Pico-jerk.toml"
 machine Uno-fast 31 140000 218 none
 machine Mega-fast 100 110000 171 none
 
@@ -73,6 +90,7 @@ row() {
 }
 
 programs=("$@")
+[[ ${1-} != --pico ]] || programs=()
 ((${#programs[@]} > 0)) || programs=("$work"/circles-F*.ngc "$work/rapids.ngc" examples/pocket.ngc examples/engrave.ngc examples/drill-board.ngc)
 table() {
   echo "| program | board | without a line, s | over the line, s | ratio | rests for want of more | sent |"
@@ -82,13 +100,24 @@ table() {
   done
   (($# > 0)) || for board in Uno Mega; do row "$work/moves-3d.ngc" "$board-fast"; done
 }
-if (($# > 0)); then
+pico_table() {
+  echo "| program | board | without a line, s | over the line, s | ratio | rests for want of more | sent |"
+  echo "|---|---|---:|---:|---:|---|---:|"
+  local name
+  for name in "$work"/{circles-F6000,rapids,moves-3d,chords-spiral,chords-relief}.ngc examples/{pocket,engrave,drill-board}.ngc; do
+    row "$name" Pico
+  done
+  for name in "$work"/{circles-F6000,rapids,moves-3d,chords-spiral}.ngc examples/engrave.ngc; do row "$name" Pico-jerk; done
+}
+if (($# > 0)) && [[ $1 != --pico ]]; then
   table "$@"
   exit
 fi
-table >"$work/jobs"
+pico_table >"$work/pico-jobs"
+[[ ${1-} == --pico ]] || table >"$work/jobs"
 scripts/put_tables.sh docs/boards.md "$work"
-cat "$work/jobs"
+cat "$work"/*jobs
+[[ ${1-} != --pico ]] || exit 0
 programs=(../shared/peers/motion-mm/*.nc)
 if [[ -e ${programs[0]} ]]; then
   echo

@@ -173,9 +173,13 @@ std::filesystem::path follower_image(std::string_view follower) {
   return fmt::format("follower_{}.{}", follower, follower.starts_with("pic") ? "cod" : "elf");
 }
 
+bool has_keypad(std::string_view follower) {
+  return !follower.starts_with("uno");
+}
+
 std::vector<std::string> outputs_of_follower(std::string_view follower) {
   std::vector<std::string> outputs = {"windings.x", "windings.y", "windings.z", "relay"};
-  if (follower.starts_with("uno")) return outputs;
+  if (!has_keypad(follower)) return outputs;  // no pins are left for indicators, too
   outputs.emplace_back("indicator.relay");
   if (follower == "first_board") {
     for (const char* led : {"led.0", "led.1", "led.2", "led.3"}) outputs.emplace_back(led);

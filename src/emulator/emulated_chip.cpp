@@ -9,6 +9,7 @@
 #include <simavr/avr_extint.h>
 #include <simavr/sim_avr.h>
 #include <simavr/sim_elf.h>
+#include <simavr/sim_hex.h>
 #include <simavr/sim_interrupts.h>
 
 namespace passo {
@@ -20,6 +21,20 @@ constexpr std::uint8_t never_written = 0xC7;
 // simavr logs every section that it loads. Its results tell of errors too, so the log is not needed.
 void keep_silent(avr_t* /*avr*/, int /*level*/, const char* /*format*/, std::va_list /*values*/) {}
 
+// An ELF file, or what is flashed: a file whose name ends in .hex. Throws if it is neither.
+elf_firmware_t firmware_in(const std::string& program) {
+  elf_firmware_t firmware = {};
+  bool good = false;
+  if (program.ends_with(".hex")) {
+    firmware.flash = read_ihex_file(program.c_str(), &firmware.flashsize, &firmware.flashbase);
+    good = firmware.flash != nullptr;
+  } else {
+    good = elf_read_firmware(program.c_str(), &firmware) == 0;
+  }
+  if (!good || firmware.flashsize == 0) throw std::runtime_error("not an AVR program: " + program);
+  return firmware;
+}
+
 }  // namespace
 
 void EmulatedChip::Deleter::operator()(avr_t* avr) const {
@@ -29,8 +44,7 @@ void EmulatedChip::Deleter::operator()(avr_t* avr) const {
 
 EmulatedChip::EmulatedChip(const std::string& program, const std::string& mcu) {
   avr_global_logger_set(keep_silent);
-  elf_firmware_t firmware = {};
-  if (elf_read_firmware(program.c_str(), &firmware) != 0) throw std::runtime_error("not an AVR program: " + program);
+  elf_firmware_t firmware = firmware_in(program);
   avr_.reset(avr_make_mcu_by_name(mcu.c_str()));
   if (avr_ == nullptr) throw std::runtime_error("simavr knows no " + mcu);
   avr_init(avr_.get());

@@ -5,6 +5,7 @@
 #include <cstdlib>
 #include <fstream>
 #include <map>
+#include <optional>
 #include <set>
 #include <sstream>
 
@@ -147,13 +148,15 @@ unsigned value_on(const OutputPins& pins, unsigned port) {
   return value;
 }
 
-// gpsim's log: a line with the cycle, then what the instruction did, "  Wrote: 0x00FD to portc(0x0007) was 0x0000".
-FollowerRun read_log(const std::filesystem::path& log, const PicPins& pins) {
+// gpsim's log; nothing if no port was ever written. A line with the cycle, then what the instruction did, "  Wrote:
+// 0x00FD to portc(0x0007) was 0x0000".
+std::optional<FollowerRun> read_log(const std::filesystem::path& log, const PicPins& pins) {
   std::ifstream in(log);
   FollowerRun run;
   std::map<std::string, unsigned> values;
   Nanoseconds sampled = 0;
   Nanoseconds at = 0;
+  bool is_program = false;
   for (std::string line; std::getline(in, line);) {
     if (line.starts_with("0x")) at = static_cast<Nanoseconds>(std::stoull(line, nullptr, 16)) * pins.cycle;
     if (line.find("Read: ") != std::string::npos && line.find("from porta(") != std::string::npos) {
@@ -165,6 +168,7 @@ FollowerRun read_log(const std::filesystem::path& log, const PicPins& pins) {
     // If gpsim does not find the source, it ends no line after its number.
     const std::size_t written = line.find("Wrote: ");
     if (written == std::string::npos) continue;
+    is_program = true;
     std::istringstream words(line.substr(written));
     std::string wrote;
     std::string value;
@@ -183,10 +187,20 @@ FollowerRun read_log(const std::filesystem::path& log, const PicPins& pins) {
       before = shown;
     }
   }
+  if (!is_program) return {};
   return run;
 }
 
-// Runs gpsim in the folder. False if it cannot be started or fails.
+std::string last_line_of(const std::filesystem::path& file) {
+  std::ifstream in(file);
+  std::string last;
+  for (std::string line; std::getline(in, line);) {
+    if (!line.empty()) last = line;
+  }
+  return last;
+}
+
+// Runs gpsim in the folder. False if it cannot be started or fails. A .cod file names its processor, a .hex does not.
 bool run_gpsim(const std::filesystem::path& work, const std::string& image) {
   const pid_t child = ::fork();
   if (child == 0) {
@@ -197,7 +211,8 @@ bool run_gpsim(const std::filesystem::path& work, const std::string& image) {
     ::dup2(said, STDOUT_FILENO);
     ::dup2(said, STDERR_FILENO);
     // A gpsim that hangs would hang for good.
-    ::execlp("timeout", "timeout", "600", "gpsim", "-i", "-s", image.c_str(), "-c", "script.stc",
+    const char* const kind = image.ends_with(".hex") ? "-ppic16f877a" : "-s";
+    ::execlp("timeout", "timeout", "600", "gpsim", "-i", kind, image.c_str(), "-c", "script.stc",
              static_cast<char*>(nullptr));
     ::_exit(127);
   }
@@ -240,11 +255,12 @@ Result<FollowerRun, std::string> run_pic_follower(PicFollower board, const std::
   std::filesystem::remove(work / "pins.log");
   write_script(work / "script.stc", pins, lines, end, turns);
   if (!run_gpsim(work, std::filesystem::absolute(image)) || !std::filesystem::exists(work / "pins.log")) {
-    return Failure<std::string>{"gpsim failed; what it said is in " + (work / "said.txt").string()};
+    return Failure<std::string>{"gpsim failed; the last that it said is: " + last_line_of(work / "said.txt")};
   }
-  FollowerRun run = read_log(work / "pins.log", pins);
+  std::optional<FollowerRun> run = read_log(work / "pins.log", pins);
   std::filesystem::remove(work / "pins.log");  // some 10 MB
-  return run;
+  if (!run) return Failure{image.string() + " is no program for a PIC16F877A: it never writes to a port"};
+  return *std::move(run);
 }
 
 }  // namespace passo

@@ -37,6 +37,10 @@ class PicoBoard final : public ProcessBoard {
       : ProcessBoard(clock_rate, pins.motors), pins_(pins) {
     start(std::move(pico), std::uint32_t{pins.steps_of(0xff)} << pins.first);
   }
+  void wire(const PinSetup& wiring) override {
+    wiring_ = wiring;
+    set_pins(plant().inputs_at(elapsed()));
+  }
 
  private:
   // The spindle's turns in a short time are even.
@@ -54,24 +58,33 @@ class PicoBoard final : public ProcessBoard {
     return until;
   }
   double commanded_rpm() const override {
-    return (is_high(gpio_bit(pins_.spindle_direction)) ? -1 : 1) * chip().duty() * full_rpm;
+    const bool back = is_high(gpio_bit(pins_.spindle_direction)) != ((wiring_.outputs & spindle_reverse) != 0);
+    const double duty = (wiring_.outputs & spindle_on) != 0 ? 1 - chip().duty() : chip().duty();
+    return (back ? -1 : 1) * duty * full_rpm;
   }
   void count_steps(const PinChange& change, std::uint32_t before) override {
+    const std::uint32_t turned = change.levels ^ before;
     for (std::size_t motor = 0; motor < pins_.motors; ++motor) {
-      if ((change.levels & ~before & gpio_bit(pins_.motor[motor].step)) == 0) continue;
+      const std::uint32_t step = gpio_bit(pins_.motor[motor].step);
+      const bool low_steps = (wiring_.steps >> motor & 1U) != 0;
+      if ((turned & step) == 0 || is_high(step) == low_steps || !is_enabled()) continue;
       count(change.cycle, motor, is_high(gpio_bit(pins_.motor[motor].direction)));
     }
   }
   void set_pins(std::uint16_t inputs) override {
     std::uint32_t low = 0;
     for (const Switch& one : switches_) {
-      if ((inputs & one.input) != 0) low |= gpio_bit(one.gpio);
+      if (((inputs ^ wiring_.inputs) & one.input) != 0) low |= gpio_bit(one.gpio);
     }
     chip().draw_low(low);
+  }
+  bool is_enabled() const {
+    return pins_.enable == no_gpio || is_high(gpio_bit(pins_.enable)) == ((wiring_.outputs & inverted_enable) != 0);
   }
 
   const PicoPins& pins_;
   Switches switches_ = switches_of(pins_);
+  PinSetup wiring_;  // how the plant is connected to the pins
 };
 
 }  // namespace

@@ -152,7 +152,8 @@ void ReducedMotor::move(const Block& block) {
   area_ = 0;
   look_at_currents();
   holds_ = std::abs(ahead_) <= most_load_angle && need_ < long_ago;
-  look_for_rest(before);
+  if (speed_ * speed_ <= most_square_at_rest_) [[unlikely]]
+    look_for_rest(before);
 }
 
 double ReducedMotor::other_torque_at(double ahead) const {
@@ -170,7 +171,7 @@ void ReducedMotor::look_for_rest(double before) {
   const double pull = torque_ - weight_;
   const bool is_stuck = speed_ == 0 && before == 0 && std::abs(pull) <= dry_ + resisting_;
   if (!is_stuck) {
-    if (speed_ * speed_ > most_square_at_rest_ || pull * pull > at_rest * amplitude_ * amplitude_) return;
+    if (pull * pull > at_rest * amplitude_ * amplitude_) return;
     speed_ = 0;
     drift_ = 0;
   }

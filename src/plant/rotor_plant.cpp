@@ -18,6 +18,7 @@ constexpr double small_lag = 0.55;  // full steps
 
 void RotorPlant::fit_motor(std::size_t motor, const MotorSetup& setup) {
   motors_[motor].rotor.emplace(setup, integration_);
+  motors_[motor].turns_freely = true;
   motors_[motor].setup = setup;
   motors_[motor].origin = positions()[motor];
   motors_[motor].full_step = 1.0 / setup.excitation.steps_per_full_step();
@@ -27,7 +28,7 @@ void RotorPlant::fit_motor(std::size_t motor, const MotorSetup& setup) {
 
 void RotorPlant::fit_encoder(std::size_t motor, const EncoderModel& model) {
   motors_[motor].drive.emplace(model, *motors_[motor].setup);
-  motors_[motor].has_drive = true;
+  motors_[motor].turns_freely = false;
 }
 
 void RotorPlant::set_resistance(std::size_t motor, NewtonMetres torque) {
@@ -64,14 +65,15 @@ std::int64_t RotorPlant::events_to_next_change() const {
 // `stepped`: the pulse that the motor has just got, if any. Before the pulse the lag was another one.
 inline void RotorPlant::look_at(std::size_t motor, int stepped) {
   Fitted& one = motors_[motor];
-  const double after = one.has_drive ? one.drive->error() * one.full_step : one.rotor->lag();
+  const double after = one.drive ? one.drive->error() * one.full_step : one.rotor->lag();
   const double lag = std::max(std::abs(after), std::abs(after - stepped * one.full_step));
   if (lag > one.record.most_lag) [[unlikely]] {
     one.record.most_lag = lag;
     one.record.most_lag_at = now_;
+    one.next_lag = std::min(lag, small_lag);
   }
   is_close_ &= lag <= small_lag && one.rotor->is_reduced();
-  if (now_ >= one.margin_due) [[unlikely]]
+  if (now_.value() >= one.margin_due.value()) [[unlikely]]
     look_at_margin(one);
   if (!one.rotor->is_reduced() && one.rotor->slipped() != one.record.lost) look_at_loss(motor);
 }
@@ -79,16 +81,39 @@ inline void RotorPlant::look_at(std::size_t motor, int stepped) {
 // Lets time pass for a motor, and then gives it its steps.
 inline void RotorPlant::turn(std::size_t motor, Seconds passed, std::int64_t steps) {
   Fitted& one = motors_[motor];
-  if (one.has_drive) [[unlikely]]
+  if (one.drive) [[unlikely]]
     return turn_with_encoder(motor, passed, steps);
   const bool rests = one.rotor->rests();
   if (rests && steps == 0) return;
   if (!rests && passed.value() > 0) one.rotor->run(passed);
+  give(motor, passed, steps);
+}
+
+void RotorPlant::give(std::size_t motor, Seconds passed, std::int64_t steps) {
+  Fitted& one = motors_[motor];
   const int way = steps > 0 ? 1 : -1;
   for (std::int64_t left = std::abs(steps); left > 0; --left) one.rotor->step(way);
   // Where the bound holds, the look after the next pulse is enough.
   if (steps == 0 && one.rotor->is_reduced() && passed < short_time) return;
   look_at(motor, steps == 0 ? 0 : way);
+}
+
+// The usual case of turn(), kept short: each motor passes here at each pulse. `way`: 1, -1, or 0 for no step. False:
+// nothing was done.
+inline bool RotorPlant::turn_freely(std::size_t motor, Seconds passed, int way) {
+  Fitted& one = motors_[motor];
+  const PulseDone done = one.rotor->turn(passed, way);
+  if (done == PulseDone::nothing) return false;
+  if (done == PulseDone::time_only) [[unlikely]] {
+    give(motor, passed, way);
+    return true;
+  }
+  if (way == 0) return true;
+  const double after = one.rotor->lag();
+  const double lag = std::max(std::abs(after), std::abs(after - way * one.full_step));
+  if (lag > one.next_lag || now_.value() >= one.margin_due.value()) [[unlikely]]
+    look_at(motor, way);
+  return true;
 }
 
 void RotorPlant::turn_with_encoder(std::size_t motor, Seconds passed, std::int64_t steps) {
@@ -105,18 +130,18 @@ void RotorPlant::turn_with_encoder(std::size_t motor, Seconds passed, std::int64
 
 void RotorPlant::pulse(Seconds time, const MotorSteps& steps) {
   const Seconds passed = pass_to(time);
-  if (time >= next_disturbance_) [[unlikely]]
+  if (time.value() >= next_disturbance_.value()) [[unlikely]]
     mind_disturbances(time);
-  MotorPositions& moving = moving_positions();
   is_close_ = true;
-  for (std::size_t m = 0; m < fitted_; ++m) {
-    if (motors_[m].rotor) {
-      turn(m, passed, steps[m]);
-    } else {
-      moving[m] += static_cast<double>(steps[m]);
-    }
+  const bool is_short = passed.value() < short_time.value();
+  const std::size_t fitted = fitted_;
+  for (std::size_t m = 0; m < fitted; ++m) {
+    const bool is_single = steps[m] >= -1 && steps[m] <= 1;
+    if (is_short && is_single && motors_[m].turns_freely && turn_freely(m, passed, static_cast<int>(steps[m])))
+      continue;
+    if (motors_[m].rotor) turn(m, passed, steps[m]);
   }
-  for (std::size_t m = fitted_; m < steps.size(); ++m) moving[m] += static_cast<double>(steps[m]);
+  for (std::size_t m = 0; m < steps.size(); ++m) untaken_[m] += steps[m];
   if (--quiet_pulses_ <= 0 || !is_close_) look_at_places();
 }
 
@@ -134,9 +159,16 @@ void RotorPlant::look_at_places() {
 }
 
 void RotorPlant::take_places() {
-  for (std::size_t m = 0; m < fitted_; ++m) {
-    if (motors_[m].rotor) moving_positions()[m] = motors_[m].origin + motors_[m].rotor->place();
+  MotorPositions& moving = moving_positions();
+  for (std::size_t m = 0; m < moving.size(); ++m) {
+    const Fitted& one = motors_[m];
+    if (one.rotor) {
+      moving[m] = one.origin + one.rotor->place();
+    } else {
+      moving[m] += static_cast<double>(untaken_[m]);
+    }
   }
+  untaken_ = {};
 }
 
 void RotorPlant::run_to(Seconds time) {
@@ -152,8 +184,8 @@ void RotorPlant::run_to(Seconds time) {
 }
 
 Seconds RotorPlant::pass_to(Seconds time) {
-  const Seconds passed = time - now_;
-  now_ = std::max(now_, time);
+  const Seconds passed(std::max(time.value() - now_.value(), 0.0));
+  now_ = Seconds(std::max(now_.value(), time.value()));
   return passed;
 }
 

@@ -32,13 +32,14 @@ void MachineSession::look_at_place() {
     speed_now_ = MmPerSecond(0);
     return;
   }
-  if (work_->drive && work_->drive->holds().has(HoldReason::await_line)) {
+  // At rest the drive knows the place itself: a question of before the rest may be answered after the rest.
+  const bool rests = work_->drive && work_->drive->state() == MotionDrive::State::held;
+  if (rests) {
     now_at_ = place_of(work_->drive->place(), work_->drive->downs());
     speed_now_ = MmPerSecond(0);
   }
   if (board_.error() || !zero_counts_) return;
-  const bool waits = work_->drive && work_->drive->holds().has(HoldReason::await_line);
-  if (!waits && board_.status() && board_.status_time() != place_heard_) hear_place();
+  if (!rests && board_.status() && board_.status_time() != place_heard_) hear_place();
   const Seconds between = options_.over_a_line ? between_places_over_a_line : between_places;
   if (work_->finishing || !board_.settled() || now() - place_asked_ < between) return;
   place_asked_ = now();

@@ -39,9 +39,7 @@ TEST_F(Boards, that_answer_say_what_they_are_and_how_they_are) {
 
 TEST_F(Boards, are_emulated_too) {
   const Outcome info = passo("board info --json sim:uno");
-  if (info.err.find("is not there") != std::string::npos) {
-    GTEST_SKIP() << info.err;
-  }
+  if (passo::test::lacks_an_emulator(info)) GTEST_SKIP() << info.err;
   ASSERT_EQ(info.code, 0) << info.err;
   const auto json = nlohmann::json::parse(info.out);
   EXPECT_EQ(json["about"]["highest_event_rate_hz"], 140'000) << info.out;
@@ -62,9 +60,7 @@ TEST_F(Boards, run_a_program_by_their_firmware_on_an_emulated_chip) {
   const std::string program = write("p.ngc", "G21 G90 F3000\nG1 X3 Y1\nG2 X5 Y1 I1 J0\nG1 X1 Z-1\nM2\n");
   const std::string command = "run " + program + " --json -m " + uno;
   const Outcome outcome = passo(command + " --board sim:uno");
-  if (outcome.err.find("is not there") != std::string::npos) {
-    GTEST_SKIP() << outcome.err;
-  }
+  if (passo::test::lacks_an_emulator(outcome)) GTEST_SKIP() << outcome.err;
   ASSERT_EQ(outcome.code, 0) << outcome.err;
   EXPECT_EQ(nlohmann::json::parse(outcome.out)["steps"], nlohmann::json::parse(passo(command).out)["steps"]);
 }
@@ -76,9 +72,7 @@ TEST_F(Boards, run_a_program_with_the_windings_on_their_own_pins) {
   const std::string command = "run " + program + " --json -m " + machine;
   for (const std::string board : {"sim:uno_half_step", "sim:uno_wave", "sim:mega_two_on"}) {
     const Outcome outcome = passo(command + " --board " + board);
-    if (outcome.err.find("is not there") != std::string::npos) {
-      GTEST_SKIP() << outcome.err;
-    }
+    if (passo::test::lacks_an_emulator(outcome)) GTEST_SKIP() << outcome.err;
     ASSERT_EQ(outcome.code, 0) << outcome.err;
     EXPECT_EQ(nlohmann::json::parse(outcome.out)["steps"], nlohmann::json::parse(passo(command).out)["steps"]) << board;
   }
@@ -97,9 +91,7 @@ TEST_F(Boards, thread_with_an_encoder_on_their_pins_or_say_that_they_have_none) 
   const std::string program = write("p.ngc", "G21 S600 M3\nG0 Z1\nG33 Z-8 K1.5\nG0 X1\nZ1\nM5\nM2\n");
   const std::string command = "run " + program + " --json -m " + write("lathe.toml", machine);
   const Outcome outcome = passo(command + " --board sim:mega");
-  if (outcome.err.find("is not there") != std::string::npos) {
-    GTEST_SKIP() << outcome.err;
-  }
+  if (passo::test::lacks_an_emulator(outcome)) GTEST_SKIP() << outcome.err;
   ASSERT_EQ(outcome.code, 0) << outcome.err;
   EXPECT_EQ(nlohmann::json::parse(outcome.out)["steps"], nlohmann::json::parse(passo(command).out)["steps"]);
   const Outcome refused = passo(command + " --board sim:uno");
@@ -118,9 +110,7 @@ TEST_F(Boards, that_are_too_slow_or_make_too_short_pulses_are_refused_in_words) 
   };
   const std::string command = "run " + write("p.ngc", "G21 G1 F600 X1\nM2\n") + " -m ";
   const Outcome pulse = passo(command + with("step_pulse_us = 1.2", "step_pulse_us = 1.9") + " --board sim:uno");
-  if (pulse.err.find("is not there") != std::string::npos) {
-    GTEST_SKIP() << pulse.err;
-  }
+  if (passo::test::lacks_an_emulator(pulse)) GTEST_SKIP() << pulse.err;
   EXPECT_EQ(pulse.code, 1);
   EXPECT_NE(pulse.err.find("its step pulses last 1.19 us, and step_pulse_us = 1.9 of the machine file asks for longer"),
             std::string::npos)
@@ -145,9 +135,7 @@ TEST_F(Boards, probe_by_their_firmware_what_stands_on_an_emulated_machine) {
   const std::string uno = (std::filesystem::path(PASSO_SOURCE_DIR) / "examples" / "machines" / "uno.toml").string();
   const std::string program = write("p.ngc", "G21 G90 F300\nG38.2 Z-5\nF60 G38.4 Z0\nG0 Z1\nX[0-#5063]\nM2\n");
   const Outcome outcome = passo("run " + program + " --json -m " + uno + " --touch Z:-1.5 --board sim:uno");
-  if (outcome.err.find("is not there") != std::string::npos) {
-    GTEST_SKIP() << outcome.err;
-  }
+  if (passo::test::lacks_an_emulator(outcome)) GTEST_SKIP() << outcome.err;
   ASSERT_EQ(outcome.code, 0) << outcome.err;
   const auto json = nlohmann::json::parse(outcome.out);
   EXPECT_EQ(json["probes"]["touched"], 2);
@@ -206,6 +194,23 @@ TEST_F(Boards, that_are_not_there_are_said_to_be_missing) {
   const Outcome list = passo("board list /dev/null --json");
   EXPECT_EQ(list.code, 0);
   EXPECT_NE(list.out.find("no serial line"), std::string::npos) << list.out;
+}
+
+// Five motors of a Mega, faster than 90 kHz.
+TEST_F(Boards, that_stand_still_amid_motion_are_told_of) {
+  std::string machine = "name = 'five'\n[board]\nclock_hz = 16e6\nmax_event_rate_hz = 110e3\nheld_items = 100\n";
+  for (const std::string letter : {"X", "Y", "Z", "U", "V"}) {
+    machine += "[axis." + letter +
+               "]\nsteps_per_mm = 640\nmax_velocity_mm_s = 165\nmax_acceleration_mm_s2 = 2000\ntravel_mm = [0, 99]\n";
+  }
+  const std::string files = write("p.ngc", "G21 G90\nG0 X80 Y79 Z78 U77 V76\nM2\n") + " -m " + write("m.toml", machine);
+  const Outcome run = passo("run --from-here --board sim:mega " + files);
+  if (passo::test::lacks_an_emulator(run)) GTEST_SKIP() << run.err;
+  EXPECT_EQ(run.code, 0) << run.err;
+  EXPECT_NE(run.err.find("the board stood still amid motion"), std::string::npos) << run.err;
+  const Outcome slow = passo("run --from-here --board sim:uno " + write("q.ngc", "G21 F600 G1 X0.5\nM2\n") +
+                             " -m " PASSO_SOURCE_DIR "/examples/machines/uno.toml");
+  EXPECT_EQ(slow.err.find("stood still"), std::string::npos) << slow.err;
 }
 
 TEST_F(Boards, are_flashed_by_avrdude_after_what_they_held_was_kept) {

@@ -1,9 +1,12 @@
 // passo follower sim, as a user starts it.
+#include <filesystem>
+
 #include "kit/command_line.hpp"
 #include <gmock/gmock.h>
 
 namespace {
 
+using passo::test::lacks_an_emulator;
 using passo::test::Outcome;
 using passo::test::read;
 using testing::HasSubstr;
@@ -11,17 +14,12 @@ using testing::HasSubstr;
 class FollowerCommand : public passo::test::CommandLine {
  protected:
   Outcome sim(const std::string& arguments) const { return passo("follower sim " + arguments); }
-  // Without gpsim, simavr or an assembler some emulators and images are missing.
-  static bool is_missing(const Outcome& outcome) {
-    return outcome.err.find("is not there") != std::string::npos ||
-           outcome.err.find("is not installed") != std::string::npos;
-  }
 };
 
 // The first board in its day: a clock of 20 Hz, and the windings on LEDs.
 TEST_F(FollowerCommand, shows_the_first_boards_windings_and_leds_at_twenty_pulses_a_second) {
   const Outcome board = sim("first_board --clock 20 --time 0.4");
-  if (is_missing(board)) GTEST_SKIP() << board.err;
+  if (lacks_an_emulator(board)) GTEST_SKIP() << board.err;
   ASSERT_EQ(board.code, 0) << board.err;
   EXPECT_THAT(board.out, HasSubstr("time, s  X F1-F4  Y F1-F4  Z F1-F4  relay  tool LED  RB0  RD1  RD2  RD3  keys"));
   // It waits, lit; then `*` counts; then four pulses.
@@ -35,7 +33,7 @@ TEST_F(FollowerCommand, shows_the_first_boards_windings_and_leds_at_twenty_pulse
 
 TEST_F(FollowerCommand, runs_an_uno_and_a_mega_and_writes_traces_and_pictures) {
   const Outcome uno = sim("uno_half_step --clock 100 --axes XY --down Y --time 0.22");
-  if (is_missing(uno)) GTEST_SKIP() << uno.err;
+  if (lacks_an_emulator(uno)) GTEST_SKIP() << uno.err;
   ASSERT_EQ(uno.code, 0) << uno.err;
   EXPECT_THAT(uno.out, HasSubstr("0100     1000     0000     -\n"));
   const std::string trace = path("mega.csv");
@@ -49,7 +47,38 @@ TEST_F(FollowerCommand, runs_an_uno_and_a_mega_and_writes_traces_and_pictures) {
   EXPECT_THAT(read(picture), HasSubstr("</svg>"));
 }
 
+// What is flashed does the same as the file with the program's names.
+TEST_F(FollowerCommand, runs_the_file_that_is_flashed) {
+  const std::string images = (std::filesystem::path(PASSO_PROGRAM).parent_path() / "src" / "chip").string();
+  for (const std::string follower : {"first_board", "uno_two_on"}) {
+    const std::string run = follower + " --clock 50 --axes XZ --time 0.3";
+    const Outcome usual = sim(run);
+    if (lacks_an_emulator(usual)) GTEST_SKIP() << usual.err;
+    const std::string name = follower == "first_board" ? follower : "follower_" + follower;
+    const Outcome flashed = sim(run + " --image " + images + "/" + name + ".hex");
+    EXPECT_EQ(flashed.code, 0) << flashed.err;
+    EXPECT_EQ(flashed.out, usual.out);
+    EXPECT_THAT(flashed.out, HasSubstr("0110     0000     0110"));
+    const std::string other = write("other.hex", "this is no program\n");
+    const Outcome refused = sim(run + " --image " + other);
+    EXPECT_EQ(refused.code, 1);
+    EXPECT_THAT(refused.err, testing::AnyOf(HasSubstr(other + " is no program for a PIC16F877A"),
+                                            HasSubstr("is " + other + " a follower's image?")));
+  }
+}
+
+TEST_F(FollowerCommand, holds_a_key_until_its_last_hold_is_over) {
+  const Outcome once = sim("first_board --key '#@0.1' --key 6@0.3:0.5 --time 0.6");
+  if (lacks_an_emulator(once)) GTEST_SKIP() << once.err;
+  const Outcome twice = sim("first_board --key '#@0.1' --key 6@0.3:0.4 --key 6@0.35:0.5 --time 0.6");
+  EXPECT_EQ(once.out, twice.out);
+}
+
 TEST_F(FollowerCommand, says_what_it_expected) {
+  EXPECT_THAT(sim("uno_wave --key 6@0.1").err, HasSubstr("an Uno has no pins for a keypad"));
+  EXPECT_THAT(sim("uno_wave --line button@0.1").err, HasSubstr("an Uno has no pins for a keypad"));
+  EXPECT_THAT(sim("first_board --clock 20 --from 5 --time 1").err, HasSubstr("the first pulse comes at 5 s"));
+  EXPECT_THAT(sim("first_board --image nowhere.hex").err, HasSubstr("nowhere.hex: there is no such file"));
   EXPECT_EQ(sim("third_board").code, 2);
   EXPECT_THAT(sim("first_board --key 6").err, HasSubstr("expected KEY@FROM"));
   EXPECT_THAT(sim("first_board --line clock.w@1").err, HasSubstr("expected LINE@FROM"));

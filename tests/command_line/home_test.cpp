@@ -7,6 +7,7 @@
 
 namespace {
 
+using passo::test::lacks_an_emulator;
 using passo::test::Outcome;
 using testing::HasSubstr;
 
@@ -71,12 +72,9 @@ TEST_F(HomeCommand, homes_with_inverted_pins) {
   const std::string pins =
       "[inputs]\nlimits = ['high', 'low', 'high']\nemergency_stop = 'high'\nfeed_hold = 'high'\n"
       "[outputs]\ndriver_enable = 'high'\nstep = 'low'\nflood = 'low'\n";
-  for (const char* board : {"virtual", "sim:uno"}) {
+  for (const char* board : {"virtual", "sim:uno", "sim:pico"}) {
     const Outcome outcome = passo("home --json --board " + std::string(board) + near_machine(x_switch, pins));
-    if (outcome.err.find("was built without") != std::string::npos ||
-        outcome.err.find("is not there") != std::string::npos) {
-      GTEST_SKIP() << outcome.err;
-    }
+    if (lacks_an_emulator(outcome)) GTEST_SKIP() << outcome.err;
     EXPECT_EQ(outcome.code, 0) << outcome.err;
     const nlohmann::json all = nlohmann::json::parse(outcome.out, nullptr, false);
     EXPECT_EQ(all["homed"], true) << board;
@@ -84,40 +82,39 @@ TEST_F(HomeCommand, homes_with_inverted_pins) {
   }
 }
 
+// The Pico has three pins for limit switches: X and Z share one.
 TEST_F(HomeCommand, squares_a_gantry) {
-  const std::string gantry = "[axis.Y.second_motor]\ninverted = true\ninput = 4\nskew_mm = 0.4\nmost_skew_mm = 1\n";
-  for (const char* board : {"virtual", "sim:mega"}) {
-    const Outcome outcome = passo("home --json --board " + std::string(board) + near_machine(x_switch, gantry));
-    if (outcome.err.find("was built without") != std::string::npos ||
-        outcome.err.find("is not there") != std::string::npos) {
-      GTEST_SKIP() << outcome.err;
-    }
+  const std::string gantry = "[axis.Y.second_motor]\ninverted = true\nskew_mm = 0.4\nmost_skew_mm = 1\ninput = ";
+  for (const std::string board : {"virtual", "sim:mega", "sim:pico"}) {
+    const std::string x = board == "sim:pico" ? std::string(x_switch) + "input = 2\n" : x_switch;
+    const std::string rest = board == "sim:pico" ? "0\n[inputs]\nlimits = ['high']\n" : "4\n";
+    const Outcome outcome = passo("home --json --board " + board + near_machine(x, gantry + rest));
+    if (lacks_an_emulator(outcome)) GTEST_SKIP() << outcome.err;
     EXPECT_EQ(outcome.code, 0) << outcome.err;
     const nlohmann::json all = nlohmann::json::parse(outcome.out, nullptr, false);
     EXPECT_NEAR(all["axes"][2]["squared_mm"], -0.4, 1.01 / 640) << board;
   }
 }
 
-// The switches of the Uno are on one port, those of the Mega are not.
+// The switches of the Uno are on one port, those of the Mega are not. A Pico watches any.
 TEST_F(HomeCommand, homes_two_axes_at_once_where_the_board_can_watch_both_switches) {
   const std::string at_once = "[homing]\norder = 'Z (XY)'\n";
   const Outcome uno = passo("home --json --board sim:uno" + near_machine(x_switch, at_once));
-  if (uno.err.find("was built without") != std::string::npos || uno.err.find("is not there") != std::string::npos) {
-    GTEST_SKIP() << uno.err;
-  }
+  if (lacks_an_emulator(uno)) GTEST_SKIP() << uno.err;
   EXPECT_EQ(uno.code, 0) << uno.err;
   EXPECT_NEAR(nlohmann::json::parse(uno.out, nullptr, false)["position_mm"]["Y"], -4.7, 1.0 / 640);
   const Outcome mega = passo("home --json --board sim:mega" + near_machine(x_switch, at_once));
   EXPECT_EQ(mega.code, 1);
   EXPECT_THAT(mega.err, HasSubstr("cannot watch these limit switches at once"));
+  const Outcome pico = passo("home --json --board sim:pico" + near_machine(x_switch, at_once));
+  if (lacks_an_emulator(pico)) GTEST_SKIP() << pico.err;
+  EXPECT_EQ(pico.code, 0) << pico.err;
+  EXPECT_NEAR(nlohmann::json::parse(pico.out, nullptr, false)["position_mm"]["Y"], -4.7, 1.0 / 640);
 }
 
 TEST_F(HomeCommand, refuses_a_board_without_a_pin_that_is_inverted) {
   const Outcome outcome = passo("home --board sim:uno" + near_machine(x_switch, "[inputs]\ndoor = 'high'\n"));
-  if (outcome.err.find("was built without") != std::string::npos ||
-      outcome.err.find("is not there") != std::string::npos) {
-    GTEST_SKIP() << outcome.err;
-  }
+  if (lacks_an_emulator(outcome)) GTEST_SKIP() << outcome.err;
   EXPECT_EQ(outcome.code, 1);
   EXPECT_THAT(outcome.err, HasSubstr("[inputs] and [outputs] of the machine file say: it has no door"));
 }

@@ -64,6 +64,10 @@ TEST_F(Loop, refuses_what_it_does_not_know) {
   EXPECT_THAT(passo("loop --load x@1").err, HasSubstr("expected NM@S"));
   EXPECT_EQ(passo("loop --gains 1,2").code, 2);
   EXPECT_EQ(passo("loop --to 0").code, 2);
+  EXPECT_THAT(passo("loop --to nan").err, HasSubstr("expected a number from -100000 to 100000, found 'nan'"));
+  EXPECT_EQ(passo("loop --gains 1,nan,0").code, 2);
+  const std::string uno = std::string(PASSO_SOURCE_DIR) + "/examples/machines/uno.toml";
+  EXPECT_THAT(passo("loop --machine " + uno).err, HasSubstr("--axis is missing: expected one of "));
   EXPECT_EQ(passo("loop --axis X").code, 2);
 }
 

@@ -107,6 +107,23 @@ TEST_F(Held, stops_at_the_limit_of_the_following_error_and_tells_line_and_place)
   }
 }
 
+// The drive's alarm presses the emergency stop of a board whose firmware runs on an emulated chip.
+TEST_F(Held, stops_an_emulated_board_or_comes_back_on_it) {
+  const std::string encoder = "[axis.X.encoder]\ncounts_per_turn = 4000\n";
+  const Outcome open = run_held(encoder + "most_following_error_mm = 0.25\n", " --board sim:uno");
+  if (open.err.find("is not there") != std::string::npos) GTEST_SKIP() << open.err;
+  EXPECT_EQ(open.code, 1);
+  EXPECT_THAT(open.err, HasSubstr("axis X was 0.25"));
+  EXPECT_THAT(open.err, HasSubstr("(0.25 are allowed) in line 3 of "));
+  EXPECT_THAT(open.err, HasSubstr("[run.following-error]; closed now: emergency stop"));
+
+  const Outcome closed = run_held(encoder + "closed_loop = true\n", " --board sim:uno");
+  ASSERT_EQ(closed.code, 0) << closed.err;
+  const auto motor = nlohmann::json::parse(closed.out)["physics"]["motors"][0];
+  EXPECT_EQ(motor["lost_steps"], 0);
+  EXPECT_GT(motor["following_error_mm"], 0.5);
+}
+
 TEST_F(Held, needs_physics_and_a_motor) {
   EXPECT_EQ(
       passo("run " + write("p.ngc", "M2\n") + " -m " + write("m.toml", machine_text(800)) + " --disturb X:3@1.5:0.05")

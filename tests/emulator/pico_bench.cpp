@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <limits>
 #include <stdexcept>
+#include <utility>
 
 #include "passo/wire/announcement.hpp"
 
@@ -25,7 +26,7 @@ void PicoBench::run(std::uint64_t cycles, std::uint32_t watched, std::uint32_t r
   if (!pico_->run(pico_->cycle() + cycles, {.watched = watched, .rises = rises})) {
     throw std::runtime_error(pico_->error());
   }
-  changes_.insert(changes_.end(), pico_->changes().begin(), pico_->changes().end());
+  for (const PicoChange& change : pico_->changes()) changes_.push_back({change.cycle, change.levels ^ inverted_});
   for (const std::uint8_t byte : pico_->said()) hear(byte);
 }
 
@@ -48,6 +49,7 @@ void PicoBench::hear(std::uint8_t byte) {
     }
     case MessageType::fault: return decode(frame, fault_.emplace());
     case MessageType::captured: return decode(frame, motors_, captured_.emplace());
+    case MessageType::pin_setup: return decode(frame, made_.emplace());
     case MessageType::status: return decode(frame, motors_, status_.emplace());
     case MessageType::error: decode(frame, error_.emplace()); [[fallthrough]];
     default: ++complaints_;
@@ -73,6 +75,33 @@ void PicoBench::ask(const Ask& question) {
   send({frame, encode(asked, 0, frame)});
 }
 
+void PicoBench::set_up(const PinSetup& setup) {
+  const std::pair<std::uint16_t, std::uint8_t> inputs[] = {{input_limit, pins_.limits[0]},
+                                                           {input_limit << 1U, pins_.limits[1]},
+                                                           {input_limit << 2U, pins_.limits[2]},
+                                                           {input_probe, pins_.probe},
+                                                           {input_emergency_stop, pins_.emergency_stop},
+                                                           {input_hold, pins_.feed_hold},
+                                                           {input_start, pins_.cycle_start}};
+  const std::pair<std::uint8_t, std::uint8_t> outputs[] = {{spindle_reverse, pins_.spindle_direction},
+                                                           {mist_on, pins_.mist},
+                                                           {flood_on, pins_.flood},
+                                                           {inverted_enable, pins_.enable}};
+  setup_ = setup;
+  on_when_high_ = 0;
+  for (const auto& [input, gpio] : inputs) on_when_high_ |= (setup.inputs & input) != 0 ? gpio_bit(gpio) : 0;
+  inverted_ = std::uint32_t{pins_.steps_of(setup.steps)} << pins_.first;
+  for (const auto& [output, gpio] : outputs) inverted_ |= (setup.outputs & output) != 0 ? gpio_bit(gpio) : 0;
+  press(0);
+  send_setup();
+}
+
+void PicoBench::send_setup() {
+  std::uint8_t frame[largest_frame];
+  send({frame, encode(setup_, 0, frame)});
+  run(pico_clock_rate / 500);
+}
+
 void PicoBench::send_replace(std::span<const Item> items) {
   std::uint8_t frame[largest_frame];
   Announcement announcement(static_cast<std::uint16_t>(last_sent_ + 1), last_executed_, motors_);
@@ -88,6 +117,7 @@ void PicoBench::send_replace(std::span<const Item> items) {
 
 bool PicoBench::say_hello() {
   std::uint8_t frame[largest_frame];
+  if (setup_ != PinSetup{}) send_setup();
   decoder_.set_motors(motors_);
   greeted_ = false;
   complaints_ = 0;
@@ -104,7 +134,7 @@ void PicoBench::start(const std::vector<Item>& items, std::uint8_t limit) {
     ask({.question = Question::watch, .limit = limit});
     run(pico_clock_rate / 500);
   }
-  levels_before_ = pico_->levels();
+  levels_before_ = levels();
   send_replace(items);
   for (const Item& item : items) send_item(item);
 }
@@ -113,7 +143,7 @@ EdgeCheck PicoBench::play(const std::vector<BoardSegment>& segments) {
   const std::uint64_t lost = pico_->lost_bytes();
   EdgeCheck result;
   if (!say_hello()) return result;
-  levels_before_ = pico_->levels();
+  levels_before_ = levels();
   const auto under_way = [this] { return static_cast<std::uint8_t>(last_sent_ - last_executed_); };
   const std::size_t first = std::min<std::size_t>(segments.size(), capacity_ - 1U);
   std::size_t sent = 0;

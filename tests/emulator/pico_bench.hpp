@@ -38,6 +38,13 @@ class PicoBench {
   // Lets time pass, whatever the board says, or until so many edges of the pins in `watched` have come.
   void run(std::uint64_t cycles, std::uint32_t watched = 0, std::uint32_t rises = 0);
   void ask(const Ask& question = {});
+  // Says what is connected to the board's pins, now and before each hello, and connects it: all switches are off. From
+  // now on press(), levels(), duty() and changes() mean what is on, and usual levels.
+  void set_up(const PinSetup& setup);
+  // The switches at these pins are on, all others are off.
+  void press(std::uint32_t gpios) { pico_->draw_low(gpios ^ on_when_high_); }
+  std::uint32_t levels() const { return pico_->levels() ^ inverted_; }
+  double duty() const { return (setup_.outputs & spindle_on) != 0 ? 1 - pico_->duty() : pico_->duty(); }
   // What comes after it is no run of its own: the changes are those from here on.
   void forget_changes() { changes_.clear(); }
   void send(std::span<const std::uint8_t> bytes) { pico_->send(bytes); }
@@ -51,10 +58,14 @@ class PicoBench {
   const std::optional<ErrorReport>& error() const { return error_; }
   const std::optional<Fault>& fault() const { return fault_; }
   const std::optional<Captured>& captured() const { return captured_; }
+  void forget_captured() { captured_.reset(); }
+  // What the board has made of set_up().
+  const std::optional<PinSetup>& made() const { return made_; }
 
  private:
   void hear(std::uint8_t byte);
   bool say_hello();
+  void send_setup();
   void send_replace(std::span<const Item> items);
   void send_item(const Item& item);
   EdgeCheck check(const std::vector<BoardSegment>& segments) const;
@@ -62,6 +73,9 @@ class PicoBench {
   std::uint8_t motors_;
   const PicoPins& pins_;
   std::unique_ptr<EmulatedPico> pico_;
+  PinSetup setup_;
+  std::uint32_t on_when_high_ = 0;  // inputs
+  std::uint32_t inverted_ = 0;      // outputs
   std::uint32_t levels_before_ = 0;
   std::vector<PicoChange> changes_;
   Decoder decoder_;
@@ -74,6 +88,7 @@ class PicoBench {
   std::optional<Captured> captured_;
   std::optional<BoardStatus> status_;
   std::optional<ErrorReport> error_;
+  std::optional<PinSetup> made_;
 };
 
 }  // namespace passo

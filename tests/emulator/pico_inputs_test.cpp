@@ -2,6 +2,7 @@
 // at.
 #include <algorithm>
 #include <cstdlib>
+#include <optional>
 #include <random>
 
 #include "emulator/pico_bench.hpp"
@@ -50,7 +51,7 @@ std::uint64_t last_step(const std::vector<SeenSteps>& seen) {
 
 void expect_stop(PicoBench& bench, std::mt19937_64& random, std::uint8_t gpio, FaultReason reason) {
   EdgeCheck ignored;
-  bench.pico().draw_low(0);
+  bench.press(0);
   bench.ask();
   bench.run(pico_clock_rate / 100);
   ASSERT_TRUE(bench.status().has_value());
@@ -59,11 +60,11 @@ void expect_stop(PicoBench& bench, std::mt19937_64& random, std::uint8_t gpio, F
   for (const PicoBench::Item& item : long_run(20)) items.push_back(item);
   bench.start(items);
   bench.run(pico_clock_rate / 50, gpio_bit(pico_bare.motor[0].step), 3'000);
-  EXPECT_NE(bench.pico().levels() & gpio_bit(pico_bare.flood), 0U);
-  EXPECT_NEAR(bench.pico().duty(), 0.5, 0.01);
+  EXPECT_NE(bench.levels() & gpio_bit(pico_bare.flood), 0U);
+  EXPECT_NEAR(bench.duty(), 0.5, 0.01);
   bench.run(random() % (interval * pico_cycles_of_tick));
   const std::uint64_t closed = bench.pico().cycle();
-  bench.pico().draw_low(gpio_bit(gpio));
+  bench.press(gpio_bit(gpio));
   bench.run(pico_clock_rate / 500);
   bench.ask();
   bench.run(pico_clock_rate / 500);
@@ -77,10 +78,10 @@ void expect_stop(PicoBench& bench, std::mt19937_64& random, std::uint8_t gpio, F
   for (std::size_t m = 0; m < motors; ++m) {
     EXPECT_EQ(bench.status()->positions[m] - before[m], place_at(seen, m, ~std::uint64_t{0} >> 1)) << "motor " << m;
   }
-  const std::uint32_t levels = bench.pico().levels();
+  const std::uint32_t levels = bench.levels();
   const std::uint32_t steps = std::uint32_t{pico_bare.steps_of(0xff)} << pico_bare.first;
   EXPECT_EQ(levels & (steps | gpio_bit(pico_bare.flood)), 0U) << "outputs are off, and no pulse hangs";
-  EXPECT_EQ(bench.pico().duty(), 0);
+  EXPECT_EQ(bench.duty(), 0);
   const bool drivers_off = (levels & gpio_bit(pico_bare.enable)) != 0;
   EXPECT_EQ(drivers_off, reason == FaultReason::emergency_stop);
 }
@@ -93,6 +94,49 @@ TEST_F(PicoInputs, limits_and_the_emergency_stop_stop_before_the_next_step) {
   for (int i = 0; i < 3; ++i) expect_stop(bench, random, pico_bare.emergency_stop, FaultReason::emergency_stop);
 }
 
+// Everything that can be the other way round.
+constexpr PinSetup inverted{.inputs = input_limit * 7 | input_probe | input_emergency_stop | input_hold | input_start,
+                            .steps = 0x3f,
+                            .outputs = spindle_on | spindle_reverse | mist_on | flood_on | inverted_enable,
+                            .drivers_rest = 5};
+
+TEST_F(PicoInputs, inverted_pins_do_what_the_others_do) {
+  std::mt19937_64 random(test::seed());
+  PicoBench bench(PASSO_MOTION_PICO, motors);
+  bench.set_up(inverted);
+  ASSERT_TRUE(bench.made().has_value());
+  EXPECT_EQ(*bench.made(), inverted);
+  bench.start({});
+  expect_stop(bench, random, pico_bare.limits[1], FaultReason::limit);
+  expect_stop(bench, random, pico_bare.emergency_stop, FaultReason::emergency_stop);
+}
+
+TEST_F(PicoInputs, inverted_steps_come_at_their_very_ticks) {
+  std::mt19937_64 random(test::seed());
+  PicoBench bench(PASSO_MOTION_PICO, motors);
+  PinSetup steps{.steps = 5};
+  bench.set_up(steps);
+  const StreamKind kind{.shortest_interval = 60, .longest_interval = 90, .shortest_segment = 100, .segments = 10};
+  EdgeCheck check = bench.play(random_stream(random, motors, kind));
+  EXPECT_TRUE(check.exact());
+  EXPECT_EQ(check.error, 0);
+  EXPECT_LE(check.longest_pulse, 256U) << "the motors rest at the level that is off";
+}
+
+TEST_F(PicoInputs, drivers_go_off_when_the_host_is_silent_for_as_long_as_the_setup_says) {
+  PicoBench bench(PASSO_MOTION_PICO, motors);
+  bench.set_up({.outputs = inverted_enable, .drivers_rest = 5});
+  bench.start({});
+  bench.run(pico_clock_rate / 10 * 4);
+  EXPECT_EQ(bench.levels() & gpio_bit(pico_bare.enable), 0U) << "on: low, as usual";
+  bench.run(pico_clock_rate / 10 * 2);
+  EXPECT_NE(bench.levels() & gpio_bit(pico_bare.enable), 0U);
+  bench.ask();
+  bench.run(pico_clock_rate / 500);
+  ASSERT_TRUE(bench.status().has_value());
+  EXPECT_EQ(bench.status()->state & board_trusted, 0);
+}
+
 // Opens and closes a pin again and again while the motors turn.
 void expect_captures(PicoBench& bench, std::mt19937_64& random, std::uint8_t gpio, std::uint16_t input) {
   bench.run(pico_clock_rate / 100, gpio_bit(pico_bare.motor[0].step), 1'000);
@@ -101,7 +145,7 @@ void expect_captures(PicoBench& bench, std::mt19937_64& random, std::uint8_t gpi
     bench.run(random() % (interval * pico_cycles_of_tick));
     const std::uint64_t moved = bench.pico().cycle();
     low = !low;
-    bench.pico().draw_low(low ? gpio_bit(gpio) : 0);
+    bench.press(low ? gpio_bit(gpio) : 0);
     bench.run(pico_clock_rate / 1000);
     ASSERT_TRUE(bench.captured().has_value());
     EXPECT_EQ(bench.captured()->input, low ? input : input | captured_released);
@@ -130,16 +174,50 @@ TEST_F(PicoInputs, the_limit_switch_that_is_watched_captures_instead_of_stopping
   bench.start(long_run(10), 2);
   expect_captures(bench, random, pico_bare.limits[1], input_limit << 1U);
   // All others stop.
-  bench.pico().draw_low(gpio_bit(pico_bare.limits[0]));
+  bench.press(gpio_bit(pico_bare.limits[0]));
   bench.run(pico_clock_rate / 500);
   ASSERT_TRUE(bench.fault().has_value());
   EXPECT_EQ(bench.fault()->reason, FaultReason::limit);
 }
 
+// Two motors seek two switches: the first that closes counts, and then only when both are open again.
+TEST_F(PicoInputs, several_switches_are_watched_as_one) {
+  PicoBench bench(PASSO_MOTION_PICO, motors);
+  constexpr std::uint16_t both = input_limit | input_limit << 2;
+  bench.set_up({.inputs = input_limit << 2});
+  bench.start(long_run(20), 5);
+  const std::uint32_t first = gpio_bit(pico_bare.limits[0]);
+  const std::uint32_t second = gpio_bit(pico_bare.limits[2]);
+  bench.run(pico_clock_rate / 100, gpio_bit(pico_bare.motor[0].step), 1'000);
+  EdgeCheck ignored;
+  std::int32_t told = 0;
+  const auto press = [&](std::uint32_t gpios, std::optional<std::uint16_t> captured) {
+    const std::uint64_t moved = bench.pico().cycle();
+    bench.forget_captured();
+    bench.press(gpios);
+    bench.run(pico_clock_rate / 1000);
+    ASSERT_EQ(bench.captured().has_value(), captured.has_value()) << gpios;
+    if (!captured) return;
+    EXPECT_EQ(bench.captured()->input, *captured);
+    told = bench.captured()->positions[0];
+    const std::vector<SeenSteps> seen = bench.seen(ignored);
+    EXPECT_GE(told, place_at(seen, 0, moved));
+    EXPECT_LE(told, place_at(seen, 0, moved + latency));
+  };
+  press(second, both);
+  press(first | second, std::nullopt);
+  press(first, std::nullopt);
+  press(0, both | captured_released);
+  press(first | second, both);
+  press(second, std::nullopt);
+  press(0, both | captured_released);
+  EXPECT_FALSE(bench.fault().has_value());
+}
+
 TEST_F(PicoInputs, a_switch_that_is_closed_when_motion_begins_stops_it_at_once) {
   PicoBench bench(PASSO_MOTION_PICO, motors);
   bench.start({});
-  bench.pico().draw_low(gpio_bit(pico_bare.limits[0]));
+  bench.press(gpio_bit(pico_bare.limits[0]));
   bench.run(pico_clock_rate / 100);
   bench.start(long_run(5));
   bench.run(pico_clock_rate / 100);
@@ -157,13 +235,13 @@ TEST_F(PicoInputs, outputs_go_off_one_by_one_when_the_host_is_silent) {
   bench.send({frame, encode(session, 0, frame)});
   bench.start({BoardOutputs{.switches = flood_on | mist_on | spindle_on, .spindle_rpm = 12'000}});
   bench.run(pico_clock_rate / 10 * 4);
-  EXPECT_NEAR(bench.pico().duty(), 0.5, 0.01);
+  EXPECT_NEAR(bench.duty(), 0.5, 0.01);
   bench.run(pico_clock_rate / 10 * 3);
-  EXPECT_EQ(bench.pico().duty(), 0);
-  EXPECT_NE(bench.pico().levels() & gpio_bit(pico_bare.flood), 0U);
+  EXPECT_EQ(bench.duty(), 0);
+  EXPECT_NE(bench.levels() & gpio_bit(pico_bare.flood), 0U);
   bench.run(pico_clock_rate / 10 * 3);
-  EXPECT_EQ(bench.pico().levels() & gpio_bit(pico_bare.flood), 0U);
-  EXPECT_NE(bench.pico().levels() & gpio_bit(pico_bare.mist), 0U);
+  EXPECT_EQ(bench.levels() & gpio_bit(pico_bare.flood), 0U);
+  EXPECT_NE(bench.levels() & gpio_bit(pico_bare.mist), 0U);
   bench.ask();
   bench.run(pico_clock_rate / 500);
   ASSERT_TRUE(bench.status().has_value());

@@ -24,6 +24,14 @@ struct Outcome {
   std::string err;
 };
 
+// Without an emulator, its compiler or an image, `sim:` boards are refused in words.
+inline bool lacks_an_emulator(const Outcome& outcome) {
+  for (const char* const words : {"is not there", "is not installed", "was built without"}) {
+    if (outcome.err.find(words) != std::string::npos) return true;
+  }
+  return false;
+}
+
 inline std::string read(const fs::path& path) {
   std::ifstream file(path, std::ios::binary);
   std::stringstream text;

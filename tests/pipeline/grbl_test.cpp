@@ -195,6 +195,21 @@ std::string report_with(GrblRun& run, const std::string& name) {
   return "";
 }
 
+TEST(GrblRealTime, a_hold_that_rests_tells_where) {
+  for (const double wait : {0.11, 0.3, 0.42, 0.55, 0.7}) {
+    GrblRun run;
+    run.send("G1 X80 Y31 F2400\n");
+    run.pass(Seconds(wait));
+    run.send("!");
+    ASSERT_TRUE(run.turn_until([&] { return run.session().status().rests; }, Seconds(2)));
+    const Point first = run.session().status().now_at;
+    run.pass(Seconds(0.3));
+    const Point then = run.session().status().now_at;
+    EXPECT_EQ(first[Axis::x], then[Axis::x]);
+    EXPECT_EQ(first[Axis::y], then[Axis::y]);
+  }
+}
+
 TEST(GrblRealTime, rapids_go_at_a_half_and_a_quarter) {
   const auto time_of = [](const std::string& command) {
     GrblRun run;

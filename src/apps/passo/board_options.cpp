@@ -1,5 +1,6 @@
 #include "board_options.hpp"
 
+#include "number_range.hpp"
 #include <CLI/CLI.hpp>
 
 #include "passo/emulator/emulated_board.hpp"
@@ -31,7 +32,7 @@ CLI::App& add_board_command(CLI::App& app, BoardArguments& arguments) {
   CLI::App& list = *board.add_subcommand("list", "what is on the serial lines");
   list.add_option("DEVICE", arguments.list.devices, "these only, as /dev/ttyUSB0");
   list.add_option("--wait", arguments.list.wait, "seconds for each: an Arduino that is opened starts anew")
-      ->check(CLI::Range(0.05, 60.0))
+      ->check(number_range(0.05, 60.0))
       ->capture_default_str();
   list.add_flag("--json", arguments.list.json, "print it as JSON");
   list.callback([&arguments] { arguments.chosen = [&arguments] { return board_list(arguments.list); }; });
@@ -39,7 +40,7 @@ CLI::App& add_board_command(CLI::App& app, BoardArguments& arguments) {
   CLI::App& info = *board.add_subcommand("info", "what a board is, and how it is");
   info.add_option("BOARD", arguments.info.board, address)->required();
   info.add_option("--wait", arguments.info.wait, "seconds for an answer")
-      ->check(CLI::Range(0.05, 60.0))
+      ->check(number_range(0.05, 60.0))
       ->capture_default_str();
   info.add_flag("--json", arguments.info.json, "print it as JSON");
   info.callback([&arguments] { arguments.chosen = [&arguments] { return board_info(arguments.info); }; });
@@ -47,7 +48,7 @@ CLI::App& add_board_command(CLI::App& app, BoardArguments& arguments) {
   CLI::App& monitor = *board.add_subcommand("monitor", "a board's inputs, state and step counters, live");
   monitor.add_option("BOARD", arguments.monitor.board, address)->required();
   monitor.add_option("--every", arguments.monitor.every, "seconds between two looks")
-      ->check(CLI::Range(0.01, 3600.0))
+      ->check(number_range(0.01, 3600.0))
       ->capture_default_str();
   monitor.add_option("--count", arguments.monitor.count, "so many looks; 0: until Ctrl-C")->capture_default_str();
   monitor.add_flag("--json", arguments.monitor.json, "a JSON object a line");
@@ -76,7 +77,7 @@ CLI::App& add_board_command(CLI::App& app, BoardArguments& arguments) {
       .add_option("--motors", arguments.serve.motors, "the most it can turn; without it the machine's, and 4 at least")
       ->check(CLI::Range(1, 8));
   serve.add_option("--clock", arguments.serve.clock, "ticks a second; without it the machine's, or 16 MHz")
-      ->check(CLI::Range(1e5, 1e9));
+      ->check(number_range(1e5, 1e9));
   serve.add_option("-m,--machine", arguments.serve.machine,
                    "machine file: it is that machine's board, with its clock and switches, and stands at machine zero");
   serve.add_flag("--once", arguments.serve.once, "end when everybody who has called has left");

@@ -1,6 +1,7 @@
 #include "cam_board_page.hpp"
 
 #include "check_style.hpp"
+#include "html_page.hpp"
 #include <fmt/format.h>
 
 #include "passo/report/html.hpp"
@@ -37,13 +38,7 @@ std::string step_html(const BoardStep& step, std::size_t number) {
 
 std::string to_html(const BoardPage& page) {
   const std::string name = html_text(page.name);
-  std::string html =
-      "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n"
-      "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n"
-      "<meta http-equiv=\"Content-Security-Policy\" content=\"default-src 'none'; style-src 'unsafe-inline'; img-src "
-      "data:\">\n";
-  html += fmt::format("<title>{} \u2013 passo cam board</title>\n<style>{}{}</style>\n</head>\n<body>\n", name,
-                      check_style, picture_style);
+  std::string html = html_page_begin(name + " \u2013 passo cam board", std::string(check_style) + picture_style);
   html += fmt::format("<header><h1>{}</h1>\n", name);
   html += page.machine.empty()
               ? "<p class=\"quiet\">Without a machine file (-m) the times are unknown.</p></header>\n"
@@ -51,8 +46,7 @@ std::string to_html(const BoardPage& page) {
   for (std::size_t i = 0; i < page.steps.size(); ++i) html += step_html(page.steps[i], i + 1);
   html += "<section><h2>What was read</h2>\n" + list_of(page.files, "ul");
   if (!page.left_out.empty()) html += "<p>Left out:</p>\n" + list_of(page.left_out, "ul");
-  return html + "</section>\n<footer>Made by Passo " PASSO_VERSION
-                ". Every option: docs/manual/circuit-boards.md.</footer>\n</body>\n</html>\n";
+  return html + "</section>\n" + html_page_end("Every option: docs/manual/circuit-boards.md.");
 }
 
 }  // namespace passo

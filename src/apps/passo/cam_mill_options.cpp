@@ -2,6 +2,7 @@
 #include <algorithm>
 
 #include "cam_options.hpp"
+#include "number_range.hpp"
 #include "program_input.hpp"
 #include <CLI/CLI.hpp>
 
@@ -98,7 +99,7 @@ void add_isolate_command(CLI::App& cam, CamArguments& all) {
       ->capture_default_str();
   isolate.add_option("--width", arguments.width, "free ground around the copper; says how many loops");
   isolate.add_option("--overlap", arguments.overlap, "percent of the cutter's width that two loops have in common")
-      ->check(CLI::Range(0.0, 95.0))
+      ->check(number_range(0.0, 95.0))
       ->capture_default_str();
   isolate.add_flag("--clear", arguments.clear, "take all copper off the board that is not wanted");
   isolate.add_option("--tolerance", arguments.tolerance, "how much farther from the copper the cutter stays")
@@ -121,7 +122,7 @@ void add_edge_options(CLI::App& command, CamOutlineArguments& arguments) {
   command.add_option("--tab-width", arguments.tab_width, "of the tab that stays")->capture_default_str();
   command.add_option("--tab-height", arguments.tab_height, "of the tab, above the full depth")->capture_default_str();
   command.add_option("--ramp", arguments.ramp, "go down along the way, this steep in degrees; 0: straight down")
-      ->check(CLI::Range(0.0, 60.0))
+      ->check(number_range(0.0, 60.0))
       ->capture_default_str();
   command.add_option("--lead", arguments.lead, "come to the edge on a quarter of a circle of this radius");
   command.add_flag("--dog-bones", arguments.dog_bones, "cut inner corners so that a sharp corner fits in");

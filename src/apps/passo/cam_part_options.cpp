@@ -1,5 +1,6 @@
 // The options of `passo cam profile` and `passo cam pocket`.
 #include "cam_options.hpp"
+#include "number_range.hpp"
 #include <CLI/CLI.hpp>
 
 namespace passo {
@@ -55,12 +56,12 @@ void add_pocket_command(CLI::App& cam, CamArguments& all) {
   pocket.add_option("--depth", arguments.depth, "of the pocket, below 0")->capture_default_str();
   pocket.add_option("--step", arguments.step, "how deep a layer is, at most")->capture_default_str();
   pocket.add_option("--step-over", arguments.step_over, "from loop to loop, percent of the cutter's diameter")
-      ->check(CLI::Range(1.0, 95.0))
+      ->check(number_range(1.0, 95.0))
       ->capture_default_str();
   pocket.add_option("--join", arguments.join, "ends of lines that are no farther apart are joined")
       ->capture_default_str();
   pocket.add_option("--ramp", arguments.ramp, "go down along the way, this steep in degrees; 0: straight down")
-      ->check(CLI::Range(0.0, 60.0))
+      ->check(number_range(0.0, 60.0))
       ->capture_default_str();
   add_mill_options(pocket, arguments);
   pocket.get_option("--spindle")

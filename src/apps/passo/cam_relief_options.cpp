@@ -1,4 +1,5 @@
 #include "cam_options.hpp"
+#include "number_range.hpp"
 #include <CLI/CLI.hpp>
 
 namespace passo {
@@ -23,7 +24,7 @@ void add_shape(CLI::App& relief, CamReliefArguments& arguments) {
   relief.add_option("--length", arguments.length, "in Y; the other side follows");
   relief.add_option("--depth", arguments.depth, "of black below white. Without it 3 mm, or as the body is");
   relief.add_option("--gamma", arguments.gamma, "height = brightness^gamma")
-      ->check(CLI::Range(0.05, 20.0))
+      ->check(number_range(0.05, 20.0))
       ->capture_default_str();
   relief.add_flag("--invert", arguments.invert, "black is high, white is deep");
   relief.add_flag("--mirror", arguments.mirror, "left becomes right, as for stamps and moulds");
@@ -58,7 +59,7 @@ void add_finishing(CLI::App& relief, CamReliefArguments& arguments) {
       ->check(CLI::IsMember({"ramp", "plunge"}))
       ->capture_default_str();
   relief.add_option("--ramp-angle", arguments.ramp_angle, "of a ramp, degrees")
-      ->check(CLI::Range(0.5, 45.0))
+      ->check(number_range(0.5, 45.0))
       ->capture_default_str();
   relief.add_option("--feed", arguments.feed, "a minute")->capture_default_str();
   relief.add_option("--plunge", arguments.plunge, "the most that a tip goes down, a minute")->capture_default_str();

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "check_style.hpp"
+#include "html_page.hpp"
 #include "time_chart.hpp"
 #include <fmt/format.h>
 
@@ -274,21 +275,14 @@ std::string findings(const CheckReport& report) {
 
 std::string to_html(const CheckReport& report) {
   const std::string name = html_text(report.program);
-  std::string html =
-      "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n"
-      "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n"
-      // Nothing is loaded, and nothing runs, whatever a program may have brought into the page.
-      "<meta http-equiv=\"Content-Security-Policy\" content=\"default-src 'none'; style-src 'unsafe-inline'; img-src "
-      "data:\">\n";
-  html += fmt::format("<title>{} \u2013 passo check</title>\n<style>{}</style>\n</head>\n<body>\n", name, check_style);
+  std::string html = html_page_begin(name + " \u2013 passo check", check_style);
   html +=
       fmt::format("<header><h1>{}</h1>\n<p class=\"quiet\">checked for {}</p>\n", name, html_text(report.machine.name));
   html += badges(report) + "</header>\n";
   if (report.page != nullptr) html += figures(report);
   html += findings(report);
   if (report.page != nullptr) html += axes(report) + speed(report) + motors(report) + pictures(report);
-  return html + "<footer>Made by Passo " PASSO_VERSION
-                ". What each part means: docs/manual/checking.md.</footer>\n</body>\n</html>\n";
+  return html + html_page_end("What each part means: docs/manual/checking.md.");
 }
 
 }  // namespace passo

@@ -72,10 +72,22 @@ std::optional<std::string> axes_of(const std::string& text) {
   return axes;
 }
 
+// A line that is held more than once at a time goes on with the first, and off with the last.
+void merge(std::vector<LineChange>& lines) {
+  std::map<std::string, int> holds;
+  std::erase_if(lines, [&](const LineChange& change) {
+    if (change.line == "reset") return false;
+    return change.high ? ++holds[change.line] > 1 : --holds[change.line] > 0;
+  });
+}
+
 using Lines = Result<std::vector<LineChange>, std::string>;
 
-Lines lines_of(const FollowerArguments& arguments) {
+// What people and the machine do, and after it the pulses.
+Lines held_lines_of(const FollowerArguments& arguments) {
   std::vector<LineChange> lines;
+  const std::string no_keypad = "an Uno has no pins for a keypad and a tool button (docs/follower.md)";
+  if (!arguments.keys.empty() && !has_keypad(arguments.follower)) return Failure{"--key: " + no_keypad};
   for (const std::string& text : arguments.keys) {
     auto held = held_of(text);
     if (!held || key_place("key." + held->name).row < 0) {
@@ -94,13 +106,26 @@ Lines lines_of(const FollowerArguments& arguments) {
                      ": expected LINE@FROM or LINE@FROM:TO in seconds; lines are clock.x, direction.x (also y, "
                      "z), relay, button and reset"};
     }
+    if (held->name == "button" && !has_keypad(arguments.follower)) return Failure{"--line: " + no_keypad};
     hold(lines, *held, held->name);
   }
+  return lines;
+}
+
+Lines lines_of(const FollowerArguments& arguments) {
+  Lines held = held_lines_of(arguments);
+  if (!held) return held;
+  std::vector<LineChange> lines = *std::move(held);
   const auto axes = axes_of(arguments.axes);
   const auto down = axes_of(arguments.down);
   if (!axes || !down) return Failure{std::string("--axes, --down: expected letters of XYZ")};
   for (const char axis : *down) lines.push_back({0, std::string("direction.") + axis, true});
   if (arguments.clock > 0) {
+    if (arguments.from >= arguments.time) {
+      return Failure{
+          fmt::format("--clock: the first pulse comes at {} s (--from), and the run is over at {} s (--time)",
+                      arguments.from, arguments.time)};
+    }
     const auto pulses = static_cast<std::int64_t>(std::ceil((arguments.time - arguments.from) * arguments.clock));
     if (pulses * 2 * std::ssize(*axes) > std::int64_t{most_changes}) {
       return Failure{fmt::format("more than {} edges: choose a lower --clock or a shorter --time", most_changes)};
@@ -113,6 +138,7 @@ Lines lines_of(const FollowerArguments& arguments) {
     }
   }
   std::ranges::stable_sort(lines, {}, &LineChange::at);
+  merge(lines);
   return lines;
 }
 
@@ -257,7 +283,10 @@ int follower_sim(const FollowerArguments& arguments) {
   if (!lines) return fail(exit_bad_program, lines.error());
   const std::filesystem::path image =
       arguments.image.empty() ? built_follower(arguments.follower) : std::filesystem::path(arguments.image);
-  if (!std::filesystem::exists(image)) return fail(exit_failed, message_of_missing(image));
+  if (!std::filesystem::exists(image)) {
+    return fail(exit_failed,
+                arguments.image.empty() ? message_of_missing(image) : arguments.image + ": there is no such file");
+  }
   const Nanoseconds end = nanoseconds(arguments.time);
   const auto run = run_follower(arguments.follower, image, *lines, end);
   if (!run) return fail(exit_failed, run.error());

@@ -14,6 +14,7 @@
 
 #include "passo/activity/machine_plant.hpp"
 #include "passo/feedback/loop_trial.hpp"
+#include "passo/motor/example_motor.hpp"
 #include "passo/report/line_chart.hpp"
 
 namespace passo {
@@ -21,29 +22,16 @@ namespace {
 
 constexpr double radians_per_degree = std::numbers::pi / 180;
 
-// The small motor of docs/ramps/torque.md, with fine microsteps.
-MotorSetup small_motor() {
-  MotorSetup setup{.motor = {.rotor = {.steps_per_revolution = 200, .inertia = {68e-7}},
-                             .holding_torque = {0.45},
-                             .rated_current = {1.7},
-                             .resistance = {1.5},
-                             .inductance = {2.8e-3}},
-                   .drive = {.supply = {24}},
-                   .excitation = *Excitation::named("microsteps:64")};
-  setup.load = {.inertia = {68e-7}, .friction = {0.01}};
-  setup.damping = damping_of(setup.motor);
-  return setup;
-}
-
 Result<MotorSetup, std::string> motor_of(const LoopArguments& arguments) {
   if (arguments.machine.empty()) {
     if (!arguments.axis.empty()) return Failure{std::string("--axis is an axis of a --machine")};
-    return small_motor();
+    return small_motor_setup("microsteps:64", {0.01});
   }
   Diagnostics diagnostics;
   const auto machine = load_machine_file(arguments.machine, diagnostics);
   show(diagnostics);
   if (!machine) return Failure{arguments.machine + " is wrong"};
+  if (arguments.axis.empty()) return Failure{"--axis is missing: expected one of " + arguments.machine};
   for (const AxisDescription& axis : machine->axes) {
     if (arguments.axis != std::string(1, letter_of(axis.axis))) continue;
     auto setup = motor_setup(axis);

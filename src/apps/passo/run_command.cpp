@@ -104,6 +104,16 @@ void tell_tails(const MachineSession& session) {
              rests == 1 ? "once" : fmt::format("{} times", rests));
 }
 
+// A board that cannot make its events in time lets the motors stand still amid motion, without braking.
+void tell_slip(const MachineSession& session) {
+  const std::optional<BoardStatus>& status = session.board().status();
+  if (!status || (status->state & board_slipped) == 0) return;
+  fmt::print(stderr,
+             "passo: warning: the board stood still amid motion, because its events came too late. It has made every "
+             "step, but a motor that is stopped so suddenly may not: home the machine, and lower max_event_rate_hz of "
+             "the machine file [board.slipped]\n");
+}
+
 std::vector<Axis> axes_of(const MachineDescription& machine) {
   std::vector<Axis> axes;
   for (const AxisDescription& axis : machine.axes) axes.push_back(axis.axis);
@@ -320,7 +330,10 @@ int end_run(const Run& run, const Answered& answered, const RunSummary& summary,
     return fail(exit_failed, "the board: " + answered.fault->message);
   }
   if (const auto words = run.opened.compare()) return fail(exit_failed, "the board: " + *words);
-  if (run.opened.has_board()) tell_tails(session);
+  if (run.opened.has_board()) {
+    tell_tails(session);
+    tell_slip(session);
+  }
   if (answered.outcome == Outcome::failed || interrupted_by() != 0) {
     show(late);
     tell_of_touch(run.arguments, late);

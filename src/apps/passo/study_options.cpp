@@ -1,6 +1,7 @@
 // The options of the commands that study one thing at a time: pulses, chords, ramps, motors.
 #include "study_options.hpp"
 
+#include "number_range.hpp"
 #include <CLI/CLI.hpp>
 
 #include "passo/emulator/emulated_follower.hpp"
@@ -256,7 +257,7 @@ CLI::App& add_loop_command(CLI::App& app, LoopArguments& arguments) {
       ->check(CLI::IsMember({"speed", "position"}))
       ->capture_default_str();
   command.add_option("--to", arguments.to, "the jump: rad/s (30 without it), or degrees (90)")
-      ->check(CLI::Range(-1e5, 1e5));
+      ->check(number_range(-1e5, 1e5));
   command
       .add_option("--rule", arguments.rule, "of Ziegler and Nichols: p, pi or pid, from the gain at which it swings")
       ->check(CLI::IsMember({"p", "pi", "pid"}))
@@ -264,21 +265,21 @@ CLI::App& add_loop_command(CLI::App& app, LoopArguments& arguments) {
   command.add_option("--gains", arguments.gains, "KP,KI,KD by hand, instead of the rule")
       ->delimiter(',')
       ->expected(3)
-      ->check(CLI::Range(0.0, 1e9));
+      ->check(number_range(0.0, 1e9));
   command.add_option("--speed-gains", arguments.speed_gains, "KP,KI,KD of the inner loop; without it PI by the rule")
       ->delimiter(',')
       ->expected(3)
-      ->check(CLI::Range(0.0, 1e9));
+      ->check(number_range(0.0, 1e9));
   command.add_flag("--compare", arguments.compare, "P, PI and PID by the rule side by side, and the --gains");
   command.add_option("--load", arguments.load, "NM@S: a torque against the motion, from a time on");
   command.add_option("--time", arguments.time, "seconds that are shown")
-      ->check(CLI::Range(0.001, 100.0))
+      ->check(number_range(0.001, 100.0))
       ->capture_default_str();
   command.add_option("--period", arguments.period_us, "of the control, in microseconds")
-      ->check(CLI::Range(10.0, 1e5))
+      ->check(number_range(10.0, 1e5))
       ->capture_default_str();
   command.add_option("--smoothing", arguments.smoothing_us, "of the counted speed: a time constant in microseconds")
-      ->check(CLI::Range(0.0, 1e6))
+      ->check(number_range(0.0, 1e6))
       ->capture_default_str();
   command.add_option("--counts", arguments.counts, "of the encoder, a turn")
       ->check(CLI::Range(4, 10'000'000))
@@ -353,18 +354,19 @@ CLI::App& add_follower_command(CLI::App& app, FollowerArguments& arguments) {
       ->required()
       ->check(CLI::IsMember(names));
   command.add_option("--clock", arguments.clock, "pulses a second on the clock lines; without it none")
-      ->check(CLI::Range(0.0, 1e6));
+      ->check(number_range(0.0, 1e6));
   command.add_option("--axes", arguments.axes, "whose clock lines, as XZ")->capture_default_str();
   command.add_option("--down", arguments.down, "axes whose direction line is high from the start");
   command.add_option("--from", arguments.from, "SECONDS: the first pulse")
-      ->check(CLI::Range(0.0, 600.0))
+      ->check(number_range(0.0, 600.0))
       ->capture_default_str();
   command.add_option("--time", arguments.time, "SECONDS: how long it runs")
-      ->check(CLI::Range(0.001, 600.0))
+      ->check(number_range(0.001, 600.0))
       ->capture_default_str();
   command.add_option("-k,--key", arguments.keys, "KEY@FROM[:TO]: a key is held, else for 0.1 s; as 6@0.5:0.9 or #@0.1");
   command.add_option("--line", arguments.lines, "LINE@FROM[:TO]: a line is high, as relay@0.3:0.6 or direction.x@0.5");
-  command.add_option("--image", arguments.image, "another file than the one that the build made");
+  command.add_option("--image", arguments.image,
+                     "another file than the one that the build made: .elf, .cod, or .hex, which is flashed");
   command.add_option("-t,--trace", arguments.traces, "write lines and outputs (FILE.vcd or FILE.csv), no table");
   command.add_option("-p,--picture", arguments.picture, "draw them (FILE.svg or FILE.png), no table");
   command.footer(

@@ -1,5 +1,6 @@
 #include "tuning_options.hpp"
 
+#include "number_range.hpp"
 #include <CLI/CLI.hpp>
 
 namespace passo {
@@ -10,13 +11,13 @@ CLI::App& add_tune_command(CLI::App& app, TuneArguments& arguments) {
   command
       .add_option("--margin", arguments.margin,
                   "the share of the weakest motor's torque that is never asked for: cutting needs it")
-      ->check(CLI::Range(0.1, 0.9))
+      ->check(number_range(0.1, 0.9))
       ->capture_default_str();
   command.add_option("--axes", arguments.axes, "only these, as XY; without it all whose motors the file describes");
   command
       .add_option("--way", arguments.way,
                   "the move whose time is made short, mm or degrees; without it half of an axis's travel")
-      ->check(CLI::Range(0.001, 1e6));
+      ->check(number_range(0.001, 1e6));
   command.add_flag("--keep-velocity", arguments.keep_velocity,
                    "no velocity above the file's, where something else than the motor sets it");
   command.add_option("-o,--output", arguments.output, "write a copy of the machine file with these values");

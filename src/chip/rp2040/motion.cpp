@@ -27,6 +27,10 @@ struct Hardware {
   static bool has_encoder() { return SpindleCounter::exists(); }
   static SpindleCount spindle() { return SpindleCounter::count(); }
   void watch();
+  static bool can_watch(uint8_t limits) { return PicoWiring::can_watch(limits); }
+  static PinSetup set_up(const PinSetup& wanted);
+  static uint8_t drivers_rest() { return PicoWiring::drivers_rest(); }
+  static void release() { PicoWiring::enable_motors(false); }
 
   PicoLine line;
 };
@@ -62,6 +66,15 @@ void Hardware::watch() {
   watch_input();
 }
 
+// Called at rest. What the switches are under the new setup is known at once, because a hello may follow.
+PinSetup Hardware::set_up(const PinSetup& wanted) {
+  const PinSetup done = PicoWiring::set_up(wanted);
+  reader.look(PicoWiring::inputs(), false);
+  board().set_inputs(reader.inputs());
+  hardware.watch();
+  return done;
+}
+
 void stop_at_once() {
   const bool pressed = (PicoWiring::inputs() & input_emergency_stop) != 0;
   PicoPlayer::halt();
@@ -90,10 +103,12 @@ void look_at_inputs() {
   const uint16_t watched = board().watched();
   const bool changed = PicoPlayer::captured();
   const uint16_t before = reader.inputs();
-  // During motion the interrupt reports changes of the watched input, and where.
+  // During motion the interrupt reports changes of the watched input, and where. Several are one, which is on while any
+  // of them is.
   if (changed || (!board().idle() && PicoPlayer::watches())) {
+    const bool was_on = (before & watched) != 0;
     raw &= static_cast<uint16_t>(~watched);
-    raw |= (changed ? ~before : before) & watched;
+    raw |= !changed ? before & watched : was_on ? 0 : watched;
   }
   const uint16_t on = reader.look(raw, tick);
   // During motion the interrupt has stopped already. At rest nobody else looks.

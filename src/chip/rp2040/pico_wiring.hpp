@@ -9,6 +9,16 @@
 
 namespace passo::chip {
 
+// Which pin is which input.
+struct PicoInput {
+  uint8_t gpio;
+  uint16_t which;
+};
+inline constexpr PicoInput pico_inputs[] = {
+    {pins.limits[0], input_limit << 0}, {pins.limits[1], input_limit << 1},          {pins.limits[2], input_limit << 2},
+    {pins.probe, input_probe},          {pins.emergency_stop, input_emergency_stop}, {pins.feed_hold, input_hold},
+    {pins.cycle_start, input_start}};
+
 class PicoWiring {
  public:
   static void prepare() {
@@ -38,6 +48,46 @@ class PicoWiring {
     SpindleCounter::prepare();
   }
 
+  // Sets the levels of the pins as a host says, as far as there are such pins. Returns what was set. Only at rest.
+  //
+  // The chip itself inverts an output, between its function and its pad. So nothing else knows of it: neither the state
+  // machine nor the PWM nor what is read back.
+  static PinSetup set_up(const PinSetup& wanted) {
+    PinSetup done;
+    on_when_high_ = 0;
+    for (const PicoInput& input : pico_inputs) {
+      if (input.gpio == no_gpio || (wanted.inputs & input.which) == 0) continue;
+      on_when_high_ = on_when_high_ | gpio_bit(input.gpio);
+      done.inputs |= input.which;
+    }
+    done.steps = wanted.steps & PicoPinTables::all;
+    done.drivers_rest = drivers_rest_ = wanted.drivers_rest;
+    constexpr struct {
+      uint8_t gpio;
+      uint8_t which;
+    } outputs[] = {{pins.spindle_pwm, spindle_on},
+                   {pins.spindle_direction, spindle_reverse},
+                   {pins.mist, mist_on},
+                   {pins.flood, flood_on},
+                   {pins.enable, inverted_enable}};
+    for (const auto& output : outputs) {
+      if (output.gpio != no_gpio) done.outputs |= wanted.outputs & output.which;
+    }
+    if (done.outputs != inverted_outputs_) switch_outputs({});
+    inverted_outputs_ = done.outputs;
+    for (const auto& output : outputs) invert(output.gpio, (done.outputs & output.which) != 0);
+    for (uint32_t m = 0; m < pins.motors; ++m) invert(pins.motor[m].step, (done.steps >> m & 1) != 0);
+    return done;
+  }
+  static uint8_t drivers_rest() { return drivers_rest_; }
+  // Any switches can be watched together.
+  static bool can_watch(uint8_t limits) {
+    for (uint32_t i = 0; i < pico_limits; ++i) {
+      if (pins.limits[i] != no_gpio) limits &= static_cast<uint8_t>(~(1U << i));
+    }
+    return limits == 0;
+  }
+
   static void enable_motors(bool on) { set(pins.enable, !on); }
   static void switch_outputs(const BoardOutputs& outputs) {
     set(pins.spindle_direction, (outputs.switches & spindle_reverse) != 0);
@@ -57,41 +107,39 @@ class PicoWiring {
     if ((switches & flood_on) != 0 && switch_off_pin(pins.flood)) was_on = true;
     return was_on;
   }
-  // Bits of BoardInput, set where a switch is closed.
+  // Bits of BoardInput, set where a switch is on.
   static uint16_t inputs() {
-    const uint32_t low = ~GpioIn::read();
+    const uint32_t pins_on = pins_that_are_on();
     uint32_t on = 0;
-    for (uint32_t i = 0; i < pico_limits; ++i) {
-      if ((low & gpio_bit(pins.limits[i])) != 0) on |= static_cast<uint32_t>(input_limit) << i;
+#pragma clang loop unroll(full)
+    for (const PicoInput& input : pico_inputs) {
+      if ((pins_on & gpio_bit(input.gpio)) != 0) on |= input.which;
     }
-    if ((low & gpio_bit(pins.probe)) != 0) on |= input_probe;
-    if ((low & gpio_bit(pins.emergency_stop)) != 0) on |= input_emergency_stop;
-    if ((low & gpio_bit(pins.feed_hold)) != 0) on |= input_hold;
-    if ((low & gpio_bit(pins.cycle_start)) != 0) on |= input_start;
     return static_cast<uint16_t>(on);
   }
 
-  // From now on the interrupt is told of the pins in `stopping` when they close, and of the one in `watched` when it
-  // leaves the state `closed`. Both are bits of BoardInput. While an axis is homed, other axes may still be on their
-  // switches: those that are closed do not count.
+  // From now on the interrupt is told of the pins in `stopping` when they go on, and of those in `watched` when they
+  // leave the state `closed`, which means that any of them is on. Both are bits of BoardInput. While an axis is homed,
+  // other axes may still be on their switches: those that are on do not count.
   static void watch(uint16_t stopping, uint16_t watched, bool closed) {
     if ((watched & input_probe) == 0) stopping &= static_cast<uint16_t>(~(inputs() & all_limits));
     interrupts_off();
     stops_ = 0;
     watched_ = 0;
-    for (uint32_t i = 0; i < pico_limits; ++i) listen(pins.limits[i], input_limit << i, stopping, watched, closed);
-    listen(pins.emergency_stop, input_emergency_stop, stopping, watched, closed);
-    listen(pins.probe, input_probe, stopping, watched, closed);
+    was_closed_ = closed;
+    for (const PicoInput& input : pico_inputs) listen(input, stopping, watched);
     SpindleCounter::listen();
     interrupts_on();
   }
-  // Whether a pin that stops is closed, since whenever.
-  static bool stops() { return (~GpioIn::read() & stops_) != 0; }
+  // Whether a pin that stops is on, since whenever.
+  static bool stops() {
+    return (pins_that_are_on() & stops_) != 0;
+  }
   // The interrupt of the pins.
   [[gnu::always_inline]] static void switch_moved() {
-    const uint32_t low = ~GpioIn::read();
-    if ((low & stops_) != 0 && !StepStream::dry()) PicoPlayer::halt();
-    if (watched_ != 0 && ((low & watched_) != 0) != was_closed_) PicoPlayer::capture();
+    const uint32_t on = pins_that_are_on();
+    if ((on & stops_) != 0 && !StepStream::dry()) PicoPlayer::halt();
+    if (watched_ != 0 && ((on & watched_) != 0) != was_closed_) PicoPlayer::capture();
     SpindleCounter::index_moved();
     forget_edges();
   }
@@ -102,6 +150,13 @@ class PicoWiring {
   static constexpr uint16_t all_limits = 0xff;
   static constexpr uint32_t slice = pins.spindle_pwm / 2 % 8;
 
+  [[gnu::always_inline]] static uint32_t pins_that_are_on() {
+    return ~GpioIn::read() ^ on_when_high_;
+  }
+  static void invert(uint8_t gpio, bool inverted) {
+    if (gpio == no_gpio) return;
+    gpio_ctrl(gpio) = (gpio_ctrl(gpio) & ~output_inverted) | (inverted ? output_inverted : 0);
+  }
   static void set(uint8_t gpio, bool high) {
     if (high) {
       GpioOutSet::write(gpio_bit(gpio));
@@ -118,19 +173,20 @@ class PicoWiring {
     const uint32_t level = duty > 256 ? 256 : duty;
     pwm(slice, pwm_cc) = (pins.spindle_pwm & 1) != 0 ? level << 16 : level;
   }
-  static void listen(uint8_t gpio, unsigned input, uint16_t stopping, uint16_t watched, bool closed) {
-    if (gpio == no_gpio) return;
+  static void listen(const PicoInput& input, uint16_t stopping, uint16_t watched) {
+    if (input.gpio == no_gpio || input.which >= input_hold) return;
+    const uint32_t bit = gpio_bit(input.gpio);
     uint32_t edges = 0;
-    if ((watched & input) != 0) {
-      watched_ = gpio_bit(gpio);
-      was_closed_ = closed;
+    if ((watched & input.which) != 0) {
+      watched_ = watched_ | bit;
       edges = edge_low | edge_high;
-    } else if ((stopping & input) != 0) {
-      stops_ = stops_ | gpio_bit(gpio);
-      edges = edge_low;
+    } else if ((stopping & input.which) != 0) {
+      stops_ = stops_ | bit;
+      edges = (on_when_high_ & bit) != 0 ? edge_high : edge_low;
     }
-    gpio_edges(gpio) = edge_bits(gpio, edge_low | edge_high);
-    gpio_interrupts(gpio) = (gpio_interrupts(gpio) & ~edge_bits(gpio, 15)) | edge_bits(gpio, edges);
+    gpio_edges(input.gpio) = edge_bits(input.gpio, edge_low | edge_high);
+    gpio_interrupts(input.gpio) =
+        (gpio_interrupts(input.gpio) & ~edge_bits(input.gpio, 15)) | edge_bits(input.gpio, edges);
   }
   [[gnu::always_inline]] static void forget_edges() {
     for (uint32_t gpio = 0; gpio < gpio_count; gpio += 8) gpio_edges(gpio) = 0xcccccccc;
@@ -139,6 +195,9 @@ class PicoWiring {
   static inline volatile uint32_t stops_ = 0;
   static inline volatile uint32_t watched_ = 0;
   static inline volatile bool was_closed_ = false;
+  static inline volatile uint32_t on_when_high_ = 0;  // inputs whose switches are on when they are high
+  static inline uint8_t inverted_outputs_ = 0;        // bits of PinSetup's outputs
+  static inline uint8_t drivers_rest_ = 0;
 };
 
 }  // namespace passo::chip

@@ -82,6 +82,8 @@ constexpr uint32_t edge_bits(uint32_t gpio, uint32_t edges) {
   return edges << 4 * (gpio % 8);
 }
 enum GpioFunction : uint32_t { function_uart = 2, function_pwm = 4, function_sio = 5, function_pio0 = 6 };
+// In a pin's control: the pad has the opposite of what its function puts out (OUTOVER).
+inline constexpr uint32_t output_inverted = 1U << 8;
 inline constexpr uint32_t pad_pull_up = 1U << 3;
 inline constexpr uint32_t pad_input = 1U << 6;
 inline constexpr uint32_t pad_schmitt = 1U << 1;

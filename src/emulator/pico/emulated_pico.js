@@ -214,7 +214,8 @@ class Board {
 
   duty() {
     const channel = this.chip.pwm.channels[(this.spindle >> 1) & 7];
-    return ((this.spindle & 1 ? channel.cc >>> 16 : channel.cc) & 0xffff) / (channel.top + 1);
+    const part = ((this.spindle & 1 ? channel.cc >>> 16 : channel.cc) & 0xffff) / (channel.top + 1);
+    return this.chip.gpio[this.spindle].outputOverride === 1 ? 1 - part : part;
   }
 }
 

@@ -5,25 +5,14 @@
 
 #include <gtest/gtest.h>
 
+#include "passo/motor/example_motor.hpp"
+
 namespace passo {
 namespace {
 
-MotorSetup small_motor(double friction = 0.01) {
-  MotorSetup setup{.motor = {.rotor = {.steps_per_revolution = 200, .inertia = {68e-7}},
-                             .holding_torque = {0.45},
-                             .rated_current = {1.7},
-                             .resistance = {1.5},
-                             .inductance = {2.8e-3}},
-                   .drive = {.supply = {24}},
-                   .excitation = *Excitation::named("microsteps:64")};
-  setup.load = {.inertia = {68e-7}, .friction = {friction}};
-  setup.damping = damping_of(setup.motor);
-  return setup;
-}
-
 TEST(ServoMotor, gives_the_torque_that_is_asked_for) {
   const ShaftEncoder encoder(40'000);
-  ServoMotor motor(small_motor(0), encoder, Seconds(0.0002));
+  ServoMotor motor(small_motor_setup("microsteps:64", {0}), encoder, Seconds(0.0002));
   for (int i = 0; i < 20; ++i) motor.run({0.1}, motor.speed());
   // 4 ms of 0.1 N·m on 136 g·cm², less the time that the currents need.
   const double without_delay = 0.1 / 136e-7 * 0.004;
@@ -33,7 +22,7 @@ TEST(ServoMotor, gives_the_torque_that_is_asked_for) {
 }
 
 LoopSetup speed_loop() {
-  return {.motor = small_motor(), .counts_per_turn = 4000, .to = 30};
+  return {.motor = small_motor_setup("microsteps:64", {0.01}), .counts_per_turn = 4000, .to = 30};
 }
 
 TEST(LoopTrial, a_speed_loop_with_an_integral_leaves_no_error) {

@@ -3,6 +3,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "passo/motor/example_motor.hpp"
+
 namespace passo {
 namespace {
 
@@ -75,21 +77,8 @@ TEST(RampAnswer, HasIntervalsErrorsAndTheIdealLine) {
   EXPECT_THAT(ramp_answer(request), HasSubstr("the clock must be above 0 Hz"));
 }
 
-MotorSetup small_motor() {
-  MotorSetup setup{.motor = {.rotor = {.steps_per_revolution = 200, .inertia = {68e-7}},
-                             .holding_torque = {0.45},
-                             .rated_current = {1.7},
-                             .resistance = {1.5},
-                             .inductance = {2.8e-3}},
-                   .drive = {.supply = {24}},
-                   .excitation = *Excitation::named("microsteps:64")};
-  setup.load = {.inertia = {68e-7}, .friction = {0.01}};
-  setup.damping = damping_of(setup.motor);
-  return setup;
-}
-
 TEST(TorqueAnswer, HasPullOutAboveTheFrictionUpToTheFastestRate) {
-  const MotorSetup motor = small_motor();
+  const MotorSetup motor = small_motor_setup("microsteps:64", {0.01});
   TorqueQuestion question{.motor = motor.motor, .drive = motor.drive, .load = motor.load, .rows = 5};
   EXPECT_THAT(torque_answer(question), HasSubstr("\"pull_out_nm\":[0.318"));
   question.acceleration = {5000};
@@ -101,7 +90,7 @@ TEST(TorqueAnswer, HasPullOutAboveTheFrictionUpToTheFastestRate) {
 }
 
 TEST(LoopAnswer, HasTheResponseAndItsFigures) {
-  LoopSetup setup{.motor = small_motor()};
+  LoopSetup setup{.motor = small_motor_setup("microsteps:64", {0.01})};
   setup.to = 30;
   setup.gains = {.kp = 0.02, .ki = 2};
   EXPECT_THAT(loop_answer(setup, Seconds(0.02)), HasSubstr("\"overshoot\":0.1"));

@@ -5,18 +5,11 @@
 #include <random>
 #include <string>
 
-#include "passo/motor/running_motor.hpp"
+#include "passo/motor/example_motor.hpp"
 
 namespace passo::test {
 
-// 1.8 degrees, 42 mm square, 48 mm long: the motor of many small machines.
-inline MotorData small_motor() {
-  return {.rotor = {.steps_per_revolution = 200, .inertia = {6.8e-6}},
-          .holding_torque = {0.45},
-          .rated_current = {1.7},
-          .resistance = {1.5},
-          .inductance = {2.8e-3}};
-}
+using passo::small_motor;
 
 // 57 mm square, 76 mm long.
 inline MotorData large_motor() {

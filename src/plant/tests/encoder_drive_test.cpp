@@ -7,6 +7,7 @@
 #include "kit/seed.hpp"
 #include <gtest/gtest.h>
 
+#include "passo/motor/example_motor.hpp"
 #include "passo/plant/rotor_plant.hpp"
 #include "passo/wire/message.hpp"
 
@@ -14,16 +15,7 @@ namespace passo {
 namespace {
 
 MotorSetup held_setup(const char* excitation = "microsteps:8") {
-  MotorSetup setup{.motor = {.rotor = {.steps_per_revolution = 200, .inertia = {6.8e-6}},
-                             .holding_torque = {0.45},
-                             .rated_current = {1.7},
-                             .resistance = {1.5},
-                             .inductance = {2.8e-3}},
-                   .drive = {.supply = {24}},
-                   .excitation = *Excitation::named(excitation)};
-  setup.load = {.inertia = {6.8e-6}, .friction = {0.02}};
-  setup.damping = damping_of(setup.motor);
-  return setup;
+  return small_motor_setup(excitation, {0.02});
 }
 
 // One turn of the shaft has 1600 steps.

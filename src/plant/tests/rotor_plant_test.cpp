@@ -4,22 +4,14 @@
 
 #include <gtest/gtest.h>
 
+#include "passo/motor/example_motor.hpp"
 #include "passo/wire/message.hpp"
 
 namespace passo {
 namespace {
 
 MotorSetup small_setup(const char* excitation = "microsteps:4") {
-  MotorSetup setup{.motor = {.rotor = {.steps_per_revolution = 200, .inertia = {6.8e-6}},
-                             .holding_torque = {0.45},
-                             .rated_current = {1.7},
-                             .resistance = {1.5},
-                             .inductance = {2.8e-3}},
-                   .drive = {.supply = {24}},
-                   .excitation = *Excitation::named(excitation)};
-  setup.load = {.inertia = {6.8e-6}, .friction = {0.02}, .friction_per_speed = {}};
-  setup.damping = damping_of(setup.motor);
-  return setup;
+  return small_motor_setup(excitation, {0.02});
 }
 
 // Steps of motor 0 from rest at even acceleration, up to a rate, and then at that rate. Returns the time of the last.

@@ -58,8 +58,11 @@ std::vector<std::string> emulated_followers();
 std::filesystem::path follower_image(std::string_view follower);
 // The outputs that the follower's board has.
 std::vector<std::string> outputs_of_follower(std::string_view follower);
-// Runs `image` on the follower's board until `end`, in the emulator of its chip, a program of its own. `lines`: in
-// order of time. What the board has not (keys on an Uno) does nothing. The error is a sentence with the reason.
+// Whether the follower's board has a keypad and a tool button.
+bool has_keypad(std::string_view follower);
+// Runs `image` on the follower's board until `end`, in the emulator of its chip, a program of its own. The image may be
+// the one with the names of the program (.elf or .cod) or the one that is flashed (.hex). `lines`: in order of time.
+// What the board has not (keys on an Uno) does nothing. The error is a sentence with the reason.
 Result<FollowerRun, std::string> run_follower(std::string_view follower, const std::filesystem::path& image,
                                               std::span<const LineChange> lines, Nanoseconds end);
 
@@ -71,8 +74,8 @@ enum class PicFollower { at_20_mhz, first_board };
 // gpsim watches turns only if asked: then it is twenty times slower.
 enum class Turns { unwatched, watched };
 
-// Runs `image`, a .cod file, in gpsim until `end`. `lines`: in order of time. gpsim runs as a program of its own.
-// `work`: a folder for its files. The error is a sentence with the reason.
+// Runs `image`, a .cod or .hex file, in gpsim until `end`. `lines`: in order of time. gpsim runs as a program of its
+// own. `work`: a folder for its files. The error is a sentence with the reason.
 Result<FollowerRun, std::string> run_pic_follower(PicFollower board, const std::filesystem::path& image,
                                                   std::span<const LineChange> lines, Nanoseconds end,
                                                   const std::filesystem::path& work, Turns turns = Turns::unwatched);

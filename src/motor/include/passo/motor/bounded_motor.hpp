@@ -32,6 +32,13 @@ class BoundedMotor {
     reduced_->run(time.value());
     if (!reduced_->holds()) leave();
   }
+  // run() and then step() in one, where the bound holds and the motor turns: the usual case, and the short way.
+  [[nodiscard]] PulseDone turn(Seconds time, int way) {
+    if (!is_reduced_) return PulseDone::nothing;
+    const PulseDone done = reduced_->turn(time.value(), way);
+    if (done == PulseDone::time_only && !reduced_->holds()) leave();
+    return done;
+  }
   void set_resistance(NewtonMetres torque);
   // While a hand carries the rotor, the motor is integrated in full.
   void carry(RadiansPerSecond speed);

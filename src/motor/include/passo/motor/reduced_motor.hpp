@@ -30,6 +30,9 @@
 
 namespace passo {
 
+// What was done of a time that should pass and a step that should follow.
+enum class PulseDone : std::uint8_t { nothing, time_only, all };
+
 class ReducedMotor {
  public:
   explicit ReducedMotor(const MotorSetup& setup);
@@ -62,6 +65,14 @@ class ReducedMotor {
       return;
     }
     run_blocks(time);
+  }
+  // run() and then step() in one, for a motor that turns. `way` 0: no step. Call holds() after it where not all is
+  // done.
+  [[nodiscard]] PulseDone turn(double time, int way) {
+    if (rests_) return PulseDone::nothing;
+    run(time);
+    if (rests_ || !holds_) return PulseDone::time_only;
+    return way == 0 || step(way) ? PulseDone::all : PulseDone::time_only;
   }
   // The bound holds at the end of the last block. If not, the motor stands still there in time.
   bool holds() const { return holds_; }

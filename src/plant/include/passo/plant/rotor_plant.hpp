@@ -88,8 +88,9 @@ class RotorPlant final : public FittedPlant {
     double origin = 0;     // of the rotor's place 0
     double full_step = 1;  // of a step of the driver
     std::optional<TorqueCurve> pull_out;
-    Seconds margin_due{0};  // when the margin is looked at next
-    bool has_drive = false;
+    Seconds margin_due{0};      // when the margin is looked at next
+    double next_lag = 0;        // full steps; a lag up to here changes neither the record nor is_close_
+    bool turns_freely = false;  // it has physics, and no drive with an encoder
     RotorRecord record;
     // Seldom looked at.
     std::optional<EncoderDrive> drive = {};  // with an encoder
@@ -98,7 +99,9 @@ class RotorPlant final : public FittedPlant {
 
   void run_to(Seconds time);
   Seconds pass_to(Seconds time);
+  bool turn_freely(std::size_t motor, Seconds passed, int way);
   void turn(std::size_t motor, Seconds passed, std::int64_t steps);
+  void give(std::size_t motor, Seconds passed, std::int64_t steps);
   void mind_disturbances(Seconds time);
   void turn_with_encoder(std::size_t motor, Seconds passed, std::int64_t steps);
   void take_places();
@@ -109,6 +112,7 @@ class RotorPlant final : public FittedPlant {
 
   Integration integration_;
   std::array<Fitted, max_motors> motors_;
+  MotorSteps untaken_{};  // that motors without physics have got since take_places()
   std::vector<StepLoss> losses_;
   std::optional<FollowingFault> following_fault_;
   std::vector<Disturbance> disturbances_;
