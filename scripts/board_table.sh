@@ -59,14 +59,14 @@ machine() {
   [[ $5 = none ]] || sed -i "s/^\(max_acceleration_mm_s2 = .*\)/\1\nmax_jerk_mm_s3 = $5/" "$work/$1.toml"
 }
 machine Uno 31 140000 100 none
-machine Mega 100 110000 100 none
+machine Mega 160 110000 100 none
 machine Uno-jerk 31 140000 100 10000
-machine Mega-jerk 100 110000 100 10000
+machine Mega-jerk 160 110000 100 10000
 # The Pico's own machine, with the most places that a virtual board has: 10 fewer than the Pico's.
 sed 's/^\(max_event_rate_hz = .*\)/\1\nheld_items = 240/' examples/machines/pico.toml >"$work/Pico.toml"
 sed 's/^\(max_acceleration_mm_s2 = [0-9]*\).*/\1\nmax_jerk_mm_s3 = 10000/' "$work/Pico.toml" >"$work/Pico-jerk.toml"
 machine Uno-fast 31 140000 218 none
-machine Mega-fast 100 110000 171 none
+machine Mega-fast 160 110000 171 none
 
 # The value behind a word at a line's beginning.
 value() { awk -v word="$1" '$1 == word { print $2; exit }'; }

@@ -143,3 +143,25 @@ describe('a gamepad', () => {
     await context.close();
   });
 });
+
+describe('the scene', () => {
+  it('tells speed or depth by colours with figures, and cuts the path at a height', async () => {
+    const { page, context, errors } = await visit(browser, daemon, 'files');
+    const part = 'G21 G90\nG0 X0 Y0 Z0\nG1 X10 F300\nG1 Z-4 F60\nG1 Y10 F1200\nM2\n';
+    await page.setInputFiles('input[type=file]', { name: 'speeds.ngc', mimeType: 'text/plain', buffer: Buffer.from(part) });
+    await expect.poll(() => page.getByTestId('verdict').innerText(), { timeout: 20_000 }).toContain('Good');
+    await page.goto(`${daemon.address}#/run`);
+    const tells = page.getByRole('combobox', { name: 'What the colours tell' });
+    const legend = page.locator('.scene-legend');
+    await tells.selectOption({ label: 'Colour: speed' });
+    await expect.poll(() => legend.innerText()).toMatch(/^60\s+1200\s+mm\/min$/);
+    await tells.selectOption({ label: 'Colour: depth' });
+    await expect.poll(() => legend.innerText()).toMatch(/^Z -4\.00\s+Z 0\.00\s+mm$/);
+    await page.getByRole('button', { name: 'Section', exact: true }).click();
+    await expect.poll(() => page.locator('.scene-section').innerText()).toContain('Z -2.00 mm');
+    await tells.selectOption({ label: 'One colour' });
+    await legend.waitFor({ state: 'detached' });
+    expect(errors).toEqual([]);
+    await context.close();
+  });
+});

@@ -1,10 +1,11 @@
 // Pictures of each page, in both themes and two sizes: scripts/page_pictures.sh FOLDER
-import { mkdirSync, readFileSync } from 'node:fs';
+import { existsSync, mkdirSync, readdirSync, readFileSync } from 'node:fs';
 import { join } from 'node:path';
 import { Daemon, example, openBrowser, sleep, visit } from './kit';
 
 const folder = process.argv[2] ?? 'pictures';
 const pages = process.argv[3]?.split(',') ?? ['run', 'jog', 'files', 'make', 'console', 'pins', 'machine', 'lab'];
+const patience = 120_000; // ms, on a busy computer
 const sizes = [
   { name: 'wide', width: 1440, height: 900 },
   { name: 'phone', width: 360, height: 740 },
@@ -34,6 +35,35 @@ async function startFrom(page: import('playwright-core').Page, daemon: Daemon): 
   await daemon.until((status) => status.state === 'Run' && status.progress !== null && status.progress > 0.25, 60_000);
 }
 
+// The holes of an example board.
+async function make(page: import('playwright-core').Page): Promise<void> {
+  if ((await page.getByRole('checkbox', { name: 'timer.drl' }).count()) === 0) {
+    await page.setInputFiles('input[type=file]', example('boards/timer.drl'));
+  } else {
+    await page.getByRole('checkbox', { name: 'timer.drl' }).check();
+  }
+  await page.locator('.make-result img').waitFor({ timeout: patience });
+  await sleep(300);
+}
+
+// The four pictures of a page on one sheet, for the documentation.
+async function sheets(browser: import('playwright-core').Browser): Promise<void> {
+  const page = await browser.newPage({ viewport: { width: 1600, height: 1000 } });
+  const names = readdirSync(folder).flatMap((name) => /^(\w+)-dark-wide\.png$/.exec(name)?.[1] ?? []);
+  for (const name of names) {
+    const image = (theme: string, size: string): string => {
+      const file = join(folder, `${name}-${theme}-${size}.png`);
+      return existsSync(file) ? `<img class="${size}" src="data:image/png;base64,${readFileSync(file, 'base64')}">` : '';
+    };
+    const four = ['dark', 'light'].map((theme) => `<div>${image(theme, 'wide')}${image(theme, 'phone')}</div>`).join('');
+    await page.setContent(
+      `<style>body{margin:0;background:#808a94;width:1100px}div{display:flex;gap:12px;padding:8px 12px}.wide{height:512px}.phone{height:512px}</style>${four}`,
+    );
+    await page.locator('body').screenshot({ path: join(folder, `page-${name}.jpg`), type: 'jpeg', quality: 82, timeout: patience });
+  }
+  await page.close();
+}
+
 mkdirSync(folder, { recursive: true });
 const browser = await openBrowser();
 for (const theme of ['dark', 'light'] as const) {
@@ -45,13 +75,19 @@ for (const theme of ['dark', 'light'] as const) {
     for (const path of pages) {
       await page.goto(`${daemon.address}#/${path}`);
       await sleep(900);
-      await page.screenshot({ path: join(folder, `${path}-${theme}-${size.name}.png`) });
+      if (path === 'make') await make(page);
+      if (path === 'run') {
+        await page.locator('.scene:not([data-shown=""])').waitFor({ timeout: patience });
+        await page.locator('.text-line code span').first().waitFor({ state: 'attached', timeout: patience });
+        await sleep(500);
+      }
+      await page.screenshot({ path: join(folder, `${path}-${theme}-${size.name}.png`), timeout: patience });
     }
     if (size.name === 'wide' && pages.includes('run')) {
       await page.goto(`${daemon.address}#/run`);
       await startFrom(page, daemon);
       await sleep(300);
-      await page.screenshot({ path: join(folder, `running-${theme}-${size.name}.png`) });
+      await page.screenshot({ path: join(folder, `running-${theme}-${size.name}.png`), timeout: patience });
       await fetch(`${daemon.address}api/v1/stop`, { method: 'POST' });
       await daemon.until((status) => status.state === 'Idle');
       await sleep(1500);
@@ -60,4 +96,5 @@ for (const theme of ['dark', 'light'] as const) {
   }
   await daemon.end();
 }
+await sheets(browser);
 await browser.close();

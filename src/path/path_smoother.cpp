@@ -15,6 +15,9 @@ namespace {
 // How far chords may leave an arc: this share of the tube.
 constexpr double chord_share = 0.01;
 
+// Where the smoothed path is shorter than s by less, the speed along s stays the feed. An even feed costs fewer phases.
+constexpr double worth_raising = 0.95;
+
 // Of a span: a shorter part is not worth a segment of its own.
 constexpr double least_part = 1e-3;
 
@@ -120,8 +123,8 @@ void PathSmoother::Implementation::give_exact(const ExactPiece& exact, PathItem&
   reader_.drop_before(exact.piece);
 }
 
-// As the path in its middle. Where |dp/dt| is above 1 (the smoothed path cuts a corner of s) the speed along t is less,
-// so that the tool keeps to the feed; and more where t goes on faster than s.
+// As the path in its middle. The tool keeps to the feed: where |dp/dt| is above 1, the speed along t is less. The speed
+// along t is more where t goes on faster than s, or where the smoothed path is much shorter than s (it cuts a corner).
 void PathSmoother::Implementation::write_part(const Part& part, Segment& segment) const {
   const double width = span_.to.t - span_.from.t;
   const bool begins = part.from == 0;
@@ -137,9 +140,15 @@ void PathSmoother::Implementation::write_part(const Part& part, Segment& segment
   const Point out = ends ? span_.to.tangent : segment.curve.tangent(Mm(part.to));
   const Point between = segment.curve.tangent(Mm((part.from + part.to) / 2));
   if (!(begins && ends)) segment.curve = segment.curve.part(Mm(part.from), Mm(part.to));
-  const double steepest = std::max({length_in(in, group), length_in(out, group), length_in(between, group)});
+  // The tangent is a quadratic. It stays in the hull of these five, which are the controls of its two halves.
+  const Point control = between * 2 - (in + out) * 0.5;
+  double steepest = 0;
+  for (const Point& tangent : {in, (in + control) * 0.5, between, (control + out) * 0.5, out}) {
+    steepest = std::max(steepest, length_in(tangent, group));
+  }
   const bool even = span_.from.knot.rate == 1 && span_.to.knot.rate == 1;
-  if (steepest > 1 || !even) segment.speed = segment.speed / steepest;
+  const bool is_short = steepest < worth_raising && segment.lock == SpindleLock::none;
+  if (steepest > 1 || is_short || !even) segment.speed = segment.speed / steepest;
   segment.mode = span_.goes_on || !ends ? PathMode::continuous : PathMode::exact_stop;
   if (ends) stop_at_the_end(span_.to.knot, segment);
 }

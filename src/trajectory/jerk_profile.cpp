@@ -18,13 +18,13 @@ constexpr double guessed_acceleration = 0.5;
 constexpr double hardest_guessed_braking = 0.9;
 constexpr double guessed_jerk = 0.5;
 constexpr double most_growth = 2.5;  // of the square of a guessed speed, from node to node
-// Cells are split where the square of the speed would grow more.
-constexpr double steepest = 6;
 constexpr int most_passes = 40;
 constexpr double at_cap = 1 - 1e-9;
 constexpr double rises_to_settle = 1;  // times the rise of the acceleration from 0 to its limit
 constexpr double room_to_lift = 0.5;   // for squares of speeds: with that all limits have room
 constexpr int most_lifts = 8;
+constexpr std::size_t wider = 32;       // nodes on each side, where a part between steady nodes cannot be lifted
+constexpr double gentle_leaving = 0.2;  // share of the acceleration
 constexpr int most_attempts = 6;
 // A window that begins in motion and is not lifted at once begins too fast for the path ahead, mostly because it must
 // brake harder than its jerk allows from the first cell on. Of 107 such windows further attempts lifted none.
@@ -39,14 +39,14 @@ constexpr double lower_cap = 0.9995;
 // Of the square of a speed. A deeper notch in an even cap makes the acceleration go to and fro beside it, and then the
 // cells there exceed the cap: with 0.9995 a slow program with soft limits of jerk took six times as long to plan.
 constexpr double lower_pace = 0.9999;
+// Of the square of a speed: above its cap by so little it is lowered as it is, without a lift.
+constexpr double most_trimmed = 1.01;
 constexpr std::size_t nearby = 14;  // cells on both sides of one that are lifted again with it
 constexpr int rounds_nearby = 4;    // later rounds take more cells
 constexpr double beyond = 0.9999;   // slowed a little more, against rounding
 constexpr int most_slowings = 40;
 constexpr double least_slowing = 0.98;  // of squares of speeds
 
-constexpr std::size_t fewest_cells = 4;
-constexpr double most_unevenness = 2.5;
 constexpr double strong_braking = 0.05;  // share of the limit
 constexpr double settling = 0.5;         // share of the time of the final braking
 
@@ -136,8 +136,9 @@ void JerkProfile::guess_from(std::size_t node, bool backwards, double growth) {
       // With constant jerk from rest, x = (j² (6 s)⁴)^(1/3) / 4.
       const double jerk = guessed_jerk * cell.jerk;
       const double sixfold = 6 * way;
-      most = std::min(x[node] > 0 ? most : infinity,
-                      std::cbrt(jerk * sixfold * jerk * sixfold) * std::cbrt(sixfold * sixfold) / 4);
+      const double with_jerk = std::cbrt(jerk * sixfold * jerk * sixfold) * std::cbrt(sixfold * sixfold) / 4;
+      // Where cells before had more jerk, the motion is faster already, and may stay so.
+      most = std::min(x[node] > 0 ? most : infinity, std::max(with_jerk, x[node]));
     }
     x[next] = std::min(x[next], most);
     node = next;
@@ -153,21 +154,6 @@ void JerkProfile::grade() {
     if (!split_steep()) return;
     prepare();
   }
-}
-
-// Splits cells in which the square of the speed changes much, by `guess_`. Returns whether there were any. Cells of the
-// plan before stay as they are, because that plan may have to go on.
-bool JerkProfile::split_steep() {
-  const std::vector<double>& x = guess_;
-  bool any = false;
-  const std::size_t first = in_motion_ ? std::max<std::size_t>(planned_, 1) : 0;
-  for (std::size_t i = cells_.size(); i-- > first;) {
-    const double low = std::min(x[i], x[i + 1]);
-    if (!(low > 0) || std::max(x[i], x[i + 1]) <= steepest * low) continue;
-    split(i);
-    any = true;
-  }
-  return any;
 }
 
 // Puts `guess_` at this share of the squares of the caps, or lower where it takes longer to get there.
@@ -224,11 +210,29 @@ bool JerkProfile::lift(const Stretch& stretch) {
                      stretch.first, stretch.last, states_);
 }
 
+// Lowers the speeds of a cell that is too fast only, and by little, to its cap. Returns whether it and the cell before
+// keep their limits then; else nothing changes. The cell after is looked at later, if it is in the same stretch.
+bool JerkProfile::trim(std::size_t i, const Excess& worst, const Stretch& lifted) {
+  if (worst.pace > most_trimmed || std::max(worst.force, worst.jolt) > 1 || (i == 0 && in_motion_)) return false;
+  const NodeState in = states_[i];
+  const NodeState out = states_[i + 1];
+  const double factor = std::sqrt(lower_pace / worst.pace);
+  states_[i].speed *= factor;
+  states_[i + 1].speed *= factor;
+  const bool is_last = i + 1 == lifted.last && i + 1 < cells_.size();
+  if (excess(i).most() <= 1 && (i == 0 || excess(i - 1).most() <= 1) && (!is_last || excess(i + 1).most() <= 1)) {
+    return true;
+  }
+  states_[i] = in;
+  states_[i + 1] = out;
+  return false;
+}
+
 void JerkProfile::find_exceeded(const Stretch& lifted) {
   for (std::size_t i = lifted.first; i < lifted.last; ++i) {
     const Excess worst = excess(i);
     const double most = worst.most();
-    if (most <= 1) continue;
+    if (most <= 1 || trim(i, worst, lifted)) continue;
     exceeded_.push_back(i);
     if (std::max(worst.force, worst.jolt) > 1) share_[i] *= std::clamp(safely / most, most_lowering, least_lowering);
     if (worst.force > 1) {  // the speed may be the reason
@@ -324,13 +328,49 @@ bool JerkProfile::lift_between_steady() {
   for (std::size_t k = 1; k < n; ++k) {
     if (steady_[k]) states_[k] = {.speed = std::sqrt(node_cap_[k]), .acceleration = 0};
   }
-  for (std::size_t first = 0; first < n;) {
-    std::size_t last = first + 1;
-    while (last < n && !steady_[last]) ++last;
-    if (last > first + 1 && !lift({.first = first, .last = last})) return false;
-    first = last;
+  for (Stretch part; part.last < n;) {
+    part.first = part.last++;
+    while (part.last < n && !steady_[part.last]) ++part.last;
+    if (part.last > part.first + 1 && !lift_wider(part)) return false;
   }
   return true;
+}
+
+// Lifts a part between steady nodes. If that fails, steady nodes on both sides may be too near: where the acceleration
+// falls with the speed, the cap is reached later than the guess says. Then the part takes in some of them.
+bool JerkProfile::lift_wider(Stretch& part) {
+  leave_caps(part);
+  if (lift(part)) return true;
+  const auto loosen = [this](std::size_t node) {
+    steady_[node] = false;
+    states_[node] = {.speed = std::sqrt(guess_[node]), .acceleration = 0};
+  };
+  const std::size_t n = cells_.size();
+  const Stretch before = part;
+  while (part.first > 0 && before.first - part.first < wider && steady_[part.first - 1]) loosen(part.first--);
+  while (part.last < n && (part.last - before.last < wider || !steady_[part.last])) loosen(part.last++);
+  if (part.first == before.first && part.last == before.last) return false;
+  leave_caps(part);
+  return lift(part);
+}
+
+// The guess is at a share of all caps. Beside a steady node, which is at its cap, it goes down gently from there, but
+// not where the guess is lower because it only begins to speed up.
+void JerkProfile::leave_caps(const Stretch& part) {
+  const auto leave = [this, &part](std::size_t node, bool backwards) {
+    if (!steady_[node]) return;
+    double least = states_[node].speed * states_[node].speed;
+    for (std::size_t left = part.last - part.first - 1; left > 0; --left) {
+      const JerkCell& cell = cells_[backwards ? --node : node++];
+      const double acceleration = gentle_leaving * cell.acceleration;
+      least -= 2 * acceleration * cell.length;
+      const double x = states_[node].speed * states_[node].speed;
+      if (!(least > x) || x < at_cap * guessed_speed_squared * node_cap_[node]) return;
+      states_[node] = {.speed = std::sqrt(least), .acceleration = backwards ? acceleration : -acceleration};
+    }
+  };
+  leave(part.first, false);
+  leave(part.last, true);
 }
 
 // Finds a motion over all cells that keeps the limits.
@@ -360,6 +400,7 @@ bool JerkProfile::find_motion_from_slow() {
     even_out();
     prepare();
     begin_with_guess();
+    for (NodeState& state : states_) state.acceleration = 0;  // then every cell has phases
     if (!slow_down()) return false;
   }
   kept_ = states_;
@@ -376,8 +417,9 @@ std::size_t JerkProfile::plan(bool closed) {
   kept_.assign(states_.begin(), states_.end());
   if (cells_.size() < fewest_cells && planned_ == 0) even_out();
   grade();
+  const bool fell_back_before = fell_back_;
   fell_back_ = !find_motion();
-  if (fell_back_) return go_on_as_planned();
+  if (fell_back_) return go_on_as_planned(fell_back_before);
   planned_ = cells_.size();
   return closed ? planned_ : decided_of_open();
 }
@@ -393,12 +435,13 @@ std::size_t JerkProfile::decided_of_open() const {
   return k >= 2 ? k : 0;
 }
 
-// Goes on with the last good plan, which ends at rest at the end of the path known then. Part of it is played.
-std::size_t JerkProfile::go_on_as_planned() {
+// Goes on with the last good plan, which ends at rest at the end of the path known then. Half of it is played; all of
+// it if that did not help before. Each attempt plans the whole window.
+std::size_t JerkProfile::go_on_as_planned(bool again) {
   states_.assign(kept_.begin(), kept_.end());
   states_.resize(cells_.size() + 1);
   std::fill(states_.begin() + static_cast<std::ptrdiff_t>(planned_) + 1, states_.end(), NodeState{});
-  return std::max<std::size_t>(planned_ / 4, 1);
+  return std::max<std::size_t>(again ? planned_ : planned_ / 2, 1);
 }
 
 void JerkProfile::drop(std::size_t count) {
@@ -412,45 +455,6 @@ void JerkProfile::drop(std::size_t count) {
   planned_ -= std::min(planned_, count);
   in_motion_ = !all && states_[0].speed > 0;
   if (all) states_.clear();
-}
-
-// Splits a cell in two halves.
-void JerkProfile::split(std::size_t i) {
-  const auto at = [](auto& list, std::size_t k) { return list.begin() + static_cast<std::ptrdiff_t>(k); };
-  JerkCell second = cells_[i];
-  const double half = second.length / 2;
-  second.start += half;
-  second.length -= half;
-  cells_[i].length = half;
-  cells_[i].ends_segment = false;
-  const std::vector<AxisShape> whole(shapes(i), shapes(i) + axes_.size());
-  cells_.insert(at(cells_, i + 1), second);
-  shapes_.insert(at(shapes_, (i + 1) * axes_.size()), whole.begin(), whole.end());
-  for (std::size_t k = 0; k < axes_.size(); ++k) {
-    AxisShape& first = shapes(i)[k];
-    AxisShape& last = shapes(i + 1)[k];
-    first.third_out = last.third_in = (whole[k].third_in + whole[k].third_out) / 2;
-    first.bend_out = last.bend_in = (whole[k].bend_in + whole[k].bend_out) / 2;
-    first.slope_out = last.slope_in = (whole[k].slope_in + whole[k].slope_out) / 2 - half * half / 2 * first.third_out;
-  }
-  entry_cap_.insert(at(entry_cap_, i + 1), constant_speed_cap(i + 1));
-}
-
-// The acceleration cannot change evenly where a long cell meets a short one. Also, a window needs some cells.
-void JerkProfile::even_out() {
-  for (std::size_t i = 0; cells_.size() < fewest_cells;) split(i++ % cells_.size());
-  const auto is_long = [this](std::size_t i) {
-    const double length = cells_[i].length / most_unevenness;
-    return (i > 0 && length > cells_[i - 1].length) || (i + 1 < cells_.size() && length > cells_[i + 1].length);
-  };
-  for (std::size_t i = 0; i < cells_.size();) {
-    if (is_long(i)) {
-      split(i);
-      i -= std::min<std::size_t>(i, 1);
-    } else {
-      ++i;
-    }
-  }
 }
 
 }  // namespace passo

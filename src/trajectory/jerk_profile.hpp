@@ -61,6 +61,8 @@ class JerkProfile {
   bool fell_back() const { return fell_back_; }
 
  private:
+  static constexpr std::size_t fewest_cells = 4;
+
   struct Pair {  // the two phases of a cell, each of half the time
     double half = 0;
     double first = 0;  // the jerk of the first phase
@@ -101,15 +103,18 @@ class JerkProfile {
   void find_steady();
   double narrow_steady(std::size_t node, std::size_t cell, double left);
   bool lift_between_steady();
+  bool lift_wider(Stretch& part);
+  void leave_caps(const Stretch& part);
   bool find_motion();
   bool find_motion_from_slow();
   bool lift(const Stretch& stretch);
   bool mend();
+  bool trim(std::size_t i, const Excess& worst, const Stretch& lifted);
   void find_exceeded(const Stretch& lifted);
   double slowing() const;
   void slow_by(double factor);
   bool slow_down();
-  std::size_t go_on_as_planned();
+  std::size_t go_on_as_planned(bool again);
   std::size_t decided_of_open() const;
 
   Pair pair_of(std::size_t i) const;

@@ -48,13 +48,17 @@ MarginSurvey::Look::Look(const PlannedMove& move, const Phase& phase, Seconds t,
 
 // A moment of one axis.
 struct MarginSurvey::Moment {
-  Moment(const SurveyedMotor& motor, const PlannedMove& move, const Look& look)
+  Moment(const SurveyedMotor& motor, const PlannedMove& move, const Look& look, double newtons_per_speed)
       : line(move.segment.source.line), rapid(move.segment.rapid), time(look.time), path_speed(look.speed) {
     place = look.place[motor.axis];
     speed = look.slope[motor.axis] * look.speed;
     bending = look.bend[motor.axis] * look.speed * look.speed;
     acceleration = look.slope[motor.axis] * look.acceleration + bending;
     shaft = {std::abs(speed) * motor.radians_per_unit};
+    if (!rapid && !is_rotary(motor.axis) && std::abs(speed) > nothing) {
+      constexpr double per_metre = 1000;  // mm
+      cut = newtons_per_speed * path_speed / (motor.radians_per_unit * per_metre);
+    }
     torque = torque_for(motor, acceleration);
   }
 
@@ -62,7 +66,7 @@ struct MarginSurvey::Moment {
   double torque_for(const SurveyedMotor& motor, double axis_acceleration) const {
     double friction = 0;
     if (std::abs(speed) > nothing) {
-      friction = std::copysign(motor.load.friction_at(shaft).value, speed);
+      friction = std::copysign(motor.load.friction_at(shaft).value + cut, speed);
     } else if (std::abs(axis_acceleration) > nothing) {
       friction = std::copysign(motor.load.friction.value, axis_acceleration);
     }
@@ -78,6 +82,7 @@ struct MarginSurvey::Moment {
   double acceleration = 0;
   double bending = 0;
   RadiansPerSecond shaft = {};
+  double cut = 0;  // N·m
   double torque = 0;
 };
 
@@ -158,10 +163,10 @@ void MarginSurvey::watch_phase(const PlannedMove& move, const Phase& phase) {
 
 void MarginSurvey::watch_motor(const PlannedMove& move, std::size_t motor) {
   const SurveyedMotor& own = motors_[motor];
-  Moment from(own, move, looks_[0]);
+  Moment from(own, move, looks_[0], cut_);
   MarginSpot worst = spot_of_jump(motor, from);
   for (std::size_t i = 1; i < looks_.size(); ++i) {
-    const Moment to(own, move, looks_[i]);
+    const Moment to(own, move, looks_[i], cut_);
     const MarginSpot spot = spot_at(motor, to);
     if (is_worse(spot, worst)) worst = spot;
     AxisPiece piece{.duration = to.time - from.time,
@@ -169,7 +174,8 @@ void MarginSurvey::watch_motor(const PlannedMove& move, std::size_t motor) {
                     .to = to.place,
                     .speed_from = from.speed,
                     .speed_to = to.speed,
-                    .load = worst.load()};
+                    .load = worst.load(),
+                    .resistance = {(from.cut + to.cut) / 2}};
     if (const Leader& leader = looks_[i].leader; leader.axis && leader.axis != own.axis) {
       const double lines = grid_.steps_per_unit[*leader.axis] * leader.division;
       piece.grid_from = looks_[i - 1].place[*leader.axis] * lines + leader.division / 2;
@@ -252,6 +258,7 @@ MarginSpot MarginSurvey::spot_at(std::size_t motor, const Moment& moment) const 
   MarginSpot spot{.axis = own.axis, .line = moment.line, .time = moment.time, .rapid = moment.rapid};
   spot.needed = {std::abs(moment.torque)};
   spot.of_motion = spot.needed;
+  spot.of_cut = {moment.cut};
   spot.there = own.band.of_curve(moment.shaft);
   spot.rate = own.band.rate_at(moment.shaft);
   spot.speed = MmPerSecond(std::abs(moment.speed));
@@ -301,7 +308,8 @@ void MarginSurvey::find_safe_speed(MarginSpot& spot) {
   for (int i = parts - 1; i > 0 && shaft > 0; --i) {
     const double part = static_cast<double>(i) / parts;
     const double turning = spot.bending.value() * (1 - part * part);
-    const double needed = swing * (spot.of_motion.value - for_each * std::min(turning, spot.acceleration.value()));
+    const double needed = swing * (spot.of_motion.value - for_each * std::min(turning, spot.acceleration.value()) -
+                                   spot.of_cut.value * (1 - part));
     const NewtonMetres there =
         spot.want == Want::calm ? own->band.while_steady({part * shaft}) : own->band.of_curve({part * shaft}).low;
     if (needed > share_ * there.value) continue;

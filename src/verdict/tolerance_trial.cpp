@@ -87,6 +87,7 @@ TrialFinding ToleranceTrial::stand(Seconds time) {
   const double left = std::max(until_at_rest - stood_, 0.0);
   stood_ += time.value();
   if (pending_ > 0) pass(pending_);
+  resist({0});
   for (double run = std::min(time.value(), left); run > 0; run -= between_looks) pass(std::min(run, between_looks));
   const TrialFinding finding{.judged = true, .lost = std::popcount(out_ & ~out_before), .most_swing = most_swing_};
   if (stood_ >= until_at_rest) stop();
@@ -162,6 +163,7 @@ void ToleranceTrial::carry_to(const AxisPiece& piece) {
 // Returns the time that was played.
 double ToleranceTrial::follow(const AxisPiece& piece) {
   stood_ = 0;
+  resist(piece.resistance);
   const double duration = piece.duration.value();
   const double scale = steps_per_unit_;
   double time = duration;
@@ -217,6 +219,12 @@ void ToleranceTrial::follow(const Path& path, const Path& grid, double duration,
   }
 }
 
+void ToleranceTrial::resist(NewtonMetres torque) {
+  if (torque.value == resistance_) return;
+  resistance_ = torque.value;
+  for (BoundedMotor& motor : motors_) motor.set_resistance(torque);
+}
+
 void ToleranceTrial::step(int way) {
   commanded_ += way;
   for (std::size_t i = 0; i < motors_.size(); ++i) {
@@ -241,6 +249,7 @@ void ToleranceTrial::stop() {
   motors_.clear();
   out_ = 0;
   commanded_ = 0;
+  resistance_ = 0;
   pending_ = 0;
   stood_ = 0;
 }

@@ -103,4 +103,63 @@ TEST_F(CheckMargin, says_nothing_of_motors_that_the_machine_file_does_not_know) 
   EXPECT_TRUE(nlohmann::json::parse(outcome.out)["margin"].is_null());
 }
 
+// A slot of 6 mm, 2 mm deep, at 10 mm/s and 12,000 turns a minute: P = k·12·10, over a cutting speed of 3770 mm/s.
+class CheckCut : public CheckMargin {
+ protected:
+  static std::string machine() {
+    return with_motor(100) +
+           "[axis.Z]\nsteps_per_turn = 200\nmicrosteps = 8\nscrew_pitch_mm = 4\ntravel_mm = [-50, 50]\n"
+           "max_velocity_mm_s = 20\nmax_acceleration_mm_s2 = 100\n";
+  }
+  Outcome cut(const std::string& options, const std::string& spindle = "S12000 M3\n") const {
+    const std::string program = "G21 G90\n" + spindle + "G0 X-10\nG0 Z-2\nG1 X30 F600\nG0 Z5\nM2\n";
+    return passo("check " + write("p.ngc", program) + " -m " + write("m.toml", machine()) +
+                 " --tool flat:6 --cell 0.1 " + options);
+  }
+  static constexpr const char* block = " --stock X0:40,Y-10:10,Z-10:0";
+};
+
+TEST_F(CheckCut, adds_its_force_to_what_the_motors_need) {
+  const Outcome soft = cut(std::string("--cutting-force 800 --json") + block);
+  ASSERT_EQ(soft.code, 0) << soft.err;
+  const auto json = nlohmann::json::parse(soft.out);
+  EXPECT_NEAR(json["cut"]["most_force_n"], 800 * 12 * 10 / 3770.0, 1);
+  EXPECT_EQ(json["cut"]["most_force_line"], 5);
+  EXPECT_EQ(json["margin"]["verdict"], "safe");
+
+  const Outcome hard = cut(std::string("--cutting-force 20000") + block);
+  EXPECT_EQ(hard.code, 1);
+  EXPECT_THAT(hard.out, HasSubstr("cut             "));
+  EXPECT_THAT(hard.out, HasSubstr(" of it for the cut"));
+  EXPECT_THAT(hard.err, HasSubstr("[check.steps-lost]"));
+}
+
+TEST_F(CheckCut, wants_a_spindle_speed_and_the_material) {
+  const Outcome silent = cut(std::string("--cutting-force 20000") + block, "");
+  EXPECT_EQ(silent.code, 0) << "nothing is known of its force: " << silent.err;
+  EXPECT_THAT(silent.err, HasSubstr("[check.no-spindle-speed]"));
+  EXPECT_EQ(cut(std::string("--cutting-force 20000 --spindle-speed 12000") + block, "").code, 1);
+  EXPECT_THAT(cut("").err, HasSubstr("--cutting-force is missing"));
+  EXPECT_THAT(cut("--cutting-force nan").err, HasSubstr("expected a number from 0.1 to 20000"));
+  EXPECT_THAT(cut("--cutting-force 800 --stock X9:1").err, HasSubstr("--stock: expected"));
+}
+
+TEST_F(CheckCut, fails_for_a_rapid_through_the_stock) {
+  const Outcome outcome = passo("check " + write("r.ngc", "G21 G90 S12000 M3\nG0 Z5\nG0 Z-2\nG1 X30 F300\nM2\n") +
+                                " -m " + write("m.toml", machine()) + " --tool flat:6 --cell 0.1 --cutting-force 700");
+  EXPECT_EQ(outcome.code, 1);
+  EXPECT_THAT(outcome.err, HasSubstr("[simulate.rapid]"));
+  EXPECT_THAT(outcome.out, Not(HasSubstr("no errors")));
+}
+
+// A machine that rounds corners is cut along the same path that is planned.
+TEST_F(CheckCut, finds_the_force_of_every_feed_of_an_example) {
+  const std::string examples = std::string(PASSO_SOURCE_DIR) + "/examples/";
+  const Outcome outcome = passo("check " + examples + "pocket.ngc -m " + examples +
+                                "machines/strong-router.toml --tool flat:6 --cutting-force 800 --json");
+  const auto json = nlohmann::json::parse(outcome.out);
+  EXPECT_EQ(json["cut"]["feeds_without_force"], 0);
+  EXPECT_GT(json["cut"]["most_force_n"], 1);
+}
+
 }  // namespace

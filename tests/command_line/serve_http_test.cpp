@@ -326,6 +326,7 @@ TEST_F(ServeHttp, makes_a_program_of_a_drill_file) {
   EXPECT_EQ(json("GET", "/programs/" + id)["name"], "holes-drill.ngc");
   EXPECT_THAT(ask("GET", "/api/v1/programs/" + id + "/text"), HasSubstr("Z-1.5"));
   EXPECT_THAT(ask("GET", "/api/v1/make/picture"), HasSubstr("<svg"));
+  EXPECT_THAT(ask("GET", "/api/v1/programs/" + id + "/text"), HasSubstr("(holes-drill.ngc"));
   const auto failed = make(R"({"job": "drill", "files": ["wrong.drl"]})");
   EXPECT_EQ(failed["state"], "failed");
   EXPECT_THAT(failed["words"].get<std::string>(), HasSubstr("wrong.drl"));

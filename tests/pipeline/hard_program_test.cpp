@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <cstdlib>
 #include <ctime>
 #include <functional>
 #include <string>
@@ -16,7 +17,14 @@
 namespace passo {
 namespace {
 
-constexpr int lines = 100;
+// PASSO_LINES: how many each program has. PASSO_ONLY: a part of the names of those to plan, as they are printed.
+int line_count() {
+  return static_cast<int>(test::number_of("PASSO_LINES", 100));
+}
+bool is_wanted(const std::string& name) {
+  const char* const only = std::getenv("PASSO_ONLY");
+  return only == nullptr || name.find(only) != std::string::npos;
+}
 
 struct Kind {
   const char* name;
@@ -131,7 +139,7 @@ Planned plan(const std::string& program, const MachineDescription& machine, Smoo
 
 std::string program_of(const Kind& kind) {
   std::string program = "G21 G90 G17 G64 P0.005 F6000\n";
-  for (int i = 1; i <= lines; ++i) program += kind.line(i) + "\n";
+  for (int i = 1; i <= line_count(); ++i) program += kind.line(i) + "\n";
   return program + "M2\n";
 }
 
@@ -142,15 +150,108 @@ TEST(HardPrograms, are_planned_in_a_bounded_number_of_phases) {
   for (const Kind& kind : kinds()) {
     const std::string program = program_of(kind);
     for (const Limits& limits : all_limits) {
-      SCOPED_TRACE(fmt::format("{}, {}", kind.name, limits.name));
+      const std::string name = fmt::format("{}, {}", kind.name, limits.name);
+      if (!is_wanted(name)) continue;
+      SCOPED_TRACE(name);
       const MachineDescription machine = machine_with(limits);
       const Planned planned = plan(program, machine, smoothness(machine));
       EXPECT_GT(planned.phases, 0U);
-      EXPECT_LE(planned.phases, most_phases * lines);
-      std::printf("%6.2f s of the processor, %9.1f s of motion, %8zu phases: %s, %s\n", planned.seconds, planned.time,
-                  planned.phases, kind.name, limits.name);
+      EXPECT_LE(planned.phases, most_phases * static_cast<std::size_t>(line_count()));
+      std::printf("%6.2f s of the processor, %9.1f s of motion, %8zu phases: %s\n", planned.seconds, planned.time,
+                  planned.phases, name.c_str());
       std::fflush(stdout);
     }
+  }
+}
+
+// A machine of four axes with any mixture of limits.
+MachineDescription mixed_machine(test::Random& random) {
+  MachineDescription machine;
+  machine.name = "mixed";
+  machine.path_tolerance = Mm(std::exp(random.between(-7, -2)));
+  machine.board.highest_event_rate = Hertz(1e6);
+  const double velocity = std::exp(random.between(3, 6));
+  const double acceleration = std::exp(random.between(4.5, 9));
+  const double rise = std::exp(random.between(-7, -1.5));
+  enum class Jerk : std::uint8_t { none, all, some, uneven };
+  const auto jerk = static_cast<Jerk>(random.between(0, 3.999));
+  const bool torque = random.chance(0.5);
+  const auto part = [&] { return random.chance(0.5) ? 1 : random.between(0.2, 1); };
+  for (const Axis axis : {Axis::x, Axis::y, Axis::z, Axis::a}) {
+    AxisDescription own;
+    own.axis = axis;
+    own.steps_per_unit = 20;
+    const double turns = axis == Axis::a ? std::exp(random.between(-1, 4)) : 1;
+    own.velocity = MmPerSecond(std::min(4e4, velocity * turns * part()));
+    own.acceleration = MmPerSecond2(acceleration * turns * part());
+    const bool limited = jerk != Jerk::none && (jerk != Jerk::some || random.chance(0.5));
+    const double slower = limited && jerk == Jerk::uneven ? std::exp(random.between(0, 2)) : 1;
+    if (limited) own.jerk = MmPerSecond3(own.acceleration.value() / rise / slower);
+    own.travel_low = -1e7;
+    own.travel_high = 1e7;
+    if (torque) own.motor = test::random_motor(random, own);
+    machine.axes.push_back(own);
+  }
+  return machine;
+}
+
+// One, two or three sorts of lines by turns. In each sort every axis stands, goes on, swings, jumps to and fro or goes
+// anywhere, by micrometres or by centimetres.
+std::string mixed_program(test::Random& random) {
+  struct Sort {
+    std::array<double, 4> size{};
+    std::array<double, 4> swing{};
+    std::array<int, 4> way{};
+    bool is_arc = false;
+    bool has_feed = false;
+    double feed = 0;
+  };
+  std::string program = random.chance(0.5) ? "G21 G90 G17 G64 F6000\n" : "G21 G90 G17 G64 P0.005 F6000\n";
+  std::vector<Sort> sorts(static_cast<std::size_t>(random.between(1, 3.999)));
+  for (Sort& sort : sorts) {
+    for (std::size_t k = 0; k < 4; ++k) {
+      sort.size[k] = random.chance(0.45) ? 0 : std::exp(random.between(-9, k == 3 ? 5 : 3));
+      sort.swing[k] = random.between(0.1, 3.1);
+      sort.way[k] = static_cast<int>(random.between(0, 3.999));
+    }
+    sort.is_arc = random.chance(0.15);
+    sort.has_feed = random.chance(0.2);
+    sort.feed = std::exp(random.between(1, 10));
+  }
+  std::array<double, 4> at{};
+  for (int i = 1; i <= line_count(); ++i) {
+    const Sort& sort = sorts[static_cast<std::size_t>(i) % sorts.size()];
+    if (sort.is_arc) {
+      const double radius = std::max(0.002, sort.size[0]);
+      at[0] += 2 * radius;
+      program += fmt::format("G2 X{:.5f} Y{:.5f} I{:.5f} J0\n", at[0], at[1], radius);
+      continue;
+    }
+    std::string line;
+    for (std::size_t k = 0; k < 4; ++k) {
+      if (sort.size[k] == 0) continue;
+      const std::array<double, 3> ways = {1, std::sin(sort.swing[k] * i), i % 2 == 0 ? -1.0 : 1.0};
+      at[k] += sort.size[k] * (sort.way[k] < 3 ? ways[static_cast<std::size_t>(sort.way[k])] : random.between(-1, 1));
+      line += fmt::format(" {}{:.5f}", "XYZA"[k], at[k]);
+    }
+    if (line.empty()) continue;
+    program += "G1" + line + (sort.has_feed ? fmt::format(" F{:.2f}\n", sort.feed / (i % 2 == 0 ? 7 : 1)) : "\n");
+  }
+  return program + "M2\n";
+}
+
+// PASSO_SEED=S PASSO_RUNS=N hunts for programs that take long to plan.
+TEST(HardPrograms, of_any_mixture_are_planned_in_a_bounded_number_of_phases) {
+  const std::uint64_t first = test::number_of("PASSO_SEED", 1);
+  const std::uint64_t runs = test::number_of("PASSO_RUNS", 2);
+  for (std::uint64_t number = first; number < first + runs; ++number) {
+    SCOPED_TRACE("PASSO_SEED=" + std::to_string(number));
+    test::Random random = test::Random::of(number);
+    const MachineDescription machine = mixed_machine(random);
+    const Planned planned = plan(mixed_program(random), machine, smoothness(machine));
+    EXPECT_LE(planned.phases, most_phases * static_cast<std::size_t>(line_count()));
+    std::printf("%6.2f s of the processor, %9.1f s of motion, %8zu phases: number %llu\n", planned.seconds,
+                planned.time, planned.phases, static_cast<unsigned long long>(number));
   }
 }
 
@@ -168,9 +269,11 @@ TEST(HardPrograms, creep_as_fast_with_limits_of_jerk) {
   }
 }
 
-// What keeps limits of jerk is allowed without them, too. So on the same path no machine is slower without them.
+// What keeps limits of jerk is allowed without them, too. So on the same path no machine is slower without them. On the
+// path that is smoothed for it, none of 685 machines took more than 1.0121 times as long (numbers 50000 to 50799).
 TEST(LawsOfSpeed, are_never_slower_without_limits_of_jerk) {
   int compared = 0;
+  double worst = 0;
   const auto compare = [&](std::uint64_t, const test::RandomJob& job, test::Random&) {
     if (!has_jerk_limit(job.machine)) return;
     MachineDescription without = job.machine;
@@ -178,11 +281,27 @@ TEST(LawsOfSpeed, are_never_slower_without_limits_of_jerk) {
     const Planned slow = plan(job.program, job.machine, Smoothness::slow_bending);
     const Planned fast = plan(job.program, without, Smoothness::slow_bending);
     EXPECT_LE(fast.time, slow.time * (1 + 1e-4));
+    const double own = plan(job.program, without, smoothness(without)).time;
+    EXPECT_LE(own, slow.time * 1.015);
+    if (slow.time > 0) worst = std::max(worst, own / slow.time);
     ++compared;
   };
   test::for_each_job(200, compare);
   test::for_each_job(200, compare, test::Machines::mixed);
-  std::printf("%d machines compared\n", compared);
+  std::printf("%d machines compared, at worst %.4f times as long without limits of jerk\n", compared, worst);
+}
+
+// The tolerance is ten lines wide, and inverse time asks for a slow feed. The path cuts all corners off. The feed held
+// along the programmed path then, so that the tool was slower than that: 1.10 times the time with limits of jerk, where
+// the feed held along the tool's path.
+TEST(LawsOfSpeed, hold_the_feed_where_the_path_cuts_corners) {
+  test::Random random = test::Random::of(51042);
+  const test::RandomJob job(random);
+  ASSERT_TRUE(has_jerk_limit(job.machine));
+  MachineDescription without = job.machine;
+  for (AxisDescription& axis : without.axes) axis.jerk = MmPerSecond3(0);
+  EXPECT_LT(plan(job.program, without, smoothness(without)).time,
+            plan(job.program, job.machine, smoothness(job.machine)).time);
 }
 
 }  // namespace

@@ -1,5 +1,5 @@
 // A job that was broken off, and how it goes on: with `passo serve --data` and a board alone.
-import { effect, signal } from '@preact/signals';
+import { computed, effect, signal } from '@preact/signals';
 import { get, type HistoryJob, type Place } from './api';
 import { isLive, status } from './connection';
 import { isUnderWay } from './words';
@@ -36,11 +36,15 @@ export async function refreshInterrupted(): Promise<void> {
 }
 
 // Homing, a jog and a job change whether and how it goes on.
+const affects = computed(() => {
+  const now = status.value;
+  if (!isLive.value || isUnderWay(now?.job ?? null)) return '';
+  return `${now?.state} ${now?.trust} ${now?.job?.id} ${now?.job?.state}`;
+});
+
 export function followInterrupted(): void {
   effect(() => {
-    const now = status.value;
-    void `${now?.state} ${now?.trust} ${now?.job?.id} ${now?.job?.state}`;
-    if (isLive.value && !isUnderWay(now?.job ?? null)) void refreshInterrupted();
+    if (affects.value !== '') void refreshInterrupted();
     else interrupted.value = null;
   });
 }

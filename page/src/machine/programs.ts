@@ -75,25 +75,24 @@ export async function deleteProgram(id: number): Promise<void> {
   await refreshPrograms();
 }
 
-const whileChecking = 250; // ms
+const whileChecking = 150; // ms
 const otherwise = 4000;
 
 export function followPrograms(): void {
+  // A job that begins or ends, and a connection that comes back, change the list.
+  const affects = computed(() => (isLive.value ? `${status.value?.job?.id} ${status.value?.job?.state} ${shownId.value}` : ''));
   effect(() => {
-    // A job that begins or ends, and a connection that comes back, change the list.
-    const job = status.value?.job;
-    void `${job?.id} ${job?.state} ${shownId.value}`;
-    if (isLive.value) void refreshPrograms();
+    if (affects.value !== '') void refreshPrograms();
   });
-  const look = (): void => {
-    const checks = programs.value.some((one) => one.state === 'checking');
-    setTimeout(
+  // While a check goes on, its end is seen at once.
+  const checks = computed(() => programs.value.some((one) => one.state === 'checking'));
+  effect(() => {
+    const timer = setInterval(
       () => {
-        if (isLive.value && !document.hidden) void refreshPrograms().then(look);
-        else look();
+        if (isLive.peek() && !document.hidden) void refreshPrograms();
       },
-      checks ? whileChecking : otherwise,
+      checks.value ? whileChecking : otherwise,
     );
-  };
-  look();
+    return () => clearInterval(timer);
+  });
 }

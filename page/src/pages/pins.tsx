@@ -286,9 +286,9 @@ export function PinsPage() {
         <Outputs />
       </div>
       <div class="pins-side">
-        <section class="panel" aria-label={say('page.pins')}>
+        <div class="panel">
           <PinTable />
-        </section>
+        </div>
         <Strip />
       </div>
     </div>

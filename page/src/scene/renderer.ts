@@ -6,6 +6,8 @@ import type { PathPoints, Vector } from './path_data';
 import { boxOf } from './path_data';
 import { lineFragment, lineVertex, pathFragment, pathVertex, toolFragment, toolVertex } from './shaders';
 
+const mostBusy = 1000; // ms
+
 export type Colour = [number, number, number];
 export interface Colours {
   ground: Colour;
@@ -50,6 +52,8 @@ export class Renderer {
   private readonly coneCount: number;
   private readonly chunks = new Map<string, DrawnChunk>();
   private furniture: { array: WebGLVertexArrayObject; count: number } | null = null;
+  private fence: WebGLSync | null = null; // of the last picture
+  private drawnAt = 0; // ms, of the page's clock
   private reach = 1000; // mm: beyond this nothing is drawn
   colours: Colours = { ground: [0, 0, 0], cut: [1, 1, 1], rapid: [1, 1, 0], past: [0.5, 0.5, 0.5], tool: [1, 1, 0], low: [0, 0, 1], high: [1, 0, 0] };
 
@@ -134,6 +138,17 @@ export class Renderer {
     return this.seen(0, view, width, height).map((one) => one.points.chunk);
   }
 
+  // The picture before is not finished: a slow GPU, or none, would only get further behind.
+  isBusy(): boolean {
+    const { gl, fence } = this;
+    if (fence === null) return false;
+    const waits = gl.getSyncParameter(fence, gl.SYNC_STATUS) === gl.UNSIGNALED && performance.now() - this.drawnAt < mostBusy;
+    if (waits) return true;
+    gl.deleteSync(fence);
+    this.fence = null;
+    return false;
+  }
+
   draw(picture: Picture, level: number): void {
     const { gl, canvas } = this;
     const density = canvas.width / Math.max(1, canvas.clientWidth);
@@ -154,6 +169,10 @@ export class Renderer {
     this.drawPath(picture, level, camera, density);
     if (picture.tool !== null) this.drawTool(picture.tool, camera, picture.view);
     gl.bindVertexArray(null);
+    if (this.fence !== null) gl.deleteSync(this.fence);
+    this.fence = gl.fenceSync(gl.SYNC_GPU_COMMANDS_COMPLETE, 0);
+    gl.flush();
+    this.drawnAt = performance.now();
   }
 
   private drawPath(picture: Picture, level: number, camera: Float32Array, density: number): void {

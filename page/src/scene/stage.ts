@@ -1,5 +1,6 @@
 // The scene on a canvas: what is drawn when, and what a pointer does. It draws only when something has changed.
 import { batch, effect, signal } from '@preact/signals';
+import { stable } from '../core/stable';
 import { theme, themeColour } from '../core/theme';
 import { machine, status } from '../machine/connection';
 import { pathIndex } from '../machine/path_index';
@@ -19,6 +20,9 @@ import { Renderer, type Colour } from './renderer';
 export const picked = signal<number | null>(null);
 export const showsRapids = signal(true);
 export const followsTool = signal(false);
+
+// What the picture shows of the status: the daemon tells the rest each second, and a still picture costs nothing.
+const seen = stable(() => [status.value?.place, status.value?.line, status.value?.job?.state]);
 
 const reachOfPick = 12; // CSS pixels
 const clickMoves = 5; // pixels that a click may slip
@@ -50,7 +54,7 @@ export class Stage {
       }),
       effect(() => {
         // What changes the picture.
-        void [status.value, showsRapids.value, followsTool.value, picked.value, colouring.value, section.value];
+        void [seen.value, showsRapids.value, followsTool.value, picked.value, colouring.value, section.value];
         this.soon();
       }),
     );
@@ -144,6 +148,10 @@ export class Stage {
   }
 
   private draw(): void {
+    if (this.renderer.isBusy()) {
+      this.frame = requestAnimationFrame(() => this.draw());
+      return;
+    }
     this.frame = 0;
     this.dirty = false;
     ++this.drawn;

@@ -9,6 +9,7 @@
 #include "check_page.hpp"
 #include "check_report.hpp"
 #include "commands.hpp"
+#include "cut_loads.hpp"
 #include "findings_json.hpp"
 #include "named_files.hpp"
 #include "operator_prompt.hpp"
@@ -139,6 +140,15 @@ std::string refusal_of(const CheckArguments& arguments) {
   if (!arguments.colour_by.empty() && (!draws_margin || arguments.picture.empty() || arguments.motion)) {
     return "--colour-by margin is for a --picture without --motion";
   }
+  const StockArguments& stock = arguments.stock;
+  const bool cuts = !stock.block.empty() || stock.cell || !stock.tools.empty() || !stock.tool_table.empty() ||
+                    !stock.clamps.empty() || arguments.spindle_speed;
+  if (cuts && !arguments.cutting_force) {
+    return "--cutting-force is missing: the specific cutting force of the material, as 700 N/mm\u00B2 for aluminium";
+  }
+  if (arguments.cutting_force && measures_motion(arguments)) {
+    return "--cutting-force is for a check without --motion, and without a picture of the motion";
+  }
   if (arguments.report.empty()) return "";
   if (!arguments.report.ends_with(".html")) return arguments.report + ": a report's name ends in .html";
   if (measures_motion(arguments)) {
@@ -198,18 +208,38 @@ void look(const CheckArguments& arguments, const MachineDescription& machine, co
 }
 
 void print(const CheckArguments& arguments, const MachineDescription& machine, const FirstLook& first,
-           const std::optional<CheckPage>& page) {
+           const std::optional<CheckPage>& page, const std::optional<CutOutcome>& cut) {
   if (arguments.json) {
     const auto replace = nlohmann::ordered_json::error_handler_t::replace;
     nlohmann::ordered_json json = as_json(first.findings, first.stops);
     if (page) add_to(json, *page, machine);
+    if (cut) json["cut"] = as_json(*cut);
     std::puts(json.dump(2, ' ', false, replace).c_str());
     return;
   }
   const char* const name = arguments.program.program.c_str();
-  if (first.result.good) std::printf("%s: no errors\n", name);
+  if (first.result.good && !first.findings.any_error()) std::printf("%s: no errors\n", name);
   if (first.stops.count() > 0) std::printf("%s: waits for somebody at %s\n", name, first.stops.words().c_str());
+  if (cut) std::fputs(to_text(*cut).c_str(), stdout);
   if (page) std::fputs(to_text(*page, machine).c_str(), stdout);
+}
+
+// What the stock is cut by. Nothing, with a message.
+std::optional<CutOutcome> cut(const CheckArguments& arguments, const MachineDescription& machine,
+                              const ProgramReader& program, const InterpreterOptions& options, Diagnostics& findings) {
+  Result<StockWishes, std::string> wishes = stock_wishes(arguments.stock);
+  if (!wishes) {
+    fail(exit_bad_program, wishes.error());
+    return std::nullopt;
+  }
+  if (!read_tool_table(arguments.stock.tool_table, *wishes)) return std::nullopt;
+  Diagnostics of_cut;
+  std::optional<CutOutcome> outcome = cut_by_program(
+      {program.again(), options, &machine}, *wishes,
+      {.specific_force = *arguments.cutting_force, .revolutions_per_minute = arguments.spindle_speed}, of_cut);
+  if (!arguments.json) show(of_cut);
+  for (const Diagnostic& finding : of_cut.all()) findings.add(finding);
+  return outcome;
 }
 
 // Draws and writes what the arguments ask for. Returns an exit code.
@@ -247,6 +277,7 @@ int check(const CheckArguments& arguments) {
   if (!program || !options) return exit_bad_program;
   NamedFiles files = files_of(arguments.program, *options);
   files.reads("the machine file", arguments.machine);
+  files.reads("--tool-table", arguments.stock.tool_table);
   files.writes("--picture", arguments.picture);
   files.writes("--report", arguments.report);
   if (!files.are_apart()) return exit_bad_program;
@@ -257,24 +288,32 @@ int check(const CheckArguments& arguments) {
   if (first.result.good && measures_motion(arguments)) {
     return measure(arguments, *machine, std::move(*program), *options, first.result.nominal_time, first.findings);
   }
+  std::optional<CutOutcome> stock;
+  if (first.result.good && arguments.cutting_force) {
+    stock = cut(arguments, *machine, *program, *options, first.findings);
+    if (!stock) return exit_bad_program;
+  }
   std::optional<CheckPage> page;
   PathRecorder path;
   LoadTrack track;
   if (first.result.good) {
     const bool reports = !arguments.report.empty();
     page = judge(program->again(), *machine, *options, first.result,
-                 {.path = reports || !arguments.picture.empty() ? &path : nullptr, .track = reports ? &track : nullptr},
+                 {.path = reports || !arguments.picture.empty() ? &path : nullptr,
+                  .track = reports ? &track : nullptr,
+                  .loads = stock ? &stock->loads : nullptr},
                  [&](double share) { progress.update(share_of_first_look + (1 - share_of_first_look) * share); });
   }
   progress.clear();
   if (page) page->line = line_cost(std::move(*program), *machine, *options, first.result, page->summary.time());
   const int written = write_files(arguments, *machine, first, page, path, track);
   if (written != exit_done) return written;
-  print(arguments, *machine, first, page);
+  print(arguments, *machine, first, page, stock);
   if (page && page->lost()) {
     return fail(exit_failed, "the motors would lose steps: this part would be scrap [check.steps-lost]");
   }
-  return first.result.good ? exit_done : exit_bad_program;
+  if (!first.result.good) return exit_bad_program;
+  return first.findings.any_error() ? exit_failed : exit_done;
 }
 
 }  // namespace passo

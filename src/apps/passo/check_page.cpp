@@ -150,6 +150,7 @@ nlohmann::ordered_json as_json(const MarginSpot& spot) {
                                  {"want", wants[static_cast<std::size_t>(spot.want)]},
                                  {"time_s", spot.time.value()},
                                  {"needed_nm", spot.needed.value},
+                                 {"cut_nm", spot.of_cut.value},
                                  {"low_nm", spot.there.low.value},
                                  {"high_nm", spot.there.high.value},
                                  {"full_steps_s", spot.rate.value()},
@@ -210,6 +211,7 @@ CheckPage judge(ProgramReader program, const MachineDescription& machine, const 
   for (unsigned items = 1; (!check.probes || segments < check.moves) && planner.next(item); ++items) {
     const auto* move = std::get_if<PlannedMove>(&item);
     double load = 0;
+    if (move != nullptr && watchers.loads != nullptr) survey.set_cut(watchers.loads->of(*move));
     if (move != nullptr && watchers.track != nullptr) {
       load = watch_in_phases(*move, survey, *watchers.track);
     } else {

@@ -6,6 +6,7 @@
 #include <optional>
 #include <string>
 
+#include "cut_loads.hpp"
 #include "line_cost.hpp"
 #include <nlohmann/json_fwd.hpp>
 
@@ -35,6 +36,7 @@ struct CheckPage {
 struct CheckWatchers {
   PathRecorder* path = nullptr;
   LoadTrack* track = nullptr;
+  CutLoads* loads = nullptr;  // of the same program's cut
 };
 
 // Plans a program that was checked, judges its motion, and plays it over a line. `progress` is told now and then which

@@ -7,6 +7,8 @@
 #include <string>
 #include <vector>
 
+#include "stock_options.hpp"
+
 namespace passo {
 
 // The exit codes. Scripts may rely on them.
@@ -94,6 +96,9 @@ struct CheckArguments {
   std::string picture;    // of the motion; empty: none
   std::string colour_by;  // "margin": the picture shows the path, coloured by the motors' margin; empty: the motion
   std::string report;     // .html; empty: none
+  StockArguments stock;   // what is cut, with what
+  std::optional<double> cutting_force;  // N/mm², of the material; empty: no stock is cut
+  std::optional<double> spindle_speed;  // revolutions a minute, of a spindle that the program does not command
   bool json = false;
 };
 int check(const CheckArguments& arguments);

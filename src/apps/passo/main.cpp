@@ -254,6 +254,7 @@ int parse_and_run(int argc, char** argv) {
                            "margin: the picture shows the path instead, dark where the motors have little torque left");
   check_command.add_option("-r,--report", check_arguments.report,
                            "all of it as one page to read and to print, with pictures (FILE.html)");
+  add_cut(check_command, check_arguments);
   check_command.add_flag("--json", check_arguments.json, "print the findings as JSON");
   check_command.footer(
       "Examples:\n  passo check part.ngc -m router.toml             what is wrong with it\n"
@@ -262,6 +263,8 @@ int parse_and_run(int argc, char** argv) {
       "  passo check part.ngc -m router.toml --report part.html    one page with pictures, for the screen and for "
       "paper\n"
       "  passo check part.ngc -m router.toml --picture margin.svg --colour-by margin    where torque is short\n"
+      "  passo check part.ngc -m router.toml --tool flat:6 --cutting-force 700    with the force of the cut, in "
+      "aluminium\n"
       "  passo check corner.ngc -m router.toml --picture corner.svg    its speeds, accelerations and jerks; plans, "
       "too");
 

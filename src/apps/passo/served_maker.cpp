@@ -18,12 +18,17 @@ namespace {
 namespace fs = std::filesystem;
 
 // Names that no uploaded file has: those begin with no dot.
-constexpr const char* program_file = ".made.ngc";
+constexpr const char* made_folder = ".made";
 constexpr const char* said_file = ".said";
 constexpr std::size_t longest_words = 8000;
 
 std::string picture_file(const std::string& job) {
-  return job == "relief" ? ".made.png" : ".made.svg";
+  return std::string(made_folder) + (job == "relief" ? "/picture.png" : "/picture.svg");
+}
+
+// The name stands in the program and in its picture.
+std::string program_file(const std::string& name) {
+  return std::string(made_folder) + "/" + name;
 }
 
 std::string content_of(const std::string& file) {
@@ -118,15 +123,18 @@ void ServedMaker::clear() {
 bool ServedMaker::begin(const MakeOrder& order) {
   if (process_ != 0 || folder_.empty()) return false;
   std::error_code none;
-  fs::remove(path(program_file), none);
+  fs::remove_all(path(made_folder), none);
+  fs::create_directory(path(made_folder), none);
   const std::string picture = picture_file(order.job);
-  fs::remove(path(picture), none);
+  const std::string name = fs::path(order.files.front()).stem().string() + "-" + order.job + ".ngc";
+  const std::string program = program_file(name);
   std::vector<std::string> words = {"passo", "cam", order.job};
   words.insert(words.end(), order.options.begin(), order.options.end());
-  for (const char* const word : {"--output", program_file, "--picture", picture.c_str(), "--"})
-    words.emplace_back(word);
+  for (const std::string& word :
+       {std::string("--output"), program, std::string("--picture"), picture, std::string("--")}) {
+    words.push_back(word);
+  }
   words.insert(words.end(), order.files.begin(), order.files.end());
-  const std::string name = fs::path(order.files.front()).stem().string() + "-" + order.job + ".ngc";
   const pid_t process = fork();
   if (process == 0) become(folder_, words);
   if (process < 0) return false;
@@ -141,7 +149,7 @@ const MakeResult& ServedMaker::look() {
   process_ = 0;
   result_.words = content_of(path(said_file)).substr(0, longest_words);
   std::error_code none;
-  const bool good = WIFEXITED(status) && WEXITSTATUS(status) == 0 && fs::exists(path(program_file), none);
+  const bool good = WIFEXITED(status) && WEXITSTATUS(status) == 0 && fs::exists(path(program_file(result_.name)), none);
   result_.state = good ? MakeResult::State::done : MakeResult::State::failed;
   if (!good && result_.words.empty()) result_.words = words_of_end(status);
   if (good && fs::exists(path(picture_file(result_.job)), none)) {
@@ -151,7 +159,7 @@ const MakeResult& ServedMaker::look() {
 }
 
 std::string ServedMaker::program() const {
-  return content_of(path(program_file));
+  return content_of(path(program_file(result_.name)));
 }
 
 std::string ServedMaker::picture() const {

@@ -13,8 +13,7 @@
 #include "progress_display.hpp"
 #include "simulate_options.hpp"
 #include "simulate_report.hpp"
-#include "simulated_path.hpp"
-#include "stock_arguments.hpp"
+#include "stock_setup.hpp"
 #include <fmt/format.h>
 
 #include "passo/report/output_file.hpp"
@@ -25,37 +24,9 @@
 namespace passo {
 namespace {
 
-// Where the tool stands before the first move, above the stock.
-constexpr double start_height = 50;  // mm
-// How much thicker the stock is than the deepest feed, where nobody says.
-constexpr double usual_rest = 2;  // mm
-
 struct Wishes {
-  WishedBlock block;
-  ToolShapes shapes;
-  std::optional<ToolShape> any_tool;
-  std::vector<StockBlock> clamps;
+  StockWishes stock;
   std::optional<MachineDescription> machine;
-};
-
-// A program that is cut, with what it was read with.
-struct Job {
-  ProgramReader program;
-  InterpreterOptions options;
-};
-
-struct Reach {
-  Vector3 low{1e9, 1e9, 1e9};
-  Vector3 high{-1e9, -1e9, -1e9};
-  bool any() const { return low.x <= high.x; }
-};
-
-// What the first look at a program finds.
-struct FirstPass {
-  Reach feeds;                                  // of the tools' edges in X and Y, of the tip in Z
-  std::map<std::int32_t, std::uint32_t> tools;  // that feed, with the line of their first feed
-  double zero = 0;                              // Z of the work's zero, machine coordinates
-  std::uint64_t moves = 0;
 };
 
 // The end of a file's name in lower case: ".stl".
@@ -75,97 +46,26 @@ bool is_image(const std::string& path) {
   return end == ".png" || end == ".jpg" || end == ".jpeg" || end == ".tif" || end == ".tiff";
 }
 
-// The refusals of the command line come as messages.
-Result<Wishes, std::string> wishes_of(const SimulateArguments& arguments) {
-  Wishes wishes;
-  if (!arguments.stock.empty()) {
-    Result<WishedBlock, std::string> block = parse_block("--stock", arguments.stock);
-    if (!block) return Failure{block.error()};
-    wishes.block = *block;
-  }
-  for (const std::string& text : arguments.clamps) {
-    Result<StockBlock, std::string> clamp = parse_clamp(text);
-    if (!clamp) return Failure{clamp.error()};
-    wishes.clamps.push_back(*clamp);
-  }
-  for (const std::string& text : arguments.tools) {
-    Result<WishedTool, std::string> tool = parse_tool(text);
-    if (!tool) return Failure{tool.error()};
-    if (tool->number) {
-      wishes.shapes[*tool->number] = tool->shape;
-    } else {
-      wishes.any_tool = tool->shape;
-    }
-  }
+// What is wrong with the other arguments. Empty: nothing.
+std::string refusal_of(const SimulateArguments& arguments) {
   if (is_image(arguments.compare)) {
-    return Failure{"--compare: " + arguments.compare +
-                   " is an image; expected a body (.stl), a height map (.csv) or a program"};
+    return "--compare: " + arguments.compare + " is an image; expected a body (.stl), a height map (.csv) or a program";
   }
   for (const std::string& picture : arguments.pictures) {
-    if (!picture_format_of(picture)) return Failure{picture + ": a picture's name ends in .svg or .png"};
+    if (!picture_format_of(picture)) return picture + ": a picture's name ends in .svg or .png";
   }
-  return wishes;
-}
-
-// An option goes before the file of tools, and the file before the tool table of the machine.
-std::optional<ToolShape> shape_of(const Wishes& wishes, const InterpreterOptions& options, std::int32_t number) {
-  if (const auto found = wishes.shapes.find(number); found != wishes.shapes.end()) return found->second;
-  if (wishes.any_tool) return wishes.any_tool;
-  const Tool* const tool = options.tools.find(number);
-  if (tool == nullptr || tool->diameter == Mm(0)) return std::nullopt;
-  return ToolShape{.kind = ToolShape::Kind::flat, .radius = Mm(std::abs(tool->diameter.value()) / 2)};
-}
-
-FirstPass look(const Job& job, const Wishes& wishes, Diagnostics& findings) {
-  FirstPass pass;
-  SimulatedPath path(job.program.again(), job.options, wishes.machine ? &*wishes.machine : nullptr, findings);
-  TipMove move;
-  FindingsDisplay display(findings);
-  while (path.next(move)) {
-    if (pass.moves++ == 0) pass.zero = move.zero.z;
-    display.update();
-    if (move.segment->rapid) continue;
-    pass.tools.try_emplace(move.tool, move.segment->source.line);
-    const Box box = move.segment->curve.extents();
-    const auto shape = shape_of(wishes, job.options, move.tool);
-    const double radius = shape ? shape->radius.value() : 0;
-    const Vector3 low = Vector3::of(box.low) - move.zero - Vector3{radius, radius, 0};
-    const Vector3 high = Vector3::of(box.high) - move.zero + Vector3{radius, radius, 0};
-    Reach& feeds = pass.feeds;
-    feeds.low = {std::min(feeds.low.x, low.x), std::min(feeds.low.y, low.y), std::min(feeds.low.z, low.z)};
-    feeds.high = {std::max(feeds.high.x, high.x), std::max(feeds.high.y, high.y), std::max(feeds.high.z, high.z)};
-  }
-  display.finish();
-  return pass;
-}
-
-// The block that is wished for, and otherwise what the feeds need: the top at 0 where they go below.
-Result<StockBlock, std::string> block_of(const WishedBlock& wished, const Reach& feeds) {
-  const auto all = {wished.x.low, wished.x.high, wished.y.low, wished.y.high, wished.z.low, wished.z.high};
-  const bool is_whole = std::ranges::all_of(all, [](const auto& end) { return end.has_value(); });
-  if (!is_whole && !feeds.any())
-    return Failure{std::string("the program has no feed: say with --stock how large the stock is")};
-  const double top = feeds.low.z < 0 ? 0 : feeds.high.z;
-  StockBlock block;
-  block.low = {wished.x.low.value_or(feeds.low.x), wished.y.low.value_or(feeds.low.y),
-               wished.z.low.value_or(feeds.low.z - usual_rest)};
-  block.high = {wished.x.high.value_or(feeds.high.x), wished.y.high.value_or(feeds.high.y),
-                wished.z.high.value_or(top)};
-  return block;
+  return "";
 }
 
 // Cuts the field. `pass` is of the same program.
-CutSummary cut(const Job& job, const Wishes& wishes, const FirstPass& pass, const std::vector<ToolShape>& tools,
+CutSummary cut(const StockJob& job, const Wishes& wishes, const FeedLook& pass, const std::vector<ToolShape>& tools,
                unsigned threads, HeightField& field) {
-  std::map<std::int32_t, std::size_t> places;
-  for (const auto& [number, line] : pass.tools) places.emplace(number, places.size());
+  const std::map<std::int32_t, std::size_t> places = pass.places();
   CutSummary summary(tools);
-  StockCutter cutter(field, {.tools = tools, .clamps = wishes.clamps, .threads = threads},
+  StockCutter cutter(field, {.tools = tools, .clamps = wishes.stock.clamps, .threads = threads},
                      [&](const MoveCut& done) { summary.add(done); });
   Diagnostics findings;  // the first look has shown them
-  InterpreterOptions options = job.options;
-  options.start[Axis::z] += pass.zero + field.top() + start_height;
-  SimulatedPath path(job.program.again(), options, wishes.machine ? &*wishes.machine : nullptr, findings);
+  SimulatedPath path(job.program.again(), options_above(job, pass, field), job.machine, findings);
   ProgressDisplay progress(job.program.name());
   TipMove move;
   for (std::uint64_t moves = 0; path.next(move); ++moves) {
@@ -185,28 +85,7 @@ CutSummary cut(const Job& job, const Wishes& wishes, const FirstPass& pass, cons
   return summary;
 }
 
-// Nothing, with a message: a tool has no shape.
-std::optional<std::vector<ToolShape>> tools_of(const Job& job, const Wishes& wishes, const FirstPass& pass) {
-  std::vector<ToolShape> tools;
-  Diagnostics findings;
-  for (const auto& [number, line] : pass.tools) {
-    const auto shape = shape_of(wishes, job.options, number);
-    tools.push_back(shape.value_or(ToolShape{}));
-    if (shape) continue;
-    findings.add({.severity = Severity::error,
-                  .code = "simulate.no-tool",
-                  .file = job.program.name(),
-                  .place = {.line = line, .column = 0, .length = 1},
-                  .message = fmt::format("nobody says what shape T{} has", number),
-                  .expected = fmt::format("--tool {}=flat:6, or a --tool-table", number),
-                  .text = {}});
-  }
-  show(findings);
-  if (findings.any_error()) return std::nullopt;
-  return tools;
-}
-
-std::vector<std::int32_t> numbers_of(const FirstPass& pass) {
+std::vector<std::int32_t> numbers_of(const FeedLook& pass) {
   std::vector<std::int32_t> numbers;
   for (const auto& [number, line] : pass.tools) numbers.push_back(number);
   return numbers;
@@ -234,10 +113,10 @@ std::optional<HeightField> target_of(const SimulateArguments& arguments, const W
   std::optional<ProgramReader> reader = open_program(program);
   const std::optional<InterpreterOptions> options = interpreter_options(program);
   if (!reader || !options) return std::nullopt;
-  const Job job{std::move(*reader), *options};
-  const FirstPass pass = look(job, wishes, findings);
+  const StockJob job{std::move(*reader), *options, wishes.machine ? &*wishes.machine : nullptr};
+  const FeedLook pass = look_at_feeds(job, wishes.stock, findings);
   if (findings.any_error()) return std::nullopt;
-  const auto tools = tools_of(job, wishes, pass);
+  const auto tools = shapes_of(job, wishes.stock, pass);
   if (!tools) return std::nullopt;
   cut(job, wishes, pass, *tools, threads, target);
   return target;
@@ -269,14 +148,7 @@ int write_files(const SimulateArguments& arguments, const Simulation& simulation
 
 // Reads the files of tools and machine into the wishes. Returns an exit code.
 int read_files(const SimulateArguments& arguments, Wishes& wishes) {
-  Diagnostics findings;
-  if (!arguments.tool_table.empty()) {
-    const auto shapes = read_tool_shapes(arguments.tool_table, findings);
-    show(findings);
-    if (!shapes) return exit_bad_program;
-    // A tool of an option keeps its shape.
-    wishes.shapes.insert(shapes->begin(), shapes->end());
-  }
+  if (!read_tool_table(arguments.stock.tool_table, wishes.stock)) return exit_bad_program;
   if (arguments.machine.empty()) return exit_done;
   Diagnostics of_machine;
   wishes.machine = load_machine_file(arguments.machine, of_machine);
@@ -284,18 +156,15 @@ int read_files(const SimulateArguments& arguments, Wishes& wishes) {
   return wishes.machine ? exit_done : exit_bad_machine;
 }
 
-int simulate_job(const SimulateArguments& arguments, const Wishes& wishes, const Job& job) {
+int simulate_job(const SimulateArguments& arguments, const Wishes& wishes, const StockJob& job) {
   Diagnostics errors;
-  const FirstPass pass = look(job, wishes, errors);
+  const FeedLook pass = look_at_feeds(job, wishes.stock, errors);
   if (errors.any_error()) return exit_bad_program;
   if (pass.moves == 0) return fail(exit_bad_program, "the program has no move [simulate.no-move]");
-  const auto tools = tools_of(job, wishes, pass);
+  const auto tools = shapes_of(job, wishes.stock, pass);
   if (!tools) return exit_bad_program;
-  const Result<StockBlock, std::string> block = block_of(wishes.block, pass.feeds);
-  if (!block) return fail(exit_bad_program, block.error() + " [simulate.stock]");
-  const Mm cell = arguments.cell ? Mm(*arguments.cell) : HeightField::usual_cell(*block);
-  Result<HeightField, FieldRefusal> field = HeightField::create(*block, cell);
-  if (!field) return fail(exit_bad_program, field.error().message + " [simulate.stock]");
+  Result<HeightField, std::string> field = stock_field(wishes.stock, pass);
+  if (!field) return fail(exit_bad_program, field.error());
   const unsigned threads = arguments.threads > 0 ? arguments.threads : std::thread::hardware_concurrency();
 
   const double volume_before = field->volume();
@@ -324,20 +193,22 @@ int simulate_job(const SimulateArguments& arguments, const Wishes& wishes, const
 }  // namespace
 
 int simulate(const SimulateArguments& arguments) {
-  Result<Wishes, std::string> wishes = wishes_of(arguments);
-  if (!wishes) return fail(exit_bad_program, wishes.error());
-  if (const int code = read_files(arguments, *wishes); code != exit_done) return code;
+  Result<StockWishes, std::string> stock = stock_wishes(arguments.stock);
+  if (!stock) return fail(exit_bad_program, stock.error());
+  if (const std::string refusal = refusal_of(arguments); !refusal.empty()) return fail(exit_bad_program, refusal);
+  Wishes wishes{.stock = std::move(*stock), .machine = {}};
+  if (const int code = read_files(arguments, wishes); code != exit_done) return code;
   std::optional<ProgramReader> program = open_program(arguments.program);
   const std::optional<InterpreterOptions> options = interpreter_options(arguments.program);
   if (!program || !options) return exit_bad_program;
   NamedFiles files = files_of(arguments.program, *options);
-  files.reads("--tool-table", arguments.tool_table);
+  files.reads("--tool-table", arguments.stock.tool_table);
   files.reads("--machine", arguments.machine);
   files.reads("--compare", arguments.compare);
   for (const std::string& picture : arguments.pictures) files.writes("--picture", picture);
   files.writes("--stl", arguments.stl);
   if (!files.are_apart()) return exit_bad_program;
-  return simulate_job(arguments, *wishes, {std::move(*program), *options});
+  return simulate_job(arguments, wishes, {std::move(*program), *options, wishes.machine ? &*wishes.machine : nullptr});
 }
 
 }  // namespace passo

@@ -1,5 +1,6 @@
 #include "simulate_options.hpp"
 
+#include "number_range.hpp"
 #include <CLI/CLI.hpp>
 
 namespace passo {
@@ -23,10 +24,8 @@ See docs/manual/simulate.md.)";
 
 }  // namespace
 
-CLI::App& add_simulate_command(CLI::App& app, SimulateArguments& arguments) {
-  CLI::App& command =
-      *app.add_subcommand("simulate", "cut a piece of stock before it is cut: rapids, depths, what is left");
-  command.add_option("--stock", arguments.stock,
+void add_stock(CLI::App& command, StockArguments& arguments) {
+  command.add_option("--stock", arguments.block,
                      "the block, as X0:100,Y0:80,Z-10:0; axes that are not named reach as far as the feeds need");
   command.add_option("--cell", arguments.cell,
                      "of the height field, mm; without it some million cells: 0.1 on 100 x 100 mm");
@@ -34,6 +33,24 @@ CLI::App& add_simulate_command(CLI::App& app, SimulateArguments& arguments) {
   command.add_option("--tool-table", arguments.tool_table, "the tools' shapes, flutes and holders (TOML)");
   command.add_option("--clamp", arguments.clamps, "what stands in the way, as X0:10,Y0:20,Z15; may be given again")
       ->take_all();
+}
+
+void add_cut(CLI::App& command, CheckArguments& arguments) {
+  command
+      .add_option("--cutting-force", arguments.cutting_force,
+                  "of the material, N/mm2: cut a piece of stock, and let the motors feel the force (aluminium: 700)")
+      ->check(number_range(0.1, 20000.0));
+  command
+      .add_option("--spindle-speed", arguments.spindle_speed,
+                  "turns a minute, of a spindle that the program does not command; without it the program's S")
+      ->check(number_range(1.0, 1e6));
+  add_stock(command, arguments.stock);
+}
+
+CLI::App& add_simulate_command(CLI::App& app, SimulateArguments& arguments) {
+  CLI::App& command =
+      *app.add_subcommand("simulate", "cut a piece of stock before it is cut: rapids, depths, what is left");
+  add_stock(command, arguments.stock);
   command.add_option("-m,--machine", arguments.machine,
                      "machine file (TOML): cut along its path, corners rounded within the tolerance");
   command.add_option("-p,--picture", arguments.pictures,

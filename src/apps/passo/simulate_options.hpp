@@ -16,12 +16,8 @@ namespace passo {
 
 struct SimulateArguments {
   ProgramArguments program;
-  std::string machine;                // its smoothed path is cut; empty: the path as the program has it
-  std::string stock;                  // "X0:100,Y0:80,Z-10:0"; axes that it does not name are as the feeds need them
-  std::optional<double> cell;         // mm
-  std::vector<std::string> tools;     // "ball:3", "2=vee:60:6"
-  std::string tool_table;             // TOML; empty: none
-  std::vector<std::string> clamps;    // "X0:10,Y0:20,Z15"
+  std::string machine;  // its smoothed path is cut; empty: the path as the program has it
+  StockArguments stock;
   std::vector<std::string> pictures;  // .svg or .png
   std::string stl;
   std::optional<std::size_t> stl_step;  // cells
@@ -32,6 +28,8 @@ struct SimulateArguments {
 };
 int simulate(const SimulateArguments& arguments);
 
+// The options of `passo check` that cut a piece of stock.
+void add_cut(CLI::App& command, CheckArguments& arguments);
 // Adds the command, without the options that every command with a program has.
 CLI::App& add_simulate_command(CLI::App& app, SimulateArguments& arguments);
 

@@ -58,12 +58,15 @@ bool SimulatedPath::next(TipMove& move) {
   while (!diagnostics_.full() && (smoother_ ? smoother_->next(item_) : watched_.next(item_))) {
     if (const auto* const action = std::get_if<Action>(&item_)) {
       if (action->kind == Action::Kind::tool_change) tool_ = action->tool;
+      const OutputState& outputs = action->outputs;
+      revolutions_per_minute_ = outputs.spindle == SpindleDirection::off ? 0 : outputs.revolutions_per_minute;
       continue;
     }
     const Segment& segment = std::get<Segment>(item_);
     move.segment = &segment;
     move.zero = zero_of(segment);
     move.tool = tool_;
+    move.revolutions_per_minute = revolutions_per_minute_;
     move.time = Seconds(0);
     if (limits_) {
       move.time = nominal_time_of(item_, *limits_);

@@ -20,10 +20,11 @@
 namespace passo {
 
 struct TipMove {
-  const Segment* segment = nullptr;  // in machine coordinates, until the next move
-  Vector3 zero;                      // tip = machine - zero
-  std::int32_t tool = 0;             // its number; 0: none was changed to
-  Seconds time{0};                   // at the programmed speed; 0 for a rapid of an unknown machine
+  const Segment* segment = nullptr;   // in machine coordinates, until the next move
+  Vector3 zero;                       // tip = machine - zero
+  std::int32_t tool = 0;              // its number; 0: none was changed to
+  Seconds time{0};                    // at the programmed speed; 0 for a rapid of an unknown machine
+  double revolutions_per_minute = 0;  // of the spindle as commanded; 0: it stands, or has no speed
 };
 
 class SimulatedPath {
@@ -55,6 +56,7 @@ class SimulatedPath {
   std::deque<Zeros> zeros_;                 // of the segments that the smoother still has, each once
   std::optional<Vector3> first_zero_;
   std::int32_t tool_ = 0;
+  double revolutions_per_minute_ = 0;
   PathItem item_;
 };
 

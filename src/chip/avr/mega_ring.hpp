@@ -30,7 +30,7 @@ inline constexpr uint16_t ring_entries = 256;
 inline constexpr uint8_t most_events = 220;   // two milliseconds at the highest rate; all of them will be played
 inline constexpr uint8_t most_at_once = 100;  // made in one call
 // In the list of items. From 100 on the host fits motion finely.
-inline constexpr uint8_t queue_capacity = 100;
+inline constexpr uint8_t queue_capacity = 160;
 
 // As on the Uno. A turn has a byte for each step port.
 inline constexpr uint16_t received_address = 0x800;

@@ -82,6 +82,41 @@ TEST(JerkLift, raises_a_guess_that_cannot_be_driven) {
   EXPECT_GT(states[2].speed, 2.2);
 }
 
+// From rest an axis without a limit of jerk is at its feed at once. The guess took the next axis's jerk for all the way
+// from the rest, so that the speed fell by nine tenths between two nodes. The cell there was split 40 times, the pieces
+// had no phases at any speed, and no plan was found.
+TEST(JerkProfile, begins_on_an_axis_without_a_limit_of_jerk_and_goes_on_with_another) {
+  MotionLimits limits = jerk_limits(200, 250, 4000);
+  limits.jerk[Axis::x] = MmPerSecond3(0);
+  JerkProfile profile(axes_with_limits(limits));
+  constexpr std::size_t each = 9;
+  constexpr double feed = 0.02;
+  double way = 0;
+  for (std::size_t i = 0; i < 2 * each; ++i) {
+    const bool on_x = i < each;
+    std::vector<AxisShape> shapes(3);
+    shapes[on_x ? 0 : 1] = {.slope_in = 1, .slope_out = 1};
+    const JerkCell cell{.start = way,
+                        .length = on_x ? 1e-8 : std::ldexp(1e-9, static_cast<int>(2 * (i - each))),
+                        .top_squared = feed * feed,
+                        .acceleration = 250,
+                        .jerk = on_x ? 1e13 : 4000,
+                        .straight = true};
+    profile.push(cell, shapes.data());
+    way += cell.length;
+  }
+  ASSERT_EQ(profile.plan(true), profile.size());
+  EXPECT_LE(profile.size(), 4 * each);
+  double time = 0;
+  for (std::size_t i = 0; i < profile.size(); ++i) {
+    PlannedMove move;
+    profile.add_phases(i, move);
+    time += move.duration().value();
+  }
+  // The way at the feed, and the time in which Y alone would brake with a third of its jerk.
+  EXPECT_LT(time, way / feed + 4 * std::sqrt(3 * feed / 4000));
+}
+
 // Cells of any length side by side on a line, which no cutter makes. Some have no phases at any speed until the stretch
 // gets another shape.
 class UnevenLine {

@@ -64,6 +64,25 @@ TEST(MarginSurvey, calls_safe_doubtful_and_lost) {
   EXPECT_EQ(verdict_of(motor, there_and_rest(1, 1.4)), Verdict::lost);
 }
 
+// 5 mm a turn: 1 N is 0.796 mN·m. At 39.8 mm/s, 10 N for each mm/s are 398 N, or 0.317 N·m.
+TEST(MarginSurvey, feels_the_cut_on_feeds) {
+  const SurveyedMotor motor = flat_motor(Axis::x, 0.15);
+  PlannedMove move = there_and_rest(3, 0.05, 0.1);
+  const auto with_cut = [&](double newtons_per_speed) {
+    MarginSurvey survey({motor});
+    survey.set_cut(newtons_per_speed);
+    survey.watch(move);
+    return survey.verdict();
+  };
+  const MarginVerdict gentle = with_cut(10);
+  EXPECT_EQ(gentle.verdict, Verdict::safe);
+  ASSERT_TRUE(gentle.axes.at(0).worst);
+  EXPECT_NEAR(gentle.axes[0].worst->of_cut.value, 0.317, 1e-3);
+  EXPECT_EQ(with_cut(40).verdict, Verdict::lost) << "1.27 N\u00B7m of 1";
+  move.segment.rapid = true;
+  EXPECT_EQ(with_cut(40).verdict, Verdict::safe) << "a rapid does not cut";
+}
+
 TEST(MarginSurvey, needs_inertia_friction_and_weight) {
   MarginSurvey survey({flat_motor(Axis::x, 0, 0.1, 0.2)});
   Phase steady{.duration = Seconds(0.1),

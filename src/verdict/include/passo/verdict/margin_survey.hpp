@@ -3,7 +3,8 @@
 // Two looks at the same motion. The physics gives the verdict, and the formula the cause and the cure:
 //
 //   ToleranceTrial   plays the motion with motors from the weakest to the strongest of the tolerance
-//   formula          needed = (J_rotor + J_load)·α + friction·sign(ω) + damping·ω + weight     against pull-out at |ω|
+//   formula          needed = (J_rotor + J_load)·α + (friction + cut)·sign(ω) + damping·ω + weight
+//                    against pull-out at |ω|
 //
 //   safe      all motors keep their steps, and none swings further than 1.6 full steps from the field
 //   doubtful  neither
@@ -80,6 +81,7 @@ struct MarginSpot {
   bool rapid = false;
   NewtonMetres needed = {};     // with the swing, where `want` is jump
   NewtonMetres of_motion = {};  // without it
+  NewtonMetres of_cut = {};     // the part of it that the cutting force takes
   TorqueRange there = {};       // pull-out
   Hertz rate{0};                // full steps a second
   MmPerSecond speed{0};         // of the axis
@@ -116,6 +118,9 @@ class MarginSurvey {
   // Without a grid each motor steps at its own exact times.
   explicit MarginSurvey(std::vector<SurveyedMotor> motors, const StepGrid& grid = {}, double reserve = usual_reserve);
 
+  // The force of the cut against the tool on the feeds that follow, in N for each mm/s along the path. 0: no cut.
+  // Every linear axis that moves feels the whole of it, against its motion.
+  void set_cut(double newtons_per_speed) { cut_ = newtons_per_speed; }
   void watch(const MotionItem& item);
   // How much of the sure torque the last move needed at its worst, of any axis.
   double last_load() const { return last_load_; }
@@ -175,6 +180,7 @@ class MarginSurvey {
   std::vector<MarginSpot> worst_;
   std::uint32_t line_ = 0;
   Seconds now_{0};
+  double cut_ = 0;  // N for each mm/s
   double last_load_ = 0;
 };
 

@@ -42,7 +42,8 @@ struct AxisPiece {
   double to = 0;
   double speed_from = 0;  // per second, with its sign
   double speed_to = 0;
-  double load = 0;  // the share of the torque that the piece needs
+  double load = 0;               // the share of the torque that the piece needs
+  NewtonMetres resistance = {};  // a torque of the work against the motion, whichever way it goes
   // The motor whose grid of places makes the board's events, in lines of that grid. The same at both ends: this axis's
   // own motor.
   double grid_from = 0;
@@ -94,6 +95,7 @@ class ToleranceTrial {
   void carry_to(const AxisPiece& piece);
   double follow(const AxisPiece& piece);
   void follow(const Path& path, const Path& grid, double duration, bool carried);
+  void resist(NewtonMetres torque);
   void step(int way);
   void pass(double time);
   void stop();
@@ -106,11 +108,12 @@ class ToleranceTrial {
   unsigned out_ = 0;                  // a bit for each motor that has lost steps since the axis began to move
   unsigned ever_lost_ = 0;
   std::int64_t commanded_ = 0;
-  double origin_ = 0;   // the place of the axis where `commanded_` is 0, in steps
-  double pending_ = 0;  // s that the motors have yet to live through; negative after a step that was late
-  double stood_ = 0;    // s
-  double played_ = 0;   // s
-  double to_play_ = 0;  // s after a piece of a new kind
+  double origin_ = 0;      // the place of the axis where `commanded_` is 0, in steps
+  double resistance_ = 0;  // N·m, that the motors feel now
+  double pending_ = 0;     // s that the motors have yet to live through; negative after a step that was late
+  double stood_ = 0;       // s
+  double played_ = 0;      // s
+  double to_play_ = 0;     // s after a piece of a new kind
   double load_before_ = 0;
   std::deque<AxisPiece> skipped_;  // the last of the pieces that were not played
   double time_skipped_ = 0;        // s

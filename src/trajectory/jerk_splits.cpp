@@ -1,0 +1,70 @@
+// JerkProfile: splits cells, where the speed changes much within one, or where a long cell meets a short one.
+#include <algorithm>
+#include <cmath>
+
+#include "jerk_profile.hpp"
+
+namespace passo {
+namespace {
+
+// Cells are split where the square of the speed would grow more.
+constexpr double steepest = 6;
+constexpr double most_unevenness = 2.5;
+
+}  // namespace
+
+// Splits cells in which the square of the speed changes much, by `guess_`. Returns whether there were any. Cells of the
+// plan before stay as they are, because that plan may have to go on.
+bool JerkProfile::split_steep() {
+  const std::vector<double>& x = guess_;
+  bool any = false;
+  const std::size_t first = in_motion_ ? std::max<std::size_t>(planned_, 1) : 0;
+  for (std::size_t i = cells_.size(); i-- > first;) {
+    const double low = std::min(x[i], x[i + 1]);
+    if (!(low > 0) || std::max(x[i], x[i + 1]) <= steepest * low) continue;
+    split(i);
+    any = true;
+  }
+  return any;
+}
+
+// Splits a cell in two halves.
+void JerkProfile::split(std::size_t i) {
+  const auto at = [](auto& list, std::size_t k) { return list.begin() + static_cast<std::ptrdiff_t>(k); };
+  JerkCell second = cells_[i];
+  const double half = second.length / 2;
+  second.start += half;
+  second.length -= half;
+  cells_[i].length = half;
+  cells_[i].ends_segment = false;
+  const std::vector<AxisShape> whole(shapes(i), shapes(i) + axes_.size());
+  cells_.insert(at(cells_, i + 1), second);
+  shapes_.insert(at(shapes_, (i + 1) * axes_.size()), whole.begin(), whole.end());
+  for (std::size_t k = 0; k < axes_.size(); ++k) {
+    AxisShape& first = shapes(i)[k];
+    AxisShape& last = shapes(i + 1)[k];
+    first.third_out = last.third_in = (whole[k].third_in + whole[k].third_out) / 2;
+    first.bend_out = last.bend_in = (whole[k].bend_in + whole[k].bend_out) / 2;
+    first.slope_out = last.slope_in = (whole[k].slope_in + whole[k].slope_out) / 2 - half * half / 2 * first.third_out;
+  }
+  entry_cap_.insert(at(entry_cap_, i + 1), constant_speed_cap(i + 1));
+}
+
+// The acceleration cannot change evenly where a long cell meets a short one. Also, a window needs some cells.
+void JerkProfile::even_out() {
+  for (std::size_t i = 0; cells_.size() < fewest_cells;) split(i++ % cells_.size());
+  const auto is_long = [this](std::size_t i) {
+    const double length = cells_[i].length / most_unevenness;
+    return (i > 0 && length > cells_[i - 1].length) || (i + 1 < cells_.size() && length > cells_[i + 1].length);
+  };
+  for (std::size_t i = 0; i < cells_.size();) {
+    if (is_long(i)) {
+      split(i);
+      i -= std::min<std::size_t>(i, 1);
+    } else {
+      ++i;
+    }
+  }
+}
+
+}  // namespace passo
