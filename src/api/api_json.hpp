@@ -32,6 +32,7 @@ Json as_json(const HistoryJob& job);
 // What viewers ask of a program.
 WebAnswer path_answer(const StoredProgram& program, std::string_view query);
 WebAnswer text_answer(const StoredProgram& program, std::string_view query);
+WebAnswer height_map_answer(const StoredProgram& program, std::string_view query);
 
 // {"place": {…}}: some of the axes, the others as in `start`. Empty, with the reason: the body is none.
 std::optional<Point> read_place(const Json& body, const MachineDescription& machine, const Point& start,

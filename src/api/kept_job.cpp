@@ -44,11 +44,12 @@ BrokenOff broken_off(const Journal& journal, const BoardStatus& status, const Gr
 }
 
 KeptJob::KeptJob(const MachineDescription& machine, MachineSession& session, JobKeeper& keeper, JobHistory& history,
-                 Names names)
+                 const ProgramStore& programs, Names names)
     : machine_(machine),
       session_(session),
       keeper_(keeper),
       history_(history),
+      programs_(programs),
       names_(std::move(names)),
       writer_(keeper.store()) {}
 
@@ -158,8 +159,8 @@ std::string KeptJob::program() const {
 }
 
 InterpreterOptions KeptJob::options() const {
-  InterpreterOptions options;
-  options.dialect = interrupted_->job.dialect == "grbl" ? Dialect::grbl : Dialect::linuxcnc;
+  InterpreterOptions options =
+      programs_.options_of(interrupted_->job.dialect == "grbl" ? Dialect::grbl : Dialect::linuxcnc);
   options.start = interrupted_->journal.head.start;
   return options;
 }

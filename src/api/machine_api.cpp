@@ -12,6 +12,7 @@ namespace passo {
 namespace {
 
 constexpr std::size_t small_body = std::size_t{1} << 16;
+constexpr std::size_t longest_map = std::size_t{1} << 22;
 constexpr std::size_t longest_name = 200;
 constexpr std::string_view programs_path = "/api/v1/programs";
 constexpr std::string_view queue_path = "/api/v1/queue";
@@ -64,8 +65,9 @@ std::string_view name_of(JobState state) {
 MachineApi::MachineApi(const MachineDescription& machine, MachineSession& session, MotionOwner& owner,
                        ApiOptions options)
     : machine_(machine), session_(session), owner_(owner), options_(std::move(options)) {
+  programs_.set_offsets(options_.parameters, options_.tools);
   if (options_.keeper == nullptr || options_.history == nullptr) return;
-  kept_ = std::make_unique<KeptJob>(machine, session, *options_.keeper, *options_.history,
+  kept_ = std::make_unique<KeptJob>(machine, session, *options_.keeper, *options_.history, programs_,
                                     KeptJob::Names{.made_by = options_.version, .machine = options_.machine_file});
   session.listen_before_hello(
       [this](const BoardStatus& status, const Greeting& greeting) { kept_->hear(status, greeting); });
@@ -88,10 +90,10 @@ WebAnswer MachineApi::refusal(unsigned status) {
 
 std::size_t MachineApi::longest_body(const WebRequest& request) {
   const bool uploads = request.path == programs_path || (request.path == queue_path && options_.history != nullptr);
-  if (request.method == "POST" && request.path == make_files_path && options_.maker != nullptr) {
-    return Maker::longest_file;
-  }
-  return request.method == "POST" && uploads ? ProgramStore::longest_program : small_body;
+  if (request.method != "POST") return small_body;
+  if (request.path.ends_with("/height-map")) return longest_map;
+  if (request.path == make_files_path && options_.maker != nullptr) return Maker::longest_file;
+  return uploads ? ProgramStore::longest_program : small_body;
 }
 
 WebAnswer MachineApi::answer(const WebRequest& request) {
@@ -142,6 +144,7 @@ WebAnswer MachineApi::look(const FoundRoute& found, const WebRequest& request) {
   if (path.ends_with("/openapi.json")) return {.body = options_.openapi};
   if (path.ends_with("/metrics")) return {.type = "text/plain; version=0.0.4", .body = metrics()};
   if (path.ends_with("/stream")) return refusal(400);
+  if (path.ends_with("/log")) return words_answer();
   if (path.ends_with("/health")) {
     const MachineState state = session_.state();
     const bool well = state != MachineState::fault && state != MachineState::offline;
@@ -156,6 +159,7 @@ WebAnswer MachineApi::look(const FoundRoute& found, const WebRequest& request) {
   if (program == nullptr) return refusal(404);
   if (path.ends_with("/path")) return path_answer(*program, request.query);
   if (path.ends_with("/text")) return text_answer(*program, request.query);
+  if (path.ends_with("/height-map")) return height_map_answer(*program, request.query);
   if (path.ends_with("/way")) {
     const auto line = line_from(query_value(request.query, "from_line"));
     return line ? json_answer(200, as_json(machine_, way_to(*program, *line))) : no_line();
@@ -178,6 +182,7 @@ WebAnswer MachineApi::change(const FoundRoute& found, const WebRequest& request)
   }
   const Json body = request.body.empty() ? Json::object() : Json::parse(request.body, nullptr, false);
   if (path == "/api/v1/work") return set_work_zero(request.body);
+  if (path == "/api/v1/probe") return begin_probing(request.body);
   std::string reason;
   auto wanted = read_request(path, body, machine_, reason);
   if (!wanted) return error_answer(400, "http.bad-body", reason);
@@ -211,7 +216,11 @@ WebAnswer MachineApi::set_work_zero(std::string_view body) {
   if (status.state != MachineState::idle || job_.state == JobState::checking) {
     return error_answer(409, "machine.busy", fmt::format("the machine is not idle: {}", name_of(status.state)));
   }
-  const Point& zero = programs_.work_zero();
+  if (kept_ && kept_->interrupted() != nullptr) {
+    return error_answer(409, "jobs.interrupted",
+                        "a job was broken off, and needs its zero: resume it or drop it first");
+  }
+  const Point zero = programs_.work_zero();
   std::string reason;
   const auto place = read_place(Json::parse(body, nullptr, false), machine_, status.position.place - zero, reason);
   if (!place) return error_answer(400, "http.bad-body", reason);
@@ -219,6 +228,7 @@ WebAnswer MachineApi::set_work_zero(std::string_view body) {
   if (std::ranges::any_of(place->values, is_far))
     return error_answer(400, "http.bad-body", "the place is too far away");
   programs_.set_work_zero(status.position.place - *place);
+  if (options_.keep_offsets) options_.keep_offsets(programs_.parameters(), programs_.tools());
   return json_answer(200, {{"work_offset", as_json(machine_, programs_.work_zero())}});
 }
 
@@ -267,6 +277,8 @@ WebAnswer MachineApi::change_programs(const FoundRoute& found, const WebRequest&
   }
   const StoredProgram* const program = programs_.find(found.id);
   if (program == nullptr) return refusal(404);
+  if (found.route->path.ends_with("/height-map")) return take_height_map(*program, request);
+  if (found.route->path.ends_with("/level")) return level_program(*program, request.query);
   const bool is_checked_for_job = job_.state == JobState::checking;
   if (request.method == "DELETE") {
     if (is_checked_for_job && job_.program == found.id) {

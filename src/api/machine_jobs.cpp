@@ -85,6 +85,7 @@ WebAnswer MachineApi::begin_job(const StoredProgram& program, std::int64_t histo
   }
   resumes_ = reenters_ = named_ = false;
   from_line_ = 0;
+  map_for_ = 0;
   job_ = {.id = job_.id + 1,
           .program = program.id,
           .name = program.name,
@@ -178,6 +179,8 @@ void MachineApi::start_job() {
                        .options = programs_.options_of(program)};
   start.nominal_time = program.check.nominal_time;
   start.findings = &findings_;
+  words_.clear();
+  start.watchers.operations = [this](const Operation& operation) { note_words(operation); };
   if (way_) {
     start.from = way_->at;
     start.lead_in = way_->lead_in;
@@ -215,7 +218,10 @@ void MachineApi::heed(const std::vector<MachineChange>& changes) {
     const bool is_broken_off =
         change.outcome == Outcome::failed ? change.fault && change.fault->code.starts_with("board.") : leaves_;
     switch (change.outcome) {
-      case Outcome::done: end_job(JobState::done); break;
+      case Outcome::done:
+        keep_results();
+        end_job(JobState::done);
+        break;
       case Outcome::stopped: end_job(named_ && is_broken_off ? JobState::interrupted : JobState::stopped); break;
       case Outcome::failed:
         end_job(named_ && is_broken_off ? JobState::interrupted : JobState::failed,

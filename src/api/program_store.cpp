@@ -68,13 +68,21 @@ bool ProgramStore::remove(std::uint64_t id) {
 }
 
 InterpreterOptions ProgramStore::options_of(const StoredProgram& program) const {
+  return options_of(program.dialect);
+}
+
+InterpreterOptions ProgramStore::options_of(Dialect dialect) const {
   InterpreterOptions options;
-  options.dialect = program.dialect;
+  options.dialect = dialect;
+  options.parameters = parameters_;
   options.parameters[selected_system] = 1;
-  for (std::size_t i = 0; i < axis_count; ++i) {
-    options.parameters[first_offset + static_cast<int>(i)] = work_zero_.values[i];
-  }
+  options.tools = tools_;
   return options;
+}
+
+void ProgramStore::set_height_map(std::uint64_t id, HeightMap map) {
+  const auto found = programs_.find(id);
+  if (found != programs_.end()) found->second.height_map = std::move(map);
 }
 
 void ProgramStore::check(std::uint64_t id, const MachineDescription& machine, const Point& start) {
@@ -113,8 +121,28 @@ void ProgramStore::make_room_for_path(std::uint64_t id) {
   }
 }
 
+Point ProgramStore::work_zero() const {
+  Point zero;
+  for (std::size_t i = 0; i < axis_count; ++i) {
+    const auto found = parameters_.find(first_offset + static_cast<int>(i));
+    if (found != parameters_.end()) zero.values[i] = found->second;
+  }
+  return zero;
+}
+
 void ProgramStore::set_work_zero(const Point& zero) {
-  work_zero_ = zero;
+  for (std::size_t i = 0; i < axis_count; ++i) parameters_[first_offset + static_cast<int>(i)] = zero.values[i];
+  forget_checks();
+}
+
+void ProgramStore::set_offsets(const SavedParameters& parameters, const ToolTable& tools) {
+  if (parameters == parameters_ && tools == tools_) return;
+  parameters_ = parameters;
+  tools_ = tools;
+  forget_checks();
+}
+
+void ProgramStore::forget_checks() {
   checker_.reset();
   for (auto& [id, program] : programs_) {
     program.state = UploadState::unchecked;

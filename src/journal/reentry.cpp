@@ -5,13 +5,11 @@
 #include <optional>
 #include <utility>
 
+#include "path_of_program.hpp"
 #include <fmt/format.h>
 
-#include "passo/activity/program.hpp"
 #include "passo/activity/stage_options.hpp"
 #include "passo/drive/backlash_options.hpp"
-#include "passo/path/path_builder.hpp"
-#include "passo/path/path_smoother.hpp"
 
 namespace passo {
 namespace {
@@ -209,27 +207,17 @@ std::string_view message_of(ReentryRefusal refusal) {
 
 Result<ResumePoint, ReentryRefusal> find_line(const ProgramReader& program, const MachineDescription& machine,
                                               const InterpreterOptions& options, std::uint32_t line) {
-  Diagnostics diagnostics;
-  const PathOptions path_options_here = path_options(machine, program.name(), options.start);
-  Interpreter interpreter(program.again(), options, diagnostics);
-  Tap<Operation> operations(interpreter);
+  PathOfProgram chain(program.again(), machine, options);
   LinesOfPath lines;
-  operations.watch([&](const Operation& operation) {
+  chain.operations().watch([&](const Operation& operation) {
     if (!operation.file.empty() && operation.file != program.name()) lines.note_other_file(operation.source.line);
   });
-  PathBuilder builder(operations, path_options_here, diagnostics);
-  Tap<PathItem> programmed(builder);
-  programmed.watch([&](const PathItem& item) { lines.note_programmed(item); });
-  PathSmoother smoother(programmed, smoothness(machine));
-  StepOptions steps = step_options(machine);
-  steps.start = options.start;
-  BacklashTaker backlash_taker(smoother, backlash_options(steps, true));
-  RewindablePath path(backlash_taker);
-  path.keep();
+  chain.programmed().watch([&](const PathItem& item) { lines.note_programmed(item); });
+  RewindablePath& path = chain.path();
   path.forget_passed();
   PathItem item;
   for (std::uint64_t number = 0; path.next(item); ++number) lines.note_smoothed(item, number);
-  if (diagnostics.any_error()) return Failure{ReentryRefusal::bad_program};
+  if (chain.any_error()) return Failure{ReentryRefusal::bad_program};
   const auto place = lines.find(line);
   if (!place) return Failure{place.error()};
   const auto point = find_resume_point(program.again(), machine, options, *place);
@@ -250,16 +238,8 @@ void widen(Box& box, const Box& other) {
 
 std::optional<Box> range_between(ProgramReader program, const MachineDescription& machine,
                                  const InterpreterOptions& options, const PathPlace& first, const PathPlace& last) {
-  Diagnostics diagnostics;
-  const PathOptions path_options_here = path_options(machine, program.name(), options.start);
-  Interpreter interpreter(std::move(program), options, diagnostics);
-  PathBuilder builder(interpreter, path_options_here, diagnostics);
-  PathSmoother smoother(builder, smoothness(machine));
-  StepOptions steps = step_options(machine);
-  steps.start = options.start;
-  BacklashTaker backlash_taker(smoother, backlash_options(steps, true));
-  RewindablePath path(backlash_taker);
-  path.keep();
+  PathOfProgram chain(std::move(program), machine, options);
+  RewindablePath& path = chain.path();
   path.begin_at(first);
   path.forget_passed();
   std::optional<Box> range;

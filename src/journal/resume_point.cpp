@@ -3,10 +3,7 @@
 #include <cmath>
 #include <utility>
 
-#include "passo/activity/stage_options.hpp"
-#include "passo/drive/backlash_options.hpp"
-#include "passo/path/path_builder.hpp"
-#include "passo/path/path_smoother.hpp"
+#include "path_of_program.hpp"
 
 namespace passo {
 namespace {
@@ -58,16 +55,9 @@ class Passed {
 
 std::optional<ResumePoint> find_resume_point(ProgramReader program, const MachineDescription& machine,
                                              const InterpreterOptions& options, const PathPlace& place) {
-  Diagnostics diagnostics;
-  const PathOptions path_options_here = path_options(machine, program.name(), options.start);
-  Interpreter interpreter(std::move(program), options, diagnostics);
-  PathBuilder builder(interpreter, path_options_here, diagnostics);
-  PathSmoother smoother(builder, smoothness(machine));
-  StepOptions steps = step_options(machine);
-  steps.start = options.start;
-  BacklashTaker backlash_taker(smoother, backlash_options(steps, true));
-  RewindablePath path(backlash_taker);
-  path.keep();
+  PathOfProgram chain(std::move(program), machine, options);
+  RewindablePath& path = chain.path();
+  const StepOptions& steps = chain.steps();
   ResumePoint point;
   point.place = place;
   point.point = options.start;

@@ -6,7 +6,7 @@
 #include <set>
 #include <sstream>
 
-#include "grbl_kit.hpp"
+#include "api_kit.hpp"
 #include "kit/seed.hpp"
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
@@ -16,83 +16,6 @@
 
 namespace passo::test {
 namespace {
-
-using Json = nlohmann::ordered_json;
-
-// A machine with a sender's door and a client's door.
-class ApiRun {
- public:
-  explicit ApiRun(const KnownPosition& start = GrblRun::at_zero(), JobHistory* history = nullptr)
-      : run(example_machine("router"), start),
-        api(run.description(), run.session(), owner,
-            {.version = "1",
-             .openapi = "{}",
-             .make_key = [this] { return fmt::format("key{}", ++keys_); },
-             .page = {},
-             .history = history,
-             .wall_time = [this] { return 1e9 + run.session().now().value(); }}) {}
-
-  Json ask(const std::string& method, const std::string& path, const std::string& body = "",
-           const std::string& by = "") {
-    const std::size_t mark = std::min(path.find('?'), path.size());
-    const WebAnswer answer = api.answer({.method = method,
-                                         .path = "/api/v1" + path.substr(0, mark),
-                                         .query = path.substr(std::min(mark + 1, path.size())),
-                                         .key = by.empty() ? key : by,
-                                         .body = body});
-    status = answer.status;
-    return Json::parse(answer.body, nullptr, false);
-  }
-  Json post(const std::string& path, const std::string& body = "") { return ask("POST", path, body); }
-  Json get(const std::string& path) { return ask("GET", path); }
-
-  void turn() {
-    run.session().turn(Seconds(0.005));
-    const auto changes = run.session().take_changes();
-    run.grbl().turn(changes);
-    api.heed(changes);
-    api.turn();
-    run.collect();
-  }
-  template <class Condition>
-  bool turn_until(Condition condition, Seconds within = Seconds(300)) {
-    const Seconds end = run.session().now() + within;
-    for (int turns = 0; !condition() && run.session().now() < end && turns < 1'000'000; ++turns) turn();
-    return condition();
-  }
-  bool turn_until_state(const std::string& state) {
-    return turn_until([&] { return get("/status")["state"] == state; });
-  }
-  void pass(Seconds time) {
-    const Seconds end = run.session().now() + time;
-    turn_until([&] { return run.session().now() >= end; });
-  }
-  void own() {
-    const Json answer = post("/owner", R"({"name": "test"})");
-    ASSERT_EQ(status, 200U) << answer;
-    key = answer["key"];
-    run.grbl().let_drive(owner.is_sender());
-  }
-  std::uint64_t upload(const std::string& text, const std::string& query = "") {
-    const Json answer = ask("POST", "/programs" + query, text);
-    EXPECT_EQ(status, 201U) << answer;
-    return answer["id"];
-  }
-
-  GrblRun run;
-  MotionOwner owner;
-  MachineApi api;
-  std::string key;
-  unsigned status = 0;
-
- private:
-  int keys_ = 0;
-};
-
-Json openapi() {
-  std::ifstream file(PASSO_SOURCE_DIR "/docs/api/openapi.json");
-  return Json::parse(file);
-}
 
 TEST(ApiDescription, has_just_the_requests_of_the_program) {
   std::set<std::string> described;
@@ -111,14 +34,6 @@ TEST(ApiDescription, has_just_the_requests_of_the_program) {
     served.insert(method + " " + std::string(route.path) + (route.moves ? " owner" : ""));
   }
   EXPECT_EQ(described, served);
-}
-
-void expect_members(const Json& schema, const Json& value, const std::string& what) {
-  std::set<std::string> described;
-  std::set<std::string> found;
-  for (const auto& [name, member] : schema["properties"].items()) described.insert(name);
-  for (const auto& [name, member] : value.items()) found.insert(name);
-  EXPECT_EQ(described, found) << what;
 }
 
 TEST(ApiDescription, has_just_the_members_that_are_told) {

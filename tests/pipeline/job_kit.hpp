@@ -74,6 +74,9 @@ class JobBench {
   // What a place record keeps: the board's counts at machine zero, and whether they are trusted.
   MotorSteps zero_counts{};
   Trust trust = Trust::counted;
+  // What files of offsets keep.
+  SavedParameters parameters;
+  ToolTable tools;
 
  private:
   std::filesystem::path folder_ = std::filesystem::temp_directory_path() /
@@ -176,6 +179,12 @@ class JobServer final : public JobKeeper {
     options.keeper = this;
     options.machine_file = {.name = "m.toml", .size = 1, .fingerprint = 2};
     options.broken_off = found;
+    options.parameters = bench_.parameters;
+    options.tools = bench_.tools;
+    options.keep_offsets = [this](const SavedParameters& parameters, const ToolTable& tools) {
+      bench_.parameters = parameters;
+      bench_.tools = tools;
+    };
     return options;
   }
 

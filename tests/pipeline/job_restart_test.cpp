@@ -66,6 +66,34 @@ TEST_F(JobRestart, tells_what_was_broken_off_and_goes_on_when_asked) {
   EXPECT_TRUE(server.get("/interrupted")["interrupted"].is_null());
 }
 
+TEST_F(JobRestart, a_job_that_counts_from_a_zero_of_the_work_goes_on_from_the_same_zero) {
+  const std::string far = R"({"place": {"z": 1}})";
+  JobBench whole(example_machine("router"));
+  {
+    JobServer server(whole);
+    server.post("/work", far);
+    server.run(part);
+    ASSERT_TRUE(server.to_end());
+  }
+  try {
+    JobServer server(bench_, 150, HostEnd::behind_frame);
+    server.post("/work", far);
+    EXPECT_EQ(server.status, 200U);
+    server.run(part);
+    server.to_end();
+    FAIL() << "it lives";
+  } catch (const HostDied&) {
+  }
+  JobServer server(bench_);
+  EXPECT_EQ(server.get("/interrupted")["interrupted"]["goes_on"], true);
+  server.post("/work", R"({"place": {"x": 0}})");
+  EXPECT_EQ(server.status, 409U) << "the job needs its zero";
+  server.post("/interrupted/resume");
+  ASSERT_TRUE(server.to_end());
+  EXPECT_EQ(server.job_state(), "done");
+  expect_same_way(bench_.log.steps, whole.log.steps);
+}
+
 TEST_F(JobRestart, another_job_waits_until_the_old_one_is_resumed_or_dropped) {
   try {
     JobServer server(bench_, 150, HostEnd::behind_frame);

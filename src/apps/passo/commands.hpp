@@ -49,6 +49,7 @@ struct RunArguments {
   std::string view = "auto";              // the flat view of pictures: auto, top, front, side or lathe
   bool no_rapids = false;                 // in pictures
   std::vector<std::string> traces;        // .vcd or .csv
+  std::string log;                        // what (LOG,…) writes; empty: none
   std::string report;                     // a name that ends in .json, or any other name for text
   std::uint64_t passes = 1;               // how often a main program that ends with M99 is run
   std::vector<std::string> holds;         // SECONDS or SECONDS:SECONDS

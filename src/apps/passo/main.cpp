@@ -1,8 +1,8 @@
 // The program `passo`: reads the command line and calls the command.
 //
 // Only this file, command_words.cpp, board_options.cpp, cam_options.cpp, cam_mill_options.cpp, cam_relief_options.cpp,
-// simulate_options.cpp, study_options.cpp and tuning_options.cpp know CLI11, because CLI11 compiles slowly. Each
-// command is in a file of its own.
+// probing_options.cpp, simulate_options.cpp, study_options.cpp and tuning_options.cpp know CLI11, because CLI11
+// compiles slowly. Each command is in a file of its own.
 #include <algorithm>
 #include <cstdio>
 #include <exception>
@@ -12,6 +12,7 @@
 #include "cam_options.hpp"
 #include "command_words.hpp"
 #include "commands.hpp"
+#include "probing_commands.hpp"
 #include "program_input.hpp"
 #include "simulate_options.hpp"
 #include "study_options.hpp"
@@ -40,6 +41,8 @@ constexpr const char* examples = R"(Examples:
   passo canon part.ngc                                        what it means, as canonical calls
   passo explain part.ngc:12                                   what line 12 does, and under which modes
   passo machine router.toml                                   what a machine file says
+  passo probe corner --side front-left -o corner.ngc          a ready program for the probe
+  passo level board.ngc --map board.csv -o level.ngc          a program as it is on a surface that was probed
   passo cam drill pads.dxf -o board.ngc                       the holes of a circuit board, as a program
   passo board list                                            what is on this computer's serial lines
   passo interpolate --compare --to 27,10                      how each classic method steps along a line
@@ -192,6 +195,7 @@ int parse_and_run(int argc, char** argv) {
   run_command.add_flag("--no-rapids", run_arguments.no_rapids, "pictures show the feeds alone");
   run_command.add_option("-t,--trace", run_arguments.traces, "write every step (FILE.vcd or FILE.csv)");
   run_command.add_option("-r,--report", run_arguments.report, "write the summary (FILE.json, else text)");
+  run_command.add_option("--log", run_arguments.log, "write what the program logs by (LOG,…): a probed height map");
   run_command.add_option("--passes", run_arguments.passes, "how often a program that ends with M99 runs")
       ->check(refuse_count)
       ->capture_default_str();
@@ -311,6 +315,10 @@ int parse_and_run(int argc, char** argv) {
   BoardArguments board_arguments;
   CLI::App& board_command = add_board_command(app, board_arguments);
 
+  ProbeArguments probe_arguments;
+  CLI::App& probe_command = add_probe_command(app, probe_arguments);
+  LevelArguments level_arguments;
+  CLI::App& level_command = add_level_command(app, level_arguments);
   CamArguments cam_arguments;
   CLI::App& cam_command = add_cam_command(app, cam_arguments);
 
@@ -346,6 +354,8 @@ int parse_and_run(int argc, char** argv) {
   if (simulate_command.parsed()) return simulate(simulate_arguments);
   if (canon_command.parsed()) return canon(canon_arguments);
   if (explain_command.parsed()) return explain(explain_arguments);
+  if (probe_command.parsed()) return probe(probe_arguments);
+  if (level_command.parsed()) return level(level_arguments);
   if (board_command.parsed()) return board_arguments.chosen();
   if (cam_command.parsed()) return cam_arguments.chosen();
   if (interpolate_command.parsed()) return interpolate(interpolate_arguments);

@@ -141,6 +141,7 @@ bool files_are_apart(const RunArguments& arguments, const InterpreterOptions& op
   files.reads("the machine file", arguments.machine);
   for (const std::string& path : arguments.pictures) files.writes("--picture", path);
   for (const std::string& path : arguments.traces) files.writes("--trace", path);
+  files.writes("--log", arguments.log);
   files.writes("--report", arguments.report);
   if (keeps_journal(arguments)) files.writes("--journal", ResumableRun::journal_of(arguments));
   return files.are_apart();

@@ -69,6 +69,7 @@ struct RunOutputs::State {
   std::vector<PictureFile> pictures;
   PictureOptions look;  // of all pictures
   std::vector<TraceFile> traces;
+  std::optional<OutputFile> log;
   std::optional<OutputFile> report;
   std::optional<OutputFile> parameters;
   std::optional<OutputFile> tools;
@@ -128,6 +129,11 @@ Result<RunOutputs, OutputError> RunOutputs::open(const RunArguments& arguments, 
     const Status<OutputError> added = state->add_trace(path, trace_options(machine));
     if (!added) return Failure{added.error()};
   }
+  if (!arguments.log.empty()) {
+    Result<OutputFile, OutputError> file = OutputFile::open(arguments.log);
+    if (!file) return Failure{file.error()};
+    state->log.emplace(std::move(*file));
+  }
   if (!arguments.report.empty()) {
     Result<OutputFile, OutputError> file = OutputFile::open(arguments.report);
     if (!file) return Failure{file.error()};
@@ -152,6 +158,15 @@ Result<RunOutputs, OutputError> RunOutputs::open(const RunArguments& arguments, 
 void RunOutputs::watch(VirtualMachine& machine, Watchers& watchers) {
   state_->machine = &machine;
   for (State::TraceFile& trace : state_->traces) machine.add_observer(*trace.trace);
+  if (state_->log) {
+    watchers.operations = [log = &*state_->log, before = std::move(watchers.operations)](const Operation& operation) {
+      if (before) before(operation);
+      const auto* line = std::get_if<operation::Log>(&operation.what);
+      if (line == nullptr || line->kind != operation::Log::Kind::line) return;
+      log->write(line->text);
+      log->write("\n");
+    };
+  }
   if (state_->pictures.empty()) return;
   watchers.motion = [state = state_.get(), before = std::move(watchers.motion)](const MotionItem& item) {
     if (before) before(item);
@@ -187,6 +202,7 @@ Status<OutputError> RunOutputs::commit(const RunSummary& summary, const SavedPar
   std::vector<OutputFile*> files;
   for (State::TraceFile& trace : state_->traces) files.push_back(trace.file.get());
   for (State::PictureFile& picture : state_->pictures) files.push_back(&picture.file);
+  if (state_->log) files.push_back(&*state_->log);
   if (state_->report) files.push_back(&*state_->report);
   if (state_->parameters) files.push_back(&*state_->parameters);
   if (state_->tools) files.push_back(&*state_->tools);

@@ -44,7 +44,8 @@ double seconds_since_1970() {
   return std::chrono::duration<double>(std::chrono::system_clock::now().time_since_epoch()).count();
 }
 
-ApiOptions api_options(const PageFolder* page, JobHistory* history, const ServedJobs& jobs, Maker& maker) {
+ApiOptions api_options(const PageFolder* page, JobHistory* history, ServedOffsets* offsets, const ServedJobs& jobs,
+                       Maker& maker) {
   ApiOptions options{.version = PASSO_VERSION, .openapi = openapi_text, .make_key = new_key};
   options.history = history;
   options.wall_time = seconds_since_1970;
@@ -53,6 +54,13 @@ ApiOptions api_options(const PageFolder* page, JobHistory* history, const Served
     if (request.path != "/") return {};
     return WebAnswer{.status = 404, .type = "text/plain; charset=utf-8", .body = no_page};
   };
+  if (offsets != nullptr) {
+    options.parameters = offsets->parameters();
+    options.tools = offsets->tools();
+    options.keep_offsets = [offsets](const SavedParameters& parameters, const ToolTable& tools) {
+      offsets->keep(parameters, tools);
+    };
+  }
   options.keeper = jobs.journal;
   options.machine_file = jobs.machine_file;
   options.machine_access = jobs.machine_access;
@@ -80,14 +88,16 @@ bool is_this_computer(const std::string& host) {
 }
 
 ServedWeb::ServedWeb(const ServeArguments& arguments, const MachineDescription& machine, MachineSession& session,
-                     MotionOwner& owner, std::unique_ptr<JobHistory> history, const ServedJobs& jobs)
+                     MotionOwner& owner, std::unique_ptr<JobHistory> history, std::unique_ptr<ServedOffsets> offsets,
+                     const ServedJobs& jobs)
     : session_(session),
       owner_(owner),
       page_(arguments.page),
       has_page_(!arguments.page.empty()),
       history_(std::move(history)),
+      offsets_(std::move(offsets)),
       api_(machine, session, owner,
-           api_options(arguments.page.empty() ? nullptr : &page_, history_.get(), jobs, maker_)) {}
+           api_options(arguments.page.empty() ? nullptr : &page_, history_.get(), offsets_.get(), jobs, maker_)) {}
 
 std::unique_ptr<ServedWeb> ServedWeb::open(const ServeArguments& arguments, const MachineDescription& machine,
                                            MachineSession& session, MotionOwner& owner, const ServedJobs& jobs,
@@ -124,6 +134,7 @@ std::unique_ptr<ServedWeb> ServedWeb::open(const ServeArguments& arguments, cons
     return nullptr;
   }
   std::unique_ptr<JobHistory> history;
+  std::unique_ptr<ServedOffsets> offsets;
   if (!arguments.data.empty()) {
     std::error_code error;
     std::filesystem::create_directories(arguments.data, error);
@@ -133,8 +144,14 @@ std::unique_ptr<ServedWeb> ServedWeb::open(const ServeArguments& arguments, cons
       return nullptr;
     }
     history = std::move(*opened);
+    offsets = std::make_unique<ServedOffsets>(arguments.data);
+    if (!offsets->read()) {
+      code = exit_failed;
+      return nullptr;
+    }
   }
-  std::unique_ptr<ServedWeb> web(new ServedWeb(arguments, machine, session, owner, std::move(history), jobs));
+  std::unique_ptr<ServedWeb> web(
+      new ServedWeb(arguments, machine, session, owner, std::move(history), std::move(offsets), jobs));
   auto server = WebServer::listen(address->host, address->port, std::move(access), web->api_);
   if (!server) {
     code = fail(exit_failed, server.error());

@@ -10,6 +10,7 @@
 #include "page_folder.hpp"
 #include "served_journal.hpp"
 #include "served_maker.hpp"
+#include "served_offsets.hpp"
 
 #include "passo/api/machine_api.hpp"
 #include "passo/web/web_server.hpp"
@@ -52,14 +53,16 @@ class ServedWeb {
 
  private:
   ServedWeb(const ServeArguments& arguments, const MachineDescription& machine, MachineSession& session,
-            MotionOwner& owner, std::unique_ptr<JobHistory> history, const ServedJobs& jobs);
+            MotionOwner& owner, std::unique_ptr<JobHistory> history, std::unique_ptr<ServedOffsets> offsets,
+            const ServedJobs& jobs);
   void publish();
 
   MachineSession& session_;
   MotionOwner& owner_;
   PageFolder page_;
   bool has_page_ = false;
-  std::unique_ptr<JobHistory> history_;  // may be null
+  std::unique_ptr<JobHistory> history_;     // may be null
+  std::unique_ptr<ServedOffsets> offsets_;  // may be null
   std::string host_;
   ServedMaker maker_;
   MachineApi api_;

@@ -7,6 +7,7 @@
 
 #include "passo/levelling/height_map.hpp"
 #include "passo/levelling/levelled_move.hpp"
+#include "passo/levelling/map_figures.hpp"
 
 namespace passo {
 namespace {
@@ -62,6 +63,21 @@ TEST(HeightMap, its_file_is_read_as_the_same_map) {
   for (std::size_t row = 0; row < 3; ++row) {
     for (std::size_t column = 0; column < 3; ++column) EXPECT_NEAR(read->at(column, row), map.at(column, row), 5e-5);
   }
+}
+
+TEST(HeightMap, its_figures_find_the_plane) {
+  const MapFigures figures = figures_of(plane(0.5, 0.01, -0.02));
+  EXPECT_NEAR(figures.rise_x, 0.01, 1e-12);
+  EXPECT_NEAR(figures.rise_y, -0.02, 1e-12);
+  EXPECT_NEAR(figures.farthest_off_plane, 0, 1e-12);
+  EXPECT_NEAR(figures.lowest, -0.1, 1e-12);
+  EXPECT_NEAR(figures.highest, 0.9, 1e-12);
+  EXPECT_EQ(words_of(HeightMap({0, 10}, {0, 10}, {0, 1, 0, 1})),
+            "2 x 2 places, X0.000 to 10.000, Y0.000 to 10.000\n"
+            "heights 0.000 to 1.000 mm, mean 0.500\n"
+            "rises by 10.000 mm over 100 mm of X, 0.000 over 100 mm of Y; 0.000 mm at most off that plane\n"
+            "  ..@@  Y10\n"
+            "  ..@@  Y0\n");
 }
 
 TEST(LevelledMove, a_straight_move_over_a_plane_is_not_divided) {

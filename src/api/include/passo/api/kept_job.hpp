@@ -10,6 +10,7 @@
 #include <optional>
 #include <string>
 
+#include "passo/api/program_store.hpp"
 #include "passo/history/job_history.hpp"
 #include "passo/interpreter/interpreter.hpp"
 #include "passo/journal/reentry.hpp"
@@ -74,7 +75,7 @@ class KeptJob {
   };
   // All of them outlive this.
   KeptJob(const MachineDescription& machine, MachineSession& session, JobKeeper& keeper, JobHistory& history,
-          Names names);
+          const ProgramStore& programs, Names names);
 
   // Says what was found before the board was greeted. Goes through the program up to the place.
   void find(const BrokenOff& found);
@@ -118,6 +119,7 @@ class KeptJob {
   MachineSession& session_;
   JobKeeper& keeper_;
   JobHistory& history_;
+  const ProgramStore& programs_;  // for the offsets
   Names names_;
   JournalWriter writer_;
   std::optional<InterruptedJob> interrupted_;

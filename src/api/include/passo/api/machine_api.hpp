@@ -64,15 +64,32 @@ struct ApiOptions {
   std::function<double()> wall_time = {};  // seconds since 1970, for the history
   // Keeps the journal of a job, with a history; outlives this. Null: a job that is broken off cannot go on.
   JobKeeper* keeper = nullptr;
-  FileStamp machine_file = {};               // as it was read
-  MachineFileAccess machine_access = {};     // for an editor
+  FileStamp machine_file = {};            // as it was read
+  MachineFileAccess machine_access = {};  // for an editor
+  // The offsets and tools of the programs at the beginning, and what keeps them when they have changed.
+  SavedParameters parameters = {};
+  ToolTable tools = {};
+  std::function<void(const SavedParameters&, const ToolTable&)> keep_offsets = {};
   std::optional<BrokenOff> broken_off = {};  // the job of an earlier program
   // Makes programs of drawings; outlives this. Null: nobody does.
   Maker* maker = nullptr;
 };
 
+// What a job has said by (PRINT,…), (MSG,…) and (LOG,…).
+struct JobWords {
+  std::string_view kind;  // "print", "message" or "log"
+  std::uint32_t line = 0;
+  std::string text;
+};
+
 class MachineApi final : public WebHandler {
  public:
+  // More is not kept of one job.
+  static constexpr std::size_t most_words = 50'000;
+  static constexpr std::size_t longest_words = 200;
+  // The longest program that is levelled: a machine that rests waits for that.
+  static constexpr std::size_t longest_to_level = std::size_t{16} << 20;
+
   // All of them outlive this.
   MachineApi(const MachineDescription& machine, MachineSession& session, MotionOwner& owner, ApiOptions options);
 
@@ -114,6 +131,12 @@ class MachineApi final : public WebHandler {
   WebAnswer take_ownership(const WebRequest& request);
   WebAnswer ask(Request wanted);
   WebAnswer set_work_zero(std::string_view body);
+  WebAnswer begin_probing(std::string_view body);
+  WebAnswer take_height_map(const StoredProgram& program, const WebRequest& request);
+  WebAnswer level_program(const StoredProgram& program, std::string_view query);
+  WebAnswer words_answer() const;
+  void note_words(const Operation& operation);
+  void keep_results();
   WebAnswer change_machine_file(const FoundRoute& found, const WebRequest& request);
   WebAnswer change_interrupted(const FoundRoute& found);
   WebAnswer change_making(const FoundRoute& found, const WebRequest& request);
@@ -156,6 +179,8 @@ class MachineApi final : public WebHandler {
   std::uint64_t made_before_ = 0;  // of the order before
   std::optional<Ticket> ticket_;
   Diagnostics findings_;  // of the run
+  std::vector<JobWords> words_;
+  std::uint64_t map_for_ = 0;  // the program that gets the height map which the job probes; 0: it probes none
   const WebServer* server_ = nullptr;
   std::uint64_t jobs_ended_ = 0;
   std::uint64_t alarms_ = 0;

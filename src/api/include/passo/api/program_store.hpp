@@ -1,5 +1,7 @@
 // ProgramStore: the programs that clients have uploaded, and what their check has found.
 //
+// The store also keeps what outlives a program: the offsets of the work systems, and the lengths of tools.
+//
 // Bounded: so many programs, and so many bytes in all. A program is checked a piece at a time, so that a long one does
 // not delay the machine.
 #pragma once
@@ -18,6 +20,7 @@
 #include "passo/diagnostics/diagnostic.hpp"
 #include "passo/interpreter/interpreter.hpp"
 #include "passo/journal/path_fingerprint.hpp"
+#include "passo/levelling/height_map.hpp"
 #include "passo/machine_file/machine_description.hpp"
 
 namespace passo {
@@ -36,6 +39,7 @@ struct StoredProgram {
   std::uint64_t path = 0;  // the fingerprint of its path, after a good check
   Diagnostics findings;
   ProgramPath path_points;                 // of the last check; for viewers
+  std::optional<HeightMap> height_map{};   // of the surface that it is to be levelled on
   std::vector<std::size_t> line_starts{};  // where every so many lines begin in the text
 
   // A window of the text: `count` lines from line `from` on (1 is the first), fewer at the end.
@@ -63,18 +67,26 @@ class ProgramStore {
   // Checks a bounded piece.
   void turn();
   InterpreterOptions options_of(const StoredProgram& program) const;
-  // Where the work's zero (G54) lies in machine coordinates, for all programs. Checks that were made before count no
-  // longer.
+  InterpreterOptions options_of(Dialect dialect) const;
+  void set_height_map(std::uint64_t id, HeightMap map);
+
+  // Where the work's zero (G54) lies in machine coordinates, for all programs.
   void set_work_zero(const Point& zero);
-  const Point& work_zero() const { return work_zero_; }
+  Point work_zero() const;
+  // The offsets and tools for the programs from now on. Checks that were made before count no longer, if they differ.
+  void set_offsets(const SavedParameters& parameters, const ToolTable& tools);
+  const SavedParameters& parameters() const { return parameters_; }
+  const ToolTable& tools() const { return tools_; }
 
  private:
   void make_room_for_path(std::uint64_t id);
+  void forget_checks();
 
   std::map<std::uint64_t, StoredProgram> programs_;
   std::size_t bytes_ = 0;
   std::uint64_t last_id_ = 0;
-  Point work_zero_;
+  SavedParameters parameters_;
+  ToolTable tools_;
   std::uint64_t checked_ = 0;  // the program that is checked
   std::unique_ptr<ProgramChecker> checker_;
   PathFingerprint path_;  // of what is checked

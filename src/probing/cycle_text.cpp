@@ -1,0 +1,281 @@
+#include "cycle_text.hpp"
+
+#include <iterator>
+#include <utility>
+
+#include <fmt/format.h>
+
+namespace passo {
+namespace {
+
+constexpr int first_offset = 5221;  // the numbered parameter of G54's X
+constexpr int offsets = 20;         // parameters a work system
+
+std::string system_code(int system) {
+  return system <= 6 ? fmt::format("G{}", 53 + system) : fmt::format("G59.{}", system - 6);
+}
+
+class CycleText {
+ public:
+  explicit CycleText(const ProbingCycle& cycle) : cycle_(cycle), system_(static_cast<int>(cycle.system)) {}
+
+  std::string write();
+
+ private:
+  template <class... T>
+  void line(fmt::format_string<T...> words, T&&... values) {
+    fmt::format_to(std::back_inserter(text_), words, std::forward<T>(values)...);
+    text_ += '\n';
+  }
+  void head(std::string_view start, std::string_view end);
+  void write_subs();
+  void touch(int x, int y, int z) { line("o<touch> call [{}] [{}] [{}]", x, y, z); }
+  void go(char axis, double way) { line("G91 G0 {}{:.4f}\nG90", axis, way); }
+  // The zero of an axis, found by the touch that the machine rests at: `ahead` beyond the contact.
+  void set_zero(char axis, int sign, double height);
+  std::string offset_of(char axis) const {
+    return fmt::format("#{}", first_offset + offsets * (system_ - 1) + (axis - 'X'));
+  }
+
+  void surface();
+  void edge();
+  void corner();
+  void bore();
+  void boss();
+  void boss_side(char axis, int sign, double half, const char* name);
+  void tool();
+  void angle();
+  void map();
+
+  const ProbingCycle& cycle_;
+  int system_;
+  std::string text_;
+};
+
+void CycleText::head(std::string_view start, std::string_view end) {
+  line("({}: {})", name_of(cycle_.kind), purpose_of(cycle_.kind));
+  line("(Start: {})", start);
+  line("(Ends:  {})", end);
+}
+
+// #1 #2 #3: the way of the touch. What the probe touched is kept in #5061 and the following.
+void CycleText::write_subs() {
+  line("#<_reach> = {:.4f} (how far a touch looks)", cycle_.reach);
+  line("#<_back> = {:.4f} (between the two touches)", cycle_.back);
+  line("#<_fast> = {:.4f} (speed of the first touch)", cycle_.fast);
+  line("#<_slow> = {:.4f} (speed of the second touch)", cycle_.slow);
+  line("o<touch> sub (#1 #2 #3: the way)");
+  line("  G91");
+  line("  G38.2 X[#1*#<_reach>] Y[#2*#<_reach>] Z[#3*#<_reach>] F#<_fast>");
+  line("  G0 X[-#1*#<_back>] Y[-#2*#<_back>] Z[-#3*#<_back>]");
+  line("  G38.2 X[#1*2*#<_back>] Y[#2*2*#<_back>] Z[#3*2*#<_back>] F#<_slow>");
+  line("  G90");
+  line("o<touch> endsub");
+  line("o<lower> sub (goes down to the work's Z #1, where nothing may be)");
+  line("  G38.3 Z#1 F#<_fast>");
+  line("  o<hit> if [#5070 EQ 1]");
+  line("    G38.2 Z[#1-0.01] (there is something: the probe is touched already, so the program ends here)");
+  line("  o<hit> endif");
+  line("o<lower> endsub");
+  line("G17 G21 G40 G80 G90 G94 {}", cycle_.kind == ProbingKind::tool ? "G49" : system_code(system_));
+}
+
+// The machine rests a little behind the contact. G10 L20 says which work coordinate that place has.
+void CycleText::set_zero(char axis, int sign, double height) {
+  const int number = axis - 'X';
+  const double edge = axis == 'Z' ? height : -sign * cycle_.ball / 2 + 0.0;  // no -0
+  line("G10 L20 P{} {}[#{}-#{}{:+.6f}]", system_, axis, 5420 + number, 5061 + number, edge);
+}
+
+void CycleText::surface() {
+  head("above the work, within the reach", "above the place that was touched, by the clearance");
+  write_subs();
+  touch(0, 0, -1);
+  set_zero('Z', -1, cycle_.height);
+  go('Z', cycle_.clearance);
+  line("(PRINT,found: Z0 of {} is Z{} in the machine)", system_code(system_), offset_of('Z'));
+}
+
+void CycleText::edge() {
+  const TouchWay way = *way_of(cycle_.side);
+  head("beside the edge, below the top of the work, within the reach", "off the edge, by the clearance");
+  write_subs();
+  touch(way.axis == 'X' ? way.sign : 0, way.axis == 'Y' ? way.sign : 0, 0);
+  set_zero(way.axis, way.sign, 0);
+  go(way.axis, -way.sign * cycle_.clearance);
+  line("(PRINT,found: {}0 of {} is {}{} in the machine)", way.axis, system_code(system_), way.axis,
+       offset_of(way.axis));
+}
+
+void CycleText::corner() {
+  const CornerWays ways = *corner_of(cycle_.side);
+  head("above the work, and nearer to both sides of the corner than the reach", "above the corner, by the clearance");
+  write_subs();
+  touch(0, 0, -1);
+  set_zero('Z', -1, 0);
+  line("G0 Z{:.4f}", cycle_.clearance);
+  go('X', -ways.x * cycle_.reach);
+  line("o<lower> call [{:.4f}]", -cycle_.depth);
+  touch(ways.x, 0, 0);
+  set_zero('X', ways.x, 0);
+  line("G0 X{:.4f}", -ways.x * (cycle_.clearance + cycle_.ball / 2));
+  line("G0 Z{:.4f}", cycle_.clearance);
+  line("G0 X{:.4f}", ways.x * cycle_.inside);
+  go('Y', -ways.y * cycle_.reach);
+  line("o<lower> call [{:.4f}]", -cycle_.depth);
+  touch(0, ways.y, 0);
+  set_zero('Y', ways.y, 0);
+  line("G0 Y{:.4f}", -ways.y * (cycle_.clearance + cycle_.ball / 2));
+  line("G0 Z{:.4f}", cycle_.clearance);
+  line("G0 X0 Y0");
+  line("(PRINT,found: X0 Y0 Z0 of {} is X{} Y{} Z{} in the machine)", system_code(system_), offset_of('X'),
+       offset_of('Y'), offset_of('Z'));
+}
+
+// The middle of a chord along X is above the middle of the bore; the chord along Y through it is the diameter.
+void CycleText::bore() {
+  head("in the bore, anywhere near its middle", "in the middle of the bore");
+  write_subs();
+  touch(-1, 0, 0);
+  line("#<left> = #5061");
+  go('X', cycle_.back);
+  touch(1, 0, 0);
+  line("#<middle_x> = [[#<left>+#5061]/2]");
+  line("G0 X#<middle_x>");
+  touch(0, -1, 0);
+  line("#<front> = #5062");
+  go('Y', cycle_.back);
+  touch(0, 1, 0);
+  line("#<middle_y> = [[#<front>+#5062]/2]");
+  line("#<diameter> = [#5062-#<front>+{:.4f}]", cycle_.ball);
+  line("G0 Y#<middle_y>");
+  line("G10 L20 P{} X0 Y0", system_);
+  line("(PRINT,found: X0 Y0 of {} is X{} Y{} in the machine; the bore is #<diameter> wide)", system_code(system_),
+       offset_of('X'), offset_of('Y'));
+}
+
+void CycleText::boss_side(char axis, int sign, double half, const char* name) {
+  line("G0 Z[#<top>+{:.4f}]", cycle_.clearance);
+  line("G0 X#<middle_x> Y#<middle_y>");
+  go(axis, -sign * (half + cycle_.clearance + cycle_.ball / 2));
+  line("o<lower> call [#<top>-{:.4f}]", cycle_.depth);
+  touch(axis == 'X' ? sign : 0, axis == 'Y' ? sign : 0, 0);
+  line("#<{}> = #{}", name, axis == 'X' ? 5061 : 5062);
+  go(axis, -sign * cycle_.clearance);
+}
+
+void CycleText::boss() {
+  head("above the boss, near its middle, within the reach", "above the middle of the boss, by the clearance");
+  write_subs();
+  line("#<middle_x> = #5420");
+  line("#<middle_y> = #5421");
+  touch(0, 0, -1);
+  line("#<top> = #5063");
+  boss_side('X', 1, cycle_.size_x / 2, "left");
+  boss_side('X', -1, cycle_.size_x / 2, "right");
+  line("#<middle_x> = [[#<left>+#<right>]/2]");
+  boss_side('Y', 1, cycle_.size_y / 2, "front");
+  boss_side('Y', -1, cycle_.size_y / 2, "back_side");
+  line("#<middle_y> = [[#<front>+#<back_side>]/2]");
+  line("#<width> = [#<back_side>-#<front>-{:.4f}]", cycle_.ball);
+  line("G0 Z[#<top>+{:.4f}]", cycle_.clearance);
+  line("G0 X#<middle_x> Y#<middle_y>");
+  line("G10 L20 P{} X0 Y0", system_);
+  line("(PRINT,found: X0 Y0 of {} is X{} Y{} in the machine; the boss is #<width> wide along Y)", system_code(system_),
+       offset_of('X'), offset_of('Y'));
+}
+
+void CycleText::tool() {
+  const int tool = static_cast<int>(cycle_.tool);
+  head("anywhere; the tool is in the spindle", "above the fixed probe");
+  write_subs();
+  line("G53 G0 Z{:.4f}", cycle_.travel_z);
+  line("G53 G0 X{:.4f} Y{:.4f}", cycle_.x, cycle_.y);
+  touch(0, 0, -1);
+  line("#<length> = [#<_abs_z>-#5422+#5063-{:.6f}]", cycle_.zero_z);
+  line("G10 L1 P{} Z#<length>", tool);
+  line("G53 G0 Z{:.4f}", cycle_.travel_z);
+  line("(PRINT,found: tool {} is #<length> long)", tool);
+}
+
+// The work system is turned about its zero. Until both places are known it is not turned.
+void CycleText::angle() {
+  const TouchWay way = *way_of(cycle_.side);
+  const bool along_x = way.axis == 'Y';
+  head("beside the edge, below the top of the work; the second place is ahead along the other axis",
+       "off the second place, by the clearance");
+  write_subs();
+  line("G10 L2 P{} R0", system_);
+  const int x = along_x ? 0 : way.sign;
+  const int y = along_x ? way.sign : 0;
+  touch(x, y, 0);
+  line("#<first_x> = #5061\n#<first_y> = #5062");
+  go(way.axis, -way.sign * cycle_.clearance);
+  go(along_x ? 'X' : 'Y', cycle_.along);
+  touch(x, y, 0);
+  if (along_x) {
+    line("#<angle> = ATAN[#5062-#<first_y>]/[#5061-#<first_x>]");
+  } else {
+    line("#<angle> = ATAN[#<first_x>-#5061]/[#5062-#<first_y>]");
+  }
+  go(way.axis, -way.sign * cycle_.clearance);
+  line("G10 L2 P{} R#<angle>", system_);
+  line("(PRINT,found: {} is turned by #<angle> degrees)", system_code(system_));
+}
+
+// Each height is logged with the place that was meant, as a line of a height map.
+void CycleText::map() {
+  head("Z0 is on the surface, and nothing is in the way at the height of the clearance",
+       "above the last place, by the clearance");
+  line("G17 G21 G40 G80 G90 G94 {}", system_code(system_));
+  line("G0 Z{:.4f}", cycle_.clearance);
+  const auto columns = static_cast<int>(cycle_.columns);
+  const auto rows = static_cast<int>(cycle_.rows);
+  for (int row = 0; row < rows; ++row) {
+    const double y = cycle_.y + cycle_.size_y * row / (rows - 1);
+    for (int i = 0; i < columns; ++i) {
+      const double x = cycle_.x + cycle_.size_x * (row % 2 == 0 ? i : columns - 1 - i) / (columns - 1);
+      line("G0 X{:.4f} Y{:.4f}", x, y);
+      line("G38.2 Z{:.4f} F{:.4f}", -cycle_.depth, cycle_.fast);
+      line("(LOG,{:.4f},{:.4f},#5063)", x, y);
+      line("G0 Z{:.4f}", cycle_.clearance);
+    }
+  }
+}
+
+std::string CycleText::write() {
+  switch (cycle_.kind) {
+    case ProbingKind::surface: surface(); break;
+    case ProbingKind::edge: edge(); break;
+    case ProbingKind::corner: corner(); break;
+    case ProbingKind::bore: bore(); break;
+    case ProbingKind::boss: boss(); break;
+    case ProbingKind::tool: tool(); break;
+    case ProbingKind::angle: angle(); break;
+    case ProbingKind::map: map(); break;
+  }
+  line("M2");
+  return std::move(text_);
+}
+
+}  // namespace
+
+std::optional<TouchWay> way_of(std::string_view side) {
+  if (side.size() != 2 || (side[1] != '+' && side[1] != '-')) return {};
+  if (side[0] != 'x' && side[0] != 'y') return {};
+  return TouchWay{.axis = side[0] == 'x' ? 'X' : 'Y', .sign = side[1] == '+' ? 1 : -1};
+}
+
+std::optional<CornerWays> corner_of(std::string_view side) {
+  if (side == "front-left") return CornerWays{.x = 1, .y = 1};
+  if (side == "front-right") return CornerWays{.x = -1, .y = 1};
+  if (side == "back-left") return CornerWays{.x = 1, .y = -1};
+  if (side == "back-right") return CornerWays{.x = -1, .y = -1};
+  return {};
+}
+
+std::string cycle_text(const ProbingCycle& cycle) {
+  return CycleText(cycle).write();
+}
+
+}  // namespace passo

@@ -1,0 +1,109 @@
+// An API around a session on a virtual machine, in virtual time, and its description.
+#pragma once
+
+#include <fstream>
+#include <functional>
+#include <set>
+#include <string>
+#include <vector>
+
+#include "grbl_kit.hpp"
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include "passo/api/machine_api.hpp"
+
+namespace passo::test {
+
+using Json = nlohmann::ordered_json;
+
+// A machine with a sender's door and a client's door.
+class ApiRun {
+ public:
+  explicit ApiRun(const KnownPosition& start = GrblRun::at_zero(), JobHistory* history = nullptr,
+                  const std::vector<Touchable>& things = {})
+      : run(example_machine("router"), start, things),
+        api(run.description(), run.session(), owner,
+            {.version = "1",
+             .openapi = "{}",
+             .make_key = [this] { return fmt::format("key{}", ++keys_); },
+             .page = {},
+             .history = history,
+             .wall_time = [this] { return 1e9 + run.session().now().value(); },
+             .keep_offsets =
+                 [this](const SavedParameters& parameters, const ToolTable& tools) {
+                   if (keep) keep(parameters, tools);
+                 }}) {}
+
+  Json ask(const std::string& method, const std::string& path, const std::string& body = "",
+           const std::string& by = "") {
+    const std::size_t mark = std::min(path.find('?'), path.size());
+    const WebAnswer answer = api.answer({.method = method,
+                                         .path = "/api/v1" + path.substr(0, mark),
+                                         .query = path.substr(std::min(mark + 1, path.size())),
+                                         .key = by.empty() ? key : by,
+                                         .body = body});
+    status = answer.status;
+    return Json::parse(answer.body, nullptr, false);
+  }
+  Json post(const std::string& path, const std::string& body = "") { return ask("POST", path, body); }
+  Json get(const std::string& path) { return ask("GET", path); }
+
+  void turn() {
+    run.session().turn(Seconds(0.005));
+    const auto changes = run.session().take_changes();
+    run.grbl().turn(changes);
+    api.heed(changes);
+    api.turn();
+    run.collect();
+  }
+  template <class Condition>
+  bool turn_until(Condition condition, Seconds within = Seconds(300)) {
+    const Seconds end = run.session().now() + within;
+    for (int turns = 0; !condition() && run.session().now() < end && turns < 1'000'000; ++turns) turn();
+    return condition();
+  }
+  bool turn_until_state(const std::string& state) {
+    return turn_until([&] { return get("/status")["state"] == state; });
+  }
+  void pass(Seconds time) {
+    const Seconds end = run.session().now() + time;
+    turn_until([&] { return run.session().now() >= end; });
+  }
+  void own() {
+    const Json answer = post("/owner", R"({"name": "test"})");
+    ASSERT_EQ(status, 200U) << answer;
+    key = answer["key"];
+    run.grbl().let_drive(owner.is_sender());
+  }
+  std::uint64_t upload(const std::string& text, const std::string& query = "") {
+    const Json answer = ask("POST", "/programs" + query, text);
+    EXPECT_EQ(status, 201U) << answer;
+    return answer["id"];
+  }
+
+  GrblRun run;
+  std::function<void(const SavedParameters&, const ToolTable&)> keep;
+  MotionOwner owner;
+  MachineApi api;
+  std::string key;
+  unsigned status = 0;
+
+ private:
+  int keys_ = 0;
+};
+
+inline Json openapi() {
+  std::ifstream file(PASSO_SOURCE_DIR "/docs/api/openapi.json");
+  return Json::parse(file);
+}
+
+inline void expect_members(const Json& schema, const Json& value, const std::string& what) {
+  std::set<std::string> described;
+  std::set<std::string> found;
+  for (const auto& [name, member] : schema["properties"].items()) described.insert(name);
+  for (const auto& [name, member] : value.items()) found.insert(name);
+  EXPECT_EQ(described, found) << what;
+}
+
+}  // namespace passo::test

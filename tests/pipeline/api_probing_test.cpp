@@ -1,0 +1,111 @@
+// Probing cycles, height maps and levelled programs by the API.
+#include "api_kit.hpp"
+#include <gmock/gmock.h>
+
+namespace passo::test {
+namespace {
+
+// A machine whose probe touches everything that is low enough.
+std::vector<Touchable> plate(double top) {
+  TouchBox box;
+  box.ranges[Axis::z].high = top;
+  return {box};
+}
+
+TEST(ApiProbing, a_surface_becomes_the_zero_of_all_programs) {
+  ApiRun run(GrblRun::at_zero(), nullptr, plate(-12.5));
+  std::vector<double> kept;
+  run.keep = [&](const SavedParameters& parameters, const ToolTable&) { kept.push_back(parameters.at(5223)); };
+  run.own();
+  const Json job = run.post("/probe", R"({"cycle": "surface", "height": 0.5, "reach": 30})");
+  ASSERT_EQ(run.status, 202U) << job;
+  ASSERT_TRUE(run.turn_until([&] { return run.api.job().state == JobState::done; })) << run.get("/status");
+  EXPECT_NEAR(run.get("/status")["work_offset"]["z"].get<double>(), -13, 0.004);
+  ASSERT_EQ(kept.size(), 1U);
+  const Json words = run.get("/log")["words"];
+  ASSERT_FALSE(words.empty());
+  EXPECT_THAT(words.back()["text"].get<std::string>(), testing::HasSubstr("found: Z0 of G54 is Z-13"));
+  // The next program counts from there.
+  const std::uint64_t id = run.upload("G0 Z5\nM2\n");
+  run.post(fmt::format("/programs/{}/run", id));
+  ASSERT_TRUE(run.turn_until([&] { return run.api.job().state == JobState::done; }));
+  EXPECT_NEAR(run.get("/status")["place"]["z"].get<double>(), -8, 0.01);
+}
+
+TEST(ApiProbing, a_tool_is_measured_and_used) {
+  ApiRun run(GrblRun::at_zero(), nullptr, plate(-20));
+  run.own();
+  run.post("/probe", R"({"cycle": "tool", "tool": 4, "reach": 40, "zero_z": -45})");
+  ASSERT_EQ(run.status, 202U);
+  ASSERT_TRUE(run.turn_until([&] { return run.api.job().state == JobState::done; })) << run.get("/status");
+  const std::uint64_t id = run.upload("G43 H4\nG0 Z-40\nM2\n");
+  run.post(fmt::format("/programs/{}/run", id));
+  ASSERT_TRUE(run.turn_until([&] { return run.api.job().state == JobState::done; })) << run.get("/status");
+  EXPECT_NEAR(run.get("/status")["place"]["z"].get<double>(), -15, 0.01);
+}
+
+TEST(ApiProbing, a_height_map_is_stored_with_its_program_and_levels_it) {
+  ApiRun run(GrblRun::at_zero(), nullptr, plate(-2.25));
+  run.own();
+  const std::uint64_t id = run.upload("G21 G90 G0 X12 Y12 Z5\nG1 Z0 F500\nX28\nG0 Z5\nM2\n", "?name=part.ngc");
+  const std::string of_it = fmt::format("/programs/{}", id);
+  run.get(of_it + "/height-map");
+  EXPECT_EQ(run.status, 404U);
+  run.post(of_it + "/level");
+  EXPECT_EQ(run.status, 404U);
+  const Json job = run.post(
+      "/probe", fmt::format(R"({{"cycle": "map", "program": {}, "x": 10, "y": 10, "columns": 3, "rows": 2}})", id));
+  ASSERT_EQ(run.status, 202U) << job;
+  run.post(of_it + "/level");
+  EXPECT_NE(run.status, 201U);
+  ASSERT_TRUE(run.turn_until([&] { return run.api.job().state == JobState::done; })) << run.get("/status");
+  const Json map = run.get(of_it + "/height-map");
+  EXPECT_EQ(map["columns"], Json({10.0, 20.0, 30.0}));
+  EXPECT_EQ(map["rows"], Json({10.0, 30.0}));
+  EXPECT_NEAR(map["lowest"].get<double>(), -2.25, 0.005);
+  expect_members(openapi()["components"]["schemas"]["HeightMap"], map, "HeightMap");
+  EXPECT_EQ(
+      run.api.answer({.method = "GET", .path = "/api/v1" + of_it + "/height-map", .query = "as=csv"}).body.substr(0, 6),
+      "x,y,z\n");
+  const Json levelled = run.post(of_it + "/level?tolerance=0.01");
+  ASSERT_EQ(run.status, 201U) << levelled;
+  EXPECT_EQ(levelled["name"], "level part.ngc");
+  const std::string text =
+      run.api
+          .answer(
+              {.method = "GET", .path = fmt::format("/api/v1/programs/{}/text", levelled["id"].get<std::uint64_t>())})
+          .body;
+  EXPECT_THAT(text, testing::HasSubstr("Z-2.25"));
+}
+
+TEST(ApiProbing, refuses_what_is_no_cycle_no_map_and_no_wish) {
+  ApiRun run;
+  run.own();
+  for (const char* body :
+       {"", "[]", "{}", R"({"cycle": "hole"})", R"({"cycle": "edge"})", R"({"cycle": "edge", "side": 3})",
+        R"({"cycle": "surface", "reach": -1})", R"({"cycle": "surface", "columns": 3})",
+        R"({"cycle": "surface", "reach": "far"})", R"({"cycle": "map", "columns": 2.5})"}) {
+    run.post("/probe", body);
+    EXPECT_EQ(run.status, 400U) << body;
+  }
+  run.post("/probe", R"({"cycle": "map", "program": 99})");
+  EXPECT_EQ(run.status, 404U);
+  run.ask("POST", "/probe", R"({"cycle": "surface"})", "somebody");
+  EXPECT_EQ(run.status, 403U);
+  const std::string of_it = fmt::format("/programs/{}", run.upload("G38.2 Z-5 F100\nM2\n"));
+  for (const char* body : {"", "x,y,z", "0,0,1\n1,0,1\n", "0,0,1\n0,1,1\n1,0,1\n1,1,nan\n"}) {
+    run.post(of_it + "/height-map", body);
+    EXPECT_EQ(run.status, 400U) << body;
+  }
+  run.post(of_it + "/height-map", "0,0,1\n0,9,1\n9,0,1\n9,9,1\n");
+  EXPECT_EQ(run.status, 200U);
+  for (const char* wish : {"tolerance=0", "tolerance=x", "tolerance=nan", "holes=1"}) {
+    run.post(of_it + "/level?" + wish);
+    EXPECT_EQ(run.status, 400U) << wish;
+  }
+  EXPECT_EQ(run.post(of_it + "/level")["error"]["code"], "level.cannot");
+  EXPECT_EQ(run.status, 409U);
+}
+
+}  // namespace
+}  // namespace passo::test
