@@ -5,23 +5,10 @@
 #include <numbers>
 #include <optional>
 
+#include "flat_vector.hpp"
+
 namespace passo {
 namespace {
-
-struct FlatVector {
-  double x;
-  double y;
-};
-
-FlatVector between(DrawnPoint from, DrawnPoint to) {
-  return {static_cast<double>(to.x.count - from.x.count), static_cast<double>(to.y.count - from.y.count)};
-}
-double cross(FlatVector a, FlatVector b) {
-  return a.x * b.y - a.y * b.x;
-}
-double dot(FlatVector a, FlatVector b) {
-  return a.x * b.x + a.y * b.y;
-}
 
 struct FoundArc {
   double sweep;
@@ -34,8 +21,8 @@ class ArcFinder {
   // The arc from one point to the other, if all points between are on it.
   std::optional<FoundArc> arc(std::size_t first, std::size_t last) const {
     const DrawnPoint a = points_[first];
-    const FlatVector to_middle = between(a, points_[(first + last) / 2]);
-    const FlatVector to_last = between(a, points_[last]);
+    const FlatVector to_middle = from_to(a, points_[(first + last) / 2]);
+    const FlatVector to_last = from_to(a, points_[last]);
     const double twice = 2 * cross(to_middle, to_last);
     if (std::abs(twice) < 1) return std::nullopt;
     // The centre of the circle through the three, from a.
@@ -50,7 +37,7 @@ class ArcFinder {
     double sweep = 0;
     FlatVector before{-centre.x, -centre.y};
     for (std::size_t i = first + 1; i <= last; ++i) {
-      const FlatVector from_a = between(a, points_[i]);
+      const FlatVector from_a = from_to(a, points_[i]);
       const FlatVector now{from_a.x - centre.x, from_a.y - centre.y};
       if (std::abs(std::hypot(now.x, now.y) - radius) > fit_.off_circle_nm) return std::nullopt;
       const double turn = std::atan2(cross(before, now), dot(before, now));

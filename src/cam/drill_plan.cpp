@@ -9,6 +9,7 @@
 #include <fmt/format.h>
 
 #include "passo/cam/bulge.hpp"
+#include "passo/cam/counted.hpp"
 #include "passo/cam/route.hpp"
 
 namespace passo {
@@ -84,7 +85,7 @@ void DrillPlanner::collect(const std::vector<Drawing>& drawings) {
       cuts_.push_back({&drawing, path.points.front().at, path.width, &path, path.line});
     }
   }
-  if (lines != 0) plan_.notes.push_back(fmt::format("left out, because they are no holes: {} lines and paths", lines));
+  if (lines != 0) plan_.notes.push_back("left out, because it is no hole: " + counted(lines, "path"));
   drop_doubles();
 }
 
@@ -107,7 +108,8 @@ void DrillPlanner::drop_doubles() {
   }
   cuts_ = std::move(kept);
   if (doubles == 0) return;
-  plan_.notes.push_back(fmt::format("{} holes lie on others; of holes at one place the narrowest is made", doubles));
+  plan_.notes.push_back(fmt::format("{} on others; of holes at one place the narrowest is made",
+                                    doubles == 1 ? "a hole lies" : fmt::format("{} holes lie", doubles)));
 }
 
 std::optional<Nanometres> DrillPlanner::drill_for(Nanometres width) const {
@@ -242,11 +244,14 @@ void DrillPlanner::finish() {
   for (const auto& [width, refused] : refused_) refuse(refused.first, refused.second);
   for (const auto& [width, use] : off_) {
     if (options_.one_drill) break;
-    plan_.notes.push_back(
-        fmt::format("{} holes of {} are made with the drill of {}", use.second, mm_words(width), mm_words(use.first)));
+    plan_.notes.push_back(fmt::format("{} of {} {} made with the drill of {}", counted(use.second, "hole"),
+                                      mm_words(width), use.second == 1 ? "is" : "are", mm_words(use.first)));
   }
   if (slots_as_holes_ != 0) {
-    plan_.notes.push_back(fmt::format("{} slots are drilled as rows of holes; --mill D mills them", slots_as_holes_));
+    plan_.notes.push_back(
+        slots_as_holes_ == 1
+            ? "a slot is drilled as a row of holes; --mill D mills it"
+            : fmt::format("{} slots are drilled as rows of holes; --mill D mills them", slots_as_holes_));
   }
   for (auto& [diameter, tool] : drills_) plan_.tools.push_back(std::move(tool));
   if (!mill_.targets.empty()) {

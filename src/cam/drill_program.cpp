@@ -20,9 +20,7 @@ class DrillProgram {
   std::string write() {
     begin();
     for (std::size_t i = 0; i < plan_.tools.size(); ++i) write_tool(plan_.tools[i], i + 1);
-    if (options_.spindle) line("M5");
-    line("G0 {}", place(options_.park));
-    line("M2");
+    text_.end(options_.spindle.has_value(), options_.park);
     return text_.take();
   }
 
@@ -33,7 +31,6 @@ class DrillProgram {
   }
   void begin();
   void write_tool(const DrillTool& tool, std::size_t number);
-  void change_tool(const DrillTool& tool, std::size_t number);
   void drill(const DrillTarget& target, bool is_first);
   void drill_by_moves(const DrillTarget& target);
   void mill(const DrillTarget& target);
@@ -69,26 +66,11 @@ void DrillProgram::begin() {
   line("G0 Z{}", number(options_.clearance));
 }
 
-void DrillProgram::change_tool(const DrillTool& tool, std::size_t number_of_tool) {
-  if (plan_.tools.size() > 1) {
-    if (number_of_tool > 1) {
-      if (options_.spindle) line("M5");
-      line("G0 {}", place(options_.park));
-    }
-    line("(MSG, tool {}: {})", number_of_tool, diameter_words(tool));
-    line("T{} M6", number_of_tool);
-    line("G0 Z{}", number(options_.clearance));
-  }
-  if (options_.spindle) {
-    line("M3 S{}", *options_.spindle);
-    line("G4 P2 (the spindle reaches its speed)");
-  }
-}
-
 void DrillProgram::write_tool(const DrillTool& tool, std::size_t number_of_tool) {
   line("");
   line("(tool {}: {}, {})", number_of_tool, diameter_words(tool), contents_of(tool));
-  change_tool(tool, number_of_tool);
+  text_.begin_tool({number_of_tool, plan_.tools.size() == 1, diameter_words(tool), options_.spindle, options_.park,
+                    options_.clearance});
   line("F{}", number(tool.is_mill ? options_.mill_feed : options_.feed));
   bool in_cycle = false;
   for (const DrillTarget& target : tool.targets) {

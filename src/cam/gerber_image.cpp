@@ -23,8 +23,16 @@ bool overlap(const DrawnBox& a, const DrawnBox& b) {
 // A dark object, and where it is.
 struct DarkObject {
   Region region;
-  DrawnBox box;
+  std::vector<DrawnBox> boxes;  // of its rings
+  DrawnBox box;                 // of all
 };
+
+std::vector<DrawnBox> boxes_of(const Region& region) {
+  std::vector<DrawnBox> boxes;
+  boxes.reserve(region.rings.size());
+  for (const DrawnRing& ring : region.rings) boxes.push_back(box_of(ring));
+  return boxes;
+}
 
 // Clear objects take away from the dark objects that they touch, one by one: the others stay as they are.
 class Composition {
@@ -32,7 +40,10 @@ class Composition {
   explicit Composition(RegionBudget& budget) : budget_(budget) {}
 
   void add(Region object) {
-    if (const std::optional<DrawnBox> box = bounds(object)) dark_.push_back({std::move(object), *box});
+    const std::optional<DrawnBox> box = bounds(object);
+    if (!box) return;
+    std::vector<DrawnBox> boxes = boxes_of(object);
+    dark_.push_back({std::move(object), std::move(boxes), *box});
   }
 
   bool take_away(const std::vector<Region>& objects) {
@@ -40,12 +51,10 @@ class Composition {
     const Region clear = united(objects);
     const std::optional<DrawnBox> box = bounds(clear);
     if (!box) return true;
-    looked_at_ += dark_.size();
+    for (const DarkObject& dark : dark_) looked_at_ += 1 + dark.boxes.size() / 8;
     if (looked_at_ > most_looked_at) return false;
     for (DarkObject& dark : dark_) {
-      if (!overlap(dark.box, *box)) continue;
-      if (!budget_.affords({dark.region, clear})) return false;
-      dark.region = subtracted(dark.region, clear);
+      if (overlap(dark.box, *box) && !take_away(clear, *box, dark)) return false;
     }
     std::erase_if(dark_, [](const DarkObject& dark) { return dark.region.empty(); });
     return true;
@@ -64,6 +73,32 @@ class Composition {
   }
 
  private:
+  // Rings that lie clear of what is taken away stay as they are: a plane's thousandth opening costs what its first did.
+  bool take_away(const Region& clear, const DrawnBox& box, DarkObject& dark) {
+    Region touched;
+    std::vector<DrawnRing>& rings = dark.region.rings;
+    std::size_t kept = 0;
+    for (std::size_t i = 0; i < rings.size(); ++i) {
+      if (overlap(dark.boxes[i], box)) {
+        touched.rings.push_back(std::move(rings[i]));
+        continue;
+      }
+      if (kept != i) {
+        rings[kept] = std::move(rings[i]);
+        dark.boxes[kept] = dark.boxes[i];
+      }
+      ++kept;
+    }
+    rings.resize(kept);
+    dark.boxes.resize(kept);
+    if (touched.empty()) return true;
+    if (!budget_.affords({touched, clear})) return false;
+    Region left = subtracted(touched, clear);
+    std::ranges::copy(boxes_of(left), std::back_inserter(dark.boxes));
+    std::ranges::move(left.rings, std::back_inserter(rings));
+    return true;
+  }
+
   std::optional<Region> united_by_halves(std::vector<Region> objects) {
     std::size_t points = 0;
     for (const Region& object : objects) points += points_of(object);
@@ -94,7 +129,7 @@ class Composition {
     Region seam_b;
     const auto part = [&clear](const Region& from, const DrawnBox& other, Region& seam) {
       for (const DrawnRing& ring : from.rings) {
-        const bool touches = overlap(*bounds(Region{{ring}}), other);
+        const bool touches = overlap(box_of(ring), other);
         (touches ? seam.rings : clear).push_back(ring);
       }
     };

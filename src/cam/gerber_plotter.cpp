@@ -284,29 +284,27 @@ void GerberPlotter::end_region() {
   in_region_ = false;
 }
 
-void GerberPlotter::begin_block(std::uint32_t code) {
+GerberPlotter::Frame* GerberPlotter::push_frame() {
   finish_stroke();
-  if (frames_.size() >= most_frames) {
-    findings_.refuse(0, 0, "gerber.nested-too-deep", "too many blocks, one in another",
-                     fmt::format("at most {}", most_frames));
-    return;
-  }
-  Frame& frame = frames_.emplace_back();
-  frame.is_block = true;
-  frame.code = code;
+  if (frames_.size() < most_frames) return &frames_.emplace_back();
+  findings_.refuse(0, 0, "gerber.nested-too-deep", "too many blocks, one in another",
+                   fmt::format("at most {}", most_frames));
+  return nullptr;
+}
+
+void GerberPlotter::begin_block(std::uint32_t code) {
+  Frame* const frame = push_frame();
+  if (frame == nullptr) return;
+  frame->is_block = true;
+  frame->code = code;
 }
 
 void GerberPlotter::begin_repeat(std::int64_t across, std::int64_t up, DrawnPoint step) {
-  finish_stroke();
-  if (frames_.size() >= most_frames) {
-    findings_.refuse(0, 0, "gerber.nested-too-deep", "too many blocks, one in another",
-                     fmt::format("at most {}", most_frames));
-    return;
-  }
-  Frame& frame = frames_.emplace_back();
-  frame.across = across;
-  frame.up = up;
-  frame.step = step;
+  Frame* const frame = push_frame();
+  if (frame == nullptr) return;
+  frame->across = across;
+  frame->up = up;
+  frame->step = step;
 }
 
 void GerberPlotter::end_block() {

@@ -95,6 +95,7 @@ class GerberPlotter {
   void draw_way(std::size_t first, std::size_t last);
   void add_to_path(const GerberArc* arc, DrawnPoint to);
   bool find_arc(DrawnPoint to, const ArcWords& words, GerberArc& arc);
+  Frame* push_frame();  // null, and reported: there are too many
   void pop_frame();
 
   GerberLayer& layer_;

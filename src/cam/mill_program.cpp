@@ -22,9 +22,7 @@ class MillProgram {
       change_tool(i + 1);
       for (const MillRun& run : plan_.tools[i].runs) mill(run);
     }
-    if (options_.spindle) text_.line("M5");
-    text_.line("G0 {}", text_.place(options_.park));
-    text_.line("M2");
+    text_.end(options_.spindle.has_value(), options_.park);
     return text_.take();
   }
 
@@ -60,19 +58,7 @@ void MillProgram::begin() {
 void MillProgram::change_tool(std::size_t number) {
   const MillTool& tool = plan_.tools[number - 1];
   text_.line("");
-  if (plan_.tools.size() > 1) {
-    if (number > 1) {
-      if (options_.spindle) text_.line("M5");
-      text_.line("G0 {}", text_.place(options_.park));
-    }
-    text_.line("(MSG, tool {}: {})", number, in_comment(tool.words));
-    text_.line("T{} M6", number);
-    text_.line("G0 Z{}", text_.number(options_.clearance));
-  }
-  if (options_.spindle) {
-    text_.line("M3 S{}", *options_.spindle);
-    text_.line("G4 P2 (the spindle reaches its speed)");
-  }
+  text_.begin_tool({number, plan_.tools.size() == 1, tool.words, options_.spindle, options_.park, options_.clearance});
   feed_ = {};
 }
 

@@ -9,6 +9,7 @@
 #include "arc_fit.hpp"
 #include "cut_track.hpp"
 #include "edge_grid.hpp"
+#include "flat_vector.hpp"
 #include <fmt/format.h>
 
 #include "passo/cam/bulge.hpp"
@@ -20,18 +21,6 @@ namespace {
 
 constexpr Nanometres fine_chords{500};
 constexpr Nanometres board_room{2'000};  // the cutter stays so much farther from the board than half its width
-
-struct Flat {
-  double x;
-  double y;
-};
-
-Flat from_to(DrawnPoint from, DrawnPoint to) {
-  return {static_cast<double>(to.x.count - from.x.count), static_cast<double>(to.y.count - from.y.count)};
-}
-DrawnPoint moved(DrawnPoint from, Flat by) {
-  return {{from.x.count + std::llround(by.x)}, {from.y.count + std::llround(by.y)}};
-}
 
 struct OutlineCut {
   DrawnRing ring;
@@ -170,22 +159,22 @@ void OutlinePlanner::add_dog_bones(DrawnRing& ring) const {
   for (std::size_t i = 0; i < ring.size(); ++i) {
     const DrawnPoint at = ring[i];
     boned.push_back(at);
-    const Flat in = from_to(ring[(i + ring.size() - 1) % ring.size()], at);
-    const Flat out = from_to(at, ring[(i + 1) % ring.size()]);
+    const FlatVector in = from_to(ring[(i + ring.size() - 1) % ring.size()], at);
+    const FlatVector out = from_to(at, ring[(i + 1) % ring.size()]);
     const double in_length = std::hypot(in.x, in.y);
     const double out_length = std::hypot(out.x, out.y);
     const double turn = std::atan2(in.x * out.y - in.y * out.x, in.x * out.x + in.y * out.y);
     constexpr double least_turn = 20 * std::numbers::pi / 180;
     if (turn > -least_turn || in_length == 0 || out_length == 0) continue;  // the board lies to the left
-    const Flat away{in.x / in_length - out.x / out_length, in.y / in_length - out.y / out_length};
+    const FlatVector away{in.x / in_length - out.x / out_length, in.y / in_length - out.y / out_length};
     const double to_corner = static_cast<double>(radius().count + board_room.count) / std::cos(turn / 2);
     const double scale = to_corner / std::hypot(away.x, away.y);
-    const DrawnPoint corner = moved(at, {away.x * scale, away.y * scale});
+    const DrawnPoint corner = shifted(at, {away.x * scale, away.y * scale});
     constexpr double near_enough = 5'000;  // nm
     const auto near = edges.nearest(corner, near_enough);
     if (!near) continue;
     const double share = (to_corner - static_cast<double>(radius().count)) / to_corner;
-    boned.push_back(moved(at, {away.x * scale * share, away.y * scale * share}));
+    boned.push_back(shifted(at, {away.x * scale * share, away.y * scale * share}));
     boned.push_back(at);
   }
   ring = std::move(boned);
@@ -202,8 +191,8 @@ CutTrack OutlinePlanner::track_of(DrawnRing ring) const {
   std::rotate(ring.begin(), ring.begin() + static_cast<std::ptrdiff_t>((longest + 1) % ring.size()), ring.end());
   constexpr double straight = 1e6;  // nm; shorter edges may be chords of an arc
   if (distance_nm(ring.back(), ring.front()) > straight) {
-    const Flat edge = from_to(ring.back(), ring.front());
-    ring.insert(ring.begin(), moved(ring.back(), {edge.x / 2, edge.y / 2}));
+    const FlatVector edge = from_to(ring.back(), ring.front());
+    ring.insert(ring.begin(), shifted(ring.back(), {edge.x / 2, edge.y / 2}));
   }
   if (options_.climb) std::reverse(ring.begin() + 1, ring.end());
   ring.push_back(ring.front());
@@ -281,10 +270,10 @@ std::vector<DrawnPoint> OutlinePlanner::lead_of(const CutTrack& track) const {
   constexpr int halvings = 4;
   auto size = static_cast<double>(options_.lead.count);
   for (int i = 0; i < halvings && size > 0; ++i, size /= 2) {
-    const Flat along{std::cos(direction) * size, std::sin(direction) * size};
-    const Flat aside{-along.y * side, along.x * side};
-    const DrawnPoint from = moved(start, {aside.x - along.x, aside.y - along.y});
-    const DrawnPoint to = moved(start, {aside.x + along.x, aside.y + along.y});
+    const FlatVector along{std::cos(direction) * size, std::sin(direction) * size};
+    const FlatVector aside{-along.y * side, along.x * side};
+    const DrawnPoint from = shifted(start, {aside.x - along.x, aside.y - along.y});
+    const DrawnPoint to = shifted(start, {aside.x + along.x, aside.y + along.y});
     const double quarter = std::tan(std::numbers::pi / 8) * side;
     const bool is_free = is_clear(from, start, quarter) && is_clear(start, to, quarter) && is_clear(to, from, 0);
     if (is_free) return {from, to};

@@ -22,6 +22,28 @@ std::string ProgramText::number(Nanometres length) const {
   return digits == "-0" ? "0" : digits;
 }
 
+void ProgramText::begin_tool(const ToolChange& change) {
+  if (!change.is_only) {
+    if (change.number > 1) {
+      if (change.spindle) line("M5");
+      line("G0 {}", place(change.park));
+    }
+    line("(MSG, tool {}: {})", change.number, in_comment(change.words));
+    line("T{} M6", change.number);
+    line("G0 Z{}", number(change.clearance));
+  }
+  if (change.spindle) {
+    line("M3 S{}", *change.spindle);
+    line("G4 P2 (the spindle reaches its speed)");
+  }
+}
+
+void ProgramText::end(bool has_spindle, DrawnPoint park) {
+  if (has_spindle) line("M5");
+  line("G0 {}", place(park));
+  line("M2");
+}
+
 std::string in_comment(std::string_view text) {
   std::string words(text);
   const auto breaks = [](char c) { return c == '(' || c == ')' || c == '%' || static_cast<unsigned char>(c) < ' '; };
@@ -29,10 +51,6 @@ std::string in_comment(std::string_view text) {
   constexpr std::size_t longest = 120;
   if (words.size() > longest) words = "..." + words.substr(words.size() - longest);
   return words;
-}
-
-std::string counted(std::size_t count, const char* what) {
-  return fmt::format("{} {}{}", count, what, count == 1 ? "" : "s");
 }
 
 }  // namespace passo

@@ -91,15 +91,6 @@ int place_of(DrawnPoint point, const DrawnRing& ring) {
   return inside ? 1 : 0;
 }
 
-DrawnBox box_of(const DrawnRing& ring) {
-  DrawnBox box{ring.front(), ring.front()};
-  for (const DrawnPoint& point : ring) {
-    box.least = {std::min(box.least.x, point.x), std::min(box.least.y, point.y)};
-    box.most = {std::max(box.most.x, point.x), std::max(box.most.y, point.y)};
-  }
-  return box;
-}
-
 bool is_within(const DrawnBox& inner, const DrawnBox& outer) {
   return inner.least.x >= outer.least.x && inner.least.y >= outer.least.y && inner.most.x <= outer.most.x &&
          inner.most.y <= outer.most.y;
@@ -115,6 +106,15 @@ bool lies_in(const DrawnRing& hole, const DrawnRing& outer) {
 }
 
 }  // namespace
+
+DrawnBox box_of(const DrawnRing& ring) {
+  DrawnBox box{ring.front(), ring.front()};
+  for (const DrawnPoint& point : ring) {
+    box.least = {std::min(box.least.x, point.x), std::min(box.least.y, point.y)};
+    box.most = {std::max(box.most.x, point.x), std::max(box.most.y, point.y)};
+  }
+  return box;
+}
 
 Region filled(std::vector<DrawnRing> rings) {
   std::erase_if(rings, [](const DrawnRing& ring) { return ring.size() < 3; });

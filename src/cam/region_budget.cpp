@@ -109,6 +109,8 @@ bool RegionBudget::spend(std::size_t cost, std::size_t& left) {
 bool RegionBudget::affords(const std::vector<const DrawnRing*>& rings) {
   std::size_t points = 0;
   for (const DrawnRing* const ring : rings) points += ring->size();
+  constexpr std::size_t of_each = 3'000;  // to begin with, whatever the rings are
+  if (!spend(of_each, comparisons_)) return false;
   constexpr std::size_t few = 64;  // their crossings cannot be many
   if (points <= few) return spend(points, comparisons_);
   const std::vector<Edge> edges = edges_of(rings);

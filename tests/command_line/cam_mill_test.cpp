@@ -73,7 +73,7 @@ TEST_F(CamMill, an_outline_keeps_its_arcs_and_has_tabs) {
   const Outcome made = cam("outline " + edge() + " --zero -5,-5 --tool 2 --tabs 4 --ramp 5 -o " + path("o.ngc") +
                            " -p " + path("o.svg"));
   EXPECT_EQ(made.code, 0) << made.err;
-  EXPECT_THAT(made.out, HasSubstr("1 outlines and 0 openings"));
+  EXPECT_THAT(made.out, HasSubstr("1 outline and 0 openings"));
   EXPECT_THAT(made.out, HasSubstr("4 tabs; 0 mm² of it lost"));
   EXPECT_THAT(read(path("o.ngc")), HasSubstr("\nG2 "));
   EXPECT_EQ(check(path("o.ngc")).code, 0);

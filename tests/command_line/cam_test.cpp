@@ -78,8 +78,8 @@ TEST_F(CamDrill, tools_change_slots_and_wide_holes_are_milled_and_all_of_it_runs
   const Outcome made =
       drill(drill_file() + " --mill 0.8 --spindle 8000 --peck 0.7 -o " + path("b.ngc") + " -p " + path("b.png"));
   EXPECT_EQ(made.code, 0) << made.err;
-  EXPECT_THAT(made.out, HasSubstr("5 holes, 1 slots, 0 other paths"));
-  EXPECT_THAT(made.out, HasSubstr("tool 2: mill 0.8 mm, 1 holes, 1 slots"));
+  EXPECT_THAT(made.out, HasSubstr("5 holes, 1 slot, 0 other paths"));
+  EXPECT_THAT(made.out, HasSubstr("tool 2: mill 0.8 mm, 1 hole, 1 slot"));
   const std::string program = read(path("b.ngc"));
   EXPECT_THAT(program, HasSubstr("(MSG, tool 2: mill 0.8 mm)\nT2 M6\n"));
   EXPECT_THAT(program, HasSubstr("G3 X6.2 Y5 Z-0.5 I-1.2 J0\n"));

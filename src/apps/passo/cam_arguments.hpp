@@ -12,6 +12,7 @@
 #include "commands.hpp"
 
 #include "passo/cam/board_layer.hpp"
+#include "passo/cam/counted.hpp"
 
 namespace passo {
 

@@ -93,16 +93,16 @@ std::string summary_of(const std::vector<Drawing>& drawings, const DrillPlan& pl
   for (const Drawing& drawing : drawings) {
     std::size_t slots = 0;
     for (const DrawnPath& path : drawing.paths) slots += path.width.count > 0 ? 1 : 0;
-    text += fmt::format("{}: {} holes, {} slots, {} other paths\n", drawing.file, drawing.holes.size(), slots,
-                        drawing.paths.size() - slots);
+    text += fmt::format("{}: {}, {}, {}\n", drawing.file, counted(drawing.holes.size(), "hole"), counted(slots, "slot"),
+                        counted(drawing.paths.size() - slots, "other path"));
   }
   double before = 0;
   double after = 0;
   for (std::size_t i = 0; i < plan.tools.size(); ++i) {
     const DrillTool& tool = plan.tools[i];
-    text += fmt::format("tool {}: {} {}, {} holes, {} slots; rapids {} as drawn, {} as ordered\n", i + 1,
-                        tool.is_mill ? "mill" : "drill", size(tool.diameter), tool.holes, tool.slots,
-                        words(std::round(tool.rapids_before_nm / 1e4) * 1e4),
+    text += fmt::format("tool {}: {} {}, {}, {}; rapids {} as drawn, {} as ordered\n", i + 1,
+                        tool.is_mill ? "mill" : "drill", size(tool.diameter), counted(tool.holes, "hole"),
+                        counted(tool.slots, "slot"), words(std::round(tool.rapids_before_nm / 1e4) * 1e4),
                         words(std::round(tool.rapids_after_nm / 1e4) * 1e4));
     before += tool.rapids_before_nm;
     after += tool.rapids_after_nm;
@@ -131,7 +131,8 @@ int draw(const DrillPlan& plan, const CamDrillArguments& arguments, PictureForma
   if (!file) return fail(exit_failed, file.error().message);
   PictureOptions options;
   options.format = format;
-  options.program = arguments.output.empty() ? arguments.files.front() : arguments.output;
+  options.program =
+      std::filesystem::path(arguments.output.empty() ? arguments.files.front() : arguments.output).filename().string();
   Status<OutputError> done = draw_drill_plan(plan, park, options, *file);
   if (done) done = file->commit();
   return done ? exit_done : fail(exit_failed, done.error().message);

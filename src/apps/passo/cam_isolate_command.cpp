@@ -84,11 +84,11 @@ nlohmann::ordered_json as_json(const IsolationPlan& plan, const IsolationProof& 
 }
 
 std::string proof_words(const IsolationProof& proof) {
-  std::string text = fmt::format("proof: {:.4g} mm² milled, {:g} of {:.4g} mm² of copper lost; {} islands",
-                                 proof.milled_mm2, proof.lost_mm2, proof.copper_mm2, proof.islands);
+  std::string text = fmt::format("proof: {:.4g} mm² milled, {:g} of {:.4g} mm² of copper lost; {}", proof.milled_mm2,
+                                 proof.lost_mm2, proof.copper_mm2, counted(proof.islands, "island"));
   return text + (proof.joined == 0
                      ? ", all apart\n"
-                     : fmt::format(", {} of them still joined in {} pieces\n", proof.joined, proof.groups));
+                     : fmt::format(", {} of them still joined in {}\n", proof.joined, counted(proof.groups, "piece")));
 }
 
 void note_gaps(const IsolationPlan& plan) {
@@ -99,7 +99,8 @@ void note_gaps(const IsolationPlan& plan) {
                      to_mm(gap.at.x).value(), to_mm(gap.at.y).value(), mm_words(gap.width)));
   }
   if (plan.gaps.size() > most_told) {
-    note(fmt::format("and {} more such gaps: --json lists them, --picture marks them", plan.gaps.size() - most_told));
+    note(fmt::format("and {} more such: --json lists them, --picture marks them",
+                     counted(plan.gaps.size() - most_told, "gap")));
   }
 }
 

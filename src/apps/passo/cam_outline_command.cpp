@@ -40,11 +40,11 @@ namespace {
 
 std::string board_words(const Region& board, const OutlinePlan& plan, const EdgeLoops& loops) {
   std::string text =
-      fmt::format("{} outlines and {} openings around {:.4g} mm² of board, {} tabs; {:g} mm² of it lost\n",
-                  plan.outsides, plan.openings, area_mm2(board), plan.tabs.size(), plan.lost_mm2);
+      fmt::format("{} and {} around {:.4g} mm² of board, {}; {:g} mm² of it lost\n", counted(plan.outsides, "outline"),
+                  counted(plan.openings, "opening"), area_mm2(board), counted(plan.tabs.size(), "tab"), plan.lost_mm2);
   if (loops.joined > 0) {
-    text += fmt::format("joined: {} ends that did not meet, at most {:.4g} mm apart\n", loops.joined,
-                        to_mm(loops.widest_joined).value());
+    text += fmt::format("joined: ends that did not meet at {}, at most {:.4g} mm apart\n",
+                        counted(loops.joined, "place"), to_mm(loops.widest_joined).value());
   }
   return text;
 }

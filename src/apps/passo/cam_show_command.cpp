@@ -38,10 +38,12 @@ std::string row_of(const BoardFile& file, std::size_t name_width) {
       fmt::format("{:{}}  {:<16}  {:<9}  ", short_name(file), name_width, words_for(file.kind), file.kind.told_by);
   if (file.layer) {
     const ShownSize size = size_of(bounds(file.layer->dark));
-    return row + fmt::format("{:7.2f} x {:7.2f} mm  {:9.2f} mm²  {} pads, {} strokes\n", size.across, size.up,
-                             area_mm2(file.layer->dark), file.layer->pads.size(), file.layer->strokes.paths.size());
+    return row + fmt::format("{:7.2f} x {:7.2f} mm  {:9.2f} mm²  {}, {}\n", size.across, size.up,
+                             area_mm2(file.layer->dark), counted(file.layer->pads.size(), "pad"),
+                             counted(file.layer->strokes.paths.size(), "stroke"));
   }
-  return row + fmt::format("{} holes, {} slots\n", file.drills->holes.size(), file.drills->paths.size());
+  return row + fmt::format("{}, {}\n", counted(file.drills->holes.size(), "hole"),
+                           counted(file.drills->paths.size(), "slot"));
 }
 
 nlohmann::ordered_json as_json(const BoardFile& file) {

@@ -47,7 +47,7 @@ TEST(DrillPlan, a_rack_serves_within_its_tolerance_and_no_hole_is_lost) {
   ASSERT_EQ(planned.found.errors(), 1U);
   EXPECT_EQ(planned.found.all()[0].code, "drill.no-tool");
   EXPECT_EQ(planned.found.all()[0].place.line, 7U);
-  EXPECT_THAT(planned.plan.notes, testing::ElementsAre("1 holes of 1.02 mm are made with the drill of 1 mm"));
+  EXPECT_THAT(planned.plan.notes, testing::ElementsAre("1 hole of 1.02 mm is made with the drill of 1 mm"));
   const Planned wider = plan_of(board, {.rack = {mm(0.8), mm(1)}, .tolerance = mm(0.5)});
   EXPECT_FALSE(wider.found.any_error());
 }
@@ -58,7 +58,7 @@ TEST(DrillPlan, one_drill_makes_all_and_of_holes_at_one_place_one) {
   ASSERT_EQ(planned.plan.tools.size(), 1U);
   EXPECT_EQ(planned.plan.tools[0].diameter, mm(0.75));
   EXPECT_EQ(planned.plan.tools[0].holes, 2U);
-  EXPECT_THAT(planned.plan.notes, testing::ElementsAre(testing::HasSubstr("1 holes lie on others")));
+  EXPECT_THAT(planned.plan.notes, testing::ElementsAre(testing::HasSubstr("a hole lies on others")));
   EXPECT_EQ(plan_of(board_of({hole_at(1, 1, 0)}), {}).found.all().at(0).code, "drill.no-diameter");
   EXPECT_EQ(plan_of(board_of({}), {}).found.all().at(0).code, "drill.no-holes");
 }

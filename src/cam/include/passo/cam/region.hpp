@@ -66,6 +66,7 @@ double area_mm2(const DrawnRing& ring);  // below 0 if the ring is clockwise
 
 // Empty for an empty region.
 std::optional<DrawnBox> bounds(const Region& region);
+DrawnBox box_of(const DrawnRing& ring);  // of one point or more
 DrawnRing rectangle(const DrawnBox& box);
 
 // A point on the rim is inside.
