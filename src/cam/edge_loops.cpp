@@ -25,8 +25,8 @@ std::vector<PathPoint> turned_around(const std::vector<PathPoint>& points) {
 // Ends are numbered: 2 k is the start of the open path k, 2 k + 1 its end.
 class EdgeJoiner {
  public:
-  EdgeJoiner(const Drawing& drawing, Nanometres join, Diagnostics& diagnostics)
-      : drawing_(drawing), join_(join), diagnostics_(diagnostics) {}
+  EdgeJoiner(const Drawing& drawing, Nanometres join, OpenRows open_rows, Diagnostics& diagnostics)
+      : drawing_(drawing), join_(join), open_rows_(open_rows), diagnostics_(diagnostics) {}
 
   EdgeLoops loops() {
     collect();
@@ -51,6 +51,7 @@ class EdgeJoiner {
 
   const Drawing& drawing_;
   Nanometres join_;
+  OpenRows open_rows_;
   Diagnostics& diagnostics_;
   EdgeLoops found_;
   std::vector<const DrawnPath*> open_;
@@ -137,6 +138,10 @@ void EdgeJoiner::follow(std::size_t path, std::vector<bool>& is_used) {
     append(loop, end);
     const std::size_t far_end = end ^ 1U;
     if (!partners_[far_end]) {
+      if (open_rows_ == OpenRows::kept) {
+        found_.open.push_back(std::move(loop));
+        return;
+      }
       refuse(first);
       refuse(far_end);
       return;
@@ -188,8 +193,8 @@ DrawnRing chords_of_path(const std::vector<PathPoint>& points, bool is_closed, N
   return ring;
 }
 
-EdgeLoops edge_loops(const Drawing& drawing, Nanometres join, Diagnostics& diagnostics) {
-  return EdgeJoiner(drawing, join, diagnostics).loops();
+EdgeLoops edge_loops(const Drawing& drawing, Nanometres join, Diagnostics& diagnostics, OpenRows open_rows) {
+  return EdgeJoiner(drawing, join, open_rows, diagnostics).loops();
 }
 
 Region board_within(const EdgeLoops& loops) {

@@ -46,7 +46,7 @@ class OutlinePlanner {
     put_tabs(tracks);
     MillTool tool{options_.cutter, options_.words, {}};
     for (const CutTrack& track : tracks) tool.runs.push_back(run_of(track));
-    measure_loss(tool);
+    measure_loss();
     if (!tool.runs.empty()) plan_.mill.tools.push_back(std::move(tool));
     return std::move(plan_);
   }
@@ -64,7 +64,8 @@ class OutlinePlanner {
   MillRun run_of(const CutTrack& track);
   bool is_clear(DrawnPoint from, DrawnPoint to, double bulge) const;
   std::vector<DrawnPoint> lead_of(const CutTrack& track) const;
-  void measure_loss(const MillTool& tool);
+  void keep_way(const CutTrack& track, const std::vector<DrawnPoint>& lead, double quarter);
+  void measure_loss();
 
   const Region& board_;
   const OutlineOptions& options_;
@@ -89,7 +90,8 @@ void OutlinePlanner::refuse_narrow_openings() {
     const DrawnBox box = *bounds(Region{{ring}});
     const DrawnPoint middle{{(box.least.x.count + box.most.x.count) / 2}, {(box.least.y.count + box.most.y.count) / 2}};
     diagnostics_.add(
-        {.code = "outline.narrow-opening",
+        {.severity = options_.skips_narrow ? Severity::warning : Severity::error,
+         .code = "outline.narrow-opening",
          .file = "",
          .place = {},
          .message = fmt::format("the opening at X{:.4g} Y{:.4g} mm is narrower than the cutter",
@@ -109,6 +111,7 @@ void OutlinePlanner::find_cuts() {
   }
   for (std::size_t i = 0; i < rings.size(); ++i) {
     OutlineCut cut{ways_.rings[i], area_mm2(ways_.rings[i]) > 0};
+    if (cut.is_outside && options_.openings_only) continue;
     (cut.is_outside ? plan_.outsides : plan_.openings) += 1;
     const DrawnPoint point = cut.ring.front();
     for (std::size_t other = 0; other < rings.size(); ++other) {
@@ -119,7 +122,7 @@ void OutlinePlanner::find_cuts() {
     }
     cuts_.push_back(std::move(cut));
   }
-  if (cuts_.empty()) {
+  if (cuts_.empty() && !options_.openings_only) {
     diagnostics_.add({.code = "outline.no-edge",
                       .file = "",
                       .place = {},
@@ -221,7 +224,7 @@ void OutlinePlanner::put_tabs(std::vector<CutTrack>& tracks) {
   const auto wide = static_cast<double>(options_.tab_width.count + options_.cutter.count);
   std::vector<std::vector<double>> middles(tracks.size());
   for (std::size_t i = 0; i < tracks.size(); ++i) {
-    if (!cuts_[i].is_outside || options_.tabs == 0) continue;
+    if ((!cuts_[i].is_outside && !options_.openings_only) || options_.tabs == 0) continue;
     if (options_.tabs * wide > tracks[i].length() / 2) {
       plan_.mill.notes.push_back(fmt::format("{} tabs are too many for an edge of {:.4g} mm: it has none",
                                              options_.tabs, tracks[i].length() / nanometres_per_mm));
@@ -288,6 +291,7 @@ MillRun OutlinePlanner::run_of(const CutTrack& track) {
     plan_.mill.notes.push_back(
         fmt::format("there is no room for a lead-in at X{:.4g} Y{:.4g} mm", to_mm(at.x).value(), to_mm(at.y).value()));
   }
+  keep_way(track, lead, quarter);
   MillRun run;
   double along = 0;
   Nanometres z{};
@@ -315,11 +319,22 @@ MillRun OutlinePlanner::run_of(const CutTrack& track) {
   return run;
 }
 
-void OutlinePlanner::measure_loss(const MillTool& tool) {
-  std::vector<DrawnRing> ways;
-  for (const MillRun& run : tool.runs) ways.push_back(chords_of(run, {200}));
-  // Each turn goes the same way as the one above.
-  plan_.lost_mm2 = area_mm2(common(board_, swept(each_once(ways), radius(), fine_chords)));
+// A ramp may go around a small opening very often: one lap is enough to know what is cut.
+void OutlinePlanner::keep_way(const CutTrack& track, const std::vector<DrawnPoint>& lead, double quarter) {
+  if (track.length() <= 0) return;
+  MillRun lap;
+  if (!lead.empty()) lap.push_back({lead[0], quarter, {}});
+  track.append(lap, 0, track.length(), {}, {});
+  if (!lead.empty()) {
+    lap.back().bulge = quarter;
+    lap.push_back({lead[1], 0, {}});
+    lap.push_back({lead[0], 0, {}});
+  }
+  plan_.ways.push_back(chords_of(lap, {200}));
+}
+
+void OutlinePlanner::measure_loss() {
+  plan_.lost_mm2 = area_mm2(common(board_, swept(plan_.ways, radius(), fine_chords)));
 }
 
 }  // namespace

@@ -129,10 +129,12 @@ void CutterTable::count() {
   }
 }
 
-DroppedCutter::DroppedCutter(const HeightGrid& grid, const Cutter& cutter, float floor, CutterTable::Kind kind)
+DroppedCutter::DroppedCutter(const HeightGrid& grid, const Cutter& cutter, float floor, CutterTable::Kind kind,
+                             BesideGrid beside)
     : grid_(grid),
       table_(cutter, grid.pitch_x, grid.pitch_y, kind),
       floor_(floor),
+      goes_on_(beside == BesideGrid::goes_on),
       blocks_((grid.columns + chunk - 1) / chunk),
       tops_(blocks_ * grid.rows, nothing) {
   for (std::size_t y = 0; y < grid.rows; ++y) {
@@ -151,31 +153,53 @@ void DroppedCutter::heights(std::ptrdiff_t row, std::ptrdiff_t column, std::span
   }
 }
 
+// Beside the grid the surface falls on as it falls towards the edge, or stays level.
+float DroppedCutter::beside(std::ptrdiff_t column, std::ptrdiff_t row) const {
+  const auto last_column = static_cast<std::ptrdiff_t>(grid_.columns) - 1;
+  const auto last_row = static_cast<std::ptrdiff_t>(grid_.rows) - 1;
+  const auto go_on = [&](float edge, float inside) { return std::max(floor_, std::min(edge, edge + (edge - inside))); };
+  if (column < 0 || column > last_column) {
+    const std::ptrdiff_t edge = column < 0 ? 0 : last_column;
+    const std::ptrdiff_t inside = std::clamp<std::ptrdiff_t>(2 * edge - column, 0, last_column);
+    return go_on(beside(edge, row), beside(inside, row));
+  }
+  if (row < 0 || row > last_row) {
+    const std::ptrdiff_t edge = row < 0 ? 0 : last_row;
+    const std::ptrdiff_t inside = std::clamp<std::ptrdiff_t>(2 * edge - row, 0, last_row);
+    return go_on(beside(column, edge), beside(column, inside));
+  }
+  return grid_.at(static_cast<std::size_t>(column), static_cast<std::size_t>(row));
+}
+
 // Gathers, of the two rows so far `away`, the greater heights of all nodes that the cutter covers from this chunk.
-// Returns false where none of them can lift the tip above `least`.
+// Returns false where none of them can lift the tip above `least`. No node beside the grid is higher than the nearest
+// one of the grid.
 bool DroppedCutter::combine(std::ptrdiff_t row, std::ptrdiff_t column, std::size_t away, float least,
                             Scratch& scratch) const {
   const std::span<const float> table = table_.row(away);
   if (table.empty()) return false;
   const auto wide = static_cast<std::ptrdiff_t>(table.size() - 1);
-  const auto first = std::max<std::ptrdiff_t>(0, column - wide);
-  const auto end = std::min<std::ptrdiff_t>(static_cast<std::ptrdiff_t>(grid_.columns),
-                                            column + wide + static_cast<std::ptrdiff_t>(chunk));
-  if (first >= end) return false;
+  const auto columns = static_cast<std::ptrdiff_t>(grid_.columns);
   const auto rows = static_cast<std::ptrdiff_t>(grid_.rows);
-  const auto signed_away = static_cast<std::ptrdiff_t>(away);
-  std::size_t from[2] = {};
+  const std::ptrdiff_t begin = column - wide;
+  const std::ptrdiff_t stop = column + wide + static_cast<std::ptrdiff_t>(chunk);
+  const std::ptrdiff_t first = std::clamp<std::ptrdiff_t>(begin, 0, columns);
+  const std::ptrdiff_t end = std::clamp<std::ptrdiff_t>(stop, 0, columns);
+  if (first >= end && !goes_on_) return false;
+  std::ptrdiff_t from[2] = {};
   std::size_t count = 0;
-  if (row + signed_away >= 0 && row + signed_away < rows) from[count++] = static_cast<std::size_t>(row + signed_away);
-  if (away > 0 && row - signed_away >= 0 && row - signed_away < rows) {
-    from[count++] = static_cast<std::size_t>(row - signed_away);
+  for (const std::ptrdiff_t to : {row + static_cast<std::ptrdiff_t>(away), row - static_cast<std::ptrdiff_t>(away)}) {
+    if (goes_on_ || (to >= 0 && to < rows)) from[count++] = to;
+    if (away == 0) break;
   }
+  if (count == 0) return false;
   float top = nothing;
-  const std::size_t first_block = static_cast<std::size_t>(first) / chunk;
-  const std::size_t last_block = static_cast<std::size_t>(end - 1) / chunk;
+  const auto first_block = static_cast<std::size_t>(std::min(first, columns - 1)) / chunk;
+  const auto last_block = static_cast<std::size_t>(std::max<std::ptrdiff_t>(end - 1, 0)) / chunk;
   for (std::size_t i = 0; i < count; ++i) {
-    for (std::size_t block = first_block; block <= last_block; ++block) {
-      top = std::max(top, tops_[from[i] * blocks_ + block]);
+    const auto nearest = static_cast<std::size_t>(std::clamp<std::ptrdiff_t>(from[i], 0, rows - 1));
+    for (std::size_t block = std::min(first_block, last_block); block <= std::max(first_block, last_block); ++block) {
+      top = std::max(top, tops_[nearest * blocks_ + block]);
     }
   }
   if (!(top - table_.least_of_row(away) > least)) return false;
@@ -184,11 +208,25 @@ bool DroppedCutter::combine(std::ptrdiff_t row, std::ptrdiff_t column, std::size
   const std::size_t size = (chunk + 2 * static_cast<std::size_t>(wide) + block - 1) / block * block;
   scratch.heights.assign(size, nothing);
   scratch.tops.assign(size / block, nothing);
-  float* const to = scratch.heights.data() + (first - (column - wide));
-  const float* const a = &grid_.heights[from[0] * grid_.columns + static_cast<std::size_t>(first)];
-  const float* const b = &grid_.heights[from[count - 1] * grid_.columns + static_cast<std::size_t>(first)];
-  const auto width = static_cast<std::size_t>(end - first);
-  for (std::size_t i = 0; i < width; ++i) to[i] = a[i] > b[i] ? a[i] : b[i];
+  const auto is_row = [&](std::ptrdiff_t at) { return at >= 0 && at < rows; };
+  const bool is_inside = is_row(from[0]) && is_row(from[count - 1]);
+  float* const to = scratch.heights.data();
+  if (is_inside && first < end) {
+    const auto of_row = [&](std::ptrdiff_t at) {
+      return &grid_.heights[static_cast<std::size_t>(at) * grid_.columns + static_cast<std::size_t>(first)];
+    };
+    const float* const a = of_row(from[0]);
+    const float* const b = of_row(from[count - 1]);
+    float* const here = to + (first - begin);
+    const auto width = static_cast<std::size_t>(end - first);
+    for (std::size_t i = 0; i < width; ++i) here[i] = a[i] > b[i] ? a[i] : b[i];
+  }
+  if (goes_on_) {
+    for (std::ptrdiff_t i = begin; i < stop; ++i) {
+      if (is_inside && i >= first && i < end) continue;
+      to[i - begin] = std::max(beside(i, from[0]), beside(i, from[count - 1]));
+    }
+  }
   for (std::size_t i = 0; i < size; i += block) {
     Floats best = load(&scratch.heights[i]);
     for (std::size_t k = lanes; k < block; k += lanes) best = larger(best, load(&scratch.heights[i + k]));

@@ -7,10 +7,6 @@
 namespace passo {
 namespace {
 
-Mm overrun_of(const ReliefTool& tool, const ReliefProgramOptions& options) {
-  return options.overrun.value_or(tool.cutter.radius);
-}
-
 // How many nodes the tip goes beyond the surface.
 std::ptrdiff_t overrun_nodes(Mm overrun, Mm pitch) {
   return static_cast<std::ptrdiff_t>(std::ceil(overrun / pitch - 1e-6));
@@ -29,10 +25,11 @@ float lowest_of(const HeightGrid& surface) {
   return *std::min_element(surface.heights.begin(), surface.heights.end());
 }
 
-TipMap tips_of(const HeightGrid& surface, const Cutter& cutter, float floor, Mm overrun, unsigned threads) {
-  return drop_everywhere(DroppedCutter(surface, cutter, floor),
+TipMap tips_of(const HeightGrid& surface, const Cutter& cutter, float floor, Mm overrun,
+               const ReliefProgramOptions& options) {
+  return drop_everywhere(DroppedCutter(surface, cutter, floor, CutterTable::Kind::below, options.beside),
                          static_cast<std::size_t>(overrun_nodes(overrun, surface.pitch_x)),
-                         static_cast<std::size_t>(overrun_nodes(overrun, surface.pitch_y)), threads);
+                         static_cast<std::size_t>(overrun_nodes(overrun, surface.pitch_y)), options.threads);
 }
 
 }  // namespace
@@ -46,8 +43,7 @@ void rough_out(ReliefPass& pass, const HeightGrid& surface, const NodeLattice& l
   const float stock = grid_height(roughing.stock);
   const float floor = lowest_of(surface);
   // The tip of the grown shape is lower by the stock.
-  TipMap tips = tips_of(surface, roughing.tool.cutter.grown(roughing.stock), floor, overrun_of(roughing.tool, options),
-                        options.threads);
+  TipMap tips = tips_of(surface, roughing.tool.cutter.grown(roughing.stock), floor, roughing_overrun(options), options);
   float lowest = 0;
   for (float& height : tips.heights) {
     height = std::min(0.0F, height + stock);
@@ -78,9 +74,9 @@ namespace {
 class FinishRows {
  public:
   FinishRows(const HeightGrid& surface, const ReliefProgramOptions& options)
-      : cutter_(surface, options.finish.cutter, lowest_of(surface)),
-        margin_x_(overrun_nodes(overrun_of(options.finish, options), surface.pitch_x)),
-        margin_y_(overrun_nodes(overrun_of(options.finish, options), surface.pitch_y)),
+      : cutter_(surface, options.finish.cutter, lowest_of(surface), CutterTable::Kind::below, options.beside),
+        margin_x_(overrun_nodes(finishing_overrun(options), surface.pitch_x)),
+        margin_y_(overrun_nodes(finishing_overrun(options), surface.pitch_y)),
         step_(step_nodes(step_of(options.finish, options, false), surface.pitch_y)),
         threads_(options.threads),
         scratch_(options.threads) {
@@ -158,8 +154,7 @@ void finish_rows(ReliefPass& pass, const HeightGrid& surface, const NodeLattice&
 void finish_spiral(ReliefPass& pass, const HeightGrid& surface, const NodeLattice& lattice,
                    const std::function<void(double)>& progress) {
   const ReliefProgramOptions& options = pass.options();
-  const TipMap tips =
-      tips_of(surface, options.finish.cutter, lowest_of(surface), overrun_of(options.finish, options), options.threads);
+  const TipMap tips = tips_of(surface, options.finish.cutter, lowest_of(surface), finishing_overrun(options), options);
   pass.set_lattice(lattice);
   const Mm step = step_of(options.finish, options, false);
   const std::ptrdiff_t step_x = step_nodes(step, surface.pitch_x);
@@ -211,7 +206,7 @@ HeightGrid left_by_finishing(const HeightGrid& surface, const ReliefProgramOptio
                              std::ptrdiff_t rim_y) {
   const Cutter& cutter = options.finish.cutter;
   HeightGrid left = surface.with_rim(static_cast<std::size_t>(rim_x), static_cast<std::size_t>(rim_y), 0);
-  TipMap tips = tips_of(surface, cutter, lowest_of(surface), overrun_of(options.finish, options), options.threads);
+  TipMap tips = tips_of(surface, cutter, lowest_of(surface), finishing_overrun(options), options);
   for (float& height : tips.heights) height = -height;
   const HeightGrid upside_down{.columns = tips.columns,
                                .rows = tips.rows,
@@ -238,13 +233,13 @@ void finish_rest(ReliefPass& pass, const HeightGrid& surface, const NodeLattice&
   const ReliefProgramOptions& options = pass.options();
   const ReliefRest& rest = *options.rest;
   const float floor = lowest_of(surface);
-  const std::ptrdiff_t rim_x = nodes_of(rest.tool.cutter.radius, surface.pitch_x) + 1;
-  const std::ptrdiff_t rim_y = nodes_of(rest.tool.cutter.radius, surface.pitch_y) + 1;
-  TipMap touching =
-      tips_of(left_by_finishing(surface, options, rim_x, rim_y), rest.tool.cutter, floor, Mm(0), options.threads);
+  const Mm overrun = rest_overrun(options);
+  const std::ptrdiff_t rim_x = nodes_of(rest.tool.cutter.radius + overrun, surface.pitch_x) + 1;
+  const std::ptrdiff_t rim_y = nodes_of(rest.tool.cutter.radius + overrun, surface.pitch_y) + 1;
+  TipMap touching = tips_of(left_by_finishing(surface, options, rim_x, rim_y), rest.tool.cutter, floor, Mm(0), options);
   touching.margin_x = rim_x;  // it counts from the surface's first node
   touching.margin_y = rim_y;
-  const TipMap tips = tips_of(surface, rest.tool.cutter, floor, Mm(0), options.threads);
+  const TipMap tips = tips_of(surface, rest.tool.cutter, floor, overrun, options);
   pass.set_lattice(lattice);
   pass.writer().set_feeds({.along = rest.tool.feed, .down = rest.tool.plunge});
   const std::ptrdiff_t step = step_nodes(step_of(rest.tool, options, false), surface.pitch_y);

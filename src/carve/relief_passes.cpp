@@ -110,6 +110,19 @@ Mm step_of(const ReliefTool& tool, const ReliefProgramOptions& options, bool is_
   return std::min(tool.cutter.step_for_scallop(options.scallop), diameter * part_of_flat);
 }
 
+Mm finishing_overrun(const ReliefProgramOptions& options) {
+  return options.overrun.value_or(options.finish.cutter.radius);
+}
+
+Mm roughing_overrun(const ReliefProgramOptions& options) {
+  const Mm radius = options.roughing->tool.cutter.radius;
+  return options.overrun.value_or(std::max(radius, options.finish.cutter.radius * 2 - radius));
+}
+
+Mm rest_overrun(const ReliefProgramOptions& options) {
+  return options.overrun.value_or(options.rest->tool.cutter.radius);
+}
+
 std::ptrdiff_t AreaSweep::row_of(std::size_t index) const {
   return std::min(area_.first_row + static_cast<std::ptrdiff_t>(index) * area_.step, area_.end_row - 1);
 }

@@ -112,6 +112,12 @@ std::ptrdiff_t step_nodes(Mm step, Mm pitch);
 // The distance between rows that a tool is to keep.
 Mm step_of(const ReliefTool& tool, const ReliefProgramOptions& options, bool is_roughing);
 
+// How far the cutters' middles go beyond the surface. The roughing cutter goes so far that the finishing cutter finds
+// no stock beside the surface that nobody has roughed.
+Mm finishing_overrun(const ReliefProgramOptions& options);
+Mm roughing_overrun(const ReliefProgramOptions& options);
+Mm rest_overrun(const ReliefProgramOptions& options);
+
 void rough_out(ReliefPass& pass, const HeightGrid& surface, const NodeLattice& lattice,
                const std::function<void(double)>& progress);
 // `way` is rows or columns; for columns the surface is turned.

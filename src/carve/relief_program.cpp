@@ -45,7 +45,7 @@ class ReliefProgram {
   void cut(Cut way, const HeightGrid& surface, bool turned);
   void finish();
   // What the report is to hold of this cutter.
-  void record(const ReliefTool& tool, const std::function<void()>& act);
+  void record(const ReliefTool& tool, Mm overrun, const std::function<void()>& act);
 
   const HeightGrid& surface_;
   const ReliefProgramOptions& options_;
@@ -107,14 +107,12 @@ void ReliefProgram::cut(Cut way, const HeightGrid& surface, bool turned) {
   parts_done_ += 1;
 }
 
-void ReliefProgram::record(const ReliefTool& tool, const std::function<void()>& act) {
+void ReliefProgram::record(const ReliefTool& tool, Mm overrun, const std::function<void()>& act) {
   if (!wants_carved_) {
     act();
     return;
   }
-  const auto margin = [&](Mm pitch) {
-    return static_cast<std::size_t>(std::ceil(options_.overrun.value_or(tool.cutter.radius) / pitch)) + 1;
-  };
+  const auto margin = [&](Mm pitch) { return static_cast<std::size_t>(std::ceil(overrun / pitch)) + 1; };
   TipRecord tips(surface_, margin(surface_.pitch_x), margin(surface_.pitch_y));
   pass_.set_record(&tips);
   act();
@@ -145,18 +143,18 @@ ReliefReport ReliefProgram::write(bool wants_carved) {
   if (options_.roughing) {
     const ReliefTool& tool = options_.roughing->tool;
     begin_tool("roughing", tool);
-    record(tool, [&] { cut(rough_out, surface_, false); });
+    record(tool, roughing_overrun(options_), [&] { cut(rough_out, surface_, false); });
     end_tool("roughing", tool, nodes_step(tool, true, surface_.pitch_y));
   }
   begin_tool("finishing", options_.finish);
-  record(options_.finish, [&] { finish(); });
+  record(options_.finish, finishing_overrun(options_), [&] { finish(); });
   end_tool(
       "finishing", options_.finish,
       nodes_step(options_.finish, false, options_.way == FinishWay::columns ? surface_.pitch_x : surface_.pitch_y));
   if (options_.rest) {
     const ReliefTool& tool = options_.rest->tool;
     begin_tool("rest finishing", tool);
-    record(tool, [&] { cut(finish_rest, surface_, false); });
+    record(tool, rest_overrun(options_), [&] { cut(finish_rest, surface_, false); });
     end_tool("rest finishing", tool, nodes_step(tool, false, surface_.pitch_y));
   }
   if (options_.spindle) writer_.line("M5");

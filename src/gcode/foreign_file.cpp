@@ -1,4 +1,4 @@
-#include "foreign_file.hpp"
+#include "passo/gcode/foreign_file.hpp"
 
 #include <algorithm>
 #include <cctype>
@@ -8,13 +8,14 @@ namespace {
 
 constexpr std::string_view of_drawing = "G-code, which a CAM program makes of the drawing";
 constexpr std::string_view of_holes = "G-code, which passo cam drill makes of the holes";
+constexpr std::string_view of_lines = "G-code, which passo cam profile or passo cam pocket makes of the drawing";
 constexpr std::string_view of_drawn_holes =
-    "G-code, which a CAM program makes of the drawing, or passo cam drill of its holes";
+    "G-code, which passo cam profile or pocket makes of the drawing, or passo cam drill of its holes";
 constexpr std::string_view of_picture = "G-code, which an engraving program makes of the picture";
 constexpr std::string_view of_png = "G-code, which passo cam relief makes of the picture";
 constexpr std::string_view of_stl = "G-code, which passo cam relief makes of the model, or a CAM program";
 constexpr std::string_view of_model = "G-code, which a CAM program makes of the model";
-constexpr std::string_view of_circuit = "G-code, which a program such as pcb2gcode makes of the circuit board";
+constexpr std::string_view of_circuit = "G-code, which passo cam isolate or passo cam outline makes of the layer";
 constexpr std::string_view of_archive = "the program itself, unpacked";
 constexpr std::string_view of_program = "G-code, which is text";
 
@@ -23,7 +24,7 @@ constexpr ForeignFile jpeg{"a JPEG picture", of_picture};
 constexpr ForeignFile tiff{"a TIFF picture", of_picture};
 constexpr ForeignFile gif{"a GIF picture", of_picture};
 constexpr ForeignFile bmp{"a BMP picture", of_picture};
-constexpr ForeignFile svg{"an SVG drawing", of_drawing};
+constexpr ForeignFile svg{"an SVG drawing", of_lines};
 constexpr ForeignFile dxf{"a DXF drawing", of_drawn_holes};
 constexpr ForeignFile dwg{"a DWG drawing", of_drawing};
 constexpr ForeignFile hpgl{"an HPGL plot", of_drawing};

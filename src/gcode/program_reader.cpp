@@ -8,11 +8,12 @@
 #include <utility>
 #include <vector>
 
-#include "foreign_file.hpp"
 #include <fcntl.h>
 #include <fmt/format.h>
 #include <sys/stat.h>
 #include <unistd.h>
+
+#include "passo/gcode/foreign_file.hpp"
 
 namespace passo {
 namespace {

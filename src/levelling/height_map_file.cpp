@@ -39,6 +39,7 @@ class HeightMapReader {
   std::vector<MapPoint> points_;
   std::uint32_t line_ = 0;
   bool has_names_ = false;
+  bool is_none_ = false;  // the first line is no point: this is another kind of text
 };
 
 void HeightMapReader::error(std::uint32_t line, std::size_t column, std::size_t length, std::string_view text,
@@ -54,7 +55,7 @@ void HeightMapReader::error(std::uint32_t line, std::size_t column, std::size_t 
 }
 
 std::optional<HeightMap> HeightMapReader::read(std::string_view text) {
-  while (!text.empty() && !diagnostics_.full()) {
+  while (!text.empty() && !diagnostics_.full() && !is_none_) {
     const std::size_t end = std::min(text.find('\n'), text.size());
     ++line_;
     read_line(text.substr(0, end));
@@ -83,8 +84,11 @@ void HeightMapReader::read_line(std::string_view line) {
     const std::string_view word = at == std::string_view::npos ? "" : words.substr(at, end - at);
     const auto [last, fault] = std::from_chars(word.data(), word.data() + word.size(), values[i]);
     if (fault != std::errc() || last != word.data() + word.size() || !(std::abs(values[i]) <= HeightMap::farthest)) {
+      is_none_ = points_.empty();
       error(line_, at == std::string_view::npos ? words.size() : at, word.size(), line,
-            word.empty() ? "a number is missing" : fmt::format("'{}' is no length that is read", word.substr(0, 40)),
+            (is_none_ ? std::string("this is no height map: ") : std::string()) +
+                (word.empty() ? "a number is missing"
+                              : fmt::format("'{}' is no length that is read", word.substr(0, 40))),
             fmt::format("x, y and z of a point in mm, each at most {:g}", HeightMap::farthest));
       return;
     }

@@ -108,6 +108,7 @@ Status<OutputError> draw_mill_plan(const MillScene& scene, const PictureOptions&
     legend.patch(colour_of_tool(i), scene.plan.tools[i].words);
   }
   legend.line(rapid_pen, "Rapids");
+  if (!scene.warned.empty() && !scene.warned_name.empty()) legend.patch(warning_colour, scene.warned_name);
   if (!scene.marks.empty()) legend.line({.colour = warning_colour, .width = 2}, scene.mark_name);
   return canvas.finish();
 }

@@ -91,8 +91,12 @@ std::vector<SurfaceTriangle> triangles_of(const HeightMap& map) {
 
 }  // namespace
 
+bool looks_like_body(std::string_view bytes) {
+  return binary_triangles(bytes) || looks_like_text_stl(bytes);
+}
+
 Surface read_surface(const std::string& name, std::string_view bytes, Diagnostics& diagnostics) {
-  if (binary_triangles(bytes) || looks_like_text_stl(bytes)) return Surface(read_stl(name, bytes, diagnostics));
+  if (looks_like_body(bytes)) return Surface(read_stl(name, bytes, diagnostics));
   if (is_text(bytes)) {
     const std::optional<HeightMap> map = read_height_map(name, bytes, diagnostics);
     return map ? Surface(triangles_of(*map)) : Surface();

@@ -7,6 +7,7 @@ namespace {
 using passo::test::Outcome;
 using passo::test::read;
 using testing::HasSubstr;
+using testing::Not;
 
 const std::string source = PASSO_SOURCE_DIR;
 const std::string flower = source + "/examples/reliefs/flower.png";
@@ -33,6 +34,16 @@ TEST_F(CamRelief, three_cutters_carve_a_picture_and_a_machine_can_run_it) {
   const Outcome checked = passo("check " + path("f.ngc") + " -m " + source + "/examples/machines/router.toml");
   EXPECT_EQ(checked.code, 0) << checked.err;
   EXPECT_THAT(checked.out, HasSubstr("no errors"));
+}
+
+TEST_F(CamRelief, starts_the_spindle_unless_told_otherwise) {
+  const std::string small = flower + " --width 10 --step 1 -o " + path("s.ngc");
+  EXPECT_EQ(relief(small).code, 0);
+  EXPECT_THAT(read(path("s.ngc")), HasSubstr("\nM3 S12000\n"));
+  const Outcome checked = passo("check " + path("s.ngc") + " -m " + source + "/examples/machines/router.toml");
+  EXPECT_THAT(checked.out + checked.err, Not(HasSubstr("spindle stands")));
+  EXPECT_EQ(relief(small + " --spindle 0").code, 0);
+  EXPECT_THAT(read(path("s.ngc")), Not(HasSubstr("M3")));
 }
 
 TEST_F(CamRelief, without_output_the_program_goes_to_standard_output_and_is_always_the_same) {
@@ -64,6 +75,10 @@ TEST_F(CamRelief, what_is_wrong_is_told_and_nothing_is_written) {
   refused(path("none.png"), "[picture.unreadable]");
   refused(write("cut.png", read(flower).substr(0, 20'000)), "the picture is not read: the file ends too early");
   refused(write("noise.png", std::string("\x7f\0\1", 3)), "[surface.unknown-kind]");
+  const std::string essay = write("essay.txt", "Dear reader,\nthis is no relief.\nNot at all.\n");
+  refused(essay, "this is no height map: 'this' is no length that is read");
+  EXPECT_THAT(relief(essay).err, HasSubstr("1 error"));
+  refused(write("logo.svg", "<svg xmlns='http://www.w3.org/2000/svg'/>\n"), "this is an SVG drawing");
   refused(flower + " --channel alpha", "it has no alpha channel");
   refused(flower + " --cutter ball", "--cutter: 'ball': expected ball:DIAMETER");
   refused(flower + " --rest drill:1", "--rest: 'drill:1' is no cutter");

@@ -110,6 +110,23 @@ struct CamOutlineArguments : CamMillArguments {
 };
 int cam_outline(const CamOutlineArguments& arguments, const CamSources* given = nullptr, CamMade* made = nullptr);
 
+struct CamProfileArguments : CamOutlineArguments {
+  CamProfileArguments() { spindle = 12000; }  // 0: the program leaves the spindle alone
+  std::string side = "part";                  // outside, inside or on
+};
+int cam_profile(const CamProfileArguments& arguments);
+
+struct CamPocketArguments : CamMillArguments {
+  CamPocketArguments() { spindle = 12000; }
+  std::string tool = "3mm";
+  std::string depth = "-3mm";
+  std::string step = "1mm";
+  std::string join = "0.1mm";
+  double step_over = 40;  // percent of the cutter's diameter
+  double ramp = 5;        // degrees
+};
+int cam_pocket(const CamPocketArguments& arguments);
+
 // The three commands at once, on all files of a board.
 struct CamBoardArguments {
   std::vector<std::string> paths;    // of Gerber and drill files, folders, or a zip archive
@@ -165,8 +182,8 @@ struct CamReliefArguments {
   std::string rest;        // a cutter; empty: no rest finishing
   std::string rest_step;
   std::string rest_least = "0.05mm";
-  std::string rest_feed;                 // empty: as `feed`
-  std::optional<std::uint32_t> spindle;  // turns a minute
+  std::string rest_feed;          // empty: as `feed`
+  std::uint32_t spindle = 12000;  // turns a minute; 0: the program leaves the spindle alone
 };
 int cam_relief(const CamReliefArguments& arguments);
 

@@ -79,12 +79,14 @@ Mirror mirror_of(const CamMillArguments& arguments, LengthArguments& lengths) {
 
 }  // namespace
 
-MillJob mill_job_of(const CamMillArguments& arguments, const char* command, LengthArguments& lengths) {
+MillJob mill_job_of(const CamMillArguments& arguments, const char* command, LengthArguments& lengths,
+                    const char* what) {
   MillJob job;
   job.reading.dxf = dxf_options_of(arguments, *mm_of_unit(arguments.units), lengths);
+  job.reading.svg = {.scale = arguments.scale.value_or(1), .layers = arguments.layers};
   job.mirror = mirror_of(arguments, lengths);
   MillProgramOptions& program = job.program;
-  program.name = arguments.output.empty() ? "board" : std::filesystem::path(arguments.output).filename().string();
+  program.name = arguments.output.empty() ? what : std::filesystem::path(arguments.output).filename().string();
   program.command = command;
   for (const std::string& file : arguments.files) {
     program.files.push_back(std::filesystem::path(file).filename().string());
@@ -94,10 +96,10 @@ MillJob mill_job_of(const CamMillArguments& arguments, const char* command, Leng
                            : job.zero.at          ? fmt::format("X{:.6g} Y{:.6g} mm of the drawing",
                                                                 to_mm(job.zero.at->x).value(), to_mm(job.zero.at->y).value())
                                                   : "the drawing's zero";
-  program.remarks.push_back(fmt::format("X0 Y0 is {}, Z0 the face of the board", zero));
+  program.remarks.push_back(fmt::format("X0 Y0 is {}, Z0 the face of the {}", zero, what));
   if (job.mirror.turned != Mirror::Turned::no) {
     const bool is_x = job.mirror.turned == Mirror::Turned::x;
-    program.remarks.push_back(fmt::format("the board is turned over {}, about {}{:.6g} mm of the drawing",
+    program.remarks.push_back(fmt::format("the {} is turned over {}, about {}{:.6g} mm of the drawing", what,
                                           is_x ? "from left to right" : "from top to bottom", is_x ? "X" : "Y",
                                           to_mm(job.mirror.at).value()));
   }

@@ -11,6 +11,7 @@
 #include "passo/cam/board_layer.hpp"
 #include "passo/cam/mill_program.hpp"
 #include "passo/cam/mirror.hpp"
+#include "passo/cam/outline.hpp"
 #include "passo/report/mill_picture.hpp"
 #include "passo/report/output_file.hpp"
 
@@ -59,8 +60,11 @@ struct MillJob {
   ZeroPlace zero;
 };
 
-// What CamMillArguments say. `command`: "passo cam isolate".
-MillJob mill_job_of(const CamMillArguments& arguments, const char* command, LengthArguments& lengths);
+// What CamMillArguments say. `command`: "passo cam isolate". `what`: the thing that is milled, in comments.
+MillJob mill_job_of(const CamMillArguments& arguments, const char* command, LengthArguments& lengths,
+                    const char* what = "board");
+
+OutlineOptions outline_options_of(const CamOutlineArguments& arguments, const MillJob& job, LengthArguments& lengths);
 
 // Whether the files are apart, and --picture is a picture. If not, says why.
 bool outputs_are_good(const CamMillArguments& arguments, const std::string& edge);

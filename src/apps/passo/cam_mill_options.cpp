@@ -50,7 +50,9 @@ A profile has a table for each command: [drill], [isolate], [outline], with the 
 
 Every option: docs/manual/circuit-boards.md.)";
 
-void add_common(CLI::App& command, CamMillArguments& arguments) {
+}  // namespace
+
+void add_mill_options(CLI::App& command, CamMillArguments& arguments) {
   command.add_option("-o,--output", arguments.output, "write the program to a file; without it to standard output");
   command.add_option("-p,--picture", arguments.picture, "draw what is milled, and the rapids (FILE.svg or FILE.png)");
   command.add_flag("--json", arguments.json, "what was done, for scripts; needs --output");
@@ -81,8 +83,6 @@ void add_common(CLI::App& command, CamMillArguments& arguments) {
       ->capture_default_str();
 }
 
-}  // namespace
-
 void add_isolate_command(CLI::App& cam, CamArguments& all) {
   CamIsolateArguments& arguments = all.isolate;
   CLI::App& isolate = *cam.add_subcommand("isolate", "mill the copper of a layer free of the copper around it");
@@ -104,32 +104,36 @@ void add_isolate_command(CLI::App& cam, CamArguments& all) {
   isolate.add_flag("--clear", arguments.clear, "take all copper off the board that is not wanted");
   isolate.add_option("--tolerance", arguments.tolerance, "how much farther from the copper the cutter stays")
       ->capture_default_str();
-  add_common(isolate, arguments);
+  add_mill_options(isolate, arguments);
   isolate.footer(isolate_examples);
   isolate.callback([&all] { all.chosen = [&all] { return cam_isolate(all.isolate); }; });
+}
+
+void add_edge_options(CLI::App& command, CamOutlineArguments& arguments) {
+  command.add_option("--tool", arguments.tool, "diameter of the cutter")->capture_default_str();
+  command.add_option("--depth", arguments.depth, "of the cut, below 0")->capture_default_str();
+  command.add_option("--step", arguments.step, "how deep a turn goes, at most")->capture_default_str();
+  command.add_option("--join", arguments.join, "ends of lines that are no farther apart are joined")
+      ->capture_default_str();
+  command.add_option("--tabs", arguments.tabs, "so many tabs hold each board")
+      ->check(CLI::Range(0U, 1000U))
+      ->capture_default_str();
+  command.add_option("--tab", arguments.tab_places, "a tab near X,Y; may be given again")->take_all();
+  command.add_option("--tab-width", arguments.tab_width, "of the tab that stays")->capture_default_str();
+  command.add_option("--tab-height", arguments.tab_height, "of the tab, above the full depth")->capture_default_str();
+  command.add_option("--ramp", arguments.ramp, "go down along the way, this steep in degrees; 0: straight down")
+      ->check(number_range(0.0, 60.0))
+      ->capture_default_str();
+  command.add_option("--lead", arguments.lead, "come to the edge on a quarter of a circle of this radius");
+  command.add_flag("--dog-bones", arguments.dog_bones, "cut inner corners so that a sharp corner fits in");
 }
 
 void add_outline_command(CLI::App& cam, CamArguments& all) {
   CamOutlineArguments& arguments = all.outline;
   CLI::App& outline = *cam.add_subcommand("outline", "cut boards out along their edge, and the openings in them");
-  outline.add_option("EDGE", arguments.files, "drawings of the edge: Gerber, a KiCad board or DXF")->required();
-  outline.add_option("--tool", arguments.tool, "diameter of the cutter")->capture_default_str();
-  outline.add_option("--depth", arguments.depth, "of the cut, below 0")->capture_default_str();
-  outline.add_option("--step", arguments.step, "how deep a turn goes, at most")->capture_default_str();
-  outline.add_option("--join", arguments.join, "ends of lines that are no farther apart are joined")
-      ->capture_default_str();
-  outline.add_option("--tabs", arguments.tabs, "so many tabs hold each board")
-      ->check(CLI::Range(0U, 1000U))
-      ->capture_default_str();
-  outline.add_option("--tab", arguments.tab_places, "a tab near X,Y; may be given again")->take_all();
-  outline.add_option("--tab-width", arguments.tab_width, "of the tab that stays")->capture_default_str();
-  outline.add_option("--tab-height", arguments.tab_height, "of the tab, above the full depth")->capture_default_str();
-  outline.add_option("--ramp", arguments.ramp, "go down along the way, this steep in degrees; 0: straight down")
-      ->check(number_range(0.0, 60.0))
-      ->capture_default_str();
-  outline.add_option("--lead", arguments.lead, "come to the edge on a quarter of a circle of this radius");
-  outline.add_flag("--dog-bones", arguments.dog_bones, "cut inner corners so that a sharp corner fits in");
-  add_common(outline, arguments);
+  outline.add_option("EDGE", arguments.files, "drawings of the edge: Gerber, a KiCad board, DXF or SVG")->required();
+  add_edge_options(outline, arguments);
+  add_mill_options(outline, arguments);
   outline.footer(outline_examples);
   outline.callback([&all] { all.chosen = [&all] { return cam_outline(all.outline); }; });
 }

@@ -91,13 +91,16 @@ void add_drill_command(CLI::App& cam, CamArguments& all) {
 }
 
 CLI::App& add_cam_command(CLI::App& app, CamArguments& arguments) {
-  CLI::App& cam = *app.add_subcommand("cam", "make programs of drawings and pictures: circuit boards, reliefs");
+  CLI::App& cam =
+      *app.add_subcommand("cam", "make programs of drawings and pictures: parts, pockets, circuit boards, reliefs");
   cam.require_subcommand(1);
   add_show_command(cam, arguments);
   add_drill_command(cam, arguments);
   add_isolate_command(cam, arguments);
   add_outline_command(cam, arguments);
   add_cam_board_command(cam, arguments);
+  add_profile_command(cam, arguments);
+  add_pocket_command(cam, arguments);
   add_relief_command(cam, arguments);
   return cam;
 }

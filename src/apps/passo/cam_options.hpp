@@ -18,6 +18,8 @@ struct CamArguments {
   CamOutlineArguments outline;
   CamBoardArguments board;
   CamReliefArguments relief;
+  CamProfileArguments profile;
+  CamPocketArguments pocket;
   std::function<int()> chosen;  // the chosen command, after parsing
 };
 
@@ -29,5 +31,12 @@ void add_isolate_command(CLI::App& cam, CamArguments& arguments);
 void add_outline_command(CLI::App& cam, CamArguments& arguments);
 void add_cam_board_command(CLI::App& cam, CamArguments& arguments);
 void add_relief_command(CLI::App& cam, CamArguments& arguments);
+void add_profile_command(CLI::App& cam, CamArguments& arguments);
+void add_pocket_command(CLI::App& cam, CamArguments& arguments);
+
+// The options that all milling of drawings has.
+void add_mill_options(CLI::App& command, CamMillArguments& arguments);
+// How the cutter goes around an edge: depths, tabs, ramps, leads.
+void add_edge_options(CLI::App& command, CamOutlineArguments& arguments);
 
 }  // namespace passo

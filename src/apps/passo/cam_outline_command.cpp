@@ -7,9 +7,8 @@
 #include "passo/cam/outline.hpp"
 
 namespace passo {
-namespace {
 
-OutlineOptions options_of(const CamOutlineArguments& arguments, const MillJob& job, LengthArguments& lengths) {
+OutlineOptions outline_options_of(const CamOutlineArguments& arguments, const MillJob& job, LengthArguments& lengths) {
   OutlineOptions options;
   options.cutter = lengths.above_0("--tool", arguments.tool);
   options.words = fmt::format("cutter {:.4g} mm", to_mm(options.cutter).value());
@@ -36,6 +35,8 @@ OutlineOptions options_of(const CamOutlineArguments& arguments, const MillJob& j
   options.park = job.program.park;
   return options;
 }
+
+namespace {
 
 std::string board_words(const Region& board, const OutlinePlan& plan, const EdgeLoops& loops) {
   std::string text =
@@ -73,7 +74,7 @@ int cam_outline(const CamOutlineArguments& arguments, const CamSources* given, C
   LengthArguments lengths(*mm_of_unit(arguments.units));
   MillJob job = mill_job_of(arguments, "passo cam outline", lengths);
   job.reading.is_edge = true;
-  const OutlineOptions options = options_of(arguments, job, lengths);
+  const OutlineOptions options = outline_options_of(arguments, job, lengths);
   const Nanometres join = lengths.any("--join", arguments.join);
   if (join.count < 0) lengths.refuse("--join: expected a length of 0 or more");
   if (!lengths.message().empty()) return fail(exit_bad_program, lengths.message());

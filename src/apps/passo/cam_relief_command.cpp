@@ -15,6 +15,7 @@
 #include "passo/carve/relief_program.hpp"
 #include "passo/carve/relief_surface.hpp"
 #include "passo/diagnostics/file_bytes.hpp"
+#include "passo/gcode/foreign_file.hpp"
 #include "passo/report/output_file.hpp"
 #include "passo/surface_file/surface_file.hpp"
 
@@ -112,7 +113,7 @@ ReliefProgramOptions program_of(const CamReliefArguments& arguments, ReliefReadi
   program.overrun = read.perhaps("--overrun", arguments.overrun, Mm(0), Mm(200));
   program.ramps = arguments.entry == "ramp";
   program.ramp = {arguments.ramp_angle * std::numbers::pi / 180};
-  program.spindle = arguments.spindle;
+  if (arguments.spindle > 0) program.spindle = arguments.spindle;
   program.threads = std::clamp(std::thread::hardware_concurrency(), 1U, 64U);
   return program;
 }
@@ -132,6 +133,7 @@ Mm pitch_for(const ReliefProgramOptions& program) {
 struct ReliefGrid {
   HeightGrid grid;
   std::string words;  // what was read
+  bool is_body = false;
 };
 
 std::optional<ReliefGrid> read_relief(const CamReliefArguments& arguments, const ReliefJob& job,
@@ -149,6 +151,13 @@ std::optional<ReliefGrid> read_relief(const CamReliefArguments& arguments, const
     read.grid = relief_of(picture, shape, arguments.file, findings);
     read.words = fmt::format("{} x {} pixels, {}, {}", picture.columns, picture.rows, picture.kind, arguments.channel);
   } else {
+    read.is_body = looks_like_body(*bytes);
+    const ForeignFile foreign = foreign_file(arguments.file, std::string_view(*bytes).substr(0, 1024));
+    if (!read.is_body && !foreign.kind.empty()) {
+      findings.add(of_file("picture.unknown-kind", arguments.file, fmt::format("this is {}", foreign.kind),
+                           "a PNG picture, an STL file or a height map x,y,z"));
+      return std::nullopt;
+    }
     const Surface body = read_surface(arguments.file, *bytes, findings);
     if (findings.any_error()) return std::nullopt;
     read.grid = relief_of(body, shape, arguments.file, findings);
@@ -245,6 +254,8 @@ int cam_relief(const CamReliefArguments& arguments) {
   }
   // A rim that stays is the stock's edge, or its face goes on: nothing is cut beyond.
   if (job.shape.margin.value() > 0 && job.shape.margin_at_top && !job.program.overrun) job.program.overrun = Mm(0);
+  // A body ends at its edges, and its sides are cut. A picture's edges are where it was cut off.
+  job.program.beside = read->is_body ? BesideGrid::nothing : BesideGrid::goes_on;
   place(arguments, read->grid, reading, job.program);
   if (!reading.message().empty()) return fail(exit_bad_program, reading.message());
   const std::string what = std::filesystem::path(arguments.file).filename().string();

@@ -63,7 +63,8 @@ void add_finishing(CLI::App& relief, CamReliefArguments& arguments) {
       ->capture_default_str();
   relief.add_option("--feed", arguments.feed, "a minute")->capture_default_str();
   relief.add_option("--plunge", arguments.plunge, "the most that a tip goes down, a minute")->capture_default_str();
-  relief.add_option("--spindle", arguments.spindle, "turns a minute; without it the program leaves the spindle alone");
+  relief.add_option("--spindle", arguments.spindle, "turns a minute; 0: the program leaves the spindle alone")
+      ->capture_default_str();
 }
 
 }  // namespace

@@ -1,5 +1,6 @@
 #include "passo/carve/dropped_cutter.hpp"
 
+#include <algorithm>
 #include <random>
 
 #include "gouge_oracle.hpp"
@@ -127,6 +128,41 @@ TEST(DroppedCutter, skips_nothing_that_counts) {
           }
           ASSERT_EQ(row[i], plain) << cutter.text << " at " << x << ", " << y;
         }
+      }
+    }
+  }
+}
+
+// The same as on a grid that was made larger by hand.
+TEST(DroppedCutter, a_surface_that_goes_on_is_one_with_wider_edges) {
+  std::mt19937_64 random(seed());
+  const HeightGrid grid = random_surface(random, 37, 9, Mm(0.3), Mm(0.4));
+  constexpr std::ptrdiff_t wide = 60;
+  HeightGrid wider = grid.with_rim(wide, wide, 0);
+  const auto node = [&](std::ptrdiff_t column, std::ptrdiff_t row) -> float& {
+    return wider
+        .heights[static_cast<std::size_t>(row + wide) * wider.columns + static_cast<std::size_t>(column + wide)];
+  };
+  const auto falls_on = [](float edge, float inside) { return std::max(-4.0F, std::min(edge, 2 * edge - inside)); };
+  for (std::ptrdiff_t k = 1; k <= wide; ++k) {
+    for (std::ptrdiff_t column = 0; column < 37; ++column) {
+      node(column, -k) = falls_on(node(column, 0), node(column, std::min<std::ptrdiff_t>(k, 8)));
+      node(column, 8 + k) = falls_on(node(column, 8), node(column, std::max<std::ptrdiff_t>(8 - k, 0)));
+    }
+  }
+  for (std::ptrdiff_t row = -wide; row < 9 + wide; ++row) {
+    for (std::ptrdiff_t k = 1; k <= wide; ++k) {
+      node(-k, row) = falls_on(node(0, row), node(std::min<std::ptrdiff_t>(k, 36), row));
+      node(36 + k, row) = falls_on(node(36, row), node(std::max<std::ptrdiff_t>(36 - k, 0), row));
+    }
+  }
+  for (const OracleCutter& cutter : oracle_cutters()) {
+    const DroppedCutter dropped(grid, parsed(cutter), -4, CutterTable::Kind::below, BesideGrid::goes_on);
+    const TipMap goes_on = drop_everywhere(dropped, 50, 50, 1);
+    const TipMap made = drop_everywhere(DroppedCutter(wider, parsed(cutter), -4), 0, 0, 1);
+    for (std::ptrdiff_t y = -50; y < 59; ++y) {
+      for (std::ptrdiff_t x = -50; x < 87; ++x) {
+        ASSERT_EQ(goes_on.at(x, y), made.at(x + wide, y + wide)) << cutter.text << " at " << x << ", " << y;
       }
     }
   }

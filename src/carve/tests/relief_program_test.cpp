@@ -287,6 +287,30 @@ TEST(ReliefProgram, is_the_same_for_any_number_of_threads) {
   EXPECT_EQ(written(grid, options).text, one);
 }
 
+// A frame at the top stays even: beside the surface no cutter goes below its edge.
+TEST(ReliefProgram, goes_on_level_beside_the_surface_unless_that_is_a_body) {
+  HeightGrid grid{.columns = 41, .rows = 31, .pitch_x = Mm(0.2), .pitch_y = Mm(0.2)};
+  for (int i = 0; i < 41 * 31; ++i) {
+    const bool is_frame = i % 41 < 6 || i % 41 > 34 || i / 41 < 6 || i / 41 > 24;
+    grid.heights.push_back(is_frame ? 0.0F : -3.0F);
+  }
+  const auto lowest_beside = [&](const std::string& program) {
+    double lowest = 100;
+    for (const ReadMove& move : moves_of(program)) {
+      const bool is_beside = move.to[0] < 0 || move.to[0] > 8 || move.to[1] < 0 || move.to[1] > 6;
+      if (is_beside) lowest = std::min(lowest, move.to[2]);
+    }
+    return lowest;
+  };
+  for (const FinishWay way : {FinishWay::both, FinishWay::spiral}) {
+    ReliefProgramOptions options = three_tools();
+    options.way = way;
+    EXPECT_NEAR(lowest_beside(written(grid, options).text), 0, 1e-3);
+    options.beside = BesideGrid::nothing;
+    EXPECT_NEAR(lowest_beside(written(grid, options).text), -3, 1e-3) << "the sides of a body are cut";
+  }
+}
+
 TEST(ReliefProgram, is_placed_by_its_origin_and_cuts_its_edges) {
   const HeightGrid grid = hills(11, 21, 0.5);
   for (const FinishWay way : {FinishWay::rows, FinishWay::columns, FinishWay::spiral}) {

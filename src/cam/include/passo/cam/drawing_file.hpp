@@ -7,16 +7,18 @@
 
 #include "passo/cam/dxf.hpp"
 #include "passo/cam/excellon.hpp"
+#include "passo/cam/svg.hpp"
 
 namespace passo {
 
 struct DrawingFileOptions {
   DxfOptions dxf = {};  // its layers choose those of a KiCad board, too
   ExcellonOptions excellon = {};
+  SvgOptions svg = {};
   bool is_edge = false;  // of a KiCad board: the edge is wanted, if no layer is chosen
 };
 
-// Of a KiCad board: its holes. Errors are in `diagnostics`: "drawing.…", "dxf.…", "excellon.…" and "kicad.…".
+// Of a KiCad board: its holes. Errors are in `diagnostics`: "drawing.…", "dxf.…", "svg.…", "excellon.…" and "kicad.…".
 Drawing read_drawing(const std::string& path, const DrawingFileOptions& options, Diagnostics& diagnostics);
 
 }  // namespace passo

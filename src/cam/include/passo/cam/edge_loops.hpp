@@ -4,6 +4,7 @@
 // are farther apart than `join`. Paths that are drawn twice count once.
 #pragma once
 
+#include <cstdint>
 #include <vector>
 
 #include "passo/cam/drawing.hpp"
@@ -14,15 +15,22 @@ namespace passo {
 
 struct EdgeLoops {
   std::vector<std::vector<PathPoint>> loops = {};  // the last point leads back to the first
+  std::vector<std::vector<PathPoint>> open = {};   // rows of paths that do not close, where they are kept
   std::size_t joined = 0;                          // ends that did not meet, and were joined
   Nanometres widest_joined = {};
 };
 
-// An end that meets no other is an error "outline.open" in `diagnostics`.
-EdgeLoops edge_loops(const Drawing& drawing, Nanometres join, Diagnostics& diagnostics);
+// What becomes of a row of paths that does not close: an error "outline.open" at each of its ends, or it is kept.
+enum class OpenRows : std::uint8_t { refused, kept };
+
+EdgeLoops edge_loops(const Drawing& drawing, Nanometres join, Diagnostics& diagnostics,
+                     OpenRows open_rows = OpenRows::refused);
 
 // The board inside the loops: a loop in another one is an opening, a loop in an opening is board again.
 Region board_within(const EdgeLoops& loops);
+
+// The same for any loops, of which very many may be drawn.
+Region enclosed_by(const std::vector<std::vector<PathPoint>>& loops);
 
 // The points of a path on chords within the tolerance; the last of a closed path is not the first.
 DrawnRing chords_of_path(const std::vector<PathPoint>& points, bool is_closed, Nanometres tolerance);

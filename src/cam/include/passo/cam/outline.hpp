@@ -32,6 +32,8 @@ struct OutlineOptions {
   Nanometres lead{};                // radius of the arc by which the cutter comes to the edge; 0: none
   bool dog_bones = false;           // inner corners are cut so far that a sharp corner fits in
   bool climb = true;                // with a spindle that turns clockwise; else conventional
+  bool openings_only = false;       // the outsides are left; tabs hold what falls out of the openings
+  bool skips_narrow = false;        // an opening narrower than the cutter is a warning, and stays; else an error
   DrawnPoint park = {};
 };
 
@@ -40,6 +42,7 @@ struct OutlinePlan {
   std::size_t outsides = 0;
   std::size_t openings = 0;
   std::vector<DrawnPoint> tabs = {};  // their middles, of the cutter's way
+  std::vector<DrawnRing> ways = {};   // where the middle of the cutter goes, each way once, on chords
   double lost_mm2 = 0;                // of the board, by a sweep of the cutter; dog-bones take a little
 };
 

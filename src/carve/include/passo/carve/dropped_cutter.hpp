@@ -59,13 +59,17 @@ class CutterTable {
   std::vector<float> least_;
 };
 
+// What is beside the grid: nothing, or the surface goes on: level, or where it falls towards the edge falling as on its
+// other side, down to the floor.
+enum class BesideGrid : std::uint8_t { nothing, goes_on };
+
 class DroppedCutter {
  public:
   static constexpr float nothing = -std::numeric_limits<float>::infinity();
 
   // `grid` outlives this. `floor`: the tip goes nowhere below.
   DroppedCutter(const HeightGrid& grid, const Cutter& cutter, float floor,
-                CutterTable::Kind kind = CutterTable::Kind::below);
+                CutterTable::Kind kind = CutterTable::Kind::below, BesideGrid beside = BesideGrid::nothing);
 
   const HeightGrid& grid() const { return grid_; }
   const CutterTable& table() const { return table_; }
@@ -80,11 +84,13 @@ class DroppedCutter {
 
  private:
   void drop(std::ptrdiff_t row, std::ptrdiff_t column, float* out, Scratch& scratch) const;
+  float beside(std::ptrdiff_t column, std::ptrdiff_t row) const;
   bool combine(std::ptrdiff_t row, std::ptrdiff_t column, std::size_t away, float least, Scratch& scratch) const;
 
   const HeightGrid& grid_;
   CutterTable table_;
   float floor_;
+  bool goes_on_;
   std::size_t blocks_ = 0;   // in a row of the grid
   std::vector<float> tops_;  // the greatest height of each 32 columns of each row
 };

@@ -3,7 +3,8 @@
 // The program is in mm (G21), Z 0 at the top of the stock. It is handed on in pieces while it is made: memory grows
 // with the surface, not with the program. Each feed move keeps clear of the surface, over its whole length
 // (passo/carve/dropped_cutter.hpp), and is at most `tolerance` higher than it must be. The cutters go beyond the
-// surface by `overrun`, so its edges are cut fully; where it ends nothing bounds them but the floor, its lowest height.
+// surface by `overrun`, so its edges are cut fully. There the surface goes on, or nothing bounds them but the floor,
+// its lowest height (`beside`).
 //
 // The same surface and options make the same bytes, for any number of threads.
 #pragma once
@@ -17,6 +18,7 @@
 #include <vector>
 
 #include "passo/carve/cutter.hpp"
+#include "passo/carve/dropped_cutter.hpp"
 #include "passo/carve/height_grid.hpp"
 
 namespace passo {
@@ -57,8 +59,10 @@ struct ReliefProgramOptions {
   std::optional<std::uint32_t> spindle = {};  // turns a minute; empty: the program leaves the spindle alone
   Mm x0{0};                                   // of node (0, 0)
   Mm y0{0};
-  std::optional<Mm> overrun = {};  // empty: the cutter's radius
-  unsigned threads = 1;            // 1 or more
+  // Empty: the radius of the finishing cutter; of the roughing cutter at least its own.
+  std::optional<Mm> overrun = {};
+  BesideGrid beside = BesideGrid::goes_on;
+  unsigned threads = 1;  // 1 or more
 };
 
 // What was written for one cutter.

@@ -19,6 +19,7 @@ struct MillScene {
   std::vector<DrawnPoint> marks = {};  // a ring around each
   std::string mark_name = {};          // "Tab", "Gap"
   DrawnPoint park = {};                // where the rapids begin and end
+  std::string warned_name = {};        // "Not reached"; empty: not in the legend
 };
 
 // Draws into `file`, which the caller commits.

@@ -28,4 +28,7 @@ Surface read_surface(const std::string& path, Diagnostics& diagnostics);
 // The same, of a file that was read.
 Surface read_surface(const std::string& name, std::string_view bytes, Diagnostics& diagnostics);
 
+// Whether the bytes are those of a body (STL), not of a height map.
+bool looks_like_body(std::string_view bytes);
+
 }  // namespace passo

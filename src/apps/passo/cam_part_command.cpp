@@ -1,0 +1,239 @@
+// passo cam profile and passo cam pocket: programs that cut parts and pockets from drawings.
+#include <algorithm>
+#include <cmath>
+
+#include "cam_job.hpp"
+#include <nlohmann/json.hpp>
+
+#include "passo/cam/pocket.hpp"
+#include "passo/cam/profile.hpp"
+
+namespace passo {
+namespace {
+
+// The lines of a command's files, where the program has them.
+struct PartDrawing {
+  EdgeLoops loops;
+  DrawnPoint least;  // corners of the box around them
+  DrawnPoint most;
+};
+
+DrawnBox box_of(const Drawing& drawing) {
+  std::vector<DrawnRing> rows;
+  for (const DrawnPath& path : drawing.paths) rows.push_back(chords_of_path(path.points, path.is_closed, {10'000}));
+  for (const DrawnHole& hole : drawing.holes) {
+    const Nanometres radius{hole.diameter.count / 2};
+    rows.push_back({{hole.at.x - radius, hole.at.y - radius}, {hole.at.x + radius, hole.at.y + radius}});
+  }
+  return bounds(Region{rows}).value_or(DrawnBox{});
+}
+
+std::optional<Drawing> read_drawings(const CamMillArguments& arguments, const MillJob& job) {
+  Diagnostics findings;
+  Drawing all;
+  for (const std::string& file : arguments.files) {
+    Drawing one = read_drawing(file, job.reading, findings);
+    for (const std::string& words : one.notes) note(file + ": " + words);
+    all.file = file;
+    std::ranges::move(one.holes, std::back_inserter(all.holes));
+    std::ranges::move(one.paths, std::back_inserter(all.paths));
+  }
+  show(findings);
+  if (findings.any_error()) return std::nullopt;
+  return all;
+}
+
+std::optional<PartDrawing> read_part(const CamMillArguments& arguments, const MillJob& job, Nanometres join,
+                                     OpenRows open_rows) {
+  std::optional<Drawing> drawing = read_drawings(arguments, job);
+  if (!drawing) return std::nullopt;
+  const auto points =
+      std::ranges::count_if(drawing->holes, [](const DrawnHole& hole) { return hole.diameter.count <= 0; });
+  if (points > 0) note(fmt::format("{} points without a diameter are left out", points));
+  mirror_drawing(*drawing, job.mirror);
+  if (job.zero.at || job.zero.is_lower_left) {
+    move_zero_to(job.zero.is_lower_left ? box_of(*drawing).least : *job.zero.at, *drawing);
+  }
+  const DrawnBox box = box_of(*drawing);
+  Diagnostics findings;
+  PartDrawing part{edge_loops(*drawing, join, findings, open_rows), box.least, box.most};
+  show(findings);
+  if (findings.any_error()) return std::nullopt;
+  return part;
+}
+
+Nanometres join_of(const std::string& text, LengthArguments& lengths) {
+  const Nanometres join = lengths.any("--join", text);
+  if (join.count < 0) lengths.refuse("--join: expected a length of 0 or more");
+  return join;
+}
+
+std::string size_words(const PartDrawing& part) {
+  return fmt::format("drawn: X {:.6g} to {:.6g}, Y {:.6g} to {:.6g} mm\n", to_mm(part.least.x).value(),
+                     to_mm(part.most.x).value(), to_mm(part.least.y).value(), to_mm(part.most.y).value());
+}
+
+std::string unreached_words(double mm2) {
+  if (mm2 <= 0) return "";
+  return fmt::format("not reached: {:.4g} mm² in corners and gaps that are narrower than the cutter\n", mm2);
+}
+
+std::string joined_words(const EdgeLoops& loops) {
+  if (loops.joined == 0) return "";
+  return fmt::format("joined: {} ends that did not meet, at most {:.4g} mm apart\n", loops.joined,
+                     to_mm(loops.widest_joined).value());
+}
+
+// What both commands have made, for the program, the picture and the summary.
+struct PartResult {
+  const MillPlan& mill;
+  const Region& face;
+  const Region& unreached;
+  const std::vector<DrawnPoint>& tabs;
+  std::string words;
+  nlohmann::ordered_json json;
+};
+
+int deliver(const CamMillArguments& arguments, const MillJob& job, const PartResult& result) {
+  for (const std::string& words : result.mill.notes) note(words);
+  if (const int code = write_text(arguments.output, write_mill_program(result.mill, job.program)); code != exit_done) {
+    return code;
+  }
+  if (!arguments.picture.empty()) {
+    const MillScene scene{.plan = result.mill,
+                          .face = result.face,
+                          .face_name = "Drawn",
+                          .warned = result.unreached,
+                          .marks = result.tabs,
+                          .mark_name = "Tab",
+                          .park = job.program.park,
+                          .warned_name = "Not reached"};
+    const int code = write_picture(
+        arguments.picture, job.program.name,
+        [&](const PictureOptions& picture, OutputFile& file) { return draw_mill_plan(scene, picture, file); });
+    if (code != exit_done) return code;
+  }
+  if (arguments.json) {
+    fmt::print("{}\n", result.json.dump(2));
+    return exit_done;
+  }
+  return tell(arguments.output, result.mill, summary_of(result.mill, job.program.park, arguments.units) + result.words,
+              nullptr);
+}
+
+nlohmann::ordered_json lengths_json(const MillPlan& plan, DrawnPoint park) {
+  MillLengths lengths;
+  if (!plan.tools.empty()) lengths = lengths_of(plan.tools.front(), park);
+  return {{"runs", lengths.runs},
+          {"milled_mm", lengths.milled_nm / nanometres_per_mm},
+          {"rapids_mm", lengths.rapids_nm / nanometres_per_mm}};
+}
+
+void choose_spindle(MillJob& job) {
+  if (job.program.spindle == 0U) job.program.spindle.reset();
+}
+
+ProfileSide side_of(const std::string& side) {
+  return side == "outside"  ? ProfileSide::outside
+         : side == "inside" ? ProfileSide::inside
+         : side == "on"     ? ProfileSide::on
+                            : ProfileSide::part;
+}
+
+// Whether depth and step give a number of layers that a program can have.
+void check_layers(Nanometres depth, Nanometres step, LengthArguments& lengths) {
+  constexpr std::int64_t finest_step = 1'000;  // nm
+  constexpr std::int64_t most_layers = 1'000;
+  if (step.count < finest_step) {
+    lengths.refuse("--step: expected 0.001 mm or more");
+  } else if (-depth.count / step.count > most_layers) {
+    lengths.refuse(fmt::format("--step: expected a depth of at most {} steps", most_layers));
+  }
+}
+
+}  // namespace
+
+int cam_profile(const CamProfileArguments& arguments) {
+  if (!outputs_are_good(arguments, "")) return exit_bad_program;
+  LengthArguments lengths(*mm_of_unit(arguments.units));
+  MillJob job = mill_job_of(arguments, "passo cam profile", lengths, "stock");
+  choose_spindle(job);
+  const ProfileOptions options{.cut = outline_options_of(arguments, job, lengths), .side = side_of(arguments.side)};
+  const Nanometres join = join_of(arguments.join, lengths);
+  if (!lengths.message().empty()) return fail(exit_bad_program, lengths.message());
+  const bool is_on = options.side == ProfileSide::on;
+  if (is_on && (options.cut.tabs > 0 || !options.cut.tab_places.empty() || options.cut.lead.count > 0 ||
+                options.cut.dog_bones)) {
+    return fail(exit_bad_program, "--side on: tabs, --lead and --dog-bones are for a cutter beside the line");
+  }
+
+  const std::optional<PartDrawing> part = read_part(arguments, job, join, is_on ? OpenRows::kept : OpenRows::refused);
+  if (!part) return exit_bad_program;
+  Diagnostics findings;
+  const ProfilePlan plan = plan_profile(part->loops.loops, part->loops.open, options, findings);
+  show(findings);
+  if (findings.any_error()) return exit_bad_program;
+  const OutlinePlan& cut = plan.outline;
+  std::string words = size_words(*part);
+  nlohmann::ordered_json json = lengths_json(cut.mill, options.cut.park);
+  if (is_on) {
+    words += fmt::format("{} closed and {} open lines\n", cut.outsides, plan.lines);
+    json["closed"] = cut.outsides;
+    json["open"] = plan.lines;
+  } else {
+    words += fmt::format("{} outsides and {} insides, {} tabs; {:g} mm² of the part lost\n", cut.outsides, cut.openings,
+                         cut.tabs.size(), cut.lost_mm2);
+    words += unreached_words(plan.unreached_mm2);
+    json["outsides"] = cut.outsides;
+    json["insides"] = cut.openings;
+    json["tabs"] = cut.tabs.size();
+    json["lost_mm2"] = cut.lost_mm2;
+    json["unreached_mm2"] = plan.unreached_mm2;
+  }
+  words += joined_words(part->loops);
+  return deliver(arguments, job, {cut.mill, plan.face, plan.unreached, cut.tabs, words, json});
+}
+
+int cam_pocket(const CamPocketArguments& arguments) {
+  if (!outputs_are_good(arguments, "")) return exit_bad_program;
+  LengthArguments lengths(*mm_of_unit(arguments.units));
+  MillJob job = mill_job_of(arguments, "passo cam pocket", lengths, "stock");
+  choose_spindle(job);
+  PocketOptions options;
+  options.cutter = lengths.above_0("--tool", arguments.tool);
+  options.words = fmt::format("cutter {:.4g} mm", to_mm(options.cutter).value());
+  options.depth = lengths.below_0("--depth", arguments.depth, "-3");
+  options.step = lengths.above_0("--step", arguments.step);
+  check_layers(options.depth, options.step, lengths);
+  options.step_over = arguments.step_over / 100;
+  options.ramp_degrees = arguments.ramp;
+  options.climb = !arguments.conventional;
+  options.park = job.program.park;
+  const Nanometres join = join_of(arguments.join, lengths);
+  constexpr double flattest = 0.1;
+  if (arguments.ramp > 0 && arguments.ramp < flattest) {
+    lengths.refuse(fmt::format("--ramp: expected 0, or {} degrees or more, found {:g}", flattest, arguments.ramp));
+  }
+  if (!lengths.message().empty()) return fail(exit_bad_program, lengths.message());
+
+  const std::optional<PartDrawing> part = read_part(arguments, job, join, OpenRows::refused);
+  if (!part) return exit_bad_program;
+  Diagnostics findings;
+  const Region area = enclosed_by(part->loops.loops);
+  const PocketPlan plan = plan_pocket(area, options, findings);
+  show(findings);
+  if (findings.any_error()) return exit_bad_program;
+  const std::string words = size_words(*part) +
+                            fmt::format("{} pockets of {:.4g} mm², {} loops a layer; {:g} mm² of what stays lost\n",
+                                        plan.pockets, area_mm2(area), plan.loops, plan.lost_mm2) +
+                            unreached_words(plan.unreached_mm2) + joined_words(part->loops);
+  nlohmann::ordered_json json = lengths_json(plan.mill, options.park);
+  json["pockets"] = plan.pockets;
+  json["loops"] = plan.loops;
+  json["area_mm2"] = area_mm2(area);
+  json["lost_mm2"] = plan.lost_mm2;
+  json["unreached_mm2"] = plan.unreached_mm2;
+  return deliver(arguments, job, {plan.mill, area, plan.unreached, {}, words, json});
+}
+
+}  // namespace passo

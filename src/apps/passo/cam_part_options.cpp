@@ -1,0 +1,74 @@
+// The options of `passo cam profile` and `passo cam pocket`.
+#include "cam_options.hpp"
+#include "number_range.hpp"
+#include <CLI/CLI.hpp>
+
+namespace passo {
+namespace {
+
+constexpr const char* profile_examples =
+    R"(Lengths: a number in the unit of --units, or with a unit of its own: 6mm, 0.3cm, 1/8in.
+
+Examples:
+  passo cam profile bracket.dxf --tool 3 --depth -6 --step 2 --tabs 4 -o bracket.ngc
+                                                           parts out of a sheet: around outside, inside in holes
+  passo cam profile logo.svg --side on --tool 1 --depth -0.3 -o logo.ngc
+                                                           the cutter's middle on the lines, open ones too
+  passo cam profile window.svg --side inside --tool 2 --ramp 3 --lead 2 -o window.ngc
+  passo cam profile sheet.svg --layer cut --zero lower-left -p sheet.png -o sheet.ngc
+
+Every option: docs/manual/parts.md.)";
+
+constexpr const char* pocket_examples =
+    R"(Examples:
+  passo cam pocket tray.svg --tool 6 --depth -8 --step 2 -o tray.ngc
+  passo cam pocket sign.dxf --tool 1.5 --depth -1 --step-over 50 -p sign.png -o sign.ngc
+                                                           what the cutter cannot reach is red in the picture
+  passo cam pocket tray.svg --layer pocket --ramp 3 --conventional -o tray.ngc
+
+A loop in a loop is an island, which stays. Every option: docs/manual/parts.md.)";
+
+}  // namespace
+
+void add_profile_command(CLI::App& cam, CamArguments& all) {
+  CamProfileArguments& arguments = all.profile;
+  CLI::App& profile = *cam.add_subcommand("profile", "cut along the lines of a drawing: around parts, or on the line");
+  profile.add_option("FILE", arguments.files, "drawings: SVG or DXF")->required();
+  profile
+      .add_option("--side", arguments.side,
+                  "part: outside of what is drawn, inside in its holes; outside, inside: of each loop; on: the line")
+      ->check(CLI::IsMember({"part", "outside", "inside", "on"}))
+      ->capture_default_str();
+  add_edge_options(profile, arguments);
+  add_mill_options(profile, arguments);
+  profile.get_option("--spindle")
+      ->description("turns a minute; 0: the program leaves the spindle alone")
+      ->default_str("12000");
+  profile.footer(profile_examples);
+  profile.callback([&all] { all.chosen = [&all] { return cam_profile(all.profile); }; });
+}
+
+void add_pocket_command(CLI::App& cam, CamArguments& all) {
+  CamPocketArguments& arguments = all.pocket;
+  CLI::App& pocket = *cam.add_subcommand("pocket", "clear what the closed lines of a drawing enclose");
+  pocket.add_option("FILE", arguments.files, "drawings: SVG or DXF")->required();
+  pocket.add_option("--tool", arguments.tool, "diameter of the cutter")->capture_default_str();
+  pocket.add_option("--depth", arguments.depth, "of the pocket, below 0")->capture_default_str();
+  pocket.add_option("--step", arguments.step, "how deep a layer is, at most")->capture_default_str();
+  pocket.add_option("--step-over", arguments.step_over, "from loop to loop, percent of the cutter's diameter")
+      ->check(number_range(1.0, 95.0))
+      ->capture_default_str();
+  pocket.add_option("--join", arguments.join, "ends of lines that are no farther apart are joined")
+      ->capture_default_str();
+  pocket.add_option("--ramp", arguments.ramp, "go down along the way, this steep in degrees; 0: straight down")
+      ->check(number_range(0.0, 60.0))
+      ->capture_default_str();
+  add_mill_options(pocket, arguments);
+  pocket.get_option("--spindle")
+      ->description("turns a minute; 0: the program leaves the spindle alone")
+      ->default_str("12000");
+  pocket.footer(pocket_examples);
+  pocket.callback([&all] { all.chosen = [&all] { return cam_pocket(all.pocket); }; });
+}
+
+}  // namespace passo

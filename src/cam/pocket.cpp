@@ -1,0 +1,244 @@
+#include "passo/cam/pocket.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <optional>
+#include <utility>
+#include <vector>
+
+#include "arc_fit.hpp"
+#include "cut_track.hpp"
+#include "edge_grid.hpp"
+#include "nested_loops.hpp"
+#include <fmt/format.h>
+
+#include "passo/cam/route.hpp"
+
+namespace passo {
+namespace {
+
+constexpr Nanometres pocket_chords{500};
+constexpr Nanometres wall_room{2'000};  // the cutter stays so much farther from the walls than half its width
+constexpr Nanometres least_left{10'000};
+constexpr std::int64_t most_offsets = 5'000;
+
+class PocketPlanner {
+ public:
+  PocketPlanner(const Region& area, const PocketOptions& options, Diagnostics& diagnostics)
+      : area_(area),
+        options_(options),
+        diagnostics_(diagnostics),
+        reach_(grown(area, {-radius().count - wall_room.count}, pocket_chords)),
+        walls_(bounds(area).value_or(DrawnBox{}), {1'000'000}) {
+    for (const DrawnRing& ring : grown(area, {-radius().count}, pocket_chords).rings) walls_.add(ring, 0);
+    walls_.finish();
+  }
+
+  PocketPlan plan() {
+    if (area_.empty()) {
+      tell("pocket.no-area", Severity::error, "there is no closed line in these files",
+           "loops: what they enclose is cleared");
+      return {};
+    }
+    tell_narrow_parts();
+    find_offsets();
+    const std::vector<Region>& pockets = offsets_.front().parts;
+    plan_.pockets = pockets.size();
+    std::vector<DrawnPoint> places;
+    for (const Region& pocket : pockets) places.push_back(pocket.rings.front().front());
+    MillTool tool{options_.cutter, options_.words, {}};
+    constexpr std::uint64_t steps = 1'000'000;
+    for (const std::uint32_t index : shorten_route(places, options_.park, options_.park, steps)) {
+      std::vector<DrawnRing> rings;
+      take_rings(0, index, rings);
+      add_runs(std::move(rings), tool.runs);
+    }
+    measure();
+    if (!tool.runs.empty()) plan_.mill.tools.push_back(std::move(tool));
+    return std::move(plan_);
+  }
+
+ private:
+  Nanometres radius() const { return {(options_.cutter.count + 1) / 2}; }
+  Nanometres step_over() const {
+    return {
+        std::max<std::int64_t>(10'000, std::llround(static_cast<double>(options_.cutter.count) * options_.step_over))};
+  }
+  void tell(std::string code, Severity severity, std::string message, std::string expected);
+  void tell_narrow_parts();
+  void find_offsets();
+  void take_rings(std::size_t layer, std::size_t index, std::vector<DrawnRing>& rings) const;
+  CutTrack track_of(DrawnRing ring, DrawnPoint near) const;
+  bool may_go_on(const MillRun& run, DrawnPoint to, bool is_free) const;
+  void add_runs(std::vector<DrawnRing> rings, std::vector<MillRun>& runs);
+  void measure();
+
+  const Region& area_;
+  const PocketOptions& options_;
+  Diagnostics& diagnostics_;
+  Region reach_;    // where the middle of the cutter may be
+  EdgeGrid walls_;  // what it never crosses
+  struct Offset {
+    std::vector<Region> parts = {};
+    std::vector<std::vector<std::size_t>> inner = {};  // of each part: the parts of the next offset in it
+  };
+  std::vector<Offset> offsets_;
+  std::vector<DrawnRing> ways_;
+  PocketPlan plan_;
+};
+
+void PocketPlanner::tell(std::string code, Severity severity, std::string message, std::string expected) {
+  diagnostics_.add({.severity = severity,
+                    .code = std::move(code),
+                    .file = "",
+                    .place = {},
+                    .message = std::move(message),
+                    .expected = std::move(expected),
+                    .text = ""});
+}
+
+void PocketPlanner::tell_narrow_parts() {
+  for (const Region& part : parts_of(area_)) {
+    if (!grown(part, {-radius().count - wall_room.count}, pocket_chords).empty()) continue;
+    const DrawnBox box = *bounds(part);
+    tell("pocket.narrow", Severity::warning,
+         fmt::format("the area at X{:.4g} Y{:.4g} mm is narrower than the cutter: it stays",
+                     to_mm({(box.least.x.count + box.most.x.count) / 2}).value(),
+                     to_mm({(box.least.y.count + box.most.y.count) / 2}).value()),
+         "a thinner cutter");
+  }
+}
+
+// The ground layer by layer inwards. Each is an offset of the first: offsets of offsets would round rounded corners
+// again, with ever more points.
+void PocketPlanner::find_offsets() {
+  offsets_.push_back({parts_of(reach_), {}});
+  for (std::int64_t k = 1; k < most_offsets && !offsets_.back().parts.empty(); ++k) {
+    Offset inner{parts_of(grown(reach_, {-k * step_over().count}, pocket_chords)), {}};
+    Offset& outer = offsets_.back();
+    outer.inner.resize(outer.parts.size());
+    const std::vector<std::size_t> around = parts_with(inner.parts, outer.parts);
+    for (std::size_t i = 0; i < around.size(); ++i) {
+      if (around[i] < outer.parts.size()) outer.inner[around[i]].push_back(i);
+    }
+    offsets_.push_back(std::move(inner));
+  }
+  offsets_.back().inner.resize(offsets_.back().parts.size());
+}
+
+// The rings around a part of the ground: first what lies within them. Where corners are sharp, two loops leave ground
+// between them. It is less than a cutter wide, so its own edge is a way that clears it.
+void PocketPlanner::take_rings(std::size_t layer, std::size_t index, std::vector<DrawnRing>& rings) const {
+  const Region& part = offsets_[layer].parts[index];
+  Region between = grown(part, {-radius().count}, pocket_chords);
+  for (const std::size_t inner : offsets_[layer].inner[index]) {
+    take_rings(layer + 1, inner, rings);
+    between = subtracted(between, grown(offsets_[layer + 1].parts[inner], radius(), pocket_chords));
+  }
+  for (const DrawnRing& ring : notable_part(between, least_left).rings) rings.push_back(ring);
+  // Islands before the outer wall, which comes last.
+  for (std::size_t i = part.rings.size(); i-- > 0;) rings.push_back(part.rings[i]);
+}
+
+// Begins at the ring's place nearest to `near`. Short edges may be chords of an arc, and stay whole.
+CutTrack PocketPlanner::track_of(DrawnRing ring, DrawnPoint near) const {
+  std::size_t best = 0;
+  DrawnPoint begin = ring.front();
+  double least = distance_nm(begin, near);
+  for (std::size_t i = 0; i < ring.size(); ++i) {
+    const DrawnPoint next = ring[(i + 1) % ring.size()];
+    constexpr double straight = 1e6;  // nm
+    const bool is_long = distance_nm(ring[i], next) > straight;
+    const EdgeGrid::Near place = EdgeGrid::to_edge(near, {ring[i], is_long ? next : ring[i], 0});
+    if (place.distance_nm >= least) continue;
+    least = place.distance_nm;
+    best = i;
+    begin = place.at;
+  }
+  std::rotate(ring.begin(), ring.begin() + static_cast<std::ptrdiff_t>(best), ring.end());
+  if (begin != ring.front()) {
+    std::rotate(ring.begin(), ring.begin() + 1, ring.end());
+    if (ring.front() != begin) ring.insert(ring.begin(), begin);
+  }
+  // The region lies to the left of its rings, the wall to the right: so it is for climb milling.
+  if (!options_.climb) std::reverse(ring.begin() + 1, ring.end());
+  ring.push_back(ring.front());
+  std::vector<PathPoint> points = with_arcs(ring, {});
+  points.pop_back();
+  return CutTrack(points);
+}
+
+// Whether the cutter may go straight from the end of the run to a loop: near walls never, through ground that nobody
+// has cut no farther than its width.
+bool PocketPlanner::may_go_on(const MillRun& run, DrawnPoint to, bool is_free) const {
+  if (run.empty()) return false;
+  const DrawnPoint from = run.back().at;
+  if (!is_free && distance_nm(from, to) > static_cast<double>(options_.cutter.count)) return false;
+  return !walls_.is_crossed(from, to);
+}
+
+// Layer by layer all loops of a pocket. A run ends where the cutter has to lift.
+void PocketPlanner::add_runs(std::vector<DrawnRing> rings, std::vector<MillRun>& runs) {
+  plan_.loops += rings.size();
+  const auto levels =
+      std::max<std::int64_t>(1, (-options_.depth.count + options_.step.count - 1) / options_.step.count);
+  std::vector<CutTrack> tracks;
+  DrawnPoint at = rings.front().front();
+  for (DrawnRing& ring : rings) {
+    CutTrack track = track_of(std::move(ring), at);
+    if (track.length() <= 0) continue;
+    at = track.at(0);
+    // A ramp may go around often: one lap is enough to know what is cut.
+    MillRun lap;
+    track.append(lap, 0, track.length(), {}, {});
+    ways_.push_back(chords_of(lap, pocket_chords));
+    tracks.push_back(std::move(track));
+  }
+  MillRun run;
+  Nanometres z{};
+  for (std::int64_t level = 1; level <= levels; ++level) {
+    const Nanometres next{options_.depth.count * level / levels};
+    bool is_first = true;
+    for (const CutTrack& track : tracks) {
+      const DrawnPoint start = track.at(0);
+      const bool goes_on = may_go_on(run, start, is_first);
+      if (!goes_on && run.size() > 1) runs.push_back(std::exchange(run, {}));
+      double along = 0;
+      if (is_first || !goes_on) {
+        if (goes_on) {
+          run.push_back({run.back().at, 0, z});  // the layer before is free
+          run.push_back({start, 0, z});
+        }
+        if (options_.ramp_degrees > 0) {
+          const auto down = static_cast<double>(z.count - next.count);
+          along = down / std::tan(options_.ramp_degrees / 180 * std::numbers::pi);
+          track.append(run, 0, along, z, next);
+        }
+      } else {
+        run.push_back({start, 0, next});
+      }
+      // All of it at this depth, and on to where it began: the next loop begins near there.
+      const double laps = std::ceil((along + track.length()) / track.length() - 1e-9);
+      track.append(run, along, laps * track.length(), next, next);
+      is_first = false;
+    }
+    z = next;
+  }
+  if (run.size() > 1) runs.push_back(std::move(run));
+}
+
+void PocketPlanner::measure() {
+  const Region cut = swept(ways_, radius(), pocket_chords);
+  plan_.unreached = notable_part(subtracted(area_, cut), least_left);
+  plan_.unreached_mm2 = area_mm2(plan_.unreached);
+  plan_.lost_mm2 = area_mm2(notable_part(subtracted(cut, area_), {50}));
+}
+
+}  // namespace
+
+PocketPlan plan_pocket(const Region& area, const PocketOptions& options, Diagnostics& diagnostics) {
+  return PocketPlanner(area, options, diagnostics).plan();
+}
+
+}  // namespace passo

@@ -1,0 +1,74 @@
+#include "svg_words.hpp"
+
+#include <array>
+#include <numbers>
+#include <utility>
+
+namespace passo {
+namespace {
+
+std::optional<DxfTransform> one_svg_transform(std::string_view name, const std::array<double, 6>& v,
+                                              std::size_t count) {
+  const double degree = std::numbers::pi / 180;
+  if (name == "matrix" && count == 6) return DxfTransform{v[0], v[2], v[1], v[3], v[4], v[5]};
+  if (name == "translate" && (count == 1 || count == 2)) return DxfTransform{.dx = v[0], .dy = v[1]};
+  if (name == "scale" && (count == 1 || count == 2)) return DxfTransform{.xx = v[0], .yy = count == 1 ? v[0] : v[1]};
+  if (name == "rotate" && (count == 1 || count == 3)) {
+    const double c = std::cos(v[0] * degree);
+    const double s = std::sin(v[0] * degree);
+    return DxfTransform{c, -s, s, c, v[1] - c * v[1] + s * v[2], v[2] - s * v[1] - c * v[2]};
+  }
+  if (name == "skewX" && count == 1) return DxfTransform{.xy = std::tan(v[0] * degree)};
+  if (name == "skewY" && count == 1) return DxfTransform{.yx = std::tan(v[0] * degree)};
+  return std::nullopt;
+}
+
+}  // namespace
+
+std::optional<DxfTransform> svg_transform(std::string_view text) {
+  SvgWords words(text);
+  DxfTransform all;
+  if (text == "none") return all;
+  while (!words.at_end()) {
+    const std::string_view name = words.name();
+    if (name.empty() || words.peek() != '(') return std::nullopt;
+    words.drop();
+    std::array<double, 6> values{};
+    std::size_t count = 0;
+    while (words.peek() != ')') {
+      const std::optional<double> value = words.number();
+      if (!value || count == values.size()) return std::nullopt;
+      values[count++] = *value;
+    }
+    words.drop();
+    const std::optional<DxfTransform> one = one_svg_transform(name, values, count);
+    if (!one) return std::nullopt;
+    all = all.after(*one);
+  }
+  return all;
+}
+
+std::optional<double> svg_length(std::string_view text, double whole) {
+  SvgWords words(text);
+  const std::optional<double> value = words.number();
+  if (!value) return std::nullopt;
+  constexpr double inch = 96;  // pixels
+  constexpr std::array<std::pair<std::string_view, double>, 10> units = {{{"", 1},
+                                                                          {"px", 1},
+                                                                          {"mm", inch / 25.4},
+                                                                          {"cm", inch / 2.54},
+                                                                          {"in", inch},
+                                                                          {"pt", inch / 72},
+                                                                          {"pc", inch / 6},
+                                                                          {"Q", inch / 101.6},
+                                                                          {"em", 16},
+                                                                          {"ex", 8}}};
+  const std::string_view unit = words.rest().substr(0, words.rest().find_last_not_of(" \t\r\n") + 1);
+  if (unit == "%") return *value / 100 * whole;
+  for (const auto& [name, pixels] : units) {
+    if (name == unit) return *value * pixels;
+  }
+  return std::nullopt;
+}
+
+}  // namespace passo

@@ -1,0 +1,84 @@
+// passo cam profile and passo cam pocket, as a user starts them: from a drawing to a program that a machine can run.
+#include "kit/command_line.hpp"
+#include <gmock/gmock.h>
+
+namespace {
+
+using passo::test::Outcome;
+using passo::test::read;
+using testing::HasSubstr;
+using testing::Not;
+
+const std::string source = PASSO_SOURCE_DIR;
+const std::string bracket = source + "/examples/parts/bracket.svg";
+const std::string router = " -m " + source + "/examples/machines/router.toml";
+
+class CamPart : public passo::test::CommandLine {
+ protected:
+  void expect_cuts_well(const std::string& program, const std::string& stock) const {
+    const Outcome checked = passo("check " + program + router);
+    EXPECT_EQ(checked.code, 0) << checked.err;
+    EXPECT_THAT(checked.out, HasSubstr("no errors"));
+    EXPECT_THAT(checked.out + checked.err, Not(HasSubstr("warning")));
+    const Outcome cut = passo("simulate " + program + " --tool flat:3 --cell 0.2 --stock " + stock);
+    EXPECT_EQ(cut.code, 0) << cut.out << cut.err;
+  }
+};
+
+TEST_F(CamPart, a_bracket_is_cut_out_of_a_sheet) {
+  const Outcome made =
+      passo("cam profile " + bracket + " --layer cut --tool 3 --depth -6 --step 2 --tabs 4 --ramp 5 -o " +
+            path("b.ngc") + " -p " + path("b.png"));
+  EXPECT_EQ(made.code, 0) << made.err;
+  EXPECT_EQ(made.err, "");
+  EXPECT_THAT(made.out, HasSubstr("drawn: X 10 to 110, Y 5 to 75 mm\n"));
+  EXPECT_THAT(made.out, HasSubstr("1 outsides and 6 insides, 4 tabs; 0 mm² of the part lost\n"));
+  EXPECT_THAT(read(path("b.ngc")), HasSubstr("\nM3 S12000\n"));
+  EXPECT_GT(std::filesystem::file_size(path("b.png")), 10'000U);
+  expect_cuts_well(path("b.ngc"), "X5:115,Y0:80,Z-6:0");
+}
+
+TEST_F(CamPart, its_pocket_is_cleared_around_an_island) {
+  const Outcome made = passo("cam pocket " + bracket + " --layer pocket --tool 3 --depth -3 --step 1.5 --json -o " +
+                             path("p.ngc") + " -p " + path("p.svg"));
+  EXPECT_EQ(made.code, 0) << made.err;
+  EXPECT_THAT(made.out, HasSubstr("\"pockets\": 1"));
+  EXPECT_THAT(made.out, HasSubstr("\"lost_mm2\": 0.0"));
+  EXPECT_THAT(read(path("p.svg")), HasSubstr("<svg"));
+  expect_cuts_well(path("p.ngc"), "X5:115,Y0:80,Z-6:0");
+}
+
+TEST_F(CamPart, on_the_line_open_lines_are_cut_too) {
+  const std::string svg =
+      write("a.svg", "<svg width='20mm' height='20mm' viewBox='0 0 20 20'><path d='M2 2H18V18'/></svg>");
+  const Outcome made = passo("cam profile " + svg + " --side on --depth -0.5 --spindle 0");
+  EXPECT_EQ(made.code, 0) << made.err;
+  EXPECT_THAT(made.out, HasSubstr("G0 X2 Y18\nG0 Z0.5\nF60\nG1 Z-0.5\nF200\nG1 X18 Y18\nG1 X18 Y2\nG0 Z2\n"));
+  EXPECT_THAT(made.out, Not(HasSubstr("M3")));
+  const Outcome closed = passo("cam profile " + svg + " -o " + path("x.ngc"));
+  EXPECT_EQ(closed.code, 2);
+  EXPECT_THAT(closed.err, HasSubstr("[outline.open]"));
+  EXPECT_FALSE(std::filesystem::exists(path("x.ngc")));
+}
+
+TEST_F(CamPart, what_is_wrong_is_told) {
+  const auto refused = [&](const std::string& arguments, const std::string& words) {
+    const Outcome outcome = passo("cam " + arguments);
+    EXPECT_EQ(outcome.code, 2) << arguments;
+    EXPECT_THAT(outcome.err, HasSubstr(words)) << arguments;
+  };
+  refused("profile " + path("none.svg"), "[drawing.unreadable]");
+  refused("profile " + write("a.txt", "hello\n"), "[drawing.unknown-kind]");
+  refused("profile " + write("b.svg", "<svg><path d='M0 0 L x'/></svg>"), "[svg.path]");
+  refused("pocket " + write("c.svg", "<svg width='9' height='9'/>"), "[pocket.no-area]");
+  refused("profile " + bracket + " --side on --tabs 3", "--side on");
+  refused("pocket " + bracket + " --tool 0", "--tool: expected a length above 0");
+  refused("pocket " + bracket + " --depth -3 --step 0.0001", "--step: expected 0.001 mm or more");
+  refused("profile " + bracket + " --depth 3", "--depth: expected a length below 0");
+  refused("profile " + bracket + " -o " + bracket, "the file");
+  const Outcome layer = passo("cam pocket " + bracket + " --layer pokket");
+  EXPECT_EQ(layer.code, 2);
+  EXPECT_THAT(layer.err, HasSubstr("there is no layer 'pokket'"));
+}
+
+}  // namespace
