@@ -131,9 +131,9 @@ struct CamEngraveArguments : CamMillArguments {
   CamEngraveArguments() { spindle = 12000; }
   std::string text;  // empty: the files are carved
   std::string font = "/usr/share/fonts/truetype/dejavu/DejaVuSans.ttf";
-  std::string height = "10mm";  // of a capital letter
-  std::string align = "left";   // middle or right
-  std::string around;           // radius; empty: on a line
+  std::string height = "10mm";      // of a capital letter
+  std::string text_align = "left";  // middle or right
+  std::string around;               // radius; empty: on a line
   double line_space = 1.6;
   double angle = 60;  // degrees, of the V-shaped cutter
   std::string tip = "0mm";

@@ -28,9 +28,9 @@ Lettering lettering_of(const CamEngraveArguments& arguments, LengthArguments& le
     if (is_break) ++i;
   }
   lettering.height = to_mm(lengths.above_0("--height", arguments.height));
-  lettering.align = arguments.align == "middle"  ? LetterAlign::middle
-                    : arguments.align == "right" ? LetterAlign::right
-                                                 : LetterAlign::left;
+  lettering.align = arguments.text_align == "middle"  ? LetterAlign::middle
+                    : arguments.text_align == "right" ? LetterAlign::right
+                                                      : LetterAlign::left;
   if (!arguments.around.empty()) lettering.around = to_mm(lengths.any("--around", arguments.around));
   lettering.line_space = arguments.line_space;
   return lettering;

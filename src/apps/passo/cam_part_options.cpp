@@ -87,7 +87,7 @@ void add_engrave_command(CLI::App& cam, CamArguments& all) {
   engrave.add_option("--text", arguments.text, "letters instead of a drawing");
   engrave.add_option("--font", arguments.font, "TrueType or OpenType font")->capture_default_str();
   engrave.add_option("--height", arguments.height, "of a capital letter")->capture_default_str();
-  engrave.add_option("--align", arguments.align, "where X0 is in a line of text: left, middle or right")
+  engrave.add_option("--text-align", arguments.text_align, "where X0 is in a line of text: left, middle or right")
       ->check(CLI::IsMember({"left", "middle", "right"}))
       ->capture_default_str();
   engrave.add_option("--around", arguments.around,
