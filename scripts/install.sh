@@ -16,6 +16,7 @@ build_packages=(
   libsqlite3-dev             # jobs and history of passo serve
   libboost1.74-dev           # HTTP and WebSocket of passo serve
   libpolyclipping-dev        # unions and offsets of copper in passo cam
+  libfreetype-dev libharfbuzz-dev  # letters in passo cam engrave
   libexpat1-dev              # SVG drawings in passo cam
   libminizip-dev             # zip archives of board files
   libassimp-dev              # bodies in STL files

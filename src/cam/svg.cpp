@@ -6,6 +6,7 @@
 #include <map>
 #include <numbers>
 
+#include "curve_chords.hpp"
 #include "drawing_builder.hpp"
 #include "svg_document.hpp"
 #include "svg_path.hpp"
@@ -318,39 +319,15 @@ void SvgExpansion::put_arc(DrawnPath& path, const SvgElement& element, const Pla
   }
 }
 
-// Chords of equal parameter: a stretch of a curve is as far from its chord as its second differences say.
 void SvgExpansion::put_curve(DrawnPath& path, const SvgElement& element, const Place& place, SvgSpot from,
                              const SvgPiece& piece) {
-  std::vector<SvgSpot> p = {from};
-  p.insert(p.end(), piece.control.begin(), piece.control.end());
-  p.push_back(piece.end);
-  const std::size_t degree = p.size() - 1;
-  double bend = 0;
-  for (std::size_t i = 0; i + 2 < p.size(); ++i) {
-    bend = std::max(bend, std::hypot(p[i].x - 2 * p[i + 1].x + p[i + 2].x, p[i].y - 2 * p[i + 1].y + p[i + 2].y));
-  }
-  const auto d = static_cast<double>(degree);
-  const double off = d * (d - 1) / 8 * bend * place.transform.largest_scale();
-  const double wanted = std::ceil(std::sqrt(off / options_.tolerance.value()));
-  if (!(wanted < 1e6)) {
-    refuse(element, "svg.path", "this curve is too large", "curves of at most some metres");
-    return;
-  }
-  const auto parts = static_cast<std::size_t>(std::max(1.0, wanted));
-  for (std::size_t i = 1; i <= parts; ++i) {
-    const double u = static_cast<double>(i) / static_cast<double>(parts);
-    const double v = 1 - u;
-    SvgSpot spot = piece.end;
-    if (i < parts && degree == 2) {
-      spot = {v * v * p[0].x + 2 * v * u * p[1].x + u * u * p[2].x,
-              v * v * p[0].y + 2 * v * u * p[1].y + u * u * p[2].y};
-    } else if (i < parts) {
-      const std::array<double, 4> w = {v * v * v, 3 * v * v * u, 3 * v * u * u, u * u * u};
-      spot = {};
-      for (std::size_t k = 0; k < 4; ++k) spot = {spot.x + w[k] * p[k].x, spot.y + w[k] * p[k].y};
-    }
-    if (!put(path, element, place, spot)) return;
-  }
+  std::vector<SvgSpot> points = {from};
+  points.insert(points.end(), piece.control.begin(), piece.control.end());
+  points.push_back(piece.end);
+  const auto take = [&](double x, double y) { return put(path, element, place, {x, y}); };
+  const double scale = place.transform.largest_scale();
+  if (for_chords(std::span<const SvgSpot>(points), scale, options_.tolerance.value(), take)) return;
+  refuse(element, "svg.path", "this curve is too large", "curves of at most some metres");
 }
 
 void SvgExpansion::draw_ellipse(const SvgElement& element, const Place& place, SvgSpot middle, double rx, double ry) {

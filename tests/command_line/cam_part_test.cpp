@@ -61,6 +61,22 @@ TEST_F(CamPart, on_the_line_open_lines_are_cut_too) {
   EXPECT_FALSE(std::filesystem::exists(path("x.ngc")));
 }
 
+TEST_F(CamPart, letters_are_carved_and_a_machine_can_run_it) {
+  const Outcome made = passo("cam engrave --text 'Ab\\nc' --height 12 -o " + path("e.ngc") + " -p " + path("e.png"));
+  EXPECT_EQ(made.code, 0) << made.err;
+  EXPECT_THAT(made.out, HasSubstr("tool 1: V of 60 degrees, 6 mm: "));
+  EXPECT_THAT(made.out, HasSubstr(" mm deep at most\n"));
+  const Outcome checked = passo("check " + path("e.ngc") + router);
+  EXPECT_THAT(checked.out, HasSubstr("no errors"));
+  const Outcome flat =
+      passo("cam engrave " + bracket + " --layer pocket --angle 90 --depth -2 --clear 2 -o " + path("f.ngc"));
+  EXPECT_EQ(flat.code, 0) << flat.err;
+  EXPECT_THAT(flat.out, HasSubstr("tool 1: flat cutter 2 mm: "));
+  EXPECT_EQ(passo("cam engrave").code, 2);
+  EXPECT_THAT(passo("cam engrave --text A --font " + bracket).err, HasSubstr("[engrave.no-font]"));
+  EXPECT_THAT(passo("cam engrave --text A --tip 7").err, HasSubstr("--tip: expected a width"));
+}
+
 TEST_F(CamPart, what_is_wrong_is_told) {
   const auto refused = [&](const std::string& arguments, const std::string& words) {
     const Outcome outcome = passo("cam " + arguments);

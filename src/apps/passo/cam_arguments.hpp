@@ -127,6 +127,24 @@ struct CamPocketArguments : CamMillArguments {
 };
 int cam_pocket(const CamPocketArguments& arguments);
 
+struct CamEngraveArguments : CamMillArguments {
+  CamEngraveArguments() { spindle = 12000; }
+  std::string text;  // empty: the files are carved
+  std::string font = "/usr/share/fonts/truetype/dejavu/DejaVuSans.ttf";
+  std::string height = "10mm";      // of a capital letter
+  std::string text_align = "left";  // middle or right
+  std::string around;               // radius; empty: on a line
+  double line_space = 1.6;
+  double angle = 60;  // degrees, of the V-shaped cutter
+  std::string tip = "0mm";
+  std::string tool = "6mm";
+  std::string depth;  // at most; empty: as the cutter's width allows
+  std::string clear;  // diameter of a flat cutter for wide areas; empty: none
+  std::string clear_step = "1mm";
+  std::string join = "0.1mm";
+};
+int cam_engrave(const CamEngraveArguments& arguments);
+
 // The three commands at once, on all files of a board.
 struct CamBoardArguments {
   std::vector<std::string> paths;    // of Gerber and drill files, folders, or a zip archive

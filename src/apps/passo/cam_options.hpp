@@ -20,6 +20,7 @@ struct CamArguments {
   CamReliefArguments relief;
   CamProfileArguments profile;
   CamPocketArguments pocket;
+  CamEngraveArguments engrave;
   std::function<int()> chosen;  // the chosen command, after parsing
 };
 
@@ -33,6 +34,7 @@ void add_cam_board_command(CLI::App& cam, CamArguments& arguments);
 void add_relief_command(CLI::App& cam, CamArguments& arguments);
 void add_profile_command(CLI::App& cam, CamArguments& arguments);
 void add_pocket_command(CLI::App& cam, CamArguments& arguments);
+void add_engrave_command(CLI::App& cam, CamArguments& arguments);
 
 // The options that all milling of drawings has.
 void add_mill_options(CLI::App& command, CamMillArguments& arguments);

@@ -2,7 +2,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "cam_job.hpp"
+#include "cam_part.hpp"
 #include <nlohmann/json.hpp>
 
 #include "passo/cam/pocket.hpp"
@@ -10,13 +10,6 @@
 
 namespace passo {
 namespace {
-
-// The lines of a command's files, where the program has them.
-struct PartDrawing {
-  EdgeLoops loops;
-  DrawnPoint least;  // corners of the box around them
-  DrawnPoint most;
-};
 
 DrawnBox box_of(const Drawing& drawing) {
   std::vector<DrawnRing> rows;
@@ -27,6 +20,8 @@ DrawnBox box_of(const Drawing& drawing) {
   }
   return bounds(Region{rows}).value_or(DrawnBox{});
 }
+
+}  // namespace
 
 std::optional<Drawing> read_drawings(const CamMillArguments& arguments, const MillJob& job) {
   Diagnostics findings;
@@ -43,56 +38,26 @@ std::optional<Drawing> read_drawings(const CamMillArguments& arguments, const Mi
   return all;
 }
 
-std::optional<PartDrawing> read_part(const CamMillArguments& arguments, const MillJob& job, Nanometres join,
-                                     OpenRows open_rows) {
-  std::optional<Drawing> drawing = read_drawings(arguments, job);
-  if (!drawing) return std::nullopt;
+std::optional<PartDrawing> part_of(Drawing drawing, const MillJob& job, Nanometres join, OpenRows open_rows) {
   const auto points =
-      std::ranges::count_if(drawing->holes, [](const DrawnHole& hole) { return hole.diameter.count <= 0; });
+      std::ranges::count_if(drawing.holes, [](const DrawnHole& hole) { return hole.diameter.count <= 0; });
   if (points > 0) note(fmt::format("{} points without a diameter are left out", points));
-  mirror_drawing(*drawing, job.mirror);
+  mirror_drawing(drawing, job.mirror);
   if (job.zero.at || job.zero.is_lower_left) {
-    move_zero_to(job.zero.is_lower_left ? box_of(*drawing).least : *job.zero.at, *drawing);
+    move_zero_to(job.zero.is_lower_left ? box_of(drawing).least : *job.zero.at, drawing);
   }
-  const DrawnBox box = box_of(*drawing);
+  const DrawnBox box = box_of(drawing);
   Diagnostics findings;
-  PartDrawing part{edge_loops(*drawing, join, findings, open_rows), box.least, box.most};
+  PartDrawing part{edge_loops(drawing, join, findings, open_rows), box.least, box.most};
   show(findings);
   if (findings.any_error()) return std::nullopt;
   return part;
-}
-
-Nanometres join_of(const std::string& text, LengthArguments& lengths) {
-  const Nanometres join = lengths.any("--join", text);
-  if (join.count < 0) lengths.refuse("--join: expected a length of 0 or more");
-  return join;
 }
 
 std::string size_words(const PartDrawing& part) {
   return fmt::format("drawn: X {:.6g} to {:.6g}, Y {:.6g} to {:.6g} mm\n", to_mm(part.least.x).value(),
                      to_mm(part.most.x).value(), to_mm(part.least.y).value(), to_mm(part.most.y).value());
 }
-
-std::string unreached_words(double mm2) {
-  if (mm2 <= 0) return "";
-  return fmt::format("not reached: {:.4g} mm² in corners and gaps that are narrower than the cutter\n", mm2);
-}
-
-std::string joined_words(const EdgeLoops& loops) {
-  if (loops.joined == 0) return "";
-  return fmt::format("joined: {} ends that did not meet, at most {:.4g} mm apart\n", loops.joined,
-                     to_mm(loops.widest_joined).value());
-}
-
-// What both commands have made, for the program, the picture and the summary.
-struct PartResult {
-  const MillPlan& mill;
-  const Region& face;
-  const Region& unreached;
-  const std::vector<DrawnPoint>& tabs;
-  std::string words;
-  nlohmann::ordered_json json;
-};
 
 int deliver(const CamMillArguments& arguments, const MillJob& job, const PartResult& result) {
   for (const std::string& words : result.mill.notes) note(words);
@@ -114,11 +79,36 @@ int deliver(const CamMillArguments& arguments, const MillJob& job, const PartRes
     if (code != exit_done) return code;
   }
   if (arguments.json) {
-    fmt::print("{}\n", result.json.dump(2));
+    fmt::print("{}\n", result.json);
     return exit_done;
   }
   return tell(arguments.output, result.mill, summary_of(result.mill, job.program.park, arguments.units) + result.words,
               nullptr);
+}
+
+namespace {
+
+std::optional<PartDrawing> read_part(const CamMillArguments& arguments, const MillJob& job, Nanometres join,
+                                     OpenRows open_rows) {
+  std::optional<Drawing> drawing = read_drawings(arguments, job);
+  return drawing ? part_of(std::move(*drawing), job, join, open_rows) : std::nullopt;
+}
+
+Nanometres join_of(const std::string& text, LengthArguments& lengths) {
+  const Nanometres join = lengths.any("--join", text);
+  if (join.count < 0) lengths.refuse("--join: expected a length of 0 or more");
+  return join;
+}
+
+std::string unreached_words(double mm2) {
+  if (mm2 <= 0) return "";
+  return fmt::format("not reached: {:.4g} mm² in corners and gaps that are narrower than the cutter\n", mm2);
+}
+
+std::string joined_words(const EdgeLoops& loops) {
+  if (loops.joined == 0) return "";
+  return fmt::format("joined: {} ends that did not meet, at most {:.4g} mm apart\n", loops.joined,
+                     to_mm(loops.widest_joined).value());
 }
 
 nlohmann::ordered_json lengths_json(const MillPlan& plan, DrawnPoint park) {
@@ -191,7 +181,7 @@ int cam_profile(const CamProfileArguments& arguments) {
     json["unreached_mm2"] = plan.unreached_mm2;
   }
   words += joined_words(part->loops);
-  return deliver(arguments, job, {cut.mill, plan.face, plan.unreached, cut.tabs, words, json});
+  return deliver(arguments, job, {cut.mill, plan.face, plan.unreached, cut.tabs, words, json.dump(2)});
 }
 
 int cam_pocket(const CamPocketArguments& arguments) {
@@ -233,7 +223,7 @@ int cam_pocket(const CamPocketArguments& arguments) {
   json["area_mm2"] = area_mm2(area);
   json["lost_mm2"] = plan.lost_mm2;
   json["unreached_mm2"] = plan.unreached_mm2;
-  return deliver(arguments, job, {plan.mill, area, plan.unreached, {}, words, json});
+  return deliver(arguments, job, {plan.mill, area, plan.unreached, {}, words, json.dump(2)});
 }
 
 }  // namespace passo

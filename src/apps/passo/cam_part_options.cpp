@@ -1,4 +1,4 @@
-// The options of `passo cam profile` and `passo cam pocket`.
+// The options of `passo cam profile`, `passo cam pocket` and `passo cam engrave`.
 #include "cam_options.hpp"
 #include "number_range.hpp"
 #include <CLI/CLI.hpp>
@@ -27,6 +27,15 @@ constexpr const char* pocket_examples =
   passo cam pocket tray.svg --layer pocket --ramp 3 --conventional -o tray.ngc
 
 A loop in a loop is an island, which stays. Every option: docs/manual/parts.md.)";
+
+constexpr const char* engrave_examples =
+    R"(Examples:
+  passo cam engrave --text "Passo" --height 20 --angle 60 -o name.ngc          depth follows the width of the strokes
+  passo cam engrave --text "LICEO 1923" --font Serif.otf --around 60 -o plate.ngc     on a circle of 60 mm radius
+  passo cam engrave logo.svg --angle 90 --tool 6 --depth -2 --clear 2 -p logo.png -o logo.ngc
+                                                           wide areas get a flat floor by a cutter of 2 mm first
+
+"\n" in the text begins a new line. Every option: docs/manual/engraving.md.)";
 
 }  // namespace
 
@@ -69,6 +78,39 @@ void add_pocket_command(CLI::App& cam, CamArguments& all) {
       ->default_str("12000");
   pocket.footer(pocket_examples);
   pocket.callback([&all] { all.chosen = [&all] { return cam_pocket(all.pocket); }; });
+}
+
+void add_engrave_command(CLI::App& cam, CamArguments& all) {
+  CamEngraveArguments& arguments = all.engrave;
+  CLI::App& engrave = *cam.add_subcommand("engrave", "carve texts and drawings with a V-shaped cutter");
+  engrave.add_option("FILE", arguments.files, "drawings: SVG or DXF; what closed lines enclose is carved");
+  engrave.add_option("--text", arguments.text, "letters instead of a drawing");
+  engrave.add_option("--font", arguments.font, "TrueType or OpenType font")->capture_default_str();
+  engrave.add_option("--height", arguments.height, "of a capital letter")->capture_default_str();
+  engrave.add_option("--text-align", arguments.text_align, "where X0 is in a line of text: left, middle or right")
+      ->check(CLI::IsMember({"left", "middle", "right"}))
+      ->capture_default_str();
+  engrave.add_option("--around", arguments.around,
+                     "the text stands on a circle of this radius about X0 Y0; below 0 inside, at the bottom");
+  engrave.add_option("--line-space", arguments.line_space, "from line to line, in heights")
+      ->check(number_range(0.1, 100.0))
+      ->capture_default_str();
+  engrave.add_option("--angle", arguments.angle, "between the flanks of the cutter, degrees")
+      ->check(number_range(5.0, 170.0))
+      ->capture_default_str();
+  engrave.add_option("--tip", arguments.tip, "width of its tip")->capture_default_str();
+  engrave.add_option("--tool", arguments.tool, "its diameter, the widest that it carves")->capture_default_str();
+  engrave.add_option("--depth", arguments.depth, "the deepest, below 0; without it as the cutter's width allows");
+  engrave.add_option("--clear", arguments.clear, "diameter of a flat cutter that clears what is wider, before");
+  engrave.add_option("--clear-step", arguments.clear_step, "how deep a layer of it is, at most")->capture_default_str();
+  engrave.add_option("--join", arguments.join, "ends of lines that are no farther apart are joined")
+      ->capture_default_str();
+  add_mill_options(engrave, arguments);
+  engrave.get_option("--spindle")
+      ->description("turns a minute; 0: the program leaves the spindle alone")
+      ->default_str("12000");
+  engrave.footer(engrave_examples);
+  engrave.callback([&all] { all.chosen = [&all] { return cam_engrave(all.engrave); }; });
 }
 
 }  // namespace passo

@@ -1,0 +1,159 @@
+// V-carving: the cutter touches the lines on both sides, cuts nothing beyond, and leaves nothing between.
+#include "passo/cam/v_carve.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <random>
+
+#include <gmock/gmock.h>
+
+#include "passo/cam/edge_loops.hpp"
+
+namespace passo {
+namespace {
+
+using VPoints = std::vector<PathPoint>;
+
+PathPoint v_corner(double x, double y, double bulge = 0) {
+  return {{to_nanometres(Mm(x)), to_nanometres(Mm(y))}, bulge};
+}
+
+struct Carved {
+  VCarvePlan plan;
+  Diagnostics findings;
+};
+Carved carved(const Region& area, const VCarveOptions& options) {
+  Carved result;
+  result.plan = plan_v_carve(area, options, result.findings);
+  return result;
+}
+
+// Straight from what the words mean: the distance to the nearest edge of the region, mm.
+double to_edge_mm(const Region& region, double x, double y) {
+  double least = 1e9;
+  for (const DrawnRing& ring : region.rings) {
+    for (std::size_t i = 0; i < ring.size(); ++i) {
+      const double ax = to_mm(ring[i].x).value();
+      const double ay = to_mm(ring[i].y).value();
+      const double dx = to_mm(ring[(i + 1) % ring.size()].x).value() - ax;
+      const double dy = to_mm(ring[(i + 1) % ring.size()].y).value() - ay;
+      const double share = std::clamp(((x - ax) * dx + (y - ay) * dy) / (dx * dx + dy * dy), 0.0, 1.0);
+      least = std::min(least, std::hypot(ax + share * dx - x, ay + share * dy - y));
+    }
+  }
+  return least;
+}
+
+struct VDisc {
+  double x;
+  double y;
+  double radius;  // at the face
+};
+// What the cutter takes at the face, at many places of its way.
+std::vector<VDisc> discs_of(const VCarvePlan& plan, double slope, double tip) {
+  std::vector<VDisc> discs;
+  for (const MillTool& tool : plan.mill.tools) {
+    for (const MillRun& run : tool.runs) {
+      for (std::size_t i = 0; i + 1 < run.size(); ++i) {
+        const int parts = 1 + static_cast<int>(distance_nm(run[i].at, run[i + 1].at) / 2e4);
+        for (int k = 0; k <= parts; ++k) {
+          const double s = static_cast<double>(k) / parts;
+          const auto mix = [&](Nanometres a, Nanometres b) {
+            return to_mm(a).value() * (1 - s) + to_mm(b).value() * s;
+          };
+          discs.push_back({mix(run[i].at.x, run[i + 1].at.x), mix(run[i].at.y, run[i + 1].at.y),
+                           tip / 2 - mix(run[i].z, run[i + 1].z) * slope});
+        }
+      }
+    }
+  }
+  return discs;
+}
+
+void expect_carved(const Region& area, const VCarvePlan& plan, double slope, double tip, double left) {
+  const std::vector<VDisc> discs = discs_of(plan, slope, tip);
+  ASSERT_FALSE(discs.empty());
+  for (std::size_t i = 0; i < discs.size(); i += 7) {
+    ASSERT_LE(discs[i].radius, to_edge_mm(area, discs[i].x, discs[i].y) + 0.006) << discs[i].x << ", " << discs[i].y;
+  }
+  std::mt19937_64 random(5);
+  const DrawnBox box = *bounds(area);
+  std::uniform_real_distribution<double> across(to_mm(box.least.x).value(), to_mm(box.most.x).value());
+  std::uniform_real_distribution<double> up(to_mm(box.least.y).value(), to_mm(box.most.y).value());
+  for (int trial = 0; trial < 300; ++trial) {
+    const double x = across(random);
+    const double y = up(random);
+    const DrawnPoint at{to_nanometres(Mm(x)), to_nanometres(Mm(y))};
+    if (!contains(area, at) || contains(plan.floor, at) || to_edge_mm(area, x, y) < left) continue;
+    double nearest = 1e9;
+    for (const VDisc& disc : discs) nearest = std::min(nearest, std::hypot(disc.x - x, disc.y - y) - disc.radius);
+    EXPECT_LE(nearest, 0.006) << x << ", " << y;
+  }
+}
+
+TEST(VCarve, a_box_has_its_ridge_and_sharp_corners) {
+  const Region box = enclosed_by({{v_corner(0, 0), v_corner(20, 0), v_corner(20, 4), v_corner(0, 4)}});
+  const Carved result = carved(box, {.angle_degrees = 90, .widest = to_nanometres(Mm(10))});
+  EXPECT_TRUE(result.findings.all().empty());
+  EXPECT_NEAR(to_mm(result.plan.deepest).value(), -2, 1e-5);
+  EXPECT_TRUE(result.plan.floor.empty());
+  double least_x = 20;
+  for (const MillRun& run : result.plan.mill.tools.at(0).runs) {
+    for (const MillPoint& point : run) {
+      least_x = std::min(least_x, to_mm(point.at.x).value());
+      const bool is_corner = point.at.x.count == 0;
+      EXPECT_TRUE(!is_corner || point.z.count == 0) << "in a corner the cutter comes up to the face";
+    }
+  }
+  EXPECT_EQ(least_x, 0);
+  expect_carved(box, result.plan, 1, 0, 0);
+}
+
+TEST(VCarve, of_random_shapes_touches_both_sides_and_leaves_nothing) {
+  std::mt19937_64 random(11);
+  std::uniform_real_distribution<double> share(0, 1);
+  for (int trial = 0; trial < 6; ++trial) {
+    VPoints points;
+    const int corners = 4 + trial;
+    for (int i = 0; i < corners; ++i) {
+      const double angle = 2 * M_PI * i / corners;
+      const double far = 3 + 5 * share(random);
+      points.push_back(
+          v_corner(far * std::cos(angle), far * std::sin(angle), trial % 2 == 0 ? 0 : 0.3 * share(random)));
+    }
+    const Region area = enclosed_by({points, {v_corner(0.7, 0, 1), v_corner(-0.7, 0, 1)}});
+    VCarveOptions options{.angle_degrees = 60, .widest = to_nanometres(Mm(20))};
+    if (trial >= 4) options.deepest = to_nanometres(Mm(-2));
+    const Carved result = carved(area, options);
+    EXPECT_EQ(!result.plan.floor.empty(), trial >= 4) << trial;
+    EXPECT_GE(result.plan.deepest, trial >= 4 ? to_nanometres(Mm(-2)) : to_nanometres(Mm(-20)));
+    expect_carved(area, result.plan, std::tan(M_PI / 6), 0, 0);
+  }
+}
+
+TEST(VCarve, a_tip_comes_no_deeper_than_its_flanks_touch) {
+  const Region box = enclosed_by({{v_corner(0, 0), v_corner(20, 0), v_corner(20, 4), v_corner(0, 4)},
+                                  {v_corner(30, 0), v_corner(40, 0), v_corner(40, 0.3), v_corner(30, 0.3)}});
+  const Carved result =
+      carved(box, {.angle_degrees = 90, .tip = to_nanometres(Mm(0.6)), .widest = to_nanometres(Mm(10))});
+  EXPECT_NEAR(to_mm(result.plan.deepest).value(), -1.7, 1e-5);
+  EXPECT_TRUE(contains(result.plan.unreached, v_corner(35, 0.15).at));
+  EXPECT_FALSE(contains(result.plan.unreached, v_corner(10, 2).at));
+  expect_carved(enclosed_by({{v_corner(0, 0), v_corner(20, 0), v_corner(20, 4), v_corner(0, 4)}}), result.plan, 1, 0.6,
+                0.31);
+}
+
+// Chords of a curve are no corners: a ring has one way around, and no branches.
+TEST(VCarve, curves_have_no_branches) {
+  const Region ring = enclosed_by({{v_corner(10, 0, 1), v_corner(-10, 0, 1)}, {v_corner(8, 0, 1), v_corner(-8, 0, 1)}});
+  const Carved result = carved(ring, {.angle_degrees = 60});
+  ASSERT_EQ(result.plan.mill.tools.at(0).runs.size(), 1U);
+  for (const MillPoint& point : result.plan.mill.tools.at(0).runs[0]) {
+    EXPECT_NEAR(std::hypot(to_mm(point.at.x).value(), to_mm(point.at.y).value()), 9, 1e-3);
+    EXPECT_NEAR(to_mm(point.z).value(), -std::sqrt(3), 2e-3);
+  }
+  EXPECT_EQ(carved({}, {}).findings.all().at(0).code, "engrave.no-area");
+}
+
+}  // namespace
+}  // namespace passo

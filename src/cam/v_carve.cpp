@@ -1,0 +1,244 @@
+#include "passo/cam/v_carve.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <utility>
+#include <vector>
+
+#include "medial_axis.hpp"
+#include "nested_loops.hpp"
+#include <fmt/format.h>
+
+#include "passo/cam/route.hpp"
+
+namespace passo {
+namespace {
+
+constexpr double least_turn_of_corners = 25 * std::numbers::pi / 180;
+
+class VCarvePlanner {
+ public:
+  VCarvePlanner(const Region& area, const VCarveOptions& options, Diagnostics& diagnostics)
+      : area_(area), options_(options), diagnostics_(diagnostics) {
+    slope_ = std::tan(options.angle_degrees / 360 * std::numbers::pi);
+    least_ = static_cast<double>(options.tip.count) / 2;
+    most_ = static_cast<double>(options.widest.count) / 2;
+    if (options.deepest.count < 0) {
+      most_ = std::min(most_, least_ - static_cast<double>(options.deepest.count) * slope_);
+    }
+  }
+
+  VCarvePlan plan() {
+    const auto axis = medial_axis(area_, least_turn_of_corners, static_cast<double>(options_.tolerance.count));
+    if (area_.empty() || !axis) {
+      refuse(area_.empty() ? "there is no closed line in these files" : "the drawing is wider than 4 m");
+      return {};
+    }
+    nodes_ = axis->nodes;
+    for (const MedialPiece& piece : axis->pieces) clip(piece);
+    link();
+    MillTool tool{options_.widest, options_.words, {}};
+    order(tool.runs);
+    go_around_floors(tool.runs);
+    for (const MillRun& run : tool.runs) {
+      for (const MillPoint& point : run) plan_.deepest = std::min(plan_.deepest, point.z);
+    }
+    if (!tool.runs.empty()) plan_.mill.tools.push_back(std::move(tool));
+    if (options_.tip.count > 0) {
+      constexpr Nanometres small{10'000};
+      const Nanometres half{options_.tip.count / 2};
+      const Region wide = grown(grown(area_, {-half.count}), half + small);
+      // In corners the tip leaves a little everywhere: what counts is where it finds no way in at all.
+      plan_.unreached = notable_part(subtracted(area_, wide), {std::max<std::int64_t>(small.count, half.count / 4)});
+    }
+    return std::move(plan_);
+  }
+
+ private:
+  // A part of the axis that is cut, from node to node.
+  struct Stroke {
+    std::size_t from;
+    std::size_t to;
+    MillRun points;
+    bool is_cut = false;
+  };
+
+  void refuse(std::string message) {
+    diagnostics_.add({.code = "engrave.no-area",
+                      .file = "",
+                      .place = {},
+                      .message = std::move(message),
+                      .expected = "loops: what they enclose is carved",
+                      .text = ""});
+  }
+  Nanometres depth_at(double clearance) const {
+    return {-std::llround((std::clamp(clearance, least_, most_) - least_) / slope_)};
+  }
+  void clip(const MedialPiece& piece);
+  void link();
+  void order(std::vector<MillRun>& runs);
+  void cut_from(std::size_t node, std::vector<MillRun>& runs);
+  Stroke* next_stroke(std::size_t node, const MillRun& run);
+  void go_around_floors(std::vector<MillRun>& runs);
+
+  const Region& area_;
+  const VCarveOptions& options_;
+  Diagnostics& diagnostics_;
+  double slope_ = 1;  // half of the width for the depth
+  double least_ = 0;  // the clearances that the cutter can use, nm
+  double most_ = 0;
+  std::size_t nodes_ = 0;
+  std::vector<Stroke> strokes_;
+  std::vector<std::vector<std::size_t>> at_node_;  // strokes
+  VCarvePlan plan_;
+};
+
+// Leaves what is narrower than the tip, and what is a floor.
+void VCarvePlanner::clip(const MedialPiece& piece) {
+  const auto is_in = [&](const MedialPoint& p) { return p.clearance >= least_ && p.clearance <= most_; };
+  const auto place = [&](const MedialPoint& p) {
+    return MillPoint{{{std::llround(p.x)}, {std::llround(p.y)}}, 0, depth_at(p.clearance)};
+  };
+  Stroke stroke{is_in(piece.points.front()) ? piece.from : nodes_++, 0, {}};
+  const auto end = [&](std::size_t node) {
+    stroke.to = node;
+    if (stroke.points.size() > 1) strokes_.push_back(std::move(stroke));
+    stroke = {nodes_++, 0, {}};
+  };
+  for (std::size_t i = 0; i < piece.points.size(); ++i) {
+    const MedialPoint& p = piece.points[i];
+    if (i > 0) {
+      // Where the clearance passes a bound between two points.
+      const MedialPoint& before = piece.points[i - 1];
+      std::vector<double> shares;
+      for (const double bound : {least_, most_}) {
+        const double share = (bound - before.clearance) / (p.clearance - before.clearance);
+        if (std::isfinite(share) && share > 0 && share < 1) shares.push_back(share);
+      }
+      std::ranges::sort(shares);
+      for (const double share : shares) {
+        const MedialPoint passed{before.x + share * (p.x - before.x), before.y + share * (p.y - before.y),
+                                 before.clearance + share * (p.clearance - before.clearance)};
+        const bool leaves = !stroke.points.empty();
+        stroke.points.push_back(place(passed));
+        if (leaves) end(nodes_++);
+      }
+    }
+    if (is_in(p)) {
+      const MillPoint next = place(p);
+      const bool is_same =
+          !stroke.points.empty() && stroke.points.back().at == next.at && stroke.points.back().z == next.z;
+      if (!is_same) stroke.points.push_back(next);
+    } else if (stroke.points.size() == 1) {
+      stroke.points.clear();
+    }
+  }
+  if (!stroke.points.empty()) end(piece.to);
+}
+
+void VCarvePlanner::link() {
+  at_node_.resize(nodes_);
+  for (std::size_t i = 0; i < strokes_.size(); ++i) {
+    at_node_[strokes_[i].from].push_back(i);
+    at_node_[strokes_[i].to].push_back(i);
+  }
+}
+
+// Begins at ends of the axis, which are corners, and where an odd number of strokes meets.
+void VCarvePlanner::order(std::vector<MillRun>& runs) {
+  std::vector<std::size_t> starts;
+  std::vector<DrawnPoint> places;
+  std::vector<bool> is_seen(nodes_);
+  for (std::size_t first = 0; first < nodes_; ++first) {
+    if (is_seen[first] || at_node_[first].empty()) continue;
+    // All that hangs together with this node.
+    std::vector<std::size_t> together = {first};
+    is_seen[first] = true;
+    std::size_t start = first;
+    for (std::size_t k = 0; k < together.size(); ++k) {
+      if (at_node_[together[k]].size() == 1 && at_node_[start].size() != 1) start = together[k];
+      for (const std::size_t i : at_node_[together[k]]) {
+        for (const std::size_t node : {strokes_[i].from, strokes_[i].to}) {
+          if (!is_seen[node]) together.push_back(node);
+          is_seen[node] = true;
+        }
+      }
+    }
+    const Stroke& stroke = strokes_[at_node_[start].front()];
+    starts.push_back(start);
+    places.push_back(stroke.from == start ? stroke.points.front().at : stroke.points.back().at);
+  }
+  constexpr std::uint64_t steps = 2'000'000;
+  for (const std::uint32_t index : shorten_route(places, options_.park, options_.park, steps))
+    cut_from(starts[index], runs);
+}
+
+// The stroke at the node that goes on most nearly straight, and is not cut yet.
+VCarvePlanner::Stroke* VCarvePlanner::next_stroke(std::size_t node, const MillRun& run) {
+  Stroke* best = nullptr;
+  double best_turn = 10;
+  for (const std::size_t i : at_node_[node]) {
+    Stroke& stroke = strokes_[i];
+    if (stroke.is_cut) continue;
+    double turn = 5;
+    if (run.size() > 1) {
+      const bool is_ahead = stroke.from == node;
+      const DrawnPoint a = run[run.size() - 2].at;
+      const DrawnPoint b = run.back().at;
+      const DrawnPoint c = is_ahead ? stroke.points[1].at : stroke.points[stroke.points.size() - 2].at;
+      const double in =
+          std::atan2(static_cast<double>(b.y.count - a.y.count), static_cast<double>(b.x.count - a.x.count));
+      const double out =
+          std::atan2(static_cast<double>(c.y.count - b.y.count), static_cast<double>(c.x.count - b.x.count));
+      turn = std::abs(std::remainder(out - in, 2 * std::numbers::pi));
+    }
+    if (turn < best_turn) {
+      best_turn = turn;
+      best = &stroke;
+    }
+  }
+  return best;
+}
+
+void VCarvePlanner::cut_from(std::size_t start, std::vector<MillRun>& runs) {
+  std::vector<std::size_t> passed = {start};
+  MillRun run;
+  while (!passed.empty()) {
+    Stroke* const stroke = next_stroke(passed.back(), run);
+    if (stroke == nullptr) {
+      // The end of a branch: on at the last place where one is left.
+      if (run.size() > 1) runs.push_back(std::move(run));
+      run.clear();
+      passed.pop_back();
+      continue;
+    }
+    stroke->is_cut = true;
+    const bool is_ahead = stroke->from == passed.back();
+    if (!is_ahead) std::ranges::reverse(stroke->points);
+    for (const MillPoint& point : stroke->points) {
+      if (run.empty() || run.back().at != point.at || run.back().z != point.z) run.push_back(point);
+    }
+    passed.push_back(is_ahead ? stroke->to : stroke->from);
+  }
+}
+
+void VCarvePlanner::go_around_floors(std::vector<MillRun>& runs) {
+  plan_.floor_z = depth_at(most_);
+  // A little beyond, so that a stroke of just this width has no floor.
+  plan_.floor = grown(area_, {-std::llround(most_) - options_.tolerance.count}, options_.tolerance);
+  for (const DrawnRing& ring : plan_.floor.rings) {
+    MillRun run;
+    for (const DrawnPoint& point : ring) run.push_back({point, 0, plan_.floor_z});
+    run.push_back({ring.front(), 0, plan_.floor_z});
+    runs.push_back(std::move(run));
+  }
+}
+
+}  // namespace
+
+VCarvePlan plan_v_carve(const Region& area, const VCarveOptions& options, Diagnostics& diagnostics) {
+  return VCarvePlanner(area, options, diagnostics).plan();
+}
+
+}  // namespace passo
