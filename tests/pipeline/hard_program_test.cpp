@@ -257,15 +257,17 @@ TEST(HardPrograms, of_any_mixture_are_planned_in_a_bounded_number_of_phases) {
 
 // At a creeping feed the limits of jerk matter only where the speed changes, for a moment. Where a speed exceeded its
 // cap by rounding, the cap was lowered so far that its neighbours exceeded theirs. That took six times as long to plan,
-// and the motion took up to 0.3 % more time.
+// and the motion took up to 0.3 % more time. The path is the same for both: the feed holds along the tool's own path,
+// and each law has its own.
 TEST(HardPrograms, creep_as_fast_with_limits_of_jerk) {
   const auto creeping = std::ranges::find(kinds(), std::string("creeping"), &Kind::name);
   ASSERT_NE(creeping, kinds().end());
   const MachineDescription without = machine_with(all_limits[0]);
-  const Planned fastest = plan(program_of(*creeping), without, smoothness(without));
   for (const Limits& limits : all_limits) {
     const MachineDescription machine = machine_with(limits);
-    EXPECT_LT(plan(program_of(*creeping), machine, smoothness(machine)).time, fastest.time * 1.0007) << limits.name;
+    const Planned fastest = plan(program_of(*creeping), without, smoothness(machine));
+    const Planned planned = plan(program_of(*creeping), machine, smoothness(machine));
+    EXPECT_LT(planned.time, fastest.time * 1.0003) << limits.name;
   }
 }
 
