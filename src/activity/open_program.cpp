@@ -40,8 +40,7 @@ std::string_view units_word(std::string_view line) {
 }  // namespace
 
 OpenProgram::OpenProgram(const MachineDescription& machine, InterpreterOptions options, const Point& start)
-    : machine_(machine),
-      options_(std::move(options)),
+    : options_(std::move(options)),
       limits_(motion_limits(machine)),
       path_options_(path_options(machine, "line")),
       answers_(AnswerBook::Answers{}) {

@@ -32,7 +32,7 @@ TEST_F(CamPart, a_bracket_is_cut_out_of_a_sheet) {
   EXPECT_EQ(made.code, 0) << made.err;
   EXPECT_EQ(made.err, "");
   EXPECT_THAT(made.out, HasSubstr("drawn: X 10 to 110, Y 5 to 75 mm\n"));
-  EXPECT_THAT(made.out, HasSubstr("1 outsides and 6 insides, 4 tabs; 0 mm² of the part lost\n"));
+  EXPECT_THAT(made.out, HasSubstr("1 outside and 6 insides, 4 tabs; 0 mm² of the part lost\n"));
   EXPECT_THAT(read(path("b.ngc")), HasSubstr("\nM3 S12000\n"));
   EXPECT_GT(std::filesystem::file_size(path("b.png")), 10'000U);
   expect_cuts_well(path("b.ngc"), "X5:115,Y0:80,Z-6:0");

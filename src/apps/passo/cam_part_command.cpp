@@ -5,6 +5,7 @@
 #include "cam_part.hpp"
 #include <nlohmann/json.hpp>
 
+#include "passo/cam/counted.hpp"
 #include "passo/cam/pocket.hpp"
 #include "passo/cam/profile.hpp"
 
@@ -167,12 +168,12 @@ int cam_profile(const CamProfileArguments& arguments) {
   std::string words = size_words(*part);
   nlohmann::ordered_json json = lengths_json(cut.mill, options.cut.park);
   if (is_on) {
-    words += fmt::format("{} closed and {} open lines\n", cut.outsides, plan.lines);
+    words += fmt::format("{} and {}\n", counted(cut.outsides, "closed line"), counted(plan.lines, "open line"));
     json["closed"] = cut.outsides;
     json["open"] = plan.lines;
   } else {
-    words += fmt::format("{} outsides and {} insides, {} tabs; {:g} mm² of the part lost\n", cut.outsides, cut.openings,
-                         cut.tabs.size(), cut.lost_mm2);
+    words += fmt::format("{} and {}, {}; {:g} mm² of the part lost\n", counted(cut.outsides, "outside"),
+                         counted(cut.openings, "inside"), counted(cut.tabs.size(), "tab"), cut.lost_mm2);
     words += unreached_words(plan.unreached_mm2);
     json["outsides"] = cut.outsides;
     json["insides"] = cut.openings;
@@ -213,10 +214,11 @@ int cam_pocket(const CamPocketArguments& arguments) {
   const PocketPlan plan = plan_pocket(area, options, findings);
   show(findings);
   if (findings.any_error()) return exit_bad_program;
-  const std::string words = size_words(*part) +
-                            fmt::format("{} pockets of {:.4g} mm², {} loops a layer; {:g} mm² of what stays lost\n",
-                                        plan.pockets, area_mm2(area), plan.loops, plan.lost_mm2) +
-                            unreached_words(plan.unreached_mm2) + joined_words(part->loops);
+  const std::string words =
+      size_words(*part) +
+      fmt::format("{} of {:.4g} mm², {} a layer; {:g} mm² of what stays lost\n", counted(plan.pockets, "pocket"),
+                  area_mm2(area), counted(plan.loops, "loop"), plan.lost_mm2) +
+      unreached_words(plan.unreached_mm2) + joined_words(part->loops);
   nlohmann::ordered_json json = lengths_json(plan.mill, options.park);
   json["pockets"] = plan.pockets;
   json["loops"] = plan.loops;

@@ -96,7 +96,6 @@ class OpenProgram final : public Source<PathItem> {
   bool pull_answer(PathItem& item);
   std::optional<Diagnostic> take_back(std::size_t kept, const Point& place);
 
-  const MachineDescription& machine_;
   InterpreterOptions options_;
   MotionLimits limits_;
   PathOptions path_options_;
