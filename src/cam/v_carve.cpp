@@ -38,7 +38,8 @@ class VCarvePlanner {
     nodes_ = axis->nodes;
     for (const MedialPiece& piece : axis->pieces) clip(piece);
     link();
-    MillTool tool{options_.widest, options_.words, {}};
+    // Beside its tip the cutter mills as wide as it is deep there: the drawing itself.
+    MillTool tool{options_.tip, options_.words, {}};
     order(tool.runs);
     go_around_floors(tool.runs);
     for (const MillRun& run : tool.runs) {

@@ -77,6 +77,12 @@ Mirror mirror_of(const CamMillArguments& arguments, LengthArguments& lengths) {
           {side_by_side ? (holes[0].x.count + holes[1].x.count) / 2 : (holes[0].y.count + holes[1].y.count) / 2}};
 }
 
+// A program that goes nowhere has the name of its drawing, which its picture shows.
+std::string program_name(const std::string& output, const std::vector<std::string>& files, const char* what) {
+  const std::string& named = output == "/dev/null" && !files.empty() ? files.front() : output;
+  return named.empty() || named == "/dev/null" ? what : std::filesystem::path(named).filename().string();
+}
+
 }  // namespace
 
 MillJob mill_job_of(const CamMillArguments& arguments, const char* command, LengthArguments& lengths,
@@ -86,7 +92,7 @@ MillJob mill_job_of(const CamMillArguments& arguments, const char* command, Leng
   job.reading.svg = {.scale = arguments.scale.value_or(1), .layers = arguments.layers};
   job.mirror = mirror_of(arguments, lengths);
   MillProgramOptions& program = job.program;
-  program.name = arguments.output.empty() ? what : std::filesystem::path(arguments.output).filename().string();
+  program.name = program_name(arguments.output, arguments.files, what);
   program.command = command;
   for (const std::string& file : arguments.files) {
     program.files.push_back(std::filesystem::path(file).filename().string());

@@ -19,7 +19,7 @@ struct MillPoint {
 using MillRun = std::vector<MillPoint>;  // two points or more
 
 struct MillTool {
-  Nanometres width = {};           // that it mills at the face of the board
+  Nanometres width = {};           // that it mills at the face of the board; where its depth changes, its tip
   std::string words = {};          // for the operator: "cutter 1 mm"
   std::vector<MillRun> runs = {};  // in the order in which they are made
 };
