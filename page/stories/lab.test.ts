@@ -18,6 +18,7 @@ const query = (page: Page): URLSearchParams => new URLSearchParams(page.url().sp
 const judgement = async (page: Page): Promise<string> => (await page.locator('.lab-judgement').innerText()).replace(/\s+/g, ' ');
 
 async function drag(page: Page, what: string, right: number, down: number): Promise<void> {
+  await page.locator(what).scrollIntoViewIfNeeded();
   const box = await page.locator(what).boundingBox();
   if (box === null) throw new Error(`${what} is not seen`);
   const [x, y] = [box.x + box.width / 2, box.y + box.height / 2];
