@@ -113,13 +113,13 @@ describe('a program on its way', () => {
     const other = await visit(browser, daemon, 'jog');
     await takeOver(one.page);
     await one.page.getByRole('radio', { name: '1', exact: true }).check();
-    const from = (await daemon.status()).place.x;
+    const from = (await daemon.status()).place.x ?? NaN;
     await click(one.page, 'Jog X+');
     await other.page.locator('.owner').waitFor();
     const pad = other.page.getByRole('button', { name: 'Jog X+', exact: true });
     expect(await pad.getAttribute('aria-disabled')).toBe('true');
     expect(await pad.getAttribute('title')).toContain('Somebody else');
-    const before = (await daemon.until((status) => status.state === 'Idle' && Math.abs(status.place.x - from - 1) < 0.01)).place;
+    const before = (await daemon.until((status) => status.state === 'Idle' && Math.abs((status.place.x ?? NaN) - from - 1) < 0.01)).place;
     await pad.click({ force: true });
     await sleep(300);
     expect((await daemon.status()).place).toEqual(before);
