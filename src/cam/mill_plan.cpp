@@ -2,8 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <set>
-#include <utility>
 
 #include "passo/cam/bulge.hpp"
 
@@ -38,22 +36,6 @@ std::vector<DrawnPoint> chords_of(const MillRun& run, Nanometres tolerance) {
     points.push_back(to);
   }
   return points;
-}
-
-std::vector<DrawnRing> each_once(const std::vector<DrawnRing>& ways) {
-  std::set<std::pair<DrawnPoint, DrawnPoint>> known;
-  std::vector<DrawnRing> once;
-  for (const DrawnRing& way : ways) {
-    bool goes_on = false;
-    if (way.size() == 1) once.push_back(way);
-    for (std::size_t i = 0; i + 1 < way.size(); ++i) {
-      const bool is_new = known.emplace(std::min(way[i], way[i + 1]), std::max(way[i], way[i + 1])).second;
-      if (is_new && !goes_on) once.push_back({way[i]});
-      if (is_new) once.back().push_back(way[i + 1]);
-      goes_on = is_new;
-    }
-  }
-  return once;
 }
 
 }  // namespace passo

@@ -40,7 +40,4 @@ MillLengths lengths_of(const MillTool& tool, DrawnPoint park);
 // The middle of the cutter on its way, as chords within the tolerance.
 std::vector<DrawnPoint> chords_of(const MillRun& run, Nanometres tolerance);
 
-// The stretches of the ways, each of them once, whichever way it goes: what they sweep is the same.
-std::vector<DrawnRing> each_once(const std::vector<DrawnRing>& ways);
-
 }  // namespace passo
