@@ -9,15 +9,18 @@ Drawing read_drawing(const std::string& path, const DrawingFileOptions& options,
   Drawing nothing;
   nothing.file = path;
   const std::optional<std::string> bytes =
-      read_bytes(path, {.area = "drawing", .expected = "a DXF file, a drill file or a board of KiCad"}, diagnostics);
+      read_bytes(path, {.area = "drawing", .expected = "a drawing (DXF, SVG, HPGL), a drill file or a board of KiCad"},
+                 diagnostics);
   if (!bytes) return nothing;
   if (looks_like_dxf(*bytes)) return read_dxf(path, *bytes, options.dxf, diagnostics);
   if (looks_like_svg(*bytes)) return read_svg(path, *bytes, options.svg, diagnostics);
+  if (looks_like_hpgl(*bytes)) return read_hpgl(path, *bytes, options.hpgl, diagnostics);
   if (looks_like_kicad_board(*bytes)) return read_kicad_board(path, *bytes, diagnostics).drills;
   if (looks_like_excellon(*bytes)) return read_excellon(path, *bytes, options.excellon, diagnostics);
-  diagnostics.add(of_file(
-      "drawing.unknown-kind", path, "this is no DXF or SVG drawing, no drill file, and no board of KiCad",
-      "a file that begins with SECTION (DXF), <svg, (kicad_pcb, or with M48, METRIC, INCH or tools (Excellon)"));
+  diagnostics.add(of_file("drawing.unknown-kind", path,
+                          "this is no DXF or SVG drawing, no HPGL plot, no drill file, and no board of KiCad",
+                          "a file that begins with SECTION (DXF), <svg, IN; (HPGL), (kicad_pcb, or with M48, METRIC, "
+                          "INCH or tools (Excellon)"));
   return nothing;
 }
 

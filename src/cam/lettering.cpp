@@ -8,6 +8,7 @@
 
 #include "curve_chords.hpp"
 #include "drawing_builder.hpp"
+#include "letter_line.hpp"
 #include <fmt/format.h>
 #include <ft2build.h>
 #include FT_FREETYPE_H
@@ -19,11 +20,6 @@
 
 namespace passo {
 namespace {
-
-struct LetterSpot {
-  double x = 0;
-  double y = 0;
-};
 
 template <class T, void (*destroy)(T*)>
 struct HarfBuzzEnd {
@@ -44,12 +40,7 @@ class Letterer {
 
   Drawing letter(std::string_view font) {
     if (open(font)) {
-      std::string_view rest = lettering_.text;
-      for (int line = 0; !rest.empty(); ++line) {
-        const std::string_view words = rest.substr(0, rest.find('\n'));
-        rest.remove_prefix(std::min(rest.size(), words.size() + 1));
-        write(words, -line * lettering_.line_space * lettering_.height.value());
-      }
+      for_letter_lines(lettering_, [&](std::string_view words, double base_line) { write(words, base_line); });
     }
     return builder_.take();
   }
@@ -60,8 +51,6 @@ class Letterer {
   double capital_height() const;
   void write(std::string_view words, double base_line);
   void draw(std::uint32_t glyph, double x, double y, double middle);
-  // Where a place of the line lies, whose letter has its middle there.
-  LetterSpot placed(double x, double y) const;
   void put(double x, double y);
   void end_contour();
   static int move_to(const FT_Vector* to, void* self);
@@ -78,11 +67,11 @@ class Letterer {
   std::unique_ptr<FT_FaceRec_, FreeTypeEnd> face_;
   HarfBuzzThing<hb_font_t, hb_font_destroy> shaper_;
   double scale_ = 1;  // mm of a unit of the font
-  // Of the letter that is drawn: its place in the line, its middle, and the line's length, mm.
+  // Of the letter that is drawn: its line, its place in the line, and its middle, mm.
+  LetterLine line_;
   double at_x_ = 0;
   double at_y_ = 0;
   double middle_ = 0;
-  double length_ = 0;
   LetterSpot pen_;
   DrawnPath contour_;
 };
@@ -99,7 +88,8 @@ bool Letterer::open(std::string_view font) {
   library_.reset(library);
   const auto* const bytes = reinterpret_cast<const FT_Byte*>(font.data());
   if (!has_library || FT_New_Memory_Face(library, bytes, static_cast<FT_Long>(font.size()), 0, &face) != 0) {
-    return refuse("engrave.no-font", "this is no font that is read", "a TrueType or OpenType font: .ttf or .otf");
+    return refuse("engrave.no-font", "this is no font that is read",
+                  "a TrueType or OpenType font, or one of single lines: .ttf, .otf, .lff or .jhf");
   }
   face_.reset(face);
   if (!FT_IS_SCALABLE(face) || face->units_per_EM == 0) {
@@ -135,23 +125,27 @@ void Letterer::write(std::string_view words, double base_line) {
   unsigned count = 0;
   const hb_glyph_info_t* const glyphs = hb_buffer_get_glyph_infos(buffer.get(), &count);
   const hb_glyph_position_t* const places = hb_buffer_get_glyph_positions(buffer.get(), &count);
-  length_ = 0;
-  for (unsigned i = 0; i < count; ++i) length_ += places[i].x_advance * scale_;
-  const double share = lettering_.align == LetterAlign::left ? 0 : lettering_.align == LetterAlign::right ? 1 : 0.5;
-  double x = lettering_.around.value() != 0 ? 0 : -share * length_;
+  double length = 0;
+  std::size_t letters = 0;  // marks on letters have no room of their own
+  for (unsigned i = 0; i < count; ++i) {
+    length += places[i].x_advance * scale_;
+    if (places[i].x_advance != 0) ++letters;
+  }
+  line_ = LetterLine(lettering_, length, letters);
+  if (line_.is_too_long()) return refuse_long_line(name_, words, diagnostics_);
+  double x = line_.begin();
   for (unsigned i = 0; i < count; ++i) {
     const double advance = places[i].x_advance * scale_;
     if (glyphs[i].codepoint == 0) {
       const std::size_t from = glyphs[i].cluster;
       std::size_t to = from + 1;
       while (to < words.size() && (static_cast<unsigned char>(words[to]) & 0xC0U) == 0x80U) ++to;
-      refuse("engrave.no-letter", fmt::format("the font has no letter for '{}'", words.substr(from, to - from)),
-             "another --font, or another text");
+      refuse_letter(name_, words.substr(from, to - from), diagnostics_);
     } else {
       draw(glyphs[i].codepoint, x + places[i].x_offset * scale_, base_line + places[i].y_offset * scale_,
            x + advance / 2);
     }
-    x += advance;
+    x += advance + (places[i].x_advance != 0 ? line_.space() : 0);
   }
 }
 
@@ -169,20 +163,8 @@ void Letterer::draw(std::uint32_t glyph, double x, double y, double middle) {
   end_contour();
 }
 
-LetterSpot Letterer::placed(double x, double y) const {
-  const double radius = lettering_.around.value();
-  if (radius == 0) return {x, y};
-  // The letter stands upright on the circle: it is turned, not bent.
-  const double along = (middle_ - length_ / 2) / radius;
-  const double c = std::cos(along);
-  const double s = std::sin(along);
-  const double off = x - middle_;
-  const double up = y + radius;
-  return {off * c + up * s, up * c - off * s};
-}
-
 void Letterer::put(double x, double y) {
-  const LetterSpot spot = placed(at_x_ + x * scale_, at_y_ + y * scale_);
+  const LetterSpot spot = line_.placed(at_x_ + x * scale_, at_y_ + y * scale_, middle_);
   if (!builder_.has_room_for(1, {}, "")) return;
   if (const auto at = builder_.point(Mm(spot.x), Mm(spot.y), {}, "")) contour_.points.push_back({*at, 0});
 }
@@ -230,7 +212,14 @@ int Letterer::cubic_to(const FT_Vector* first, const FT_Vector* second, const FT
 }  // namespace
 
 Drawing letter(const Lettering& lettering, const std::string& name, std::string_view font, Diagnostics& diagnostics) {
+  if (looks_like_stroke_font(font)) {
+    return letter_strokes(lettering, name, read_stroke_font(name, font, diagnostics), diagnostics);
+  }
   return Letterer(lettering, name, diagnostics).letter(font);
+}
+
+Drawing letter_simplex(const Lettering& lettering, Diagnostics& diagnostics) {
+  return letter_strokes(lettering, "simplex", built_in_stroke_font(), diagnostics);
 }
 
 }  // namespace passo

@@ -134,6 +134,9 @@ struct CamEngraveArguments : CamMillArguments {
   std::string height = "10mm";      // of a capital letter
   std::string text_align = "left";  // middle or right
   std::string around;               // radius; empty: on a line
+  std::string arc;                  // FROM,TO in degrees: that part of the circle; empty: as much as the text needs
+  double turn = 0;                  // degrees
+  bool on_line = false;             // the cutter follows the lines of the drawing
   double line_space = 1.6;
   double angle = 60;  // degrees, of the V-shaped cutter
   std::string tip = "0mm";

@@ -1,12 +1,15 @@
 // passo cam engrave: a program that carves texts and drawings with a V-shaped cutter.
 #include <algorithm>
+#include <charconv>
 #include <cmath>
+#include <numbers>
 
 #include "cam_part.hpp"
 #include <nlohmann/json.hpp>
 
 #include "passo/cam/lettering.hpp"
 #include "passo/cam/pocket.hpp"
+#include "passo/cam/profile.hpp"
 #include "passo/cam/v_carve.hpp"
 #include "passo/diagnostics/file_bytes.hpp"
 
@@ -17,8 +20,25 @@ struct EngraveJob {
   VCarveOptions carving;
   PocketOptions clearing;  // of floors
   bool clears = false;
+  bool is_on_line = false;  // letters of single lines, or --on-line
   Lettering lettering;
 };
+
+// --arc FROM,TO: degrees, which have no unit.
+std::optional<LetterArc> arc_of(const CamEngraveArguments& arguments, LengthArguments& lengths) {
+  LetterArc arc;
+  const char* const text = arguments.arc.data();
+  const char* const end = text + arguments.arc.size();
+  const auto from = std::from_chars(text, end, arc.from);
+  const bool has_two = from.ec == std::errc() && from.ptr != end && *from.ptr == ',';
+  const auto to = has_two ? std::from_chars(from.ptr + 1, end, arc.to) : from;
+  constexpr double most = 3600;
+  const bool is_good =
+      has_two && to.ec == std::errc() && to.ptr == end && std::abs(arc.from) <= most && std::abs(arc.to) <= most;
+  if (!is_good) lengths.refuse(fmt::format("--arc: expected FROM,TO in degrees, as 150,30, found '{}'", arguments.arc));
+  if (arguments.around.empty()) lengths.refuse("--arc: expected --around R, too, the radius of the arc");
+  return arc;
+}
 
 Lettering lettering_of(const CamEngraveArguments& arguments, LengthArguments& lengths) {
   Lettering lettering;
@@ -33,6 +53,8 @@ Lettering lettering_of(const CamEngraveArguments& arguments, LengthArguments& le
                                                       : LetterAlign::left;
   if (!arguments.around.empty()) lettering.around = to_mm(lengths.any("--around", arguments.around));
   lettering.line_space = arguments.line_space;
+  lettering.turn_degrees = arguments.turn;
+  if (!arguments.arc.empty()) lettering.arc = arc_of(arguments, lengths);
   return lettering;
 }
 
@@ -53,24 +75,60 @@ EngraveJob engrave_job_of(const CamEngraveArguments& arguments, const MillJob& j
   if (engrave.clears) {
     engrave.clearing.cutter = lengths.above_0("--clear", arguments.clear);
     engrave.clearing.words = fmt::format("flat cutter {:.4g} mm", to_mm(engrave.clearing.cutter).value());
-    engrave.clearing.step = lengths.above_0("--clear-step", arguments.clear_step);
     engrave.clearing.climb = !arguments.conventional;
     engrave.clearing.park = job.program.park;
   }
+  engrave.clearing.step = lengths.above_0("--clear-step", arguments.clear_step);
+  engrave.is_on_line = arguments.on_line;
   engrave.lettering = lettering_of(arguments, lengths);
   return engrave;
 }
 
-std::optional<Drawing> drawing_of(const CamEngraveArguments& arguments, const MillJob& job,
-                                  const Lettering& lettering) {
+// The letters or the files as a drawing. Letters of single lines are followed, not carved.
+std::optional<Drawing> drawing_of(const CamEngraveArguments& arguments, const MillJob& job, EngraveJob& engrave) {
   if (arguments.text.empty()) return read_drawings(arguments, job);
   Diagnostics findings;
-  const auto font = read_bytes(arguments.font, {.area = "engrave", .expected = "--font FILE: a font"}, findings);
   Drawing drawing;
-  if (font) drawing = letter(lettering, arguments.font, *font, findings);
+  if (arguments.font == "simplex") {
+    engrave.is_on_line = true;
+    drawing = letter_simplex(engrave.lettering, findings);
+  } else {
+    const auto font = read_bytes(arguments.font, {.area = "engrave", .expected = "--font FILE: a font"}, findings);
+    if (font) {
+      engrave.is_on_line |= looks_like_stroke_font(*font);
+      drawing = letter(engrave.lettering, arguments.font, *font, findings);
+    }
+  }
   show(findings);
   if (findings.any_error()) return std::nullopt;
   return drawing;
+}
+
+// The tip of the cutter on the lines.
+int engrave_lines(const CamEngraveArguments& arguments, const MillJob& job, const EngraveJob& engrave,
+                  const PartDrawing& part) {
+  const VCarveOptions& carving = engrave.carving;
+  ProfileOptions options{.side = ProfileSide::on};
+  constexpr Nanometres usual_depth{-300'000};
+  options.cut.depth = carving.deepest.count < 0 ? carving.deepest : usual_depth;
+  options.cut.step = engrave.clearing.step;
+  options.cut.words = carving.words;
+  options.cut.park = job.program.park;
+  const double slope = std::tan(carving.angle_degrees / 360 * std::numbers::pi);
+  const auto flanks = std::llround(-2 * slope * static_cast<double>(options.cut.depth.count));
+  options.cut.cutter = std::min(carving.widest, Nanometres{carving.tip.count + flanks});
+  Diagnostics findings;
+  const ProfilePlan plan = plan_profile(part.loops.loops, part.loops.open, options, findings);
+  show(findings);
+  if (findings.any_error()) return exit_bad_program;
+  const double width = to_mm(options.cut.cutter).value();
+  const double depth = -to_mm(options.cut.depth).value();
+  const std::string words = size_words(part) + fmt::format("{} and {}, {:.4g} mm deep, {:.4g} mm wide\n",
+                                                           counted(plan.outline.outsides, "closed line"),
+                                                           counted(plan.lines, "open line"), depth, width);
+  const nlohmann::ordered_json json = {
+      {"closed", plan.outline.outsides}, {"open", plan.lines}, {"deepest_mm", depth}, {"width_mm", width}};
+  return deliver(arguments, job, {plan.outline.mill, plan.face, plan.unreached, {}, words, json.dump(2)});
 }
 
 }  // namespace
@@ -87,10 +145,15 @@ int cam_engrave(const CamEngraveArguments& arguments) {
   const Nanometres join = lengths.any("--join", arguments.join);
   if (!lengths.message().empty()) return fail(exit_bad_program, lengths.message());
 
-  std::optional<Drawing> drawing = drawing_of(arguments, job, engrave.lettering);
+  std::optional<Drawing> drawing = drawing_of(arguments, job, engrave);
   if (!drawing) return exit_bad_program;
-  const std::optional<PartDrawing> part = part_of(std::move(*drawing), job, join, OpenRows::refused);
+  if (engrave.is_on_line && engrave.clears) {
+    return fail(exit_bad_program, "--clear is for areas: a cutter that follows lines clears none");
+  }
+  const std::optional<PartDrawing> part =
+      part_of(std::move(*drawing), job, join, engrave.is_on_line ? OpenRows::kept : OpenRows::refused);
   if (!part) return exit_bad_program;
+  if (engrave.is_on_line) return engrave_lines(arguments, job, engrave, *part);
   const Region area = enclosed_by(part->loops.loops);
   Diagnostics findings;
   VCarvePlan plan = plan_v_carve(area, engrave.carving, findings);

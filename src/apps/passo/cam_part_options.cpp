@@ -32,6 +32,9 @@ constexpr const char* engrave_examples =
     R"(Examples:
   passo cam engrave --text "Passo" --height 20 --angle 60 -o name.ngc          depth follows the width of the strokes
   passo cam engrave --text "LICEO 1923" --font Serif.otf --around 60 -o plate.ngc     on a circle of 60 mm radius
+  passo cam engrave --text "No. 7" --font simplex --depth -0.2 -o no7.ngc      letters of single lines, on the line
+  passo cam engrave --text "NORTH" --around 60 --arc 150,30 -o dial.ngc        spread from 150 to 30 degrees
+  passo cam engrave plot.hpgl --on-line --depth -0.2 -o plot.ngc               what a pen plotter would draw
   passo cam engrave logo.svg --angle 90 --tool 6 --depth -2 --clear 2 -p logo.png -o logo.ngc
                                                            wide areas get a flat floor by a cutter of 2 mm first
 
@@ -42,7 +45,7 @@ constexpr const char* engrave_examples =
 void add_profile_command(CLI::App& cam, CamArguments& all) {
   CamProfileArguments& arguments = all.profile;
   CLI::App& profile = *cam.add_subcommand("profile", "cut along the lines of a drawing: around parts, or on the line");
-  profile.add_option("FILE", arguments.files, "drawings: SVG or DXF")->required();
+  profile.add_option("FILE", arguments.files, "drawings: SVG, DXF or HPGL")->required();
   profile
       .add_option("--side", arguments.side,
                   "part: outside of what is drawn, inside in its holes; outside, inside: of each loop; on: the line")
@@ -60,7 +63,7 @@ void add_profile_command(CLI::App& cam, CamArguments& all) {
 void add_pocket_command(CLI::App& cam, CamArguments& all) {
   CamPocketArguments& arguments = all.pocket;
   CLI::App& pocket = *cam.add_subcommand("pocket", "clear what the closed lines of a drawing enclose");
-  pocket.add_option("FILE", arguments.files, "drawings: SVG or DXF")->required();
+  pocket.add_option("FILE", arguments.files, "drawings: SVG, DXF or HPGL")->required();
   pocket.add_option("--tool", arguments.tool, "diameter of the cutter")->capture_default_str();
   pocket.add_option("--depth", arguments.depth, "of the pocket, below 0")->capture_default_str();
   pocket.add_option("--step", arguments.step, "how deep a layer is, at most")->capture_default_str();
@@ -83,15 +86,25 @@ void add_pocket_command(CLI::App& cam, CamArguments& all) {
 void add_engrave_command(CLI::App& cam, CamArguments& all) {
   CamEngraveArguments& arguments = all.engrave;
   CLI::App& engrave = *cam.add_subcommand("engrave", "carve texts and drawings with a V-shaped cutter");
-  engrave.add_option("FILE", arguments.files, "drawings: SVG or DXF; what closed lines enclose is carved");
+  engrave.add_option("FILE", arguments.files, "drawings: SVG, DXF or HPGL; what closed lines enclose is carved");
   engrave.add_option("--text", arguments.text, "letters instead of a drawing");
-  engrave.add_option("--font", arguments.font, "TrueType or OpenType font")->capture_default_str();
+  engrave
+      .add_option(
+          "--font", arguments.font,
+          "font of outlines (.ttf, .otf) or of single lines (.lff, .jhf), or simplex: such a one that is built in")
+      ->capture_default_str();
   engrave.add_option("--height", arguments.height, "of a capital letter")->capture_default_str();
   engrave.add_option("--text-align", arguments.text_align, "where X0 is in a line of text: left, middle or right")
       ->check(CLI::IsMember({"left", "middle", "right"}))
       ->capture_default_str();
   engrave.add_option("--around", arguments.around,
                      "the text stands on a circle of this radius about X0 Y0; below 0 inside, at the bottom");
+  engrave.add_option("--arc", arguments.arc,
+                     "FROM,TO: spread the text on this part of the circle, in degrees from X on, counterclockwise");
+  engrave.add_option("--turn", arguments.turn, "the whole text about X0 Y0, degrees counterclockwise")
+      ->check(number_range(-3600.0, 3600.0))
+      ->capture_default_str();
+  engrave.add_flag("--on-line", arguments.on_line, "follow the lines of the drawing, open ones too, --depth deep");
   engrave.add_option("--line-space", arguments.line_space, "from line to line, in heights")
       ->check(number_range(0.1, 100.0))
       ->capture_default_str();
@@ -100,7 +113,8 @@ void add_engrave_command(CLI::App& cam, CamArguments& all) {
       ->capture_default_str();
   engrave.add_option("--tip", arguments.tip, "width of its tip")->capture_default_str();
   engrave.add_option("--tool", arguments.tool, "its diameter, the widest that it carves")->capture_default_str();
-  engrave.add_option("--depth", arguments.depth, "the deepest, below 0; without it as the cutter's width allows");
+  engrave.add_option("--depth", arguments.depth,
+                     "the deepest, below 0; without it as the cutter's width allows, on lines -0.3mm");
   engrave.add_option("--clear", arguments.clear, "diameter of a flat cutter that clears what is wider, before");
   engrave.add_option("--clear-step", arguments.clear_step, "how deep a layer of it is, at most")->capture_default_str();
   engrave.add_option("--join", arguments.join, "ends of lines that are no farther apart are joined")

@@ -1,10 +1,10 @@
 // Any bytes as a DXF drawing and as a drill file: they are refused with places inside their lines, or the drawing is
 // within its limits; of small drawings the plan holds every hole, and the program has no number that is not finite.
-#include <cmath>
 #include <cstdint>
 #include <string>
 #include <string_view>
 
+#include "drawing_checks.hpp"
 #include "layer_checks.hpp"
 
 #include "passo/cam/drill_plan.hpp"
@@ -15,29 +15,9 @@
 namespace passo {
 namespace {
 
+using test::check_drawing;
 using test::check_findings;
 using test::require;
-
-void check_place(DrawnPoint at) {
-  require(std::abs(at.x.count) <= farthest_drawn.count && std::abs(at.y.count) <= farthest_drawn.count, "too far");
-}
-
-void check_drawing(const Drawing& drawing) {
-  std::size_t points = drawing.holes.size();
-  for (const DrawnHole& hole : drawing.holes) {
-    check_place(hole.at);
-    require(hole.diameter.count >= 0 && hole.layer < drawing.layers.size(), "a wrong hole");
-  }
-  for (const DrawnPath& path : drawing.paths) {
-    require(path.points.size() >= 2 && path.layer < drawing.layers.size(), "a wrong path");
-    points += path.points.size();
-    for (const PathPoint& point : path.points) {
-      check_place(point.at);
-      require(std::isfinite(point.bulge), "a bulge that is not finite");
-    }
-  }
-  require(points <= most_drawn, "too many points");
-}
 
 void check_plan(const Drawing& drawing) {
   constexpr std::size_t few = 2000;

@@ -7,6 +7,7 @@
 
 #include "passo/cam/dxf.hpp"
 #include "passo/cam/excellon.hpp"
+#include "passo/cam/hpgl.hpp"
 #include "passo/cam/svg.hpp"
 
 namespace passo {
@@ -15,10 +16,12 @@ struct DrawingFileOptions {
   DxfOptions dxf = {};  // its layers choose those of a KiCad board, too
   ExcellonOptions excellon = {};
   SvgOptions svg = {};
+  HpglOptions hpgl = {};
   bool is_edge = false;  // of a KiCad board: the edge is wanted, if no layer is chosen
 };
 
-// Of a KiCad board: its holes. Errors are in `diagnostics`: "drawing.…", "dxf.…", "svg.…", "excellon.…" and "kicad.…".
+// Of a KiCad board: its holes. Errors are in `diagnostics`: "drawing.…", "dxf.…", "svg.…", "hpgl.…", "excellon.…" and
+// "kicad.…".
 Drawing read_drawing(const std::string& path, const DrawingFileOptions& options, Diagnostics& diagnostics);
 
 }  // namespace passo
