@@ -15,7 +15,7 @@ constexpr double units_of_cm = 400;
 // What moves no pen: speed, force, widths of pens, fills, questions to the plotter.
 constexpr std::string_view silent_orders =
     "VS FS AS AP AF AH PG RP NR PW WU PT FT PC NP CR MC MG PP TR LA UL SB RF TD CF PS SV KY GC GM GP EC EN ES IM IR "
-    "OA OC OD OE OF OG OH OI OK OL OO OP OS OT OW BF BP HF RO ST QL ";
+    "OA OC OD OE OF OG OH OI OK OL OO OP OS OT OW BP QL IW CS CA SS SA SD AD FI FN ";
 
 }  // namespace
 
@@ -77,7 +77,7 @@ Drawing HpglPlotter::plot() {
   }
   pen_.end_path();
   DrawingBuilder& builder = pen_.builder();
-  for (const auto& [what, count] : left_out_) builder.note(fmt::format("left out: {} of {}", what, count));
+  for (const auto& [what, count] : left_out_) builder.note(fmt::format("left out: {} {}", count, what));
   if (!pen_.has_drawn() && !diagnostics_.any_error()) {
     diagnostics_.add({.code = "hpgl.no-drawing",
                       .file = name_,
@@ -105,6 +105,13 @@ void HpglPlotter::refuse(std::size_t place, std::string code, std::string messag
                                                           start, std::min(text_.find('\n', start) - start, longest)))});
 }
 
+bool HpglPlotter::knows(const HpglCommand& command) {
+  constexpr std::string_view with_text = "LB BL WD PB DT SM CO PE ";
+  const std::string name = std::string(command.name()) + ' ';
+  return std::ranges::any_of(orders, [&](const Order& order) { return command.is(order.name); }) ||
+         with_text.find(name) != std::string_view::npos || silent_orders.find(name) != std::string_view::npos;
+}
+
 // False: the plot cannot be followed any further.
 bool HpglPlotter::carry_out(const HpglCommand& command) {
   if (carry_out_text(command)) return !diagnostics_.any_error();
@@ -112,10 +119,7 @@ bool HpglPlotter::carry_out(const HpglCommand& command) {
   if (order == orders.end()) {
     if (command.is("IW")) leave_out("clipping windows");
     if (command.is("CS") || command.is("CA") || command.is("SD") || command.is("AD")) leave_out("choices of letters");
-    const bool is_known =
-        std::string("IW CS CA SS SA SD AD FI FN ").find(std::string(command.name()) + ' ') != std::string::npos ||
-        silent_orders.find(std::string(command.name()) + ' ') != std::string_view::npos;
-    if (!is_known) leave_out(fmt::format("commands {}, which are not known", command.name()));
+    if (!knows(command)) leave_out(fmt::format("commands {}, which are not known", command.name()));
     words_.skip_to_end_of_command();
     return true;
   }
@@ -324,15 +328,18 @@ bool looks_like_hpgl(std::string_view text) {
     return true;
   if (text.starts_with("INCH")) return false;  // a drill file
   HpglWords words(text);
-  const std::optional<HpglCommand> first = words.command();
-  if (!first) return false;
-  // Words of other files begin with two letters, too; after these comes a number, an end or the next command.
-  constexpr std::string_view begins = "IN DF SP PU PD PA IP SC RO LT VS PG PW BP CO ";
-  if (begins.find(std::string(first->name()) + ' ') == std::string_view::npos) return false;
-  if (first->is("BP") || first->is("CO")) return true;
-  if (!words.numbers()) return false;
-  const std::optional<HpglCommand> second = words.command();
-  return second ? words.place() > second->place : words.at_end();
+  // Words begin with two letters, too. Of a plot, known commands lead to a number or to a ';'.
+  constexpr int most_looked_at = 8;
+  for (int i = 0; i < most_looked_at; ++i) {
+    const std::optional<HpglCommand> command = words.command();
+    if (!command || !HpglPlotter::knows(*command)) return false;
+    const std::size_t behind = words.place();
+    if (command->is("CO") || command->is("DT") || command->is("LB")) return i > 0;
+    if (!words.numbers()) return false;
+    const std::string_view taken = text.substr(behind, words.place() - behind);
+    if (taken.find_first_of("0123456789;") != std::string_view::npos) return true;
+  }
+  return false;
 }
 
 }  // namespace passo

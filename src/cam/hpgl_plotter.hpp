@@ -25,6 +25,7 @@ class HpglPlotter {
   }
 
   Drawing plot();
+  static bool knows(const HpglCommand& command);
 
  private:
   using Numbers = std::vector<double>;

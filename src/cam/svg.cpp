@@ -162,7 +162,7 @@ Drawing SvgExpansion::expand() {
   }
   if (const auto own = svg_transform(root.attribute("transform"))) place.transform = place.transform.after(*own);
   add_children(root, place);
-  for (const auto& [what, count] : left_out_) builder_.note(fmt::format("left out: {} of {}", what, count));
+  for (const auto& [what, count] : left_out_) builder_.note(fmt::format("left out: {} {}", count, what));
   for (const std::string& layer : options_.layers) {
     if (std::ranges::find(builder_.drawing().layers, layer) == builder_.drawing().layers.end()) {
       builder_.note(fmt::format("there is no layer '{}'", layer));

@@ -23,13 +23,18 @@ class VCarvePlanner {
       : area_(area), options_(options), diagnostics_(diagnostics) {
     slope_ = std::tan(options.angle_degrees / 360 * std::numbers::pi);
     least_ = static_cast<double>(options.tip.count) / 2;
-    most_ = static_cast<double>(options.widest.count) / 2;
+    // At the face the cutter is wider than where the lines lie.
+    most_ = static_cast<double>(options.widest.count) / 2 + static_cast<double>(options.start.count) * slope_;
     if (options.deepest.count < 0) {
       most_ = std::min(most_, least_ - static_cast<double>(options.deepest.count) * slope_);
     }
   }
 
   VCarvePlan plan() {
+    if (most_ <= least_) {
+      refuse_cutter();
+      return {};
+    }
     const auto axis = medial_axis(area_, least_turn_of_corners, static_cast<double>(options_.tolerance.count));
     if (area_.empty() || !axis) {
       refuse(area_.empty() ? "there is no closed line in these files" : "the drawing is wider than 4 m");
@@ -73,8 +78,17 @@ class VCarvePlanner {
                       .expected = "loops: what they enclose is carved",
                       .text = ""});
   }
+  void refuse_cutter() {
+    diagnostics_.add(
+        {.code = "engrave.narrow-cutter",
+         .file = "",
+         .place = {},
+         .message = fmt::format("the cutter is too narrow to begin {:.4g} mm deep", -to_mm(options_.start).value()),
+         .expected = "a wider --tool, a smaller --angle or less depth",
+         .text = ""});
+  }
   Nanometres depth_at(double clearance) const {
-    return {-std::llround((std::clamp(clearance, least_, most_) - least_) / slope_)};
+    return {options_.start.count - std::llround((std::clamp(clearance, least_, most_) - least_) / slope_)};
   }
   void clip(const MedialPiece& piece);
   void link();

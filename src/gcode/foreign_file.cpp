@@ -11,11 +11,13 @@ constexpr std::string_view of_holes = "G-code, which passo cam drill makes of th
 constexpr std::string_view of_lines = "G-code, which passo cam profile or passo cam pocket makes of the drawing";
 constexpr std::string_view of_drawn_holes =
     "G-code, which passo cam profile or pocket makes of the drawing, or passo cam drill of its holes";
+constexpr std::string_view of_plot = "G-code, which passo cam engrave --on-line or passo cam profile makes of the plot";
 constexpr std::string_view of_picture = "G-code, which an engraving program makes of the picture";
 constexpr std::string_view of_png = "G-code, which passo cam relief makes of the picture";
 constexpr std::string_view of_stl = "G-code, which passo cam relief makes of the model, or a CAM program";
 constexpr std::string_view of_model = "G-code, which a CAM program makes of the model";
 constexpr std::string_view of_circuit = "G-code, which passo cam isolate or passo cam outline makes of the layer";
+constexpr std::string_view of_board = "G-code, which passo cam board makes of the board";
 constexpr std::string_view of_archive = "the program itself, unpacked";
 constexpr std::string_view of_program = "G-code, which is text";
 
@@ -27,9 +29,10 @@ constexpr ForeignFile bmp{"a BMP picture", of_picture};
 constexpr ForeignFile svg{"an SVG drawing", of_lines};
 constexpr ForeignFile dxf{"a DXF drawing", of_drawn_holes};
 constexpr ForeignFile dwg{"a DWG drawing", of_drawing};
-constexpr ForeignFile hpgl{"an HPGL plot", of_drawing};
+constexpr ForeignFile hpgl{"an HPGL plot", of_plot};
 constexpr ForeignFile pdf{"a PDF document", of_drawing};
 constexpr ForeignFile gerber{"a Gerber file", of_circuit};
+constexpr ForeignFile kicad{"a KiCad board", of_board};
 constexpr ForeignFile excellon{"an Excellon drill file", of_holes};
 constexpr ForeignFile stl{"an STL model", of_stl};
 constexpr ForeignFile step{"a STEP model", of_model};
@@ -95,7 +98,9 @@ ForeignFile by_mark(std::string_view first) {
 
 bool is_hpgl(std::string_view line, const std::string& ending) {
   const bool is_named = ending == "plt" || ending == "hpgl" || ending == "hpg";
-  if (line.starts_with("IN;") || line.starts_with("DF;")) return true;
+  for (const std::string_view begin : {"IN;", "DF;", "IN;SP", "PU;", "SP1;"}) {
+    if (line.starts_with(begin)) return true;
+  }
   // Two letters begin each command. No word of G-code has two.
   return is_named && line.size() >= 2 && std::isupper(static_cast<unsigned char>(line[0])) != 0 &&
          std::isupper(static_cast<unsigned char>(line[1])) != 0;
@@ -124,6 +129,7 @@ ForeignFile by_text(std::string_view first, const std::string& ending) {
     if (first.find("<svg") != std::string_view::npos || ending == "svg") return svg;
     return line.starts_with("<?xml") || line.starts_with("<!") ? xml : ForeignFile{};
   }
+  if (line.starts_with("(kicad_pcb")) return kicad;
   if (is_gerber(line)) return gerber;
   if (line.starts_with("solid") && (first.find("facet") != std::string_view::npos || ending == "stl")) return stl;
   if (is_hpgl(line, ending)) return hpgl;

@@ -77,6 +77,49 @@ TEST_F(CamPart, letters_are_carved_and_a_machine_can_run_it) {
   EXPECT_THAT(passo("cam engrave --text A --tip 7").err, HasSubstr("--tip: expected a width"));
 }
 
+TEST_F(CamPart, lines_of_letters_and_plots_are_followed) {
+  const Outcome letters = passo("cam engrave --text 'No 7' --font simplex --depth -0.2 -o " + path("l.ngc"));
+  EXPECT_EQ(letters.code, 0) << letters.err;
+  EXPECT_THAT(letters.out, HasSubstr("0.2 mm deep, 0.2309 mm wide\n"));
+  EXPECT_THAT(passo("check " + path("l.ngc") + router).out, HasSubstr("no errors"));
+  const std::string plot = write("p.plt", "IN;SP1;PU400,400;PD800,400;");
+  const Outcome lines = passo("cam engrave " + plot + " --on-line --depth -0.5 --spindle 0");
+  EXPECT_EQ(lines.code, 0) << lines.err;
+  EXPECT_THAT(lines.out, HasSubstr("G0 X10 Y10\nG0 Z0.5\nF60\nG1 Z-0.5\nF200\nG1 X20 Y10\nG0 Z2\n"));
+  EXPECT_THAT(passo("cam engrave --text A --arc 90,0").err, HasSubstr("--arc: expected --around R"));
+  EXPECT_THAT(passo("cam engrave --text A --arc 90 --around 9").err, HasSubstr("--arc: expected FROM,TO"));
+}
+
+TEST_F(CamPart, an_inlay_has_a_pocket_and_a_mirrored_plug) {
+  const std::string svg =
+      write("l.svg", "<svg width='40mm' height='40mm' viewBox='0 0 40 40'><path d='M5 5H15V25H35V35H5z'/></svg>");
+  const std::string both = "cam engrave " + svg + " --tool 8 --clear 2 --inlay ";
+  EXPECT_EQ(passo(both + "pocket -o " + path("pocket.ngc")).code, 0);
+  const Outcome plug = passo(both + "plug -o " + path("plug.ngc"));
+  EXPECT_EQ(plug.code, 0) << plug.err;
+  EXPECT_THAT(plug.out, HasSubstr("drawn: X -35 to -5"));
+  EXPECT_THAT(plug.out, HasSubstr("4.5 mm deep at most"));
+  EXPECT_THAT(passo("check " + path("plug.ngc") + router).out, HasSubstr("no errors"));
+  EXPECT_THAT(passo(both + "plug --tool 4").err, HasSubstr("--tool: expected 5.2 mm or more"));
+}
+
+TEST_F(CamPart, foam_is_cut_by_two_ends_of_a_wire) {
+  const std::string foam = source + "/examples/foam";
+  const std::string wing = "cam wire " + foam + "/naca2412.dat " + foam + "/naca0010.dat --chord 220,140 ";
+  const Outcome made =
+      passo(wing + "--span 900 --width 600 --kerf 1.2 --zero -30,-60 -o " + path("w.ngc") + " -p " + path("w.png"));
+  EXPECT_EQ(made.code, 0) << made.err;
+  EXPECT_THAT(made.out, HasSubstr("right: "));
+  EXPECT_THAT(made.out, HasSubstr("0 mm² of what stays lost"));
+  const std::string foam_cutter = " -m " + source + "/examples/machines/foam.toml";
+  EXPECT_THAT(passo("check " + path("w.ngc") + foam_cutter).out, HasSubstr("no errors"));
+  const Outcome letter = passo("cam wire " + bracket + " --layer pocket --kerf 1");
+  EXPECT_THAT(letter.err, HasSubstr("[wire.several-lines]"));
+  EXPECT_THAT(passo(wing + "--span 900").err, HasSubstr("--width of the block"));
+  EXPECT_THAT(passo("cam wire " + foam + "/naca2412.dat").err, HasSubstr("expected --chord"));
+  EXPECT_THAT(passo(wing + "--span 900 --width 600 --kerf 1@100,2@100").err, HasSubstr("--kerf: expected WIDTH"));
+}
+
 TEST_F(CamPart, what_is_wrong_is_told) {
   const auto refused = [&](const std::string& arguments, const std::string& words) {
     const Outcome outcome = passo("cam " + arguments);

@@ -144,9 +144,34 @@ struct CamEngraveArguments : CamMillArguments {
   std::string depth;  // at most; empty: as the cutter's width allows
   std::string clear;  // diameter of a flat cutter for wide areas; empty: none
   std::string clear_step = "1mm";
+  std::string inlay;                // pocket or plug; empty: neither
+  std::string inlay_depth = "4mm";  // of the pocket
+  std::string glue_gap = "0.5mm";   // below the plug
+  std::string saw_gap = "1mm";      // between the two faces
+  std::string margin = "5mm";       // around the plug
   std::string join = "0.1mm";
 };
 int cam_engrave(const CamEngraveArguments& arguments);
+
+struct CamWireArguments : CamMillArguments {
+  CamWireArguments() { feed = "200mm"; }
+  std::string axes;             // XY or XYUV; empty: as the profiles need
+  std::string keep = "inside";  // outside or line
+  std::string kerf = "1mm";     // or WIDTH@SPEED,...
+  std::string most_feed;        // empty: three times the feed
+  std::string span;
+  std::string width;
+  std::string block_at;  // empty: in the middle
+  std::string chord;     // of airfoils: one, or LEFT,RIGHT
+  std::string right_at = "0,0";
+  double right_turn = 0;  // degrees
+  std::string block;      // X,Y,X,Y; empty: not drawn
+  std::string lead = "10mm";
+  std::string tolerance = "0.01mm";
+  std::string join = "0.1mm";
+  std::optional<std::uint32_t> heat;
+};
+int cam_wire(const CamWireArguments& arguments);
 
 // The three commands at once, on all files of a board.
 struct CamBoardArguments {

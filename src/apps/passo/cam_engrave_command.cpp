@@ -10,6 +10,7 @@
 #include "passo/cam/lettering.hpp"
 #include "passo/cam/pocket.hpp"
 #include "passo/cam/profile.hpp"
+#include "passo/cam/stroke_font.hpp"
 #include "passo/cam/v_carve.hpp"
 #include "passo/diagnostics/file_bytes.hpp"
 
@@ -21,6 +22,8 @@ struct EngraveJob {
   PocketOptions clearing;  // of floors
   bool clears = false;
   bool is_on_line = false;  // letters of single lines, or --on-line
+  bool is_plug = false;     // what is drawn stays, and its surroundings are carved
+  Nanometres margin = {};   // around the plug
   Lettering lettering;
 };
 
@@ -58,6 +61,28 @@ Lettering lettering_of(const CamEngraveArguments& arguments, LengthArguments& le
   return lettering;
 }
 
+// A plug hangs in its pocket with its lines at the other's face: it is carved deeper, by all but the gap for glue.
+void choose_inlay(const CamEngraveArguments& arguments, EngraveJob& engrave, LengthArguments& lengths) {
+  if (arguments.inlay.empty()) return;
+  if (!arguments.depth.empty()) lengths.refuse("--inlay: expected --inlay-depth, not --depth");
+  VCarveOptions& carving = engrave.carving;
+  const Nanometres depth = lengths.above_0("--inlay-depth", arguments.inlay_depth);
+  const Nanometres glue = lengths.any("--glue-gap", arguments.glue_gap);
+  const Nanometres saw = lengths.above_0("--saw-gap", arguments.saw_gap);
+  if (glue.count < 0 || glue >= depth) lengths.refuse("--glue-gap: expected 0 or more, and less than --inlay-depth");
+  engrave.is_plug = arguments.inlay == "plug";
+  engrave.margin = lengths.above_0("--margin", arguments.margin);
+  carving.deepest = {engrave.is_plug ? -saw.count : -depth.count};
+  if (engrave.is_plug) carving.start = {glue.count - depth.count};
+  const double slope = std::tan(carving.angle_degrees / 360 * std::numbers::pi);
+  const auto whole = static_cast<double>(-carving.start.count - carving.deepest.count);
+  const Nanometres needed{carving.tip.count + std::llround(2 * slope * whole)};
+  if (carving.widest < needed) {
+    lengths.refuse(fmt::format("--tool: expected {:.4g} mm or more, as wide as the cutter is at this depth",
+                               std::ceil(to_mm(needed).value() * 100) / 100));
+  }
+}
+
 EngraveJob engrave_job_of(const CamEngraveArguments& arguments, const MillJob& job, LengthArguments& lengths) {
   EngraveJob engrave;
   VCarveOptions& carving = engrave.carving;
@@ -68,6 +93,7 @@ EngraveJob engrave_job_of(const CamEngraveArguments& arguments, const MillJob& j
     lengths.refuse(fmt::format("--tip: expected a width of 0 or more, less than --tool, found '{}'", arguments.tip));
   }
   if (!arguments.depth.empty()) carving.deepest = lengths.below_0("--depth", arguments.depth, "-2");
+  choose_inlay(arguments, engrave, lengths);
   carving.words = fmt::format("V of {:g} degrees, {:.4g} mm", arguments.angle, to_mm(carving.widest).value());
   if (carving.tip.count > 0) carving.words += fmt::format(", tip {:.4g} mm", to_mm(carving.tip).value());
   carving.park = job.program.park;
@@ -131,6 +157,15 @@ int engrave_lines(const CamEngraveArguments& arguments, const MillJob& job, cons
   return deliver(arguments, job, {plan.outline.mill, plan.face, plan.unreached, {}, words, json.dump(2)});
 }
 
+// What is carved: what is drawn, or around a plug.
+Region carved_of(const PartDrawing& part, const EngraveJob& engrave) {
+  Region drawn = enclosed_by(part.loops.loops);
+  if (!engrave.is_plug || drawn.empty()) return drawn;
+  const Nanometres margin = engrave.margin;
+  const DrawnBox around{{part.least.x - margin, part.least.y - margin}, {part.most.x + margin, part.most.y + margin}};
+  return subtracted(filled({rectangle(around)}), drawn);
+}
+
 }  // namespace
 
 int cam_engrave(const CamEngraveArguments& arguments) {
@@ -141,20 +176,23 @@ int cam_engrave(const CamEngraveArguments& arguments) {
   LengthArguments lengths(*mm_of_unit(arguments.units));
   MillJob job = mill_job_of(arguments, "passo cam engrave", lengths, "stock");
   if (job.program.spindle == 0U) job.program.spindle.reset();
+  if (arguments.inlay == "plug" && arguments.mirror.empty()) job.mirror.turned = Mirror::Turned::x;
+  if (!arguments.inlay.empty() && arguments.on_line)
+    return fail(exit_bad_program, "--inlay carves areas: leave --on-line out");
   EngraveJob engrave = engrave_job_of(arguments, job, lengths);
   const Nanometres join = lengths.any("--join", arguments.join);
   if (!lengths.message().empty()) return fail(exit_bad_program, lengths.message());
 
   std::optional<Drawing> drawing = drawing_of(arguments, job, engrave);
   if (!drawing) return exit_bad_program;
-  if (engrave.is_on_line && engrave.clears) {
-    return fail(exit_bad_program, "--clear is for areas: a cutter that follows lines clears none");
+  if (engrave.is_on_line && (engrave.clears || !arguments.inlay.empty())) {
+    return fail(exit_bad_program, "--clear and --inlay are for areas: a cutter that follows lines clears none");
   }
   const std::optional<PartDrawing> part =
       part_of(std::move(*drawing), job, join, engrave.is_on_line ? OpenRows::kept : OpenRows::refused);
   if (!part) return exit_bad_program;
   if (engrave.is_on_line) return engrave_lines(arguments, job, engrave, *part);
-  const Region area = enclosed_by(part->loops.loops);
+  const Region area = carved_of(*part, engrave);
   Diagnostics findings;
   VCarvePlan plan = plan_v_carve(area, engrave.carving, findings);
   Region warned = united(plan.unreached, plan.floor);

@@ -102,6 +102,7 @@ CLI::App& add_cam_command(CLI::App& app, CamArguments& arguments) {
   add_profile_command(cam, arguments);
   add_pocket_command(cam, arguments);
   add_engrave_command(cam, arguments);
+  add_wire_command(cam, arguments);
   add_relief_command(cam, arguments);
   return cam;
 }

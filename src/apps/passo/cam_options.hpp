@@ -21,6 +21,7 @@ struct CamArguments {
   CamProfileArguments profile;
   CamPocketArguments pocket;
   CamEngraveArguments engrave;
+  CamWireArguments wire;
   std::function<int()> chosen;  // the chosen command, after parsing
 };
 
@@ -35,6 +36,7 @@ void add_relief_command(CLI::App& cam, CamArguments& arguments);
 void add_profile_command(CLI::App& cam, CamArguments& arguments);
 void add_pocket_command(CLI::App& cam, CamArguments& arguments);
 void add_engrave_command(CLI::App& cam, CamArguments& arguments);
+void add_wire_command(CLI::App& cam, CamArguments& arguments);
 
 // The options that all milling of drawings has.
 void add_mill_options(CLI::App& command, CamMillArguments& arguments);

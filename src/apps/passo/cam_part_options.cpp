@@ -37,6 +37,8 @@ constexpr const char* engrave_examples =
   passo cam engrave plot.hpgl --on-line --depth -0.2 -o plot.ngc               what a pen plotter would draw
   passo cam engrave logo.svg --angle 90 --tool 6 --depth -2 --clear 2 -p logo.png -o logo.ngc
                                                            wide areas get a flat floor by a cutter of 2 mm first
+  passo cam engrave star.svg --inlay pocket --clear 3 -o pocket.ngc            an inlay: the hole, and what fills it
+  passo cam engrave star.svg --inlay plug --clear 3 -o plug.ngc
 
 "\n" in the text begins a new line. Every option: docs/manual/engraving.md.)";
 
@@ -117,6 +119,14 @@ void add_engrave_command(CLI::App& cam, CamArguments& all) {
                      "the deepest, below 0; without it as the cutter's width allows, on lines -0.3mm");
   engrave.add_option("--clear", arguments.clear, "diameter of a flat cutter that clears what is wider, before");
   engrave.add_option("--clear-step", arguments.clear_step, "how deep a layer of it is, at most")->capture_default_str();
+  engrave
+      .add_option("--inlay", arguments.inlay,
+                  "pocket: carve the hole of an inlay; plug: its mirrored counterpart, which stays")
+      ->check(CLI::IsMember({"pocket", "plug"}));
+  engrave.add_option("--inlay-depth", arguments.inlay_depth, "of the pocket")->capture_default_str();
+  engrave.add_option("--glue-gap", arguments.glue_gap, "room below the plug, for glue")->capture_default_str();
+  engrave.add_option("--saw-gap", arguments.saw_gap, "between the faces of both, for the saw")->capture_default_str();
+  engrave.add_option("--margin", arguments.margin, "cleared around the plug")->capture_default_str();
   engrave.add_option("--join", arguments.join, "ends of lines that are no farther apart are joined")
       ->capture_default_str();
   add_mill_options(engrave, arguments);

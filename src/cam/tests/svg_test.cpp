@@ -179,9 +179,9 @@ TEST(Svg, what_is_not_displayed_or_no_line_is_left_out_and_told) {
       svg(page("<g style='stroke:red; display : none'><circle r='1'/></g><circle r='1' visibility='hidden'/>"
                "<text x='1' y='1'>A</text><image href='a.png'/><clipPath><circle r='1'/></clipPath>"));
   EXPECT_TRUE(read.drawing.holes.empty());
-  EXPECT_THAT(read.drawing.notes, testing::UnorderedElementsAre("left out: elements that are not displayed of 2",
-                                                                "left out: pictures and foreign objects of 1",
-                                                                "left out: texts, which are no paths of 1"));
+  EXPECT_THAT(read.drawing.notes, testing::UnorderedElementsAre("left out: 2 elements that are not displayed",
+                                                                "left out: 1 pictures and foreign objects",
+                                                                "left out: 1 texts, which are no paths"));
 }
 
 TEST(Svg, layers_are_chosen_by_their_names) {

@@ -155,5 +155,37 @@ TEST(VCarve, curves_have_no_branches) {
   EXPECT_EQ(carved({}, {}).findings.all().at(0).code, "engrave.no-area");
 }
 
+// The walls of a plug go on above its lines: at each place of the way the cutter touches them where they lie.
+TEST(VCarve, a_plug_fits_the_pocket_of_the_same_lines) {
+  const auto box = [](std::int64_t least, std::int64_t most) {
+    return filled({rectangle({{{least * 1'000'000}, {least * 1'000'000}}, {{most * 1'000'000}, {most * 1'000'000}}})});
+  };
+  const Region plug = box(0, 20);
+  VCarveOptions options{.angle_degrees = 90, .widest = {12'000'000}, .deepest = {-4'000'000}};
+  Diagnostics findings;
+  const VCarvePlan pocket = plan_v_carve(plug, options, findings);
+  options.start = {-3'500'000};
+  options.deepest = {-1'000'000};
+  const VCarvePlan around = plan_v_carve(subtracted(box(-8, 28), plug), options, findings);
+  EXPECT_FALSE(findings.any_error());
+  EXPECT_EQ(pocket.floor_z.count, -4'000'000);
+  EXPECT_EQ(around.floor_z.count, -4'500'000);
+  // On floors the cutter keeps as far from the lines as it is deeper than they are.
+  const auto off = [&](const Region& floor) { return 20.0 - to_mm(bounds(floor)->most.x).value(); };
+  EXPECT_NEAR(off(pocket.floor), 4, 0.01);
+  double nearest = 1e9;
+  for (const DrawnRing& ring : around.floor.rings) {
+    for (const DrawnPoint& at : ring) {
+      const double x = std::max({-to_mm(at.x).value(), to_mm(at.x).value() - 20, 0.0});
+      const double y = std::max({-to_mm(at.y).value(), to_mm(at.y).value() - 20, 0.0});
+      nearest = std::min(nearest, std::hypot(x, y));
+    }
+  }
+  EXPECT_NEAR(nearest, 1, 0.01);
+  options.widest = {6'000'000};
+  EXPECT_TRUE(plan_v_carve(plug, options, findings).mill.tools.empty());
+  EXPECT_THAT(render(findings, false), testing::HasSubstr("[engrave.narrow-cutter]"));
+}
+
 }  // namespace
 }  // namespace passo

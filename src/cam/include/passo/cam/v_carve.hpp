@@ -8,6 +8,9 @@
 // once at the full depth, and `floor` tells what stays inside, for a flat cutter. Strokes that are narrower than the
 // cutter's tip are told as `unreached`.
 //
+// The plug of an inlay is carved around: its lines lie at `start`, so it fits into a pocket that was carved along the
+// same lines at the face. A cutter that is too narrow to be that deep is an error "engrave.narrow-cutter".
+//
 // Source: the Voronoi diagram of segments by S. Fortune's sweep, Boost.Polygon.
 #pragma once
 
@@ -23,7 +26,8 @@ struct VCarveOptions {
   double angle_degrees = 60;     // between the cutter's flanks
   Nanometres tip{};              // width of its tip
   Nanometres widest{6'000'000};  // its diameter
-  Nanometres deepest{};          // below the face, negative; 0: as the cutter's width allows
+  Nanometres deepest{};          // below `start`, negative; 0: as the cutter's width allows
+  Nanometres start{};            // where the lines lie, below the face, 0 or negative: above, the walls go on
   Nanometres tolerance{2'000};   // of curves, in depth and sideways
   std::string words = {};        // for the operator
   DrawnPoint park = {};

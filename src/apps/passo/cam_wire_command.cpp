@@ -1,0 +1,265 @@
+// passo cam wire: a program that cuts foam with a hot wire.
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "cam_part.hpp"
+#include <nlohmann/json.hpp>
+
+#include "passo/cam/airfoil.hpp"
+#include "passo/cam/wire_program.hpp"
+#include "passo/diagnostics/file_bytes.hpp"
+#include "passo/report/wire_picture.hpp"
+
+namespace passo {
+namespace {
+
+struct WireJob {
+  WireOptions cut;
+  bool has_four_axes = false;
+  std::vector<Nanometres> chords;  // of airfoils
+  DrawnPoint right_at = {};
+  double right_turn = 0;  // radians
+  Nanometres join = {};
+  std::optional<DrawnBox> block = {};
+};
+
+// "1.2", or "1.6@100,1@200": widths that were measured at speeds.
+std::vector<WireKerf> kerfs_of(const CamWireArguments& arguments, double feed, LengthArguments& lengths) {
+  std::vector<WireKerf> kerfs;
+  std::string_view rest = arguments.kerf;
+  while (!rest.empty()) {
+    const std::string_view part = rest.substr(0, rest.find(','));
+    rest.remove_prefix(std::min(rest.size(), part.size() + 1));
+    const std::size_t at = part.find('@');
+    const Nanometres width = lengths.any("--kerf", std::string(part.substr(0, at)));
+    const double speed = at == std::string_view::npos
+                             ? feed
+                             : to_mm(lengths.above_0("--kerf", std::string(part.substr(at + 1)))).value();
+    constexpr Nanometres widest{50'000'000};
+    if (width.count < 0 || width > widest) lengths.refuse("--kerf: expected a width of 0 to 50 mm");
+    kerfs.push_back({speed, to_mm(width).value()});
+  }
+  std::ranges::sort(kerfs, {}, &WireKerf::speed);
+  const auto same = std::ranges::adjacent_find(kerfs, {}, &WireKerf::speed);
+  if (kerfs.empty() || same != kerfs.end()) {
+    lengths.refuse(
+        fmt::format("--kerf: expected WIDTH, or WIDTH@SPEED,... at different speeds, found '{}'", arguments.kerf));
+  }
+  return kerfs;
+}
+
+// Where the profiles lie along the wire.
+void find_span(const CamWireArguments& arguments, WireJob& job, LengthArguments& lengths) {
+  if (arguments.span.empty() || arguments.width.empty()) {
+    lengths.refuse("four axes: expected --span from tower to tower, and --width of the block");
+    return;
+  }
+  job.cut.span = lengths.above_0("--span", arguments.span);
+  const Nanometres width = lengths.above_0("--width", arguments.width);
+  job.cut.left_face = arguments.block_at.empty() ? Nanometres{(job.cut.span.count - width.count) / 2}
+                                                 : lengths.any("--block-at", arguments.block_at);
+  job.cut.right_face = job.cut.left_face + width;
+  if (job.cut.left_face.count < 0 || job.cut.right_face > job.cut.span) {
+    lengths.refuse("--width, --block-at: expected a block between the towers (--span)");
+  }
+}
+
+WireJob wire_job_of(const CamWireArguments& arguments, LengthArguments& lengths) {
+  WireJob job;
+  WireOptions& cut = job.cut;
+  cut.keeps = arguments.keep == "line"      ? WireKeeps::line
+              : arguments.keep == "outside" ? WireKeeps::outside
+                                            : WireKeeps::inside;
+  cut.feed = to_mm(lengths.above_0("--feed", arguments.feed)).value();
+  cut.most_feed =
+      arguments.most_feed.empty() ? 3 * cut.feed : to_mm(lengths.above_0("--most-feed", arguments.most_feed)).value();
+  if (cut.most_feed < cut.feed) lengths.refuse("--most-feed: expected the feed or more");
+  cut.kerf = kerfs_of(arguments, cut.feed, lengths);
+  if (cut.keeps == WireKeeps::line) cut.kerf = {{cut.feed, 0}};
+  cut.lead = lengths.any("--lead", arguments.lead);
+  if (cut.lead.count < 0) lengths.refuse("--lead: expected a length of 0 or more");
+  cut.tolerance = lengths.above_0("--tolerance", arguments.tolerance);
+  job.has_four_axes = arguments.axes.empty() ? arguments.files.size() > 1 : arguments.axes == "XYUV";
+  if (!job.has_four_axes && arguments.files.size() > 1) {
+    lengths.refuse("--axes XY: both ends of the wire move alike, so expected one profile");
+  }
+  if (job.has_four_axes) find_span(arguments, job, lengths);
+  if (!arguments.chord.empty()) {
+    job.chords = lengths.list("--chord", arguments.chord);
+    const bool is_good = (job.chords.size() == 1 || job.chords.size() == 2) &&
+                         std::ranges::all_of(job.chords, [](Nanometres chord) { return chord.count > 0; });
+    if (!is_good) lengths.refuse("--chord: expected one length above 0, or LEFT,RIGHT");
+  }
+  job.right_at = lengths.place("--right-at", arguments.right_at);
+  job.right_turn = arguments.right_turn / 180 * std::numbers::pi;
+  job.join = lengths.any("--join", arguments.join);
+  if (!arguments.block.empty()) {
+    const std::vector<Nanometres> corners = lengths.list("--block", arguments.block);
+    if (corners.size() != 4 || corners[0] >= corners[2] || corners[1] >= corners[3]) {
+      lengths.refuse("--block: expected X,Y,X,Y, the lower left and the upper right corner");
+    } else {
+      job.block = DrawnBox{{corners[0], corners[1]}, {corners[2], corners[3]}};
+    }
+  }
+  return job;
+}
+
+// The drawing of one side. Findings are shown; then the answer is empty.
+std::optional<Drawing> read_side(const std::string& file, std::size_t side, const WireJob& wire, const MillJob& job) {
+  Diagnostics findings;
+  const auto bytes =
+      read_bytes(file, {.area = "drawing", .expected = "a drawing (SVG, DXF, HPGL) or an airfoil"}, findings);
+  Drawing drawing;
+  if (bytes && looks_like_airfoil(*bytes)) {
+    if (wire.chords.empty()) {
+      fail(exit_bad_program, file + " is an airfoil, which has no size: expected --chord");
+      return std::nullopt;
+    }
+    const Nanometres chord = wire.chords[std::min(side, wire.chords.size() - 1)];
+    drawing = read_airfoil(file, *bytes, to_mm(chord), findings);
+  } else if (bytes) {
+    drawing = read_drawing(file, job.reading, findings);
+  }
+  for (const std::string& words : drawing.notes) note(file + ": " + words);
+  show(findings);
+  if (findings.any_error()) return std::nullopt;
+  return drawing;
+}
+
+// The one line of a drawing. Findings are shown; then the answer is empty.
+std::optional<WireProfile> profile_of(const std::string& file, const Drawing& drawing, const WireJob& wire) {
+  Diagnostics findings;
+  EdgeLoops rows = edge_loops(drawing, wire.join, findings, OpenRows::kept);
+  const std::size_t count = rows.loops.size() + rows.open.size();
+  if (!findings.any_error() && count != 1) {
+    findings.add(of_file(count == 0 ? "wire.no-line" : "wire.several-lines", file,
+                         count == 0 ? "there is no line that a wire could follow"
+                                    : fmt::format("there are {} lines, and a wire cannot lift", count),
+                         "one line, arc, curve or circle: --layer, or a larger --join"));
+  }
+  show(findings);
+  if (findings.any_error()) return std::nullopt;
+  if (!rows.loops.empty()) return WireProfile{std::move(rows.loops.front()), true};
+  if (wire.cut.keeps == WireKeeps::line) return WireProfile{std::move(rows.open.front()), false};
+  fail(exit_bad_program, file + ": the line is open, so it has no inside: expected --keep line");
+  return std::nullopt;
+}
+
+void place_right(const WireJob& wire, WireProfile& profile) {
+  const double c = std::cos(wire.right_turn);
+  const double s = std::sin(wire.right_turn);
+  for (PathPoint& point : profile.points) {
+    const auto x = static_cast<double>(point.at.x.count);
+    const auto y = static_cast<double>(point.at.y.count);
+    point.at = {{wire.right_at.x.count + std::llround(x * c - y * s)},
+                {wire.right_at.y.count + std::llround(x * s + y * c)}};
+  }
+}
+
+std::optional<std::vector<WireProfile>> read_profiles(const CamWireArguments& arguments, const WireJob& wire,
+                                                      const MillJob& job) {
+  std::vector<WireProfile> profiles;
+  std::optional<DrawnPoint> zero = job.zero.at;
+  for (std::size_t side = 0; side < arguments.files.size(); ++side) {
+    std::optional<Drawing> drawing = read_side(arguments.files[side], side, wire, job);
+    if (!drawing) return std::nullopt;
+    std::optional<WireProfile> profile = profile_of(arguments.files[side], *drawing, wire);
+    if (!profile) return std::nullopt;
+    // The right profile keeps its place beside the left one.
+    if (job.zero.is_lower_left && !zero) {
+      zero = box_of(chords_of_path(profile->points, profile->is_closed, wire.cut.tolerance)).least;
+    }
+    if (zero) {
+      for (PathPoint& point : profile->points) point.at = {point.at.x - zero->x, point.at.y - zero->y};
+    }
+    profiles.push_back(std::move(*profile));
+  }
+  if (profiles.size() == 1) profiles.push_back(profiles.front());
+  if (profiles[0].is_closed != profiles[1].is_closed) {
+    fail(exit_bad_program, "one profile is closed, the other is open: expected two of a kind");
+    return std::nullopt;
+  }
+  if (wire.has_four_axes) place_right(wire, profiles[1]);
+  return profiles;
+}
+
+std::string side_words(const char* name, const WireSide& side) {
+  std::string words =
+      fmt::format("{}: {:.1f} mm, at most {:.4g} mm/min, kerf {:.3g}", name, side.way, side.most_speed, side.most_kerf);
+  if (side.most_kerf - side.least_kerf > 1e-3) words += fmt::format(" to {:.3g}", side.least_kerf);
+  return words + fmt::format(" mm; {:.3g} mm² of what stays lost\n", side.lost_mm2);
+}
+
+nlohmann::ordered_json side_json(const WireSide& side) {
+  return {{"way_mm", side.way},
+          {"most_speed", side.most_speed},
+          {"least_kerf_mm", side.least_kerf},
+          {"most_kerf_mm", side.most_kerf},
+          {"lost_mm2", side.lost_mm2}};
+}
+
+WireProgramOptions program_of(const CamWireArguments& arguments, const WireJob& wire, const MillJob& job) {
+  WireProgramOptions program;
+  program.name = job.program.name;
+  program.files = job.program.files;
+  program.units = job.program.units;
+  program.has_four_axes = wire.has_four_axes;
+  program.feed = wire.cut.feed;
+  program.heat = arguments.heat;
+  program.remarks = {fmt::format("{}: at {:.4g} mm a minute the wire melts {:.3g} mm",
+                                 wire.has_four_axes ? "X Y is the left end of the wire, U V the right one"
+                                                    : "both ends of the wire move alike",
+                                 wire.cut.feed, kerf_at(wire.cut.kerf, wire.cut.feed)),
+                     "before it starts, the wire is clear of the block: it goes straight to the first place"};
+  if (wire.has_four_axes) {
+    program.remarks.push_back(fmt::format("span {:.6g} mm, profiles at {:.6g} and {:.6g} mm from the left end",
+                                          to_mm(wire.cut.span).value(), to_mm(wire.cut.left_face).value(),
+                                          to_mm(wire.cut.right_face).value()));
+  }
+  return program;
+}
+
+}  // namespace
+
+int cam_wire(const CamWireArguments& arguments) {
+  if (!outputs_are_good(arguments, "")) return exit_bad_program;
+  LengthArguments lengths(*mm_of_unit(arguments.units));
+  const MillJob job = mill_job_of(arguments, "passo cam wire", lengths, "block");
+  const WireJob wire = wire_job_of(arguments, lengths);
+  if (!lengths.message().empty()) return fail(exit_bad_program, lengths.message());
+  const auto profiles = read_profiles(arguments, wire, job);
+  if (!profiles) return exit_bad_program;
+  Diagnostics findings;
+  const WirePlan plan = plan_wire_cut((*profiles)[0], (*profiles)[1], wire.cut, findings);
+  show(findings);
+  if (findings.any_error()) return exit_bad_program;
+  const int written = write_text(arguments.output, write_wire_program(plan, program_of(arguments, wire, job)));
+  if (written != exit_done) return written;
+  if (!arguments.picture.empty()) {
+    const WireScene scene{plan, wire.block, wire.has_four_axes};
+    const int code = write_picture(
+        arguments.picture, job.program.name,
+        [&](const PictureOptions& picture, OutputFile& file) { return draw_wire_cut(scene, picture, file); });
+    if (code != exit_done) return code;
+  }
+  double minutes = 0;
+  for (const double time : plan.minutes) minutes += time;
+  if (arguments.json) {
+    nlohmann::ordered_json json = {{"axes", wire.has_four_axes ? "XYUV" : "XY"},
+                                   {"moves", plan.faces.size() - 1},
+                                   {"sections", plan.sections},
+                                   {"minutes_at_feed", minutes},
+                                   {"left", side_json(plan.left)}};
+    if (wire.has_four_axes) json["right"] = side_json(plan.right);
+    fmt::print("{}\n", json.dump(2));
+  } else if (!arguments.output.empty() && arguments.output != "-") {
+    fmt::print("{} in {}, {:.2f} min at the feed\n{}", counted(plan.faces.size() - 1, "move"),
+               counted(plan.sections, "section"), minutes,
+               side_words(wire.has_four_axes ? "left" : "both ends", plan.left));
+    if (wire.has_four_axes) fmt::print("{}", side_words("right", plan.right));
+  }
+  return exit_done;
+}
+
+}  // namespace passo
