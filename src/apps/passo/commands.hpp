@@ -180,6 +180,7 @@ struct ServeArguments {
   std::string board = "virtual";
   std::string grbl_tcp;                 // HOST:PORT; with no line at all: 127.0.0.1:7071
   std::string grbl_pty;                 // where the link to the pseudo-terminal is to be
+  std::string grbl_serial;              // a serial port for senders: DEVICE or DEVICE@BAUD
   bool anybody_may_drive = false;       // the port may be reached from other computers
   std::string http;                     // HOST:PORT for programs and browsers; empty: none
   std::string http_token;               // file with the token that they need

@@ -17,13 +17,30 @@
 
 #include "passo/grbl/grbl_controller.hpp"
 #include "passo/report/output_file.hpp"
+#include "passo/transport/board_address.hpp"
 
 namespace passo {
 namespace {
 
+bool open_serial_line(const std::string& wanted, ServeDaemon::Lines& lines, int& code) {
+  const auto address = parse_board_address("grbl:" + wanted);
+  if (!address || address->kind != BoardAddress::Kind::serial) {
+    code = fail(exit_bad_program, "--grbl-serial: expected DEVICE or DEVICE@BAUD, as /dev/ttyS0@115200, not " + wanted);
+    return false;
+  }
+  auto line = SenderLine::open_serial(address->place, address->baud);
+  if (!line) {
+    code = fail(exit_failed, line.error());
+    return false;
+  }
+  lines.push_back(std::move(*line));
+  return true;
+}
+
 // Opens all lines that the arguments ask for. False, with a message and `code`: one of them cannot be.
 bool open_lines(const ServeArguments& arguments, ServeDaemon::Lines& lines, int& code) {
-  const bool any = !arguments.grbl_tcp.empty() || !arguments.grbl_pty.empty() || !arguments.http.empty();
+  const bool any = !arguments.grbl_tcp.empty() || !arguments.grbl_pty.empty() || !arguments.grbl_serial.empty() ||
+                   !arguments.http.empty();
   const std::string wanted = any ? arguments.grbl_tcp : "127.0.0.1:7071";
   if (!wanted.empty()) {
     const auto address = read_address(wanted);
@@ -53,7 +70,7 @@ bool open_lines(const ServeArguments& arguments, ServeDaemon::Lines& lines, int&
     }
     lines.push_back(std::move(*line));
   }
-  return true;
+  return arguments.grbl_serial.empty() || open_serial_line(arguments.grbl_serial, lines, code);
 }
 
 // The text of the machine file. The example's, if none is named.
@@ -96,7 +113,8 @@ MachineFileAccess access_to(const std::string& file) {
 
 // Without any line, senders and browsers of this computer find the machine at its usual ports.
 ServeArguments with_usual(ServeArguments arguments) {
-  if (arguments.grbl_tcp.empty() && arguments.grbl_pty.empty() && arguments.http.empty() && arguments.data.empty()) {
+  if (arguments.grbl_tcp.empty() && arguments.grbl_pty.empty() && arguments.grbl_serial.empty() &&
+      arguments.http.empty() && arguments.data.empty()) {
     arguments.grbl_tcp = "127.0.0.1:7071";
     arguments.http = "127.0.0.1:7080";
   }

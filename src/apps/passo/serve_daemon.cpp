@@ -53,9 +53,19 @@ bool ServeDaemon::may_read(const SenderLine& line) const {
   return grbl_.wants_more() && (driver_ == nullptr || driver_ == &line);
 }
 
+// A sender on a serial port may have gone without a sign. While nothing goes on, it gives way to another.
+void ServeDaemon::mind_silent_driver(const SenderLine& line) {
+  if (driver_ == nullptr || driver_ == &line || !line.is_connected()) return;
+  if (!driver_->gives_way() || session_.busy()) return;
+  driver_->part();
+  driver_ = nullptr;
+  grbl_.disconnect();
+}
+
 void ServeDaemon::attend(SenderLine& line) {
   const SenderLine::News news = line.look(may_read(line));
-  if (news.came && driver_ == nullptr) {
+  mind_silent_driver(line);
+  if (line.is_connected() && driver_ == nullptr) {
     driver_ = &line;
     owner_.take_for_sender();
     grbl_.let_drive(owner_.is_sender());

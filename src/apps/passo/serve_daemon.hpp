@@ -52,6 +52,7 @@ class ServeDaemon {
   void wait();
   bool may_read(const SenderLine& line) const;
   void attend(SenderLine& line);
+  void mind_silent_driver(const SenderLine& line);
   void mind_owner();
   void turn();
   void hear_changes();
