@@ -46,9 +46,9 @@ TEST_F(GrblMachine, gets_programs_of_linuxcnc) {
 
 TEST_F(GrblMachine, is_held_and_slowed_and_a_hold_may_end_the_run) {
   const std::string program = write("p.ngc", "G21 G90 G1 X20 F6000\nX0\nX20\nX0\nM2\n");
-  auto outcome = beside_a_machine(run(program, "-q --hold 0.2:0.1 --feed-override 50@0.1"));
+  auto outcome = beside_a_machine(run(program, "-q --hold-at 0.2:0.1 --override 50@0.1"));
   EXPECT_EQ(outcome.code, 0) << outcome.err;
-  outcome = beside_a_machine(run(program, "-q --hold 0.2"));
+  outcome = beside_a_machine(run(program, "-q --hold-at 0.2"));
   EXPECT_EQ(outcome.code, 1);
   EXPECT_THAT(outcome.err, HasSubstr("held; the machine was last in the state Hold at X"));
 }

@@ -186,6 +186,7 @@ struct ServeArguments {
   std::string http_token;               // file with the token that they need
   std::vector<std::string> http_names;  // by which others know this server, beside HOST
   std::string page;                     // folder with a page for browsers
+  bool check = false;                   // only say whether this can be served
   std::string data;                     // folder for jobs and history; empty: nothing is kept
 };
 int serve(const ServeArguments& arguments);

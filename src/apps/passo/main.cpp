@@ -158,6 +158,8 @@ CLI::App& add_serve(CLI::App& app, ServeArguments& arguments) {
                      "DEVICE[@BAUD]: a serial port for senders, at 115200 baud if nothing else is said");
   command.add_flag("--anybody-may-drive", arguments.anybody_may_drive,
                    "allow a HOST that other computers reach: the protocol has no password");
+  command.add_flag("--check", arguments.check,
+                   "only say whether the machine file and the options are good; nothing is opened, nothing moves");
   command.add_option("--http", arguments.http, "HOST:PORT for programs and browsers: HTTP and WebSocket");
   command.add_option("--http-token", arguments.http_token,
                      "FILE with a token that HTTP then asks for; needed where other computers reach HOST");

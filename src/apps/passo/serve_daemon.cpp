@@ -17,8 +17,15 @@ constexpr int most_turns = 5000;  // of one look
 
 }  // namespace
 
-ServeDaemon::ServeDaemon(OpenedMachine& machine, GrblController& grbl, MotionOwner& owner, Lines lines, ServedWeb* web)
-    : machine_(machine), session_(machine.session()), grbl_(grbl), owner_(owner), lines_(std::move(lines)), web_(web) {}
+ServeDaemon::ServeDaemon(OpenedMachine& machine, GrblController& grbl, MotionOwner& owner, Lines lines, ServedWeb* web,
+                         ServiceNotice& service)
+    : machine_(machine),
+      session_(machine.session()),
+      grbl_(grbl),
+      owner_(owner),
+      lines_(std::move(lines)),
+      web_(web),
+      service_(service) {}
 
 void ServeDaemon::serve() {
   while (interrupted_by() == 0) {
@@ -28,13 +35,17 @@ void ServeDaemon::serve() {
     mind_owner();
     turn();
     reply();
+    service_.alive();
   }
 }
 
 void ServeDaemon::stop() {
   if (web_ != nullptr) web_->leave();
   if (session_.busy()) try_request(session_, request::Stop{});
-  while (session_.busy()) session_.turn(machine_.has_board() ? busy_look : Seconds(1));
+  while (session_.busy()) {
+    session_.turn(machine_.has_board() ? busy_look : Seconds(1));
+    service_.alive();
+  }
   hear_changes();
 }
 

@@ -2,10 +2,13 @@
 // too much. It knows the lines that GrblCode writes, and refuses all others.
 #pragma once
 
+#include <algorithm>
+#include <cstddef>
 #include <cstdlib>
 #include <deque>
 #include <string>
 #include <string_view>
+#include <utility>
 
 #include <fmt/format.h>
 
