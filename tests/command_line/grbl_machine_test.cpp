@@ -13,6 +13,7 @@ using testing::HasSubstr;
 class GrblMachine : public passo::test::CommandLine {
  protected:
   passo::test::Outcome beside_a_machine(const std::string& commands) const {
+    write("said", "");
     const std::string serve = std::string(PASSO_PROGRAM) + " serve --grbl-pty " + path("tty") + " >" + path("said");
     const std::string script = serve + " 2>&1 & daemon=$!; while ! grep -q Ctrl-C " + path("said") +
                                "; do sleep 0.02; done; L=grbl:" + path("tty") + "; ( " + commands + " ) >" +
