@@ -175,7 +175,6 @@ int cam_engrave(const CamEngraveArguments& arguments) {
   }
   LengthArguments lengths(*mm_of_unit(arguments.units));
   MillJob job = mill_job_of(arguments, "passo cam engrave", lengths, "stock");
-  if (job.program.spindle == 0U) job.program.spindle.reset();
   if (arguments.inlay == "plug" && arguments.mirror.empty()) job.mirror.turned = Mirror::Turned::x;
   if (!arguments.inlay.empty() && arguments.on_line)
     return fail(exit_bad_program, "--inlay carves areas: leave --on-line out");
