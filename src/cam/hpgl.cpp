@@ -161,8 +161,7 @@ bool HpglPlotter::carry_out_text(const HpglCommand& command) {
     if (words_.character()) leave_out("symbols at places");
     words_.skip_to_end_of_command();
   } else if (command.is("CO")) {
-    static_cast<void>(words_.until('"'));
-    static_cast<void>(words_.until('"'));
+    words_.skip_comment();
   } else if (command.is("PE")) {
     packed_line();
   } else {
@@ -334,7 +333,11 @@ bool looks_like_hpgl(std::string_view text) {
     const std::optional<HpglCommand> command = words.command();
     if (!command || !HpglPlotter::knows(*command)) return false;
     const std::size_t behind = words.place();
-    if (command->is("CO") || command->is("DT") || command->is("LB")) return i > 0;
+    if (command->is("DT") || command->is("LB")) return i > 0;
+    if (command->is("CO")) {
+      words.skip_comment();
+      continue;
+    }
     if (!words.numbers()) return false;
     const std::string_view taken = text.substr(behind, words.place() - behind);
     if (taken.find_first_of("0123456789;") != std::string_view::npos) return true;

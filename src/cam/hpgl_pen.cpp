@@ -97,14 +97,15 @@ void HpglPen::dashed_to(HpglSpot to) {
   };
   for (double way = 0; way < length && !builder_.is_full();) {
     const double left = dashes_[dash_] - dash_used_;
-    const double next = std::min(length, way + left);
+    const bool ends = left <= length - way;
+    const double next = ends ? way + left : length;
     if (dash_ % 2 == 0) {
       if (path_.points.empty()) put(along(way));
       put(along(next));
     }
     dash_used_ += next - way;
     way = next;
-    if (dash_used_ < dashes_[dash_]) continue;
+    if (!ends) return;
     end_path();
     dash_ = (dash_ + 1) % dashes_.size();
     dash_used_ = 0;

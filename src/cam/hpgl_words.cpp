@@ -106,6 +106,13 @@ std::optional<char> HpglWords::character() {
   return text_[at_++];
 }
 
+void HpglWords::skip_comment() {
+  while (!at_end() && text_[at_] == ' ') ++at_;
+  const bool is_quoted = !at_end() && text_[at_] == '"';
+  if (is_quoted) ++at_;
+  static_cast<void>(until(is_quoted ? '"' : ';'));
+}
+
 void HpglWords::skip_to_end_of_command() {
   while (!at_end() && text_[at_] != ';' && !is_letter_of_hpgl(text_[at_]) && text_[at_] != hpgl_escape) ++at_;
 }

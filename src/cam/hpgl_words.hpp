@@ -33,6 +33,8 @@ class HpglWords {
   std::optional<char> character();
   void back() { --at_; }  // the character that was taken last
   void skip_to_end_of_command();
+  // In quotation marks, or up to the end of the command.
+  void skip_comment();
 
   bool at_end() const { return at_ >= text_.size(); }
   std::size_t place() const { return at_; }

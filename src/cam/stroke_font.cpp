@@ -83,7 +83,7 @@ bool StrokeFontReader::read_header(std::string_view line) {
 
 // "[0041] A" or "[#0041]".
 bool StrokeFontReader::begin_letter(std::string_view line) {
-  std::string_view digits = line.substr(1);
+  std::string_view digits = line.substr(line.find_first_not_of('[') == 2 ? 2 : 1);
   if (digits.starts_with('#')) digits.remove_prefix(1);
   std::uint32_t code = 0;
   const auto [end, fault] = std::from_chars(digits.data(), digits.data() + digits.size(), code, 16);
@@ -120,8 +120,9 @@ bool StrokeFontReader::read_point(std::string_view part) {
   const std::optional<double> y = take_font_number(part);
   if (!y) return wrong();
   part = trimmed(part);
-  if (part.starts_with(",A")) {
-    part.remove_prefix(2);
+  // Fonts that are around leave the comma out here and there, or begin a letter with two brackets.
+  if (part.starts_with(",A") || part.starts_with('A')) {
+    part.remove_prefix(part.find('A') + 1);
     const std::optional<double> bulge = take_font_number(part);
     if (!bulge) return wrong();
     if (!stroke_.empty()) stroke_.back().bulge = *bulge;

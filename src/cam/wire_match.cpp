@@ -56,6 +56,12 @@ std::vector<std::size_t> ends_and_nose(const WireRow& row) {
   return {0, index, row.size() - 1};
 }
 
+double way_of(const WireRow& row, std::size_t from, std::size_t to) {
+  double way = 0;
+  for (std::size_t i = from; i < to; ++i) way += wire_distance(row[i], row[i + 1]);
+  return way;
+}
+
 // How far along each place is, as shares of the way from one mark to the next.
 std::vector<double> shares_of(const WireRow& row, std::size_t from, std::size_t to) {
   std::vector<double> shares = {0};
@@ -102,7 +108,9 @@ MatchedRows match_rows(const WireProfile& left, const WireProfile& right, Nanome
     all.insert(all.end(), of_b.begin(), of_b.end());
     std::ranges::sort(all);
     double done = 0;
-    constexpr double least = 1e-7;  // of a section
+    // Places nearer to each other than the tolerance are one.
+    const double longer = std::max(way_of(a, marks_a[k], marks_a[k + 1]), way_of(b, marks_b[k], marks_b[k + 1]));
+    const double least = std::clamp(static_cast<double>(tolerance.count) / longer, 1e-7, 0.01);
     for (const double share : all) {
       if (share - done < least || (share < 1 && 1 - share < least)) continue;
       rows.left.push_back(place_at(a, marks_a[k], of_a, share));

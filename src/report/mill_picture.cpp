@@ -13,10 +13,15 @@ namespace {
 constexpr Colour face_colour{0.93, 0.80, 0.62};
 constexpr Colour warning_colour{0.80, 0.05, 0.05};
 constexpr Nanometres drawn_chords{20'000};
+const Pen sheet_pen{.colour = {0.45, 0.33, 0.18}, .width = 1.4};
 
 PlanView view_of(const MillScene& scene, const Area& area) {
   DrawnBox box = bounds(scene.face).value_or(DrawnBox{scene.park, scene.park});
   take_into(box, scene.park);
+  if (scene.sheet) {
+    take_into(box, scene.sheet->least);
+    take_into(box, scene.sheet->most);
+  }
   for (const MillTool& tool : scene.plan.tools) {
     for (const MillRun& run : tool.runs) {
       for (const MillPoint& point : run) take_into(box, point.at);
@@ -71,6 +76,15 @@ void draw_mark(Canvas& canvas, Spot middle) {
   canvas.stroke({.colour = warning_colour, .width = 2});
 }
 
+void draw_sheet(Canvas& canvas, const PlanView& view, const DrawnBox& sheet) {
+  const DrawnRing corners = rectangle(sheet);
+  for (std::size_t i = 0; i <= corners.size(); ++i) {
+    const Spot spot = view.spot(corners[i % corners.size()]);
+    i == 0 ? canvas.move_to(spot) : canvas.line_to(spot);
+  }
+  canvas.stroke(sheet_pen);
+}
+
 }  // namespace
 
 Status<OutputError> draw_mill_plan(const MillScene& scene, const PictureOptions& options, OutputFile& file) {
@@ -87,6 +101,7 @@ Status<OutputError> draw_mill_plan(const MillScene& scene, const PictureOptions&
                           all.milled_nm / nanometres_per_mm, all.rapids_nm / nanometres_per_mm));
   const Area area{sheet::margin, 100, options.width - 2 * sheet::margin, options.height - 190.0};
   const PlanView view = view_of(scene, area);
+  if (scene.sheet) draw_sheet(canvas, view, *scene.sheet);
   fill_region(canvas, view, scene.face, face_colour);
   fill_region(canvas, view, scene.warned, warning_colour);
   constexpr double thinnest = 0.6;
@@ -103,7 +118,8 @@ Status<OutputError> draw_mill_plan(const MillScene& scene, const PictureOptions&
 
   constexpr std::size_t most_named = 5;
   Legend legend(canvas, {sheet::margin, options.height - 40.0});
-  legend.patch(face_colour, scene.face_name);
+  if (scene.sheet) legend.line(sheet_pen, "Sheet");
+  if (!scene.face.empty()) legend.patch(face_colour, scene.face_name);
   for (std::size_t i = 0; i < std::min(most_named, scene.plan.tools.size()); ++i) {
     legend.patch(colour_of_tool(i), scene.plan.tools[i].words);
   }

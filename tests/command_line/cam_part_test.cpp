@@ -130,6 +130,8 @@ TEST_F(CamPart, what_is_wrong_is_told) {
   refused("profile " + write("a.txt", "hello\n"), "[drawing.unknown-kind]");
   refused("profile " + write("b.svg", "<svg><path d='M0 0 L x'/></svg>"), "[svg.path]");
   refused("pocket " + write("c.svg", "<svg width='9' height='9'/>"), "[pocket.no-area]");
+  refused("profile " + bracket + " --layer cut --sheet 30,200", "[profile.off-sheet]");
+  refused("profile " + bracket + " --sheet 30,-200", "--sheet: expected W,H above 0");
   refused("profile " + bracket + " --side on --tabs 3", "--side on");
   refused("pocket " + bracket + " --tool 0", "--tool: expected a length above 0");
   refused("pocket " + bracket + " --depth -3 --step 0.0001", "--step: expected 0.001 mm or more");

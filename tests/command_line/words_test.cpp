@@ -138,6 +138,7 @@ TEST_F(Words, a_file_of_another_kind_is_named) {
                {"g.png", "\x89PNG\r\n\x1A\n\0\0\0\rIHDR"s, "a PNG picture"},
                {"h.jpg", "\xFF\xD8\xFF\xE0\0\x10JFIF"s, "a JPEG picture"},
                {"i.tif", "II*\0\x08\0\0\0"s, "a TIFF picture"},
+               {"o.kicad_pcb", "(kicad_pcb (version 20221018)\n", "a KiCad board"},
                {"j.svg", "<?xml version=\"1.0\"?>\n<svg width=\"1\">\n", "an SVG drawing"},
                {"k.stl", "solid part\n  facet normal 0 0 1\n", "an STL model"},
                {"l.stl", std::string(80, '\0') + "\x0C\0\0\0"s, "an STL model"},
@@ -155,6 +156,9 @@ TEST_F(Words, a_file_of_another_kind_is_named) {
       EXPECT_EQ(outcome.code, 2) << line;
       EXPECT_TRUE(contains(outcome.err, "this is "s + file.kind + ", not G-code")) << line << "\n" << outcome.err;
       EXPECT_TRUE(contains(outcome.err, "= expected: ")) << outcome.err;
+      // What Passo reads is told with the command that reads it.
+      const bool is_read = std::string_view("hmn").find(file.name[0]) == std::string_view::npos;
+      EXPECT_EQ(contains(outcome.err, "passo cam "), is_read) << outcome.err;
     }
   }
 }

@@ -74,6 +74,7 @@ struct CamMillArguments {
   std::string mirror;               // x or y; empty: the board is not turned over
   std::string mirror_at;            // the line about which it is; empty: X0 or Y0
   std::string align;                // X,Y,X,Y: two holes midway between which that line runs
+  std::string sheet;                // W,H of the material, whose lower left corner is X0 Y0; empty: not known
   bool conventional = false;        // else climb milling
   std::string clearance = "2mm";
   std::string feed = "200mm";

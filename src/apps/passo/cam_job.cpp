@@ -116,6 +116,11 @@ MillJob mill_job_of(const CamMillArguments& arguments, const char* command, Leng
   program.plunge_feed = lengths.above_0("--plunge-feed", arguments.plunge_feed);
   if (arguments.spindle > 0) program.spindle = arguments.spindle;
   program.park = lengths.place("--park", arguments.park);
+  if (!arguments.sheet.empty()) {
+    const DrawnPoint size = lengths.place("--sheet", arguments.sheet);
+    if (size.x.count <= 0 || size.y.count <= 0) lengths.refuse("--sheet: expected W,H above 0");
+    job.sheet = DrawnBox{{}, size};
+  }
   return job;
 }
 

@@ -58,6 +58,7 @@ struct MillJob {
   MillProgramOptions program;
   Mirror mirror;
   ZeroPlace zero;
+  std::optional<DrawnBox> sheet = {};  // the material
 };
 
 // What CamMillArguments say. `command`: "passo cam isolate". `what`: the thing that is milled, in comments.

@@ -8,6 +8,7 @@
 #include "passo/base/counted.hpp"
 #include "passo/cam/pocket.hpp"
 #include "passo/cam/profile.hpp"
+#include "passo/diagnostics/file_bytes.hpp"
 
 namespace passo {
 namespace {
@@ -20,6 +21,19 @@ DrawnBox box_of(const Drawing& drawing) {
     rows.push_back({{hole.at.x - radius, hole.at.y - radius}, {hole.at.x + radius, hole.at.y + radius}});
   }
   return bounds(Region{rows}).value_or(DrawnBox{});
+}
+
+// What is drawn lies on the material.
+void check_sheet(const DrawnBox& sheet, const DrawnBox& box, const std::string& file, Diagnostics& findings) {
+  const bool fits = box.least.x >= sheet.least.x && box.least.y >= sheet.least.y && box.most.x <= sheet.most.x &&
+                    box.most.y <= sheet.most.y;
+  if (fits) return;
+  findings.add(of_file(
+      "profile.off-sheet", file,
+      fmt::format("the drawing goes from X{:.6g} Y{:.6g} to X{:.6g} Y{:.6g} mm, beyond the sheet of {:.6g} x {:.6g} mm",
+                  to_mm(box.least.x).value(), to_mm(box.least.y).value(), to_mm(box.most.x).value(),
+                  to_mm(box.most.y).value(), to_mm(sheet.most.x).value(), to_mm(sheet.most.y).value()),
+      "--zero lower-left, another --scale, or a larger --sheet"));
 }
 
 }  // namespace
@@ -50,6 +64,7 @@ std::optional<PartDrawing> part_of(Drawing drawing, const MillJob& job, Nanometr
   const DrawnBox box = box_of(drawing);
   Diagnostics findings;
   PartDrawing part{edge_loops(drawing, join, findings, open_rows), box.least, box.most};
+  if (job.sheet && !findings.any_error()) check_sheet(*job.sheet, box, drawing.file, findings);
   show(findings);
   if (findings.any_error()) return std::nullopt;
   return part;
@@ -73,7 +88,8 @@ int deliver(const CamMillArguments& arguments, const MillJob& job, const PartRes
                           .marks = result.tabs,
                           .mark_name = "Tab",
                           .park = job.program.park,
-                          .warned_name = "Not reached"};
+                          .warned_name = "Not reached",
+                          .sheet = job.sheet};
     const int code = write_picture(
         arguments.picture, job.program.name,
         [&](const PictureOptions& picture, OutputFile& file) { return draw_mill_plan(scene, picture, file); });

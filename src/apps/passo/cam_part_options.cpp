@@ -42,6 +42,11 @@ constexpr const char* engrave_examples =
 
 "\n" in the text begins a new line. Every option: docs/manual/engraving.md.)";
 
+void add_sheet_option(CLI::App& command, CamMillArguments& arguments) {
+  command.add_option("--sheet", arguments.sheet,
+                     "W,H of the material, from X0 Y0 on: a drawing beyond it is refused, the picture shows it");
+}
+
 }  // namespace
 
 void add_profile_command(CLI::App& cam, CamArguments& all) {
@@ -55,6 +60,7 @@ void add_profile_command(CLI::App& cam, CamArguments& all) {
       ->capture_default_str();
   add_edge_options(profile, arguments);
   add_mill_options(profile, arguments);
+  add_sheet_option(profile, arguments);
   profile.footer(profile_examples);
   profile.callback([&all] { all.chosen = [&all] { return cam_profile(all.profile); }; });
 }
@@ -75,6 +81,7 @@ void add_pocket_command(CLI::App& cam, CamArguments& all) {
       ->check(number_range(0.0, 60.0))
       ->capture_default_str();
   add_mill_options(pocket, arguments);
+  add_sheet_option(pocket, arguments);
   pocket.footer(pocket_examples);
   pocket.callback([&all] { all.chosen = [&all] { return cam_pocket(all.pocket); }; });
 }
@@ -124,6 +131,7 @@ void add_engrave_command(CLI::App& cam, CamArguments& all) {
   engrave.add_option("--join", arguments.join, "ends of lines that are no farther apart are joined")
       ->capture_default_str();
   add_mill_options(engrave, arguments);
+  add_sheet_option(engrave, arguments);
   engrave.footer(engrave_examples);
   engrave.callback([&all] { all.chosen = [&all] { return cam_engrave(all.engrave); }; });
 }

@@ -75,6 +75,8 @@ TEST(Hpgl, line_types_are_drawn_as_dashes) {
   ASSERT_EQ(dashed.drawing.paths.size(), 3U);
   EXPECT_EQ(places(dashed.drawing.paths[1]), "10000,0 15000,0 ");
   EXPECT_EQ(plotted("IN;PU0,0;LT2,4;LT;PD1000,0;").drawing.paths.size(), 1U);
+  // Lengths that are no binary fractions end, too.
+  EXPECT_GT(plotted("IN;IP0,0,4600,2100;PU0,0;LT-8,7.91033;PD4000,0;PD4000,333.3").drawing.paths.size(), 30U);
 }
 
 // All that the labels' lines enclose, mm.
@@ -151,7 +153,8 @@ TEST(Hpgl, what_is_wrong_is_told_with_its_place) {
 }
 
 TEST(Hpgl, is_told_by_its_first_commands) {
-  for (const char* const text : {"IN;SP1;", "DF;PA0,0;", "PU0,0;PD1,1;", "\x1b.(;IN;", "SP1PU0 0", " \r\nIN;"}) {
+  for (const char* const text :
+       {"IN;SP1;", "DF;PA0,0;", "PU0,0;PD1,1;", "\x1b.(;IN;", "SP1PU0 0", "CO a circle;\nPU 5,5;", " \r\nIN;"}) {
     EXPECT_TRUE(looks_like_hpgl(text)) << text;
   }
   for (const char* const text :

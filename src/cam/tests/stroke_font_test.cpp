@@ -25,7 +25,7 @@ ReadFont read_font(std::string_view text) {
 
 constexpr const char* small_lff =
     "# Format: LibreCAD Font 1\n# LetterSpacing: 2\n# WordSpacing: 5\n\n"
-    "[0048] H\n0,0;0,8\n4,0;4,8\n0,4;4,4\n\n[00c4]\nC0048\n2,9\n\n[0044] D\n0,0;0,8;2,8;2,0,A-1;0,0\n";
+    "[0048] H\n0,0;0,8\n4,0;4,8\n0,4;4,4\n\n[00c4]\nC0048\n2,9\n\n[[0044] D\n0,0;0,8;2,8;2,0A-1;0,0\n";
 
 TEST(StrokeFonts, of_librecad_have_bulges_copies_and_spaces) {
   const ReadFont read = read_font(small_lff);

@@ -1,6 +1,7 @@
 // A picture of a mill plan: the copper or the board, what each cutter mills, the rapids, and places to look at.
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -20,6 +21,7 @@ struct MillScene {
   std::string mark_name = {};          // "Tab", "Gap"
   DrawnPoint park = {};                // where the rapids begin and end
   std::string warned_name = {};        // "Not reached"; empty: not in the legend
+  std::optional<DrawnBox> sheet = {};  // the material
 };
 
 // Draws into `file`, which the caller commits.
