@@ -107,6 +107,9 @@ void HpglPen::dashed_to(HpglSpot to) {
     way = next;
     if (!ends) return;
     end_path();
+    // Each dash is a path of its own, which costs more than its points.
+    constexpr std::size_t cost = 6;
+    if (dash_ % 2 == 0 && !builder_.has_room_for(cost, place(), "")) return;
     dash_ = (dash_ + 1) % dashes_.size();
     dash_used_ = 0;
   }

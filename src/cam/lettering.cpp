@@ -36,7 +36,9 @@ struct FreeTypeEnd {
 class Letterer {
  public:
   Letterer(const Lettering& lettering, const std::string& name, Diagnostics& diagnostics)
-      : lettering_(lettering), name_(name), diagnostics_(diagnostics), builder_(name, diagnostics) {}
+      : lettering_(lettering), name_(name), diagnostics_(diagnostics), builder_(name, diagnostics) {
+    builder_.layer("");
+  }
 
   Drawing letter(std::string_view font) {
     if (open(font)) {

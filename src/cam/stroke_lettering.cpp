@@ -21,7 +21,9 @@ class StrokeLetterer {
         font_(font),
         diagnostics_(diagnostics),
         builder_(name, diagnostics),
-        scale_(lettering.height.value() / font.capital) {}
+        scale_(lettering.height.value() / font.capital) {
+    builder_.layer("");
+  }
 
   Drawing letter() {
     for_letter_lines(lettering_, [&](std::string_view words, double base_line) { write(words, base_line); });
