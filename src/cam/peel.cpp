@@ -55,7 +55,7 @@ class Peeler {
 
   PeelWay find() {
     constexpr double chords = 2'000;  // nm
-    axis_ = medial_axis(ground_, 0, chords);
+    axis_ = medial_axis(ground_, {.tolerance_nm = chords});
     if (!axis_ || axis_->pieces.empty()) return {};
     at_node_.resize(axis_->nodes);
     std::vector<std::pair<double, std::uint32_t>> clearances;
