@@ -71,10 +71,11 @@ class Peeler {
     open(disc_of(piece.from == root ? piece.points.front() : piece.points.back()));
     prune(root);
     walk(root);
+    if (is_too_long()) return {};
     for (const DrawnRing& ring : ground_.rings) go_along_wall(ring);
     lift();
     way_.discs = discs_.size();
-    way_.is_whole = discs_.size() < most_peel_discs;
+    way_.is_whole = !is_too_long();
     return std::move(way_);
   }
 
@@ -106,6 +107,7 @@ class Peeler {
   void go_to(double x, double y, const PeelDisc& through);
   bool is_free(DrawnPoint from, double x, double y) const;
   void arc(double x, double y, double radius, double from, double sweep);
+  bool is_too_long() const { return length_ > longest_peel * cutter_; }
   void lift() {
     if (run_.size() > 1) way_.runs.push_back(std::move(run_));
     run_.clear();
@@ -122,12 +124,14 @@ class Peeler {
   std::vector<bool> is_walked_;
   std::vector<bool> is_passed_;
   PeelDiscs discs_;
+  double length_ = 0;  // of all rims, nm
   MillRun run_;
   PeelWay way_;
 };
 
 // Adds an arc about x, y. Where climbing, discs are followed counterclockwise: the stock is on the right.
 void Peeler::arc(double x, double y, double radius, double from, double sweep) {
+  length_ += radius * std::abs(sweep) + cutter_ / 100;
   const double parts = std::ceil(std::abs(sweep) / (turn / 3) - 1e-9);
   for (double i = 0; i < parts; ++i) {
     run_.back().bulge = std::tan(sweep / parts / 4);
@@ -151,7 +155,7 @@ void Peeler::open(const PeelDisc& disc) {
 // A spiral of half circles about two middles: each turn is wider than the one before by what the angle allows.
 void Peeler::widen(const PeelDisc& disc, double radius) {
   const double half = (options_.climb ? 1 : -1) * turn / 2;
-  while (radius < disc.radius - 1) {
+  while (radius < disc.radius - 1 && !is_too_long()) {
     double step = std::min(disc.radius - radius, cutter_);
     while (engagement_on_rim({disc.x, disc.y, radius}, {disc.x, disc.y, radius + step}, cutter_) > most_) step *= 0.97;
     arc(disc.x, disc.y, radius, 0, half);
@@ -199,7 +203,7 @@ void Peeler::walk(std::uint32_t root) {
   const MedialPiece& any = axis_->pieces[at_node_[root].front()];
   const PeelDisc first = disc_of(any.from == root ? any.points.front() : any.points.back());
   for (const std::uint32_t piece : at_node_[root]) branches.push_back({piece, root, first});
-  while (!branches.empty() && discs_.size() < most_peel_discs) {
+  while (!branches.empty() && !is_too_long()) {
     const Branch branch = branches.back();
     branches.pop_back();
     if (is_walked_[branch.piece]) continue;
@@ -222,7 +226,7 @@ void Peeler::walk_piece(const Branch& branch, std::vector<Branch>& branches) {
                       begin.radius + share * (end.radius - begin.radius)};
     };
     double share = 0;
-    while (!may_follow(last, end) && discs_.size() < most_peel_discs) {
+    while (!may_follow(last, end) && !is_too_long()) {
       double low = share;
       double high = 1;
       for (int k = 0; k < 16; ++k) {

@@ -43,9 +43,9 @@ inline Nanometres least_peeled(Nanometres cutter) {
   return {(cutter.count + 19) / 20};
 }
 
-// `ground`: one part, at least twice `least_peeled` wide everywhere. Not whole: more than `most_peel_discs` would be
-// needed, or the ground is wider than 4 m.
-inline constexpr std::size_t most_peel_discs = 200'000;
+// `ground`: one part, at least twice `least_peeled` wide everywhere. Not whole: the way would be longer than
+// `longest_peel` radii of the cutter, or the ground is wider than 4 m.
+inline constexpr double longest_peel = 500'000;
 PeelWay peel(const Region& ground, const PeelOptions& options);
 
 }  // namespace passo

@@ -163,7 +163,8 @@ std::optional<PeelWay> PocketPlanner::peel_within(const Region& ground) {
     PeelWay way = peel(ground, {.cutter = options_.cutter, .most_degrees = aim, .climb = options_.climb});
     if (!way.is_whole) {
       tell("pocket.engagement", Severity::error,
-           fmt::format("this engagement needs more than {} turns of the cutter", most_peel_discs),
+           fmt::format("this engagement needs a way of more than {:.4g} m",
+                       longest_peel * to_mm(radius()).value() / 1000),
            "a greater --engagement, or a thicker cutter");
       return std::nullopt;
     }
