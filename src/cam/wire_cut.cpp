@@ -205,9 +205,13 @@ void WirePlanner::take_out_turned(const WireRow& row, const std::vector<std::siz
 }
 
 void WirePlanner::add_leads() {
+  // Both ends begin beyond the block, however far the two profiles go.
+  double most = options_.block_end.count > 0 ? static_cast<double>(options_.block_end.count) : way_left_.places[0].x;
+  for (const SideWay* const way : {&way_left_, &way_right_}) {
+    for (const FlatVector& at : way->places) most = std::max(most, at.x);
+  }
+  most += static_cast<double>(options_.lead.count);
   for (SideWay* const way : {&way_left_, &way_right_}) {
-    const auto lead = static_cast<double>(options_.lead.count);
-    const double most = std::ranges::max_element(way->places, {}, [](FlatVector at) { return at.x; })->x + lead;
     way->places.insert(way->places.begin(), {most, way->places.front().y});
     way->places.push_back({most, way->places.back().y});
     const double kerf = kerf_at(options_.kerf, options_.feed);

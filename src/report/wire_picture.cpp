@@ -37,11 +37,13 @@ void draw_face(Canvas& canvas, const PlanView& view, const WireScene& scene, boo
   }
   const std::vector<double>& kerfs = is_left ? plan.kerfs_left : plan.kerfs_right;
   const Colour& colour = colour_of_tool(is_left ? 0 : 1);
-  for (std::size_t i = 1; i < plan.faces.size(); ++i) {
-    canvas.move_to(view.spot(is_left ? plan.faces[i - 1].left : plan.faces[i - 1].right));
-    canvas.line_to(view.spot(is_left ? plan.faces[i].left : plan.faces[i].right));
-    const double width = std::max(0.6, view.pixels(to_nanometres(Mm(kerfs[i]))));
-    canvas.stroke({.colour = colour, .width = width, .opacity = 0.35});
+  const auto spot = [&](std::size_t i) { return view.spot(is_left ? plan.faces[i].left : plan.faces[i].right); };
+  for (std::size_t i = 1; i < plan.faces.size();) {
+    // Ways of one kerf are one stroke: where two strokes meet, their ends would show.
+    const double kerf = kerfs[i];
+    canvas.move_to(spot(i - 1));
+    for (; i < plan.faces.size() && kerfs[i] == kerf; ++i) canvas.line_to(spot(i));
+    canvas.stroke({.colour = colour, .width = std::max(0.6, view.pixels(to_nanometres(Mm(kerf)))), .opacity = 0.35});
   }
   if (scene.has_four_axes) trace_wire(canvas, view, plan.towers, is_left, end_pen);
   trace_wire(canvas, view, plan.faces, is_left, {.colour = colour, .width = 0.8});

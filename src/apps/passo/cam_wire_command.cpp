@@ -100,6 +100,7 @@ WireJob wire_job_of(const CamWireArguments& arguments, LengthArguments& lengths)
       lengths.refuse("--block: expected X,Y,X,Y, the lower left and the upper right corner");
     } else {
       job.block = DrawnBox{{corners[0], corners[1]}, {corners[2], corners[3]}};
+      job.cut.block_end = corners[2];
     }
   }
   return job;

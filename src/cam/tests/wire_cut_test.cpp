@@ -137,7 +137,7 @@ TEST(WireProgram, has_a_time_for_each_move_of_four_axes_and_arcs_of_two) {
   options.right_face = options.span = Nanometres{100'000'000};
   const WirePlan plan = plan_wire_cut(box_profile(100, 50), box_profile(50, 25), options, findings);
   const std::string four = write_wire_program(plan, {.name = "wing"});
-  EXPECT_THAT(four, testing::HasSubstr("G0 X110 Y0 U60 V0\nG93\nG1 X100 Y0 U50 V0 F20\nG1 X100 Y50 U50 V25 F8\n"));
+  EXPECT_THAT(four, testing::HasSubstr("G0 X110 Y0 U110 V0\nG93\nG1 X100 Y0 U50 V0 F10\nG1 X100 Y50 U50 V25 F8\n"));
   EXPECT_TRUE(four.ends_with("G94\nM2\n"));
   const std::string two = write_wire_program(plan, {.name = "wing", .has_four_axes = false, .heat = 80});
   EXPECT_THAT(two,

@@ -1,7 +1,7 @@
 // plan_wire_cut: how a hot wire cuts a block of foam, with one profile or with two, at its left and its right face.
 //
-// The wire begins beside the profile, comes to its place of greatest X, goes around it once, and leaves as it came. It
-// is straight, so both ends arrive everywhere together: the profiles are matched corner by corner where they have
+// The wire begins beside both profiles, comes to its place of greatest X, goes around it once, and leaves as it came.
+// It is straight, so both ends arrive everywhere together: the profiles are matched corner by corner where they have
 // equally many, else at the greatest and the least X; between these, place by place at equal shares of the way.
 //
 // The slower end moves at the feed, and the other end faster, at most at `most_feed`. A wire that moves more slowly
@@ -41,7 +41,8 @@ struct WireOptions {
   double feed = 200;  // mm a minute
   double most_feed = 600;
   std::vector<WireKerf> kerf = {};  // one or more, by rising speed
-  Nanometres lead{10'000'000};      // how far beside the profile the cut begins and ends
+  Nanometres lead{10'000'000};      // how far beyond both profiles, and the block, the cut begins and ends
+  Nanometres block_end{};           // the greatest X of the block, where that is more than the profiles'
   Nanometres tolerance{5'000};      // of chords
   // Along the wire, from the left tower: used where the two sides differ.
   Nanometres left_face{};
