@@ -253,7 +253,7 @@ TEST(Fixtures, of_many_layout_programs_are_read) {
       ++layers;
     } else if (text.find("M48") != std::string::npos && text.find("M30") != std::string::npos) {
       const Drawing drawing = read_excellon(files[i].filename().string(), text, {}, found);
-      EXPECT_FALSE(drawing.holes.empty()) << files[i];
+      EXPECT_FALSE(drawing.holes.empty() && drawing.paths.empty()) << files[i];
       ++drills;
     }
     EXPECT_FALSE(found.any_error()) << files[i] << "\n" << render(found, false);
