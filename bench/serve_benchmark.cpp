@@ -30,8 +30,9 @@
 #include <unistd.h>
 
 #include "passo/activity/machine_plant.hpp"
+#include "passo/diagnostics/diagnostic.hpp"
 #include "passo/machine/virtual_machine.hpp"
-#include "passo/machine_file/machine_file.hpp"
+#include "passo/machine_file/machine_description.hpp"
 #include "passo/transport/board_server.hpp"
 
 namespace {
@@ -81,9 +82,9 @@ class StepWatch final : public MachineObserver {
 };
 
 // The board, in real time, in a thread of its own.
-class Board {
+class RealBoard {
  public:
-  explicit Board(const MachineDescription& machine)
+  explicit RealBoard(const MachineDescription& machine)
       : watch(machine.board.clock),
         plant_(plant_of(machine)),
         board_(static_cast<std::uint8_t>(machine.axes.size()), machine.board.clock, machine.board.highest_event_rate,
@@ -93,7 +94,7 @@ class Board {
     board_.add_observer(watch);
     thread_ = std::thread([this] { play(); });
   }
-  ~Board() {
+  ~RealBoard() {
     ends_ = true;
     thread_.join();
   }
@@ -312,7 +313,7 @@ void print(const char* what, std::vector<double> times) {
 
 // The time from `ask` to the first slower step, at full speed along X.
 template <class Ask, class GoOn>
-std::vector<double> measure_holds(Board& board, Ask ask, GoOn go_on) {
+std::vector<double> measure_holds(RealBoard& board, Ask ask, GoOn go_on) {
   std::vector<double> times;
   for (int i = 0; i < holds; ++i) {
     usleep(700'000 + 13'000 * static_cast<unsigned>(i));
@@ -335,7 +336,7 @@ std::string long_lines() {
   return text + "M2\n";
 }
 
-void measure_http_hold(Daemon& daemon, Board& board) {
+void measure_http_hold(Daemon& daemon, RealBoard& board) {
   daemon.run(long_lines());
   daemon.await("Run");
   print("a hold by HTTP", measure_holds(
@@ -344,7 +345,7 @@ void measure_http_hold(Daemon& daemon, Board& board) {
   daemon.await("Idle");
 }
 
-void measure_sender_hold(Daemon& daemon, Board& board) {
+void measure_sender_hold(Daemon& daemon, RealBoard& board) {
   daemon.ask("DELETE", "/owner");
   daemon.key.clear();
   const int sender = connect_to(static_cast<unsigned>(daemon.grbl));
@@ -358,7 +359,7 @@ void measure_sender_hold(Daemon& daemon, Board& board) {
   usleep(200'000);
 }
 
-void measure_long_program(Daemon& daemon, Board& board) {
+void measure_long_program(Daemon& daemon, RealBoard& board) {
   daemon.own();
   const std::string text = relief(1'000'000);
   const auto sent = Clock::now();
@@ -391,7 +392,7 @@ int main(int count, char** words) {
   Diagnostics diagnostics;
   const auto machine = load_machine_file(PASSO_SOURCE_DIR "/examples/machines/router.toml", diagnostics);
   if (!machine) return 1;
-  Board board(*machine);
+  RealBoard board(*machine);
   Daemon daemon(board.port());
   if (daemon.http == 0 || daemon.grbl == 0) return 1;
   daemon.own();

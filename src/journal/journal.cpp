@@ -127,26 +127,18 @@ std::optional<Noted> read_line(std::string_view line) {
   return words.good() ? std::optional(noted) : std::nullopt;
 }
 
-// A line without its end.
-std::string_view take_line(std::string_view& text) {
-  const std::size_t size = std::min(text.find('\n'), text.size());
-  const std::string_view line = text.substr(0, size);
-  text.remove_prefix(std::min(size + 1, text.size()));
-  return line;
-}
-
-// Takes the outcomes that are whole. The last one may be torn; then nothing has moved since.
-void read_outcomes(std::string_view text, std::vector<ProbeOutcome>& outcomes) {
-  while (!text.empty()) {
-    const std::string_view line = take_line(text);
-    if (line.size() <= record_check_size) return;
-    const std::string_view checked = line.substr(0, line.size() - record_check_size);
-    if (line.substr(checked.size()) != record_check(checked)) return;
+// Takes the outcomes. The last line may be torn: then nothing has moved since. False: another line is damaged.
+bool read_outcomes(std::string_view text, std::vector<ProbeOutcome>& outcomes) {
+  for (std::size_t end = 0; (end = text.find('\n')) != std::string_view::npos; text.remove_prefix(end + 1)) {
+    if (end < record_check_size) return false;
+    const std::string_view checked = text.substr(0, end - record_check_size);
+    if (text.substr(checked.size(), record_check_size) != record_check(checked)) return false;
     RecordWords words(checked);
     const ProbeOutcome found = outcome(words, outcomes.size());
-    if (!words.good()) return;
+    if (!words.good()) return false;
     outcomes.push_back(found);
   }
+  return true;
 }
 
 }  // namespace
@@ -183,7 +175,7 @@ std::optional<Journal> Journal::read(std::string_view text) {
   journal.head_ = std::move(*head);
   constexpr std::size_t ring = JournalWriter::rests * line_size;
   std::string_view lines = parts->rest.substr(0, ring);
-  read_outcomes(parts->rest.substr(lines.size()), journal.head_.probes);
+  if (!read_outcomes(parts->rest.substr(lines.size()), journal.head_.probes)) return {};
   std::vector<Noted> noted;
   for (; !lines.empty(); lines.remove_prefix(std::min(line_size, lines.size()))) {
     const std::string_view line = lines.substr(0, line_size);

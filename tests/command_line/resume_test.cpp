@@ -138,7 +138,7 @@ TEST_F(Resumed, after_the_terminal_was_closed_which_is_as_ctrl_c) {
 // What the probe has found is in the journal; here it meets nothing.
 TEST_F(Resumed, with_probe_moves_before_and_behind) {
   write("p.ngc",
-        "G21 G90 G38.3 X1 F600\nG0 X#5061 Y1\n" + text.substr(0, text.size() - 3) + "G38.3 Z1 F600\nG0 Y0\nM2\n");
+        "G21 G90 G38.3 X1 F600\nG0 X[#5061-1]\n" + text.substr(0, text.size() - 3) + "G38.3 Z1 F600\nG0 Y0\nM2\n");
   EXPECT_EQ(run_until(12, SIGKILL), -SIGKILL);
   const Outcome resumed = passo(command("--resume"));
   ASSERT_EQ(resumed.code, 0) << resumed.err;

@@ -90,7 +90,7 @@ class JournalWriter {
 
 class Journal {
  public:
-  // Empty if the head is damaged.
+  // Empty if the head or an outcome is damaged.
   static std::optional<Journal> read(std::string_view text);
   // True: the text is a journal of any version, whole or not.
   static bool is_journal(std::string_view text);
