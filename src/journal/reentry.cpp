@@ -1,6 +1,7 @@
 #include "passo/journal/reentry.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 #include <optional>
 #include <utility>
@@ -86,7 +87,9 @@ std::string place_words(const MachineDescription& machine, const Point& place, b
   std::string words;
   for (const AxisDescription& axis : machine.axes) {
     if (axis.axis == Axis::z && !with_z) continue;
-    words += fmt::format("{}{}{:.3f}", words.empty() ? "" : " ", letter_of(axis.axis), place[axis.axis]);
+    // No minus sign before a zero.
+    const double rounded = std::round(place[axis.axis] * 1000) / 1000 + 0.0;
+    words += fmt::format("{}{}{:.3f}", words.empty() ? "" : " ", letter_of(axis.axis), rounded);
   }
   return words;
 }

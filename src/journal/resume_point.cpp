@@ -1,6 +1,8 @@
 #include "passo/journal/resume_point.hpp"
 
+#include <algorithm>
 #include <cmath>
+#include <deque>
 #include <utility>
 
 #include "path_of_program.hpp"
@@ -8,10 +10,34 @@
 namespace passo {
 namespace {
 
+// The feeds of the lines that were read last. A curve of the smoothed path has a speed along its own parameter.
+class FeedsOfLines {
+ public:
+  void note(const PathItem& item) {
+    const auto* segment = std::get_if<Segment>(&item);
+    if (segment == nullptr || segment->rapid) return;
+    feeds_.push_back({.line = segment->source.line, .feed = segment->speed});
+    if (feeds_.size() > most) feeds_.pop_front();
+  }
+  std::optional<MmPerSecond> of(std::uint32_t line) const {
+    const auto found =
+        std::find_if(feeds_.rbegin(), feeds_.rend(), [&](const Feed& feed) { return feed.line == line; });
+    return found != feeds_.rend() ? std::optional(found->feed) : std::nullopt;
+  }
+
+ private:
+  static constexpr std::size_t most = 256;  // the smoother reads no farther ahead, unless lines are merged
+  struct Feed {
+    std::uint32_t line = 0;
+    MmPerSecond feed{0};
+  };
+  std::deque<Feed> feeds_;
+};
+
 // Keeps what the passed items have set.
 class Passed {
  public:
-  explicit Passed(ResumePoint& point) : point_(point) {}
+  Passed(ResumePoint& point, const FeedsOfLines& feeds) : point_(point), feeds_(feeds) {}
 
   void pass(const PathItem& item) {
     if (const auto* segment = std::get_if<Segment>(&item)) {
@@ -41,13 +67,14 @@ class Passed {
     const Point end = segment.curve.end();
     const bool is_across = start[Axis::x] != end[Axis::x] || start[Axis::y] != end[Axis::y];
     if (!segment.rapid) {
-      point_.feed = segment.speed;
+      point_.feed = feeds_.of(segment.source.line).value_or(point_.feed);
     } else if (is_across && start[Axis::z] == end[Axis::z]) {
       point_.clearance = start[Axis::z];
     }
   }
 
   ResumePoint& point_;
+  const FeedsOfLines& feeds_;
   bool waits_ = false;  // the spindle was switched, and nothing has moved since
 };
 
@@ -58,7 +85,10 @@ class PointFinder {
               const std::vector<ProbeOutcome>& probes)
       : chain_(chain), path_(chain.path()), machine_(machine), probes_(probes) {
     point_.point = start;
+    chain.programmed().watch([this](const PathItem& item) { feeds_.note(item); });
   }
+  PointFinder(const PointFinder&) = delete;
+  PointFinder& operator=(const PointFinder&) = delete;
 
   std::optional<ResumePoint> find(PathPlace place) {
     while (next_ < place.item) {
@@ -146,7 +176,8 @@ class PointFinder {
   const MachineDescription& machine_;
   const std::vector<ProbeOutcome>& probes_;
   ResumePoint point_;
-  Passed passed_{point_};
+  FeedsOfLines feeds_;
+  Passed passed_{point_, feeds_};
   PathItem item_;
   bool has_item_ = false;   // the item at next_ was looked at
   std::uint64_t next_ = 0;  // the number of the item that is passed next
