@@ -203,7 +203,7 @@ TEST(JobRestartAmidProbing, goes_on_from_what_was_found) {
     ASSERT_TRUE(server.to_end());
     moments = server.moments();
   }
-  for (std::uint64_t life = moments / 8; life < moments; life += moments / 6) {
+  for (std::uint64_t life = moments / 4; life < moments; life += moments / 4) {
     SCOPED_TRACE(life);
     JobBench bench(example_machine("router"), things);
     try {
