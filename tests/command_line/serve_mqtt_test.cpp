@@ -58,7 +58,7 @@ class ServeMqtt : public passo::test::CommandLine {
     if (kill(process, SIGTERM) == 0) waitpid(process, nullptr, 0);
     std::erase(started_, process);
   }
-  // The text that the broker keeps for a topic. Empty after two seconds without one.
+  // The text that the broker keeps for a topic. Empty after a second without one.
   std::string kept(const std::string& topic) const {
     mosquitto* const line = mosquitto_new(nullptr, true, nullptr);
     std::string text;
@@ -69,14 +69,16 @@ class ServeMqtt : public passo::test::CommandLine {
     });
     if (mosquitto_connect(line, "127.0.0.1", static_cast<int>(port_), 10) == MOSQ_ERR_SUCCESS) {
       mosquitto_subscribe(line, nullptr, topic.c_str(), 0);
-      for (int i = 0; i < 20 && text.empty(); ++i) mosquitto_loop(line, 100, 1);
+      for (int i = 0; i < 10 && text.empty(); ++i) mosquitto_loop(line, 100, 1);
       mosquitto_disconnect(line);
+    } else {
+      usleep(100'000);  // the broker is not there yet
     }
     mosquitto_destroy(line);
     return text;
   }
   bool becomes(const std::string& topic, const std::string& wanted) const {
-    for (int i = 0; i < 10; ++i) {
+    for (int i = 0; i < 200; ++i) {
       if (kept(topic).find(wanted) != std::string::npos) return true;
     }
     return false;

@@ -5,7 +5,7 @@
 // is connected; the broker itself makes it 0 when the connection breaks. A broker that is away is tried again and
 // again, and never waited for: what is told meanwhile is dropped.
 //
-// libmosquitto has a thread of its own for the connection. Only mqtt_publisher.cpp sees the library.
+// The connection has a thread of its own. Only mqtt_publisher.cpp sees libmosquitto.
 #pragma once
 
 #include <memory>
