@@ -96,10 +96,10 @@ TEST_F(ServeMqtt, tells_its_status_to_a_broker_that_comes_later) {
   usleep(200'000);
   start({"/usr/sbin/mosquitto", "-p", std::to_string(port_)}, "broker");
   EXPECT_TRUE(becomes("shop/router/online", "1")) << passo::test::read(path("said"));
-  EXPECT_TRUE(becomes("shop/router/state", "idle"));
+  EXPECT_TRUE(becomes("shop/router/state", "Idle"));
   const auto status = nlohmann::json::parse(kept("shop/router/status"), nullptr, false);
   ASSERT_TRUE(status.is_object());
-  EXPECT_EQ(status["state"], "idle");
+  EXPECT_EQ(status["state"], "Idle");
   EXPECT_EQ(status["position"]["X"], 0.0);
   kill(daemon, SIGKILL);
   waitpid(daemon, nullptr, 0);
