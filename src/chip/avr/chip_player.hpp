@@ -228,7 +228,7 @@ class ChipPlayer {
   // A motion from rest begins with some empty events. They give time to fill the ring, and the interrupt reads the line
   // meanwhile.
   static constexpr uint16_t blank_ticks = often - 50;
-  static constexpr uint8_t blank_events = 6000 / blank_ticks;
+  static constexpr uint8_t blank_events = (RingTimes::are_short ? 12000 : 6000) / blank_ticks;
   static constexpr uint16_t start_ticks = 2500;  // about the time that it takes to write them
   // The interrupt may miss an alarm that is nearer than this.
   static constexpr uint16_t least_lead = 150;
@@ -341,11 +341,12 @@ class ChipPlayer {
       if (running == 0) line_is_watched = 0;  // the interrupt stopped in between
     }
     // Events count only when all of them are made. At the highest rate an event takes half of its time to make, the
-    // interrupt's share included. So twice as many events as are ahead, less a few for the way, will be ready before the
-    // interrupt stops and no longer reads the line.
+    // interrupt's share included. So twice as many events as are ahead, less a few for the way, will be ready before
+    // the interrupt stops and no longer reads the line.
     uint8_t count = most_at_once;
-    if (ahead < (most_at_once + way_in_events) / 2) count = static_cast<uint8_t>(2 * ahead - way_in_events);
-    if (ahead < (few_at_once + way_in_events) / 2 || line_is_watched == 0) count = few_at_once;
+    const uint8_t way_in = RingTimes::way_in();
+    if (ahead < (most_at_once + way_in) / 2) count = static_cast<uint8_t>(2 * ahead - way_in);
+    if (ahead < (few_at_once + way_in) / 2 || line_is_watched == 0) count = few_at_once;
     if (!RingTimes::are_short && count > left_) count = left_;
     count = RingTimes::before_the_end(head_, count);
     const uint8_t room = static_cast<uint8_t>(most_ahead_ - ahead);
@@ -437,12 +438,13 @@ class ChipPlayer {
     return static_cast<uint16_t>(due + later);
   }
 
-  static inline uint8_t head_ = 0;        // the entry after the last event
-  static inline uint8_t most_ahead_ = most_events;  // how many entries may be in the ring, at the rate of the loaded segment
-  static inline uint8_t least_room_ = most_events / 2;  // room in the ring for which it is worth making some
-  static inline uint8_t left_ = 0;        // events of the loaded segment that are not made yet
-  static inline uint8_t turns_ = 0;       // motors that reverse before its first event
-  static inline bool turning_ = false;    // the reversals are in the queue of turns, but the event is not flagged yet
+  static inline uint8_t head_ = 0;  // the entry after the last event
+  static inline uint8_t most_ahead_ =
+      most_events;  // how many entries may be in the ring, at the rate of the loaded segment
+  static inline uint8_t least_room_ = most_events / 8 * 3;  // room in the ring for which it is worth making some
+  static inline uint8_t left_ = 0;                      // events of the loaded segment that are not made yet
+  static inline uint8_t turns_ = 0;                     // motors that reverse before its first event
+  static inline bool turning_ = false;  // the reversals are in the queue of turns, but the event is not flagged yet
   static inline uint8_t directions_ = 0;
   static inline uint8_t turns_head_ = turns_address & 0xff;
   static inline bool fresh_ = false;  // the clock was set for the events in the ring

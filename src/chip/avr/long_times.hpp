@@ -44,6 +44,7 @@ class RingTimes {
   };
 
   static void load() {}
+  static uint8_t way_in() { return way_in_events; }
   // How many of `count` entries to make at once.
   static uint8_t at_once(uint8_t count) { return count; }
   // The expander stops at the ring's end.

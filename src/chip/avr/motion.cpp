@@ -204,7 +204,9 @@ constexpr uint8_t most_bytes_a_turn = 32;
   for (uint8_t taken = 0; line.has_byte() && taken < most_bytes_a_turn; ++taken) {
     receive();
     SerialLine::breathe();
-    if ((taken & 3) == 3 && ChipPlayer::is_low()) keep_up();
+    if ((taken & 3) != 3) continue;
+    SpindleCounter::look();
+    if (ChipPlayer::is_low()) keep_up();
   }
   manual.feed();
   keep_up();

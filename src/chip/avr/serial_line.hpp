@@ -73,7 +73,8 @@ class SerialLine {
           rjmp 1b
       2:
     )" ::[ocr] "n"(StepAlarm::where),
-        [tcnt] "n"(StepCount::where), [ucsra] "n"(Ucsr0a::where), [udr] "n"(Udr0::where), [received] "n"(received_address)
+        [tcnt] "n"(StepCount::where), [ucsra] "n"(Ucsr0a::where), [udr] "n"(Udr0::where),
+        [received] "n"(received_address)
         : "r24", "r25", "r30", "r31", "memory");
   }
 

@@ -54,6 +54,8 @@ class RingTimes {
 
   // A segment was loaded.
   static void load() { reach_ = reach(); }
+  // Slow entries last long enough for the way in.
+  static uint8_t way_in() { return reach_ == Reach::near ? way_in_events : uint8_t{0}; }
   // The line cannot wait for many slow events.
   static uint8_t at_once(uint8_t count) {
     return line_is_watched != 0 || count <= most_waits_at_once || reach_ == Reach::near ? count : most_waits_at_once;
@@ -145,7 +147,7 @@ class RingTimes {
   static constexpr uint8_t most_waits_at_once = 4;
 
   static inline Reach reach_ = Reach::far;
-  static inline uint16_t made_ = 0;  // entries ever made
+  static inline uint16_t made_ = 0;         // entries ever made
   static inline uint8_t since_wait_ = 255;  // entries made since one that may be a wait; 255: or more
 };
 

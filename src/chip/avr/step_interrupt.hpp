@@ -3,8 +3,9 @@
 // Registers r2 to r5 belong to the interrupt for the whole program. clang cannot be told so. It takes these registers
 // last, the program is written so that it never needs them, and check_program.sh looks for them in the finished
 // program.
-//   Uno    r3:r2  the next entry of the ring (r3 stays)   r4  scratch           r5  the bits to toggle at the next event
-//   Mega      r2  the next entry of the ring              r3, r4, r6  scratch   r5  the same, on the first step port
+//   Uno    r3:r2  the next entry of the ring (r3 stays)   r4  scratch           r5  the bits to toggle at the next
+//   event Mega      r2  the next entry of the ring              r3, r4, r6  scratch   r5  the same, on the first step
+//   port
 // With windings (winding_events.cpp) both are C++, and there are no such registers.
 #pragma once
 
@@ -78,7 +79,8 @@ extern volatile uint8_t stops_c;
 void expand(uint8_t events);
 #if !defined PASSO_WINDINGS && !defined __AVR_ATmega2560__
 // The same where events may be further apart than the timer's 256 ticks, with entries between them that only wait.
-// All intervals are under 512 ticks: up to two entries an event. Returns the low byte of the address behind the last one.
+// All intervals are under 512 ticks: up to two entries an event. Returns the low byte of the address behind the last
+// one.
 uint8_t expand_with_waits(uint8_t events);
 // Any intervals. Makes at most `entries` (at least one), and at most expansion.events events. Returns how many entries
 // less it made.

@@ -17,7 +17,7 @@ inline constexpr uint8_t flag_stop = pins.flag_stop;
 inline constexpr uint8_t pulse_without_padding = 16;
 inline constexpr About about = {
     .firmware = 102,
-    .highest_event_rate = 160'000,
+    .highest_event_rate = 150'000,
     .baud = 500'000,
     .name = "uno cnc shield3",
     .step_pulse = pins.shortest_pulse > pulse_without_padding ? pins.shortest_pulse : pulse_without_padding};
@@ -33,7 +33,8 @@ static_assert((pins.steps_on('D') & first_waits) == 0);
 
 inline constexpr uint16_t ring_address = 0x100;
 inline constexpr uint8_t ring_entries = 128;
-inline constexpr uint8_t most_events = 126;   // in the ring; all of them will be played
+// In the ring; all of them will be played. Those just played must stay to be looked at when a capture is noted.
+inline constexpr uint8_t most_events = 120;
 inline constexpr uint8_t most_at_once = 100;  // made in one call
 inline constexpr uint8_t way_in_events = 24;  // about what is played while events are begun to be made
 // The registers of the step timer whose low bytes tell how near its alarm is.
@@ -50,7 +51,8 @@ inline constexpr uint16_t received_address = 0x200;
 inline constexpr uint16_t turns_address = 0x300;
 inline constexpr uint8_t turns_mask = 0x07;
 
-// No entry is later than this after the one before it, and the interrupt takes a byte each time. A byte takes 320 cycles.
+// No entry is later than this after the one before it, and the interrupt takes a byte each time. A byte takes 320
+// cycles.
 inline constexpr uint16_t often = 300;
 
 // Actions of the outputs, and after them the action at a stop. The low byte of an action's address is told beside the

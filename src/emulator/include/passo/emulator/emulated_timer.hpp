@@ -1,9 +1,11 @@
-// EmulatedTimer: timers 0 (8 bits) and 1 (16 bits) of the ATmegas, free running at the full clock, each with its compare
-// match A, and timer 1 with its overflow flag (no program uses the overflow as an interrupt). The class replaces simavr's timer, which forgets a preset count,
-// clears all flags when one is cleared, and forgets a match that was pending when its interrupt is enabled.
+// EmulatedTimer: timers 0 (8 bits) and 1 (16 bits) of the ATmegas, free running at the full clock, each with its
+// compare match A, and timer 1 with its overflow flag (no program uses the overflow as an interrupt). The class
+// replaces simavr's timer, which forgets a preset count, clears all flags when one is cleared, and forgets a match that
+// was pending when its interrupt is enabled.
 //
 // As in silicon, 16-bit registers go through the one byte TEMP that they share. A match sets its flag whether the
-// interrupt is enabled or not. A compare time that has just passed when it is written comes again after a whole turn of the timer.
+// interrupt is enabled or not. A compare time that has just passed when it is written comes again after a whole turn of
+// the timer.
 #pragma once
 
 #include <cstdint>
