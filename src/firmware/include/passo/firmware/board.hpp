@@ -417,14 +417,8 @@ class Board : private BoardVoice<Hardware> {
   }
   [[gnu::noinline]] void load_part(Segment& segment, bool begins) {
     parts_.take(segment, begins);
-    if (is_root(segment.form)) keep_playable(parts_.part());
+    if (is_root(segment.form)) identity_.template keep_playable<Breath>(parts_.part(), motors_);
     player_.load(parts_.part());
-  }
-  // A part that is too fast, which only a wrong host makes, is played as fast as may be.
-  [[gnu::noinline]] void keep_playable(Segment& part) {
-    if (identity_.template can_play<Breath>(part, motors_)) return;
-    if (part.interval < identity_.shortest_interval) part.interval = identity_.shortest_interval;
-    part.change = 0;
   }
 
   // The oldest item, or a part of it, is done. Outputs are switched here, at the event before them.
