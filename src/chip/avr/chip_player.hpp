@@ -84,7 +84,9 @@ class ChipPlayer {
 
   // Whether it can take the next item.
   static bool ready() {
-    return left_ == 0 && static_cast<uint8_t>(begun_ - finished_) < most_begun && !OutputActions::full();
+    const uint8_t begun = static_cast<uint8_t>(begun_ - finished_);
+    if (left_ != 0 || begun >= most_begun || OutputActions::full()) return false;
+    return begun < few_begun || waiting() < worth_more_begun;
   }
   // True when nothing is played and nothing waits to be played.
   static bool done() { return left_ == 0 && rests(); }
@@ -103,6 +105,7 @@ class ChipPlayer {
     left_ = segment.events;
     RingTimes::load();
     if (!RingTimes::are_short) plan_watch(segment);
+    least_room_ = RingTimes::least_room(most_ahead_);
     SerialLine::breathe();
     remember(segment);
   }
@@ -121,7 +124,6 @@ class ChipPlayer {
     }
     SerialLine::breathe();
     most_ahead_ = most_ahead();
-    least_room_ = static_cast<uint8_t>(most_ahead_ / 8 * 3);
   }
   // Takes an item that needs no time. It is finished with the event before it.
   static void pass(const BoardOutputs& outputs) {
@@ -139,8 +141,8 @@ class ChipPlayer {
     ends_[place] = static_cast<uint16_t>(made_ + left_);
     Item& item = items_[place];
     item.events = segment.events;
-    item.directions = segment.directions;
-    item.flips = segment.flips;
+    item.directions = segment.directions & motors_mask;
+    item.flips = segment.flips & motors_mask;
     for (uint8_t m = 0; m < motors(); ++m) item.increments[m] = segment.increments[m];
   }
 
@@ -193,6 +195,7 @@ class ChipPlayer {
     for (uint8_t pieces = most_pieces; pieces != 0; --pieces) {
       if (captured()) note_capture();
       if (left_ == 0 || !has_room() || !make_events()) break;
+      if (running == 0 && waiting() >= enough_to_start && halted == 0) start();
       SerialLine::poll();
     }
     if (running == 0 && waiting() != 0 && halted == 0) start();
@@ -219,12 +222,16 @@ class ChipPlayer {
   static bool slipped() { return slipped_; }
 
  private:
-  static constexpr uint8_t items_mask = 3;
-  static constexpr uint8_t most_begun = 4;
+  // An item that has begun cannot be replaced, so a few are enough, but for short ones: they may have one event.
+  static constexpr uint8_t few_begun = 4;
+  static constexpr uint8_t most_begun = RingTimes::are_short ? 8 : 4;
+  static constexpr uint8_t worth_more_begun = 80;
+  static constexpr uint8_t items_mask = most_begun - 1;
   // Events are made a few at a time, or most_at_once. Many save the way in and out, but the line is not read meanwhile.
   // So many are made only when the interrupt comes so often that it sees every byte.
-  static constexpr uint8_t few_at_once = 8;
   static constexpr uint8_t most_pieces = 8;
+  // So many entries last until the next ones are made.
+  static constexpr uint8_t enough_to_start = 8;
   // A motion from rest begins with some empty events. They give time to fill the ring, and the interrupt reads the line
   // meanwhile.
   static constexpr uint16_t blank_ticks = often - 50;
@@ -233,11 +240,13 @@ class ChipPlayer {
   // The interrupt may miss an alarm that is nearer than this.
   static constexpr uint16_t least_lead = 150;
 
+  static constexpr uint8_t motors_mask = (1U << pins.motors) - 1;
+  static constexpr unsigned bits_of_motors = pins.motors > 4 ? 8 : 4;
   // An item that was begun and is not finished.
   struct Item {
     uint8_t events;
-    uint8_t directions;
-    uint8_t flips;
+    uint8_t directions : bits_of_motors;
+    uint8_t flips : bits_of_motors;
     uint16_t increments[pins.motors];
   };
 
@@ -268,7 +277,7 @@ class ChipPlayer {
   // Events of the oldest item that are not played yet.
   static int16_t left_of_oldest() {
     const uint8_t now = fetched_entry();
-    uint16_t played = static_cast<uint16_t>(made_ - RingTimes::events(now, (head_ - now) & ring_mask));
+    uint16_t played = RingTimes::played(now, (head_ - now) & ring_mask, made_);
     if (captured()) note_capture();  // after the look at the ring, because a capture may come at any time
     if (noted_) played = captured_at_;
     return static_cast<int16_t>(ends_[finished_ & items_mask] - played);
@@ -278,7 +287,7 @@ class ChipPlayer {
   [[gnu::noinline]] static void note_capture() {
     if (noted_) return;
     const uint8_t then = entry_of(captured_entry);
-    captured_at_ = static_cast<uint16_t>(made_ - RingTimes::events(then, (head_ - then) & ring_mask));
+    captured_at_ = RingTimes::played(then, (head_ - then) & ring_mask, made_);
     noted_ = true;
   }
   static bool rests() { return running == 0 && waiting() == 0; }
@@ -346,7 +355,8 @@ class ChipPlayer {
     uint8_t count = most_at_once;
     const uint8_t way_in = RingTimes::way_in();
     if (ahead < (most_at_once + way_in) / 2) count = static_cast<uint8_t>(2 * ahead - way_in);
-    if (ahead < (few_at_once + way_in) / 2 || line_is_watched == 0) count = few_at_once;
+    const uint8_t few = RingTimes::few();
+    if (ahead < (few + way_in) / 2 || line_is_watched == 0) count = few;
     if (!RingTimes::are_short && count > left_) count = left_;
     count = RingTimes::before_the_end(head_, count);
     const uint8_t room = static_cast<uint8_t>(most_ahead_ - ahead);
@@ -393,8 +403,10 @@ class ChipPlayer {
     uint16_t due = RingTimes::due(first, head_);
     uint16_t gap = fresh_ ? uint16_t{start_ticks + blank_ticks} : RingTimes::gap(first);
     while (RingTimes::is_only_a_wait(first) && !is_in_time(due, gap)) {
+      const uint8_t next = static_cast<uint8_t>((first + 1) & ring_mask);
+      if (next == head_) break;  // its event is not made yet
       if ((flagged_byte(first) & flag_special) != 0) turn_now(flagged_byte(first));
-      first = static_cast<uint8_t>((first + 1) & ring_mask);
+      first = next;
       const uint16_t more = RingTimes::gap(first);
       due = static_cast<uint16_t>(due + more);
       gap = static_cast<uint16_t>(gap + more);
@@ -435,13 +447,14 @@ class ChipPlayer {
       SerialLine::breathe();
     }
     expansion.time += static_cast<uint32_t>(later) << 16;
+    RingTimes::delay_next(later);
     return static_cast<uint16_t>(due + later);
   }
 
   static inline uint8_t head_ = 0;  // the entry after the last event
   static inline uint8_t most_ahead_ =
       most_events;  // how many entries may be in the ring, at the rate of the loaded segment
-  static inline uint8_t least_room_ = most_events / 8 * 3;  // room in the ring for which it is worth making some
+  static inline uint8_t least_room_ = most_events;  // room in the ring for which it is worth making some
   static inline uint8_t left_ = 0;                      // events of the loaded segment that are not made yet
   static inline uint8_t turns_ = 0;                     // motors that reverse before its first event
   static inline bool turning_ = false;  // the reversals are in the queue of turns, but the event is not flagged yet

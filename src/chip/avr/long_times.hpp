@@ -45,6 +45,10 @@ class RingTimes {
 
   static void load() {}
   static uint8_t way_in() { return way_in_events; }
+  // What to make at once where hardly any wait.
+  static uint8_t few() { return 8; }
+  // Room in the ring for which it is worth making some events.
+  static uint8_t least_room(uint8_t most_ahead) { return static_cast<uint8_t>(most_ahead / 8 * 3); }
   // How many of `count` entries to make at once.
   static uint8_t at_once(uint8_t count) { return count; }
   // The expander stops at the ring's end.
@@ -58,8 +62,10 @@ class RingTimes {
     left = static_cast<uint8_t>(left - count);
     return count;
   }
-  // The events among so many entries from this one on, up to the end of the ring.
-  static uint8_t events(uint8_t /*from*/, uint8_t entries) { return entries; }
+  // The events played before this entry, with so many entries from there to the end of the ring. `made`: events ever.
+  static uint16_t played(uint8_t /*from*/, uint8_t entries, uint16_t made) {
+    return static_cast<uint16_t>(made - entries);
+  }
   // The first byte of a finished entry, of what the expander has written.
   static uint8_t finished(uint8_t written, bool turns) {
     const uint8_t plain = static_cast<uint8_t>(written & ~(flag_special | flag_stop));
@@ -76,6 +82,7 @@ class RingTimes {
   static bool is_only_a_wait(uint8_t /*index*/) { return false; }
   static void place(uint8_t index, uint16_t time) { set_time(index, time); }
   static void delay(uint8_t index, uint16_t ticks) { set_time(index, static_cast<uint16_t>(time_of(index) + ticks)); }
+  static void delay_next(uint16_t /*ticks*/) {}
 };
 
 }  // namespace passo::chip

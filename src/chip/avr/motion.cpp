@@ -187,7 +187,7 @@ constexpr uint8_t most_bytes_a_turn = 32;
 [[gnu::noinline]] void keep_up() {
   ChipPlayer::refill();
   if (!ChipPlayer::wants_more() || !board.has_more()) return;
-  board.settle();
+  board.feed();
   ChipPlayer::refill();
 }
 

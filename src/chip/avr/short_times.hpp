@@ -33,7 +33,7 @@ class RingTimes {
   }
   static void restart() {
     expansion.is_amid = 0;
-    since_wait_ = 255;
+    since_wait_ = since_count_ = 255;
     reach_ = Reach::far;
   }
   static void disable() { Timsk0::write(0); }
@@ -56,6 +56,10 @@ class RingTimes {
   static void load() { reach_ = reach(); }
   // Slow entries last long enough for the way in.
   static uint8_t way_in() { return reach_ == Reach::near ? way_in_events : uint8_t{0}; }
+  // What to make at once where hardly any wait.
+  static uint8_t few() { return reach_ == Reach::near ? few_events : most_waits_at_once; }
+  // Room in the ring for which it is worth making some. Slow events leave time, and the loop may be away for long.
+  static uint8_t least_room(uint8_t /*most_ahead*/) { return reach_ == Reach::near ? most_events / 8 * 3 : most_events / 6; }
   // The line cannot wait for many slow events.
   static uint8_t at_once(uint8_t count) {
     return line_is_watched != 0 || count <= most_waits_at_once || reach_ == Reach::near ? count : most_waits_at_once;
@@ -67,8 +71,8 @@ class RingTimes {
     if (count > left) count = left;
     expand(count);
     left = static_cast<uint8_t>(left - count);
-    made_ = static_cast<uint16_t>(made_ + count);
-    since_wait_ = since_wait_ > 255 - count ? uint8_t{255} : static_cast<uint8_t>(since_wait_ + count);
+    add(count);
+    since_wait_ = no_more_than_255(since_wait_, count);
     return count;
   }
   [[gnu::noinline]] static uint8_t make_slowly(uint8_t count, uint8_t& left) {
@@ -86,18 +90,23 @@ class RingTimes {
       count = static_cast<uint8_t>(count - expand_slowly(count));
       left = expansion.events;
     }
-    made_ = static_cast<uint16_t>(made_ + count);
+    add(count);
     return count;
   }
-  // A walk, if there are waits.
-  [[gnu::noinline]] static uint8_t events(uint8_t from, uint8_t entries) {
-    if (entries <= since_wait_) return entries;
-    uint8_t events = 0;
-    for (; entries != 0; --entries) {
-      if (!is_wait(flagged_byte(from))) ++events;
-      from = (from + 1) & ring_mask;
+  // A walk, if there are waits: from the entry at which the last walk ended, if it is still in the ring.
+  [[gnu::noinline]] static uint16_t played(uint8_t from, uint8_t entries, uint16_t made) {
+    uint16_t played;
+    if (entries <= since_wait_) {
+      played = static_cast<uint16_t>(made - entries);
+    } else if (since_count_ < ring_mask && since_count_ >= entries) {
+      const uint8_t back = static_cast<uint8_t>(since_count_ - entries);
+      played = static_cast<uint16_t>(counted_ + events(static_cast<uint8_t>(from - back), back));
+    } else {
+      played = static_cast<uint16_t>(made - events(from, entries));
     }
-    return events;
+    counted_ = played;
+    since_count_ = entries;
+    return played;
   }
   static uint8_t finished(uint8_t written, bool turns) {
     if ((written & first_waits) != 0) return turns ? flag_special | first_waits : flag_stop;
@@ -123,16 +132,52 @@ class RingTimes {
     return ticks == 0 ? 256 : ticks;
   }
   static bool is_only_a_wait(uint8_t index) { return is_wait(flagged_byte(index)); }
-  static void place(uint8_t index, uint16_t time) { *time_low_of(index) = static_cast<uint8_t>(time); }
+  static void place(uint8_t index, uint16_t time) {
+    *time_low_of(index) = static_cast<uint8_t>(time);
+    add(1);
+  }
   static void delay(uint8_t index, uint16_t ticks) {
     *time_low_of(index) = static_cast<uint8_t>(*time_low_of(index) + ticks);
   }
+  // What is made amid a wait counts from the last entry.
+  static void delay_next(uint16_t ticks) { expansion.at = static_cast<uint8_t>(expansion.at + ticks); }
 
  private:
   static bool is_wait(uint8_t flagged) {
     if ((flagged & flag_special) != 0) return (flagged & first_waits) != 0;
     return (flagged & flag_stop) != 0;
   }
+  static uint8_t no_more_than_255(uint8_t a, uint8_t b) { return a > 255 - b ? uint8_t{255} : static_cast<uint8_t>(a + b); }
+  static void add(uint8_t entries) {
+    made_ = static_cast<uint16_t>(made_ + entries);
+    since_count_ = no_more_than_255(since_count_, entries);
+  }
+  // Those that do not only wait, among so many entries from this one on: 12 cycles an entry.
+  static uint8_t events(uint8_t from, uint8_t entries) {
+    uint8_t events = 0;
+    if (entries == 0) return 0;
+    uint16_t at = toggles_address(from);
+    asm volatile(R"(
+      1:  ldi r31, 0x01             ; 1   the ring is a page
+          ld r25, Z+                ; 2
+          inc r30                   ; 1
+          sbrc r25, %[special]      ; 2
+          rjmp 3f
+          sbrs r25, %[stop]         ; 2
+      2:  inc %[events]             ; 1
+      4:  dec %[entries]            ; 1
+          brne 1b                   ; 2
+          rjmp 5f
+      3:  sbrs r25, %[first_waits]
+          rjmp 2b
+          rjmp 4b
+      5:
+    )" : [events] "+r"(events), [entries] "+r"(entries), "+z"(at)
+                 : [special] "n"(0), [stop] "n"(1), [first_waits] "n"(7)
+                 : "r25", "memory");
+    return events;
+  }
+  static_assert(flag_special == 1 << 0 && flag_stop == 1 << 1 && first_waits == 1 << 7 && ring_address == 0x100);
   // What the next 255 intervals are all under: 256 ticks, 512, or none of these.
   enum class Reach : uint8_t { near, middle, far };
   [[gnu::noinline]] static Reach reach() {
@@ -144,11 +189,14 @@ class RingTimes {
     return ticks == 0 ? Reach::near : ticks == 1 ? Reach::middle : Reach::far;
   }
 
+  static constexpr uint8_t few_events = 8;
   static constexpr uint8_t most_waits_at_once = 4;
 
   static inline Reach reach_ = Reach::far;
   static inline uint16_t made_ = 0;         // entries ever made
   static inline uint8_t since_wait_ = 255;  // entries made since one that may be a wait; 255: or more
+  static inline uint8_t since_count_ = 255;  // entries made since the one before which events were counted, and
+  static inline uint16_t counted_ = 0;       // how many
 };
 
 }  // namespace passo::chip

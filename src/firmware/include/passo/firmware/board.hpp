@@ -136,14 +136,15 @@ class Board : private BoardVoice<Hardware> {
   void settle() {
     do {
       breathe();
-      while (player_.finished()) {
-        retire();
-        player_.forget();
-        breathe();
-      }
+      while (player_.finished()) retire_one();
       if (!player_.ready() || !has_more()) return;
       load();
     } while (true);
+  }
+  // Gives the player one item, and removes no more than one for that: where events are short, they come first.
+  void feed() {
+    if (!player_.ready() && player_.finished()) retire_one();
+    if (player_.ready() && has_more()) load();
   }
   // Whether there is an item, or a part of one, that the player has not begun.
   bool has_more() const { return !parts_.are_done() || begun_ != list_.size(); }
@@ -421,6 +422,11 @@ class Board : private BoardVoice<Hardware> {
     player_.load(parts_.part());
   }
 
+  void retire_one() {
+    retire();
+    player_.forget();
+    breathe();
+  }
   // The oldest item, or a part of it, is done. Outputs are switched here, at the event before them.
   [[gnu::noinline]] void retire() {
     const auto& item = list_.front();
