@@ -13,6 +13,7 @@ build_packages=(
   libtomlplusplus-dev        # machine files
   nlohmann-json3-dev         # reports
   libcairo2-dev libpng-dev   # pictures
+  zlib1g-dev                 # packed TIFF pictures
   libsqlite3-dev             # jobs and history of passo serve
   libboost1.74-dev           # HTTP and WebSocket of passo serve
   libpolyclipping-dev        # unions and offsets of copper in passo cam

@@ -167,7 +167,7 @@ int cam_show(const CamShowArguments& arguments);
 
 // Lengths without a unit are in mm. Cutters are texts for parse_cutter().
 struct CamReliefArguments {
-  std::string file;     // PNG, STL or height map
+  std::string file;     // PNG, TIFF, STL or height map
   std::string output;   // empty: standard output
   std::string picture;  // .png; empty: none
   std::string width;    // empty: as `length` says, else 100 mm, or as the body is
