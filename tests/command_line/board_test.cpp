@@ -109,16 +109,16 @@ TEST_F(Boards, that_are_too_slow_or_make_too_short_pulses_are_refused_in_words) 
   const Outcome pulse = passo(command + with("step_pulse_us = 1.0", "step_pulse_us = 1.9") + " --board sim:uno");
   if (passo::test::lacks_an_emulator(pulse)) GTEST_SKIP() << pulse.err;
   EXPECT_EQ(pulse.code, 1);
-  EXPECT_NE(pulse.err.find("its step pulses last 1.19 us, and step_pulse_us = 1.9 of the machine file asks for longer"),
+  EXPECT_NE(pulse.err.find("its step pulses last 1.00 us, and step_pulse_us = 1.9 of the machine file asks for longer"),
             std::string::npos)
       << pulse.err;
   const Outcome rate = passo(command + with("step_pulse_us = 1.0", "step_pulse_us = 1") + " --board sim:mega");
   EXPECT_EQ(rate.code, 1);
-  EXPECT_NE(rate.err.find("it makes at most 110000 events a second, and max_event_rate_hz = 140000"), std::string::npos)
+  EXPECT_NE(rate.err.find("it makes at most 110000 events a second, and max_event_rate_hz = 150000"), std::string::npos)
       << rate.err;
 }
 
-// 67 seconds are the longest item, and an Uno holds 31: it goes on with the next refill.
+// 67 seconds are the longest item, and an Uno holds 40: it goes on with the next refill.
 TEST_F(Boards, that_hold_little_dwell_for_hours) {
   const std::string uno = (std::filesystem::path(PASSO_SOURCE_DIR) / "examples" / "machines" / "uno.toml").string();
   const std::string program = write("p.ngc", "G21 G90 F600\nG1 X5\nG4 P10800\nG1 X0\nM2\n");

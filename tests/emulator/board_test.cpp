@@ -79,6 +79,39 @@ TEST(Uno, plays_roots_and_bends_in_parts_as_the_host_says) {
 }
 
 // At its deepest: told of its pins, amid motion, asked for all it knows, and stopped by a switch.
+// As a motion begins behind a tail: while one item is counted and the next one loaded, the others must last.
+TEST(Uno, plays_items_of_one_event_between_slow_ones) {
+  const auto item = [](std::uint16_t events, double interval, double change) {
+    return BoardSegment{.events = events,
+                        .flips = 7,
+                        .interval = static_cast<std::uint32_t>(interval * 65536),
+                        .change = static_cast<std::int32_t>(change * 65536)};
+  };
+  std::vector<BoardSegment> items;
+  for (int i = 0; i < 6; ++i) {
+    items.insert(items.end(), {item(10, 3943, 49), item(10, 4041, 53), item(5, 4023, 120), item(1, 2445, 0),
+                               item(1, 2147, 0), item(1, 314, 0), item(1, 4483, 0), item(2, 4355, -113)});
+  }
+  expect_every_edge(BoardBench(uno_under_test(PASSO_MOTION_UNO)).play(items), unavoidable);
+}
+
+TEST(Uno, tells_its_status_amid_motion_without_standing_still) {
+  std::mt19937_64 random(test::seed());
+  BoardBench bench(uno_under_test(PASSO_MOTION_UNO));
+  int items = 0;
+  bench.before_item = [&](std::span<const std::uint8_t>) {
+    if (++items % 5 == 0) bench.ask();
+  };
+  for (const std::uint32_t interval : {150U, 500U, 700U, 3'000U}) {
+    const StreamKind kind{.shortest_interval = interval,
+                          .longest_interval = interval * 5 / 4,
+                          .shortest_segment = static_cast<std::uint8_t>(12'000 / interval),
+                          .longest_segment = 100,
+                          .segments = 30};
+    expect_every_edge(bench.play(random_stream(random, 3, kind)), unavoidable);
+  }
+}
+
 TEST(Uno, leaves_room_on_its_stack) {
   std::mt19937_64 random(test::seed());
   BoardBench bench(uno_under_test(PASSO_MOTION_UNO));

@@ -88,6 +88,8 @@ class ChipPlayer {
     if (left_ != 0 || begun >= most_begun || OutputActions::full()) return false;
     return begun < few_begun || waiting() < worth_more_begun;
   }
+  // True if more short items can begin while the oldest ones wait to be counted.
+  static constexpr bool begins_many() { return most_begun > few_begun; }
   // True when nothing is played and nothing waits to be played.
   static bool done() { return left_ == 0 && rests(); }
 
@@ -104,8 +106,11 @@ class ChipPlayer {
     if (running == 0 && waiting() == 0) start_clock();
     left_ = segment.events;
     RingTimes::load();
-    if (!RingTimes::are_short) plan_watch(segment);
-    least_room_ = RingTimes::least_room(most_ahead_);
+    if (RingTimes::are_short) {
+      least_room_ = RingTimes::least_room(most_ahead_);
+    } else {
+      plan_watch(segment);
+    }
     SerialLine::breathe();
     remember(segment);
   }
@@ -124,6 +129,7 @@ class ChipPlayer {
     }
     SerialLine::breathe();
     most_ahead_ = most_ahead();
+    least_room_ = RingTimes::least_room(most_ahead_);
   }
   // Takes an item that needs no time. It is finished with the event before it.
   static void pass(const BoardOutputs& outputs) {
@@ -195,7 +201,7 @@ class ChipPlayer {
     for (uint8_t pieces = most_pieces; pieces != 0; --pieces) {
       if (captured()) note_capture();
       if (left_ == 0 || !has_room() || !make_events()) break;
-      if (running == 0 && waiting() >= enough_to_start && halted == 0) start();
+      if (RingTimes::are_short && running == 0 && waiting() >= enough_to_start && halted == 0) start();
       SerialLine::poll();
     }
     if (running == 0 && waiting() != 0 && halted == 0) start();
@@ -354,7 +360,11 @@ class ChipPlayer {
     // the interrupt stops and no longer reads the line.
     uint8_t count = most_at_once;
     const uint8_t way_in = RingTimes::way_in();
-    if (ahead < (most_at_once + way_in) / 2) count = static_cast<uint8_t>(2 * ahead - way_in);
+    if (RingTimes::are_slow()) {
+      if (ahead < most_at_once) count = ahead;
+    } else if (ahead < (most_at_once + way_in) / 2) {
+      count = static_cast<uint8_t>(2 * ahead - way_in);
+    }
     const uint8_t few = RingTimes::few();
     if (ahead < (few + way_in) / 2 || line_is_watched == 0) count = few;
     if (!RingTimes::are_short && count > left_) count = left_;
@@ -455,8 +465,8 @@ class ChipPlayer {
   static inline uint8_t most_ahead_ =
       most_events;  // how many entries may be in the ring, at the rate of the loaded segment
   static inline uint8_t least_room_ = most_events;  // room in the ring for which it is worth making some
-  static inline uint8_t left_ = 0;                      // events of the loaded segment that are not made yet
-  static inline uint8_t turns_ = 0;                     // motors that reverse before its first event
+  static inline uint8_t left_ = 0;                  // events of the loaded segment that are not made yet
+  static inline uint8_t turns_ = 0;                 // motors that reverse before its first event
   static inline bool turning_ = false;  // the reversals are in the queue of turns, but the event is not flagged yet
   static inline uint8_t directions_ = 0;
   static inline uint8_t turns_head_ = turns_address & 0xff;

@@ -187,7 +187,11 @@ constexpr uint8_t most_bytes_a_turn = 32;
 [[gnu::noinline]] void keep_up() {
   ChipPlayer::refill();
   if (!ChipPlayer::wants_more() || !board.has_more()) return;
-  board.feed();
+  if (ChipPlayer::begins_many()) {
+    board.feed();
+  } else {
+    board.settle();
+  }
   ChipPlayer::refill();
 }
 

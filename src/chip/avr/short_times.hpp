@@ -56,10 +56,14 @@ class RingTimes {
   static void load() { reach_ = reach(); }
   // Slow entries last long enough for the way in.
   static uint8_t way_in() { return reach_ == Reach::near ? way_in_events : uint8_t{0}; }
+  // Whether an entry takes about as long to make as to play, at its shortest: 100 and 129 cycles.
+  static bool are_slow() { return reach_ == Reach::far; }
   // What to make at once where hardly any wait.
   static uint8_t few() { return reach_ == Reach::near ? few_events : most_waits_at_once; }
   // Room in the ring for which it is worth making some. Slow events leave time, and the loop may be away for long.
-  static uint8_t least_room(uint8_t /*most_ahead*/) { return reach_ == Reach::near ? most_events / 8 * 3 : most_events / 6; }
+  static uint8_t least_room(uint8_t most_ahead) {
+    return static_cast<uint8_t>(reach_ == Reach::near ? most_ahead / 8 * 3 : most_ahead / 6);
+  }
   // The line cannot wait for many slow events.
   static uint8_t at_once(uint8_t count) {
     return line_is_watched != 0 || count <= most_waits_at_once || reach_ == Reach::near ? count : most_waits_at_once;
@@ -147,7 +151,9 @@ class RingTimes {
     if ((flagged & flag_special) != 0) return (flagged & first_waits) != 0;
     return (flagged & flag_stop) != 0;
   }
-  static uint8_t no_more_than_255(uint8_t a, uint8_t b) { return a > 255 - b ? uint8_t{255} : static_cast<uint8_t>(a + b); }
+  static uint8_t no_more_than_255(uint8_t a, uint8_t b) {
+    return a > 255 - b ? uint8_t{255} : static_cast<uint8_t>(a + b);
+  }
   static void add(uint8_t entries) {
     made_ = static_cast<uint16_t>(made_ + entries);
     since_count_ = no_more_than_255(since_count_, entries);
@@ -172,7 +178,8 @@ class RingTimes {
           rjmp 2b
           rjmp 4b
       5:
-    )" : [events] "+r"(events), [entries] "+r"(entries), "+z"(at)
+    )"
+                 : [events] "+r"(events), [entries] "+r"(entries), "+z"(at)
                  : [special] "n"(0), [stop] "n"(1), [first_waits] "n"(7)
                  : "r25", "memory");
     return events;
@@ -193,8 +200,8 @@ class RingTimes {
   static constexpr uint8_t most_waits_at_once = 4;
 
   static inline Reach reach_ = Reach::far;
-  static inline uint16_t made_ = 0;         // entries ever made
-  static inline uint8_t since_wait_ = 255;  // entries made since one that may be a wait; 255: or more
+  static inline uint16_t made_ = 0;          // entries ever made
+  static inline uint8_t since_wait_ = 255;   // entries made since one that may be a wait; 255: or more
   static inline uint8_t since_count_ = 255;  // entries made since the one before which events were counted, and
   static inline uint16_t counted_ = 0;       // how many
 };

@@ -3,9 +3,8 @@
 // Registers r2 to r5 belong to the interrupt for the whole program. clang cannot be told so. It takes these registers
 // last, the program is written so that it never needs them, and check_program.sh looks for them in the finished
 // program.
-//   Uno    r3:r2  the next entry of the ring (r3 stays)   r4  scratch           r5  the bits to toggle at the next
-//   event Mega      r2  the next entry of the ring              r3, r4, r6  scratch   r5  the same, on the first step
-//   port
+//   Uno    r3:r2  the next entry of the ring, whose page r3 stays   r4  scratch           r5  the next event's bits
+//   Mega      r2  the next entry of the ring                        r3, r4, r6  scratch   r5  on the first step port
 // With windings (winding_events.cpp) both are C++, and there are no such registers.
 #pragma once
 

@@ -143,6 +143,7 @@ class Board : private BoardVoice<Hardware> {
   }
   // Gives the player one item, and removes no more than one for that: where events are short, they come first.
   void feed() {
+    breathe();
     if (!player_.ready() && player_.finished()) retire_one();
     if (player_.ready() && has_more()) load();
   }
