@@ -20,7 +20,6 @@ build_packages=(
   libfreetype-dev libharfbuzz-dev  # letters in passo cam engrave
   libexpat1-dev              # SVG drawings in passo cam
   libminizip-dev             # zip archives of board files
-  libassimp-dev              # bodies in STL files
   fonts-dejavu-core          # letters in pictures
   pkg-config                 # finds cairo
   clang gcc-avr avr-libc binutils-avr  # the firmware for the Uno and the Mega: compiler; libgcc, start-up code, linker
