@@ -118,7 +118,7 @@ TEST_F(Boards, that_are_too_slow_or_make_too_short_pulses_are_refused_in_words) 
       << rate.err;
 }
 
-// 67 seconds are the longest item, and an Uno holds 40: it goes on with the next refill.
+// 67 seconds are the longest item, and an Uno holds 42: it goes on with the next refill.
 TEST_F(Boards, that_hold_little_dwell_for_hours) {
   const std::string uno = (std::filesystem::path(PASSO_SOURCE_DIR) / "examples" / "machines" / "uno.toml").string();
   const std::string program = write("p.ngc", "G21 G90 F600\nG1 X5\nG4 P10800\nG1 X0\nM2\n");

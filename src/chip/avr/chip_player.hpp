@@ -42,7 +42,7 @@ class ChipPlayer {
   // Breaks off at once whatever it played. Motors without pins stand still: the board refuses a host with more motors.
   static void restart(uint8_t motors) {
     halt();
-    slow_end_ = 0;
+    if (!RingTimes::are_short) slow_end_ = 0;
     head_ = fetched_entry();
     flagged_byte(head_) = flag_special | flag_stop;
     if (step_port_count > 1 && motors != expansion.motors) {
@@ -59,7 +59,7 @@ class ChipPlayer {
     turns_ = left_ = 0;
     turning_ = fresh_ = slipped_ = over_ = false;
     made_ = 0;
-    begun_ = finished_ = 0;
+    oldest_ = begun_ = 0;
     for (uint16_t& accumulator : expansion.accumulators) accumulator = 0x8000;
     for (uint16_t& accumulator : at_start_) accumulator = 0x8000;
     // The last host may have driven more motors.
@@ -84,9 +84,8 @@ class ChipPlayer {
 
   // Whether it can take the next item.
   static bool ready() {
-    const uint8_t begun = static_cast<uint8_t>(begun_ - finished_);
-    if (left_ != 0 || begun >= most_begun || OutputActions::full()) return false;
-    return begun < few_begun || waiting() < worth_more_begun;
+    if (left_ != 0 || begun_ >= most_begun || OutputActions::full()) return false;
+    return begun_ < few_begun || waiting() < worth_more_begun;
   }
   // True if more short items can begin while the oldest ones wait to be counted.
   static constexpr bool begins_many() { return most_begun > few_begun; }
@@ -136,14 +135,16 @@ class ChipPlayer {
     SerialLine::breathe();
     OutputActions::put(outputs, rests);
     SerialLine::breathe();
-    const uint8_t place = begun_++ & items_mask;
+    ++begun_;
+    const uint8_t place = newest();
     ends_[place] = made_;
     lasts_[place].note();
     items_[place].events = 0;
   }
 
   [[gnu::noinline]] static void remember(const Segment& segment) {
-    const uint8_t place = begun_++ & items_mask;
+    ++begun_;
+    const uint8_t place = newest();
     ends_[place] = static_cast<uint16_t>(made_ + left_);
     Item& item = items_[place];
     item.events = segment.events;
@@ -154,25 +155,26 @@ class ChipPlayer {
 
   // Whether the oldest item is done.
   static bool finished() {
-    over_ = finished_ != begun_ && is_over();
+    over_ = begun_ != 0 && is_over();
     return over_;
   }
   // Forgets the oldest item after its steps were counted. Its fractions are in `at_start_`.
   static void forget() {
-    if (items_[finished_ & items_mask].events == 0) OutputActions::forget();
+    if (items_[oldest_].events == 0) OutputActions::forget();
     over_ = false;
-    ++finished_;
+    --begun_;
+    oldest_ = oldest_ == most_begun - 1 ? uint8_t{0} : static_cast<uint8_t>(oldest_ + 1);
     if (step_port_count > 1) SerialLine::breathe();
   }
   // For the oldest item: the events played, and the steps that a motor has made in them, down or up.
   static uint8_t played() {
-    const uint8_t events = items_[finished_ & items_mask].events;
+    const uint8_t events = items_[oldest_].events;
     if (over_) return events;
     const int16_t left = left_of_oldest();
     return left <= 0 ? events : left > events ? uint8_t{0} : static_cast<uint8_t>(events - left);
   }
   static int16_t steps(uint8_t motor) {
-    const Item& item = items_[finished_ & items_mask];
+    const Item& item = items_[oldest_];
     return steps(item, over_ ? item.events : played(), motor);
   }
 
@@ -230,9 +232,8 @@ class ChipPlayer {
  private:
   // An item that has begun cannot be replaced, so a few are enough, but for short ones: they may have one event.
   static constexpr uint8_t few_begun = 4;
-  static constexpr uint8_t most_begun = RingTimes::are_short ? 8 : 4;
+  static constexpr uint8_t most_begun = RingTimes::are_short ? 5 : 4;
   static constexpr uint8_t worth_more_begun = 80;
-  static constexpr uint8_t items_mask = most_begun - 1;
   // Events are made a few at a time, or most_at_once. Many save the way in and out, but the line is not read meanwhile.
   // So many are made only when the interrupt comes so often that it sees every byte.
   static constexpr uint8_t most_pieces = 8;
@@ -272,7 +273,7 @@ class ChipPlayer {
   }
   // Whether all events of the oldest item are played.
   static bool is_over() {
-    const uint8_t oldest = finished_ & items_mask;
+    const uint8_t oldest = oldest_;
     const uint8_t ahead = waiting();
     if (captured()) note_capture();  // after the look at the ring, because a capture may come at any time
     const uint16_t end = ends_[oldest];
@@ -286,7 +287,7 @@ class ChipPlayer {
     uint16_t played = RingTimes::played(now, (head_ - now) & ring_mask, made_);
     if (captured()) note_capture();  // after the look at the ring, because a capture may come at any time
     if (noted_) played = captured_at_;
-    return static_cast<int16_t>(ends_[finished_ & items_mask] - played);
+    return static_cast<int16_t>(ends_[oldest_] - played);
   }
   // Notes the event of a capture, which follows from the ring's entry. This must be done before the interrupt has gone
   // round the ring once more.
@@ -295,6 +296,11 @@ class ChipPlayer {
     const uint8_t then = entry_of(captured_entry);
     captured_at_ = RingTimes::played(then, (head_ - then) & ring_mask, made_);
     noted_ = true;
+  }
+  // The place of the item begun last.
+  static uint8_t newest() {
+    const uint8_t place = static_cast<uint8_t>(oldest_ + begun_ - 1);
+    return place >= most_begun ? static_cast<uint8_t>(place - most_begun) : place;
   }
   static bool rests() { return running == 0 && waiting() == 0; }
   static uint8_t waiting() { return static_cast<uint8_t>((head_ - fetched_entry()) & ring_mask); }
@@ -315,7 +321,7 @@ class ChipPlayer {
       SerialLine::breathe();
     }
     flagged_byte(head_) = flag_special | flag_stop;
-    slow_end_ = static_cast<uint16_t>(made_ + 1);  // the interrupt does not come before that
+    if (!RingTimes::are_short) slow_end_ = static_cast<uint16_t>(made_ + 1);  // the interrupt does not come before that
     made_ = static_cast<uint16_t>(made_ + blank_events);
     expansion.time = static_cast<uint32_t>(time) << 16 | fraction;
     fresh_ = true;
@@ -382,7 +388,7 @@ class ChipPlayer {
     count = RingTimes::make(count, left_);
     SerialLine::breathe();
     made_ = static_cast<uint16_t>(made_ - left_);
-    if (left_ == 0) lasts_[(begun_ - 1) & items_mask].note();
+    if (left_ == 0) lasts_[newest()].note();
     const uint8_t behind = static_cast<uint8_t>((first + count) & ring_mask);
     flagged_byte(behind) = flag_special | flag_stop;
     head_ = behind;
@@ -450,7 +456,7 @@ class ChipPlayer {
   static uint16_t catch_up(uint8_t first, uint16_t due) {
     if (!fresh_) slipped_ = true;
     // Nobody reads the line until the motion goes on.
-    if (static_cast<int16_t>(made_ - slow_end_) > 0) slow_end_ = made_;
+    if (!RingTimes::are_short && static_cast<int16_t>(made_ - slow_end_) > 0) slow_end_ = made_;
     const uint16_t later = static_cast<uint16_t>(now() + least_lead * 2 + 64 * waiting() - due);  // 64: the loop
     for (uint8_t i = first; i != head_; i = static_cast<uint8_t>((i + 1) & ring_mask)) {
       RingTimes::delay(i, later);
@@ -477,9 +483,9 @@ class ChipPlayer {
   static inline bool slipped_ = false;
   static inline uint16_t slow_end_ = 0;  // `made_` after the last slow events
   static inline uint16_t made_ = 0;      // events ever made
-  static inline uint8_t begun_ = 0;      // items ever begun
-  static inline uint8_t finished_ = 0;
-  static inline bool over_ = false;  // the oldest item is known to be done
+  static inline uint8_t oldest_ = 0;     // the place of the oldest item
+  static inline uint8_t begun_ = 0;      // items begun and not forgotten
+  static inline bool over_ = false;      // the oldest item is known to be done
 
   static inline Item items_[most_begun];
   static inline uint16_t ends_[most_begun];  // of each, the value of `made_` with its last event

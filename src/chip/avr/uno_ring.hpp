@@ -41,7 +41,7 @@ inline constexpr uint8_t way_in_events = 24;  // about what is played while even
 using StepAlarm = Ocr0a;
 using StepCount = Tcnt0;
 // In the list of items. More would take memory from the stack (check_program.sh).
-inline constexpr uint8_t queue_capacity = 40;
+inline constexpr uint8_t queue_capacity = 42;
 
 // Received bytes. The interrupt or the main loop puts them here, whichever finds one. The ring is a page: its index is
 // the low byte of the address and wraps by itself. All bytes that the host may have under way fit.
