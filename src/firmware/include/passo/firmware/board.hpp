@@ -134,12 +134,11 @@ class Board : private BoardVoice<Hardware> {
 
   // Removes items that the player has finished, and gives it those that it can take. On a chip the main loop calls it.
   void settle() {
-    do {
+    for (;; load()) {
       breathe();
       while (player_.finished()) retire_one();
       if (!player_.ready() || !has_more()) return;
-      load();
-    } while (true);
+    }
   }
   // Gives the player one item, and removes no more than one for that: where events are short, they come first.
   void feed() {
