@@ -5,7 +5,7 @@
 #include "cam_part.hpp"
 #include <nlohmann/json.hpp>
 
-#include "passo/cam/counted.hpp"
+#include "passo/base/counted.hpp"
 #include "passo/cam/pocket.hpp"
 #include "passo/cam/profile.hpp"
 
@@ -120,10 +120,6 @@ nlohmann::ordered_json lengths_json(const MillPlan& plan, DrawnPoint park) {
           {"rapids_mm", lengths.rapids_nm / nanometres_per_mm}};
 }
 
-void choose_spindle(MillJob& job) {
-  if (job.program.spindle == 0U) job.program.spindle.reset();
-}
-
 ProfileSide side_of(const std::string& side) {
   return side == "outside"  ? ProfileSide::outside
          : side == "inside" ? ProfileSide::inside
@@ -148,7 +144,6 @@ int cam_profile(const CamProfileArguments& arguments) {
   if (!outputs_are_good(arguments, "")) return exit_bad_program;
   LengthArguments lengths(*mm_of_unit(arguments.units));
   MillJob job = mill_job_of(arguments, "passo cam profile", lengths, "stock");
-  choose_spindle(job);
   const ProfileOptions options{.cut = outline_options_of(arguments, job, lengths), .side = side_of(arguments.side)};
   const Nanometres join = join_of(arguments.join, lengths);
   if (!lengths.message().empty()) return fail(exit_bad_program, lengths.message());
@@ -189,7 +184,6 @@ int cam_pocket(const CamPocketArguments& arguments) {
   if (!outputs_are_good(arguments, "")) return exit_bad_program;
   LengthArguments lengths(*mm_of_unit(arguments.units));
   MillJob job = mill_job_of(arguments, "passo cam pocket", lengths, "stock");
-  choose_spindle(job);
   PocketOptions options;
   options.cutter = lengths.above_0("--tool", arguments.tool);
   options.words = fmt::format("cutter {:.4g} mm", to_mm(options.cutter).value());
@@ -198,9 +192,15 @@ int cam_pocket(const CamPocketArguments& arguments) {
   check_layers(options.depth, options.step, lengths);
   options.step_over = arguments.step_over / 100;
   options.ramp_degrees = arguments.ramp;
+  options.most_engagement = arguments.engagement;
   options.climb = !arguments.conventional;
   options.park = job.program.park;
   const Nanometres join = join_of(arguments.join, lengths);
+  constexpr double least_engagement = 30;
+  if (options.most_engagement > 0 && options.most_engagement < least_engagement) {
+    lengths.refuse(fmt::format("--engagement: expected 0, or {} to 150 degrees, found {:g}", least_engagement,
+                               options.most_engagement));
+  }
   constexpr double flattest = 0.1;
   if (arguments.ramp > 0 && arguments.ramp < flattest) {
     lengths.refuse(fmt::format("--ramp: expected 0, or {} degrees or more, found {:g}", flattest, arguments.ramp));
@@ -211,17 +211,22 @@ int cam_pocket(const CamPocketArguments& arguments) {
   if (!part) return exit_bad_program;
   Diagnostics findings;
   const Region area = enclosed_by(part->loops.loops);
+  const bool is_constant = options.most_engagement > 0;
   const PocketPlan plan = plan_pocket(area, options, findings);
   show(findings);
   if (findings.any_error()) return exit_bad_program;
   const std::string words =
       size_words(*part) +
       fmt::format("{} of {:.4g} mm², {} a layer; {:g} mm² of what stays lost\n", counted(plan.pockets, "pocket"),
-                  area_mm2(area), counted(plan.loops, "loop"), plan.lost_mm2) +
+                  area_mm2(area), counted(plan.loops, is_constant ? "disc" : "loop"), plan.lost_mm2) +
+      (is_constant
+           ? fmt::format("engagement: at most {:.1f} degrees of the cutter, but while it goes down\n", plan.engagement)
+           : std::string()) +
       unreached_words(plan.unreached_mm2) + joined_words(part->loops);
   nlohmann::ordered_json json = lengths_json(plan.mill, options.park);
   json["pockets"] = plan.pockets;
-  json["loops"] = plan.loops;
+  json[is_constant ? "discs" : "loops"] = plan.loops;
+  if (is_constant) json["engagement_degrees"] = plan.engagement;
   json["area_mm2"] = area_mm2(area);
   json["lost_mm2"] = plan.lost_mm2;
   json["unreached_mm2"] = plan.unreached_mm2;
