@@ -51,7 +51,8 @@ void add_wire_command(CLI::App& cam, CamArguments& all) {
   wire.add_option("--right-turn", arguments.right_turn, "the right profile is turned about its zero, degrees")
       ->check(number_range(-360.0, 360.0))
       ->capture_default_str();
-  wire.add_option("--block", arguments.block, "X,Y,X,Y of the program: corners of the block's face: the wire begins beyond it");
+  wire.add_option("--block", arguments.block,
+                  "X,Y,X,Y of the program: corners of the block's face: the wire begins beyond it");
   wire.add_option("--lead", arguments.lead, "the cut begins and ends so far beside the profile")->capture_default_str();
   wire.add_option("--tolerance", arguments.tolerance, "of chords on curves")->capture_default_str();
   wire.add_option("--heat", arguments.heat, "S of M3, which heats the wire; without it the program leaves it alone");
