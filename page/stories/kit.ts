@@ -65,6 +65,7 @@ interface Start {
   machine?: string;
   board?: Board;
   data?: string; // a folder that outlives the daemon
+  touch?: readonly string[]; // what the virtual probe can touch
 }
 
 export class Daemon {
@@ -74,10 +75,11 @@ export class Daemon {
     private readonly folder: string,
   ) {}
 
-  static async start({ port = '0', machine, board, data }: Start = {}): Promise<Daemon> {
+  static async start({ port = '0', machine, board, data, touch = [] }: Start = {}): Promise<Daemon> {
     const folder = mkdtempSync(join(tmpdir(), 'passo-story-'));
     const words = ['serve', '--http', `127.0.0.1:${port}`, '--grbl-tcp', '127.0.0.1:0', '--page', pageFolder, '--data', data ?? folder];
     words.push('--machine', machine ?? smallMachine(folder));
+    for (const one of touch) words.push('--touch', one);
     if (board !== undefined) words.push('--board', `tcp:127.0.0.1:${board.port}`);
     const child = spawn(passo, words, { stdio: ['ignore', 'pipe', 'inherit'] });
     process.once('exit', () => child.kill('SIGKILL')); // a story that fails leaves nobody behind

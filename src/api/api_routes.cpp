@@ -26,6 +26,9 @@ constexpr ApiRoute routes[] = {
     {"GET", "/api/v1/queue"},
     {"GET", "/api/v1/status"},
     {"GET", "/api/v1/stream"},
+    {"GET", "/api/v1/study"},
+    {"GET", "/api/v1/study/loads"},
+    {"GET", "/api/v1/study/picture"},
     {"DELETE", "/api/v1/interrupted", true},
     {"DELETE", "/api/v1/make/files"},
     {"DELETE", "/api/v1/owner"},
@@ -58,6 +61,7 @@ constexpr ApiRoute routes[] = {
     {"POST", "/api/v1/resume", true},
     {"POST", "/api/v1/sleep", true},
     {"POST", "/api/v1/stop"},
+    {"POST", "/api/v1/study"},
     {"POST", "/api/v1/wake", true},
     {"POST", "/api/v1/work", true},
 };

@@ -97,6 +97,7 @@ struct CheckArguments {
   std::string picture;    // of the motion; empty: none
   std::string colour_by;  // "margin": the picture shows the path, coloured by the motors' margin; empty: the motion
   std::string report;     // .html; empty: none
+  std::string loads;      // .csv: what each line needs of the motors; empty: none
   StockArguments stock;   // what is cut, with what
   std::optional<double> cutting_force;  // N/mm², of the material; empty: no stock is cut
   std::optional<double> spindle_speed;  // revolutions a minute, of a spindle that the program does not command
@@ -186,6 +187,7 @@ struct ServeArguments {
   std::vector<std::string> http_names;  // by which others know this server, beside HOST
   std::string page;                     // folder with a page for browsers
   std::string data;                     // folder for jobs and history; empty: nothing is kept
+  std::vector<std::string> touches;     // what the virtual machine's probe can touch, as of `run`
 };
 int serve(const ServeArguments& arguments);
 

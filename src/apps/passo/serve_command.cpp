@@ -12,6 +12,7 @@
 #include "run_signals.hpp"
 #include "serve_daemon.hpp"
 #include "serve_web.hpp"
+#include "touch_option.hpp"
 #include "served_journal.hpp"
 #include <fmt/format.h>
 
@@ -129,6 +130,11 @@ int serve(const ServeArguments& given) {
   if (!arguments.data.empty() && arguments.http.empty()) {
     return fail(exit_bad_program, "--data keeps the jobs of --http, which is missing [serve.data]");
   }
+  const std::optional<std::vector<Touchable>> things = read_touch_options(arguments.touches, *machine);
+  if (!things) return exit_bad_program;
+  if (!things->empty() && arguments.board != "virtual") {
+    return fail(exit_bad_program, "--touch is for the virtual machine [serve.touch]");
+  }
   int code = exit_done;
   ServeDaemon::Lines lines;
   if (!open_lines(arguments, lines, code)) return code;
@@ -136,7 +142,7 @@ int serve(const ServeArguments& given) {
   // A board that a killed program has left brakes by itself.
   const bool keeps = !arguments.data.empty();
   const auto opened =
-      OpenedMachine::open(*machine, {.board = arguments.board, .tells_place = true, .may_move = keeps}, code);
+      OpenedMachine::open(*machine, {.board = arguments.board, .touchables = *things, .tells_place = true, .may_move = keeps}, code);
   if (!opened) return code;
   brake_on_signals();
   std::unique_ptr<ServedJournal> journal;
