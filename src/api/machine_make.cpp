@@ -10,7 +10,8 @@
 namespace passo {
 namespace {
 
-constexpr std::array<std::string_view, 7> jobs = {"profile", "pocket", "engrave", "drill", "isolate", "outline", "relief"};
+constexpr std::array<std::string_view, 7> jobs = {"profile", "pocket",  "engrave", "drill",
+                                                  "isolate", "outline", "relief"};
 // Options that name files of this computer, or that belong to the program itself.
 constexpr std::array<std::string_view, 6> own_options = {"output", "picture", "json", "profile", "machine", "help"};
 constexpr std::size_t longest_value = 200;

@@ -79,6 +79,60 @@ TEST(ApiDescription, has_bodies_that_are_understood) {
   EXPECT_GE(examples, 5);
 }
 
+// Notes what was ordered, and answers at once.
+class NotedStudies final : public Studies {
+ public:
+  bool begin(const StudyOrder& order) override {
+    last = order;
+    result = {.state = StudyResult::State::done, .words = "said", .report = R"({"margin": null})"};
+    return true;
+  }
+  const StudyResult& look() override { return result; }
+  std::string loads() const override { return "line,load\n1,0.500\n"; }
+  std::string picture() const override { return ""; }
+  StudyOrder last;
+  StudyResult result;
+};
+
+TEST(ApiStudies, are_ordered_with_all_that_they_need) {
+  NotedStudies studies;
+  ApiRun run(GrblRun::at_zero(), nullptr, {}, &studies);
+  expect_members(openapi()["components"]["schemas"]["Study"], run.get("/study"), "Study");
+  EXPECT_EQ(run.get("/study")["state"], "none");
+  run.get("/study/loads");
+  EXPECT_EQ(run.status, 404U) << "nothing is done yet";
+  const std::uint64_t id = run.upload("G21 G1 X9 F100\nM2\n");
+  const Json answer = run.post("/study", fmt::format(R"({{"study": "motors", "program": {}, "machine": "text"}})", id));
+  EXPECT_EQ(run.status, 202U) << answer;
+  EXPECT_EQ(answer["program"], id);
+  EXPECT_EQ(studies.last.program, "G21 G1 X9 F100\nM2\n");
+  EXPECT_EQ(studies.last.machine, "text");
+  EXPECT_EQ(studies.last.dialect, "linuxcnc");
+  EXPECT_NE(studies.last.parameters.find("5221\t"), std::string::npos) << "the offsets of the work";
+  EXPECT_TRUE(answer["report"]["margin"].is_null());
+  run.post("/study", R"({"study": "tune", "machine": "text", "margin": 0.5})");
+  EXPECT_EQ(run.status, 202U);
+  EXPECT_EQ(studies.last.kind, StudyOrder::Kind::tune);
+  EXPECT_EQ(studies.last.margin, 0.5);
+  run.get("/study/picture");
+  EXPECT_EQ(run.status, 404U) << "there is none";
+}
+
+TEST(ApiStudies, refuse_what_is_no_order) {
+  NotedStudies studies;
+  ApiRun run(GrblRun::at_zero(), nullptr, {}, &studies);
+  for (const char* body :
+       {"", "[]", R"({"study": "moon"})", R"({"study": "tune"})", R"({"study": "tune", "machine": "m", "margin": 2})",
+        R"({"study": "tune", "machine": "m", "margin": "much"})", R"({"study": "motors", "machine": "m"})",
+        R"({"study": "motors", "machine": "m", "program": -1})", R"({"study": "tune", "machine": 5})"}) {
+    run.post("/study", body);
+    EXPECT_EQ(run.status, 400U) << body;
+  }
+  run.post("/study", R"({"study": "motors", "machine": "m", "program": 99})");
+  EXPECT_EQ(run.status, 404U);
+  EXPECT_TRUE(studies.last.machine.empty()) << "none was ordered";
+}
+
 TEST(Api, runs_a_program_after_its_check_and_tells_how_far_it_is) {
   ApiRun run;
   run.own();

@@ -82,7 +82,7 @@ export const valuesOf = (of: Kind): Values => Object.fromEntries(fieldsOf(of).ma
 
 export function wordsOf(field: Field, value: number): string {
   if (field.measure === 'count') return String(value);
-  return field.measure === 'speed' ? `${speedText(value)} ${speedUnit()}` : `${lengthText(value, 3)} ${lengthUnit()}`;
+  return field.measure === 'speed' ? `${speedText(value)} ${speedUnit()}` : `${Number(lengthText(value, 4))} ${lengthUnit()}`;
 }
 
 // What the cycle does, step by step, with its figures.

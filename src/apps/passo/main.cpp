@@ -260,8 +260,9 @@ int parse_and_run(int argc, char** argv) {
                            "margin: the picture shows the path instead, dark where the motors have little torque left");
   check_command.add_option("-r,--report", check_arguments.report,
                            "all of it as one page to read and to print, with pictures (FILE.html)");
-  check_command.add_option("--loads", check_arguments.loads,
-                           "write what each line needs of the motors' torque: line,load; 1 is all that is surely there");
+  check_command.add_option(
+      "--loads", check_arguments.loads,
+      "write what each line needs of the motors' torque: line,load; 1 is all that is surely there");
   add_cut(check_command, check_arguments);
   check_command.add_flag("--json", check_arguments.json, "print the findings as JSON");
   check_command.footer(

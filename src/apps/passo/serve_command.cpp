@@ -12,8 +12,8 @@
 #include "run_signals.hpp"
 #include "serve_daemon.hpp"
 #include "serve_web.hpp"
-#include "touch_option.hpp"
 #include "served_journal.hpp"
+#include "touch_option.hpp"
 #include <fmt/format.h>
 
 #include "passo/grbl/grbl_controller.hpp"
@@ -141,8 +141,8 @@ int serve(const ServeArguments& given) {
   outlive_readers();
   // A board that a killed program has left brakes by itself.
   const bool keeps = !arguments.data.empty();
-  const auto opened =
-      OpenedMachine::open(*machine, {.board = arguments.board, .touchables = *things, .tells_place = true, .may_move = keeps}, code);
+  const auto opened = OpenedMachine::open(
+      *machine, {.board = arguments.board, .touchables = *things, .tells_place = true, .may_move = keeps}, code);
   if (!opened) return code;
   brake_on_signals();
   std::unique_ptr<ServedJournal> journal;

@@ -98,7 +98,8 @@ ServedWeb::ServedWeb(const ServeArguments& arguments, const MachineDescription& 
       history_(std::move(history)),
       offsets_(std::move(offsets)),
       api_(machine, session, owner,
-           api_options(arguments.page.empty() ? nullptr : &page_, history_.get(), offsets_.get(), jobs, maker_, studies_)) {}
+           api_options(arguments.page.empty() ? nullptr : &page_, history_.get(), offsets_.get(), jobs, maker_,
+                       studies_)) {}
 
 std::unique_ptr<ServedWeb> ServedWeb::open(const ServeArguments& arguments, const MachineDescription& machine,
                                            MachineSession& session, MotionOwner& owner, const ServedJobs& jobs,

@@ -22,14 +22,14 @@ bool ServedStudies::begin(const StudyOrder& order) {
   if (!folder_.make() || !write_content(folder_.path(studied_machine), order.machine)) return false;
   std::vector<std::string> words;
   if (order.kind == StudyOrder::Kind::tune) {
-    words = {"passo",    "tune",       "--machine", studied_machine, "--margin", std::to_string(order.margin),
+    words = {"passo",     "tune",       "--machine", studied_machine, "--margin", std::to_string(order.margin),
              "--picture", found_curves, "--json"};
   } else {
     const bool written = write_content(folder_.path(studied_program), order.program) &&
                          write_content(folder_.path(studied_offsets), order.parameters);
     if (!written) return false;
-    words = {"passo",     "check",       "--machine",    studied_machine,   "--dialect", order.dialect,
-             "--loads",   found_loads,    "--parameters", studied_offsets, "--json",    studied_program};
+    words = {"passo",   "check",     "--machine",    studied_machine, "--dialect", order.dialect,
+             "--loads", found_loads, "--parameters", studied_offsets, "--json",    studied_program};
   }
   if (!process_.begin(folder_.name(), words)) return false;
   result_.state = StudyResult::State::running;

@@ -1,5 +1,5 @@
-// The stock as a WebAssembly module: what the scene of `passo serve` shows while a program cuts. The same sweep over the
-// same height field as in `passo simulate`, for one block and one tool at a time.
+// The stock as a WebAssembly module: what the scene of `passo serve` shows while a program cuts. The same sweep over
+// the same height field as in `passo simulate`, for one block and one tool at a time.
 //
 // Lengths are mm. Heights lie in the linear memory, a float each, below the stock's top: 0 is the top.
 #include <algorithm>
@@ -8,8 +8,9 @@
 #include <numbers>
 #include <optional>
 
-#include "passo/stock/height_field.hpp"
 #include "tile_sweep.hpp"
+
+#include "passo/stock/height_field.hpp"
 
 #define PASSO_EXPORT(name) __attribute__((export_name(#name))) name
 
@@ -78,8 +79,10 @@ void PASSO_EXPORT(stock_cut)(double ax, double ay, double az, double bx, double 
   const Sweep sweep = sweep_between({ax, ay, az}, {bx, by, bz});
   const StockBlock& block = field.block();
   const double cell = field.cell();
-  const auto across = tiles_between(std::min(ax, bx) - one.rim, std::max(ax, bx) + one.rim, block.low.x, cell, field.columns());
-  const auto along = tiles_between(std::min(ay, by) - one.rim, std::max(ay, by) + one.rim, block.low.y, cell, field.rows());
+  const auto across =
+      tiles_between(std::min(ax, bx) - one.rim, std::max(ax, bx) + one.rim, block.low.x, cell, field.columns());
+  const auto along =
+      tiles_between(std::min(ay, by) - one.rim, std::max(ay, by) + one.rim, block.low.y, cell, field.rows());
   for (std::size_t j = along.from; j < along.to; ++j) {
     for (std::size_t i = across.from; i < across.to; ++i) {
       const Tile tile{.column = i * tile_size,
@@ -97,13 +100,23 @@ void PASSO_EXPORT(stock_cut)(double ax, double ay, double az, double bx, double 
   }
 }
 
-std::size_t PASSO_EXPORT(stock_columns)() { return stock().field ? stock().field->columns() : 0; }
-std::size_t PASSO_EXPORT(stock_rows)() { return stock().field ? stock().field->rows() : 0; }
+std::size_t PASSO_EXPORT(stock_columns)() {
+  return stock().field ? stock().field->columns() : 0;
+}
+std::size_t PASSO_EXPORT(stock_rows)() {
+  return stock().field ? stock().field->rows() : 0;
+}
 // Where a row lies in the linear memory.
-const float* PASSO_EXPORT(stock_row)(std::size_t row) { return stock().field ? stock().field->below_top(row) : nullptr; }
+const float* PASSO_EXPORT(stock_row)(std::size_t row) {
+  return stock().field ? stock().field->below_top(row) : nullptr;
+}
 // The first and the last row that have changed since stock_seen(); the first is beyond the last: none.
-std::size_t PASSO_EXPORT(stock_first)() { return stock().first; }
-std::size_t PASSO_EXPORT(stock_last)() { return stock().last; }
+std::size_t PASSO_EXPORT(stock_first)() {
+  return stock().first;
+}
+std::size_t PASSO_EXPORT(stock_last)() {
+  return stock().last;
+}
 void PASSO_EXPORT(stock_seen)() {
   stock().first = 1;
   stock().last = 0;

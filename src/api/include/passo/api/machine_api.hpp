@@ -183,8 +183,8 @@ class MachineApi final : public WebHandler {
   bool heeds_maker_ = false;       // an order runs
   std::uint64_t made_ = 0;         // the program of the last order; 0: none
   std::uint64_t made_before_ = 0;  // of the order before
-  std::string study_;             // the last one that was ordered
-  std::uint64_t studied_ = 0;     // its program; 0: none
+  std::string study_;              // the last one that was ordered
+  std::uint64_t studied_ = 0;      // its program; 0: none
   std::optional<Ticket> ticket_;
   Diagnostics findings_;  // of the run
   std::vector<JobWords> words_;

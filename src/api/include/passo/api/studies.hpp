@@ -1,8 +1,8 @@
 // Studies: what takes longer than a look, worked out beside the machine: whether the motors have the torque for a
 // program, and which limits they could have.
 //
-// Place: the API's view of a helper that the program provides. One order at a time; a new one takes the place of the one
-// before. Memory and time are bounded by whoever implements this.
+// Place: the API's view of a helper that the program provides. One order at a time; a new one takes the place of the
+// one before. Memory and time are bounded by whoever implements this.
 #pragma once
 
 #include <cstdint>
