@@ -13,13 +13,13 @@ build_packages=(
   libtomlplusplus-dev        # machine files
   nlohmann-json3-dev         # reports
   libcairo2-dev libpng-dev   # pictures
+  zlib1g-dev                 # packed TIFF pictures
   libsqlite3-dev             # jobs and history of passo serve
   libboost1.74-dev           # HTTP and WebSocket of passo serve
   libpolyclipping-dev        # unions and offsets of copper in passo cam
   libfreetype-dev libharfbuzz-dev  # letters in passo cam engrave
   libexpat1-dev              # SVG drawings in passo cam
   libminizip-dev             # zip archives of board files
-  libassimp-dev              # bodies in STL files
   fonts-dejavu-core          # letters in pictures
   pkg-config                 # finds cairo
   clang gcc-avr avr-libc binutils-avr  # the firmware for the Uno and the Mega: compiler; libgcc, start-up code, linker

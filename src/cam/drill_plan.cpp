@@ -8,8 +8,8 @@
 
 #include <fmt/format.h>
 
+#include "passo/base/counted.hpp"
 #include "passo/cam/bulge.hpp"
-#include "passo/cam/counted.hpp"
 #include "passo/cam/route.hpp"
 
 namespace passo {

@@ -2,12 +2,14 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <numbers>
 #include <utility>
 
 #include "copper_gaps.hpp"
 #include "edge_grid.hpp"
 #include "mill_order.hpp"
+#include "voronoi_lines.hpp"
 #include <fmt/format.h>
 
 #include "passo/cam/mill_program.hpp"
@@ -17,13 +19,38 @@ namespace {
 
 constexpr std::uint32_t most_loops = 2'000;   // around one island
 constexpr Nanometres chord_room{3'000};       // beyond the tolerance: arcs, the last digit of the program
+constexpr Nanometres frame_away{2'000'000};   // of the frame from the copper
 constexpr Nanometres notable_ground{10'000};  // ground less than twice as wide is no ground that was left
+
+// Each as a part of its own.
+std::vector<Region> openings_of(const std::vector<Region>& islands) {
+  std::vector<Region> openings;
+  for (const Region& island : islands) {
+    for (std::size_t i = 1; i < island.rings.size(); ++i)
+      openings.push_back({{DrawnRing(island.rings[i].rbegin(), island.rings[i].rend())}});
+  }
+  if (openings.empty()) return openings;
+  std::vector<bool> has_island(openings.size() + 1);
+  for (const std::size_t opening : parts_with(islands, openings)) has_island[opening] = true;
+  std::vector<Region> empty;
+  for (std::size_t i = 0; i < openings.size(); ++i) {
+    if (!has_island[i]) empty.push_back(std::move(openings[i]));
+  }
+  return empty;
+}
 
 class IsolationPlanner {
  public:
   IsolationPlanner(const Region& copper, const IsolationOptions& options)
-      : copper_(copper), options_(options), islands_(parts_of(copper)) {}
+      : copper_(copper), options_(options), islands_(parts_of(copper)), openings_(openings_of(islands_)) {}
 
+  bool find_voronoi_lines() {
+    area_ = options_.board;
+    if (area_.empty()) area_ = filled({rectangle(*bounds(grown(copper_, frame_away)))});
+    std::optional<std::vector<DrawnRing>> lines = voronoi_lines(islands_, *bounds(area_));
+    if (lines) lines_ = std::move(*lines);
+    return lines.has_value();
+  }
   IsolationPlan plan() {
     std::vector<IsolationCutter> cutters = options_.cutters;
     std::ranges::stable_sort(cutters, [](const auto& a, const auto& b) { return a.width > b.width; });
@@ -44,6 +71,9 @@ class IsolationPlanner {
         std::max<std::int64_t>(1'000, std::llround(static_cast<double>(cutter.width.count) * (1 - options_.overlap)))};
   }
   std::uint32_t loops_of(const IsolationCutter& cutter) const;
+  std::vector<CutterWay> loops(const IsolationCutter& cutter, const Region* within, Region& outermost) const;
+  std::vector<CutterWay> ways_between(const IsolationCutter& cutter, Region& outermost);
+  std::vector<CutterWay> ways_in_openings(const IsolationCutter& cutter);
   void mill_with(const IsolationCutter& cutter, bool is_first, bool is_followed);
   Region left_ground() const;
   void find_narrow_ground(const IsolationCutter& finest);
@@ -51,8 +81,12 @@ class IsolationPlanner {
   const Region& copper_;
   const IsolationOptions& options_;
   std::vector<Region> islands_;
+  std::vector<Region> openings_;  // within an island, without another island in them; of voronoi: not milled yet
+  std::vector<DrawnRing> lines_;  // midway between the islands
+  Region area_;                   // of voronoi: the board, or what the frame is around
   Nanometres widest_;
-  Region milled_;  // by the cutters so far; empty after the last
+  Nanometres last_off_;  // of the cutter before; 0: there is none
+  Region milled_;        // by the cutters so far; empty after the last
   IsolationPlan plan_;
 };
 
@@ -153,28 +187,79 @@ Region IsolationPlanner::left_ground() const {
   return options_.clear ? notable : between_islands(notable, islands_, {2 * open.count});
 }
 
+// Around the copper, one around the other. `outermost`: what the last one is around.
+std::vector<CutterWay> IsolationPlanner::loops(const IsolationCutter& cutter, const Region* within,
+                                               Region& outermost) const {
+  LoopCollector found(within, options_.climb);
+  for (std::uint32_t k = 0; k < loops_of(cutter); ++k) {
+    Region around = grown(copper_, {off(cutter).count + k * step(cutter).count}, options_.tolerance);
+    const bool found_any = found.take(around);
+    outermost = std::move(around);
+    if (!found_any && k > 0) break;
+  }
+  return std::move(found.ways);
+}
+
+// Midway between the islands, where this cutter fits and the one before did not, and beside these ways.
+std::vector<CutterWay> IsolationPlanner::ways_between(const IsolationCutter& cutter, Region& outermost) {
+  const Region around = grown(copper_, off(cutter), options_.tolerance);
+  const Region within = options_.board.empty() ? area_ : grown(area_, {cutter.width.count / 2}, options_.tolerance);
+  Region free = subtracted(within, around);
+  if (last_off_.count > 0) free = common(free, grown(copper_, last_off_, options_.tolerance));
+  std::vector<DrawnRing> lines = ways_within(lines_, free);
+  LoopCollector beside(&within, options_.climb);
+  for (std::uint32_t k = 1; k < loops_of(cutter); ++k) {
+    outermost = subtracted(swept(lines, {k * step(cutter).count}, options_.tolerance), around);
+    if (!beside.take(outermost)) break;
+  }
+  std::vector<CutterWay> ways = std::move(beside.ways);
+  for (DrawnRing& line : lines) {
+    if (line.size() > 1) ways.push_back({.points = std::move(line), .is_closed = false, .may_be_turned = true});
+  }
+  if (options_.board.empty() && last_off_.count == 0) {
+    for (const DrawnRing& ring : area_.rings) ways.push_back({.points = ring});
+  }
+  std::ranges::move(ways_in_openings(cutter), std::back_inserter(ways));
+  return ways;
+}
+
+// Loops within the openings into which no cutter before this one came.
+std::vector<CutterWay> IsolationPlanner::ways_in_openings(const IsolationCutter& cutter) {
+  std::vector<CutterWay> ways;
+  std::vector<Region> left;
+  for (Region& opening : openings_) {
+    LoopCollector found(nullptr, options_.climb);
+    for (std::uint32_t k = 0; k < loops_of(cutter); ++k) {
+      // What lies inside, as holes of the copper around.
+      Region inside = grown(opening, {-off(cutter).count - k * step(cutter).count}, options_.tolerance);
+      for (DrawnRing& ring : inside.rings) std::ranges::reverse(ring);
+      if (!found.take(inside)) break;
+    }
+    if (found.ways.empty()) left.push_back(std::move(opening));
+    std::ranges::move(found.ways, std::back_inserter(ways));
+  }
+  openings_ = std::move(left);
+  return ways;
+}
+
 void IsolationPlanner::mill_with(const IsolationCutter& cutter, bool is_first, bool is_followed) {
   const Nanometres radius{cutter.width.count / 2};
-  const std::uint32_t loops = loops_of(cutter);
   const bool is_bounded = !options_.board.empty();
   Region within;
   if (is_first) {
     if (is_bounded) within = grown(options_.board, options_.clear ? Nanometres{} : radius, options_.tolerance);
-  } else {
+  } else if (!options_.voronoi) {
     const Nanometres reach{std::max(radius.count / 2, radius.count - 2 * notable_ground.count)};
     within = grown(left_ground(), reach, options_.tolerance);
     if (within.empty()) return;
     if (is_bounded) within = common(within, grown(options_.board, radius, options_.tolerance));
   }
-  LoopCollector loops_found(is_first && !is_bounded ? nullptr : &within, options_.climb);
   Region outermost;
-  for (std::uint32_t k = 0; k < loops; ++k) {
-    Region around = grown(copper_, {off(cutter).count + k * step(cutter).count}, options_.tolerance);
-    const bool found_any = loops_found.take(around);
-    outermost = std::move(around);
-    if (!found_any && k > 0) break;
-  }
-  if (loops_found.ways.empty()) return;
+  const std::vector<CutterWay> ways = options_.voronoi
+                                          ? ways_between(cutter, outermost)
+                                          : loops(cutter, is_first && !is_bounded ? nullptr : &within, outermost);
+  last_off_ = off(cutter);
+  if (ways.empty()) return;
 
   const EdgeGrid copper_rim = grid_over(grown(copper_, {off(cutter).count - chord_room.count / 2}, options_.tolerance));
   const EdgeGrid outer_rim = grid_over(outermost);
@@ -183,23 +268,32 @@ void IsolationPlanner::mill_with(const IsolationCutter& cutter, bool is_first, b
     const double length = distance_nm(from, to);
     const bool is_in_the_open = length > static_cast<double>(cutter.width.count) && !options_.clear;
     if (length > std::max(longest, static_cast<double>(cutter.width.count))) return false;
-    if (is_in_the_open && (loops == 1 || !is_first || outer_rim.is_crossed(from, to))) return false;
+    if (is_in_the_open && (loops_of(cutter) == 1 || !is_first || outer_rim.is_crossed(from, to))) return false;
     return !copper_rim.is_crossed(from, to);
   };
   const ArcFit arcs{.even_chord_nm = static_cast<double>(options_.tolerance.count),
                     .rounded_turn = options_.climb ? -1 : 1};
   MillTool tool{cutter.width, cutter.words, {}};
-  tool.runs = order_ways(loops_found.ways, {options_.park, options_.depth, options_.route_steps, arcs, may_link});
-  if (is_followed) {
-    std::vector<DrawnRing> ways;
-    for (const MillRun& run : tool.runs) ways.push_back(chords_of(run, options_.tolerance));
-    milled_ = united(milled_, swept(ways, radius, options_.tolerance));
+  tool.runs = order_ways(ways, {options_.park, options_.depth, options_.route_steps, arcs, may_link});
+  if (is_followed && !options_.voronoi) {
+    std::vector<DrawnRing> chords;
+    for (const MillRun& run : tool.runs) chords.push_back(chords_of(run, options_.tolerance));
+    milled_ = united(milled_, swept(chords, radius, options_.tolerance));
   }
   plan_.mill.tools.push_back(std::move(tool));
 }
 
 void IsolationPlanner::find_narrow_ground(const IsolationCutter& finest) {
   const Nanometres around = off(finest);
+  Region narrow;
+  for (const Region& opening : openings_) {
+    if (grown(opening, {-notable_ground.count}).empty()) continue;
+    const Region reached = grown(grown(opening, {-around.count}), around);
+    if (area_mm2(reached) > 0.5 * area_mm2(opening)) continue;
+    plan_.narrow_openings.push_back(opening.rings.front().front());
+    narrow.rings.push_back(opening.rings.front());
+  }
+  plan_.unmilled = narrow;
   // What hangs together when the cutter has gone around all. Two round islands may be apart though no cutter fits
   // between them: it reaches into the gap from both sides.
   const Region kept = grown(grown(copper_, around, options_.tolerance), {-finest.width.count / 2}, options_.tolerance);
@@ -208,7 +302,7 @@ void IsolationPlanner::find_narrow_ground(const IsolationCutter& finest) {
   const Region closed = grown(kept, {finest.width.count / 2 - around.count}, options_.tolerance);
   const Nanometres open{options_.tolerance.count};
   const Region ground = grown(grown(subtracted(closed, copper_), {-open.count}), open);
-  plan_.unmilled = between_islands(ground, islands_, {3 * open.count});
+  plan_.unmilled = united(narrow, between_islands(ground, islands_, {3 * open.count}));
 }
 
 }  // namespace
@@ -228,7 +322,17 @@ IsolationPlan plan_isolation(const Region& copper, const IsolationOptions& optio
                      .text = ""});
     return {};
   }
-  return IsolationPlanner(copper, options).plan();
+  IsolationPlanner planner(copper, options);
+  if (options.voronoi && !planner.find_voronoi_lines()) {
+    diagnostics.add({.code = "isolation.too-wide",
+                     .file = "",
+                     .place = {},
+                     .message = "the board is too wide for ways midway between its islands",
+                     .expected = "width and height of at most 1 m together",
+                     .text = ""});
+    return {};
+  }
+  return planner.plan();
 }
 
 }  // namespace passo

@@ -24,7 +24,7 @@ Region left_around(const Region& milled) {
 
 }  // namespace
 
-IsolationProof prove_isolation(const Region& copper, const MillPlan& plan) {
+IsolationProof prove_isolation(const Region& copper, const MillPlan& plan, const Region& board) {
   constexpr Nanometres of_arcs{200};   // chords of the ways
   constexpr Nanometres of_discs{500};  // chords of the discs
   std::vector<Region> by_tool;
@@ -36,7 +36,7 @@ IsolationProof prove_isolation(const Region& copper, const MillPlan& plan) {
   }
   const Region milled = by_tool.size() == 1 ? std::move(by_tool.front()) : united(by_tool);
   const std::vector<Region> islands = parts_of(copper);
-  const std::vector<Region> left = parts_of(left_around(milled));
+  const std::vector<Region> left = parts_of(board.empty() ? left_around(milled) : subtracted(board, milled));
 
   IsolationProof proof;
   proof.copper_mm2 = area_mm2(copper);

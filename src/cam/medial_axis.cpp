@@ -18,6 +18,7 @@ struct VoronoiSegment {
   VoronoiPoint to;
   bool from_is_reflex;  // the region is wider than a half turn there
   bool to_is_reflex;
+  std::uint32_t owner;
 };
 
 }  // namespace
@@ -83,8 +84,8 @@ struct MedialSite {
 
 class MedialFinder {
  public:
-  MedialFinder(const Region& region, double least_turn, double tolerance)
-      : region_(region), least_turn_(least_turn), tolerance_(tolerance) {}
+  MedialFinder(const Region& region, const MedialOptions& options)
+      : region_(region), options_(options), tolerance_(options.tolerance_nm) {}
 
   std::optional<MedialAxis> find() {
     const auto box = bounds(region_);
@@ -93,7 +94,9 @@ class MedialFinder {
     middle_y_ = (box->least.y.count + box->most.y.count) / 2;
     constexpr std::int64_t farthest = 2'000'000'000;
     if (box->most.x.count - middle_x_ > farthest || box->most.y.count - middle_y_ > farthest) return std::nullopt;
-    for (const DrawnRing& ring : region_.rings) add(ring);
+    for (std::size_t i = 0; i < region_.rings.size(); ++i) {
+      add(region_.rings[i], options_.owners.empty() ? nobody : options_.owners[i]);
+    }
     VoronoiDiagram diagram;
     boost::polygon::construct_voronoi(segments_.begin(), segments_.end(), &diagram);
     for (const auto& edge : diagram.edges()) {
@@ -106,9 +109,10 @@ class MedialFinder {
   using Edge = VoronoiDiagram::edge_type;
   using Vertex = VoronoiDiagram::vertex_type;
 
-  void add(const DrawnRing& ring);
+  void add(const DrawnRing& ring, std::uint32_t owner);
   MedialSite site_of(const VoronoiDiagram::cell_type& cell) const;
   static bool is_inside(const MedialSite& site, double x, double y);
+  bool is_between_owners(const MedialSite& a, const MedialSite& b) const;
   void take(const Edge& edge);
   void bend(const Edge& edge, const MedialSite& a, const MedialSite& b, std::vector<MedialPoint>& points) const;
   MedialPoint point(double x, double y, const MedialSite& site) const {
@@ -121,7 +125,7 @@ class MedialFinder {
   }
 
   const Region& region_;
-  double least_turn_;
+  const MedialOptions& options_;
   double tolerance_;
   std::int64_t middle_x_ = 0;
   std::int64_t middle_y_ = 0;
@@ -130,7 +134,7 @@ class MedialFinder {
   MedialAxis axis_;
 };
 
-void MedialFinder::add(const DrawnRing& ring) {
+void MedialFinder::add(const DrawnRing& ring, std::uint32_t owner) {
   const std::size_t count = ring.size();
   const auto at = [&](std::size_t i) {
     return VoronoiPoint{static_cast<std::int32_t>(ring[i % count].x.count - middle_x_),
@@ -146,7 +150,7 @@ void MedialFinder::add(const DrawnRing& ring) {
   };
   for (std::size_t i = 0; i < count; ++i) {
     if (ring[i] == ring[(i + 1) % count]) continue;
-    segments_.push_back({at(i), at(i + 1), is_reflex(i), is_reflex((i + 1) % count)});
+    segments_.push_back({at(i), at(i + 1), is_reflex(i), is_reflex((i + 1) % count), owner});
   }
 }
 
@@ -164,10 +168,18 @@ bool MedialFinder::is_inside(const MedialSite& site, double x, double y) {
          0;
 }
 
+bool MedialFinder::is_between_owners(const MedialSite& a, const MedialSite& b) const {
+  if (options_.owners.empty()) return true;
+  const std::uint32_t one = a.segment->owner;
+  const std::uint32_t other = b.segment->owner;
+  return one != other && one != nobody && other != nobody;
+}
+
 void MedialFinder::take(const Edge& edge) {
   if (!edge.is_primary() || !edge.is_finite()) return;
   const MedialSite a = site_of(*edge.cell());
   const MedialSite b = site_of(*edge.twin()->cell());
+  if (!is_between_owners(a, b)) return;
   std::vector<MedialPoint> points = {point(edge.vertex0()->x(), edge.vertex0()->y(), a)};
   bend(edge, a, b, points);
   points.push_back(point(edge.vertex1()->x(), edge.vertex1()->y(), a));
@@ -181,7 +193,7 @@ void MedialFinder::take(const Edge& edge) {
   const auto [bx, by] = b.foot(x, y);
   const double turn =
       std::abs(std::atan2((ax - x) * (by - y) - (ay - y) * (bx - x), (ax - x) * (bx - x) + (ay - y) * (by - y)));
-  if (turn < least_turn_) return;
+  if (turn < options_.least_turn) return;
   axis_.pieces.push_back({node(edge.vertex0()), node(edge.vertex1()), std::move(points)});
 }
 
@@ -225,8 +237,8 @@ void MedialFinder::bend(const Edge& edge, const MedialSite& a, const MedialSite&
 
 }  // namespace
 
-std::optional<MedialAxis> medial_axis(const Region& region, double least_turn, double tolerance_nm) {
-  return MedialFinder(region, least_turn, tolerance_nm).find();
+std::optional<MedialAxis> medial_axis(const Region& region, const MedialOptions& options) {
+  return MedialFinder(region, options).find();
 }
 
 }  // namespace passo

@@ -28,8 +28,16 @@ struct MedialAxis {
   std::vector<MedialPiece> pieces = {};
 };
 
-// `least_turn`: radians; pieces between two edges that meet at a smaller turn are left out. Nothing: the region is
-// wider than 4 m.
-std::optional<MedialAxis> medial_axis(const Region& region, double least_turn, double tolerance_nm);
+struct MedialOptions {
+  double least_turn = 0;  // radians; pieces between two edges that meet at a smaller turn are left out
+  double tolerance_nm = 1'000;
+  // Of each ring of the region; pieces between edges of one owner, and between an edge and nobody's, are left out.
+  // Empty: all pieces count.
+  std::vector<std::uint32_t> owners = {};
+};
+inline constexpr std::uint32_t nobody = 0xffffffff;
+
+// Nothing: the region is wider than 4 m.
+std::optional<MedialAxis> medial_axis(const Region& region, const MedialOptions& options);
 
 }  // namespace passo

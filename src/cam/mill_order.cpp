@@ -35,7 +35,8 @@ class WayOrderer {
   const CutterWay& way(const EnteredWay& entered) const { return ways_[entered.way]; }
   DrawnPoint start(const EnteredWay& entered) const { return way(entered).points[entered.entry]; }
   DrawnPoint end(const EnteredWay& entered) const {
-    return way(entered).is_closed ? start(entered) : way(entered).points.back();
+    const DrawnRing& points = way(entered).points;
+    return way(entered).is_closed ? start(entered) : entered.entry == 0 ? points.back() : points.front();
   }
   DrawnPoint start(const Chain& chain) const { return start(chain.front()); }
   DrawnPoint end(const Chain& chain) const { return end(chain.back()); }
@@ -58,8 +59,9 @@ void WayOrderer::chain() {
   std::vector<std::uint32_t> firsts;  // place of each way's first point
   for (std::uint32_t i = 0; i < ways_.size(); ++i) {
     firsts.push_back(static_cast<std::uint32_t>(places.size()));
-    const std::size_t count = ways_[i].is_closed ? ways_[i].points.size() : 1;
-    for (std::uint32_t k = 0; k < count; ++k) {
+    const auto count = static_cast<std::uint32_t>(ways_[i].points.size());
+    const std::uint32_t step = ways_[i].is_closed ? 1 : ways_[i].may_be_turned ? std::max(1U, count - 1) : count;
+    for (std::uint32_t k = 0; k < count; k += step) {
       places.push_back(ways_[i].points[k]);
       entered.push_back({i, k});
     }
@@ -124,6 +126,8 @@ MillRun WayOrderer::run_of(const Chain& chain) const {
     if (one.is_closed) {
       std::rotate(points.begin(), points.begin() + static_cast<std::ptrdiff_t>(entered.entry), points.end());
       points.push_back(points.front());
+    } else if (entered.entry > 0) {
+      std::ranges::reverse(points);
     }
     for (const PathPoint& point : with_arcs(points, order_.arcs)) run.push_back({point.at, point.bulge, order_.z});
   }

@@ -14,10 +14,11 @@
 namespace passo {
 
 // Of a cutter at depth. A closed way may begin at any of its points; the last point leads back to the first. An open
-// way begins at its first.
+// way begins at its first, or if it may be turned, at its first or its last.
 struct CutterWay {
   DrawnRing points = {};
   bool is_closed = true;
+  bool may_be_turned = false;
 };
 
 struct WayOrder {

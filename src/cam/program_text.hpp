@@ -10,7 +10,7 @@
 
 #include <fmt/format.h>
 
-#include "passo/cam/counted.hpp"
+#include "passo/base/counted.hpp"
 #include "passo/cam/drawing.hpp"
 #include "passo/cam/program_units.hpp"
 

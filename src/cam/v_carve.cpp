@@ -8,9 +8,8 @@
 
 #include "medial_axis.hpp"
 #include "nested_loops.hpp"
+#include "stroke_walk.hpp"
 #include <fmt/format.h>
-
-#include "passo/cam/route.hpp"
 
 namespace passo {
 namespace {
@@ -30,17 +29,17 @@ class VCarvePlanner {
   }
 
   VCarvePlan plan() {
-    const auto axis = medial_axis(area_, least_turn_of_corners, static_cast<double>(options_.tolerance.count));
+    const auto axis = medial_axis(
+        area_, {.least_turn = least_turn_of_corners, .tolerance_nm = static_cast<double>(options_.tolerance.count)});
     if (area_.empty() || !axis) {
       refuse(area_.empty() ? "there is no closed line in these files" : "the drawing is wider than 4 m");
       return {};
     }
     nodes_ = axis->nodes;
     for (const MedialPiece& piece : axis->pieces) clip(piece);
-    link();
     // Beside its tip the cutter mills as wide as it is deep there: the drawing itself.
     MillTool tool{options_.tip, options_.words, {}};
-    order(tool.runs);
+    tool.runs = walk_strokes(std::move(strokes_), nodes_, options_.park);
     go_around_floors(tool.runs);
     for (const MillRun& run : tool.runs) {
       for (const MillPoint& point : run) plan_.deepest = std::min(plan_.deepest, point.z);
@@ -57,14 +56,6 @@ class VCarvePlanner {
   }
 
  private:
-  // A part of the axis that is cut, from node to node.
-  struct Stroke {
-    std::size_t from;
-    std::size_t to;
-    MillRun points;
-    bool is_cut = false;
-  };
-
   void refuse(std::string message) {
     diagnostics_.add({.code = "engrave.no-area",
                       .file = "",
@@ -77,10 +68,6 @@ class VCarvePlanner {
     return {-std::llround((std::clamp(clearance, least_, most_) - least_) / slope_)};
   }
   void clip(const MedialPiece& piece);
-  void link();
-  void order(std::vector<MillRun>& runs);
-  void cut_from(std::size_t node, std::vector<MillRun>& runs);
-  Stroke* next_stroke(std::size_t node, const MillRun& run);
   void go_around_floors(std::vector<MillRun>& runs);
 
   const Region& area_;
@@ -90,8 +77,7 @@ class VCarvePlanner {
   double least_ = 0;  // the clearances that the cutter can use, nm
   double most_ = 0;
   std::size_t nodes_ = 0;
-  std::vector<Stroke> strokes_;
-  std::vector<std::vector<std::size_t>> at_node_;  // strokes
+  std::vector<CutterStroke> strokes_;  // the parts of the axis that are cut
   VCarvePlan plan_;
 };
 
@@ -101,7 +87,7 @@ void VCarvePlanner::clip(const MedialPiece& piece) {
   const auto place = [&](const MedialPoint& p) {
     return MillPoint{{{std::llround(p.x)}, {std::llround(p.y)}}, 0, depth_at(p.clearance)};
   };
-  Stroke stroke{is_in(piece.points.front()) ? piece.from : nodes_++, 0, {}};
+  CutterStroke stroke{is_in(piece.points.front()) ? piece.from : nodes_++, 0, {}};
   const auto end = [&](std::size_t node) {
     stroke.to = node;
     if (stroke.points.size() > 1) strokes_.push_back(std::move(stroke));
@@ -136,92 +122,6 @@ void VCarvePlanner::clip(const MedialPiece& piece) {
     }
   }
   if (!stroke.points.empty()) end(piece.to);
-}
-
-void VCarvePlanner::link() {
-  at_node_.resize(nodes_);
-  for (std::size_t i = 0; i < strokes_.size(); ++i) {
-    at_node_[strokes_[i].from].push_back(i);
-    at_node_[strokes_[i].to].push_back(i);
-  }
-}
-
-// Begins at ends of the axis, which are corners, and where an odd number of strokes meets.
-void VCarvePlanner::order(std::vector<MillRun>& runs) {
-  std::vector<std::size_t> starts;
-  std::vector<DrawnPoint> places;
-  std::vector<bool> is_seen(nodes_);
-  for (std::size_t first = 0; first < nodes_; ++first) {
-    if (is_seen[first] || at_node_[first].empty()) continue;
-    // All that hangs together with this node.
-    std::vector<std::size_t> together = {first};
-    is_seen[first] = true;
-    std::size_t start = first;
-    for (std::size_t k = 0; k < together.size(); ++k) {
-      if (at_node_[together[k]].size() == 1 && at_node_[start].size() != 1) start = together[k];
-      for (const std::size_t i : at_node_[together[k]]) {
-        for (const std::size_t node : {strokes_[i].from, strokes_[i].to}) {
-          if (!is_seen[node]) together.push_back(node);
-          is_seen[node] = true;
-        }
-      }
-    }
-    const Stroke& stroke = strokes_[at_node_[start].front()];
-    starts.push_back(start);
-    places.push_back(stroke.from == start ? stroke.points.front().at : stroke.points.back().at);
-  }
-  constexpr std::uint64_t steps = 2'000'000;
-  for (const std::uint32_t index : shorten_route(places, options_.park, options_.park, steps))
-    cut_from(starts[index], runs);
-}
-
-// The stroke at the node that goes on most nearly straight, and is not cut yet.
-VCarvePlanner::Stroke* VCarvePlanner::next_stroke(std::size_t node, const MillRun& run) {
-  Stroke* best = nullptr;
-  double best_turn = 10;
-  for (const std::size_t i : at_node_[node]) {
-    Stroke& stroke = strokes_[i];
-    if (stroke.is_cut) continue;
-    double turn = 5;
-    if (run.size() > 1) {
-      const bool is_ahead = stroke.from == node;
-      const DrawnPoint a = run[run.size() - 2].at;
-      const DrawnPoint b = run.back().at;
-      const DrawnPoint c = is_ahead ? stroke.points[1].at : stroke.points[stroke.points.size() - 2].at;
-      const double in =
-          std::atan2(static_cast<double>(b.y.count - a.y.count), static_cast<double>(b.x.count - a.x.count));
-      const double out =
-          std::atan2(static_cast<double>(c.y.count - b.y.count), static_cast<double>(c.x.count - b.x.count));
-      turn = std::abs(std::remainder(out - in, 2 * std::numbers::pi));
-    }
-    if (turn < best_turn) {
-      best_turn = turn;
-      best = &stroke;
-    }
-  }
-  return best;
-}
-
-void VCarvePlanner::cut_from(std::size_t start, std::vector<MillRun>& runs) {
-  std::vector<std::size_t> passed = {start};
-  MillRun run;
-  while (!passed.empty()) {
-    Stroke* const stroke = next_stroke(passed.back(), run);
-    if (stroke == nullptr) {
-      // The end of a branch: on at the last place where one is left.
-      if (run.size() > 1) runs.push_back(std::move(run));
-      run.clear();
-      passed.pop_back();
-      continue;
-    }
-    stroke->is_cut = true;
-    const bool is_ahead = stroke->from == passed.back();
-    if (!is_ahead) std::ranges::reverse(stroke->points);
-    for (const MillPoint& point : stroke->points) {
-      if (run.empty() || run.back().at != point.at || run.back().z != point.z) run.push_back(point);
-    }
-    passed.push_back(is_ahead ? stroke->to : stroke->from);
-  }
 }
 
 void VCarvePlanner::go_around_floors(std::vector<MillRun>& runs) {

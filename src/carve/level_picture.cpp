@@ -4,6 +4,9 @@
 #include <csetjmp>
 #include <cstring>
 
+#include "pixel_level.hpp"
+#include "tiff_file.hpp"
+#include "tiff_picture.hpp"
 #include <fmt/format.h>
 #include <png.h>
 
@@ -52,11 +55,9 @@ std::uint16_t level_of(const png_byte* pixel, unsigned channels, PixelLevel leve
   if (level == PixelLevel::alpha) return static_cast<std::uint16_t>(alpha);
   std::uint64_t luminance = sample(pixel);
   if (channels >= 3) {
-    luminance =
-        (2126 * luminance + 7152 * std::uint64_t{sample(pixel + 2)} + 722 * std::uint64_t{sample(pixel + 4)} + 5000) /
-        10000;
+    luminance = luminance_of(luminance, sample(pixel + 2), sample(pixel + 4));
   }
-  return static_cast<std::uint16_t>((luminance * alpha + 32767) / 65535);
+  return faded(luminance, alpha);
 }
 
 std::string kind_of(unsigned bits, unsigned colour_type) {
@@ -153,28 +154,36 @@ bool write_png(PngWriting& writing, std::size_t columns, std::size_t rows, int b
   return true;
 }
 
-}  // namespace
-
 bool is_png(std::string_view bytes) {
   return bytes.size() >= 8 && std::memcmp(bytes.data(), "\x89PNG\r\n\x1a\n", 8) == 0;
 }
 
+}  // namespace
+
+bool is_level_picture(std::string_view bytes) {
+  return is_png(bytes) || TiffFile::is_one(bytes);
+}
+
 LevelPicture read_level_picture(const std::string& name, std::string_view bytes, PixelLevel level,
                                 Diagnostics& diagnostics) {
-  if (!is_png(bytes)) {
-    diagnostics.add(of_file("picture.unknown-kind", name, "this is no picture that is read", "a PNG picture"));
+  if (!is_level_picture(bytes)) {
+    diagnostics.add(of_file("picture.unknown-kind", name, "this is no picture that is read", "a PNG or TIFF picture"));
     return {};
+  }
+  const auto refuse = [&](std::string_view fault) {
+    diagnostics.add(of_file("picture.broken", name, fmt::format("the picture is not read: {}", fault),
+                            fmt::format("a whole {} picture", is_png(bytes) ? "PNG" : "TIFF")));
+    return LevelPicture{};
+  };
+  if (!is_png(bytes)) {
+    std::string fault;
+    LevelPicture picture = read_tiff(bytes, level, fault);
+    return fault.empty() ? std::move(picture) : refuse(fault);
   }
   PngReading reading;
   reading.bytes = bytes;
   reading.level = level;
-  if (!read_png(reading)) {
-    diagnostics.add(of_file("picture.broken", name,
-                            fmt::format("the picture is not read: {}",
-                                        reading.fault[0] == 0 ? "no memory" : static_cast<const char*>(reading.fault)),
-                            "a whole PNG picture"));
-    return {};
-  }
+  if (!read_png(reading)) return refuse(reading.fault[0] == 0 ? "no memory" : static_cast<const char*>(reading.fault));
   return std::move(reading.picture);
 }
 

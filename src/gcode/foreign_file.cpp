@@ -21,7 +21,7 @@ constexpr std::string_view of_program = "G-code, which is text";
 
 constexpr ForeignFile png{"a PNG picture", of_png};
 constexpr ForeignFile jpeg{"a JPEG picture", of_picture};
-constexpr ForeignFile tiff{"a TIFF picture", of_picture};
+constexpr ForeignFile tiff{"a TIFF picture", of_png};
 constexpr ForeignFile gif{"a GIF picture", of_picture};
 constexpr ForeignFile bmp{"a BMP picture", of_picture};
 constexpr ForeignFile svg{"an SVG drawing", of_lines};
@@ -77,6 +77,8 @@ ForeignFile by_mark(std::string_view first) {
                         {"\xFF\xD8\xFF"sv, jpeg},
                         {"II*\0"sv, tiff},
                         {"MM\0*"sv, tiff},
+                        {"II+\0"sv, tiff},
+                        {"MM\0+"sv, tiff},
                         {"GIF8"sv, gif},
                         {"\x1F\x8B"sv, gzip},
                         {"PK\x03\x04"sv, zip},

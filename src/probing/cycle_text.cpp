@@ -1,6 +1,8 @@
 #include "cycle_text.hpp"
 
+#include <cmath>
 #include <iterator>
+#include <numbers>
 #include <utility>
 
 #include <fmt/format.h>
@@ -41,10 +43,12 @@ class CycleText {
   void edge();
   void corner();
   void bore();
+  void go_to_middle();
   void boss();
   void boss_side(char axis, int sign, double half, const char* name);
   void tool();
   void angle();
+  void bores();
   void map();
 
   const ProbingCycle& cycle_;
@@ -133,9 +137,7 @@ void CycleText::corner() {
 }
 
 // The middle of a chord along X is above the middle of the bore; the chord along Y through it is the diameter.
-void CycleText::bore() {
-  head("in the bore, anywhere near its middle", "in the middle of the bore");
-  write_subs();
+void CycleText::go_to_middle() {
   touch(-1, 0, 0);
   line("#<left> = #5061");
   go('X', cycle_.back);
@@ -149,9 +151,51 @@ void CycleText::bore() {
   line("#<middle_y> = [[#<front>+#5062]/2]");
   line("#<diameter> = [#5062-#<front>+{:.4f}]", cycle_.ball);
   line("G0 Y#<middle_y>");
+}
+
+void CycleText::bore() {
+  head("in the bore, anywhere near its middle", "in the middle of the bore");
+  write_subs();
+  go_to_middle();
   line("G10 L20 P{} X0 Y0", system_);
   line("(PRINT,found: X0 Y0 of {} is X{} Y{} in the machine; the bore is #<diameter> wide)", system_code(system_),
        offset_of('X'), offset_of('Y'));
+}
+
+// Until both bores are known the system is not turned. What the bores are too near or too far is shared by both: the
+// midpoint between them lies where the program has it.
+void CycleText::bores() {
+  head("in the first bore, anywhere near its middle; there is room for the second within the reach",
+       "above the second bore, by the clearance");
+  write_subs();
+  line("G10 L2 P{} R0", system_);
+  line("#<down> = #5422");
+  go_to_middle();
+  line("G10 L20 P{} X{:.4f} Y{:.4f} (the first bore is where it should be)", system_, cycle_.x, cycle_.y);
+  go('Z', cycle_.clearance);
+  line("G0 X{:.4f} Y{:.4f}", cycle_.second_x, cycle_.second_y);
+  line("o<lower> call [#<down>]");
+  go_to_middle();
+  line("#<way_x> = [#<middle_x>-{:.4f}]\n#<way_y> = [#<middle_y>-{:.4f}]", cycle_.x, cycle_.y);
+  go('Z', cycle_.clearance);
+  const double way_x = cycle_.second_x - cycle_.x;
+  const double way_y = cycle_.second_y - cycle_.y;
+  line("#<apart> = SQRT[#<way_x>*#<way_x>+#<way_y>*#<way_y>]");
+  line("o<fit> if [ABS[#<apart>-{:.6f}] GT {:.4f}]", std::hypot(way_x, way_y), cycle_.fit);
+  line("  (ABORT,the bores are #<apart> mm apart; they should be {:.4f} mm apart)", std::hypot(way_x, way_y));
+  line("o<fit> endif");
+  line("#<angle> = [ATAN[#<way_y>]/[#<way_x>]-{:.9f}]", std::atan2(way_y, way_x) / std::numbers::pi * 180);
+  line("o<half> if [#<angle> GT 180]\n  #<angle> = [#<angle>-360]\no<half> endif");
+  line("o<half2> if [#<angle> LT -180]\n  #<angle> = [#<angle>+360]\no<half2> endif");
+  const double half_x = (cycle_.x + cycle_.second_x) / 2;
+  const double half_y = (cycle_.y + cycle_.second_y) / 2;
+  line("#<zero_x> = [{}+{:.6f}+#<way_x>/2-COS[#<angle>]*{:.6f}+SIN[#<angle>]*{:.6f}]", offset_of('X'), cycle_.x, half_x,
+       half_y);
+  line("#<zero_y> = [{}+{:.6f}+#<way_y>/2-SIN[#<angle>]*{:.6f}-COS[#<angle>]*{:.6f}]", offset_of('Y'), cycle_.y, half_x,
+       half_y);
+  line("G10 L2 P{} X#<zero_x> Y#<zero_y> R#<angle>", system_);
+  line("(PRINT,found: X0 Y0 of {} is X{} Y{} in the machine, turned by #<angle> degrees; the bores are #<apart> apart)",
+       system_code(system_), offset_of('X'), offset_of('Y'));
 }
 
 void CycleText::boss_side(char axis, int sign, double half, const char* name) {
@@ -252,6 +296,7 @@ std::string CycleText::write() {
     case ProbingKind::boss: boss(); break;
     case ProbingKind::tool: tool(); break;
     case ProbingKind::angle: angle(); break;
+    case ProbingKind::bores: bores(); break;
     case ProbingKind::map: map(); break;
   }
   line("M2");

@@ -13,19 +13,19 @@ namespace {
 
 using Kind = ProbingKind;
 
-constexpr std::array kinds{Kind::surface, Kind::edge, Kind::corner, Kind::bore,
-                           Kind::boss,    Kind::tool, Kind::angle,  Kind::map};
+constexpr std::array kinds{Kind::surface, Kind::edge,  Kind::corner, Kind::bore, Kind::boss,
+                           Kind::tool,    Kind::angle, Kind::bores,  Kind::map};
 
 constexpr std::uint32_t of(std::initializer_list<Kind> some) {
   std::uint32_t bits = 0;
   for (const Kind kind : some) bits |= 1U << static_cast<unsigned>(kind);
   return bits;
 }
-constexpr std::uint32_t all =
-    of({Kind::surface, Kind::edge, Kind::corner, Kind::bore, Kind::boss, Kind::tool, Kind::angle, Kind::map});
+constexpr std::uint32_t all = of(
+    {Kind::surface, Kind::edge, Kind::corner, Kind::bore, Kind::boss, Kind::tool, Kind::angle, Kind::bores, Kind::map});
 constexpr std::uint32_t touches_twice = all & ~of({Kind::map});
 constexpr std::uint32_t has_system = all & ~of({Kind::tool});
-constexpr std::uint32_t has_ball = of({Kind::edge, Kind::corner, Kind::bore, Kind::boss});
+constexpr std::uint32_t has_ball = of({Kind::edge, Kind::corner, Kind::bore, Kind::boss, Kind::bores});
 
 using C = ProbingCycle;
 constexpr double far = 1e5;  // mm
@@ -45,9 +45,14 @@ constexpr ProbingField fields[] = {
     {"size_x", &C::size_x, 0.01, 10000, false, of({Kind::boss, Kind::map}), "width along X, mm"},
     {"size_y", &C::size_y, 0.01, 10000, false, of({Kind::boss, Kind::map}), "width along Y, mm"},
     {"along", &C::along, 0.1, 10000, false, of({Kind::angle}), "between the two places touched, mm"},
-    {"x", &C::x, -far, far, false, of({Kind::tool, Kind::map}),
-     "lower left corner of a map in work coordinates; the tool probe's place in the machine, mm"},
-    {"y", &C::y, -far, far, false, of({Kind::tool, Kind::map}), "the same along Y, mm"},
+    {"x", &C::x, -far, far, false, of({Kind::tool, Kind::bores, Kind::map}),
+     "in work coordinates the lower left corner of a map, or the first bore; the tool probe's place in the machine, "
+     "mm"},
+    {"y", &C::y, -far, far, false, of({Kind::tool, Kind::bores, Kind::map}), "the same along Y, mm"},
+    {"second_x", &C::second_x, -far, far, false, of({Kind::bores}), "the second bore in work coordinates, mm"},
+    {"second_y", &C::second_y, -far, far, false, of({Kind::bores}), "the same along Y, mm"},
+    {"fit", &C::fit, 0.001, 1000, false, of({Kind::bores}),
+     "how much nearer or farther apart the bores may be than they should, mm"},
     {"columns", &C::columns, 2, 200, true, of({Kind::map}), "places along X"},
     {"rows", &C::rows, 2, 200, true, of({Kind::map}), "places along Y"},
     {"tool", &C::tool, 1, 99999, true, of({Kind::tool}), "number of the tool"},
@@ -89,6 +94,7 @@ std::string_view name_of(ProbingKind kind) {
     case Kind::boss: return "boss";
     case Kind::tool: return "tool";
     case Kind::angle: return "angle";
+    case Kind::bores: return "bores";
     case Kind::map: return "map";
   }
   return "";
@@ -103,6 +109,7 @@ std::string_view purpose_of(ProbingKind kind) {
     case Kind::boss: return "finds the middle of a boss, and makes it X0 Y0";
     case Kind::tool: return "measures a tool on a fixed probe, and writes its length into the tool table";
     case Kind::angle: return "finds the angle of an edge, and turns the work system by it";
+    case Kind::bores: return "finds two bores, and moves and turns the work system so that they lie as in the program";
     case Kind::map: return "finds the heights of a surface at the places of a grid";
   }
   return "";
@@ -121,6 +128,9 @@ Result<std::string, std::string> probing_program(const ProbingCycle& cycle) {
   }
   if (cycle.kind == Kind::boss && !(cycle.clearance > cycle.ball / 2))
     return Failure{std::string("clearance: expected more than half of the ball")};
+  const double apart = std::hypot(cycle.second_x - cycle.x, cycle.second_y - cycle.y);
+  if (cycle.kind == Kind::bores && !(apart > cycle.fit))
+    return Failure{std::string("second_x, second_y: expected another place than that of the first bore")};
   return cycle_text(cycle);
 }
 

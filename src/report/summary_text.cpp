@@ -4,25 +4,11 @@
 
 #include <fmt/format.h>
 
+#include "passo/base/counted.hpp"
 #include "passo/report/summary.hpp"
 
 namespace passo {
 namespace {
-
-// 1234567 as "1 234 567".
-std::string grouped(std::int64_t number) {
-  std::string digits = fmt::format("{}", number);
-  const std::size_t first = number < 0 ? 1 : 0;
-  for (std::size_t end = digits.size(); end > first + 3; end -= 3) digits.insert(end - 3, 1, ' ');
-  return digits;
-}
-std::string grouped(std::uint64_t number) {
-  return grouped(static_cast<std::int64_t>(number));
-}
-
-std::string counted(std::uint64_t number, std::string_view noun) {
-  return fmt::format("{} {}{}", grouped(number), noun, number == 1 ? "" : "s");
-}
 
 // Hours appear only if there are some. There are always three digits after the point, so that columns align at it.
 std::string duration(Seconds time) {

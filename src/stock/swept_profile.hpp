@@ -114,15 +114,20 @@ struct TaperedProfile {
 };
 
 struct RingProfile {
-  // Flatter slopes are solved as if they were this steep: it leaves less than a tenth of a micrometre for a radius of
-  // 10 mm, and floats can tell the numbers apart.
-  static constexpr float flattest = 0.01F;
+  // Flatter slopes are solved as if they were this steep: so a solution exists, and floats can tell the numbers apart.
+  static constexpr float flattest = 0.001F;
+  // So the lowest height is right to 0.3 um for each mm of the rim's radius.
+  static constexpr int steps = 2;
 
   float corner;
   float corner2;
   float inner;  // the ring's radius: from the axis to the middle of the corner
   float slope2;
-  float pull;  // corner * slope
+  float steep;  // sqrt(1 + slope²)
+  float flat;   // inner * steep
+  float pull;   // corner * slope
+  float below;  // 1 / (flat + pull)
+  float above;  // 1 / pull
   float edge;
 
   RingProfile(float corner_radius, float rim, float slope)
@@ -130,22 +135,29 @@ struct RingProfile {
         corner2(corner_radius * corner_radius),
         inner(rim - corner_radius),
         slope2(std::max(slope, flattest) * std::max(slope, flattest)),
+        steep(std::sqrt(1 + slope2)),
+        flat(inner * steep),
         pull(corner_radius * std::max(slope, flattest)),
+        below(1 / (flat + pull)),
+        above(1 / pull),
         edge(slope > 0 ? 1.0F : 0.0F) {}
 
-  // The contact is at the angle t from the way, where |v| = f(sin t), f(x) = x (inner + pull / sqrt(slope² + 1 - x²)).
+  // The contact is at the angle t from the way. With sin t = steep q / sqrt(1 + q²), |v| = flat q / sqrt(1 + q²) + pull
+  // q, which bends one way only. Halley's steps from a guess that is nowhere too large.
   float reach(float v2) const {
     const float v = std::sqrt(v2);
-    const float most = slope2 + 1;
-    float x = std::min(1.0F, v / (inner + pull / std::sqrt(most)));
-    for (int i = 0; i < 6; ++i) {
-      const float inverse = 1 / std::sqrt(most - x * x);
-      const float out = pull * inverse;
-      const float too_far = x * (inner + out) - v;
-      x = above_zero(x - too_far / (inner + out * most * inverse * inverse));
+    float q = std::max(v * below, (v - flat) * above);
+    for (int i = 0; i < steps; ++i) {
+      const float inverse2 = 1 / (1 + q * q);
+      const float round = flat * std::sqrt(inverse2);
+      const float too_far = q * (round + pull) - v;
+      const float rise = round * inverse2 + pull;
+      const float bend = 1.5F * q * round * inverse2 * inverse2;
+      q = above_zero(q - too_far * rise / (rise * rise + too_far * bend));
     }
-    const float cosine2 = above_zero((1 - x) * (1 + x));
-    return edge * (inner + pull / std::sqrt(slope2 + cosine2)) * std::sqrt(cosine2);
+    const float inverse2 = 1 / (1 + q * q);
+    const float cosine2 = above_zero((1 - slope2 * q * q) * inverse2);
+    return edge * (inner * std::sqrt(cosine2) + pull * std::sqrt(cosine2 / inverse2) / steep);
   }
   float height(float d2) const {
     const float out = above_zero(std::sqrt(d2) - inner);

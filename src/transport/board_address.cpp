@@ -6,7 +6,7 @@ namespace passo {
 namespace {
 
 constexpr std::string_view expected =
-    ": expected virtual, serial:DEVICE, serial:DEVICE@BAUD, tcp:HOST:PORT or sim:BOARD";
+    ": expected virtual, serial:DEVICE, serial:DEVICE@BAUD, tcp:HOST:PORT, sim:BOARD or grbl:DEVICE";
 
 Failure<std::string> refuse(std::string_view text) {
   return Failure{"'" + std::string(text) + "' is no board" + std::string(expected)};
@@ -15,6 +15,35 @@ Failure<std::string> refuse(std::string_view text) {
 bool read_number(std::string_view text, unsigned low, unsigned high, unsigned& value) {
   const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
   return error == std::errc() && end == text.data() + text.size() && value >= low && value <= high;
+}
+
+// DEVICE, DEVICE@BAUD
+bool read_device(std::string_view device, BoardAddress& address) {
+  address.kind = BoardAddress::Kind::serial;
+  const std::size_t at = device.rfind('@');
+  if (at != std::string_view::npos) {
+    if (!read_number(device.substr(at + 1), 1200, 4'000'000, address.baud)) return false;
+    device = device.substr(0, at);
+  }
+  address.place = device;
+  return !device.empty();
+}
+
+// grbl:tcp:HOST:PORT, grbl:serial:DEVICE, grbl:DEVICE
+Result<BoardAddress, std::string> read_grbl_address(std::string_view text) {
+  const std::string_view line = text.substr(5);
+  BoardAddress address;
+  if (line.starts_with("tcp:")) {
+    auto connection = parse_board_address(line);
+    if (!connection) return refuse(text);
+    address = std::move(*connection);
+  } else {
+    address.baud = grbl_baud;
+    if (!read_device(line.starts_with("serial:") ? line.substr(7) : line, address)) return refuse(text);
+    if (address.place.find('/') == std::string::npos) return refuse(text);
+  }
+  address.speaks_grbl = true;
+  return address;
 }
 
 }  // namespace
@@ -28,17 +57,10 @@ Result<BoardAddress, std::string> parse_board_address(std::string_view text) {
     return address.place.empty() ? Result<BoardAddress, std::string>(refuse(text)) : address;
   }
   if (text.starts_with("serial:")) {
-    address.kind = BoardAddress::Kind::serial;
-    std::string_view device = text.substr(7);
-    const std::size_t at = device.rfind('@');
-    if (at != std::string_view::npos) {
-      if (!read_number(device.substr(at + 1), 1200, 4'000'000, address.baud)) return refuse(text);
-      device = device.substr(0, at);
-    }
-    if (device.empty()) return refuse(text);
-    address.place = device;
+    if (!read_device(text.substr(7), address)) return refuse(text);
     return address;
   }
+  if (text.starts_with("grbl:")) return read_grbl_address(text);
   if (!text.starts_with("tcp:")) return refuse(text);
   address.kind = BoardAddress::Kind::tcp;
   std::string_view host = text.substr(4);

@@ -14,6 +14,8 @@
 #include <termios.h>
 #include <unistd.h>
 
+#include "passo/transport/serial_line.hpp"
+
 namespace passo {
 namespace {
 
@@ -99,9 +101,20 @@ Result<std::unique_ptr<SenderLine>, std::string> SenderLine::open_terminal(const
     return Failure{link + ": " + reason};
   }
   std::unique_ptr<SenderLine> line(new SenderLine);
-  line->is_terminal_ = true;
+  line->kind_ = Kind::terminal;
   line->sender_ = ours;
   line->name_ = line->link_ = link;
+  return line;
+}
+
+Result<std::unique_ptr<SenderLine>, std::string> SenderLine::open_serial(const std::string& device, unsigned baud) {
+  const auto opened = open_serial_line(device, baud);
+  if (!opened) return Failure{opened.error()};
+  std::unique_ptr<SenderLine> line(new SenderLine);
+  line->kind_ = Kind::serial;
+  line->sender_ = *opened;
+  line->name_ = device;
+  line->baud_ = baud;
   return line;
 }
 
@@ -121,7 +134,7 @@ bool SenderLine::has_reader() const {
 void SenderLine::add_to(std::vector<pollfd>& all, bool reads) const {
   if (listening_ >= 0) all.push_back({.fd = listening_, .events = POLLIN, .revents = 0});
   // A terminal without a reader is always ready, and would not let anybody sleep.
-  if (sender_ < 0 || (is_terminal_ && !connected_)) return;
+  if (sender_ < 0 || (kind_ == Kind::terminal && !connected_)) return;
   short events = reads ? POLLIN : short{0};
   if (!unsent_.empty()) events = static_cast<short>(events | POLLOUT);
   if (events != 0) all.push_back({.fd = sender_, .events = events, .revents = 0});
@@ -129,7 +142,9 @@ void SenderLine::add_to(std::vector<pollfd>& all, bool reads) const {
 
 SenderLine::News SenderLine::look(bool reads) {
   News news;
-  if (is_terminal_) {
+  if (kind_ == Kind::serial) {
+    hear_serial(news, reads);
+  } else if (kind_ == Kind::terminal) {
     const bool is_open = has_reader();
     news.came = is_open && !connected_;
     if (news.came) make_raw(sender_);
@@ -139,12 +154,32 @@ SenderLine::News SenderLine::look(bool reads) {
     take_caller(news);
   }
   if (connected_ && !broken_) send_unsent();
-  if (connected_ && !broken_ && reads) read_bytes(news);
+  if (connected_ && !broken_ && reads && kind_ != Kind::serial) read_bytes(news);
   if (broken_) {
     news.went = true;
     close_sender();
   }
   return news;
+}
+
+// What is said first makes a sender.
+void SenderLine::hear_serial(News& news, bool reads) {
+  constexpr std::chrono::seconds between_attempts{1};
+  if (sender_ < 0) {
+    if (Clock::now() - tried_ < between_attempts) return;
+    tried_ = Clock::now();
+    const auto again = open_serial_line(name_, baud_);
+    sender_ = again ? *again : -1;
+    return;
+  }
+  // A device that was unplugged reports a hang-up, and reads as one where nobody speaks.
+  broken_ = !has_reader();
+  if (broken_ || !reads) return;
+  read_bytes(news);
+  if (news.bytes.empty()) return;
+  heard_ = Clock::now();
+  news.came = !connected_;
+  connected_ = true;
 }
 
 void SenderLine::take_caller(News& news) {
@@ -166,7 +201,7 @@ void SenderLine::read_bytes(News& news) {
   const ssize_t got = read(sender_, bytes.data(), bytes.size());
   if (got > 0) {
     news.bytes.assign(bytes.data(), static_cast<std::size_t>(got));
-  } else if (got == 0 || (errno != EAGAIN && errno != EINTR)) {
+  } else if ((got == 0 && kind_ != Kind::serial) || (got < 0 && errno != EAGAIN && errno != EINTR)) {
     broken_ = true;
   }
 }
@@ -180,8 +215,8 @@ void SenderLine::send(std::string_view text) {
 
 void SenderLine::send_unsent() {
   while (!unsent_.empty()) {
-    const ssize_t sent = is_terminal_ ? write(sender_, unsent_.data(), unsent_.size())
-                                      : ::send(sender_, unsent_.data(), unsent_.size(), MSG_NOSIGNAL);
+    const ssize_t sent = kind_ == Kind::network ? ::send(sender_, unsent_.data(), unsent_.size(), MSG_NOSIGNAL)
+                                                : write(sender_, unsent_.data(), unsent_.size());
     if (sent < 0) {
       if (errno == EINTR) continue;
       broken_ = broken_ || errno != EAGAIN;
@@ -193,7 +228,7 @@ void SenderLine::send_unsent() {
 
 // A pseudo-terminal stays for the next sender.
 void SenderLine::close_sender() {
-  if (is_terminal_) {
+  if (kind_ == Kind::terminal) {
     tcflush(sender_, TCIOFLUSH);
   } else {
     close(sender_);

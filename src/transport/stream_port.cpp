@@ -1,7 +1,6 @@
 #include "passo/transport/stream_port.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cerrno>
 #include <cmath>
 #include <cstring>
@@ -11,10 +10,10 @@
 #include <netdb.h>
 #include <netinet/tcp.h>
 #include <poll.h>
-#include <sys/file.h>
 #include <sys/socket.h>
-#include <termios.h>
 #include <unistd.h>
+
+#include "passo/transport/serial_line.hpp"
 
 namespace passo {
 namespace {
@@ -24,16 +23,6 @@ constexpr std::size_t most_at_once = 4096;
 constexpr Seconds longest_write{2};
 constexpr Seconds between_attempts{0.2};
 
-struct Speed {
-  unsigned baud;
-  speed_t code;
-};
-constexpr std::array speeds = {Speed{9600, B9600},         Speed{19200, B19200},       Speed{38400, B38400},
-                               Speed{57600, B57600},       Speed{115200, B115200},     Speed{230400, B230400},
-                               Speed{460800, B460800},     Speed{500'000, B500000},    Speed{576'000, B576000},
-                               Speed{921'600, B921600},    Speed{1'000'000, B1000000}, Speed{1'152'000, B1152000},
-                               Speed{1'500'000, B1500000}, Speed{2'000'000, B2000000}};
-
 std::string reason() {
   return std::strerror(errno);
 }
@@ -42,42 +31,6 @@ std::string reason() {
 ssize_t put(int descriptor, std::span<const std::uint8_t> bytes) {
   const ssize_t sent = send(descriptor, bytes.data(), bytes.size(), MSG_NOSIGNAL);
   return sent < 0 && errno == ENOTSOCK ? write(descriptor, bytes.data(), bytes.size()) : sent;
-}
-
-// Eight raw bits, without flow control. No hang-up at the end: closing the line does not reset an Arduino.
-bool set_raw(int descriptor, speed_t speed) {
-  termios settings{};
-  if (tcgetattr(descriptor, &settings) != 0) return false;
-  cfmakeraw(&settings);
-  settings.c_cflag |= CLOCAL | CREAD;
-  settings.c_cflag &= ~static_cast<tcflag_t>(HUPCL | CSTOPB | CRTSCTS);
-  settings.c_cc[VMIN] = 0;
-  settings.c_cc[VTIME] = 0;
-  if (cfsetspeed(&settings, speed) != 0 || tcsetattr(descriptor, TCSANOW, &settings) != 0) return false;
-  return tcflush(descriptor, TCIOFLUSH) == 0;
-}
-
-Result<int, std::string> open_serial(const BoardAddress& address) {
-  const auto* speed =
-      std::find_if(speeds.begin(), speeds.end(), [&](const Speed& one) { return one.baud == address.baud; });
-  if (speed == speeds.end()) {
-    return Failure{std::to_string(address.baud) + " baud: no rate of a serial line; try 115200, 500000 or 1000000"};
-  }
-  const int descriptor = open(address.place.c_str(), O_RDWR | O_NOCTTY | O_NONBLOCK | O_CLOEXEC);
-  if (descriptor < 0) {
-    const bool denied = errno == EACCES;
-    return Failure{address.place + ": " + reason() +
-                   (denied ? " (whoever is in group dialout may: adduser NAME dialout)" : "")};
-  }
-  // Two programs on one line would each get half of the answers.
-  if (flock(descriptor, LOCK_EX | LOCK_NB) != 0) {
-    close(descriptor);
-    return Failure{address.place + ": in use by another program"};
-  }
-  if (set_raw(descriptor, speed->code)) return descriptor;
-  std::string message = address.place + ": no serial line: " + reason();
-  close(descriptor);
-  return Failure{std::move(message)};
 }
 
 Result<int, std::string> connect_tcp(const BoardAddress& address) {
@@ -167,7 +120,8 @@ Seconds StreamPort::elapsed() const {
 
 Result<std::unique_ptr<StreamPort>, std::string> open_board(const BoardAddress& address) {
   const auto open_it = [address] {
-    return address.kind == BoardAddress::Kind::tcp ? connect_tcp(address) : open_serial(address);
+    return address.kind == BoardAddress::Kind::tcp ? connect_tcp(address)
+                                                   : open_serial_line(address.place, address.baud);
   };
   const Result<int, std::string> opened = open_it();
   if (!opened) return Failure{opened.error()};

@@ -48,6 +48,16 @@ TEST_F(CamMill, an_isolated_layer_loses_no_copper_and_its_program_is_good) {
   EXPECT_EQ(check(path("f.ngc")).code, 0);
 }
 
+TEST_F(CamMill, ways_midway_between_islands_end_at_the_edge) {
+  const std::string options = "isolate " + copper() + " --edge " + edge() + " --tool 0.12 --voronoi";
+  const Outcome made = cam(options + " -o " + path("v.ngc") + " -p " + path("v.svg"));
+  EXPECT_EQ(made.code, 0) << made.err;
+  EXPECT_THAT(made.out, HasSubstr(", 0 of "));
+  EXPECT_THAT(made.out, HasSubstr("3 islands, all apart"));
+  EXPECT_EQ(check(path("v.ngc")).code, 0);
+  EXPECT_THAT(cam(options + " --clear").err, HasSubstr("--clear or --voronoi"));
+}
+
 TEST_F(CamMill, a_gap_too_narrow_is_told) {
   const Outcome made = cam("isolate " + copper() + " --v 30,0.15 --depth -0.1 --json -o " + path("f.ngc"));
   EXPECT_EQ(made.code, 0) << made.err;
@@ -110,6 +120,27 @@ TEST_F(CamMill, a_whole_board_gets_numbered_programs_and_a_page) {
   EXPECT_THAT(read(path("job/3-isolate-back.ngc")), HasSubstr("about X10 mm"));
 }
 
+// The probe's programs speak of the same places as those that mill.
+TEST_F(CamMill, the_probe_finds_a_board_that_was_turned_over_and_its_heights) {
+  copper();
+  copper("board-B_Cu.gbr", "Copper,L2,Bot");
+  edge();
+  const Outcome made = cam("board " + path("") + " --probe-holes --heights 4x3 -o " + path("job"));
+  EXPECT_EQ(made.code, 0) << made.err;
+  for (const char* name : {"1-drill.ngc", "2-heights-front.ngc", "3-isolate-front.ngc", "4-find-holes.ngc",
+                           "5-heights-back.ngc", "6-isolate-back.ngc", "7-outline.ngc"}) {
+    EXPECT_EQ(check(path("job/" + std::string(name))).code, 0) << name;
+  }
+  EXPECT_THAT(read(path("job/1-drill.ngc")), HasSubstr("X5 Y17.5"));
+  EXPECT_THAT(read(path("job/4-find-holes.ngc")), HasSubstr("X5.0000 Y17.5000 (the first bore"));
+  EXPECT_THAT(read(path("job/4-find-holes.ngc")), HasSubstr("G0 X35.0000 Y17.5000"));
+  EXPECT_THAT(read(path("job/5-heights-back.ngc")), HasSubstr("(LOG,30.0000,25.0000,#5063)"));
+  EXPECT_THAT(read(path("job/board.html")),
+              HasSubstr("passo level 6-isolate-back.ngc --map heights-back.csv -o 6-isolate-back-level.ngc"));
+  EXPECT_EQ(cam("board " + path("board-F_Cu.gbr") + " --heights 4 -o " + path("job")).code, 2);
+  EXPECT_EQ(cam("board " + path("board-F_Cu.gbr") + " --heights 1x900 -o " + path("job")).code, 2);
+}
+
 TEST_F(CamMill, a_board_without_an_edge_is_not_cut_out) {
   copper();
   write("board-Edge_Cuts.gbr", "%TF.FileFunction,Profile,NP*%\n" + std::string(begin) + "M02*\n");
@@ -118,6 +149,34 @@ TEST_F(CamMill, a_board_without_an_edge_is_not_cut_out) {
   EXPECT_EQ(made.code, 0) << made.err;
   EXPECT_THAT(made.err, HasSubstr("no closed edge"));
   EXPECT_TRUE(std::filesystem::exists(path("job/1-isolate-front.ngc")));
+}
+
+TEST_F(CamMill, options_are_remembered_for_a_machine_until_others_are_given) {
+  const std::string machine =
+      write("mine.toml", read(std::string(PASSO_SOURCE_DIR) + "/examples/machines/router.toml"));
+  const std::string isolate = "isolate " + copper() + " -o " + path("f.ngc") + " -m " + machine;
+  EXPECT_EQ(cam(isolate).code, 2) << "no cutter is known yet";
+  EXPECT_EQ(cam(isolate + " --tool 0.12 --depth -0.07 --conventional --zero 1,2 --remember").code, 0);
+  EXPECT_EQ(read(path("mine.cam.toml")),
+            "# Written by passo cam --remember. The tables are commands, the keys their options.\n\n[isolate]\n"
+            "tool = \"0.12\"\ndepth = \"-0.07\"\nconventional = true\n");
+  const Outcome again = cam(isolate);
+  EXPECT_EQ(again.code, 0) << again.err;
+  EXPECT_THAT(again.err, HasSubstr("mine.cam.toml: --tool=0.12 --depth=-0.07 --conventional"));
+  EXPECT_THAT(read(path("f.ngc")), HasSubstr("G1 Z-0.07"));
+  // What is given counts; another kind of cutter takes the place of the one that was remembered.
+  EXPECT_EQ(cam(isolate + " --v 20,0.1 --remember").code, 0);
+  EXPECT_THAT(read(path("f.ngc")), HasSubstr("(tool 1: V 20 degrees"));
+  EXPECT_THAT(read(path("f.ngc")), Not(HasSubstr("(tool 2")));
+  EXPECT_THAT(read(path("mine.cam.toml")), HasSubstr("v = \"20,0.1\""));
+  EXPECT_THAT(read(path("mine.cam.toml")), Not(HasSubstr("tool =")));
+  const Outcome board = cam("board " + path("board-F_Cu.gbr") + " -m " + machine + " -o " + path("job"));
+  EXPECT_EQ(board.code, 0) << board.err;
+  EXPECT_THAT(read(path("job/1-isolate-front.ngc")), HasSubstr("V 20 degrees"));
+  EXPECT_EQ(cam("isolate " + path("board-F_Cu.gbr") + " --tool 1 --remember").code, 2);
+  EXPECT_EQ(cam("isolate " + path("board-F_Cu.gbr") + " --tool 1 -m " + path("none.toml")).code, 3);
+  write("mine.cam.toml", "[isolate]\nsteed = 1\n");
+  EXPECT_THAT(cam(isolate).err, HasSubstr("mine.cam.toml:1: [isolate]:"));
 }
 
 TEST_F(CamMill, a_wrong_profile_is_told) {

@@ -10,6 +10,7 @@
 #include <netinet/in.h>
 #include <nlohmann/json.hpp>
 #include <sys/socket.h>
+#include <sys/un.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -18,6 +19,27 @@ namespace {
 using passo::test::read;
 using testing::HasSubstr;
 using testing::Not;
+
+// A socket for what a daemon tells its service manager.
+struct Manager {
+  explicit Manager(const std::string& path) : socket_(socket(AF_UNIX, SOCK_DGRAM | SOCK_NONBLOCK, 0)) {
+    sockaddr_un address{};
+    address.sun_family = AF_UNIX;
+    path.copy(address.sun_path, sizeof address.sun_path - 1);
+    EXPECT_EQ(bind(socket_, reinterpret_cast<const sockaddr*>(&address), sizeof address), 0);
+  }
+  ~Manager() { close(socket_); }
+  // What was told since the last call, a line each.
+  std::string told() const {
+    std::string all;
+    char bytes[512];
+    for (ssize_t got = 0; (got = recv(socket_, bytes, sizeof bytes, 0)) > 0; all += '\n') {
+      all.append(bytes, static_cast<std::size_t>(got));
+    }
+    return all;
+  }
+  int socket_;
+};
 
 class ServeHttp : public passo::test::ServedBoard {
  protected:
@@ -340,6 +362,39 @@ TEST_F(ServeHttp, makes_a_program_of_a_drill_file) {
   }
   EXPECT_EQ(send("../x", "a")["files"].dump().find('/'), std::string::npos);
   EXPECT_TRUE(json("DELETE", "/make/files")["files"].empty());
+}
+
+TEST_F(ServeHttp, tells_systemd_that_it_is_ready_lives_and_ends) {
+  const Manager manager(path("notify"));
+  setenv("NOTIFY_SOCKET", path("notify").c_str(), 1);
+  setenv("WATCHDOG_USEC", "20000", 1);
+  serve();
+  unsetenv("NOTIFY_SOCKET");
+  unsetenv("WATCHDOG_USEC");
+  std::string told;
+  EXPECT_TRUE(until([&] { return (told += manager.told()).find("WATCHDOG=1\nWATCHDOG=1") != std::string::npos; }))
+      << told;
+  EXPECT_THAT(told, HasSubstr("READY=1\nSTATUS="));
+  EXPECT_EQ(end(), 0);
+  EXPECT_THAT(manager.told(), HasSubstr("STOPPING=1"));
+}
+
+TEST_F(ServeHttp, can_be_checked_without_opening_anything) {
+  const auto outcome = passo("serve --check --http 127.0.0.1:7080 --grbl-tcp 127.0.0.1:7071 --board serial:/dev/none");
+  EXPECT_EQ(outcome.code, 0) << outcome.err;
+  EXPECT_THAT(outcome.out, HasSubstr("this can be served"));
+  write("m.toml", "nothing = 1\n");
+  const std::string token = write("token", "short\n");
+  EXPECT_EQ(passo("serve --check -m " + path("m.toml")).code, 3);
+  EXPECT_THAT(passo("serve --check --http 0.0.0.0:80").err, HasSubstr("[serve.open-http]"));
+  EXPECT_THAT(passo("serve --check --http :80 --http-token " + token).err, HasSubstr("[serve.bad-token]"));
+  EXPECT_THAT(passo("serve --check --grbl-tcp 0.0.0.0:80").err, HasSubstr("[serve.open-port]"));
+  EXPECT_THAT(passo("serve --check --board nowhere").err, HasSubstr("is no board"));
+  EXPECT_THAT(passo("serve --check --board grbl:/dev/ttyUSB0").err, HasSubstr("[board.grbl]"));
+  EXPECT_THAT(passo("serve --check --grbl-serial tcp:a:1").err, HasSubstr("--grbl-serial: expected DEVICE"));
+  EXPECT_THAT(passo("serve --check --http :80 --data /dev/null").err, HasSubstr("[serve.data]"));
+  EXPECT_THAT(passo("serve --check --data " + path("data")).err, HasSubstr("[serve.data]"));
+  EXPECT_FALSE(std::filesystem::exists(path("data")));
 }
 
 }  // namespace

@@ -206,6 +206,57 @@ TEST_F(ProbingCycles, the_angle_of_an_edge) {
   EXPECT_NEAR(run.parameters.at(5230), degrees, worst);
 }
 
+// Two square bores in a plate that was turned over and put down elsewhere, turned a little.
+std::vector<Touchable> plate_with_bores(double x1, double y1, double x2, double y2) {
+  constexpr double half = 3;
+  std::vector<SurfaceTriangle> triangles;
+  const auto face = [&](double low_x, double high_x, double low_y, double high_y) {
+    const auto corner = [](double x, double y) { return SurfacePoint{x, y, -5}; };
+    triangles.push_back({corner(low_x, low_y), corner(high_x, low_y), corner(high_x, high_y)});
+    triangles.push_back({corner(low_x, low_y), corner(high_x, high_y), corner(low_x, high_y)});
+  };
+  // Columns of the plate, those through a bore in two pieces.
+  face(-100, x1 - half, -100, 200);
+  face(x1 - half, x1 + half, -100, y1 - half);
+  face(x1 - half, x1 + half, y1 + half, 200);
+  face(x1 + half, x2 - half, -100, 200);
+  face(x2 - half, x2 + half, -100, y2 - half);
+  face(x2 - half, x2 + half, y2 + half, 200);
+  face(x2 + half, 300, -100, 200);
+  return {PlacedSurface{.surface = std::make_shared<const Surface>(triangles), .zero = {}}};
+}
+
+TEST_F(ProbingCycles, two_bores_tell_place_and_angle) {
+  const ProbingCycle cycle{.kind = ProbingKind::bores, .reach = 8, .x = 5, .y = 40, .second_x = 75, .second_y = 40};
+  // In the machine they are 70.02 mm apart, turned by 2.3 degrees.
+  const double angle = 2.3 * std::numbers::pi / 180;
+  const double x2 = 30 + 70.02 * std::cos(angle);
+  const double y2 = 25 + 70.02 * std::sin(angle);
+  const CycleRun run = run_cycle(cycle, machine_, at(31, 24, -8), plate_with_bores(30, 25, x2, y2));
+  EXPECT_EQ(run.words, "");
+  const double worst = 2 * step_of(machine_, Axis::y) / 70 * 180 / std::numbers::pi;
+  const double found = run.parameters.at(5230);
+  EXPECT_NEAR(found, 2.3, worst);
+  // The work system puts the middle of both where it is in the machine, and both beside it along their line.
+  const auto in_machine = [&](double x, double y) {
+    const double turn = found * std::numbers::pi / 180;
+    return std::pair(run.offset(Axis::x) + x * std::cos(turn) - y * std::sin(turn),
+                     run.offset(Axis::y) + x * std::sin(turn) + y * std::cos(turn));
+  };
+  const double near = 0.01 + 2 * step_of(machine_, Axis::x);
+  EXPECT_NEAR(in_machine(5, 40).first, 30, near);
+  EXPECT_NEAR(in_machine(5, 40).second, 25, near);
+  EXPECT_NEAR(in_machine(75, 40).first, x2, near);
+  EXPECT_NEAR(in_machine(75, 40).second, y2, near);
+}
+
+TEST_F(ProbingCycles, bores_that_are_not_as_far_apart_as_they_should_be_end_the_program) {
+  const ProbingCycle cycle{.kind = ProbingKind::bores, .reach = 8, .x = 5, .y = 40, .second_x = 75, .second_y = 40};
+  const CycleRun run = run_cycle(cycle, machine_, at(31, 24, -8), plate_with_bores(30, 25, 101, 25));
+  EXPECT_THAT(run.words, testing::HasSubstr("apart; they should be 70.0000 mm apart"));
+  EXPECT_FALSE(probing_program({.kind = ProbingKind::bores, .second_x = 0, .second_y = 0}));
+}
+
 // Probed, levelled by what was probed, and run: the tool follows the surface.
 TEST_F(ProbingCycles, a_map_is_exact_and_a_levelled_program_follows_it) {
   std::vector<SurfaceTriangle> triangles;

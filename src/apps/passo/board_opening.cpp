@@ -34,6 +34,11 @@ std::string message_of_missing(const fs::path& image) {
 
 Result<std::unique_ptr<BoardPort>, std::string> open_addressed(const BoardAddress& address, Plant* plant,
                                                                const PinSetup& wiring) {
+  if (address.speaks_grbl) {
+    return Failure{
+        "a machine that speaks Grbl takes G-code, and is no board: passo run and passo home drive it, other "
+        "commands do not [board.grbl]"};
+  }
   if (address.kind != BoardAddress::Kind::emulated) {
     auto line = open_board(address);
     if (!line) return Failure{line.error()};

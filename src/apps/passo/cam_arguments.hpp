@@ -11,8 +11,8 @@
 
 #include "commands.hpp"
 
+#include "passo/base/counted.hpp"
 #include "passo/cam/board_layer.hpp"
-#include "passo/cam/counted.hpp"
 
 namespace passo {
 
@@ -54,7 +54,7 @@ struct CamDrillArguments {
   std::string feed = "100mm";
   std::string mill_feed = "150mm";
   std::string park = "0,0";
-  std::optional<std::uint32_t> spindle;     // turns a minute
+  std::uint32_t spindle = 12000;            // turns a minute; 0: the program leaves the spindle alone
   std::uint64_t route_steps = 200'000'000;  // of shorten_route()
   bool plain = false;                       // no canned cycles
 };
@@ -79,7 +79,7 @@ struct CamMillArguments {
   std::string feed = "200mm";
   std::string plunge_feed = "60mm";
   std::string park = "0,0";
-  std::optional<std::uint32_t> spindle;  // turns a minute
+  std::uint32_t spindle = 12000;  // turns a minute; 0: the program leaves the spindle alone
 };
 
 struct CamIsolateArguments : CamMillArguments {
@@ -91,6 +91,7 @@ struct CamIsolateArguments : CamMillArguments {
   std::string width;    // free ground around the copper; empty: as the passes make
   double overlap = 50;  // percent
   bool clear = false;
+  bool voronoi = false;  // ways midway between the islands
   std::string tolerance = "0.004mm";
 };
 int cam_isolate(const CamIsolateArguments& arguments, const CamSources* given = nullptr, CamMade* made = nullptr);
@@ -111,13 +112,11 @@ struct CamOutlineArguments : CamMillArguments {
 int cam_outline(const CamOutlineArguments& arguments, const CamSources* given = nullptr, CamMade* made = nullptr);
 
 struct CamProfileArguments : CamOutlineArguments {
-  CamProfileArguments() { spindle = 12000; }  // 0: the program leaves the spindle alone
-  std::string side = "part";                  // outside, inside or on
+  std::string side = "part";  // outside, inside or on
 };
 int cam_profile(const CamProfileArguments& arguments);
 
 struct CamPocketArguments : CamMillArguments {
-  CamPocketArguments() { spindle = 12000; }
   std::string tool = "3mm";
   std::string depth = "-3mm";
   std::string step = "1mm";
@@ -128,7 +127,6 @@ struct CamPocketArguments : CamMillArguments {
 int cam_pocket(const CamPocketArguments& arguments);
 
 struct CamEngraveArguments : CamMillArguments {
-  CamEngraveArguments() { spindle = 12000; }
   std::string text;  // empty: the files are carved
   std::string font = "/usr/share/fonts/truetype/dejavu/DejaVuSans.ttf";
   std::string height = "10mm";      // of a capital letter
@@ -154,6 +152,8 @@ struct CamBoardArguments {
   std::string turn = "x";            // how a board is turned over: x or y
   std::string margin = "10mm";       // of the board's lower left corner from X0 and from Y0
   std::string pin_distance = "5mm";  // of the alignment holes from the board's edge; 0: none
+  bool probe_holes = false;          // the holes are for the probe, which finds the board that was turned over
+  std::string heights;               // COLUMNSxROWS places of a height map of each side; empty: none
 };
 int cam_board(const CamBoardArguments& arguments, CamDrillArguments drill, CamIsolateArguments isolate,
               CamOutlineArguments outline);
@@ -167,7 +167,7 @@ int cam_show(const CamShowArguments& arguments);
 
 // Lengths without a unit are in mm. Cutters are texts for parse_cutter().
 struct CamReliefArguments {
-  std::string file;     // PNG, STL or height map
+  std::string file;     // PNG, TIFF, STL or height map
   std::string output;   // empty: standard output
   std::string picture;  // .png; empty: none
   std::string width;    // empty: as `length` says, else 100 mm, or as the body is

@@ -1,5 +1,7 @@
 // passo cam board: from the files of a board to numbered programs, a picture each, and a page that says what to do
 // when.
+#include <array>
+#include <cstdio>
 #include <filesystem>
 #include <fstream>
 #include <iterator>
@@ -10,6 +12,7 @@
 
 #include "passo/cam/board_job.hpp"
 #include "passo/machine_file/machine_description.hpp"
+#include "passo/probing/probing_cycle.hpp"
 
 namespace passo {
 namespace {
@@ -111,7 +114,15 @@ class BoardMaker {
   template <class Arguments>
   int add(Arguments arguments, int (*command)(const Arguments&, const CamSources*, CamMade*), const CamSources& sources,
           std::string title, std::vector<std::string> words);
-  std::string pins(Nanometres distance) const;
+  std::array<DrawnPoint, 2> pins(Nanometres distance) const;
+  // In the programs, of either side.
+  std::pair<double, double> in_program(DrawnPoint at) const {
+    const DrawnPoint corner = plan_.box.least;
+    return {to_mm(at.x - corner.x + margin_).value(), to_mm(at.y - corner.y + margin_).value()};
+  }
+  int turn_over(const CamDrillArguments& drill, std::optional<std::array<DrawnPoint, 2>> holes);
+  int find_heights(const char* side);
+  int add_probing(const ProbingCycle& cycle, const char* what, BoardStep step);
 
   const CamBoardArguments& arguments_;
   const BoardPlan& plan_;
@@ -143,7 +154,7 @@ int BoardMaker::add(Arguments arguments, int (*command)(const Arguments&, const 
 }
 
 // Two holes beside the board, midway between which it is turned over.
-std::string BoardMaker::pins(Nanometres distance) const {
+std::array<DrawnPoint, 2> BoardMaker::pins(Nanometres distance) const {
   const DrawnBox& box = plan_.box;
   const DrawnPoint centre{{(box.least.x.count + box.most.x.count) / 2}, {(box.least.y.count + box.most.y.count) / 2}};
   // The same distance from the middle on both sides, so that each hole comes to where the other was.
@@ -151,7 +162,72 @@ std::string BoardMaker::pins(Nanometres distance) const {
       distance.count + (is_x() ? box.most.x.count - box.least.x.count : box.most.y.count - box.least.y.count) / 2;
   const DrawnPoint a{{centre.x.count - (is_x() ? off : 0)}, {centre.y.count - (is_x() ? 0 : off)}};
   const DrawnPoint b{{2 * middle().count - a.x.count}, {2 * middle().count - a.y.count}};
-  return fmt::format("{},{},{},{}", exact(a.x), exact(a.y), exact(is_x() ? b.x : a.x), exact(is_x() ? a.y : b.y));
+  return {a, {is_x() ? b.x : a.x, is_x() ? a.y : b.y}};
+}
+
+int BoardMaker::add_probing(const ProbingCycle& cycle, const char* what, BoardStep step) {
+  const auto program = probing_program(cycle);
+  if (!program) return fail(exit_bad_program, program.error());
+  step.program = fmt::format("{}-{}.ngc", ++programs_, what);
+  const int code = write_text((std::filesystem::path(arguments_.output) / step.program).string(), *program);
+  if (code == exit_done) fmt::print("{}: {}\n", step.program, step.title);
+  page.steps.push_back(std::move(step));
+  return code;
+}
+
+// Each hole comes to where the other was, so the first program and this one speak of the same two places.
+int BoardMaker::turn_over(const CamDrillArguments& drill, std::optional<std::array<DrawnPoint, 2>> holes) {
+  const std::string over = is_x() ? "from left to right" : "from top to bottom";
+  BoardStep step{.title = "Turn the board over", .words = {}};
+  if (!holes || !arguments_.probe_holes) {
+    step.words = {fmt::format("Turn it over {}{}.", over, holes ? ", and put the pins in" : ""),
+                  "X0 Y0 stays where it is; set Z0 to the face that is up now."};
+    page.steps.push_back(std::move(step));
+    return exit_done;
+  }
+  LengthArguments lengths(*mm_of_unit(drill.units));
+  const double width = to_mm(lengths.above_0("--align-drill", drill.align_drill)).value();
+  const auto [x, y] = in_program(holes->front());
+  const auto [second_x, second_y] = in_program(holes->back());
+  const char* const which = is_x() ? "left" : "front";
+  step.title = "Turn the board over, and find it";
+  step.words = {
+      fmt::format("Turn it over {}, and clamp it as it lies: it may be moved and turned a little.", over),
+      fmt::format("Move the probe into the {} one of the two holes, below its rim, and run the program.", which),
+      "G54 then lies as the board does; set Z0 to the face that is up now."};
+  return add_probing({.kind = ProbingKind::bores,
+                      .reach = width,
+                      .back = std::min(0.3, width / 10),
+                      .x = x,
+                      .y = y,
+                      .second_x = second_x,
+                      .second_y = second_y},
+                     "find-holes", std::move(step));
+}
+
+int BoardMaker::find_heights(const char* side) {
+  if (arguments_.heights.empty()) return exit_done;
+  unsigned columns = 0;
+  unsigned rows = 0;
+  char beyond = 0;
+  if (std::sscanf(arguments_.heights.c_str(), "%3ux%3u%c", &columns, &rows, &beyond) != 2)
+    return fail(exit_bad_program, "--heights: expected COLUMNSxROWS, as 9x6, not '" + arguments_.heights + "'");
+  const auto [x, y] = in_program(plan_.box.least);
+  const std::string map = fmt::format("heights-{}.csv", side);
+  const std::string mill = fmt::format("{}-isolate-{}", programs_ + 2, side);
+  BoardStep step{.title = fmt::format("Measure the {}", side), .words = {}};
+  step.words = {
+      "Put the probe in, set Z0 to the face, and run the program with the option --log " + map + ".",
+      fmt::format("passo level {0}.ngc --map {1} -o {0}-level.ngc writes what to run in the next step.", mill, map)};
+  return add_probing({.kind = ProbingKind::map,
+                      .clearance = 2,
+                      .size_x = to_mm(plan_.box.most.x - plan_.box.least.x).value(),
+                      .size_y = to_mm(plan_.box.most.y - plan_.box.least.y).value(),
+                      .x = x,
+                      .y = y,
+                      .columns = static_cast<double>(columns),
+                      .rows = static_cast<double>(rows)},
+                     fmt::format("heights-{}", side).c_str(), std::move(step));
 }
 
 int BoardMaker::make(CamDrillArguments drill, CamIsolateArguments isolate, CamOutlineArguments outline) {
@@ -164,7 +240,6 @@ int BoardMaker::make(CamDrillArguments drill, CamIsolateArguments isolate, CamOu
   const std::string zero =
       fmt::format("The lower left corner of the board lies at X{0:.4g} Y{0:.4g} mm; Z0 is the face of the blank.",
                   to_mm(margin_).value());
-  const std::string over = is_x() ? "from left to right" : "from top to bottom";
   page.steps.push_back({.title = "Fix the blank",
                         .program = "",
                         .tools = {},
@@ -177,28 +252,31 @@ int BoardMaker::make(CamDrillArguments drill, CamIsolateArguments isolate, CamOu
                         .picture = ""});
   CamSources sources{.drills = plan_.drills, .layer = {}, .board = plan_.face};
   const bool has_pins = two_sides && distance.count > 0;
-  if (has_pins) drill.align = pins(distance);
+  std::optional<std::array<DrawnPoint, 2>> holes;
+  if (has_pins) {
+    holes = pins(distance);
+    drill.align = fmt::format("{},{},{},{}", exact(holes->front().x), exact(holes->front().y), exact(holes->back().x),
+                              exact(holes->back().y));
+  }
   if (!plan_.drills.empty() || has_pins) {
     place(drill, only_back);
     name(drill, "drill");
     std::vector<std::string> words = {"Run the program; at each message change the drill, and set Z0 again."};
-    if (has_pins)
-      words.emplace_back("Two of the holes are for pins: drill them on into the table, and do not move the blank.");
+    if (has_pins) {
+      words.emplace_back(
+          arguments_.probe_holes
+              ? "Two of the holes, beside the board, are for the probe."
+              : "Two of the holes are for pins: drill them on into the table, and do not move the blank.");
+    }
     if (const int code = add(drill, &cam_drill, sources, "Drill", std::move(words)); code != exit_done) return code;
   }
   for (const bool is_back : {false, true}) {
     const std::optional<BoardLayer>& side = is_back ? plan_.back : plan_.front;
     if (!side) continue;
     if (is_back && two_sides) {
-      page.steps.push_back({.title = "Turn the board over",
-                            .program = "",
-                            .tools = {},
-                            .words = {fmt::format("Turn it over {}{}.", over, has_pins ? ", and put the pins in" : ""),
-                                      "X0 Y0 stays where it is; set Z0 to the face that is up now."},
-                            .figures = "",
-                            .time = "",
-                            .picture = ""});
+      if (const int code = turn_over(drill, holes); code != exit_done) return code;
     }
+    if (const int code = find_heights(is_back ? "back" : "front"); code != exit_done) return code;
     CamIsolateArguments copper = isolate;
     place(copper, is_back);
     name(copper, is_back ? "isolate-back" : "isolate-front");

@@ -9,13 +9,13 @@
 namespace passo {
 
 struct BoardStep {
-  std::string title;               // "Mill the front"
-  std::string program;             // its file; empty: a step without a program
-  std::vector<std::string> tools;  // in the order in which they are used
-  std::vector<std::string> words;  // what to do, a sentence each
-  std::string figures;             // what was measured, a line each
-  std::string time;                // "0:12:31"; empty: unknown
-  std::string picture;             // SVG; empty: none
+  std::string title = {};               // "Mill the front"
+  std::string program = {};             // its file; empty: a step without a program
+  std::vector<std::string> tools = {};  // in the order in which they are used
+  std::vector<std::string> words = {};  // what to do, a sentence each
+  std::string figures = {};             // what was measured, a line each
+  std::string time = {};                // "0:12:31"; empty: unknown
+  std::string picture = {};             // SVG; empty: none
 };
 
 struct BoardPage {

@@ -76,7 +76,7 @@ Result<DrillJob, std::string> job_of(const CamDrillArguments& arguments) {
   constexpr std::int64_t finest_step = 1000;  // nm: less makes programs without end
   const bool is_too_fine = program.mill_step.count < finest_step || (program.peck && program.peck->count < finest_step);
   if (is_too_fine) lengths.refuse("--peck and --mill-step: expected 0.001 mm or more");
-  program.spindle = arguments.spindle;
+  if (arguments.spindle > 0) program.spindle = arguments.spindle;
   program.park = job.plan.park;
   program.canned = !arguments.plain;
   if (!lengths.message().empty()) return Failure{lengths.message()};

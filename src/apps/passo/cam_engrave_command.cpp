@@ -82,7 +82,6 @@ int cam_engrave(const CamEngraveArguments& arguments) {
   }
   LengthArguments lengths(*mm_of_unit(arguments.units));
   MillJob job = mill_job_of(arguments, "passo cam engrave", lengths, "stock");
-  if (job.program.spindle == 0U) job.program.spindle.reset();
   EngraveJob engrave = engrave_job_of(arguments, job, lengths);
   const Nanometres join = lengths.any("--join", arguments.join);
   if (!lengths.message().empty()) return fail(exit_bad_program, lengths.message());

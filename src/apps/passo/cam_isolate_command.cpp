@@ -1,5 +1,7 @@
 // passo cam isolate: a program that mills free the copper of a layer.
+#include <algorithm>
 #include <cmath>
+#include <iterator>
 
 #include "cam_job.hpp"
 #include <nlohmann/json.hpp>
@@ -51,6 +53,8 @@ IsolationOptions options_of(const CamIsolateArguments& arguments, const MillJob&
   options.width = lengths.perhaps("--width", arguments.width);
   options.overlap = arguments.overlap / 100;
   options.clear = arguments.clear;
+  options.voronoi = arguments.voronoi;
+  if (options.clear && options.voronoi) lengths.refuse("--clear or --voronoi: one of them");
   options.climb = !arguments.conventional;
   options.tolerance = lengths.above_0("--tolerance", arguments.tolerance);
   options.park = job.program.park;
@@ -72,9 +76,14 @@ nlohmann::ordered_json as_json(const IsolationPlan& plan, const IsolationProof& 
     gaps.push_back(
         {{"x_mm", to_mm(gap.at.x).value()}, {"y_mm", to_mm(gap.at.y).value()}, {"width_mm", to_mm(gap.width).value()}});
   }
+  nlohmann::ordered_json openings = nlohmann::ordered_json::array();
+  for (const DrawnPoint& at : plan.narrow_openings) {
+    openings.push_back({{"x_mm", to_mm(at.x).value()}, {"y_mm", to_mm(at.y).value()}});
+  }
   return {{"tools", tools},
           {"islands", proof.islands},
           {"gaps", gaps},
+          {"narrow_openings", openings},
           {"proof",
            {{"copper_mm2", proof.copper_mm2},
             {"lost_mm2", proof.lost_mm2},
@@ -101,6 +110,14 @@ void note_gaps(const IsolationPlan& plan) {
   if (plan.gaps.size() > most_told) {
     note(fmt::format("and {} more such: --json lists them, --picture marks them",
                      counted(plan.gaps.size() - most_told, "gap")));
+  }
+  if (!plan.narrow_openings.empty()) {
+    const DrawnPoint& at = plan.narrow_openings.front();
+    note(fmt::format(
+        "{} in copper, as of a thermal relief, too narrow for the cutter: copper stays in them, the first"
+        " at X{:.4f} Y{:.4f} mm",
+        plan.narrow_openings.size() == 1 ? "1 opening is" : counted(plan.narrow_openings.size(), "opening") + " are",
+        to_mm(at.x).value(), to_mm(at.y).value()));
   }
 }
 
@@ -154,7 +171,7 @@ int cam_isolate(const CamIsolateArguments& arguments, const CamSources* given, C
     show(findings);
     return exit_bad_program;
   }
-  const IsolationProof proof = prove_isolation(copper, plan.mill);
+  const IsolationProof proof = prove_isolation(copper, plan.mill, options.voronoi ? options.board : Region{});
   if (proof.lost_mm2 > 0) {
     return fail(
         exit_failed,
@@ -168,6 +185,7 @@ int cam_isolate(const CamIsolateArguments& arguments, const CamSources* given, C
   if (!arguments.picture.empty()) {
     MillScene scene{plan.mill, copper, "Copper", plan.unmilled, {}, "Gap too narrow", options.park};
     for (const CopperGap& gap : plan.gaps) scene.marks.push_back(gap.at);
+    std::ranges::copy(plan.narrow_openings, std::back_inserter(scene.marks));
     const int code = write_picture(
         arguments.picture, job.program.name,
         [&](const PictureOptions& picture, OutputFile& file) { return draw_mill_plan(scene, picture, file); });

@@ -113,7 +113,7 @@ MillJob mill_job_of(const CamMillArguments& arguments, const char* command, Leng
   program.clearance = lengths.above_0("--clearance", arguments.clearance);
   program.feed = lengths.above_0("--feed", arguments.feed);
   program.plunge_feed = lengths.above_0("--plunge-feed", arguments.plunge_feed);
-  program.spindle = arguments.spindle;
+  if (arguments.spindle > 0) program.spindle = arguments.spindle;
   program.park = lengths.place("--park", arguments.park);
   return job;
 }

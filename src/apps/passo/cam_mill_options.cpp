@@ -1,12 +1,8 @@
 // The options of `passo cam isolate`, `passo cam outline` and `passo cam board`.
-#include <algorithm>
-
 #include "cam_options.hpp"
 #include "number_range.hpp"
 #include "program_input.hpp"
 #include <CLI/CLI.hpp>
-
-#include "passo/machine_file/option_profile.hpp"
 
 namespace passo {
 namespace {
@@ -20,8 +16,11 @@ Examples:
   passo cam isolate front.gbr --tool 0.2 --width 0.6 -o front.ngc    as many loops as 0.6 mm of free ground need
   passo cam isolate front.gbr --tool 1,0.2 --clear --edge edge.gbr -o front.ngc
                                                           all other copper off, the wide cutter first
+  passo cam isolate front.gbr --v 60,0.1 --voronoi -o front.ngc      one way midway between each two islands
   passo cam isolate back.gbr --tool 0.2 --mirror x --mirror-at 50 -p back.png -o back.ngc
                                                           the back, turned over about X50
+  passo cam isolate front.gbr --v 30,0.1 -m router.toml --remember -o front.ngc
+                                                          next time -m router.toml alone is enough
   passo cam isolate board.kicad_pcb --layer B.Cu --edge board.kicad_pcb --tool 0.2 -o back.ngc
                                                           a layer of a KiCad board, without an export
 
@@ -41,6 +40,8 @@ constexpr const char* board_examples =
   passo cam board gerbers/ -o job                    programs, a picture each, and job/board.html: what to do when
   passo cam board board.kicad_pcb -o job             the same of a KiCad board, without an export
   passo cam board board.zip --profile mine.toml -m router.toml -o job      with your options, and times
+  passo cam board gerbers/ --probe-holes --heights 9x6 -o job
+                                     the probe finds the board that was turned over, and how even it is
 
 A profile has a table for each command: [drill], [isolate], [outline], with the options as keys:
 
@@ -78,7 +79,8 @@ void add_mill_options(CLI::App& command, CamMillArguments& arguments) {
   command.add_option("--clearance", arguments.clearance, "height of the rapids above the board")->capture_default_str();
   command.add_option("--feed", arguments.feed, "a minute, along the way")->capture_default_str();
   command.add_option("--plunge-feed", arguments.plunge_feed, "a minute, straight down")->capture_default_str();
-  command.add_option("--spindle", arguments.spindle, "turns a minute; without it the program leaves the spindle alone");
+  command.add_option("--spindle", arguments.spindle, "turns a minute; 0: the program leaves the spindle alone")
+      ->capture_default_str();
   command.add_option("--park", arguments.park, "X,Y at the start, at tool changes and at the end")
       ->capture_default_str();
 }
@@ -102,11 +104,18 @@ void add_isolate_command(CLI::App& cam, CamArguments& all) {
       ->check(number_range(0.0, 95.0))
       ->capture_default_str();
   isolate.add_flag("--clear", arguments.clear, "take all copper off the board that is not wanted");
+  isolate.add_flag("--voronoi", arguments.voronoi, "go midway between islands: each keeps the ground around it");
   isolate.add_option("--tolerance", arguments.tolerance, "how much farther from the copper the cutter stays")
       ->capture_default_str();
   add_mill_options(isolate, arguments);
+  add_remember_options(isolate, all);
   isolate.footer(isolate_examples);
-  isolate.callback([&all] { all.chosen = [&all] { return cam_isolate(all.isolate); }; });
+  isolate.callback([&all, &isolate] {
+    all.chosen = [&all, &isolate] {
+      const int code = use_remembered(isolate, all);
+      return code == exit_done ? cam_isolate(all.isolate) : code;
+    };
+  });
 }
 
 void add_edge_options(CLI::App& command, CamOutlineArguments& arguments) {
@@ -134,43 +143,15 @@ void add_outline_command(CLI::App& cam, CamArguments& all) {
   outline.add_option("EDGE", arguments.files, "drawings of the edge: Gerber, a KiCad board, DXF or SVG")->required();
   add_edge_options(outline, arguments);
   add_mill_options(outline, arguments);
+  add_remember_options(outline, all);
   outline.footer(outline_examples);
-  outline.callback([&all] { all.chosen = [&all] { return cam_outline(all.outline); }; });
+  outline.callback([&all, &outline] {
+    all.chosen = [&all, &outline] {
+      const int code = use_remembered(outline, all);
+      return code == exit_done ? cam_outline(all.outline) : code;
+    };
+  });
 }
-
-namespace {
-
-// Fills in what the profile says. Returns an exit code.
-int read_profile(CamArguments& all) {
-  if (all.board.profile.empty()) return exit_done;
-  Diagnostics findings;
-  const auto sections = read_option_profile(all.board.profile, {"drill", "isolate", "outline"}, findings);
-  show(findings);
-  if (!sections) return exit_bad_program;
-  CamArguments read;
-  for (const OptionSection& section : *sections) {
-    CLI::App cam;
-    if (section.name == "drill") add_drill_command(cam, read);
-    if (section.name == "isolate") add_isolate_command(cam, read);
-    if (section.name == "outline") add_outline_command(cam, read);
-    std::vector<std::string> words = {section.name};
-    words.insert(words.end(), section.words.begin(), section.words.end());
-    words.emplace_back("board");  // the file, which the board itself gives
-    std::ranges::reverse(words);  // CLI11 wants the last word first
-    try {
-      cam.parse(std::move(words));
-    } catch (const CLI::ParseError& error) {
-      return fail(exit_bad_program,
-                  all.board.profile + ":" + std::to_string(section.line) + ": [" + section.name + "]: " + error.what());
-    }
-  }
-  all.drill = read.drill;
-  all.isolate = read.isolate;
-  all.outline = read.outline;
-  return exit_done;
-}
-
-}  // namespace
 
 void add_cam_board_command(CLI::App& cam, CamArguments& all) {
   CamBoardArguments& arguments = all.board;
@@ -180,8 +161,10 @@ void add_cam_board_command(CLI::App& cam, CamArguments& all) {
       ->required();
   board.add_option("-o,--output", arguments.output, "folder for programs, pictures and board.html")
       ->capture_default_str();
-  board.add_option("--profile", arguments.profile, "options of drill, isolate and outline (TOML)");
+  board.add_option("--profile", arguments.profile,
+                   "options of drill, isolate and outline (TOML); without it those remembered for\nthe machine of -m");
   board.add_option("-m,--machine", arguments.machine, "machine file (TOML): how long each program takes on it");
+  board.add_flag("--remember", all.remember, "remember the options of --profile for the machine of -m");
   board.add_option("--turn", arguments.turn, "the board is turned over: x from left to right, y from top to bottom")
       ->check(CLI::IsMember({"x", "y"}))
       ->capture_default_str();
@@ -189,6 +172,9 @@ void add_cam_board_command(CLI::App& cam, CamArguments& all) {
       ->capture_default_str();
   board.add_option("--pins", arguments.pin_distance, "distance of two alignment holes from the board's edge; 0: none")
       ->capture_default_str();
+  board.add_flag("--probe-holes", arguments.probe_holes,
+                 "no pins: after turning over a program finds the two holes with the probe");
+  board.add_option("--heights", arguments.heights, "9x6: a program for each side probes its heights at a grid");
   board.footer(board_examples);
   board.callback([&all] {
     all.chosen = [&all] {

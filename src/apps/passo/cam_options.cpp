@@ -80,14 +80,21 @@ void add_drill_command(CLI::App& cam, CamArguments& all) {
   drill.add_option("--peck", arguments.peck, "drill in pecks of this depth, and clear the hole after each");
   drill.add_option("--feed", arguments.feed, "a minute, down into a hole")->capture_default_str();
   drill.add_option("--mill-feed", arguments.mill_feed, "a minute, of the cutter")->capture_default_str();
-  drill.add_option("--spindle", arguments.spindle, "turns a minute; without it the program leaves the spindle alone");
+  drill.add_option("--spindle", arguments.spindle, "turns a minute; 0: the program leaves the spindle alone")
+      ->capture_default_str();
   drill.add_option("--park", arguments.park, "X,Y at the start, at tool changes and at the end")->capture_default_str();
   drill.add_flag("--plain", arguments.plain, "plain moves (G0, G1), not canned cycles (G81, G83)");
   drill.add_option("--route-steps", arguments.route_steps, "work on the order of each tool's holes")
       ->check(CLI::Range(std::uint64_t{0}, std::uint64_t{10'000'000'000}))
       ->capture_default_str();
+  add_remember_options(drill, all);
   drill.footer(drill_examples);
-  drill.callback([&all] { all.chosen = [&all] { return cam_drill(all.drill); }; });
+  drill.callback([&all, &drill] {
+    all.chosen = [&all, &drill] {
+      const int code = use_remembered(drill, all);
+      return code == exit_done ? cam_drill(all.drill) : code;
+    };
+  });
 }
 
 CLI::App& add_cam_command(CLI::App& app, CamArguments& arguments) {

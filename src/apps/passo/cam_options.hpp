@@ -21,6 +21,8 @@ struct CamArguments {
   CamProfileArguments profile;
   CamPocketArguments pocket;
   CamEngraveArguments engrave;
+  std::string machine;          // whose remembered options are used; empty: none are
+  bool remember = false;        // the options that are given
   std::function<int()> chosen;  // the chosen command, after parsing
 };
 
@@ -35,6 +37,13 @@ void add_relief_command(CLI::App& cam, CamArguments& arguments);
 void add_profile_command(CLI::App& cam, CamArguments& arguments);
 void add_pocket_command(CLI::App& cam, CamArguments& arguments);
 void add_engrave_command(CLI::App& cam, CamArguments& arguments);
+
+// Options that are kept for a machine: how they are asked for, and how what was not given is filled in with them.
+void add_remember_options(CLI::App& command, CamArguments& arguments);
+// Returns an exit code.
+int use_remembered(const CLI::App& command, CamArguments& arguments);
+// The same for the three commands of a board: from --profile, or as remembered.
+int read_profile(CamArguments& arguments);
 
 // The options that all milling of drawings has.
 void add_mill_options(CLI::App& command, CamMillArguments& arguments);

@@ -5,7 +5,7 @@
 #include "cam_part.hpp"
 #include <nlohmann/json.hpp>
 
-#include "passo/cam/counted.hpp"
+#include "passo/base/counted.hpp"
 #include "passo/cam/pocket.hpp"
 #include "passo/cam/profile.hpp"
 
@@ -120,10 +120,6 @@ nlohmann::ordered_json lengths_json(const MillPlan& plan, DrawnPoint park) {
           {"rapids_mm", lengths.rapids_nm / nanometres_per_mm}};
 }
 
-void choose_spindle(MillJob& job) {
-  if (job.program.spindle == 0U) job.program.spindle.reset();
-}
-
 ProfileSide side_of(const std::string& side) {
   return side == "outside"  ? ProfileSide::outside
          : side == "inside" ? ProfileSide::inside
@@ -148,7 +144,6 @@ int cam_profile(const CamProfileArguments& arguments) {
   if (!outputs_are_good(arguments, "")) return exit_bad_program;
   LengthArguments lengths(*mm_of_unit(arguments.units));
   MillJob job = mill_job_of(arguments, "passo cam profile", lengths, "stock");
-  choose_spindle(job);
   const ProfileOptions options{.cut = outline_options_of(arguments, job, lengths), .side = side_of(arguments.side)};
   const Nanometres join = join_of(arguments.join, lengths);
   if (!lengths.message().empty()) return fail(exit_bad_program, lengths.message());
@@ -189,7 +184,6 @@ int cam_pocket(const CamPocketArguments& arguments) {
   if (!outputs_are_good(arguments, "")) return exit_bad_program;
   LengthArguments lengths(*mm_of_unit(arguments.units));
   MillJob job = mill_job_of(arguments, "passo cam pocket", lengths, "stock");
-  choose_spindle(job);
   PocketOptions options;
   options.cutter = lengths.above_0("--tool", arguments.tool);
   options.words = fmt::format("cutter {:.4g} mm", to_mm(options.cutter).value());

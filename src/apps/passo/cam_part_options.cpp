@@ -50,9 +50,6 @@ void add_profile_command(CLI::App& cam, CamArguments& all) {
       ->capture_default_str();
   add_edge_options(profile, arguments);
   add_mill_options(profile, arguments);
-  profile.get_option("--spindle")
-      ->description("turns a minute; 0: the program leaves the spindle alone")
-      ->default_str("12000");
   profile.footer(profile_examples);
   profile.callback([&all] { all.chosen = [&all] { return cam_profile(all.profile); }; });
 }
@@ -73,9 +70,6 @@ void add_pocket_command(CLI::App& cam, CamArguments& all) {
       ->check(number_range(0.0, 60.0))
       ->capture_default_str();
   add_mill_options(pocket, arguments);
-  pocket.get_option("--spindle")
-      ->description("turns a minute; 0: the program leaves the spindle alone")
-      ->default_str("12000");
   pocket.footer(pocket_examples);
   pocket.callback([&all] { all.chosen = [&all] { return cam_pocket(all.pocket); }; });
 }
@@ -106,9 +100,6 @@ void add_engrave_command(CLI::App& cam, CamArguments& all) {
   engrave.add_option("--join", arguments.join, "ends of lines that are no farther apart are joined")
       ->capture_default_str();
   add_mill_options(engrave, arguments);
-  engrave.get_option("--spindle")
-      ->description("turns a minute; 0: the program leaves the spindle alone")
-      ->default_str("12000");
   engrave.footer(engrave_examples);
   engrave.callback([&all] { all.chosen = [&all] { return cam_engrave(all.engrave); }; });
 }

@@ -139,11 +139,11 @@ struct ReliefGrid {
 std::optional<ReliefGrid> read_relief(const CamReliefArguments& arguments, const ReliefJob& job,
                                       Diagnostics& findings) {
   const auto bytes =
-      read_bytes(arguments.file, {.area = "picture", .expected = "a PNG picture or an STL file"}, findings);
+      read_bytes(arguments.file, {.area = "picture", .expected = "a PNG or TIFF picture, or an STL file"}, findings);
   if (!bytes) return std::nullopt;
   ReliefShape shape = job.shape;
   ReliefGrid read;
-  if (is_png(*bytes)) {
+  if (is_level_picture(*bytes)) {
     const PixelLevel level = arguments.channel == "alpha" ? PixelLevel::alpha : PixelLevel::luminance;
     const LevelPicture picture = read_level_picture(arguments.file, *bytes, level, findings);
     if (picture.columns == 0) return std::nullopt;
@@ -155,7 +155,7 @@ std::optional<ReliefGrid> read_relief(const CamReliefArguments& arguments, const
     const ForeignFile foreign = foreign_file(arguments.file, std::string_view(*bytes).substr(0, 1024));
     if (!read.is_body && !foreign.kind.empty()) {
       findings.add(of_file("picture.unknown-kind", arguments.file, fmt::format("this is {}", foreign.kind),
-                           "a PNG picture, an STL file or a height map x,y,z"));
+                           "a PNG or TIFF picture, an STL file or a height map x,y,z"));
       return std::nullopt;
     }
     const Surface body = read_surface(arguments.file, *bytes, findings);

@@ -72,7 +72,8 @@ void add_finishing(CLI::App& relief, CamReliefArguments& arguments) {
 void add_relief_command(CLI::App& cam, CamArguments& all) {
   CamReliefArguments& arguments = all.relief;
   CLI::App& relief = *cam.add_subcommand("relief", "carve a picture, or a body seen from above");
-  relief.add_option("FILE", arguments.file, "a PNG picture (bright is high), an STL file or a height map x,y,z")
+  relief
+      .add_option("FILE", arguments.file, "a PNG or TIFF picture (bright is high), an STL file or a height map x,y,z")
       ->required();
   relief.add_option("-o,--output", arguments.output, "write the program to a file; without it to standard output");
   relief.add_option("-p,--picture", arguments.picture, "draw the finished surface (FILE.png)");

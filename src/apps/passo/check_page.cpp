@@ -8,6 +8,7 @@
 #include <nlohmann/json.hpp>
 
 #include "passo/activity/stage_options.hpp"
+#include "passo/base/counted.hpp"
 #include "passo/drive/backlash_options.hpp"
 #include "passo/report/summary_builder.hpp"
 #include "passo/trajectory/planner.hpp"
@@ -253,7 +254,7 @@ std::string to_text(const CheckPage& page, const MachineDescription& machine) {
   std::string text =
       fmt::format("time            {} in motion", clock_words(summary.cutting_time + summary.rapid_time));
   if (summary.dwell_time > Seconds(0)) text += fmt::format(", {} of dwells", clock_words(summary.dwell_time));
-  if (page.tool_changes > 0) text += fmt::format(", and {} tool changes", page.tool_changes);
+  if (page.tool_changes > 0) text += ", and " + counted(page.tool_changes, "tool change");
   text += "\n";
   if (page.line) text += to_text(*page.line);
   for (const AxisSummary& axis : summary.axes) text += axis_words(axis, description_of(machine, axis.axis));

@@ -181,11 +181,13 @@ struct ServeArguments {
   std::string board = "virtual";
   std::string grbl_tcp;                 // HOST:PORT; with no line at all: 127.0.0.1:7071
   std::string grbl_pty;                 // where the link to the pseudo-terminal is to be
+  std::string grbl_serial;              // a serial port for senders: DEVICE or DEVICE@BAUD
   bool anybody_may_drive = false;       // the port may be reached from other computers
   std::string http;                     // HOST:PORT for programs and browsers; empty: none
   std::string http_token;               // file with the token that they need
   std::vector<std::string> http_names;  // by which others know this server, beside HOST
   std::string page;                     // folder with a page for browsers
+  bool check = false;                   // only say whether this can be served
   std::string data;                     // folder for jobs and history; empty: nothing is kept
   std::vector<std::string> touches;     // what the virtual machine's probe can touch, as of `run`
 };

@@ -4,8 +4,10 @@
 #include <optional>
 
 #include "commands.hpp"
+#include "grbl_run.hpp"
 #include "homing_repeats.hpp"
 #include "homing_run.hpp"
+#include "opened_grbl.hpp"
 #include "opened_machine.hpp"
 #include "program_input.hpp"
 #include "run_signals.hpp"
@@ -61,6 +63,7 @@ int home(const HomeArguments& arguments) {
   const std::optional<MachineDescription> machine = load_machine_file(arguments.machine, diagnostics);
   show(diagnostics);
   if (!machine) return exit_bad_machine;
+  if (names_grbl_machine(arguments.board)) return home_grbl(arguments);
   if (machine->homing.empty()) return fail(exit_bad_machine, words_without_homing(arguments.machine));
   end_on_signals();
   int code = exit_done;

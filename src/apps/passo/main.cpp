@@ -98,9 +98,10 @@ void add_machine(CLI::App& command, std::string& machine) {
 }
 
 void add_board(CLI::App& command, std::string& board) {
-  command.add_option(
-      "-b,--board", board,
-      "serial:DEVICE[@BAUD], tcp:HOST:PORT, sim:uno or sim:mega, see passo board; without it the virtual machine");
+  command.add_option("-b,--board", board,
+                     "serial:DEVICE[@BAUD], tcp:HOST:PORT, sim:uno or sim:mega, see passo board; grbl:DEVICE: a "
+                     "machine with Grbl, for "
+                     "run and home; without it the virtual machine");
 }
 
 CLI::App& add_jog(CLI::App& app, JogArguments& arguments) {
@@ -137,6 +138,7 @@ CLI::App& add_home(CLI::App& app, HomeArguments& arguments) {
       "Examples:\n  passo home -m router.toml                              the virtual machine, from machine zero\n"
       "  passo home -m uno.toml --repeat 10                     how well the switches repeat\n"
       "  passo home -m uno.toml --board serial:/dev/ttyACM0     a real one\n"
+      "  passo home -m router.toml --board grbl:/dev/ttyUSB0    a machine with Grbl\n"
       "Errors end in a stable code: [home.not-met], [home.still-closed], [home.unsteady], [home.stopped], "
       "[home.board],\n"
       "[home.no-switch], [home.interrupted]; see docs/manual/homing.md");
@@ -152,8 +154,12 @@ CLI::App& add_serve(CLI::App& app, ServeArguments& arguments) {
                      "any that is free");
   command.add_option("--grbl-pty", arguments.grbl_pty,
                      "LINK: a pseudo-terminal for senders that know serial ports alone");
+  command.add_option("--grbl-serial", arguments.grbl_serial,
+                     "DEVICE[@BAUD]: a serial port for senders, at 115200 baud if nothing else is said");
   command.add_flag("--anybody-may-drive", arguments.anybody_may_drive,
                    "allow a HOST that other computers reach: the protocol has no password");
+  command.add_flag("--check", arguments.check,
+                   "only say whether the machine file and the options are good; nothing is opened, nothing moves");
   command.add_option("--http", arguments.http, "HOST:PORT for programs and browsers: HTTP and WebSocket");
   command.add_option("--http-token", arguments.http_token,
                      "FILE with a token that HTTP then asks for; needed where other computers reach HOST");

@@ -42,6 +42,13 @@ class MidRunChanges {
   static std::optional<MidRunChanges> read(const std::vector<std::string>& holds,
                                            const std::vector<std::string>& overrides);
 
+  struct Change {
+    Seconds at{0};
+    std::optional<double> factor = {};  // factor of the feed; empty: a hold
+    std::optional<Seconds> pause = {};  // how long a hold rests; empty: the hold ends the run
+  };
+  // By time.
+  const std::vector<Change>& all() const { return changes_; }
   bool any() const { return !changes_.empty(); }
   // Call it when the program begins. `now` is the board's time.
   void begin(Seconds now) { begun_ = now; }
@@ -52,16 +59,11 @@ class MidRunChanges {
   std::vector<HoldSummary> holds() const;
 
  private:
-  struct Change {
-    Seconds at{0};
-    std::optional<double> factor = {};  // factor of the feed; empty: a hold
-    std::optional<Seconds> pause = {};  // how long a hold rests; empty: the hold ends the run
-  };
   Seconds now(const MachineSession& session) const { return session.now() - begun_; }
   Seconds mind_rest(MachineSession& session, const VirtualMachine& machine, const MachineDescription& description);
   void apply(const Change& change, MachineSession& session);
 
-  std::vector<Change> changes_;  // by time
+  std::vector<Change> changes_;
   std::size_t next_ = 0;
   Seconds begun_{0};
   bool holds_now_ = false;            // a hold was requested and is not over yet

@@ -91,13 +91,17 @@ Seconds OperatorPrompt::look(MachineSession& session) {
     }
     return endless;
   }
+  if (hears_enter(*wait)) try_request(session, request::OperatorDone{});
+  return Seconds(0);
+}
+
+bool OperatorPrompt::hears_enter(const OperatorWait& wait) {
   if (!std::exchange(asked_, true)) {
     fmt::print(stderr, "{}{} waits at {}. Press Enter to go on. ", rewrites_lines(STDERR_FILENO) ? "\r\033[K" : "",
-               program_, words_of(*wait));
+               program_, words_of(wait));
     std::fflush(stderr);
   }
-  if (enter_was_pressed(between_looks)) try_request(session, request::OperatorDone{});
-  return Seconds(0);
+  return enter_was_pressed(between_looks);
 }
 
 }  // namespace passo

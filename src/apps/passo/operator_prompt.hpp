@@ -41,6 +41,8 @@ class OperatorPrompt {
   // Call it before each turn. Asks when the program waits, and notices when Enter is pressed. Returns how long the turn
   // may take. If nobody can be asked, the program is stopped.
   Seconds look(MachineSession& session);
+  // The same for a machine without a session that rests at a stop: true when Enter was pressed. Takes 50 ms at most.
+  bool hears_enter(const OperatorWait& wait);
   bool gave_up() const { return fault_.has_value(); }
   const std::optional<ActivityFault>& fault() const { return fault_; }
 

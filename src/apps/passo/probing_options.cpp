@@ -14,6 +14,7 @@ Examples:
   passo probe bore --ball 2                              the middle of a bore
   passo probe tool --tool 3 --x 10 --y 190 --zero-z -60  a tool's length; passo run --tools FILE keeps it
   passo probe angle --side y+ --along 80                 turns G54 along an edge
+  passo probe bores --x 5 --y 20 --second-x 75 --second-y 20   moves and turns G54 as two holes lie
   passo probe map --size-x 80 --size-y 50 --columns 9 --rows 6 -o map.ngc
   passo run map.ngc -m router.toml --log board.csv       the heights of a board, for passo level
 

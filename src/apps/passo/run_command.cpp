@@ -9,11 +9,13 @@
 #include "commands.hpp"
 #include "disturb_option.hpp"
 #include "from_line.hpp"
+#include "grbl_run.hpp"
 #include "homing_run.hpp"
 #include "line_cost.hpp"
 #include "line_watch.hpp"
 #include "mid_run_changes.hpp"
 #include "motor_watch.hpp"
+#include "opened_grbl.hpp"
 #include "opened_machine.hpp"
 #include "operator_prompt.hpp"
 #include "program_input.hpp"
@@ -446,6 +448,10 @@ int run(const RunArguments& arguments) {
   std::optional<InterpreterOptions> options = machine_options(arguments.program);
   if (!program || !options) return exit_bad_program;
   options->main_passes = arguments.passes;
+  if (names_grbl_machine(arguments.board)) {
+    if (!suits_grbl(arguments) || !suits_the_board(arguments)) return exit_bad_program;
+    return run_on_grbl(arguments, *machine, std::move(*program), std::move(*options), *changes);
+  }
   if (arguments.home && machine->homing.empty()) {
     return fail(exit_bad_machine, words_without_homing(arguments.machine));
   }

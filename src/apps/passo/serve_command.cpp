@@ -10,6 +10,7 @@
 #include "opened_machine.hpp"
 #include "program_input.hpp"
 #include "run_signals.hpp"
+#include "serve_addresses.hpp"
 #include "serve_daemon.hpp"
 #include "serve_web.hpp"
 #include "served_journal.hpp"
@@ -18,43 +19,34 @@
 
 #include "passo/grbl/grbl_controller.hpp"
 #include "passo/report/output_file.hpp"
+#include "passo/transport/service_notice.hpp"
 
 namespace passo {
 namespace {
 
+// Puts a line to the others. False, with a message and `code`: it cannot be opened.
+bool add(Result<std::unique_ptr<SenderLine>, std::string> line, ServeDaemon::Lines& lines, int& code) {
+  if (line) {
+    lines.push_back(std::move(*line));
+  } else {
+    code = fail(exit_failed, line.error());
+  }
+  return line.has_value();
+}
+
 // Opens all lines that the arguments ask for. False, with a message and `code`: one of them cannot be.
 bool open_lines(const ServeArguments& arguments, ServeDaemon::Lines& lines, int& code) {
-  const bool any = !arguments.grbl_tcp.empty() || !arguments.grbl_pty.empty() || !arguments.http.empty();
+  const bool any = !arguments.grbl_tcp.empty() || !arguments.grbl_pty.empty() || !arguments.grbl_serial.empty() ||
+                   !arguments.http.empty();
   const std::string wanted = any ? arguments.grbl_tcp : "127.0.0.1:7071";
   if (!wanted.empty()) {
-    const auto address = read_address(wanted);
-    if (!address) {
-      code = fail(exit_bad_program, "--grbl-tcp: expected HOST:PORT, as 127.0.0.1:7071, not " + wanted);
-      return false;
-    }
-    if (!is_this_computer(address->host) && !arguments.anybody_may_drive) {
-      code = fail(exit_bad_program,
-                  fmt::format("--grbl-tcp {}: whoever reaches this port can drive the machine, because the protocol "
-                              "has no password. If that is meant, add --anybody-may-drive [serve.open-port]",
-                              wanted));
-      return false;
-    }
-    auto line = SenderLine::listen(address->host, address->port);
-    if (!line) {
-      code = fail(exit_failed, line.error());
-      return false;
-    }
-    lines.push_back(std::move(*line));
+    const auto address = sender_address(arguments, wanted, code);
+    if (!address || !add(SenderLine::listen(address->host, address->port), lines, code)) return false;
   }
-  if (!arguments.grbl_pty.empty()) {
-    auto line = SenderLine::open_terminal(arguments.grbl_pty);
-    if (!line) {
-      code = fail(exit_failed, line.error());
-      return false;
-    }
-    lines.push_back(std::move(*line));
-  }
-  return true;
+  if (!arguments.grbl_pty.empty() && !add(SenderLine::open_terminal(arguments.grbl_pty), lines, code)) return false;
+  if (arguments.grbl_serial.empty()) return true;
+  const auto port = sender_port(arguments, code);
+  return port && add(SenderLine::open_serial(port->place, port->baud), lines, code);
 }
 
 // The text of the machine file. The example's, if none is named.
@@ -97,7 +89,8 @@ MachineFileAccess access_to(const std::string& file) {
 
 // Without any line, senders and browsers of this computer find the machine at its usual ports.
 ServeArguments with_usual(ServeArguments arguments) {
-  if (arguments.grbl_tcp.empty() && arguments.grbl_pty.empty() && arguments.http.empty() && arguments.data.empty()) {
+  if (arguments.grbl_tcp.empty() && arguments.grbl_pty.empty() && arguments.grbl_serial.empty() &&
+      arguments.http.empty() && arguments.data.empty()) {
     arguments.grbl_tcp = "127.0.0.1:7071";
     arguments.http = "127.0.0.1:7080";
   }
@@ -135,7 +128,9 @@ int serve(const ServeArguments& given) {
   if (!things->empty() && arguments.board != "virtual") {
     return fail(exit_bad_program, "--touch is for the virtual machine [serve.touch]");
   }
+  if (arguments.check) return check_serve(arguments, machine->name);
   int code = exit_done;
+  ServiceNotice service;
   ServeDaemon::Lines lines;
   if (!open_lines(arguments, lines, code)) return code;
   outlive_readers();
@@ -178,8 +173,10 @@ int serve(const ServeArguments& given) {
   if (web) fmt::print("For programs and browsers:\n  {}\n", web->name());
   fmt::print("Ctrl-C stops the machine, and ends.\n");
   std::fflush(stdout);
-  ServeDaemon daemon(*opened, grbl, owner, std::move(lines), web.get());
+  ServeDaemon daemon(*opened, grbl, owner, std::move(lines), web.get(), service);
+  service.ready(machine->name);
   daemon.serve();
+  service.stopping();
   daemon.stop();
   return interrupted_by() == 2 || interrupted_by() == 15 ? exit_done : 128 + interrupted_by();
 }

@@ -17,8 +17,15 @@ constexpr int most_turns = 5000;  // of one look
 
 }  // namespace
 
-ServeDaemon::ServeDaemon(OpenedMachine& machine, GrblController& grbl, MotionOwner& owner, Lines lines, ServedWeb* web)
-    : machine_(machine), session_(machine.session()), grbl_(grbl), owner_(owner), lines_(std::move(lines)), web_(web) {}
+ServeDaemon::ServeDaemon(OpenedMachine& machine, GrblController& grbl, MotionOwner& owner, Lines lines, ServedWeb* web,
+                         ServiceNotice& service)
+    : machine_(machine),
+      session_(machine.session()),
+      grbl_(grbl),
+      owner_(owner),
+      lines_(std::move(lines)),
+      web_(web),
+      service_(service) {}
 
 void ServeDaemon::serve() {
   while (interrupted_by() == 0) {
@@ -28,13 +35,17 @@ void ServeDaemon::serve() {
     mind_owner();
     turn();
     reply();
+    service_.alive();
   }
 }
 
 void ServeDaemon::stop() {
   if (web_ != nullptr) web_->leave();
   if (session_.busy()) try_request(session_, request::Stop{});
-  while (session_.busy()) session_.turn(machine_.has_board() ? busy_look : Seconds(1));
+  while (session_.busy()) {
+    session_.turn(machine_.has_board() ? busy_look : Seconds(1));
+    service_.alive();
+  }
   hear_changes();
 }
 
@@ -53,9 +64,19 @@ bool ServeDaemon::may_read(const SenderLine& line) const {
   return grbl_.wants_more() && (driver_ == nullptr || driver_ == &line);
 }
 
+// A sender on a serial port may have gone without a sign. While nothing goes on, it gives way to another.
+void ServeDaemon::mind_silent_driver(const SenderLine& line) {
+  if (driver_ == nullptr || driver_ == &line || !line.is_connected()) return;
+  if (!driver_->gives_way() || session_.busy()) return;
+  driver_->part();
+  driver_ = nullptr;
+  grbl_.disconnect();
+}
+
 void ServeDaemon::attend(SenderLine& line) {
   const SenderLine::News news = line.look(may_read(line));
-  if (news.came && driver_ == nullptr) {
+  mind_silent_driver(line);
+  if (line.is_connected() && driver_ == nullptr) {
     driver_ = &line;
     owner_.take_for_sender();
     grbl_.let_drive(owner_.is_sender());

@@ -12,6 +12,7 @@
 #include "passo/api/motion_owner.hpp"
 #include "passo/grbl/grbl_controller.hpp"
 #include "passo/transport/sender_line.hpp"
+#include "passo/transport/service_notice.hpp"
 
 namespace passo {
 
@@ -41,7 +42,8 @@ class ServeDaemon {
   using Lines = std::vector<std::unique_ptr<SenderLine>>;
 
   // All of them outlive the daemon. `web` may be null.
-  ServeDaemon(OpenedMachine& machine, GrblController& grbl, MotionOwner& owner, Lines lines, ServedWeb* web);
+  ServeDaemon(OpenedMachine& machine, GrblController& grbl, MotionOwner& owner, Lines lines, ServedWeb* web,
+              ServiceNotice& service);
 
   // Until a signal comes.
   void serve();
@@ -52,6 +54,7 @@ class ServeDaemon {
   void wait();
   bool may_read(const SenderLine& line) const;
   void attend(SenderLine& line);
+  void mind_silent_driver(const SenderLine& line);
   void mind_owner();
   void turn();
   void hear_changes();
@@ -63,6 +66,7 @@ class ServeDaemon {
   MotionOwner& owner_;
   Lines lines_;
   ServedWeb* web_;
+  ServiceNotice& service_;
   SenderLine* driver_ = nullptr;  // where the sender is
   WallClock clock_;
 };

@@ -1,9 +1,7 @@
 #include "serve_web.hpp"
 
 #include <algorithm>
-#include <charconv>
 #include <filesystem>
-#include <fstream>
 #include <random>
 #include <utility>
 
@@ -17,7 +15,6 @@ constexpr auto between_messages = std::chrono::microseconds(1'000'000 / 60);
 constexpr auto between_signs_of_life = std::chrono::seconds(1);
 // While somebody is connected, an answer does not wait for the loop for longer.
 constexpr Seconds web_look{0.004};
-constexpr std::size_t shortest_token = 16;
 
 constexpr const char* no_page =
     "There is no page here yet: scripts/page.sh builds it, and --page DIR names another folder.\n"
@@ -29,15 +26,6 @@ std::string new_key() {
   std::string key;
   for (int i = 0; i < 4; ++i) key += fmt::format("{:08x}", random());
   return key;
-}
-
-// The first line of a file.
-std::optional<std::string> read_token(const std::string& file) {
-  std::ifstream in(file);
-  std::string token;
-  if (!std::getline(in, token)) return {};
-  while (!token.empty() && (token.back() == '\r' || token.back() == ' ')) token.pop_back();
-  return token;
 }
 
 double seconds_since_1970() {
@@ -72,22 +60,6 @@ ApiOptions api_options(const PageFolder* page, JobHistory* history, ServedOffset
 
 }  // namespace
 
-std::optional<HostAndPort> read_address(std::string_view text) {
-  const std::size_t colon = text.rfind(':');
-  if (colon == std::string_view::npos) return {};
-  std::string_view host = text.substr(0, colon);
-  const std::string_view digits = text.substr(colon + 1);
-  if (host.starts_with('[') && host.ends_with(']')) host = host.substr(1, host.size() - 2);
-  unsigned port = 0;
-  const auto [end, error] = std::from_chars(digits.data(), digits.data() + digits.size(), port);
-  if (error != std::errc() || end != digits.data() + digits.size() || port > 65535) return {};
-  return HostAndPort{.host = host.empty() ? "127.0.0.1" : std::string(host), .port = port};
-}
-
-bool is_this_computer(const std::string& host) {
-  return host.starts_with("127.") || host == "::1" || host == "localhost";
-}
-
 ServedWeb::ServedWeb(const ServeArguments& arguments, const MachineDescription& machine, MachineSession& session,
                      MotionOwner& owner, std::unique_ptr<JobHistory> history, std::unique_ptr<ServedOffsets> offsets,
                      const ServedJobs& jobs)
@@ -104,37 +76,8 @@ ServedWeb::ServedWeb(const ServeArguments& arguments, const MachineDescription& 
 std::unique_ptr<ServedWeb> ServedWeb::open(const ServeArguments& arguments, const MachineDescription& machine,
                                            MachineSession& session, MotionOwner& owner, const ServedJobs& jobs,
                                            int& code) {
-  const auto address = read_address(arguments.http);
-  if (!address) {
-    code = fail(exit_bad_program, "--http: expected HOST:PORT, as 127.0.0.1:7080, not " + arguments.http);
-    return nullptr;
-  }
-  WebAccess access{.names = {"localhost", "127.0.0.1", "[::1]"}};
-  const bool has_colon = address->host.find(':') != std::string::npos;
-  access.names.push_back(has_colon ? "[" + address->host + "]" : address->host);
-  for (std::string name : arguments.http_names) {
-    std::ranges::transform(name, name.begin(), [](char c) { return c >= 'A' && c <= 'Z' ? char(c - 'A' + 'a') : c; });
-    access.names.push_back(std::move(name));
-  }
-  if (!arguments.http_token.empty()) {
-    const auto token = read_token(arguments.http_token);
-    if (!token || token->size() < shortest_token) {
-      code =
-          fail(exit_bad_program,
-               fmt::format("--http-token {}: expected a file whose first line is a token of {} characters or more, as "
-                           "`openssl rand -hex 16` makes one [serve.bad-token]",
-                           arguments.http_token, shortest_token));
-      return nullptr;
-    }
-    access.token = *token;
-  }
-  if (access.token.empty() && !is_this_computer(address->host)) {
-    code = fail(exit_bad_program,
-                fmt::format("--http {}: other computers reach this port, so a token is needed: add --http-token FILE "
-                            "[serve.open-http]",
-                            arguments.http));
-    return nullptr;
-  }
+  const auto place = web_place(arguments, code);
+  if (!place) return nullptr;
   std::unique_ptr<JobHistory> history;
   std::unique_ptr<ServedOffsets> offsets;
   if (!arguments.data.empty()) {
@@ -154,12 +97,13 @@ std::unique_ptr<ServedWeb> ServedWeb::open(const ServeArguments& arguments, cons
   }
   std::unique_ptr<ServedWeb> web(
       new ServedWeb(arguments, machine, session, owner, std::move(history), std::move(offsets), jobs));
-  auto server = WebServer::listen(address->host, address->port, std::move(access), web->api_);
+  auto server = WebServer::listen(place->address.host, place->address.port, place->access, web->api_);
   if (!server) {
     code = fail(exit_failed, server.error());
     return nullptr;
   }
-  web->host_ = has_colon ? "[" + address->host + "]" : address->host;
+  const bool has_colon = place->address.host.find(':') != std::string::npos;
+  web->host_ = has_colon ? "[" + place->address.host + "]" : place->address.host;
   web->server_ = std::move(*server);
   web->api_.watch(*web->server_);
   return web;

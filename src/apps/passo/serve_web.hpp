@@ -8,6 +8,7 @@
 
 #include "commands.hpp"
 #include "page_folder.hpp"
+#include "serve_addresses.hpp"
 #include "served_journal.hpp"
 #include "served_maker.hpp"
 #include "served_offsets.hpp"
@@ -20,14 +21,6 @@ namespace passo {
 
 // docs/api/openapi.json
 extern const char* const openapi_text;
-
-// "HOST:PORT", "[::1]:PORT" or ":PORT". Empty: it is none of them.
-struct HostAndPort {
-  std::string host;
-  unsigned port = 0;
-};
-std::optional<HostAndPort> read_address(std::string_view text);
-bool is_this_computer(const std::string& host);
 
 // What is kept of a job that runs.
 struct ServedJobs {

@@ -1,6 +1,8 @@
 #include "passo/cam/isolation.hpp"
 
+#include <algorithm>
 #include <cmath>
+#include <random>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -38,7 +40,7 @@ Isolated isolated(const Region& copper, const IsolationOptions& options) {
   Isolated result;
   result.plan = plan_isolation(copper, options, findings);
   EXPECT_FALSE(findings.any_error());
-  result.proof = prove_isolation(copper, result.plan.mill);
+  result.proof = prove_isolation(copper, result.plan.mill, options.voronoi ? options.board : Region{});
   return result;
 }
 std::size_t runs_of(const IsolationPlan& plan) {
@@ -167,6 +169,93 @@ TEST(Isolation, random_layouts_lose_no_copper_and_join_only_what_is_told) {
     const auto [plan, proof] = isolated(united(shapes), options);
     EXPECT_EQ(proof.lost_mm2, 0) << "layout " << layout;
     EXPECT_EQ(proof.joined == 0, plan.gaps.empty()) << "layout " << layout;
+  }
+}
+
+TEST(Isolation, voronoi_goes_midway_and_parts_all_islands) {
+  IsolationOptions options = with({0.2});
+  options.voronoi = true;
+  options.board = filled({rectangle({spot(-4, -4), spot(7, 4)})});
+  const auto [plan, proof] = isolated(two_pads(1), options);
+  EXPECT_EQ(proof.lost_mm2, 0);
+  EXPECT_EQ(proof.joined, 0U);
+  ASSERT_EQ(runs_of(plan), 1U);
+  // Beside two equal pads it is a straight line, from edge to edge.
+  EXPECT_NEAR(milled_mm(plan), 8.2, 0.05);
+  for (const MillPoint& point : plan.mill.tools[0].runs[0]) EXPECT_NEAR(to_mm(point.at.x).value(), 1.5, 1e-5);
+
+  options.passes = 3;
+  const auto [wider, wide_proof] = isolated(two_pads(1), options);
+  EXPECT_EQ(wide_proof.lost_mm2, 0);
+  EXPECT_NEAR(wide_proof.milled_mm2, (8.2 + 0.2) * 0.6, 0.02);
+}
+
+// The oracle is the distance to each disc, not the diagram.
+TEST(Isolation, voronoi_is_as_far_from_two_islands_and_no_nearer_to_a_third) {
+  std::mt19937_64 random(5);
+  std::uniform_real_distribution<double> within(0, 20);
+  struct Disc {
+    double x, y, radius;
+  };
+  std::vector<Disc> discs;
+  std::vector<Region> faces;
+  while (discs.size() < 12) {
+    const Disc one{within(random), within(random), 0.3 + within(random) / 20};
+    const bool is_apart = std::ranges::all_of(
+        discs, [&](const Disc& d) { return std::hypot(d.x - one.x, d.y - one.y) > d.radius + one.radius + 0.3; });
+    if (!is_apart) continue;
+    discs.push_back(one);
+    faces.push_back(disc(one.x, one.y, 2 * one.radius));
+  }
+  IsolationOptions options = with({0.2});
+  options.voronoi = true;
+  options.board = filled({rectangle({spot(-2, -2), spot(22, 22)})});
+  const auto [plan, proof] = isolated(united(faces), options);
+  EXPECT_EQ(proof.lost_mm2, 0);
+  EXPECT_EQ(proof.joined, 0U);
+  for (const MillTool& tool : plan.mill.tools) {
+    for (const MillRun& run : tool.runs) {
+      for (const DrawnPoint& at : chords_of(run, {1'000})) {
+        std::vector<double> away;
+        for (const Disc& one : discs)
+          away.push_back(std::hypot(to_mm(at.x).value() - one.x, to_mm(at.y).value() - one.y) - one.radius);
+        std::ranges::sort(away);
+        EXPECT_NEAR(away[0], away[1], 0.006) << to_mm(at.x).value() << ", " << to_mm(at.y).value();
+      }
+    }
+  }
+}
+
+TEST(Isolation, voronoi_leaves_to_a_finer_cutter_what_is_narrow_and_tells_what_remains) {
+  const Region copper = united(united(two_pads(0.3), pad(6, 0, 2)), pad(8.15, 0, 2));
+  IsolationOptions options = with({0.5, 0.2});
+  options.voronoi = true;
+  options.board = filled({rectangle({spot(-4, -4), spot(12, 4)})});
+  const auto [plan, proof] = isolated(copper, options);
+  EXPECT_EQ(proof.lost_mm2, 0);
+  ASSERT_EQ(plan.mill.tools.size(), 2U);
+  ASSERT_EQ(plan.gaps.size(), 1U);
+  EXPECT_EQ(plan.gaps[0].width, wide(0.15));
+  EXPECT_EQ(proof.joined, 2U);
+}
+
+TEST(Isolation, thermal_reliefs_are_milled_in_both_ways_and_told_where_they_are_too_narrow) {
+  // A pad in a plane, on four spokes: one island with four openings.
+  Region thermal = subtracted(pad(0, 0, 8), subtracted(disc(0, 0, 3), disc(0, 0, 2)));
+  thermal = united(
+      thermal, united(swept({{spot(-2, 0), spot(2, 0)}}, wide(0.2)), swept({{spot(0, -2), spot(0, 2)}}, wide(0.2))));
+  for (const bool voronoi : {false, true}) {
+    IsolationOptions options = with({0.3});
+    options.voronoi = voronoi;
+    const auto [plan, proof] = isolated(united(thermal, pad(10, 0, 2)), options);
+    EXPECT_EQ(proof.lost_mm2, 0);
+    EXPECT_TRUE(plan.narrow_openings.empty());
+    EXPECT_EQ(proof.joined, 0U);
+    EXPECT_EQ(runs_of(plan), 6U);
+    options.cutters[0].width = wide(0.6);
+    const IsolationPlan coarse = isolated(united(thermal, pad(10, 0, 2)), options).plan;
+    EXPECT_EQ(coarse.narrow_openings.size(), 4U);
+    EXPECT_EQ(runs_of(coarse), 2U);
   }
 }
 

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <random>
 
+#include "random_star.hpp"
 #include <gmock/gmock.h>
 
 #include "passo/cam/bulge.hpp"
@@ -169,14 +170,7 @@ TEST(Pocket, of_random_shapes_leaves_only_what_no_cutter_of_its_size_reaches) {
   std::mt19937_64 random(7);
   std::uniform_real_distribution<double> share(0, 1);
   for (int trial = 0; trial < 7; ++trial) {
-    PathPoints points;
-    const int corners = 5 + trial;
-    for (int i = 0; i < corners; ++i) {
-      const double angle = 2 * M_PI * i / corners;
-      const double far = 5 + 20 * share(random);
-      points.push_back(corner(far * std::cos(angle), far * std::sin(angle)));
-    }
-    const Region area = enclosed_by({points});
+    const Region area = enclosed_by({test::random_star({.corners = 5 + trial}, random)});
     const double radius = 0.5 + 2 * share(random);
     const Pocketed result = pocketed(
         area, {.cutter = mm(2 * radius), .step_over = 0.2 + 0.7 * share(random), .ramp_degrees = 3.0 * (trial % 2)});

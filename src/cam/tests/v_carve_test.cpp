@@ -5,6 +5,7 @@
 #include <cmath>
 #include <random>
 
+#include "random_star.hpp"
 #include <gmock/gmock.h>
 
 #include "passo/cam/edge_loops.hpp"
@@ -111,16 +112,9 @@ TEST(VCarve, a_box_has_its_ridge_and_sharp_corners) {
 
 TEST(VCarve, of_random_shapes_touches_both_sides_and_leaves_nothing) {
   std::mt19937_64 random(11);
-  std::uniform_real_distribution<double> share(0, 1);
   for (int trial = 0; trial < 6; ++trial) {
-    VPoints points;
-    const int corners = 4 + trial;
-    for (int i = 0; i < corners; ++i) {
-      const double angle = 2 * M_PI * i / corners;
-      const double far = 3 + 5 * share(random);
-      points.push_back(
-          v_corner(far * std::cos(angle), far * std::sin(angle), trial % 2 == 0 ? 0 : 0.3 * share(random)));
-    }
+    const VPoints points = test::random_star(
+        {.corners = 4 + trial, .nearest = 3, .farthest = 8, .bulge = trial % 2 == 0 ? 0 : 0.3}, random);
     const Region area = enclosed_by({points, {v_corner(0.7, 0, 1), v_corner(-0.7, 0, 1)}});
     VCarveOptions options{.angle_degrees = 60, .widest = to_nanometres(Mm(20))};
     if (trial >= 4) options.deepest = to_nanometres(Mm(-2));

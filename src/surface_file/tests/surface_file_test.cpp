@@ -79,6 +79,31 @@ TEST(Stl, is_read_as_text_and_as_bytes) {
   EXPECT_NEAR(binary.surface.top(1, 1), -2.5, 1e-6);
 }
 
+TEST(Stl, text_may_be_in_capitals_on_one_line_and_of_several_bodies) {
+  const Read text = read(
+      "SOLID a b c\r\nFACET NORMAL 0 0 1 OUTER LOOP VERTEX 0 0 +1 VERTEX 1e1 0 2.0 VERTEX 0 10 1 ENDLOOP ENDFACET\r\n"
+      "ENDSOLID a b c\r\nsolid\nfacet normal 0 0 0\nouter loop vertex 20 0 3 vertex 30 0 3 vertex 20 9 3\nendloop "
+      "endfacet");
+  EXPECT_EQ(text.words, "");
+  EXPECT_EQ(text.surface.triangles(), 2U);
+  EXPECT_NEAR(text.surface.top(5, 1), 1.5, 1e-12);
+  EXPECT_NEAR(text.surface.top(22, 1), 3, 1e-12);
+}
+
+TEST(Stl, that_is_broken_is_refused_with_its_place) {
+  EXPECT_THAT(read("solid a\n facet normal 0 0 1\n  outer loop\n   vertex 0 zero 1\n").words,
+              HasSubstr("it:4:13: error: 'zero' does not belong here"));
+  EXPECT_THAT(read("solid a\n facet normal 0 0 1\n  outer loop\n   vertex 0 0 1\n").words,
+              HasSubstr("the file ends amid a body"));
+  EXPECT_THAT(read("solid a\n facet normal 0 0 1\n  inner loop\n").words, HasSubstr("it:3:3: error: 'inner'"));
+  // Cut off anywhere, a text is read or refused.
+  const std::string whole = text_stl;
+  for (std::size_t size = 0; size < whole.size(); ++size) {
+    const Read cut = read(whole.substr(0, size));
+    EXPECT_EQ(cut.surface.triangles() == 0, !cut.words.empty()) << size;
+  }
+}
+
 TEST(Stl, that_is_broken_is_refused) {
   EXPECT_THAT(read(binary_stl(-2.5F, 2'000'000'000, 1)).words, HasSubstr("[surface."));
   EXPECT_THAT(read(binary_stl(1e9F, 1, 1)).words, HasSubstr("triangle 1 is too far away"));

@@ -19,6 +19,21 @@ TEST(BoardAddress, is_read_as_a_user_writes_it) {
   EXPECT_EQ(*parse_board_address("tcp:[::1]:7070"), (BoardAddress{.kind = Kind::tcp, .place = "::1", .port = "7070"}));
 }
 
+TEST(BoardAddress, may_be_of_a_machine_that_speaks_grbl) {
+  EXPECT_EQ(
+      *parse_board_address("grbl:/dev/ttyUSB0"),
+      (BoardAddress{.kind = Kind::serial, .place = "/dev/ttyUSB0", .port = "", .baud = 115'200, .speaks_grbl = true}));
+  EXPECT_EQ(
+      *parse_board_address("grbl:serial:/dev/ttyUSB0@230400"),
+      (BoardAddress{.kind = Kind::serial, .place = "/dev/ttyUSB0", .port = "", .baud = 230'400, .speaks_grbl = true}));
+  EXPECT_EQ(*parse_board_address("grbl:tcp:fluid.local:23"),
+            (BoardAddress{.kind = Kind::tcp, .place = "fluid.local", .port = "23", .speaks_grbl = true}));
+  for (const char* text : {"grbl:", "grbl", "grbl:tcp:", "grbl:tcp:host", "grbl:virtual", "grbl:sim:uno",
+                           "grbl:/dev/a@", "grbl:serial:"}) {
+    EXPECT_FALSE(parse_board_address(text)) << text;
+  }
+}
+
 TEST(BoardAddress, that_is_none_says_what_was_expected) {
   for (const char* text : {"", "serial", "serial:", "serial:@500000", "serial:/dev/a@", "serial:/dev/a@fast",
                            "serial:/dev/a@99999999", "tcp:", "tcp:host", "tcp:host:", "tcp::1", "tcp:host:0",

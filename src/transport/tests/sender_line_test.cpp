@@ -104,6 +104,28 @@ TEST(SenderLine, a_pseudo_terminal_serves_one_sender_after_the_other_without_an_
   EXPECT_FALSE(std::filesystem::exists(std::filesystem::symlink_status(link)));
 }
 
+// The other end of a pseudo-terminal is a serial port like any other.
+TEST(SenderLine, of_a_serial_port_has_a_sender_when_somebody_speaks_and_none_when_the_device_is_gone) {
+  const int sender = posix_openpt(O_RDWR | O_NOCTTY);
+  ASSERT_TRUE(sender >= 0 && grantpt(sender) == 0 && unlockpt(sender) == 0);
+  auto line = SenderLine::open_serial(ptsname(sender), 115'200);
+  ASSERT_TRUE(line) << line.error();
+  EXPECT_FALSE(SenderLine::open_serial(ptsname(sender), 115'200)) << "it is this program's";
+  EXPECT_FALSE((*line)->look(true).came);
+  ASSERT_EQ(write(sender, "?", 1), 1);
+  const SenderLine::News news = look_for(**line, came);
+  EXPECT_TRUE(news.came);
+  EXPECT_EQ(news.bytes, "?");
+  EXPECT_FALSE((*line)->gives_way()) << "it has just spoken";
+  (*line)->send("<Idle>\r\n");
+  EXPECT_EQ(read_from(sender, 8), "<Idle>\r\n");
+  close(sender);
+  EXPECT_TRUE(look_for(**line, went).went);
+  EXPECT_FALSE((*line)->is_connected());
+  EXPECT_FALSE(SenderLine::open_serial("/dev/null", 115'200));
+  EXPECT_FALSE(SenderLine::open_serial("/nowhere", 115'200));
+}
+
 TEST(SenderLine, a_file_in_the_place_of_the_link_is_never_replaced) {
   const std::string link =
       (std::filesystem::temp_directory_path() / ("passo-file-" + std::to_string(getpid()))).string();

@@ -8,6 +8,10 @@
 // With several cutters the widest goes first. Each finer one then mills only the ground that the wider ones left and
 // that still joins two islands (with `clear`: all ground that they left).
 //
+// With `voronoi` the first way runs midway between two islands instead, and further ones beside it: each island keeps
+// the ground around it. These ways end at the board's edge; without an edge a frame around the copper is milled, too.
+// Openings within one island, as those of a thermal relief, are milled as drawn.
+//
 // Loops begin where they are near to the end of the one before. The cutter stays down from loop to loop where the
 // straight way is short and keeps away from the copper like the loops, and stays in the ground to be milled.
 #pragma once
@@ -37,6 +41,7 @@ struct IsolationOptions {
   std::optional<Nanometres> width = {};       // free ground around the copper, at least; instead of `passes`
   double overlap = 0.5;                       // share of the cutter's width that a loop and the next have in common
   bool clear = false;                         // frees the board of all copper that is not wanted
+  bool voronoi = false;                       // ways midway between the islands; not with `clear`
   bool climb = true;                          // with a spindle that turns clockwise; else conventional
   Region board = {};                          // empty: around the copper
   Nanometres depth{-50'000};
@@ -55,7 +60,9 @@ struct IsolationPlan {
   MillPlan mill = {};
   std::size_t islands = 0;           // of copper
   std::vector<CopperGap> gaps = {};  // one for each two islands, from narrow to wide
-  Region unmilled = {};              // the ground in the gaps, for the picture
+  Region unmilled = {};              // the ground in the gaps and narrow openings, for the picture
+  // Openings within an island, as those of a thermal relief, of which no cutter reaches half: a place in each.
+  std::vector<DrawnPoint> narrow_openings = {};
 };
 
 // Errors "isolation.…" are in `diagnostics`.

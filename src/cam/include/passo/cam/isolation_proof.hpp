@@ -21,6 +21,7 @@ struct IsolationProof {
   std::size_t groups = 0;   // pieces of copper in which the joined ones hang together
 };
 
-IsolationProof prove_isolation(const Region& copper, const MillPlan& plan);
+// `board`: what is beyond it joins no islands, as it is cut off. Empty: copper goes on without end.
+IsolationProof prove_isolation(const Region& copper, const MillPlan& plan, const Region& board = {});
 
 }  // namespace passo

@@ -2,9 +2,10 @@
 //
 // Levels are 0 (black) to 65535 (white). A level of 16 bits is kept as it is in the file; one of 8 bits is multiplied
 // by 257, so that white is white. The gamma and colour profile of a file are not applied: a level is a number, no
-// colour. Rows go downwards, as in the file. Errors are diagnostics "picture.…".
+// colour. Rows go downwards, as in the file. Of a TIFF file the first picture is read; heights that it holds as numbers
+// with a sign or with a point are stretched from black to white. Errors are diagnostics "picture.…".
 //
-// Source: Portable Network Graphics, W3C, 3rd edition (read by libpng).
+// Sources: Portable Network Graphics, W3C, 3rd edition (read by libpng); TIFF, Revision 6.0.
 #pragma once
 
 #include <cstddef>
@@ -28,14 +29,15 @@ struct LevelPicture {
   std::size_t columns = 0;  // 0: nothing was read
   std::size_t rows = 0;
   std::vector<std::uint16_t> levels = {};
-  std::string kind = {};  // "16 bit grey", "8 bit colour with alpha"
+  std::string kind = {};  // "16 bit grey", "8 bit colour with alpha", "floating-point heights from 12.5 to 230"
 };
 
 // Errors are in `diagnostics`; the picture then has no columns.
 LevelPicture read_level_picture(const std::string& name, std::string_view bytes, PixelLevel level,
                                 Diagnostics& diagnostics);
 
-bool is_png(std::string_view bytes);
+// Whether these are the first bytes of a kind of picture that is read: PNG or TIFF.
+bool is_level_picture(std::string_view bytes);
 
 // A PNG of the levels, 16 bit grey. Empty: it could not be made.
 std::string write_level_picture(const LevelPicture& picture);

@@ -1,5 +1,5 @@
 // ProbingCycle: a ready program that finds a place with the probe: a surface, an edge, a corner, the middle of a bore
-// or of a boss, a tool's length, the angle of the work, the heights of a surface.
+// or of a boss, a tool's length, the angle of the work, two bores that tell place and angle, the heights of a surface.
 //
 // A cycle is G-code (RS274/NGC in LinuxCNC's dialect) like any other program: it is checked, shown and run in the same
 // way, and what it finds it writes by G10, so the offsets are the program's result. Each touch is made twice, fast and
@@ -18,7 +18,7 @@
 
 namespace passo {
 
-enum class ProbingKind : std::uint8_t { surface, edge, corner, bore, boss, tool, angle, map };
+enum class ProbingKind : std::uint8_t { surface, edge, corner, bore, boss, tool, angle, bores, map };
 
 struct ProbingCycle {
   ProbingKind kind = ProbingKind::surface;
@@ -38,8 +38,13 @@ struct ProbingCycle {
   double size_x = 20;    // of a boss: its width, roughly; of a map: the width of the grid
   double size_y = 20;
   double along = 20;  // of an angle: between the two touches
-  double x = 0;       // of a map: its lower left corner, work coordinates; of a tool: the probe's place in the machine
+  // Of a map: its lower left corner, work coordinates; of a tool: the probe's place in the machine; of bores: where the
+  // program has the first one.
+  double x = 0;
   double y = 0;
+  double second_x = 50;  // where the program has the second bore
+  double second_y = 0;
+  double fit = 0.3;    // how much nearer or farther apart the bores may be than in the program
   double columns = 5;  // of a map
   double rows = 5;
   double tool = 1;      // number of the tool that is measured

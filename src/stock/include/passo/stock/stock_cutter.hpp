@@ -5,8 +5,8 @@
 // is left.
 //
 // The tool's swept volume is exact along straight moves: for each cell the lowest height that the underside of the tool
-// reaches there, in closed form (for round corners by an iteration to less than a micrometre). Arcs, helices and curves
-// become chords that stay within a tenth of a cell.
+// reaches there, in closed form (for round corners by an iteration to 0.3 um for each mm of the radius). Arcs, helices
+// and curves become chords that stay within a tenth of a cell.
 //
 // The field is cut in tiles of 64 x 64 cells. A tile sees the moves in their order, and no tile needs another one. So
 // tiles are shared out to threads, and the result is the same, bit for bit, for any number of threads. Memory: that of

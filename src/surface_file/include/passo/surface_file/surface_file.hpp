@@ -6,8 +6,6 @@
 //
 // Files are in millimetres. What a file says is bounded: its size, the triangles, and how far they lie. Errors are
 // diagnostics "surface.…".
-//
-// Sources: STL, 3D Systems, 1989 (read by assimp).
 #pragma once
 
 #include <cstddef>

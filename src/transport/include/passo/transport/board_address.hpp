@@ -4,6 +4,7 @@
 //   serial:/dev/ttyUSB0           a serial line at 500,000 baud
 //   serial:/dev/ttyUSB0@115200    at another rate
 //   sim:uno                       that board's firmware on an emulated chip, in this process
+//   grbl:/dev/ttyUSB0             a machine that speaks Grbl 1.1, at 115,200 baud; also @BAUD and grbl:tcp:HOST:PORT
 //   tcp:HOST:PORT                 a board, or `passo board serve`, in the network; [::1] for an address with colons
 #pragma once
 
@@ -15,6 +16,7 @@
 namespace passo {
 
 inline constexpr unsigned usual_baud = 500'000;
+inline constexpr unsigned grbl_baud = 115'200;
 
 struct BoardAddress {
   enum class Kind : unsigned char { virtual_machine, serial, tcp, emulated };
@@ -22,6 +24,7 @@ struct BoardAddress {
   std::string place;           // device, host, or emulated board
   std::string port;            // tcp
   unsigned baud = usual_baud;  // serial
+  bool speaks_grbl = false;    // at the other end is no board, but a machine that takes G-code
 
   bool operator==(const BoardAddress&) const = default;
 };

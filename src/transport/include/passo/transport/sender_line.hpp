@@ -1,11 +1,16 @@
-// SenderLine: where a sender of G-code comes in and goes: a TCP port, or a pseudo-terminal that looks like a serial
-// port. One sender at a time.
+// SenderLine: where a sender of G-code comes in and goes: a TCP port, a pseudo-terminal that looks like a serial port,
+// or a serial port. One sender at a time.
+//
+// A serial port does not tell whether anybody is there. A sender has come when it says something. Whoever has said
+// nothing for `serial_silence` counts as gone as soon as another sender wants the machine: see gives_way(). A port
+// whose device goes away is opened again when it is back.
 //
 // Nothing here waits, so one loop can serve a machine and any number of lines. What cannot be sent at once is kept; a
 // sender that reads nothing for so long that `most_unsent` bytes wait is sent away. What is not read stays with the
 // operating system, and so the sender is held up.
 #pragma once
 
+#include <chrono>
 #include <cstddef>
 #include <memory>
 #include <string>
@@ -21,11 +26,15 @@ namespace passo {
 class SenderLine {
  public:
   static constexpr std::size_t most_unsent = std::size_t{256} * 1024;
+  // A sender that works asks for the status several times a second.
+  static constexpr std::chrono::seconds serial_silence{10};
 
   // Listens at a TCP address; port 0: any that is free. The errors are sentences with the reason.
   static Result<std::unique_ptr<SenderLine>, std::string> listen(const std::string& host, unsigned port);
   // Makes a pseudo-terminal, and a link to it at `link`. A sender opens the link like a serial port.
   static Result<std::unique_ptr<SenderLine>, std::string> open_terminal(const std::string& link);
+  // Opens a serial port.
+  static Result<std::unique_ptr<SenderLine>, std::string> open_serial(const std::string& device, unsigned baud);
   ~SenderLine();
   SenderLine(const SenderLine&) = delete;
   SenderLine& operator=(const SenderLine&) = delete;
@@ -46,9 +55,17 @@ class SenderLine {
   // Sends whole lines, in one write where the other side takes it.
   void send(std::string_view text);
   bool is_connected() const { return connected_; }
+  // The sender may have gone without a sign.
+  bool gives_way() const { return kind_ == Kind::serial && Clock::now() - heard_ > serial_silence; }
+  // Takes the sender for gone.
+  void part() { connected_ = false; }
 
  private:
+  using Clock = std::chrono::steady_clock;
+  enum class Kind : unsigned char { network, terminal, serial };
+
   SenderLine() = default;
+  void hear_serial(News& news, bool reads);
   void take_caller(News& news);
   void read_bytes(News& news);
   void send_unsent();
@@ -59,8 +76,11 @@ class SenderLine {
   std::string link_;  // to be removed
   unsigned port_ = 0;
   int listening_ = -1;
-  int sender_ = -1;  // the connection; of a pseudo-terminal, the end that is ours
-  bool is_terminal_ = false;
+  int sender_ = -1;  // the connection; of a pseudo-terminal, the end that is ours; the serial port
+  Kind kind_ = Kind::network;
+  unsigned baud_ = 0;
+  Clock::time_point heard_;
+  Clock::time_point tried_;  // to open the device again
   bool connected_ = false;
   bool broken_ = false;
   std::string unsent_;

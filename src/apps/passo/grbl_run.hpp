@@ -1,0 +1,20 @@
+// passo run and passo home on a machine that speaks Grbl 1.1.
+#pragma once
+
+#include "commands.hpp"
+#include "mid_run_changes.hpp"
+
+#include "passo/gcode/program_reader.hpp"
+#include "passo/interpreter/interpreter.hpp"
+#include "passo/machine_file/machine_description.hpp"
+
+namespace passo {
+
+// Whether such a machine can do what the arguments ask. If not, shows a message.
+bool suits_grbl(const RunArguments& arguments);
+// Checks the program from where the machine stands and with its offsets, and streams it. Returns the exit code.
+int run_on_grbl(const RunArguments& arguments, const MachineDescription& machine, ProgramReader program,
+                InterpreterOptions options, const MidRunChanges& changes);
+int home_grbl(const HomeArguments& arguments);
+
+}  // namespace passo

@@ -1,0 +1,155 @@
+// GrblSender: the side of a sender, for an existing machine that speaks Grbl 1.1: greets it, streams lines to it, and
+// tells where it stands and what went wrong.
+//
+//   lines -> GrblSender -> bytes for the machine         real-time bytes go before all lines
+//            GrblSender <- bytes of the machine          ok, error:n, ALARM:n, <…>, […], $n=…
+//
+// Place on the street: beside the street, instead of a board. Like `grbl/`, the other side of this protocol, a sender
+// knows no sockets and no clock: its owner tells the time, hands over what came and sends what take_bytes() gives.
+//
+// Invariants: the bytes of all lines that the machine has not answered never exceed its receive buffer, as `$I` tells
+// the buffer's size (128 if it tells none). Each answer belongs to the oldest line without one. A line that the machine
+// refuses, an alarm, a restart and silence end the stream; nothing more is sent but what stops the machine.
+//
+// What such a machine cannot tell: how many steps it has made, and which line it is executing. The line of a fault is
+// exact for error:n. For an alarm it lies between two lines: the machine holds some lines that it has answered already.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <deque>
+#include <map>
+#include <optional>
+#include <string>
+#include <string_view>
+
+#include "passo/geometry/axes.hpp"
+#include "passo/sender/grbl_reply.hpp"
+#include "passo/units/units.hpp"
+
+namespace passo {
+
+// What a machine has told of itself.
+struct GrblMachine {
+  std::string version = {};                   // "1.1h.20190830"
+  std::size_t blocks = 15;                    // of its planner
+  std::size_t bytes = 128;                    // of its receive buffer
+  std::map<int, double> settings = {};        // $0 … $132
+  std::map<std::string, Point> offsets = {};  // mm: G54 … G59, G92, TLO
+  bool in_inches() const;                     // its reports are in inches ($13)
+};
+
+// `code` is stable; the message is a sentence without a full stop.
+struct GrblFault {
+  std::string code;
+  std::string message;
+  // Of the program; 0: none. From the first to the last line that it may be.
+  std::uint32_t first_line = 0;
+  std::uint32_t last_line = 0;
+};
+
+class GrblSender {
+ public:
+  static constexpr Seconds between_questions{0.2};
+  static constexpr Seconds between_urgent_questions{0.05};
+  static constexpr Seconds longest_silence{5};
+
+  // Begins to greet the machine, at this time. Nothing is sent for 2 s: an Arduino whose line is opened starts anew.
+  explicit GrblSender(Seconds now);
+
+  void receive(std::string_view bytes, Seconds now);
+  // What to send now. Call often.
+  std::string take_bytes(Seconds now);
+
+  // The machine has told what it is, and lines may be added. It may be in an alarm: see report().
+  bool ready() const { return stage_ == Stage::ready; }
+  const GrblMachine& machine() const { return machine_; }
+  // The last status report. Empty: none has come.
+  const std::optional<GrblReport>& report() const { return report_; }
+  // Where the machine stands, in machine coordinates, mm. Empty: not known yet.
+  std::optional<Point> place() const;
+
+  // A line of a program, without its end. `line`: of the program's file. `silence`: how long the machine may be silent
+  // because of it (homing).
+  void add(std::string text, std::uint32_t line = 0, Seconds silence = Seconds(0));
+  // Few lines wait here.
+  bool wants_lines() const { return waiting_.size() < 32; }
+  // Each line was sent and answered.
+  bool all_answered() const { return waiting_.empty() && unanswered_.empty(); }
+  // All lines were answered, and a report that came later shows that the machine rests.
+  bool at_rest() const;
+  // Bytes of lines that the machine may hold in its receive buffer.
+  std::size_t unanswered_bytes() const { return unanswered_bytes_; }
+  std::uint64_t lines_sent() const { return lines_sent_; }
+
+  void hold() { act('!'); }
+  void resume() { act('~'); }
+  // Percent; as near as Grbl comes: feed and spindle 10 to 200, rapids 25, 50 or 100.
+  void override_feed(int percent);
+  void override_rapids(int percent);
+  void override_spindle(int percent);
+  // Brakes on the path, and drops what the machine holds. stopped() tells when that is done; the place is then known
+  // still, if the machine has told that it rests.
+  void stop();
+  bool stops() const { return stage_ == Stage::braking || stage_ == Stage::dropping; }
+  bool stopped() const { return stage_ == Stage::stopped; }
+  // The line is gone.
+  void lose();
+
+  // Why the stream has ended before its lines did.
+  const std::optional<GrblFault>& fault() const { return fault_; }
+
+ private:
+  enum class Stage : std::uint8_t { waking, clearing, asking, ready, braking, dropping, stopped };
+  struct Line {
+    std::string text;  // with its end
+    std::uint32_t line = 0;
+    Seconds silence{0};
+    Seconds sent{0};
+  };
+
+  void act(char byte) { urgent_ += byte; }
+  void turn(Seconds now);
+  void hear(std::string_view line);
+  void hear_report(const GrblReport& report);
+  void hear_bracket(std::string_view line);
+  void hear_setting(std::string_view line);
+  void hear_options(std::string_view options);
+  void hear_banner();
+  void answer(int error);
+  void alarm(int number);
+  void fail(GrblFault fault);
+  void mind_silence();
+  void mind_lost_bytes();
+  void ask_for_status();
+  Seconds patience() const;
+  double unit() const { return machine_.in_inches() ? 25.4 : 1; }
+  std::uint32_t first_held_line() const;
+
+  Stage stage_ = Stage::waking;
+  Seconds now_{0};
+  Seconds stage_since_{0};
+  Seconds heard_{0};     // any byte
+  Seconds asked_{-1};    // for the status
+  Seconds answered_{0};  // the last line
+  Seconds idle_since_{0};
+  std::string came_;  // a line that is not whole yet
+  std::string urgent_;
+  std::deque<Line> waiting_;
+  std::deque<Line> unanswered_;
+  std::size_t unanswered_bytes_ = 0;
+  std::uint64_t lines_sent_ = 0;
+  std::deque<std::uint32_t> held_lines_;  // answered lines that the planner may still hold
+  std::uint32_t last_line_ = 0;
+  bool has_work_ = false;  // lines of a program were sent
+  GrblMachine machine_;
+  std::optional<GrblReport> report_;
+  std::optional<Point> offset_;  // of the work, as reported
+  Seconds reported_{-1};
+  bool rested_for_stop_ = false;
+  int feed_percent_ = 100;
+  int spindle_percent_ = 100;
+  std::optional<GrblFault> fault_;
+};
+
+}  // namespace passo

@@ -1,0 +1,36 @@
+// ServiceNotice: tells the service manager (systemd) that a daemon is ready, that it lives, and that it ends, as
+// sd_notify(3) does: one datagram to the socket that $NOTIFY_SOCKET names. Without that variable nothing is told.
+#pragma once
+
+#include <chrono>
+#include <string>
+#include <string_view>
+
+namespace passo {
+
+class ServiceNotice {
+ public:
+  // Reads $NOTIFY_SOCKET, $WATCHDOG_USEC and $WATCHDOG_PID, and removes them, so that no process of this one speaks in
+  // its name.
+  ServiceNotice();
+  ~ServiceNotice();
+  ServiceNotice(const ServiceNotice&) = delete;
+  ServiceNotice& operator=(const ServiceNotice&) = delete;
+
+  // `words`: what `systemctl status` shows.
+  void ready(std::string_view words) const;
+  void stopping() const { tell("STOPPING=1"); }
+  // Call in each turn of the daemon's loop. A watchdog that is not told for its time ends the daemon and starts it
+  // anew; it is told when half of that time has passed.
+  void alive();
+
+ private:
+  void tell(const std::string& text) const;
+
+  int socket_ = -1;
+  std::string address_;
+  std::chrono::microseconds watchdog_{0};  // 0: there is none
+  std::chrono::steady_clock::time_point told_;
+};
+
+}  // namespace passo
