@@ -1,8 +1,9 @@
 #!/usr/bin/env bash
-# scripts/page.sh [--test|--stories]: builds the page that `passo serve` shows, into build/page.
+# scripts/page.sh [--test|--stories [WORDS]]: builds the page that `passo serve` shows, into build/page.
 #
 #   --test      then runs the tests of the page's parts
-#   --stories   then runs whole stories: Chromium against build/release/passo (or $PASSO_PROGRAM) and its virtual machine
+#   --stories   then runs whole stories: Chromium against build/release/passo (or $PASSO_PROGRAM) and its virtual machine;
+#               with WORDS, a regular expression, those whose names have them
 #
 # It fetches what page/package-lock.json names, once. It needs node 18 or later with npm. Where something is missing, it
 # says what: alone it ends well, because all but the page works; with an option it ends with 77, "skipped".
@@ -12,7 +13,7 @@ cd "$(dirname "${BASH_SOURCE[0]}")/../page"
 case "${1-}" in
   "" | --test | --stories) ;;
   *)
-    sed -n '2,8s/^# \{0,1\}//p' "../scripts/page.sh"
+    sed -n '2,9s/^# \{0,1\}//p' "../scripts/page.sh"
     exit 2
     ;;
 esac
@@ -44,6 +45,6 @@ case "${1-}" in
   --test) npm run --silent test ;;
   --stories)
     [[ -x ${PASSO_CHROMIUM:-/usr/bin/chromium} ]] || lacking "There is no Chromium: apt-get install chromium." --stories
-    npm run --silent stories
+    npm run --silent stories -- ${2:+-t "$2"}
     ;;
 esac

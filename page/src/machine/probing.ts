@@ -10,7 +10,7 @@ import { beOwner } from './owner';
 import { placeWords, workPlace } from './place';
 import { chosen, refreshPrograms } from './programs';
 
-export const kinds = ['surface', 'edge', 'corner', 'bore', 'boss', 'tool', 'angle', 'map'] as const;
+export const kinds = ['surface', 'edge', 'corner', 'bore', 'boss', 'tool', 'angle', 'bores', 'map'] as const;
 export type Kind = (typeof kinds)[number];
 type Measure = 'length' | 'speed' | 'count';
 export interface Field {
@@ -23,7 +23,7 @@ export interface Field {
   of: readonly Kind[];
   rare?: boolean; // seldom changed
 }
-const sides: readonly Kind[] = ['edge', 'corner', 'bore', 'boss'];
+const sides: readonly Kind[] = ['edge', 'corner', 'bore', 'boss', 'bores'];
 const twice: readonly Kind[] = kinds.filter((kind) => kind !== 'map');
 const length = (name: string, title: Key, usual: number, low: number, high: number, of: readonly Kind[], rare = false): Field => ({
   name, title, measure: 'length', usual, low, high, of, rare,
@@ -42,8 +42,10 @@ export const fields: readonly Field[] = [
   length('size_x', 'probe.size.x', 20, 0.01, 10_000, ['boss', 'map']),
   length('size_y', 'probe.size.y', 20, 0.01, 10_000, ['boss', 'map']),
   length('along', 'probe.along', 20, 0.1, 10_000, ['angle']),
-  length('x', 'probe.x', 0, -far, far, ['tool', 'map']),
-  length('y', 'probe.y', 0, -far, far, ['tool', 'map']),
+  length('x', 'probe.x', 0, -far, far, ['tool', 'bores', 'map']),
+  length('y', 'probe.y', 0, -far, far, ['tool', 'bores', 'map']),
+  length('second_x', 'probe.second.x', 50, -far, far, ['bores']),
+  length('second_y', 'probe.second.y', 0, -far, far, ['bores']),
   count('columns', 'probe.columns', 5, 2, 200, ['map']),
   count('rows', 'probe.rows', 5, 2, 200, ['map']),
   count('tool', 'probe.tool.number', 1, 1, 99_999, ['tool']),
@@ -54,6 +56,7 @@ export const fields: readonly Field[] = [
   length('clearance', 'probe.clearance', 5, 0.1, 1000, kinds),
   length('reach', 'probe.reach', 25, 0.1, 1000, twice),
   length('back', 'probe.back', 1, 0.01, 100, twice, true),
+  length('fit', 'probe.fit', 0.3, 0.001, 1000, ['bores'], true),
   speed('fast', 'probe.fast', 300, kinds),
   speed('slow', 'probe.slow', 30, twice),
   count('system', 'probe.system', 1, 1, 9, twice.filter((kind) => kind !== 'tool'), true),

@@ -6,7 +6,7 @@ export type Spot = readonly [number, number];
 export interface CycleView {
   looks: 'above' | 'side'; // X and Y, or along the ground and Z
   work: readonly (readonly Spot[])[]; // areas that are solid
-  hole?: { at: Spot; radius: number };
+  holes?: readonly { at: Spot; radius: number }[];
   way: readonly Spot[]; // from where the probe begins to where it ends
   touches: readonly Spot[]; // in their order
   found: readonly Spot[]; // what becomes zero
@@ -64,10 +64,29 @@ function bore({ reach = 25, back = 1 }: Values): CycleView {
   return {
     looks: 'above',
     work: [box(-size, -size, size, size)],
-    hole: { at: [0, 0], radius },
+    holes: [{ at: [0, 0], radius }],
     way: [start, [-half, start[1]], [-half + back, start[1]], [half, start[1]], [0, start[1]], [0, -radius], [0, -radius + back], [0, radius], [0, 0]],
     touches: [[-half, start[1]], [half, start[1]], [0, -radius], [0, radius]],
     found: [[0, 0]],
+  };
+}
+
+// Two bores: each as one alone, and what is found lies between.
+function bores(values: Values): CycleView {
+  const { x = 0, y = 0, second_x = 50, second_y = 0 } = values;
+  const apart = Math.max(Math.hypot(second_x - x, second_y - y), 1e-3);
+  const radius = Math.min(values.reach ?? 25, apart * 0.6) * 0.4;
+  const one = bore({ ...values, reach: radius / 0.7, back: radius * 0.2 });
+  const moved = (spots: readonly Spot[], dx: number, dy: number): Spot[] => spots.map(([a, b]) => [a + dx, b + dy]);
+  const rim = radius * 1.6;
+  const second: Spot = [second_x, second_y];
+  return {
+    looks: 'above',
+    work: [box(Math.min(x, second_x) - rim, Math.min(y, second_y) - rim, Math.max(x, second_x) + rim, Math.max(y, second_y) + rim)],
+    holes: [{ at: [x, y], radius }, { at: second, radius }],
+    way: [...moved(one.way, x, y), second, ...moved(one.way.slice(1), second_x, second_y)],
+    touches: [...moved(one.touches, x, y), ...moved(one.touches, second_x, second_y)],
+    found: [],
   };
 }
 
@@ -142,6 +161,7 @@ export function viewsOf(kind: Kind, side: string, values: Values): CycleView[] {
     case 'boss': return boss(values);
     case 'tool': return [tool(values)];
     case 'angle': return [angle(side, values)];
+    case 'bores': return [bores(values)];
     case 'map': return [map(values)];
   }
 }

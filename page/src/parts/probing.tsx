@@ -19,7 +19,7 @@ const high = 210;
 
 // Fits the places of a view into the picture.
 function fitted(view: CycleView): (spot: Spot) => [number, number] {
-  const all = [...view.work.flat(), ...view.way, ...(view.hole === undefined ? [] : [[view.hole.at[0] - view.hole.radius, view.hole.at[1] - view.hole.radius] as const])];
+  const all = [...view.work.flat(), ...view.way];
   const [left, right] = [Math.min(...all.map((one) => one[0])), Math.max(...all.map((one) => one[0]))];
   const [low, top] = [Math.min(...all.map((one) => one[1])), Math.max(...all.map((one) => one[1]))];
   const scale = Math.min((wide - 2 * room) / Math.max(right - left, 1e-6), (high - 2 * room) / Math.max(top - low, 1e-6));
@@ -31,8 +31,7 @@ function CyclePicture({ view, name }: { view: CycleView; name: string }) {
   const at = fitted(view);
   const points = (spots: readonly Spot[]): string => spots.map((one) => at(one).map((n) => n.toFixed(1)).join(',')).join(' ');
   const [start, second] = [at(view.way[0] ?? [0, 0]), at(view.way[1] ?? [0, 0])];
-  const hole = view.hole === undefined ? undefined : at(view.hole.at);
-  const radius = view.hole === undefined || hole === undefined ? 0 : at([view.hole.at[0] + view.hole.radius, view.hole.at[1]])[0] - hole[0];
+  const scale = at([1, 0])[0] - at([0, 0])[0];
   const many = view.touches.length > 12;
   return (
     <figure class="cycle">
@@ -40,7 +39,10 @@ function CyclePicture({ view, name }: { view: CycleView; name: string }) {
         {view.work.map((one) => (
           <polygon key={points(one)} class="cycle-work" points={points(one)} />
         ))}
-        {hole !== undefined && <circle class="cycle-hole" cx={hole[0]} cy={hole[1]} r={radius} />}
+        {view.holes?.map((one) => {
+          const [x, y] = at(one.at);
+          return <circle key={`${x} ${y}`} class="cycle-hole" cx={x} cy={y} r={one.radius * scale} />;
+        })}
         <polyline class="cycle-way" points={points(view.way)} />
         <circle class="cycle-start" cx={start[0]} cy={start[1]} r="6" />
         <line class="cycle-start" x1={start[0]} y1={start[1]} x2={start[0] + (second[0] - start[0]) * 0.3} y2={start[1] + (second[1] - start[1]) * 0.3} />

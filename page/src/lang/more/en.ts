@@ -138,4 +138,11 @@ export const en = {
   'map.title': 'Height map of {name}',
   'map.figures': '{columns} × {rows} places. From lowest to highest: {span}. Rises {x} mm a metre along X and {y} along Y; at most {off} off that plane.',
   'map.level': 'Level the program by it',
+  'probe.bores': 'Two bores',
+  'probe.bores.from': 'Begin in the first of two bores, near its middle.',
+  'probe.bores.steps': 'Finds the middle of the first bore, then up by {clearance}, over to X {second_x} Y {second_y}, down, and the middle of the second. Each touch looks {reach} far.',
+  'probe.bores.sets': 'Sets X0 and Y0, and turns the work coordinates, so that both bores lie as in the program.',
+  'probe.second.x': 'X of the second bore',
+  'probe.second.y': 'Y of the second bore',
+  'probe.fit': 'Farther or nearer apart, at most',
 } as const;

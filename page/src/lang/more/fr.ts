@@ -134,4 +134,11 @@ export const fr: MoreWords = {
   'map.title': 'Carte des hauteurs de {name}',
   'map.figures': '{columns} × {rows} points. Du plus bas au plus haut : {span}. Monte de {x} mm par mètre selon X et {y} selon Y ; au plus {off} hors de ce plan.',
   'map.level': 'Mettre le programme à ce niveau',
+  'probe.bores': 'Deux alésages',
+  'probe.bores.from': 'Commencez dans le premier de deux alésages, près du milieu.',
+  'probe.bores.steps': 'Trouve le milieu du premier alésage, puis monte de {clearance}, va à X {second_x} Y {second_y}, descend, et trouve le milieu du second. Chaque touche cherche sur {reach}.',
+  'probe.bores.sets': 'Règle X0 et Y0 et tourne les coordonnées, pour que les deux alésages soient comme dans le programme.',
+  'probe.second.x': 'X du second alésage',
+  'probe.second.y': 'Y du second alésage',
+  'probe.fit': 'Plus loin ou plus près, au plus',
 };

@@ -134,4 +134,11 @@ export const it: MoreWords = {
   'map.title': 'Mappa delle altezze di {name}',
   'map.figures': '{columns} × {rows} punti. Dal più basso al più alto: {span}. Sale di {x} mm al metro lungo X e {y} lungo Y; al più {off} fuori da quel piano.',
   'map.level': 'Livella il programma con essa',
+  'probe.bores': 'Due fori',
+  'probe.bores.from': 'Comincia nel primo di due fori, vicino al centro.',
+  'probe.bores.steps': 'Trova il centro del primo foro, poi su di {clearance}, a X {second_x} Y {second_y}, giù, e il centro del secondo. Ogni tocco cerca per {reach}.',
+  'probe.bores.sets': 'Imposta X0 e Y0 e ruota le coordinate, così che i due fori stiano come nel programma.',
+  'probe.second.x': 'X del secondo foro',
+  'probe.second.y': 'Y del secondo foro',
+  'probe.fit': 'Più lontani o vicini, al più',
 };

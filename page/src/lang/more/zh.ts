@@ -134,4 +134,11 @@ export const zh: MoreWords = {
   'map.title': '{name} 的高度图',
   'map.figures': '{columns} × {rows} 处。最低到最高：{span}。沿 X 每米升高 {x} mm，沿 Y {y}；离该平面最多 {off}。',
   'map.level': '按它调平程序',
+  'probe.bores': '两个孔',
+  'probe.bores.from': '从两个孔中第一个的中心附近开始。',
+  'probe.bores.steps': '找到第一个孔的中心，上升 {clearance}，移到 X {second_x} Y {second_y}，下降，再找第二个孔的中心。每次最多探 {reach}。',
+  'probe.bores.sets': '设定 X0 和 Y0 并旋转工件坐标，使两孔与程序一致。',
+  'probe.second.x': '第二个孔的 X',
+  'probe.second.y': '第二个孔的 Y',
+  'probe.fit': '孔距最多相差',
 };
