@@ -1,6 +1,7 @@
 // What the stories share: the real daemon with its virtual machine, and the real browser.
 import { spawn, type ChildProcess } from 'node:child_process';
 import { existsSync, mkdtempSync, readFileSync, rmSync, writeFileSync } from 'node:fs';
+import { createRequire } from 'node:module';
 import { tmpdir } from 'node:os';
 import { join, resolve } from 'node:path';
 import { chromium, type Browser, type BrowserContext, type Page } from 'playwright-core';
@@ -153,4 +154,12 @@ export async function visit(browser: Browser, daemon: Daemon, path: string, how:
   await page.goto(`${daemon.address}#/${path}`);
   await page.getByTestId('state').waitFor();
   return { context, page, errors };
+}
+
+const axe = readFileSync(createRequire(import.meta.url).resolve('axe-core/axe.min.js'), 'utf8');
+// What axe-core finds wrong with the page as it is. It runs as the project's own tool, not as a script of the page: the
+// page's policy stays as it is.
+export async function violations(page: Page): Promise<string[]> {
+  const found = await page.evaluate(`(async () => { ${axe}; return (await axe.run(document, {resultTypes: ['violations']})).violations; })()`);
+  return (found as { id: string; nodes: { html: string }[] }[]).map((one) => `${one.id}: ${one.nodes.map((node) => node.html).join(' ')}`);
 }
