@@ -10,7 +10,9 @@
 #include "arc_fit.hpp"
 #include "cut_track.hpp"
 #include "edge_grid.hpp"
+#include "engagement.hpp"
 #include "nested_loops.hpp"
+#include "peel.hpp"
 #include <fmt/format.h>
 
 #include "passo/cam/route.hpp"
@@ -29,7 +31,8 @@ class PocketPlanner {
       : area_(area),
         options_(options),
         diagnostics_(diagnostics),
-        reach_(grown(area, {-radius().count - wall_room.count}, pocket_chords)),
+        narrowest_(options.most_engagement > 0 ? least_peeled(options.cutter) : Nanometres{}),
+        reach_(reachable(area)),
         walls_(bounds(area).value_or(DrawnBox{}), {1'000'000}) {
     for (const DrawnRing& ring : grown(area, {-radius().count}, pocket_chords).rings) walls_.add(ring, 0);
     walls_.finish();
@@ -42,18 +45,9 @@ class PocketPlanner {
       return {};
     }
     tell_narrow_parts();
-    find_offsets();
-    const std::vector<Region>& pockets = offsets_.front().parts;
-    plan_.pockets = pockets.size();
-    std::vector<DrawnPoint> places;
-    for (const Region& pocket : pockets) places.push_back(pocket.rings.front().front());
     MillTool tool{options_.cutter, options_.words, {}};
-    constexpr std::uint64_t steps = 1'000'000;
-    for (const std::uint32_t index : shorten_route(places, options_.park, options_.park, steps)) {
-      std::vector<DrawnRing> rings;
-      take_rings(0, index, rings);
-      add_runs(std::move(rings), tool.runs);
-    }
+    const bool is_done = options_.most_engagement > 0 ? peel_all(tool.runs) : go_around_all(tool.runs);
+    if (!is_done) return {};
     measure();
     if (!tool.runs.empty()) plan_.mill.tools.push_back(std::move(tool));
     return std::move(plan_);
@@ -64,6 +58,20 @@ class PocketPlanner {
   Nanometres step_over() const {
     return {
         std::max<std::int64_t>(10'000, std::llround(static_cast<double>(options_.cutter.count) * options_.step_over))};
+  }
+  // Where the cutter's middle may be: with constant engagement nowhere that it would be in a slot.
+  Region reachable(const Region& area) const {
+    const Region inner = grown(area, {-radius().count - wall_room.count - narrowest_.count}, pocket_chords);
+    return narrowest_.count > 0 ? grown(inner, narrowest_, pocket_chords) : inner;
+  }
+  bool go_around_all(std::vector<MillRun>& runs);
+  bool peel_all(std::vector<MillRun>& runs);
+  std::optional<PeelWay> peel_within(const Region& ground);
+  void sweep(const PeelWay& way);
+  void add_layers(const PeelWay& way, std::vector<MillRun>& runs);
+  std::vector<std::uint32_t> order_of(const std::vector<Region>& pockets) const;
+  std::int64_t levels() const {
+    return std::max<std::int64_t>(1, (-options_.depth.count + options_.step.count - 1) / options_.step.count);
   }
   void tell(std::string code, Severity severity, std::string message, std::string expected);
   void tell_narrow_parts();
@@ -77,14 +85,16 @@ class PocketPlanner {
   const Region& area_;
   const PocketOptions& options_;
   Diagnostics& diagnostics_;
-  Region reach_;    // where the middle of the cutter may be
-  EdgeGrid walls_;  // what it never crosses
+  Nanometres narrowest_;  // half of the ground's least width, beyond the cutter's
+  Region reach_;          // where the middle of the cutter may be
+  EdgeGrid walls_;        // what it never crosses
   struct Offset {
     std::vector<Region> parts = {};
     std::vector<std::vector<std::size_t>> inner = {};  // of each part: the parts of the next offset in it
   };
   std::vector<Offset> offsets_;
   std::vector<DrawnRing> ways_;
+  Region cut_;  // by ways that are swept already
   PocketPlan plan_;
 };
 
@@ -100,13 +110,154 @@ void PocketPlanner::tell(std::string code, Severity severity, std::string messag
 
 void PocketPlanner::tell_narrow_parts() {
   for (const Region& part : parts_of(area_)) {
-    if (!grown(part, {-radius().count - wall_room.count}, pocket_chords).empty()) continue;
+    if (!grown(part, {-radius().count - wall_room.count - narrowest_.count}, pocket_chords).empty()) continue;
     const DrawnBox box = *bounds(part);
     tell("pocket.narrow", Severity::warning,
-         fmt::format("the area at X{:.4g} Y{:.4g} mm is narrower than the cutter: it stays",
+         fmt::format("the area at X{:.4g} Y{:.4g} mm is narrower than the cutter{}: it stays",
                      to_mm({(box.least.x.count + box.most.x.count) / 2}).value(),
-                     to_mm({(box.least.y.count + box.most.y.count) / 2}).value()),
+                     to_mm({(box.least.y.count + box.most.y.count) / 2}).value(),
+                     narrowest_.count > 0 ? " needs for this engagement" : ""),
          "a thinner cutter");
+  }
+}
+
+// The shortest way from pocket to pocket.
+std::vector<std::uint32_t> PocketPlanner::order_of(const std::vector<Region>& pockets) const {
+  std::vector<DrawnPoint> places;
+  for (const Region& pocket : pockets) places.push_back(pocket.rings.front().front());
+  constexpr std::uint64_t steps = 1'000'000;
+  return shorten_route(places, options_.park, options_.park, steps);
+}
+
+bool PocketPlanner::go_around_all(std::vector<MillRun>& runs) {
+  find_offsets();
+  const std::vector<Region>& pockets = offsets_.front().parts;
+  plan_.pockets = pockets.size();
+  for (const std::uint32_t index : order_of(pockets)) {
+    std::vector<DrawnRing> rings;
+    take_rings(0, index, rings);
+    add_runs(std::move(rings), runs);
+  }
+  return true;
+}
+
+bool PocketPlanner::peel_all(std::vector<MillRun>& runs) {
+  const std::vector<Region> grounds = parts_of(reach_);
+  plan_.pockets = grounds.size();
+  for (const std::uint32_t index : order_of(grounds)) {
+    const std::optional<PeelWay> way = peel_within(grounds[index]);
+    if (!way) return false;
+    plan_.loops += way->discs;
+    sweep(*way);
+    add_layers(*way, runs);
+  }
+  return true;
+}
+
+// The plan looks from disc to disc. What it makes is measured as a whole; where walls and crossings make it more, with
+// a smaller angle once more.
+std::optional<PeelWay> PocketPlanner::peel_within(const Region& ground) {
+  double aim = 0.97 * options_.most_engagement;
+  Engagement found;
+  for (int attempt = 0; attempt < 4; ++attempt) {
+    PeelWay way = peel(ground, {.cutter = options_.cutter, .most_degrees = aim, .climb = options_.climb});
+    if (!way.is_whole) {
+      tell("pocket.engagement", Severity::error,
+           fmt::format("this engagement needs a way of more than {:.4g} m",
+                       longest_peel * to_mm(radius()).value() / 1000),
+           "a greater --engagement, or a thicker cutter");
+      return std::nullopt;
+    }
+    found = find_engagement({way.entry}, way.runs, options_.cutter);
+    if (found.most_degrees <= options_.most_engagement) {
+      plan_.engagement = std::max(plan_.engagement, found.most_degrees);
+      return way;
+    }
+    aim *= std::min(0.97, 0.99 * options_.most_engagement / found.most_degrees);
+  }
+  tell("pocket.engagement", Severity::error,
+       fmt::format("the cutter would be engaged {:.1f} degrees at X{:.4g} Y{:.4g} mm", found.most_degrees,
+                   to_mm(found.at.x).value(), to_mm(found.at.y).value()),
+       "a greater --engagement, or a thinner cutter");
+  return std::nullopt;
+}
+
+// Rims lie on one another often. So they are swept a few at a time, with longer chords; the walls are not.
+void PocketPlanner::sweep(const PeelWay& way) {
+  constexpr Nanometres rim_chords{20'000};
+  constexpr std::size_t at_once = 256;  // chords
+  std::vector<Region> parts;
+  std::vector<DrawnRing> some;
+  std::size_t count = 0;
+  const auto sweep_some = [&] {
+    if (!some.empty()) parts.push_back(swept(some, radius(), rim_chords));
+    some.clear();
+    count = 0;
+  };
+  const auto part_of = [](const MillRun& run, std::size_t first, std::size_t last) {
+    return MillRun(run.begin() + static_cast<std::ptrdiff_t>(first),
+                   run.begin() + static_cast<std::ptrdiff_t>(last) + 1);
+  };
+  for (std::size_t i = 0; i < way.runs.size(); ++i) {
+    const MillRun& run = way.runs[i];
+    std::size_t begin = 0;
+    const auto add_rims = [&](std::size_t end) {
+      if (end <= begin) return;
+      const DrawnRing chords = chords_of(part_of(run, begin, end), rim_chords);
+      for (std::size_t from = 0; from + 1 < chords.size(); from += at_once) {
+        const std::size_t to = std::min(chords.size() - 1, from + at_once);
+        some.emplace_back(chords.begin() + static_cast<std::ptrdiff_t>(from),
+                          chords.begin() + static_cast<std::ptrdiff_t>(to) + 1);
+        count += to - from;
+        if (count >= at_once) sweep_some();
+      }
+    };
+    for (const PeelLap& lap : way.laps) {
+      if (lap.run != i) continue;
+      add_rims(lap.first);
+      ways_.push_back(chords_of(part_of(run, lap.first, lap.last), pocket_chords));
+      begin = lap.last;
+    }
+    add_rims(run.size() - 1);
+  }
+  sweep_some();
+  while (parts.size() > 1) {
+    for (std::size_t i = 0; i < parts.size() / 2; ++i) parts[i] = united(parts[2 * i], parts[2 * i + 1]);
+    if (parts.size() % 2 == 1) parts[parts.size() / 2] = std::move(parts.back());
+    parts.resize((parts.size() + 1) / 2);
+  }
+  if (!parts.empty()) cut_ = united(cut_, parts.front());
+}
+
+// A helix down to each layer, or straight down, and then all runs there.
+void PocketPlanner::add_layers(const PeelWay& way, std::vector<MillRun>& runs) {
+  const CutTrack lap = [&] {
+    std::vector<PathPoint> points;
+    for (const MillPoint& point : way.entry) points.push_back({point.at, point.bulge});
+    points.pop_back();
+    return CutTrack(points);
+  }();
+  Nanometres z{};
+  for (std::int64_t level = 1; level <= levels(); ++level) {
+    const Nanometres next{options_.depth.count * level / levels()};
+    MillRun run;
+    double along = 0;
+    if (options_.ramp_degrees > 0) {
+      along = static_cast<double>(z.count - next.count) / std::tan(options_.ramp_degrees / 180 * std::numbers::pi);
+      lap.append(run, 0, along, z, next);
+    }
+    // A whole lap at this depth, and on to where the spiral begins.
+    const double laps = std::ceil(along / lap.length() + 1 - 1e-9);
+    lap.append(run, along, laps * lap.length(), next, next);
+    bool is_first = true;
+    for (const MillRun& piece : way.runs) {
+      if (!is_first) run.clear();
+      if (is_first) run.pop_back();
+      for (const MillPoint& point : piece) run.push_back({point.at, point.bulge, next});
+      is_first = false;
+      runs.push_back(run);
+    }
+    z = next;
   }
 }
 
@@ -181,8 +332,6 @@ bool PocketPlanner::may_go_on(const MillRun& run, DrawnPoint to, bool is_free) c
 // Layer by layer all loops of a pocket. A run ends where the cutter has to lift.
 void PocketPlanner::add_runs(std::vector<DrawnRing> rings, std::vector<MillRun>& runs) {
   plan_.loops += rings.size();
-  const auto levels =
-      std::max<std::int64_t>(1, (-options_.depth.count + options_.step.count - 1) / options_.step.count);
   std::vector<CutTrack> tracks;
   DrawnPoint at = rings.front().front();
   for (DrawnRing& ring : rings) {
@@ -197,8 +346,8 @@ void PocketPlanner::add_runs(std::vector<DrawnRing> rings, std::vector<MillRun>&
   }
   MillRun run;
   Nanometres z{};
-  for (std::int64_t level = 1; level <= levels; ++level) {
-    const Nanometres next{options_.depth.count * level / levels};
+  for (std::int64_t level = 1; level <= levels(); ++level) {
+    const Nanometres next{options_.depth.count * level / levels()};
     bool is_first = true;
     for (const CutTrack& track : tracks) {
       const DrawnPoint start = track.at(0);
@@ -229,7 +378,7 @@ void PocketPlanner::add_runs(std::vector<DrawnRing> rings, std::vector<MillRun>&
 }
 
 void PocketPlanner::measure() {
-  const Region cut = swept(ways_, radius(), pocket_chords);
+  const Region cut = united(cut_, swept(ways_, radius(), pocket_chords));
   plan_.unreached = notable_part(subtracted(area_, cut), least_left);
   plan_.unreached_mm2 = area_mm2(plan_.unreached);
   plan_.lost_mm2 = area_mm2(notable_part(subtracted(cut, area_), {50}));

@@ -90,6 +90,7 @@ TEST_F(CamPart, what_is_wrong_is_told) {
   refused("profile " + bracket + " --side on --tabs 3", "--side on");
   refused("pocket " + bracket + " --tool 0", "--tool: expected a length above 0");
   refused("pocket " + bracket + " --depth -3 --step 0.0001", "--step: expected 0.001 mm or more");
+  refused("pocket " + bracket + " --engagement 10", "--engagement: expected 0, or 30 to 150 degrees, found 10");
   refused("profile " + bracket + " --depth 3", "--depth: expected a length below 0");
   refused("profile " + bracket + " -o " + bracket, "the file");
   const Outcome layer = passo("cam pocket " + bracket + " --layer pokket");

@@ -122,6 +122,7 @@ struct CamPocketArguments : CamMillArguments {
   std::string step = "1mm";
   std::string join = "0.1mm";
   double step_over = 40;  // percent of the cutter's diameter
+  double engagement = 0;  // degrees; 0: loops
   double ramp = 5;        // degrees
 };
 int cam_pocket(const CamPocketArguments& arguments);

@@ -192,9 +192,15 @@ int cam_pocket(const CamPocketArguments& arguments) {
   check_layers(options.depth, options.step, lengths);
   options.step_over = arguments.step_over / 100;
   options.ramp_degrees = arguments.ramp;
+  options.most_engagement = arguments.engagement;
   options.climb = !arguments.conventional;
   options.park = job.program.park;
   const Nanometres join = join_of(arguments.join, lengths);
+  constexpr double least_engagement = 30;
+  if (options.most_engagement > 0 && options.most_engagement < least_engagement) {
+    lengths.refuse(fmt::format("--engagement: expected 0, or {} to 150 degrees, found {:g}", least_engagement,
+                               options.most_engagement));
+  }
   constexpr double flattest = 0.1;
   if (arguments.ramp > 0 && arguments.ramp < flattest) {
     lengths.refuse(fmt::format("--ramp: expected 0, or {} degrees or more, found {:g}", flattest, arguments.ramp));
@@ -205,17 +211,22 @@ int cam_pocket(const CamPocketArguments& arguments) {
   if (!part) return exit_bad_program;
   Diagnostics findings;
   const Region area = enclosed_by(part->loops.loops);
+  const bool is_constant = options.most_engagement > 0;
   const PocketPlan plan = plan_pocket(area, options, findings);
   show(findings);
   if (findings.any_error()) return exit_bad_program;
   const std::string words =
       size_words(*part) +
       fmt::format("{} of {:.4g} mm², {} a layer; {:g} mm² of what stays lost\n", counted(plan.pockets, "pocket"),
-                  area_mm2(area), counted(plan.loops, "loop"), plan.lost_mm2) +
+                  area_mm2(area), counted(plan.loops, is_constant ? "disc" : "loop"), plan.lost_mm2) +
+      (is_constant
+           ? fmt::format("engagement: at most {:.1f} degrees of the cutter, but while it goes down\n", plan.engagement)
+           : std::string()) +
       unreached_words(plan.unreached_mm2) + joined_words(part->loops);
   nlohmann::ordered_json json = lengths_json(plan.mill, options.park);
   json["pockets"] = plan.pockets;
-  json["loops"] = plan.loops;
+  json[is_constant ? "discs" : "loops"] = plan.loops;
+  if (is_constant) json["engagement_degrees"] = plan.engagement;
   json["area_mm2"] = area_mm2(area);
   json["lost_mm2"] = plan.lost_mm2;
   json["unreached_mm2"] = plan.unreached_mm2;

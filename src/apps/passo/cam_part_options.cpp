@@ -24,6 +24,8 @@ constexpr const char* pocket_examples =
   passo cam pocket tray.svg --tool 6 --depth -8 --step 2 -o tray.ngc
   passo cam pocket sign.dxf --tool 1.5 --depth -1 --step-over 50 -p sign.png -o sign.ngc
                                                            what the cutter cannot reach is red in the picture
+  passo cam pocket tray.svg --tool 6 --depth -12 --step 12 --engagement 60 -o tray.ngc
+                                                           all of the flutes, and never a slot: hard material
   passo cam pocket tray.svg --layer pocket --ramp 3 --conventional -o tray.ngc
 
 A loop in a loop is an island, which stays. Every option: docs/manual/parts.md.)";
@@ -63,6 +65,11 @@ void add_pocket_command(CLI::App& cam, CamArguments& all) {
   pocket.add_option("--step", arguments.step, "how deep a layer is, at most")->capture_default_str();
   pocket.add_option("--step-over", arguments.step_over, "from loop to loop, percent of the cutter's diameter")
       ->check(number_range(1.0, 95.0))
+      ->capture_default_str();
+  pocket
+      .add_option("--engagement", arguments.engagement,
+                  "never more than this angle of the cutter in the stock, degrees (constant engagement); 0: loops")
+      ->check(number_range(0.0, 150.0))
       ->capture_default_str();
   pocket.add_option("--join", arguments.join, "ends of lines that are no farther apart are joined")
       ->capture_default_str();
