@@ -51,8 +51,10 @@ async function probe(page: import('playwright-core').Page, daemon: Daemon): Prom
   const { programs } = await daemon.get<{ programs: { id: number }[] }>('/programs');
   const map = [0, 20, 40, 60].flatMap((y) => [0, 25, 50, 75, 100].map((x) => `${x},${y},${(0.002 * x - 0.003 * y + 0.06 * Math.sin(x / 20)).toFixed(4)}`));
   await daemon.post(`/programs/${programs.at(-1)?.id}/height-map`, `${map.join('\n')}\n`);
+  // The page looks for a map when it comes.
+  await page.goto(`${daemon.address}#/console`);
+  await sleep(300);
   await page.goto(`${daemon.address}#/jog`);
-  await page.reload();
   await page.getByRole('radio', { name: 'Corner', exact: true }).check({ force: true });
   await page.getByTestId('height-map').waitFor({ timeout: patience });
   await page.locator('.probing').scrollIntoViewIfNeeded();
