@@ -101,6 +101,8 @@ TEST(ApiStudies, are_ordered_with_all_that_they_need) {
   EXPECT_EQ(run.get("/study")["state"], "none");
   run.get("/study/loads");
   EXPECT_EQ(run.status, 404U) << "nothing is done yet";
+  run.own();
+  run.post("/work", R"({"place": {"x": 5}})");
   const std::uint64_t id = run.upload("G21 G1 X9 F100\nM2\n");
   const Json answer = run.post("/study", fmt::format(R"({{"study": "motors", "program": {}, "machine": "text"}})", id));
   EXPECT_EQ(run.status, 202U) << answer;
@@ -108,7 +110,7 @@ TEST(ApiStudies, are_ordered_with_all_that_they_need) {
   EXPECT_EQ(studies.last.program, "G21 G1 X9 F100\nM2\n");
   EXPECT_EQ(studies.last.machine, "text");
   EXPECT_EQ(studies.last.dialect, "linuxcnc");
-  EXPECT_NE(studies.last.parameters.find("5221\t"), std::string::npos) << "the offsets of the work";
+  EXPECT_NE(studies.last.parameters.find("5221\t-5.0"), std::string::npos) << "the offsets of the work";
   EXPECT_TRUE(answer["report"]["margin"].is_null());
   run.post("/study", R"({"study": "tune", "machine": "text", "margin": 0.5})");
   EXPECT_EQ(run.status, 202U);
