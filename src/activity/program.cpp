@@ -30,12 +30,6 @@ void tell_end(Diagnostics& diagnostics, const std::string& file, const PathItem&
                    .text = {}});
 }
 
-PathOptions path_options_of(const MachineDescription& machine, const std::string& program, const Point& start) {
-  PathOptions options = path_options(machine, program, start);
-  options.spindle_run_up = machine.spindle.run_up;
-  return options;
-}
-
 }  // namespace
 
 ProgramChecker::ProgramChecker(ProgramReader program, const MachineDescription& machine,
@@ -97,17 +91,12 @@ ProgramCheck check_program(ProgramReader program, const MachineDescription& mach
 }
 
 Program::Program(ProgramReader program, const MachineDescription& machine, const InterpreterOptions& options,
-                 const MachineAnswers& answers, Diagnostics& diagnostics, Seconds whole)
-    : path_options_(path_options_of(machine, program.name(), options.start)),
-      limits_(motion_limits(machine)),
-      interpreter_(std::move(program), options, diagnostics, answers),
-      operations_(interpreter_),
-      path_builder_(operations_, path_options_, diagnostics, answers),
-      good_path_(path_builder_, diagnostics),
-      watched_path_(good_path_),
-      smoother_(watched_path_, smoothness(machine)),
+                 const MachineAnswers& answers, Diagnostics& diagnostics, Seconds whole,
+                 std::vector<ProbeOutcome> known_probes)
+    : limits_(motion_limits(machine)),
+      stages_(std::move(program), machine, options, answers, diagnostics, std::move(known_probes)),
       whole_(whole) {
-  watched_path_.watch([this](const PathItem& item) { nominal_time_ += nominal_time_of(item, limits_); });
+  stages_.path().watch([this](const PathItem& item) { nominal_time_ += nominal_time_of(item, limits_); });
 }
 
 std::optional<double> Program::progress() const {

@@ -29,6 +29,8 @@ Json as_json(const MotionOwner& owner);
 Json as_json(const ApiJob& job);
 Json as_json(const StoredProgram& program, bool with_findings);
 Json as_json(const HistoryJob& job);
+// What the last homing has found, and how well all homings agree.
+Json as_json(const std::vector<HomedAxis>& homed, const HomingRepeats& repeats);
 // What viewers ask of a program.
 WebAnswer path_answer(const StoredProgram& program, std::string_view query);
 WebAnswer text_answer(const StoredProgram& program, std::string_view query);

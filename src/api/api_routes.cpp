@@ -9,6 +9,7 @@ constexpr ApiRoute routes[] = {
     {"GET", "/api/v1/alarms"},
     {"GET", "/api/v1/health"},
     {"GET", "/api/v1/history"},
+    {"GET", "/api/v1/homing"},
     {"GET", "/api/v1/interrupted"},
     {"GET", "/api/v1/log"},
     {"GET", "/api/v1/machine"},

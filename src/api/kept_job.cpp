@@ -77,8 +77,8 @@ void KeptJob::find(const BrokenOff& found) {
   }
   find_way_back(text);
   if (found.refused) return refuse(code_of(*found.refused), message_of(*found.refused));
-  interrupted_->point =
-      find_resume_point(ProgramReader::from_text(job->name, text), machine_, options(), found.head.place);
+  interrupted_->point = find_resume_point(ProgramReader::from_text(job->name, text), machine_, options(),
+                                          found.head.place, found.head.probes);
   if (!interrupted_->point)
     return refuse(code_of(ResumeRefusal::path_changed), message_of(ResumeRefusal::path_changed));
   if (interrupted_->point->in_thread) refuse(code_of(ResumeRefusal::in_thread), message_of(ResumeRefusal::in_thread));
@@ -88,13 +88,14 @@ void KeptJob::find(const BrokenOff& found) {
 void KeptJob::find_way_back(const std::string& text) {
   const BrokenOff& found = interrupted_->journal;
   const auto program = ProgramReader::from_text(interrupted_->job.name, text);
-  interrupted_->back_at = find_resume_point(program.again(), machine_, options(), found.done);
+  interrupted_->back_at = find_resume_point(program.again(), machine_, options(), found.done, found.head.probes);
   hello_at_ = session_.status().position.place;
   is_compared_ = found.refused != ResumeRefusal::board_reset;
   // A job that has not come beyond its beginning may still have been on its way there.
   const bool is_on_its_path = found.done != found.head.place;
   if (!is_compared_ && is_on_its_path) {
-    interrupted_->range = range_between(program.again(), machine_, options(), found.done, found.farthest);
+    interrupted_->range =
+        range_between(program.again(), machine_, options(), found.done, found.farthest, found.head.probes);
   }
 }
 
@@ -144,7 +145,7 @@ void KeptJob::mind_place() {
   interrupted_->code.clear();
   interrupted_->why.clear();
   JournalHead head = interrupted_->journal.head;
-  if (stands_at(head, *interrupted_->point, *status)) return;
+  if (stands_at(head, *interrupted_->point, *status, machine_)) return;
   refuse(code_of(ResumeRefusal::counts_differ), "the machine was moved since: move it back to the place of the job");
 }
 
@@ -227,7 +228,9 @@ bool KeptJob::resume(std::uint64_t path) {
   mind_place();
   if (!interrupted_->code.empty()) return false;
   resumes_ = true;
-  JournalHead head = head_of_resumption(interrupted_->journal.head, *session_.board().status(), *interrupted_->point);
+  const BoardStatus& status = *session_.board().status();
+  stands_ = place_by_counts(interrupted_->journal.head, *interrupted_->point, status, machine_);
+  JournalHead head = head_of_resumption(interrupted_->journal.head, status, *interrupted_->point);
   head.numbers.greeting = 0;
   head.numbers.session = keeper_.new_number();
   return write(head);
@@ -236,12 +239,17 @@ bool KeptJob::resume(std::uint64_t path) {
 void KeptJob::add_to(request::Start& start) {
   if (resumes_) {
     start.options = options();
-    start.from = interrupted_->point;
+    start.from = way_ ? way_->at : *interrupted_->point;
+    start.known_probes = interrupted_->journal.head.probes;
+    start.known_probes.resize(start.from->probes);
     if (way_) {
-      start.from = way_->at;
       start.lead_in = way_->lead_in;
+    } else {
+      start.lead_in = way_back_of_probe(*start.from, stands_);
+      start.stands = stands_;
     }
   }
+  start.watchers.probe = [this](const ProbeOutcome& outcome) { writer_.note(outcome); };
   start.watchers.rests = [this](const BoardRest& rest) { writer_.note(rest); };
 }
 

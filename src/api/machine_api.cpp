@@ -65,7 +65,7 @@ std::string_view name_of(JobState state) {
 
 MachineApi::MachineApi(const MachineDescription& machine, MachineSession& session, MotionOwner& owner,
                        ApiOptions options)
-    : machine_(machine), session_(session), owner_(owner), options_(std::move(options)) {
+    : machine_(machine), session_(session), owner_(owner), options_(std::move(options)), repeats_(machine) {
   programs_.set_offsets(options_.parameters, options_.tools);
   if (options_.keeper == nullptr || options_.history == nullptr) return;
   kept_ = std::make_unique<KeptJob>(machine, session, *options_.keeper, *options_.history, programs_,
@@ -148,6 +148,7 @@ WebAnswer MachineApi::look(const FoundRoute& found, const WebRequest& request) {
   if (path.ends_with("/metrics")) return {.type = "text/plain; version=0.0.4", .body = metrics()};
   if (path.ends_with("/stream")) return refusal(400);
   if (path.ends_with("/log")) return words_answer();
+  if (path.ends_with("/homing")) return json_answer(200, as_json(homed_, repeats_));
   if (path.ends_with("/health")) {
     const MachineState state = session_.state();
     const bool well = state != MachineState::fault && state != MachineState::offline;
@@ -195,6 +196,9 @@ WebAnswer MachineApi::change(const FoundRoute& found, const WebRequest& request)
   if (calls_off && job_.state == JobState::checking && !session_.busy()) {
     end_job(JobState::stopped, "it was called off before it began");
     return json_answer(200, {{"ticket", 0}});
+  }
+  if (path == "/api/v1/stop") {
+    stopped_by_ = owner_.is_client(request.key) ? owner_.name() : "somebody who does not own the motion";
   }
   return ask(std::move(*wanted));
 }

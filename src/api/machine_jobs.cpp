@@ -1,4 +1,5 @@
 // MachineApi: how a program becomes a job, and what becomes of the job.
+#include <algorithm>
 #include <charconv>
 #include <utility>
 
@@ -7,6 +8,14 @@
 
 namespace passo {
 namespace {
+
+// The first error of a program, for the history, which outlives the findings.
+std::string words_of_error(const StoredProgram& program) {
+  const auto& all = program.findings.all();
+  const auto first = std::ranges::find(all, Severity::error, &Diagnostic::severity);
+  if (first == all.end()) return "the program has errors: see its findings";
+  return fmt::format("line {}: {} [{}]", first->place.line, first->message, first->code);
+}
 
 HistoryState history_state_of(JobState state) {
   switch (state) {
@@ -145,19 +154,18 @@ void MachineApi::begin_checked_job() {
   if (kept_->is_named()) start_job();
 }
 
-// The check is done, and the machine stands where the check began. With a journal, the board hears of the job first. A
-// program that probes keeps no journal: the way of its path depends on what the probe finds.
+// The check is done, and the machine stands where the check began. With a journal, the board hears of the job first.
 void MachineApi::name_job() {
   const StoredProgram& program = *programs_.find(job_.program);
   if (owner_.changes() != job_owner_) return end_job(JobState::stopped, "the ownership of motion was passed on");
-  if (program.state != UploadState::good) return end_job(JobState::failed, "the program has errors: see its findings");
+  if (program.state != UploadState::good) return end_job(JobState::failed, words_of_error(program));
   way_.reset();
   if (from_line_ != 0) {
     auto way = way_to(program, from_line_);
     if (!way) return end_job(JobState::failed, way.error().why);
     way_ = std::move(*way);
   }
-  if (!kept_ || program.check.probes) return start_job();
+  if (!kept_) return start_job();
   if (session_.state() != MachineState::idle) return end_job(JobState::failed, "the machine is not idle any more");
   const bool begun = reenters_ ? kept_->reenter(program.path)
                      : resumes_
@@ -192,6 +200,7 @@ void MachineApi::start_job() {
   if (named_) kept_->forget_interrupted();
   ticket_ = *ticket;
   job_.state = JobState::running;
+  stopped_by_.clear();
 }
 
 // A job that was broken off and did not begin again stays broken off.
@@ -206,13 +215,23 @@ void MachineApi::end_job(JobState state, std::string why) {
   if (job_.history != 0) options_.history->end(job_.history, history_state_of(state), job_.why, wall_time());
 }
 
+void MachineApi::heed_state(MachineState state) {
+  if (state == MachineState::alarm || state == MachineState::fault) note_alarm();
+  const HomingPath* const homing = session_.homing();
+  if (state == MachineState::home && homing != nullptr) {
+    const bool was_known = session_.status().position.trust == Trust::homed;
+    homes_from_ = was_known ? std::optional(homing->start()) : std::nullopt;
+  } else if (homes_ && state == MachineState::idle && homing != nullptr && homing->done()) {
+    homed_ = homing->homed();
+    repeats_.note(homed_, homes_from_);
+  }
+  homes_ = state == MachineState::home;
+}
+
 void MachineApi::heed(const std::vector<MachineChange>& changes) {
   for (const MachineChange& change : changes) {
     if (change.kind == MachineChange::Kind::rested_by_tail) ++late_;
-    if (change.kind == MachineChange::Kind::state &&
-        (change.state == MachineState::alarm || change.state == MachineState::fault)) {
-      note_alarm();
-    }
+    if (change.kind == MachineChange::Kind::state) heed_state(change.state);
     if (change.kind != MachineChange::Kind::answered || !ticket_ || change.ticket != *ticket_) continue;
     // What was broken off by the board, or because the program ends, may go on.
     const bool is_broken_off =
@@ -222,7 +241,12 @@ void MachineApi::heed(const std::vector<MachineChange>& changes) {
         keep_results();
         end_job(JobState::done);
         break;
-      case Outcome::stopped: end_job(named_ && is_broken_off ? JobState::interrupted : JobState::stopped); break;
+      case Outcome::stopped:
+        end_job(named_ && is_broken_off ? JobState::interrupted : JobState::stopped,
+                leaves_               ? "passo serve was told to end"
+                : stopped_by_.empty() ? "it was stopped"
+                                      : "stopped by " + stopped_by_);
+        break;
       case Outcome::failed:
         end_job(named_ && is_broken_off ? JobState::interrupted : JobState::failed,
                 change.fault ? change.fault->message : "");

@@ -159,6 +159,26 @@ Json as_json(const HistoryJob& job) {
           {"ended_at", job.ended_at}};
 }
 
+Json as_json(const std::vector<HomedAxis>& homed, const HomingRepeats& repeats) {
+  Json axes = Json::array();
+  for (const HomedAxis& one : homed) {
+    axes.push_back({{"axis", axis_key(one.axis)},
+                    {"way", rounded(one.way)},
+                    {"place", rounded(one.place)},
+                    {"squared", one.squared ? Json(rounded(*one.squared)) : Json()}});
+  }
+  Json all = Json::array();
+  for (const AxisRepeats& one : repeats.axes()) {
+    all.push_back({{"axis", axis_key(one.axis)},
+                   {"homings", one.homings},
+                   {"last", rounded(one.last / 1000)},
+                   {"mean", rounded(one.mean / 1000)},
+                   {"spread", rounded(one.spread / 1000)},
+                   {"spread_steps", one.spread_steps}});
+  }
+  return {{"axes", std::move(axes)}, {"repeats", std::move(all)}};
+}
+
 Json as_json(const MachineDescription& machine, const WayBack& way) {
   return {{"line", way ? Json(way->at.line) : Json()},
           {"place", way ? as_json(machine, way->at.point) : Json()},

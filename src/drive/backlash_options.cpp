@@ -1,5 +1,6 @@
 #include "passo/drive/backlash_options.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 namespace passo {
@@ -20,6 +21,11 @@ BacklashOptions backlash_options(const StepOptions& steps, bool counts_items) {
     options.least[motor.axis] = least_turn / std::abs(motor.steps_per_unit);
   }
   return options;
+}
+
+bool takes_up_backlash(const StepOptions& steps) {
+  const BacklashOptions options = backlash_options(steps, true);
+  return std::ranges::any_of(all_axes, [&](Axis axis) { return options.backlash[axis] > 0; });
 }
 
 }  // namespace passo

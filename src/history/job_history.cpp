@@ -102,7 +102,9 @@ Result<std::unique_ptr<JobHistory>, std::string> JobHistory::open(const std::str
   }
   if (known > version) return failed(fmt::format("it is of version {}, and this program knows {}", known, version));
   if (known == 0 && !history->run(fmt::format("BEGIN;{}COMMIT;", tables).c_str())) return failed(reason());
-  Statement interrupt(database, "UPDATE jobs SET state = ? WHERE state = ?");
+  Statement interrupt(database,
+                      "UPDATE jobs SET state = ?, why = 'passo serve was killed, or its computer lost its power'"
+                      " WHERE state = ?");
   interrupt.with(number_of(HistoryState::interrupted)).with(number_of(HistoryState::running));
   if (!interrupt.run()) return failed(reason());
   return history;
@@ -167,7 +169,7 @@ std::optional<std::string> JobHistory::program_of(std::int64_t id) const {
 
 bool JobHistory::begin(std::int64_t id, double now) {
   is_kept_ = false;
-  Statement update(database_, "UPDATE jobs SET state = ?, begun_at = ? WHERE id = ?");
+  Statement update(database_, "UPDATE jobs SET state = ?, begun_at = ?, why = '', ended_at = 0 WHERE id = ?");
   update.with(number_of(HistoryState::running)).with(now).with(id);
   return update.run() && sqlite3_changes(database_) == 1;
 }

@@ -1,6 +1,7 @@
 #include "passo/journal/journal.hpp"
 
 #include <algorithm>
+#include <string>
 #include <utility>
 
 #include <fmt/format.h>
@@ -10,13 +11,21 @@
 namespace passo {
 namespace {
 
-constexpr std::string_view title = "passo journal 3\n";
+constexpr std::string_view title = "passo journal 4\n";
 // "serial executed item s item s check\n"
 constexpr std::size_t place_size = 20 + 1 + 24;
 constexpr std::size_t line_size = 20 + 1 + 5 + 1 + place_size + 1 + place_size + 1 + record_check_size + 1;
 
 std::string text_of(const char* key, const FileStamp& stamp) {
   return fmt::format("{} {} {:016x} {}\n", key, stamp.size, stamp.fingerprint, record_name(stamp.name));
+}
+
+std::string text_of(std::size_t number, const ProbeOutcome& outcome) {
+  std::string text = fmt::format("probe {} {:d} {:d}", number, outcome.refused, outcome.touched);
+  for (const Point& place : {outcome.contact, outcome.rest}) {
+    for (const Axis axis : all_axes) text += fmt::format(" {}", place[axis]);
+  }
+  return text;
 }
 
 std::string text_of(const JournalHead& head) {
@@ -30,6 +39,8 @@ std::string text_of(const JournalHead& head) {
   const SessionNumbers& numbers = head.numbers;
   text += fmt::format("\nbefore {} {}\nsession {} {}\nplace {} {}\n", numbers.session_before, numbers.executed_before,
                       numbers.greeting, numbers.session, head.place.item, head.place.s.value());
+  text += fmt::format("probes {}\n", head.probes.size());
+  for (std::size_t i = 0; i < head.probes.size(); ++i) text += text_of(i, head.probes[i]) + '\n';
   return text;
 }
 
@@ -47,6 +58,18 @@ PathPlace place(RecordWords& words) {
   place.item = words.number<std::uint64_t>();
   place.s = Mm(words.real());
   return place;
+}
+
+ProbeOutcome outcome(RecordWords& words, std::size_t number) {
+  words.expect("probe");
+  words.expect(std::to_string(number));
+  ProbeOutcome outcome;
+  outcome.refused = words.number<unsigned>() != 0;
+  outcome.touched = words.number<unsigned>() != 0;
+  for (Point* const place : {&outcome.contact, &outcome.rest}) {
+    for (const Axis axis : all_axes) (*place)[axis] = words.real();
+  }
+  return outcome;
 }
 
 std::optional<JournalHead> read_head(std::string_view text) {
@@ -72,6 +95,9 @@ std::optional<JournalHead> read_head(std::string_view text) {
   head.numbers.session = words.number<std::uint16_t>();
   words.expect("place");
   head.place = place(words);
+  words.expect("probes");
+  const auto probes = words.number<std::size_t>();
+  for (std::size_t i = 0; i < probes && words.good(); ++i) head.probes.push_back(outcome(words, i));
   if (!words.good() || !words.at_end() || head.numbers.session == 0) return {};
   return head;
 }
@@ -101,6 +127,20 @@ std::optional<Noted> read_line(std::string_view line) {
   return words.good() ? std::optional(noted) : std::nullopt;
 }
 
+// Takes the outcomes. The last line may be torn: then nothing has moved since. False: another line is damaged.
+bool read_outcomes(std::string_view text, std::vector<ProbeOutcome>& outcomes) {
+  for (std::size_t end = 0; (end = text.find('\n')) != std::string_view::npos; text.remove_prefix(end + 1)) {
+    if (end < record_check_size) return false;
+    const std::string_view checked = text.substr(0, end - record_check_size);
+    if (text.substr(checked.size(), record_check_size) != record_check(checked)) return false;
+    RecordWords words(checked);
+    const ProbeOutcome found = outcome(words, outcomes.size());
+    if (!words.good()) return false;
+    outcomes.push_back(found);
+  }
+  return true;
+}
+
 }  // namespace
 
 void JournalWriter::begin(const JournalHead& head) {
@@ -108,6 +148,7 @@ void JournalWriter::begin(const JournalHead& head) {
   end_record(text);
   head_size_ = text.size();
   noted_ = 0;
+  probes_ = head.probes.size();
   const std::string blank = std::string(line_size - 1, ' ') + '\n';
   for (std::size_t i = 0; i < rests; ++i) text += blank;
   failed_ = !store_.replace(text);
@@ -119,6 +160,12 @@ void JournalWriter::note(const BoardRest& rest) {
   ++noted_;
 }
 
+void JournalWriter::note(const ProbeOutcome& outcome) {
+  std::string line = text_of(probes_++, outcome) + ' ';
+  line += record_check(line);
+  if (!failed_) failed_ = !store_.append(line + '\n');
+}
+
 std::optional<Journal> Journal::read(std::string_view text) {
   const std::optional<RecordParts> parts = read_record(text, title);
   if (!parts) return {};
@@ -126,7 +173,9 @@ std::optional<Journal> Journal::read(std::string_view text) {
   if (!head) return {};
   Journal journal;
   journal.head_ = std::move(*head);
-  std::string_view lines = parts->rest;
+  constexpr std::size_t ring = JournalWriter::rests * line_size;
+  std::string_view lines = parts->rest.substr(0, ring);
+  if (!read_outcomes(parts->rest.substr(lines.size()), journal.head_.probes)) return {};
   std::vector<Noted> noted;
   for (; !lines.empty(); lines.remove_prefix(std::min(line_size, lines.size()))) {
     const std::string_view line = lines.substr(0, line_size);

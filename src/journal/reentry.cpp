@@ -1,6 +1,7 @@
 #include "passo/journal/reentry.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 #include <optional>
 #include <utility>
@@ -34,7 +35,7 @@ class LinesOfPath {
   void note_other_file(std::uint32_t line) { facts(line).is_in_other_file = true; }
   void note_programmed(const PathItem& item) {
     const auto* action = std::get_if<Action>(&item);
-    probes_ = probes_ || (action != nullptr && action->kind == Action::Kind::probe_begin);
+    probes_ = probes_ || (action != nullptr && action->kind == Action::Kind::probe_end);
     if (action != nullptr || line_of(item) == line_) return;
     Facts& here = facts(line_of(item));
     if (here.times++ == 0) {
@@ -82,16 +83,13 @@ class LinesOfPath {
   bool probes_ = false;
 };
 
-bool has_backlash(const MachineDescription& machine) {
-  const BacklashOptions options = backlash_options(step_options(machine), true);
-  return std::ranges::any_of(all_axes, [&](Axis axis) { return options.backlash[axis] > 0; });
-}
-
 std::string place_words(const MachineDescription& machine, const Point& place, bool with_z) {
   std::string words;
   for (const AxisDescription& axis : machine.axes) {
     if (axis.axis == Axis::z && !with_z) continue;
-    words += fmt::format("{}{}{:.3f}", words.empty() ? "" : " ", letter_of(axis.axis), place[axis.axis]);
+    // No minus sign before a zero.
+    const double rounded = std::round(place[axis.axis] * 1000) / 1000 + 0.0;
+    words += fmt::format("{}{}{:.3f}", words.empty() ? "" : " ", letter_of(axis.axis), rounded);
   }
   return words;
 }
@@ -237,8 +235,9 @@ void widen(Box& box, const Box& other) {
 }  // namespace
 
 std::optional<Box> range_between(ProgramReader program, const MachineDescription& machine,
-                                 const InterpreterOptions& options, const PathPlace& first, const PathPlace& last) {
-  PathOfProgram chain(std::move(program), machine, options);
+                                 const InterpreterOptions& options, const PathPlace& first, const PathPlace& last,
+                                 const std::vector<ProbeOutcome>& probes) {
+  PathOfProgram chain(std::move(program), machine, options, probes);
   RewindablePath& path = chain.path();
   path.begin_at(first);
   path.forget_passed();
@@ -274,7 +273,7 @@ std::string words_of_shift(const MachineDescription& machine, const std::vector<
 Result<Reentry, ReentryRefusal> plan_reentry(const MachineDescription& machine, const ResumePoint& at,
                                              const Point& from) {
   if (at.in_thread) return Failure{ReentryRefusal::in_thread};
-  if (has_backlash(machine)) return Failure{ReentryRefusal::backlash};
+  if (takes_up_backlash(step_options(machine))) return Failure{ReentryRefusal::backlash};
   Reentry way{.at = at, .lead_in = {}, .steps = {}};
   LeadIn(machine, at, from, way).plan();
   return way;

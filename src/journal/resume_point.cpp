@@ -1,6 +1,8 @@
 #include "passo/journal/resume_point.hpp"
 
+#include <algorithm>
 #include <cmath>
+#include <deque>
 #include <utility>
 
 #include "path_of_program.hpp"
@@ -8,10 +10,34 @@
 namespace passo {
 namespace {
 
+// The feeds of the lines that were read last. A curve of the smoothed path has a speed along its own parameter.
+class FeedsOfLines {
+ public:
+  void note(const PathItem& item) {
+    const auto* segment = std::get_if<Segment>(&item);
+    if (segment == nullptr || segment->rapid) return;
+    feeds_.push_back({.line = segment->source.line, .feed = segment->speed});
+    if (feeds_.size() > most) feeds_.pop_front();
+  }
+  std::optional<MmPerSecond> of(std::uint32_t line) const {
+    const auto found =
+        std::find_if(feeds_.rbegin(), feeds_.rend(), [&](const Feed& feed) { return feed.line == line; });
+    return found != feeds_.rend() ? std::optional(found->feed) : std::nullopt;
+  }
+
+ private:
+  static constexpr std::size_t most = 256;  // the smoother reads no farther ahead, unless lines are merged
+  struct Feed {
+    std::uint32_t line = 0;
+    MmPerSecond feed{0};
+  };
+  std::deque<Feed> feeds_;
+};
+
 // Keeps what the passed items have set.
 class Passed {
  public:
-  explicit Passed(ResumePoint& point) : point_(point) {}
+  Passed(ResumePoint& point, const FeedsOfLines& feeds) : point_(point), feeds_(feeds) {}
 
   void pass(const PathItem& item) {
     if (const auto* segment = std::get_if<Segment>(&item)) {
@@ -41,51 +67,150 @@ class Passed {
     const Point end = segment.curve.end();
     const bool is_across = start[Axis::x] != end[Axis::x] || start[Axis::y] != end[Axis::y];
     if (!segment.rapid) {
-      point_.feed = segment.speed;
+      point_.feed = feeds_.of(segment.source.line).value_or(point_.feed);
     } else if (is_across && start[Axis::z] == end[Axis::z]) {
       point_.clearance = start[Axis::z];
     }
   }
 
   ResumePoint& point_;
+  const FeedsOfLines& feeds_;
   bool waits_ = false;  // the spindle was switched, and nothing has moved since
+};
+
+// Goes along a path up to a place.
+class PointFinder {
+ public:
+  PointFinder(PathOfProgram& chain, const MachineDescription& machine, const Point& start,
+              const std::vector<ProbeOutcome>& probes)
+      : chain_(chain), path_(chain.path()), machine_(machine), probes_(probes) {
+    point_.point = start;
+    chain.programmed().watch([this](const PathItem& item) { feeds_.note(item); });
+  }
+  PointFinder(const PointFinder&) = delete;
+  PointFinder& operator=(const PointFinder&) = delete;
+
+  std::optional<ResumePoint> find(PathPlace place) {
+    while (next_ < place.item) {
+      if (!look_ahead()) return {};
+      pass();
+    }
+    look_ahead();
+    const auto* action = has_item_ ? std::get_if<Action>(&item_) : nullptr;
+    const bool begins_probe = action != nullptr && action->kind == Action::Kind::probe_begin;
+    if (begins_probe && point_.probes >= probes_.size()) pass();
+    if (!is_amid_probe_) return amid_path(place);
+    return chain_.knows_last_probe() ? behind_probe() : before_probe();
+  }
+
+ private:
+  bool look_ahead() {
+    has_item_ = has_item_ || path_.next(item_);
+    return has_item_;
+  }
+  void pass() {
+    const auto* action = std::get_if<Action>(&item_);
+    if (action != nullptr && action->kind == Action::Kind::probe_begin) {
+      is_amid_probe_ = true;
+      before_probe_ = point_;
+      before_probe_.place = {.item = next_};
+    }
+    if (is_amid_probe_) note_probe();
+    passed_.pass(item_);
+    if (action != nullptr && action->kind == Action::Kind::probe_end) {
+      is_amid_probe_ = false;
+      ++point_.probes;
+      if (point_.probes <= probes_.size()) point_.point = probes_[point_.probes - 1].rest;
+    }
+    path_.forget_before(++next_);
+    has_item_ = false;
+  }
+
+  std::optional<ResumePoint> amid_path(const PathPlace& place) {
+    if (point_.probes > probes_.size()) return {};  // nobody knows where the path goes on
+    Point beside;                                   // of the motors, amid a segment that takes up backlash
+    if (place.s > Mm(0)) {
+      const auto* segment = has_item_ ? std::get_if<Segment>(&item_) : nullptr;
+      if (segment == nullptr || place.s >= segment->curve.length()) return {};
+      point_.point = segment->tool_at(place.s);
+      point_.downs = segment->downs;
+      beside = segment->curve.at(place.s) - point_.point;
+    }
+    path_.rewind(place);
+    point_.in_thread = machine_.spindle.counts_per_turn > 0 && path_.is_in_thread();
+    return point_at(place, beside);
+  }
+  // The move is over, and its rest is known.
+  std::optional<ResumePoint> behind_probe() {
+    while (is_amid_probe_ && look_ahead()) pass();
+    look_ahead();
+    return is_amid_probe_ ? std::nullopt : point_at({.item = next_}, {});
+  }
+  // The move begins anew.
+  std::optional<ResumePoint> before_probe() {
+    while (is_amid_probe_ && !before_probe_.probe && look_ahead()) pass();
+    if (!before_probe_.probe) return {};
+    const PathPlace begins = before_probe_.place;
+    point_ = before_probe_;
+    return point_at(begins, {});
+  }
+  void note_probe() {
+    before_probe_.line = std::visit([](const auto& what) { return what.source.line; }, item_);
+    const auto* segment = std::get_if<Segment>(&item_);
+    if (segment != nullptr) before_probe_.probe = {.end = segment->curve.end(), .speed = segment->speed};
+  }
+  std::optional<ResumePoint> point_at(const PathPlace& place, const Point& beside) {
+    point_.place = place;
+    if (has_item_ && !point_.probe) point_.line = std::visit([](const auto& what) { return what.source.line; }, item_);
+    const StepOptions& steps = chain_.steps();
+    for (std::size_t m = 0; m < steps.motor_count; ++m) {
+      const Motor& motor = steps.motors[m];
+      const double motor_place = motor.steps_at(point_.point[motor.axis], point_.downs.has(motor.axis));
+      point_.steps[m] = std::llround(motor_place + beside[motor.axis] * motor.steps_per_unit);
+    }
+    return point_;
+  }
+
+  PathOfProgram& chain_;
+  RewindablePath& path_;
+  const MachineDescription& machine_;
+  const std::vector<ProbeOutcome>& probes_;
+  ResumePoint point_;
+  FeedsOfLines feeds_;
+  Passed passed_{point_, feeds_};
+  PathItem item_;
+  bool has_item_ = false;   // the item at next_ was looked at
+  std::uint64_t next_ = 0;  // the number of the item that is passed next
+  bool is_amid_probe_ = false;
+  ResumePoint before_probe_;  // at the beginning of the last probe move
 };
 
 }  // namespace
 
 std::optional<ResumePoint> find_resume_point(ProgramReader program, const MachineDescription& machine,
-                                             const InterpreterOptions& options, const PathPlace& place) {
-  PathOfProgram chain(std::move(program), machine, options);
-  RewindablePath& path = chain.path();
-  const StepOptions& steps = chain.steps();
-  ResumePoint point;
-  point.place = place;
-  point.point = options.start;
-  Passed passed(point);
-  PathItem item;
-  for (std::uint64_t number = 0; number < place.item; ++number) {
-    if (!path.next(item)) return {};
-    passed.pass(item);
-    path.forget_before(number + 1);
+                                             const InterpreterOptions& options, const PathPlace& place,
+                                             const std::vector<ProbeOutcome>& probes) {
+  PathOfProgram chain(std::move(program), machine, options, probes);
+  return PointFinder(chain, machine, options.start, probes).find(place);
+}
+
+std::vector<PathItem> way_back_of_probe(const ResumePoint& point, const Point& from) {
+  if (!point.probe || from == point.point) return {};
+  Segment segment{.curve = Curve::line(from, point.point), .speed = point.probe->speed};
+  segment.mode = PathMode::exact_stop;
+  segment.source.line = point.line;
+  return {segment};
+}
+
+BoardRest without_lead_in(const ResumePoint& from, std::size_t lead_in, BoardRest rest) {
+  for (PathPlace* const place : {&rest.place, &rest.done}) {
+    const std::uint64_t first = from.place.item + lead_in;
+    const bool is_amid = place->item == first;
+    *place = place->item < first
+                 ? from.place
+                 : PathPlace{.item = place->item - lead_in, .s = place->s + (is_amid ? from.place.s : Mm(0))};
   }
-  const bool more = path.next(item);
-  if (more) point.line = std::visit([](const auto& what) { return what.source.line; }, item);
-  Point beside;  // of the motors, amid a segment that takes up backlash
-  if (place.s > Mm(0)) {
-    const auto* segment = more ? std::get_if<Segment>(&item) : nullptr;
-    if (segment == nullptr || place.s >= segment->curve.length()) return {};
-    point.point = segment->tool_at(place.s);
-    point.downs = segment->downs;
-    beside = segment->curve.at(place.s) - point.point;
-  }
-  path.rewind(place);
-  point.in_thread = machine.spindle.counts_per_turn > 0 && path.is_in_thread();
-  for (std::size_t m = 0; m < steps.motor_count; ++m) {
-    const Motor& motor = steps.motors[m];
-    const double motor_place = motor.steps_at(point.point[motor.axis], point.downs.has(motor.axis));
-    point.steps[m] = std::llround(motor_place + beside[motor.axis] * motor.steps_per_unit);
-  }
-  return point;
+  return rest;
 }
 
 }  // namespace passo

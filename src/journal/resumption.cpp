@@ -1,6 +1,11 @@
 #include "passo/journal/resumption.hpp"
 
+#include <algorithm>
+#include <cmath>
 #include <utility>
+
+#include "passo/activity/stage_options.hpp"
+#include "passo/drive/backlash_options.hpp"
 
 namespace passo {
 
@@ -51,18 +56,70 @@ Result<ResumePoint, ResumeRefusal> resume_point_of(const Journal& journal, const
                                                    const InterpreterOptions& options) {
   if (const auto refused = refuse_rest(journal, status)) return Failure{*refused};
   const auto place = journal.place_of(status);
-  const auto point = find_resume_point(program.again(), machine, options, *place);
+  const auto point = find_resume_point(program.again(), machine, options, *place, journal.head().probes);
   if (!point) return Failure{ResumeRefusal::path_changed};
   if (point->in_thread) return Failure{ResumeRefusal::in_thread};
-  if (!stands_at(journal.head(), *point, status)) return Failure{ResumeRefusal::counts_differ};
+  if (!stands_at(journal.head(), *point, status, machine)) return Failure{ResumeRefusal::counts_differ};
   return *point;
 }
 
-bool stands_at(const JournalHead& head, const ResumePoint& point, const BoardStatus& status) {
-  for (std::size_t m = 0; m < head.job_counts.size(); ++m) {
-    if (status.positions[m] != head.job_counts[m] + point.steps[m]) return false;
+namespace {
+
+// How far a motor may be from the straight line on which it makes a probe move.
+constexpr double beside_line = 1.5;
+
+// The steps of each motor on the way of an unknown probe move.
+std::array<double, max_motors> steps_of_probe(const ResumePoint& point, const MachineDescription& machine) {
+  std::array<double, max_motors> way{};
+  const StepOptions steps = step_options(machine);
+  for (std::size_t m = 0; m < steps.motor_count; ++m) {
+    const Axis axis = steps.motors[m].axis;
+    way[m] =
+        steps.motors[m].steps_at(point.probe->end[axis], false) - steps.motors[m].steps_at(point.point[axis], false);
+  }
+  return way;
+}
+
+bool stands_on_way(const std::array<double, max_motors>& from_point, const std::array<double, max_motors>& way,
+                   std::size_t motors) {
+  std::size_t most = 0;
+  for (std::size_t m = 1; m < motors; ++m) {
+    if (std::abs(way[m]) > std::abs(way[most])) most = m;
+  }
+  const double share = way[most] != 0 ? from_point[most] / way[most] : 0;
+  const double step = way[most] != 0 ? 1 / std::abs(way[most]) : 0;
+  if (share < -step || share > 1 + step) return false;
+  for (std::size_t m = 0; m < motors; ++m) {
+    if (std::abs(from_point[m] - share * way[m]) > beside_line) return false;
   }
   return true;
+}
+
+}  // namespace
+
+bool stands_at(const JournalHead& head, const ResumePoint& point, const BoardStatus& status,
+               const MachineDescription& machine) {
+  std::array<double, max_motors> from_point{};
+  bool is_there = true;
+  for (std::size_t m = 0; m < head.job_counts.size(); ++m) {
+    const std::int64_t steps = status.positions[m] - head.job_counts[m] - point.steps[m];
+    is_there = is_there && steps == 0;
+    from_point[m] = static_cast<double>(steps);
+  }
+  if (is_there || !point.probe || takes_up_backlash(step_options(machine))) return is_there;
+  return stands_on_way(from_point, steps_of_probe(point, machine), head.job_counts.size());
+}
+
+Point place_by_counts(const JournalHead& head, const ResumePoint& point, const BoardStatus& status,
+                      const MachineDescription& machine) {
+  Point place = point.point;
+  const StepOptions steps = step_options(machine);
+  for (std::size_t m = 0; m < head.job_counts.size(); ++m) {
+    const std::int64_t counted = status.positions[m] - head.job_counts[m];
+    const Motor& motor = steps.motors[m];
+    if (counted != point.steps[m]) place[motor.axis] = motor.place_at(static_cast<double>(counted), false);
+  }
+  return place;
 }
 
 JournalHead head_of_beginning(JournalHead job, const BoardStatus& status,
@@ -80,6 +137,8 @@ JournalHead head_of_resumption(JournalHead before, const BoardStatus& status, co
   before.numbers.session_before = status.session;
   before.numbers.executed_before = status.executed;
   before.place = point.place;
+  // A probe move behind the place is made again.
+  if (before.probes.size() > point.probes) before.probes.resize(point.probes);
   return before;
 }
 

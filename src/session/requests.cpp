@@ -138,32 +138,13 @@ DriveOptions MachineSession::drive_options() const {
   return options;
 }
 
-namespace {
-
-// A drive counts the items of a lead-in too, and the item amid which the path begins from there. Where the machine may
-// rest in the lead-in, its path still begins at the point.
-void count_rests_from(const ResumePoint& point, std::uint64_t lead_in, Watchers& watchers) {
-  if (!watchers.rests) return;
-  watchers.rests = [begin = point.place, lead_in, tell = watchers.rests](BoardRest rest) {
-    for (PathPlace* const place : {&rest.place, &rest.done}) {
-      const std::uint64_t first = begin.item + lead_in;
-      const bool is_amid = place->item == first;
-      *place = place->item < first
-                   ? begin
-                   : PathPlace{.item = place->item - lead_in, .s = place->s + (is_amid ? begin.s : Mm(0))};
-    }
-    tell(rest);
-  };
-}
-
-}  // namespace
-
 MachineSession::Answer MachineSession::take(request::Start& start) {
   if (auto refused = refuse(MachineEvent::begin_run)) return Failure{*refused};
   if (auto refused = closed_limit()) return Failure{*refused};
   auto work = std::make_unique<Work>();
-  const bool stands_there = start.from && start.lead_in.empty();
-  if (stands_there) stand_at({.place = start.from->point, .trust = position_.trust, .downs = start.from->downs});
+  if (start.from && start.lead_in.empty()) start.stands = start.from->point;
+  const bool is_on_path = start.from && start.stands;
+  if (is_on_path) stand_at({.place = *start.stands, .trust = position_.trust, .downs = start.from->downs});
   if (start.findings != nullptr) work->findings = start.findings;
   const int counts = machine_.spindle.counts_per_turn;
   // Over a line, a tap does not follow the spindle while it reverses: the tool rests meanwhile, and a floating holder
@@ -174,7 +155,7 @@ MachineSession::Answer MachineSession::take(request::Start& start) {
   InterpreterOptions interpretation = start.options;
   if (!start.from) interpretation.start = position_.place;
   auto program = std::make_unique<Program>(std::move(start.program), machine_, interpretation, work->answers,
-                                           *work->findings, start.nominal_time);
+                                           *work->findings, start.nominal_time, std::move(start.known_probes));
   work->program = program.get();
   work->activity = std::move(program);
   work->watchers = std::move(start.watchers);
@@ -186,9 +167,12 @@ MachineSession::Answer MachineSession::take(request::Start& start) {
   if (!start.live && !options.guards_by_probe) options.live = endless_commitment;
   if (start.from) options.begin_at = start.from->place;
   options.lead_in = std::move(start.lead_in);
-  if (!options.lead_in.empty()) count_rests_from(*start.from, options.lead_in.size(), work->watchers);
+  if (!options.lead_in.empty() && work->watchers.rests) {
+    work->watchers.rests = [from = *start.from, lead_in = options.lead_in.size(), tell = work->watchers.rests](
+                               const BoardRest& rest) { tell(without_lead_in(from, lead_in, rest)); };
+  }
   put_on_drive(*work, options, start.live);
-  if (stands_there && work->drive->refiller() != nullptr) {
+  if (is_on_path && work->drive->refiller() != nullptr) {
     work->drive->switch_on(start.from->outputs, start.from->spindle_wait);
   }
   return begin(MachineEvent::begin_run, std::move(work));

@@ -135,6 +135,16 @@ TEST_F(Resumed, after_the_terminal_was_closed_which_is_as_ctrl_c) {
   expect_counts_of_the_whole_program();
 }
 
+// What the probe has found is in the journal; here it meets nothing.
+TEST_F(Resumed, with_probe_moves_before_and_behind) {
+  write("p.ngc",
+        "G21 G90 G38.3 X1 F600\nG0 X[#5061-1]\n" + text.substr(0, text.size() - 3) + "G38.3 Z1 F600\nG0 Y0\nM2\n");
+  EXPECT_EQ(run_until(12, SIGKILL), -SIGKILL);
+  const Outcome resumed = passo(command("--resume"));
+  ASSERT_EQ(resumed.code, 0) << resumed.err;
+  expect_counts_of_the_whole_program();
+}
+
 // Nobody told the board to: a killed host tells nothing. Who only looks is no host.
 TEST_F(Resumed, after_a_kill_that_left_the_spindle_to_the_board_which_has_switched_it_off) {
   EXPECT_EQ(run_until(8, SIGKILL), -SIGKILL);
@@ -313,8 +323,6 @@ TEST_F(Resumed, only_over_a_line) {
   const Outcome alone = passo("run " + program_ + " -m " + machine_ + " --resume");
   EXPECT_EQ(alone.code, 2);
   EXPECT_NE(alone.err.find("--resume and --journal are for a board that outlives the run"), std::string::npos);
-  const std::string probing = write("q.ngc", "G21 G38.2 Z-1 F60\nM2\n");
-  EXPECT_EQ(passo("run " + probing + " -m " + machine_ + " --board " + board_ + " --resume").code, 2);
   const Outcome unwritable =
       passo("run " + program_ + " -m " + machine_ + " --board " + board_ + from_here + " --journal /dev/null/j");
   EXPECT_EQ(unwritable.code, 1);

@@ -6,6 +6,7 @@
 #include <optional>
 #include <string>
 #include <utility>
+#include <vector>
 
 #include "passo/activity/homing_path.hpp"
 #include "passo/activity/jog_line.hpp"
@@ -43,6 +44,8 @@ struct DriveOn {
   std::uint16_t session = 1;
   std::uint8_t greeting = 0;
   std::optional<ResumePoint> resume_at = {};
+  std::optional<Point> stands = {};             // where the machine stands then; empty: at that point
+  std::vector<ProbeOutcome> known_probes = {};  // what the probe moves before that point have found
   Plant* plant = nullptr;  // behind the virtual machine if that is the board; null: the plant of the machine file
   bool answers_probes = true;
   bool waits_for_operator = false;
@@ -103,12 +106,12 @@ class DrivenProgram {
   DrivenProgram(ProgramReader reader, const MachineDescription& machine, const InterpreterOptions& options,
                 Diagnostics& diagnostics, const DriveOn& on = {})
       : on_(on),
-        start_(on.resume_at ? on.resume_at->point : options.start),
+        start_(on.resume_at ? on.stands.value_or(on.resume_at->point) : options.start),
         board_(machine, start_, on),
         // A tap cannot turn round with the spindle over a line, or with limits of jerk.
         answers_({.probes = on.answers_probes,
                   .taps = !board_.is_remote() && machine.spindle.counts_per_turn > 0 && !has_jerk_limit(machine)}),
-        program_(std::move(reader), machine, options, answers_, diagnostics),
+        program_(std::move(reader), machine, options, answers_, diagnostics, Seconds(0), on.known_probes),
         steps_(steps_from(machine, start_)),
         unsuited_(
             passo::unsuited(board_.session(), steps_, on.board != nullptr && machine.spindle.counts_per_turn > 0)),
@@ -129,6 +132,10 @@ class DrivenProgram {
     }
   }
   const std::optional<std::string>& unsuited() const { return unsuited_; }
+  // The way back to the point where the job is resumed.
+  std::vector<PathItem> lead_in() const {
+    return on_.resume_at ? way_back_of_probe(*on_.resume_at, start_) : std::vector<PathItem>();
+  }
 
   MotionDrive& drive() { return drive_; }
   Program& program() { return program_; }
@@ -149,6 +156,7 @@ class DrivenProgram {
     if (options.guards_by_probe) options.live = live_commitment;
     if (board_.is_remote() && !board_.session().error() && !unsuited_) options.tails.emplace();
     if (on_.resume_at) options.begin_at = on_.resume_at->place;
+    options.lead_in = lead_in();
     return options;
   }
 

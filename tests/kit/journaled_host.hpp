@@ -7,6 +7,7 @@
 #include <span>
 #include <string>
 #include <utility>
+#include <vector>
 
 #include "kit/driven.hpp"
 #include "kit/memory_store.hpp"
@@ -70,7 +71,8 @@ class JournaledHost {
     return done;
   }
   MemoryStore store;
-  bool may_fail = false;  // the line is so bad that the job may give up with a message
+  std::vector<ProbeOutcome> found;  // by all probe moves up to now
+  bool may_fail = false;            // the line is so bad that the job may give up with a message
 
  private:
   void work(MortalPort& port, bool& done) {
@@ -84,22 +86,29 @@ class JournaledHost {
       const auto journal = Journal::read(store.bytes);
       ASSERT_TRUE(journal);
       EXPECT_EQ(journal->torn(), 0U);
-      const auto found = resume_point_of(*journal, *status, reader, machine_, InterpreterOptions());
-      ASSERT_TRUE(found) << message_of(found.error());
-      point = *found;
+      const auto rests_at = resume_point_of(*journal, *status, reader, machine_, InterpreterOptions());
+      ASSERT_TRUE(rests_at) << message_of(rests_at.error());
+      point = *rests_at;
       head = head_of_resumption(journal->head(), *status, *point);
     }
     head.numbers.session = ++sessions_;
     head.numbers.greeting = static_cast<std::uint8_t>(1 + sessions_ % 255);
     JournalWriter writer(store);
     writer.begin(head);
+    DriveOn on{.board = &port, .session = head.numbers.session, .greeting = head.numbers.greeting, .resume_at = point};
+    if (point) on.stands = place_by_counts(head, *point, *status, machine_);
+    on.known_probes = found = head.probes;
     Diagnostics diagnostics;
-    DrivenProgram job(
-        reader.again(), machine_, InterpreterOptions(), diagnostics,
-        {.board = &port, .session = head.numbers.session, .greeting = head.numbers.greeting, .resume_at = point});
+    DrivenProgram job(reader.again(), machine_, InterpreterOptions(), diagnostics, on);
     if (fails(job)) return;
-    ASSERT_TRUE(!point || stands_at(head, *point, *job.link().status()));
-    job.drive().refiller()->watch_rests([&](const BoardRest& rest) { writer.note(rest); });
+    ASSERT_TRUE(!point || stands_at(head, *point, *job.link().status(), machine_));
+    const std::size_t lead_in = job.lead_in().size();
+    job.drive().refiller()->watch_rests(
+        [&](const BoardRest& rest) { writer.note(lead_in > 0 ? without_lead_in(*point, lead_in, rest) : rest); });
+    job.drive().probe().watch([&](const ProbeOutcome& outcome) {
+      writer.note(outcome);
+      found.push_back(outcome);
+    });
     job.resume();
     while (job.advance()) {
       if (port.is_to_stop() && !job.drive().stopped()) job.drive().stop();

@@ -21,6 +21,10 @@ class MemoryStore final : public JournalStore {
     if (works) bytes.replace(offset, text.size(), text);
     return works;
   }
+  bool append(std::string_view text) override {
+    if (works) bytes += text;
+    return works;
+  }
   std::string bytes;
   bool works = true;
 };

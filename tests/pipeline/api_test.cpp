@@ -350,6 +350,27 @@ TEST(Api, takes_requests_over_the_stream) {
 }
 
 // A machine whose jobs are kept.
+TEST(HomingRepeats, are_counted_from_the_first_homing_since_the_place_was_known) {
+  const MachineDescription machine = example_machine("router");
+  const AxisDescription& x = machine.axes[0];
+  const double switch_at = x.home->switch_at;
+  const double step = 1 / x.steps_per_unit;
+  HomingRepeats repeats(machine);
+  repeats.note({{.axis = Axis::x, .way = 123, .place = 0}}, std::nullopt);
+  // Stands at 0, and the switch closes one step farther, then two steps nearer than that.
+  for (const double shift : {step, -2 * step}) {
+    repeats.note({{.axis = Axis::x, .way = switch_at + shift, .place = 0}}, Point());
+  }
+  auto all = repeats.axes();
+  ASSERT_EQ(all.size(), 1U);
+  EXPECT_EQ(all[0].homings, 3U);
+  EXPECT_EQ(all[0].spread_steps, 2);
+  EXPECT_NEAR(all[0].last, -2000 * step, 1e-9);
+  EXPECT_NEAR(all[0].mean, 0, 1e-9) << "0, 1 and -1 steps";
+  repeats.note({{.axis = Axis::x, .way = 5, .place = 0}}, std::nullopt);
+  EXPECT_EQ(repeats.axes()[0].homings, 1U);
+}
+
 class KeptApi : public testing::Test {
  protected:
   KeptApi() { std::filesystem::create_directories(folder_); }
@@ -403,8 +424,9 @@ TEST_F(KeptApi, each_end_is_kept_with_its_reason) {
   const Json ended = run.get("/history?most=5")["jobs"];
   ASSERT_EQ(ended.size(), 2U);
   EXPECT_EQ(ended[0]["state"], "stopped");
+  EXPECT_EQ(ended[0]["why"], "stopped by test");
   EXPECT_EQ(ended[1]["state"], "failed");
-  EXPECT_NE(ended[1]["why"], "");
+  EXPECT_EQ(ended[1]["why"].get<std::string>().substr(0, 8), "line 1: ") << ended[1];
   run.post(fmt::format("/programs/{}/run", run.upload("G21 G1 X30 F600\nM2\n")));
   ASSERT_TRUE(run.turn_until_state("Run"));
   run.run.board().set_switch(input_emergency_stop, true);
@@ -423,6 +445,7 @@ TEST_F(KeptApi, a_job_that_ran_when_the_program_was_killed_is_interrupted) {
   }
   const auto history = open();
   EXPECT_EQ(history->ended(9)[0].state, HistoryState::interrupted);
+  EXPECT_NE(history->ended(9)[0].why.find("was killed"), std::string::npos);
   EXPECT_TRUE(history->program_of(1)) << "it can run again";
 }
 

@@ -8,6 +8,7 @@
 #include <optional>
 #include <string>
 #include <utility>
+#include <vector>
 
 #include "kit/example_machine.hpp"
 #include "kit/journaled_host.hpp"
@@ -29,7 +30,8 @@ namespace passo::test {
 // What outlives a server: the board, its line, the journal and the history.
 class JobBench {
  public:
-  explicit JobBench(const MachineDescription& machine) : description(machine) {
+  explicit JobBench(const MachineDescription& machine, std::vector<Touchable> things = {})
+      : description(machine), things_(std::move(things)) {
     power_up({});
     std::filesystem::create_directories(folder_);
   }
@@ -43,7 +45,7 @@ class JobBench {
     board = std::make_unique<VirtualMachine>(static_cast<std::uint8_t>(description.axes.size()),
                                              description.board.clock, description.board.highest_event_rate,
                                              static_cast<std::size_t>(description.board.held_items));
-    plant = std::make_unique<IdealPlant>(plant_of(description, place, {}));
+    plant = std::make_unique<IdealPlant>(plant_of(description, place, things_));
     line = std::make_unique<VirtualLine>(*board, description.board.clock, LineOptions{});
     board->connect(*plant);
     board->add_observer(log);
@@ -79,6 +81,7 @@ class JobBench {
   ToolTable tools;
 
  private:
+  std::vector<Touchable> things_;  // what a probe touches
   std::filesystem::path folder_ = std::filesystem::temp_directory_path() /
                                   fmt::format("passo-jobs-{}-{}", getpid(), reinterpret_cast<std::uintptr_t>(this));
 };

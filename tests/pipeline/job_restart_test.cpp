@@ -7,6 +7,7 @@
 #include "job_kit.hpp"
 #include "kit/in_full.hpp"
 #include "kit/seed.hpp"
+#include "probe_kit.hpp"
 
 namespace passo::test {
 namespace {
@@ -186,6 +187,39 @@ TEST_F(JobRestart, a_job_whose_board_was_silent_goes_on_after_a_reset) {
   ASSERT_TRUE(server.to_end());
   EXPECT_EQ(server.job_state(), "done");
   expect_the_whole_way(bench_);
+}
+
+// The last line tells where each of both probe moves met the plate.
+TEST(JobRestartAmidProbing, goes_on_from_what_was_found) {
+  const std::string probing =
+      "G21 G90 G0 X1 Y1 Z2\nF600 G38.2 Z-8\n#31=#5063\nG0 Z1\nX5\nF200 G38.2 Z-8\nG0 Z1\nG1 X[9+#31] Y[9+#5063] "
+      "F3000\nM2\n";
+  const std::vector<Touchable> things = {below(Axis::z, -3.75)};
+  JobBench whole(example_machine("router"), things);
+  std::uint64_t moments = 0;
+  {
+    JobServer server(whole);
+    server.run(probing);
+    ASSERT_TRUE(server.to_end());
+    moments = server.moments();
+  }
+  for (std::uint64_t life = moments / 4; life < moments; life += moments / 4) {
+    SCOPED_TRACE(life);
+    JobBench bench(example_machine("router"), things);
+    try {
+      JobServer server(bench, life, HostEnd::behind_frame);
+      server.run(probing);
+      server.to_end();
+    } catch (const HostDied&) {
+    }
+    JobServer server(bench);
+    const auto told = server.get("/interrupted")["interrupted"];
+    ASSERT_EQ(told["goes_on"], true) << told;
+    server.post("/interrupted/resume");
+    ASSERT_TRUE(server.to_end());
+    EXPECT_EQ(server.job_state(), "done") << server.get("/status");
+    EXPECT_EQ(bench.log.place, whole.log.place);
+  }
 }
 
 // Servers die at random moments, up to five in a row; the first that nobody kills ends the job.

@@ -4,8 +4,10 @@
 
 #include <random>
 
+#include "api_kit.hpp"
 #include "job_kit.hpp"
 #include "kit/seed.hpp"
+#include "probe_kit.hpp"
 #include "session_kit.hpp"
 
 namespace passo::test {
@@ -47,6 +49,29 @@ void home(JobServer& server) {
   ASSERT_TRUE(server.turn_until([&] { return server.session().state() == MachineState::idle; }));
   server.turn();
   ASSERT_EQ(server.session().status().position.trust, Trust::homed);
+}
+
+TEST(Homings, are_told_with_how_well_the_switches_repeat) {
+  JobBench bench(short_router());
+  JobServer server(bench);
+  EXPECT_TRUE(server.get("/homing")["axes"].empty());
+  for (int homings = 1; homings <= 3; ++homings) {
+    home(server);
+    ASSERT_EQ(server.get("/homing")["repeats"].size(), 3U);
+    server.post("/jog", R"({"direction": {"x": 1, "z": -1}, "speed": 600, "distance": 3, "lease": 5})");
+    ASSERT_TRUE(server.turn_until([&] { return server.session().state() == MachineState::idle; }));
+  }
+  const Json found = server.get("/homing");
+  const Json document = openapi();
+  const Json& schemas = document["components"]["schemas"];
+  expect_members(schemas["Homing"], found, "Homing");
+  expect_members(schemas["HomedAxis"], found["axes"][0], "HomedAxis");
+  expect_members(schemas["AxisRepeats"], found["repeats"][0], "AxisRepeats");
+  EXPECT_EQ(found["axes"].size(), 3U);
+  for (const Json& axis : found["repeats"]) {
+    EXPECT_EQ(axis["homings"], 3);
+    EXPECT_EQ(axis["spread_steps"], 0) << "a virtual switch closes at the very same step: " << axis;
+  }
 }
 
 class Reentered : public testing::Test {
@@ -92,6 +117,38 @@ TEST_F(Reentered, after_a_power_cut_it_homes_and_makes_the_same_part) {
   EXPECT_EQ(server.job_state(), "done") << server.get("/status");
   EXPECT_EQ(bench_.truth(), whole_pocket().truth);
   expect_same_end(bench_.log.steps, whole_pocket().steps, 800);
+}
+
+// What was found before the power was lost is known, and is not probed again. Home is above the plate.
+TEST(ReenteredAfterProbing, goes_on_from_what_the_probe_has_found) {
+  const std::string text =
+      "G21 G90 G0 Z5\nF400 G38.2 Z-10\nG10 L2 P1 Z[#5063]\nG0 Z3\n" + pocket.substr(std::string("G21 G90 ").size());
+  const std::vector<Touchable> things = {below(Axis::z, -3.75)};
+  JobBench whole(short_router(), things);
+  {
+    JobServer server(whole);
+    server.run(text);
+    ASSERT_TRUE(server.to_end());
+    ASSERT_EQ(server.job_state(), "done");
+  }
+  whole.parameters = {};
+  JobBench bench(short_router(), things);
+  JobServer server(bench);
+  server.run(text);
+  ASSERT_TRUE(server.turn_until([&] { return server.session().status().executes.line > 9; }));
+  bench.board->reset_board();
+  ASSERT_TRUE(server.to_end());
+  EXPECT_EQ(server.job_state(), "interrupted");
+  server.post("/reset");
+  ASSERT_TRUE(server.turn_until([&] { return server.session().state() == MachineState::idle; }));
+  server.turn();
+  home(server);
+  server.post("/interrupted/reenter");
+  EXPECT_EQ(server.status, 202U) << server.get("/interrupted");
+  ASSERT_TRUE(server.to_end());
+  EXPECT_EQ(server.job_state(), "done") << server.get("/status");
+  EXPECT_EQ(bench.truth(), whole.truth());
+  expect_same_end(bench.log.steps, whole.log.steps, 800);
 }
 
 TEST_F(Reentered, not_if_the_machine_was_moved_while_it_had_no_power) {
@@ -204,7 +261,11 @@ TEST(FromLine, is_refused_where_it_means_nothing) {
   EXPECT_EQ(line_of(straight, 6).error(), ReentryRefusal::no_motion);
   EXPECT_EQ(line_of("G21 G1 X1 F600\nM2\n", 99).error(), ReentryRefusal::no_motion);
   EXPECT_EQ(line_of("G21 G38.3 Z-1 F60\nG1 X1\nM2\n", 2).error(), ReentryRefusal::after_probe);
-  EXPECT_EQ(line_of("G21 G38.3 Z-1 F60\nG1 X1\nM2\n", 1).error(), ReentryRefusal::after_probe) << "amid its actions";
+  const auto probe = line_of("G21 G90 G1 X3 F60\nG38.3 Z-1\nG1 X1\nM2\n", 2);
+  ASSERT_TRUE(probe) << "the probe move itself can be begun at";
+  EXPECT_EQ(probe->point, (Point{{{3}}}));
+  EXPECT_EQ(probe->line, 2U);
+  EXPECT_EQ(probe->probes, 0U);
   EXPECT_EQ(line_of("G1 X1\nM2\n", 1).error(), ReentryRefusal::bad_program);
 }
 
@@ -229,23 +290,62 @@ TEST(FromLine, leads_up_over_and_down) {
 }
 
 // From each line on, the rest of the part is the same.
-TEST(FromLine, the_path_after_the_line_is_the_same) {
-  for (const int line : {6, 8, 9, 10}) {
+void expect_same_part_from(const MachineDescription& machine, const std::string& text, const std::vector<int>& lines) {
+  JobBench whole(machine);
+  {
+    JobServer server(whole);
+    server.run(text);
+    ASSERT_TRUE(server.to_end());
+    ASSERT_EQ(server.job_state(), "done") << server.get("/status");
+  }
+  for (const int line : lines) {
     SCOPED_TRACE(line);
-    JobBench bench(short_router());
+    JobBench bench(machine);
     JobServer server(bench);
-    const auto program = server.ask("POST", "/programs?name=part.ngc", pocket);
+    const auto program = server.ask("POST", "/programs?name=part.ngc", text);
     const std::string path = fmt::format("/programs/{}", program["id"].get<int>());
     const auto way = server.get(fmt::format("{}/way?from_line={}", path, line));
     EXPECT_EQ(way["line"], line) << way;
     EXPECT_GT(way["steps"].size(), 3U);
     server.post(fmt::format("{}/run?from_line={}", path, line));
-    ASSERT_EQ(server.status, 202U);
+    ASSERT_EQ(server.status, 202U) << way;
     ASSERT_TRUE(server.to_end());
     EXPECT_EQ(server.job_state(), "done") << server.get("/status");
-    EXPECT_EQ(bench.truth(), whole_pocket().truth);
-    expect_same_end(bench.log.steps, whole_pocket().steps, 800);
+    EXPECT_EQ(bench.truth(), whole.truth());
+    expect_same_end(bench.log.steps, whole.log.steps, 800);
   }
+}
+
+TEST(FromLine, the_path_after_the_line_is_the_same) {
+  expect_same_part_from(short_router(), pocket, {6, 8, 9, 10});
+}
+
+TEST(FromLine, the_line_may_be_an_arc_a_hole_of_a_cycle_or_in_a_sub) {
+  const std::string text =
+      "o1 sub\nG1 Z-2\nX[#1+3]\nG0 Z5\no1 endsub\nG21 G90 G64 P.02 F1800 M3 S1000\nG0 X0 Y0 Z5\nG1 Z-1\nG2 X8 Y0 I4\n"
+      "G3 X12 Y4 R4\nG0 Z5\nG98 G81 X14 Y0 Z-3 R2\nX18\nG83 Y6 Z-4 R2 Q1\nG80\no1 call [20]\nG0 X0 Y0\nM2\n";
+  expect_same_part_from(short_router(), text, {9, 13, 3});
+}
+
+TEST(FromLine, rotary_axes_turn_to_their_places_on_the_way_over) {
+  MachineDescription machine = short_router();
+  AxisDescription rotary = machine.axes[0];
+  rotary.axis = Axis::a;
+  rotary.home.reset();
+  rotary.steps_per_unit = 50;
+  rotary.travel_low = -3600;
+  rotary.travel_high = 3600;
+  machine.axes.push_back(rotary);
+  const std::string text =
+      "G21 G90 G64 P.02 F900\nG0 X5 Z5 A90\nG1 Z-1\nA450 X9\nG0 Z5\nA0\nG1 Z-1\nX2 A30\nG0 Z5\nM2\n";
+  expect_same_part_from(machine, text, {8});
+}
+
+// A rounded corner has a speed along its own parameter, which is no feed.
+TEST(FromLine, the_way_down_has_the_feed_of_the_program) {
+  const auto at = line_of("G21 G90 G64 P0.02 F1200\nG0 Z5\nG1 Z-1\nG2 X20 Y0 I10 J0\nM2\n", 4);
+  ASSERT_TRUE(at);
+  EXPECT_NEAR(at->feed.value() * 60, 1200, 1e-9);
 }
 
 TEST(FromLine, is_refused_with_its_reason_by_the_api) {

@@ -5,7 +5,6 @@
 
 #include "commands.hpp"
 #include "grbl_run.hpp"
-#include "homing_repeats.hpp"
 #include "homing_run.hpp"
 #include "opened_grbl.hpp"
 #include "opened_machine.hpp"
@@ -14,6 +13,7 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include "passo/activity/homing_repeats.hpp"
 #include "passo/activity/machine_plant.hpp"
 
 namespace passo {
@@ -71,17 +71,21 @@ int home(const HomeArguments& arguments) {
   if (!opened) return code;
   brake_on_signals();
   if (!opened->greet(opened->any_greeting(), code)) return code;
-  std::vector<HomingReport> reports;
-  do reports.push_back(home_machine(*opened, !arguments.quiet));
-  while (reports.back().code.empty() && reports.size() < static_cast<std::size_t>(arguments.repeat));
-  const HomingReport& report = reports.back();
+  HomingReport report;
+  HomingRepeats homings(*machine);
+  int times = 0;
+  do {
+    const Point stood = opened->session().status().position.place;
+    report = home_machine(*opened, !arguments.quiet);
+    homings.note(report.axes, times == 0 ? std::nullopt : std::optional(stood));
+  } while (report.code.empty() && ++times < arguments.repeat);
   std::vector<AxisRepeats> repeats;
-  if (arguments.repeat > 1 && report.code.empty()) repeats = repeats_of(reports, *machine);
+  if (times > 1) repeats = homings.axes();
   if (arguments.json) {
     fmt::print("{}\n", to_json(report, repeats).dump(2));
   } else if (!arguments.quiet) {
     print(report);
-    if (!repeats.empty()) fmt::print("homed {} times:\n", reports.size());
+    if (!repeats.empty()) fmt::print("homed {} times:\n", times);
     for (const AxisRepeats& one : repeats) fmt::print("{}\n", words_of(one));
   }
   if (report.code.empty()) return exit_done;

@@ -9,6 +9,7 @@
 
 #include <fcntl.h>
 #include <sys/file.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 #include "passo/base/fingerprint.hpp"
@@ -40,8 +41,9 @@ bool write_all(int descriptor, std::string_view bytes, std::size_t offset) {
   return true;
 }
 
-// The most bytes of a journal. Even half of this would be much for a head with two long names, and the lines.
-constexpr std::size_t largest_journal = 1 << 20;
+// The most bytes of a journal. A head with two long names and the lines need some ten thousand, each probe move two
+// hundred.
+constexpr std::size_t largest_journal = 1 << 24;
 
 // Hands the file to `take`, piece by piece, until `take` returns false. Returns false if the file cannot be read.
 template <typename Take>
@@ -142,6 +144,12 @@ bool JournalFile::replace(std::string_view text) {
 
 bool JournalFile::overwrite(std::size_t offset, std::string_view bytes) {
   return descriptor_ >= 0 && write_all(descriptor_, bytes, offset);
+}
+
+bool JournalFile::append(std::string_view bytes) {
+  struct stat file {};
+  if (descriptor_ < 0 || fstat(descriptor_, &file) != 0) return false;
+  return write_all(descriptor_, bytes, static_cast<std::size_t>(file.st_size)) && fdatasync(descriptor_) == 0;
 }
 
 void JournalFile::remove() {

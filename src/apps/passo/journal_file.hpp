@@ -36,6 +36,7 @@ class JournalFile final : public JournalStore {
   [[nodiscard]] bool claim();
   [[nodiscard]] bool replace(std::string_view text) override;
   [[nodiscard]] bool overwrite(std::size_t offset, std::string_view bytes) override;
+  bool append(std::string_view bytes) override;
   // Removes the journal when the job is done, or cannot go on.
   void remove();
 

@@ -109,7 +109,8 @@ bool ResumableRun::find_place(OpenedMachine& machine, const ProgramReader& progr
   point_ = *found;
   head_ = head_of_resumption(before_->head(), machine.before(), *point_);
   const auto known = machine.place();
-  machine.start_at({.place = point_->point, .trust = known ? known->trust : Trust::counted});
+  stands_ = place_by_counts(before_->head(), *point_, machine.before(), subject.machine);
+  machine.start_at({.place = stands_, .trust = known ? known->trust : Trust::counted});
   fmt::print(stderr, "passo: goes on {}\n", words_of(*point_, subject.machine));
   return true;
 }
@@ -136,7 +137,7 @@ bool ResumableRun::begin(OpenedMachine& machine, const ProgramReader& program, c
   head_.numbers.greeting = is_ready ? std::uint8_t{0} : greeting.number;
   if (!write_head(subject, code)) return false;
   if (is_ready) return machine.name_session(greeting.session, code);
-  return machine.greet(greeting, code) && stands_there(session.board(), code);
+  return machine.greet(greeting, code) && stands_there(session.board(), subject.machine, code);
 }
 
 bool ResumableRun::write_head(const Subject& subject, int& code) {
@@ -152,14 +153,20 @@ bool ResumableRun::write_head(const Subject& subject, int& code) {
 }
 
 // Whether the board, which was greeted meanwhile, still stands where the job is to be resumed.
-bool ResumableRun::stands_there(const BoardSession& board, int& code) const {
-  if (!point_ || (board.status() && stands_at(head_, *point_, *board.status()))) return true;
+bool ResumableRun::stands_there(const BoardSession& board, const MachineDescription& machine, int& code) const {
+  if (!point_ || (board.status() && stands_at(head_, *point_, *board.status(), machine))) return true;
   code = refuse(ResumeRefusal::counts_differ);
   return false;
 }
 
 void ResumableRun::add_to(request::Start& start) {
-  if (point_) start.from = point_;
+  if (point_) {
+    start.from = point_;
+    start.lead_in = way_back_of_probe(*point_, stands_);
+    start.stands = stands_;
+    start.known_probes = head_.probes;
+  }
+  start.watchers.probe = [this](const ProbeOutcome& outcome) { writer_.note(outcome); };
   start.watchers.rests = [this](const BoardRest& rest) { writer_.note(rest); };
 }
 

@@ -52,7 +52,7 @@ class ResumableRun {
   explicit ResumableRun(const std::string& path) : file_(path), writer_(file_) {}
   bool find_place(OpenedMachine& machine, const ProgramReader& program, const Subject& subject, int& code);
   bool write_head(const Subject& subject, int& code);
-  bool stands_there(const BoardSession& board, int& code) const;
+  bool stands_there(const BoardSession& board, const MachineDescription& machine, int& code) const;
 
   JournalFile file_;
   JournalWriter writer_;
@@ -60,6 +60,7 @@ class ResumableRun {
   JournalHead head_;
   bool resumes_ = false;
   std::optional<ResumePoint> point_;
+  Point stands_;  // where the machine stands: at the point, or on the way of a probe move
 };
 
 }  // namespace passo

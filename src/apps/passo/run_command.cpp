@@ -217,10 +217,12 @@ RunSummary play(const Run& run, request::Start start, Answered& answered) {
     run.motion.watch(item);
     if (motors) motors->plan(item);
   };
-  start.watchers.probe = [&](const ProbeOutcome& outcome) { count(outcome, machine, probes); };
+  start.watchers.probe = [&, keep = start.watchers.probe](const ProbeOutcome& outcome) {
+    if (keep) keep(outcome);
+    count(outcome, machine, probes);
+  };
   run.outputs.watch(run.opened.machine(), start.watchers);
-  run.opened.follow(start.watchers,
-                    start.from && start.lead_in.empty() ? start.from->point : session.status().position.place);
+  run.opened.follow(start.watchers, start.stands.value_or(session.status().position.place));
   const Before before = before_program(run.opened);
   TailWatch tails;
   LineLoad load;
@@ -385,22 +387,12 @@ int run_checked(const ResumableRun::Subject& subject, ProgramReader program, Ope
   return end_run(run, answered, summary, late, subject.options.machine_units);
 }
 
-// A program with probe moves has no journal, so the journal that is missing is not the reason.
-bool probes(const ProgramReader& program, const MachineDescription& machine, const InterpreterOptions& options) {
-  Diagnostics unheard;
-  return check_program(program.again(), machine, options, unheard).probes;
-}
-int refuse_to_resume_probing() {
-  return fail(exit_bad_program, "--resume: not for a program with probe moves yet");
-}
-
 // Opens the machine, checks the program from where the machine stands, and runs the program. Returns the exit code.
 int run_program(const RunArguments& arguments, const MachineDescription& machine, const MachineWish& wish,
                 ProgramReader program, InterpreterOptions options, MidRunChanges& changes) {
   int code = exit_done;
   std::unique_ptr<ResumableRun> resumable;
   if (keeps_journal(arguments)) resumable = ResumableRun::open(arguments, code);
-  if (code == exit_not_resumed && probes(program, machine, options)) return refuse_to_resume_probing();
   if (code != exit_done) return code;
   const auto opened = OpenedMachine::open(machine, wish, code);
   if (!opened) return code;
@@ -417,10 +409,6 @@ int run_program(const RunArguments& arguments, const MachineDescription& machine
   });
   show(findings);
   if (!check.good) return exit_bad_program;
-  if (check.probes) {
-    if (arguments.resume) return refuse_to_resume_probing();
-    resumable.reset();
-  }
   std::optional<Reentry> way;
   if (arguments.from_line > 0 && !(way = way_to_line(arguments, program, machine, options, code))) return code;
   const ResumableRun::Subject subject{arguments, machine, options, check, path.value(), way};

@@ -2,12 +2,17 @@
 
 #include <cstdint>
 #include <string>
+#include <vector>
 
 #include "kit/memory_store.hpp"
 #include <gtest/gtest.h>
 
 namespace passo {
 namespace {
+
+ProbeOutcome touched_at(double z) {
+  return {.refused = false, .touched = true, .contact = {{{1, 1.0 / 3, z}}}, .rest = {{{1, 1.0 / 3, z - 0.05}}}};
+}
 
 JournalHead some_head() {
   return {.made_by = "1.2.3",
@@ -17,7 +22,8 @@ JournalHead some_head() {
           .job_counts = {5, -2'000'000'000, 0},
           .start = {{{1.0 / 3, -2}}},
           .numbers = {.session_before = 11, .executed_before = 65'000, .greeting = 200, .session = 300},
-          .place = {.item = 40, .s = Mm(0.1 + 0.2)}};
+          .place = {.item = 40, .s = Mm(0.1 + 0.2)},
+          .probes = {touched_at(0.1)}};
 }
 
 BoardStatus status(std::uint16_t session, ItemNumber executed, std::uint8_t motors = 3) {
@@ -45,6 +51,37 @@ TEST_F(Journals, give_back_what_was_written_to_the_last_bit) {
   EXPECT_EQ(journal().head(), some_head());
   note(201, 41, 1.0 / 3);
   EXPECT_EQ(journal().place_of(status(300, 201)), (PathPlace{.item = 41, .s = Mm(1.0 / 3)}));
+}
+
+TEST_F(Journals, give_back_what_probe_moves_have_found_before_the_session_and_in_it) {
+  writer_.note(touched_at(-1.0 / 7));
+  note(201, 41);
+  ProbeOutcome refused;
+  refused.refused = true;
+  writer_.note(refused);
+  const std::vector<ProbeOutcome> all = {touched_at(0.1), touched_at(-1.0 / 7), refused};
+  EXPECT_EQ(journal().head().probes, all);
+  EXPECT_EQ(journal().place_of(status(300, 201)), (PathPlace{.item = 41}));
+}
+
+// What is torn is the last outcome, behind which nothing has moved.
+TEST_F(Journals, know_only_outcomes_that_are_whole) {
+  const std::size_t first = store_.bytes.size();
+  writer_.note(touched_at(2));
+  const std::size_t second = store_.bytes.size();
+  writer_.note(touched_at(3));
+  const std::string whole = store_.bytes;
+  for (std::size_t size = first; size <= whole.size(); ++size) {
+    const auto torn = Journal::read(whole.substr(0, size));
+    ASSERT_TRUE(torn);
+    const std::size_t known = size < second ? 1 : size < whole.size() ? 2 : 3;
+    ASSERT_EQ(torn->head().probes.size(), known) << size - first;
+  }
+  for (std::size_t at = first; at < second; ++at) {
+    std::string damaged = whole;
+    damaged[at] = damaged[at] == '0' ? '1' : '0';
+    ASSERT_FALSE(Journal::read(damaged)) << at - first;
+  }
 }
 
 TEST_F(Journals, know_the_rests_of_their_session_and_no_others) {

@@ -8,10 +8,11 @@
 #include <functional>
 #include <memory>
 #include <optional>
+#include <vector>
 
 #include "passo/activity/activity.hpp"
-#include "passo/activity/good_path.hpp"
 #include "passo/activity/low_rapids.hpp"
+#include "passo/activity/program_stages.hpp"
 #include "passo/activity/usual_mistakes.hpp"
 #include "passo/base/tap.hpp"
 #include "passo/diagnostics/diagnostic.hpp"
@@ -20,7 +21,6 @@
 #include "passo/interpreter/machine_answers.hpp"
 #include "passo/machine_file/machine_description.hpp"
 #include "passo/path/path_builder.hpp"
-#include "passo/path/path_smoother.hpp"
 #include "passo/trajectory/planner.hpp"
 
 namespace passo {
@@ -81,33 +81,29 @@ class Program final : public Activity {
  public:
   // `answers` and `diagnostics` outlive the program. `diagnostics` gets what is found during the run: nothing after a
   // good check, unless the program probes. An error during the run ends the path, at rest before the wrong move.
-  // `whole`: the nominal time of the check, for progress().
+  // `whole`: the nominal time of the check, for progress(). `known_probes`: what the first probe moves have found
+  // before, for a program that goes on behind them.
   Program(ProgramReader program, const MachineDescription& machine, const InterpreterOptions& options,
-          const MachineAnswers& answers, Diagnostics& diagnostics, Seconds whole = Seconds(0));
+          const MachineAnswers& answers, Diagnostics& diagnostics, Seconds whole = Seconds(0),
+          std::vector<ProbeOutcome> known_probes = {});
 
   ActivityKind kind() const override { return ActivityKind::program; }
-  [[nodiscard]] bool next(PathItem& item) override { return smoother_.next(item); }
+  [[nodiscard]] bool next(PathItem& item) override { return stages_.smooth_path().next(item); }
   std::optional<double> progress() const override;
 
   // For watchers of the operations, and of the path as the program means it. Watchers are added before the first
   // next().
-  Tap<Operation>& operations() { return operations_; }
-  Tap<PathItem>& path() { return watched_path_; }
-  const Frame& frame() const { return path_builder_.frame(); }
-  SavedParameters saved_parameters() const { return interpreter_.saved_parameters(); }
-  const ToolTable& tools() const { return interpreter_.tools(); }
+  Tap<Operation>& operations() { return stages_.operations(); }
+  Tap<PathItem>& path() { return stages_.path(); }
+  const Frame& frame() const { return stages_.path_builder().frame(); }
+  SavedParameters saved_parameters() const { return stages_.interpreter().saved_parameters(); }
+  const ToolTable& tools() const { return stages_.interpreter().tools(); }
   // The nominal time of the path planned so far.
   Seconds nominal_time() const { return nominal_time_; }
 
  private:
-  PathOptions path_options_;
   MotionLimits limits_;
-  Interpreter interpreter_;  // text -> blocks -> operations
-  Tap<Operation> operations_;
-  PathBuilder path_builder_;  // operations -> segments
-  GoodPath good_path_;        // as long as there is no error
-  Tap<PathItem> watched_path_;
-  PathSmoother smoother_;  // corners -> curves within the tolerance
+  ProgramStages stages_;
   Seconds whole_;
   Seconds nominal_time_{0};
 };

@@ -126,6 +126,7 @@ class KeptJob {
   std::optional<BrokenOff> heard_;
   bool resumes_ = false;
   std::optional<Reentry> way_;  // by which the job goes on
+  Point stands_;                // where the job that is resumed stands, on its path
   Point hello_at_;              // where the machine stood at the hello, as far as was known
   bool is_compared_ = true;     // the switches were compared with the places before
 };

@@ -19,6 +19,7 @@
 #include <string_view>
 #include <vector>
 
+#include "passo/activity/homing_repeats.hpp"
 #include "passo/api/api_routes.hpp"
 #include "passo/api/kept_job.hpp"
 #include "passo/api/maker.hpp"
@@ -139,6 +140,7 @@ class MachineApi final : public WebHandler {
   WebAnswer level_program(const StoredProgram& program, std::string_view query);
   WebAnswer words_answer() const;
   void note_words(const Operation& operation);
+  void heed_state(MachineState state);
   void keep_results();
   WebAnswer change_machine_file(const FoundRoute& found, const WebRequest& request);
   WebAnswer change_interrupted(const FoundRoute& found);
@@ -179,6 +181,7 @@ class MachineApi final : public WebHandler {
   bool named_ = false;             // the job's journal is begun
   std::uint32_t from_line_ = 0;    // where the job is to begin; 0: at its beginning
   std::optional<Reentry> way_;     // the way there
+  std::string stopped_by_;         // who has asked to stop the job
   bool leaves_ = false;
   bool heeds_maker_ = false;       // an order runs
   std::uint64_t made_ = 0;         // the program of the last order; 0: none
@@ -189,6 +192,10 @@ class MachineApi final : public WebHandler {
   Diagnostics findings_;  // of the run
   std::vector<JobWords> words_;
   std::uint64_t map_for_ = 0;  // the program that gets the height map which the job probes; 0: it probes none
+  HomingRepeats repeats_;
+  std::vector<HomedAxis> homed_;     // by the last homing
+  std::optional<Point> homes_from_;  // where the machine stood, if that was known when a homing began
+  bool homes_ = false;               // a homing goes on
   const WebServer* server_ = nullptr;
   std::uint64_t jobs_ended_ = 0;
   std::uint64_t alarms_ = 0;

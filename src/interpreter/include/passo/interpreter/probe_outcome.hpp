@@ -12,6 +12,7 @@ struct ProbeOutcome {
   bool touched = false;  // the awaited change of the probe happened
   Point contact;         // where it happened, to the step; without contact, the rest
   Point rest;            // where the machine came to rest
+  friend bool operator==(const ProbeOutcome&, const ProbeOutcome&) = default;
 };
 
 }  // namespace passo

@@ -7,6 +7,10 @@
 // that is killed at any instant leaves a journal that knows the rest to which the board comes. The head and each line
 // carry a check, so a torn write is noticed.
 //
+// The way of a program behind a probe move depends on what the probe has found. So the journal also has a line for each
+// outcome, at its end, in order. An outcome is on the disk before any motion goes on from there. See
+// docs/decisions/0101.
+//
 // A session begins in four steps: the head is written, the board hears hello (and forgets the session before), the
 // board hears the session's number, and the board gets its first items. The host may be killed between any two of them.
 // The board's status tells which step was the last: a hello has a number that is not 0, and the board has that number
@@ -24,6 +28,7 @@
 #include "passo/base/result.hpp"
 #include "passo/drive/refiller.hpp"
 #include "passo/geometry/axes.hpp"
+#include "passo/interpreter/probe_outcome.hpp"
 #include "passo/journal/session_numbers.hpp"
 #include "passo/wire/message.hpp"
 
@@ -45,7 +50,8 @@ struct JournalHead {
   std::vector<int> job_counts;  // the board's count of each motor at machine zero
   Point start;                  // where the job began, machine coordinates
   SessionNumbers numbers;
-  PathPlace place;  // where this session begins
+  PathPlace place;                        // where this session begins
+  std::vector<ProbeOutcome> probes = {};  // what the probe moves before that place have found, in order
   friend bool operator==(const JournalHead&, const JournalHead&) = default;
 };
 
@@ -57,6 +63,8 @@ class JournalStore {
   [[nodiscard]] virtual bool replace(std::string_view text) = 0;
   // Overwrites bytes within the contents.
   [[nodiscard]] virtual bool overwrite(std::size_t offset, std::string_view bytes) = 0;
+  // Adds bytes at the end. They are on the disk when this returns.
+  [[nodiscard]] virtual bool append(std::string_view bytes) = 0;
 };
 
 class JournalWriter {
@@ -68,6 +76,7 @@ class JournalWriter {
   explicit JournalWriter(JournalStore& store) : store_(store) {}
   void begin(const JournalHead& head);
   void note(const BoardRest& rest);
+  void note(const ProbeOutcome& outcome);
   // True: something could not be written, so the journal cannot be relied on.
   bool failed() const { return failed_; }
 
@@ -75,16 +84,18 @@ class JournalWriter {
   JournalStore& store_;
   std::size_t head_size_ = 0;
   std::uint64_t noted_ = 0;
+  std::size_t probes_ = 0;  // outcomes in the journal
   bool failed_ = false;
 };
 
 class Journal {
  public:
-  // Empty if the head is damaged.
+  // Empty if the head or an outcome is damaged.
   static std::optional<Journal> read(std::string_view text);
   // True: the text is a journal of any version, whole or not.
   static bool is_journal(std::string_view text);
 
+  // Its outcomes of probe moves are all that are known, those of its session too.
   const JournalHead& head() const { return head_; }
   // True: the board last worked on this job.
   bool is_of(const BoardStatus& status) const { return stage_of(status) != SessionNumbers::Stage::another; }

@@ -41,9 +41,11 @@ struct Reentry {
   std::vector<std::string> steps;  // the same for people, in order
 };
 
-// The range of each axis on a path between two places, the first of which comes first.
+// The range of each axis on a path between two places, the first of which comes first. `probes`: what its first probe
+// moves have found.
 std::optional<Box> range_between(ProgramReader program, const MachineDescription& machine,
-                                 const InterpreterOptions& options, const PathPlace& first, const PathPlace& last);
+                                 const InterpreterOptions& options, const PathPlace& first, const PathPlace& last,
+                                 const std::vector<ProbeOutcome>& probes = {});
 
 // After a board has lost its place, and the machine was homed: whether the machine had stood where its path allows.
 // `range`: where the motors may have been stopped. `went`: how far the machine has gone from there to where homing

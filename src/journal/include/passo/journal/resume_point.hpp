@@ -6,7 +6,9 @@
 #include <array>
 #include <cstdint>
 #include <optional>
+#include <vector>
 
+#include "passo/drive/feed.hpp"
 #include "passo/drive/rewindable_path.hpp"
 #include "passo/gcode/program_reader.hpp"
 #include "passo/interpreter/interpreter.hpp"
@@ -14,6 +16,13 @@
 #include "passo/wire/board_segment.hpp"
 
 namespace passo {
+
+// A probe move of which nobody knows what it has found: whoever drove the board was gone before its end. The probe
+// move is made again, from its beginning. The machine stands on the way of that move.
+struct UnknownProbe {
+  Point end;  // of the move, machine coordinates
+  MmPerSecond speed{0};
+};
 
 struct ResumePoint {
   PathPlace place;
@@ -26,13 +35,25 @@ struct ResumePoint {
   bool in_thread = false;  // the path there follows an encoder by place, and cannot begin there
   std::uint32_t line = 0;  // the program's line where the job goes on; 0: at its end
   // What the program asked for last, for the way there.
-  std::int32_t tool = 0;                 // of its last tool change; 0: there was none
-  MmPerSecond feed{0};                   // 0: nothing was fed
-  std::optional<double> clearance = {};  // the height of its last rapid across, machine coordinates
+  std::int32_t tool = 0;                   // of its last tool change; 0: there was none
+  MmPerSecond feed{0};                     // 0: nothing was fed
+  std::optional<double> clearance = {};    // the height of its last rapid across, machine coordinates
+  std::size_t probes = 0;                  // probe moves before the place; what they have found counts
+  std::optional<UnknownProbe> probe = {};  // the point is the beginning of this one
 };
 
-// Finds `place` in a program that was checked and does not probe. Empty: the path has no such place.
+// Finds `place` in a program that was checked. `probes`: what its first probe moves have found. Amid a probe move the
+// place is moved on behind the move, if its outcome is known, or else back to its beginning. Empty: the path has no
+// such place.
 std::optional<ResumePoint> find_resume_point(ProgramReader program, const MachineDescription& machine,
-                                             const InterpreterOptions& options, const PathPlace& place);
+                                             const InterpreterOptions& options, const PathPlace& place,
+                                             const std::vector<ProbeOutcome>& probes = {});
+
+// The way back to the point from where the machine stands on the way of an unknown probe move. Empty: it stands there.
+std::vector<PathItem> way_back_of_probe(const ResumePoint& point, const Point& from);
+
+// A drive counts the items of a lead-in too, and the item amid which the path begins from there. Returns the rest as
+// places on the path of the job. Where the machine may rest in the lead-in, its path still begins at the point.
+BoardRest without_lead_in(const ResumePoint& from, std::size_t lead_in, BoardRest rest);
 
 }  // namespace passo

@@ -41,8 +41,13 @@ std::optional<ResumeRefusal> refuse_rest(const Journal& journal, const BoardStat
 Result<ResumePoint, ResumeRefusal> resume_point_of(const Journal& journal, const BoardStatus& status,
                                                    const ProgramReader& program, const MachineDescription& machine,
                                                    const InterpreterOptions& options);
-// True: the board's motors are where the journal's job has them at that point.
-bool stands_at(const JournalHead& head, const ResumePoint& point, const BoardStatus& status);
+// True: the board's motors are where the journal's job has them at that point; or, before an unknown probe move, on the
+// way of that move.
+bool stands_at(const JournalHead& head, const ResumePoint& point, const BoardStatus& status,
+               const MachineDescription& machine);
+// Where the machine stands, at that point or on the way of an unknown probe move.
+Point place_by_counts(const JournalHead& head, const ResumePoint& point, const BoardStatus& status,
+                      const MachineDescription& machine);
 
 // The head of a journal, before the board's new session. head_of_beginning() is for a job that begins where the board
 // rests, head_of_resumption() for a job that goes on from `point`. `steps`: steps of each motor from machine zero where

@@ -44,6 +44,10 @@ struct Start {
   bool answers_probes = true;            // the board answers; else a probe move is touched at its end
   std::optional<ResumePoint> from = {};  // where on its path the job goes on
   std::vector<PathItem> lead_in = {};    // from where the machine stands to there; empty: it stands there
+  // Where the lead-in begins, if it is on the path of the job, so that the outputs of the job are switched on there.
+  // Empty: the session knows where the machine stands.
+  std::optional<Point> stands = {};
+  std::vector<ProbeOutcome> known_probes = {};  // what the probe moves before `from` have found
   Watchers watchers = {};
   Diagnostics* findings = nullptr;  // gets what is found during the run; outlives the run. Null: nobody looks
 };

@@ -1,0 +1,30 @@
+#include "passo/activity/program_stages.hpp"
+
+#include "passo/activity/stage_options.hpp"
+
+namespace passo {
+namespace {
+
+PathOptions path_options_of(const MachineDescription& machine, const std::string& program, const Point& start) {
+  PathOptions options = path_options(machine, program, start);
+  options.spindle_run_up = machine.spindle.run_up;
+  return options;
+}
+
+}  // namespace
+
+ProgramStages::ProgramStages(ProgramReader program, const MachineDescription& machine,
+                             const InterpreterOptions& options, const MachineAnswers& answers, Diagnostics& diagnostics,
+                             std::vector<ProbeOutcome> known)
+    : path_options_(path_options_of(machine, program.name(), options.start)),
+      answers_(answers, std::move(known)),
+      interpreter_(std::move(program), options, diagnostics, answers_),
+      operations_(interpreter_),
+      path_builder_(operations_, path_options_, diagnostics, answers_),
+      good_path_(path_builder_, diagnostics),
+      path_(good_path_),
+      smoother_(path_, smoothness(machine)) {
+  path_.watch([this](const PathItem& item) { answers_.see(item); });
+}
+
+}  // namespace passo
