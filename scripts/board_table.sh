@@ -58,14 +58,14 @@ machine() {
     -e "s/^max_velocity_mm_s = [0-9]*/max_velocity_mm_s = $4/" examples/machines/uno.toml >"$work/$1.toml"
   [[ $5 = none ]] || sed -i "s/^\(max_acceleration_mm_s2 = .*\)/\1\nmax_jerk_mm_s3 = $5/" "$work/$1.toml"
 }
-machine Uno 31 140000 100 none
+machine Uno 42 150000 100 none
 machine Mega 160 110000 100 none
-machine Uno-jerk 31 140000 100 10000
+machine Uno-jerk 42 150000 100 10000
 machine Mega-jerk 160 110000 100 10000
 # The Pico's own machine, with the most places that a virtual board has: 10 fewer than the Pico's.
 sed 's/^\(max_event_rate_hz = .*\)/\1\nheld_items = 240/' examples/machines/pico.toml >"$work/Pico.toml"
 sed 's/^\(max_acceleration_mm_s2 = [0-9]*\).*/\1\nmax_jerk_mm_s3 = 10000/' "$work/Pico.toml" >"$work/Pico-jerk.toml"
-machine Uno-fast 31 140000 218 none
+machine Uno-fast 42 150000 234 none
 machine Mega-fast 160 110000 171 none
 
 # The value behind a word at a line's beginning.

@@ -35,6 +35,7 @@ test_packages=(
   clang-format clang-tidy    # style
   git ccache                 # checks of the tracked files; builds again in seconds
   gerbv                      # draws circuit boards beside passo's reader
+  python3-ezdxf librecad-data openscad-testing-data  # reads DXF drawings beside passo's reader; 1,368 drawings
   jq                         # the table of scripts/motion_table.sh
   chromium                   # the stories of the page of passo serve
 )

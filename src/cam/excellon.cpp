@@ -279,7 +279,8 @@ bool ExcellonReader::obey_m(const DrillWord& word, std::int64_t code) {
                 "holes, slots and routes without patterns; export without step and repeat");
 }
 
-// T1C0.8 in the header, T1 before its holes, or both in one. "T01" and "T1" are one tool; T0 is none.
+// T1C0.8 in the header, T1 before its holes, or both in one. "T01" and "T1" are one tool; T0 is none, unless
+// the header defines it.
 bool ExcellonReader::choose_tool() {
   const DrillWord& word = words_.front();
   std::string_view digits = word.number;
@@ -290,7 +291,7 @@ bool ExcellonReader::choose_tool() {
     return refuse(place_of(word), "excellon.bad-number", fmt::format("T{} is no tool", *number), "T1 to T9999");
   }
   finish_route();
-  if (*number == 0) {
+  if (*number == 0 && word_of('C') == nullptr && !tools_.contains(0)) {
     tool_ = nullptr;
     return true;
   }

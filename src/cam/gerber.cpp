@@ -319,6 +319,9 @@ void GerberReader::read_extended() {
   const bool is_plain = !code.empty() && std::string_view("GDMXYN").find(code[0]) != std::string_view::npos &&
                         code.size() == 2 && (code[1] == '-' || (code[1] >= '0' && code[1] <= '9'));
   if (is_plain) return read_plain();
+  // Of a second * within the % of a command, as in %ADD10C,.031*X.015%.
+  const bool is_rest = code.size() == 2 && code[0] == 'X';
+  if (is_rest) return findings_.note(fmt::format("'{}' behind the end of a command is ignored", all.substr(0, 20)));
   findings_.refuse(0, 0, "gerber.unknown-command", fmt::format("'{}' is not read", code),
                    "FS, MO, AD, AM, AB, LP, LM, LR, LS, SR, TF, TA, TO, TD or an old code");
 }

@@ -44,7 +44,13 @@ bool GerberApertures::read_definition(Definition& definition) {
   for (at = comma + 1; at < words.size();) {
     const std::size_t end = std::min(words.find_first_of("Xx,", at), words.size());
     const std::string_view text = words.substr(at, end - at);
-    const std::optional<double> value = read_gerber_decimal(text);
+    std::optional<double> value = read_gerber_decimal(text);
+    // "0.03260.326": an X is missing. What comes before the second point is meant, as other readers have it.
+    const std::size_t second_point = text.find('.', std::min(text.find('.'), text.size() - 1) + 1);
+    if (!value && second_point != std::string_view::npos) {
+      value = read_gerber_decimal(text.substr(0, second_point));
+      if (value) findings_.note(fmt::format("the size '{}' is read as {:g}", text.substr(0, 60), *value));
+    }
     const bool is_last_blank = end == words.size() && text.find_first_not_of(' ') == std::string_view::npos;
     if (is_last_blank) break;
     if (!value || std::abs(*value) > 1e7 || definition.values.size() >= most_values) {
@@ -83,7 +89,12 @@ bool GerberApertures::make_shape(const Definition& definition, PlotterAperture& 
 
 bool GerberApertures::make_standard(const Definition& definition, PlotterAperture& aperture) {
   const char shape = definition.shape[0];
-  const std::vector<double>& values = definition.values;
+  std::vector<double> values = definition.values;
+  if ((shape == 'R' || shape == 'O') && values.size() == 1) {
+    findings_.note(
+        fmt::format("aperture D{} has a width and no height, and is taken for as high as wide", definition.code));
+    values.push_back(values.front());
+  }
   const std::size_t needed = shape == 'C' ? 1 : 2;
   const auto wrong = [&](std::string message, const char* expected) {
     return findings_.refuse(0, 0, "gerber.bad-aperture", std::move(message), expected);

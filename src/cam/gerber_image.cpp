@@ -46,9 +46,12 @@ class Composition {
     dark_.push_back({std::move(object), std::move(boxes), *box});
   }
 
-  bool take_away(const std::vector<Region>& objects) {
-    if (!budget_.affords(objects)) return false;
-    const Region clear = united(objects);
+  bool take_away(std::vector<Region> objects) {
+    std::erase_if(objects, [](const Region& object) { return object.empty(); });
+    std::ranges::stable_sort(objects, {}, [](const Region& object) { return bounds(object)->least; });
+    const std::optional<Region> united_clear = united_by_halves(std::move(objects));
+    if (!united_clear) return false;
+    const Region& clear = *united_clear;
     const std::optional<DrawnBox> box = bounds(clear);
     if (!box) return true;
     for (const DarkObject& dark : dark_) looked_at_ += 1 + dark.boxes.size() / 8;

@@ -57,7 +57,8 @@ bool GerberText::next(GerberCommand& command) {
   }
   if (!is_long) at_ = end;
   while (at_ < end) step();
-  if (at_ < text_.size() && text_[at_] == '*') ++at_;
+  // A lone * before the % is the end of nothing.
+  for (; at_ < text_.size() && text_[at_] == '*'; skip_blanks()) ++at_;
   skip_blanks();
   if (in_extended_) command.is_last = at_ >= text_.size() || text_[at_] == '%';
   return true;

@@ -43,13 +43,18 @@ constexpr double weight_fall = 1.2;
 constexpr double weight_fall_less = 2.2;
 constexpr double most_weight_fall = 0.9;
 constexpr std::array knots_for_slow_bending = {0.48, 1.0, 1.55, 2.3};
-constexpr std::array knots_for_swinging_slowly = {1.0, 2.2, 4.4, 5.0, 7.5};
-// A gentle corner, by its change of the tangent, is passed so fast that the spline swings to both sides before it. By
-// search for the least time of gentle corners: the weights even out the jerk of the swings.
+// Knots and weights of corners that swing with limits of jerk: by search for the least time of right angles, zigzags,
+// polygons, random walks, reliefs and chips. The weights even out the jerk of the swings.
+constexpr std::array knots_for_swinging_slowly = {1.0, 2.2, 4.35, 5.1, 8.3};
+constexpr std::array change_weights_of_slow = {0.87, 0.89, 0.81, 0.65};
+// A gentle corner, by its change of the tangent, is passed so fast that the spline swings to both sides before it.
+// Beside other corners it has no room for two swings.
 constexpr double gentle_below = 0.6;
-constexpr std::array knots_for_swinging_gently = {1.2, 2.05, 2.9, 3.7, 4.6, 5.5, 6.3, 7.5};
+constexpr std::array knots_for_swinging_gently = {0.88, 1.5, 2.3, 3.2, 4.5, 6.4, 7.75, 8.8};
+constexpr std::array change_weights_of_gentle = {1.75, 1.53, 0.95, 0.52, 0.46, 0.48, 0.42};
 constexpr double gentle_apart_from = 11;
-constexpr std::array change_weights_of_gentle = {0.72, 0.94, 0.84, 0.9, 1.2, 1.4, 1.1};
+constexpr std::array knots_for_gentle_company = {1.02, 2.23, 4.14, 4.8, 7.15};
+constexpr std::array change_weights_of_company = {0.97, 0.87, 1.06, 1.01};
 constexpr double last_knot_reaches = 1.25;  // room of a node, in distances of its last knot
 constexpr double share_of_room = 0.9;       // knots beyond this share of the room are left out
 
@@ -70,15 +75,22 @@ const KnotPlacer::Spacing KnotPlacer::slow_bending = {
     .corner_width = 4.8, .knots = knots_for_slow_bending, .quickening = 0.54};
 const KnotPlacer::Spacing KnotPlacer::swinging_slowly = {.corner_width = 7,
                                                          .knots = knots_for_swinging_slowly,
-                                                         .quickening = 0.3,
-                                                         .sharp_from = 0.35,
-                                                         .closer = &slow_bending};
+                                                         .quickening = 0.31,
+                                                         .sharp_from = 0.39,
+                                                         .closer = &slow_bending,
+                                                         .change_weights = change_weights_of_slow};
+const KnotPlacer::Spacing KnotPlacer::gentle_company = {.corner_width = 7,
+                                                        .knots = knots_for_gentle_company,
+                                                        .quickening = 0.25,
+                                                        .sharp_from = 0.33,
+                                                        .closer = &slow_bending,
+                                                        .change_weights = change_weights_of_company};
 const KnotPlacer::Spacing KnotPlacer::swinging_gently = {.corner_width = 7,
                                                          .knots = knots_for_swinging_gently,
-                                                         .quickening = 0.31,
-                                                         .sharp_from = 0.38,
+                                                         .quickening = 0.18,
+                                                         .sharp_from = 0.41,
                                                          .apart_from = gentle_apart_from,
-                                                         .in_company = &swinging_slowly,
+                                                         .in_company = &gentle_company,
                                                          .change_weights = change_weights_of_gentle};
 const KnotPlacer::Spacing KnotPlacer::inside = {.corner_width = 4, .knots = knots_for_least_bending};
 const KnotPlacer::Spacing KnotPlacer::swinging = {.corner_width = 7, .knots = knots_for_swinging, .closer = &inside};

@@ -77,6 +77,7 @@ class KnotPlacer {
   static const Spacing slow_bending;
   static const Spacing swinging_slowly;
   static const Spacing swinging_gently;
+  static const Spacing gentle_company;
   static const Spacing swinging;
   static const Spacing inside;
   struct Node {

@@ -20,7 +20,7 @@ constexpr double second_node = 0.928;
 // What a part and an event cost a chip, in the board's shortest intervals: board_test.cpp plays just such parts. The
 // longest part has two to the power of this many events. At least so many parts are left to the rest, because the board
 // takes a series for the root.
-constexpr double cost_of_part = 46;
+constexpr double cost_of_part = 50;
 constexpr double cost_of_event = 0.7;
 constexpr unsigned longest_root_part = 7;
 constexpr double parts_to_rest = 3;

@@ -29,7 +29,9 @@ std::uint32_t word_at(std::string_view bytes, std::size_t at) {
 std::optional<std::size_t> binary_triangles(std::string_view bytes) {
   if (bytes.size() < binary_head) return std::nullopt;
   const std::size_t count = word_at(bytes, 80);
-  if (bytes.size() != binary_head + count * binary_triangle) return std::nullopt;
+  // Some programs write a few bytes more.
+  const std::size_t size = binary_head + count * binary_triangle;
+  if (bytes.size() < size || bytes.size() >= size + binary_triangle) return std::nullopt;
   return count;
 }
 

@@ -149,9 +149,10 @@ void JerkProfile::guess_from(std::size_t node, bool backwards, double growth) {
 // evenly from cell to cell.
 void JerkProfile::grade() {
   prepare();
+  exceeded_.clear();
   for (int pass = 0; pass < most_passes; ++pass) {
     guess(guessed_speed_squared, infinity);
-    if (!split_steep()) return;
+    if (!split_coarse()) return;
     prepare();
   }
 }
@@ -383,10 +384,11 @@ bool JerkProfile::find_motion() {
     if (is_lifted && mend()) return true;
     // What is left may be so little that all of the motion can be slowed by it.
     if (is_lifted && !in_motion_ && slowing() >= least_slowing && slow_down()) return true;
+    if (!is_lifted) exceeded_.clear();
     for (std::size_t k = 0; k < states_.size(); ++k) guess_[k] = states_[k].speed * states_[k].speed;
     // The next attempt begins with the same guess. It is another one only if cells or stretches are.
     const bool was_whole = attempt > 0 || std::ranges::find(steady_, true) == steady_.end();
-    if (!split_steep() && was_whole) break;
+    if (!split_coarse() && was_whole) break;
     prepare();
   }
   return !in_motion_ && find_motion_from_slow();

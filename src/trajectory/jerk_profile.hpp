@@ -7,7 +7,8 @@
 //   1. A guess: a motion below all caps that brakes and speeds up gently.
 //   2. JerkLift makes the guess nearly the fastest motion.
 //   3. The phases are checked against every axis, just as they will be given. Cells that exceed a limit are lifted
-//      again with a smaller share of the limits, together with the cells around them.
+//      again with a smaller share of the limits, together with the cells around them. Where that does not help, the
+//      cells are too long for how fast the motion changes there: they are halved, and all begins again.
 //   4. If that does not help, the motion is slowed as a whole. With every speed times f, accelerations get f² and jerks
 //      f³ times as large. So limits can always be kept.
 //
@@ -94,7 +95,7 @@ class JerkProfile {
   void split(std::size_t i);
   void even_out();
   void grade();
-  bool split_steep();
+  bool split_coarse();
   void guess(double share, double growth);
   void guess_from(std::size_t node, bool backwards, double growth);
   void begin_with_guess();

@@ -1,4 +1,4 @@
-// JerkProfile: splits cells, where the speed changes much within one, or where a long cell meets a short one.
+// JerkProfile: splits cells, where the motion changes much within one, or where a long cell meets a short one.
 #include <algorithm>
 #include <cmath>
 
@@ -13,15 +13,20 @@ constexpr double most_unevenness = 2.5;
 
 }  // namespace
 
-// Splits cells in which the square of the speed changes much, by `guess_`. Returns whether there were any. Cells of the
+// Splits cells that are too long: those in which the square of the speed changes much, by `guess_`, and those that
+// exceed a limit although their share was lowered, with their neighbours. Returns whether there were any. Cells of the
 // plan before stay as they are, because that plan may have to go on.
-bool JerkProfile::split_steep() {
+bool JerkProfile::split_coarse() {
+  std::ranges::sort(exceeded_);  // stretches that were lifted overlap
   const std::vector<double>& x = guess_;
   bool any = false;
   const std::size_t first = in_motion_ ? std::max<std::size_t>(planned_, 1) : 0;
   for (std::size_t i = cells_.size(); i-- > first;) {
     const double low = std::min(x[i], x[i + 1]);
-    if (!(low > 0) || std::max(x[i], x[i + 1]) <= steepest * low) continue;
+    const bool is_steep = low > 0 && std::max(x[i], x[i + 1]) > steepest * low;
+    const auto near = std::lower_bound(exceeded_.begin(), exceeded_.end(), std::max<std::size_t>(i, 1) - 1);
+    const bool exceeds = near != exceeded_.end() && *near <= i + 1;
+    if (!is_steep && !exceeds) continue;
     split(i);
     any = true;
   }

@@ -42,7 +42,7 @@ TEST_F(Boards, are_emulated_too) {
   if (passo::test::lacks_an_emulator(info)) GTEST_SKIP() << info.err;
   ASSERT_EQ(info.code, 0) << info.err;
   const auto json = nlohmann::json::parse(info.out);
-  EXPECT_EQ(json["about"]["highest_event_rate_hz"], 140'000) << info.out;
+  EXPECT_EQ(json["about"]["highest_event_rate_hz"], 150'000) << info.out;
   EXPECT_EQ(json["status"]["positions"].size(), 8);
   const auto mega = nlohmann::json::parse(passo("board info --json sim:mega").out);
   EXPECT_EQ(mega["about"]["highest_event_rate_hz"], 110'000);
@@ -81,12 +81,9 @@ TEST_F(Boards, run_a_program_with_the_windings_on_their_own_pins) {
 // The emulated spindle turns as the board's outputs say, and its encoder is on the board's pins.
 TEST_F(Boards, thread_with_an_encoder_on_their_pins_or_say_that_they_have_none) {
   std::string machine = read(std::filesystem::path(PASSO_SOURCE_DIR) / "examples" / "machines" / "uno.toml");
-  const std::size_t rate = machine.find("140_000");
+  const std::size_t rate = machine.find("150_000");
   ASSERT_NE(rate, std::string::npos);
   machine.replace(rate, 7, "100_000");
-  const std::size_t pulse = machine.find("step_pulse_us = 1.2");
-  ASSERT_NE(pulse, std::string::npos);
-  machine.replace(pulse, 19, "step_pulse_us = 1.0");
   machine += "\n[spindle]\nencoder_counts_per_turn = 1024\nrun_up_s = 0.5\nripple_percent = 3\n";
   const std::string program = write("p.ngc", "G21 S600 M3\nG0 Z1\nG33 Z-8 K1.5\nG0 X1\nZ1\nM5\nM2\n");
   const std::string command = "run " + program + " --json -m " + write("lathe.toml", machine);
@@ -109,19 +106,19 @@ TEST_F(Boards, that_are_too_slow_or_make_too_short_pulses_are_refused_in_words) 
     return write("m.toml", text.replace(at, from.size(), to));
   };
   const std::string command = "run " + write("p.ngc", "G21 G1 F600 X1\nM2\n") + " -m ";
-  const Outcome pulse = passo(command + with("step_pulse_us = 1.2", "step_pulse_us = 1.9") + " --board sim:uno");
+  const Outcome pulse = passo(command + with("step_pulse_us = 1.0", "step_pulse_us = 1.9") + " --board sim:uno");
   if (passo::test::lacks_an_emulator(pulse)) GTEST_SKIP() << pulse.err;
   EXPECT_EQ(pulse.code, 1);
-  EXPECT_NE(pulse.err.find("its step pulses last 1.19 us, and step_pulse_us = 1.9 of the machine file asks for longer"),
+  EXPECT_NE(pulse.err.find("its step pulses last 1.00 us, and step_pulse_us = 1.9 of the machine file asks for longer"),
             std::string::npos)
       << pulse.err;
-  const Outcome rate = passo(command + with("step_pulse_us = 1.2", "step_pulse_us = 1") + " --board sim:mega");
+  const Outcome rate = passo(command + with("step_pulse_us = 1.0", "step_pulse_us = 1") + " --board sim:mega");
   EXPECT_EQ(rate.code, 1);
-  EXPECT_NE(rate.err.find("it makes at most 110000 events a second, and max_event_rate_hz = 140000"), std::string::npos)
+  EXPECT_NE(rate.err.find("it makes at most 110000 events a second, and max_event_rate_hz = 150000"), std::string::npos)
       << rate.err;
 }
 
-// 67 seconds are the longest item, and an Uno holds 31: it goes on with the next refill.
+// 67 seconds are the longest item, and an Uno holds 42: it goes on with the next refill.
 TEST_F(Boards, that_hold_little_dwell_for_hours) {
   const std::string uno = (std::filesystem::path(PASSO_SOURCE_DIR) / "examples" / "machines" / "uno.toml").string();
   const std::string program = write("p.ngc", "G21 G90 F600\nG1 X5\nG4 P10800\nG1 X0\nM2\n");

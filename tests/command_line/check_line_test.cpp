@@ -39,7 +39,7 @@ TEST_F(CheckLine, tells_what_a_run_over_the_line_takes) {
     SCOPED_TRACE(program + " on " + machine);
     const auto check = json_of("check " + program + " -m " + machine)["line"];
     const auto run = json_of("run " + program + " -m " + machine + " --cut-cable-at 9999:1")["board"];
-    EXPECT_EQ(check["held_items"], 31);
+    EXPECT_EQ(check["held_items"], 42);
     EXPECT_GT(check["cost_s"], 0.0);
     EXPECT_NEAR(check["time_s"], run["end_s"], 1e-9);
     EXPECT_NEAR(check["cost_s"], run["cost_of_line_s"], 1e-9);

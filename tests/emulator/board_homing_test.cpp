@@ -32,7 +32,7 @@ HomingBoard with_limits(HomingBoard kind, const Map& pins) {
 }
 
 HomingBoard uno() {
-  return with_limits({.board = uno_under_test(PASSO_MOTION_UNO), .interval = 114, .look = 4}, uno_cnc_shield);
+  return with_limits({.board = uno_under_test(PASSO_MOTION_UNO), .interval = 107, .look = 4}, uno_cnc_shield);
 }
 HomingBoard mega() {
   return with_limits({.board = mega_under_test(PASSO_MOTION_MEGA, 4), .interval = 145, .look = 18}, mega_ramps);

@@ -105,7 +105,7 @@ void expect_exact_capture(const SwitchedBoard& kind, Pin probe, std::uint64_t lo
 }
 
 SwitchedBoard uno() {
-  return {.board = uno_under_test(PASSO_MOTION_UNO), .interval = 114, .spindle_control = 0xb0, .connected = 1 << 7};
+  return {.board = uno_under_test(PASSO_MOTION_UNO), .interval = 107, .spindle_control = 0xb0, .connected = 1 << 7};
 }
 SwitchedBoard mega() {
   return {

@@ -37,7 +37,7 @@ BoardWithOutputs uno() {
   return {.board = uno_under_test(PASSO_MOTION_UNO),
           .pins = {uno_cnc_shield.spindle_direction, uno_cnc_shield.mist, uno_cnc_shield.flood},
           .timer = timer_of_uno,
-          .shortest_interval = 114};
+          .shortest_interval = 107};
 }
 BoardWithOutputs mega() {
   return {.board = mega_under_test(PASSO_MOTION_MEGA, 4),

@@ -47,7 +47,7 @@ int main(int argc, char** argv) {
   std::vector<std::uint32_t> intervals;
   for (int i = 1; i < argc; ++i) intervals.push_back(static_cast<std::uint32_t>(std::strtoul(argv[i], nullptr, 10)));
   const bool all = intervals.empty();
-  if (all) intervals = {300, 200, 178, 160, 145, 133, 120, 114};
+  if (all) intervals = {300, 200, 178, 160, 145, 133, 120, 114, 107};
   const std::vector<std::uint32_t> slow = all ? std::vector<std::uint32_t>{1600, 800, 640, 533} : intervals;
   const std::vector<DriveMode> drives(4, DriveMode::half_step);
   try {
@@ -56,7 +56,8 @@ int main(int argc, char** argv) {
         "bytes lost |");
     std::puts("|---|---:|---:|---:|---|---:|---:|---:|---:|---:|");
     for (const bool changing : {false, true}) {
-      sweep(uno_under_test(PASSO_MOTION_UNO), changing ? "Uno, changing" : "Uno, even", changing, 114, intervals);
+      sweep(uno_under_test(PASSO_MOTION_UNO), changing ? "Uno, changing" : "Uno, even", changing, all ? 107 : 1,
+            intervals);
     }
     for (const std::uint8_t motors : {std::uint8_t{4}, std::uint8_t{6}}) {
       const BoardUnderTest mega = mega_under_test(PASSO_MOTION_MEGA, motors);

@@ -103,8 +103,8 @@ TEST(UnoInAvr8js, steps_as_the_host_says) {
   std::uint64_t cycle = 320'000;
   std::uint8_t sequence = 0;
   std::ostringstream said;
-  for (const std::uint32_t interval : {128U, 300U, 1'000U, 5'000U}) {
-    const StreamKind kind{.shortest_interval = std::max(114U, interval * 7 / 8),
+  for (const std::uint32_t interval : {120U, 300U, 1'000U, 5'000U}) {
+    const StreamKind kind{.shortest_interval = std::max(107U, interval * 7 / 8),
                           .longest_interval = interval,
                           .shortest_segment = 120,
                           .longest_segment = interval < 1'000 ? std::uint8_t{255} : std::uint8_t{130},

@@ -271,6 +271,36 @@ TEST(HardPrograms, creep_as_fast_with_limits_of_jerk) {
   }
 }
 
+// A rotary axis without a limit of jerk turns alone on each second line. Through such a corner the speed along the path
+// doubled within one cell, and no share of the limits was right for that cell. So the whole window was slowed: 2.0
+// times the time without limits of jerk, on a machine whose only limited axis stands.
+TEST(HardPrograms, are_planned_in_finer_cells_where_the_speed_changes_at_once) {
+  MachineDescription machine;
+  machine.name = "one limited axis";
+  machine.path_tolerance = Mm(0.03);
+  machine.board.highest_event_rate = Hertz(1e6);
+  for (const Axis axis : {Axis::x, Axis::y, Axis::z, Axis::a}) {
+    AxisDescription own;
+    own.axis = axis;
+    own.steps_per_unit = 20;
+    own.velocity = MmPerSecond(axis == Axis::a ? 36.73 : 50);
+    own.acceleration = MmPerSecond2(axis == Axis::a ? 81.0 : 167.7);
+    if (axis == Axis::y) own.jerk = MmPerSecond3(70'590);
+    own.travel_low = -1e5;
+    own.travel_high = 1e5;
+    machine.axes.push_back(own);
+  }
+  const std::string program =
+      "G21 G90 G17 G64 F6000\n"
+      "G1 X0.24882 Z0.13978\nG1 X0.25001 A3.56978\nG1 X0.16966 Z0.27956\nG1 X0.17119 A7.13956\n"
+      "G1 X0.65200 Z0.41934\nG1 X0.65276 A10.70933\nG1 X3.08933 Z0.55912\nG1 X3.08878 A14.27911\n"
+      "G1 X2.35266 Z0.69890\nG1 X2.35119 A17.84889\nM2\n";
+  MachineDescription without = machine;
+  for (AxisDescription& axis : without.axes) axis.jerk = MmPerSecond3(0);
+  EXPECT_LT(plan(program, machine, Smoothness::slow_bending).time,
+            1.1 * plan(program, without, Smoothness::slow_bending).time);
+}
+
 // What keeps limits of jerk is allowed without them, too. So on the same path no machine is slower without them. On the
 // path that is smoothed for it, none of 685 machines took more than 1.0121 times as long (numbers 50000 to 50799).
 TEST(LawsOfSpeed, are_never_slower_without_limits_of_jerk) {

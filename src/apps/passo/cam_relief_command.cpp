@@ -153,6 +153,11 @@ std::optional<ReliefGrid> read_relief(const CamReliefArguments& arguments, const
   } else {
     read.is_body = looks_like_body(*bytes);
     const ForeignFile foreign = foreign_file(arguments.file, std::string_view(*bytes).substr(0, 1024));
+    if (!read.is_body && foreign.kind == "an STL model") {
+      findings.add(of_file("surface.stl", arguments.file, "this STL model is broken",
+                           "facets as text, or as many triangles as its head promises"));
+      return std::nullopt;
+    }
     if (!read.is_body && !foreign.kind.empty()) {
       findings.add(of_file("picture.unknown-kind", arguments.file, fmt::format("this is {}", foreign.kind),
                            "a PNG or TIFF picture, an STL file or a height map x,y,z"));

@@ -90,6 +90,13 @@ TEST(Excellon, slots_and_routes_become_paths_as_wide_as_their_tool) {
   ASSERT_EQ(read.drawing.holes.size(), 1U);
 }
 
+TEST(Excellon, t0_is_a_tool_where_the_header_defines_it) {
+  const ReadDrill read = read_drill("M48\nMETRIC\nT0C0.3\nT1C1.0\n%\nT0\nX1.0Y1.0\nT1\nX2.0\nM30\n");
+  EXPECT_FALSE(read.found.any_error());
+  ASSERT_EQ(read.drawing.holes.size(), 2U);
+  EXPECT_EQ(read.drawing.holes[0].diameter, Nanometres{300'000});
+}
+
 TEST(Excellon, repeats_increments_and_a_shifted_zero) {
   const ReadDrill read = read_drill(
       "M48\nMETRIC\nT1C1.0\n%\nT1\nX1.0Y1.0\nR3X2.54\nG91\nX1.0\nG90\nX0.0Y0.0\nG93X10.0Y20.0\nX1.0Y1.0\nM30\n");

@@ -14,6 +14,7 @@
 #include <gtest/gtest.h>
 #include <png.h>
 
+#include "passo/cam/excellon.hpp"
 #include "passo/cam/gerber.hpp"
 
 namespace passo {
@@ -226,6 +227,39 @@ TEST(GerberPicture, of_boards_of_other_projects_is_that_of_gerbv) {
   if (!has_gerbv() || !fs::exists(peers)) GTEST_SKIP() << "no gerbv, or no " << peers;
   EXPECT_GT(compare_folder(peers / "boards", PASSO_ONE_IN), 3U);
   EXPECT_GT(compare_folder(peers / "gerber", PASSO_ONE_IN), 0U);
+}
+
+// All layers and drill files of npm's @tracespace/fixtures (scripts/fixtures.sh) are read without a fault.
+TEST(Fixtures, of_many_layout_programs_are_read) {
+  const fs::path folder = fs::path(PASSO_SOURCE_DIR) / "build/fixtures";
+  if (!fs::exists(folder)) GTEST_SKIP() << "no " << folder << ": scripts/fixtures.sh fetches it";
+  std::vector<fs::path> files;
+  for (const char* const part : {"boards", "gerbers"}) {
+    for (const auto& entry : fs::recursive_directory_iterator(folder / part)) {
+      const std::string kind = entry.path().extension();
+      if (entry.is_regular_file() && kind != ".svg" && kind != ".json") files.push_back(entry.path());
+    }
+  }
+  std::sort(files.begin(), files.end());
+  std::size_t layers = 0;
+  std::size_t drills = 0;
+  for (std::size_t i = 0; i < files.size(); i += PASSO_ONE_IN) {
+    std::ifstream stream(files[i], std::ios::binary);
+    const std::string text{std::istreambuf_iterator<char>(stream), {}};
+    Diagnostics found;
+    if (looks_like_gerber(text)) {
+      const GerberLayer layer = read_gerber(files[i].filename().string(), text, found);
+      EXPECT_TRUE(!layer.dark.empty() || layer.pads.empty()) << files[i];
+      ++layers;
+    } else if (text.find("M48") != std::string::npos && text.find("M30") != std::string::npos) {
+      const Drawing drawing = read_excellon(files[i].filename().string(), text, {}, found);
+      EXPECT_FALSE(drawing.holes.empty() && drawing.paths.empty()) << files[i];
+      ++drills;
+    }
+    EXPECT_FALSE(found.any_error()) << files[i] << "\n" << render(found, false);
+  }
+  EXPECT_GE(layers * PASSO_ONE_IN, 80U);
+  fmt::print("{} layers, {} drill files\n", layers, drills);
 }
 
 }  // namespace

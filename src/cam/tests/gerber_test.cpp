@@ -224,6 +224,20 @@ TEST(Gerber, what_is_guessed_is_told) {
       << "the unit comes late";
 }
 
+TEST(Gerber, what_old_programs_write_beside_the_format_is_read) {
+  const ReadGerber square = flashed("R,0.5");
+  EXPECT_NEAR(square.area(), 0.25, 1e-9);
+  EXPECT_THAT(square.notes(), testing::Contains(testing::HasSubstr("as high as wide")));
+  EXPECT_NEAR(macro_flashed("1,1,2,0,0*\n*").area(), macro_flashed("1,1,2,0,0*").area(), 1e-9)
+      << "a lone * ends the macro";
+  const ReadGerber point = flashed("R,0.5250.525");
+  EXPECT_NEAR(point.area(), 0.525 * 0.525, 1e-9);
+  EXPECT_THAT(point.notes(), testing::Contains(testing::HasSubstr("'0.5250.525' is read as 0.525")));
+  const ReadGerber rest = read_mm("%ADD10C,2*X.015%\nD10*\nX0Y0D03*\n");
+  EXPECT_NEAR(rest.area(), flashed("C,2").area(), 1e-9);
+  EXPECT_THAT(rest.notes(), testing::Contains(testing::HasSubstr("'X.015' behind the end of a command")));
+}
+
 TEST(Gerber, what_is_wrong_is_told_with_its_place) {
   const ReadGerber early = read_mm("D12*\nX0Y0D03*\n");
   EXPECT_EQ(gerber_code(early), "gerber.no-aperture");
@@ -236,7 +250,7 @@ TEST(Gerber, what_is_wrong_is_told_with_its_place) {
   EXPECT_EQ(gerber_code(read_mm("%ZZ*%")), "gerber.unknown-command");
   EXPECT_EQ(gerber_code(read_mm("G12*")), "gerber.unknown-command");
   EXPECT_EQ(gerber_code(read_mm("%ADD10Q,1*%")), "gerber.bad-aperture");
-  EXPECT_EQ(gerber_code(read_mm("%ADD10R,1*%")), "gerber.bad-aperture");
+  EXPECT_EQ(gerber_code(read_mm("%ADD10P,1*%")), "gerber.bad-aperture");
   EXPECT_EQ(gerber_code(read_mm("%ADD10C,x*%")), "gerber.bad-number");
   EXPECT_EQ(gerber_code(read_all("%FSLAX*%M02*")), "gerber.bad-format");
   EXPECT_EQ(gerber_code(read_mm("%LPX*%")), "gerber.bad-mode");

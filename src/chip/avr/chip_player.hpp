@@ -19,6 +19,11 @@
 #else
 #include "step_pins.hpp"
 #endif
+#if defined PASSO_WINDINGS || defined __AVR_ATmega2560__
+#include "long_times.hpp"
+#else
+#include "short_times.hpp"
+#endif
 
 #include "passo/wire/board_segment.hpp"
 
@@ -37,7 +42,7 @@ class ChipPlayer {
   // Breaks off at once whatever it played. Motors without pins stand still: the board refuses a host with more motors.
   static void restart(uint8_t motors) {
     halt();
-    slow_end_ = 0;
+    if (!RingTimes::are_short) slow_end_ = 0;
     head_ = fetched_entry();
     flagged_byte(head_) = flag_special | flag_stop;
     if (step_port_count > 1 && motors != expansion.motors) {
@@ -48,12 +53,13 @@ class ChipPlayer {
       forget_toggles(0);
     }
     expansion.motors = motors;
+    RingTimes::restart();
     OutputActions::clear();
     turns_head_ = turns_tail;
     turns_ = left_ = 0;
     turning_ = fresh_ = slipped_ = over_ = false;
     made_ = 0;
-    begun_ = finished_ = 0;
+    oldest_ = begun_ = 0;
     for (uint16_t& accumulator : expansion.accumulators) accumulator = 0x8000;
     for (uint16_t& accumulator : at_start_) accumulator = 0x8000;
     // The last host may have driven more motors.
@@ -63,7 +69,7 @@ class ChipPlayer {
 
   // Stops at once: no further event is played, and motors stand where the pins say.
   static void halt() {
-    Timsk1::write(0);
+    RingTimes::disable();
     running = 0;
     line_is_watched = 0;
     directions_ = MotorOutputs::directions();
@@ -71,16 +77,18 @@ class ChipPlayer {
   // Call once, before anything moves.
   static void prepare() {
     prepare_ring();
-    // The timer runs free at the full clock. The interrupt sets the time of the next event.
-    Tccr1a::write(0);
-    Tccr1b::write(1);
+    // The timers run free at the full clock. The interrupt sets the time of the next event.
+    RingTimes::prepare();
     fetch_entry(0);
   }
 
   // Whether it can take the next item.
   static bool ready() {
-    return left_ == 0 && static_cast<uint8_t>(begun_ - finished_) < most_begun && !OutputActions::full();
+    if (left_ != 0 || begun_ >= most_begun || OutputActions::full()) return false;
+    return begun_ < few_begun || waiting() < worth_more_begun;
   }
+  // True if more short items can begin while the oldest ones wait to be counted.
+  static constexpr bool begins_many() { return most_begun > few_begun; }
   // True when nothing is played and nothing waits to be played.
   static bool done() { return left_ == 0 && rests(); }
 
@@ -96,6 +104,17 @@ class ChipPlayer {
     directions_ = segment.directions;
     if (running == 0 && waiting() == 0) start_clock();
     left_ = segment.events;
+    RingTimes::load();
+    if (RingTimes::are_short) {
+      least_room_ = RingTimes::least_room(most_ahead_);
+    } else {
+      plan_watch(segment);
+    }
+    SerialLine::breathe();
+    remember(segment);
+  }
+  // Finds how far ahead events may be made, and whether the interrupt will see every byte.
+  static void plan_watch(const Segment& segment) {
     // The slowest interval, about: at the start, or at the end of a segment that slows down.
     uint32_t slowest = segment.interval;
     if (segment.change > fine_change) {
@@ -109,58 +128,54 @@ class ChipPlayer {
     }
     SerialLine::breathe();
     most_ahead_ = most_ahead();
-    least_room_ = static_cast<uint8_t>(most_ahead_ / 8 * 3);
-    SerialLine::breathe();
-    remember(segment);
+    least_room_ = RingTimes::least_room(most_ahead_);
   }
   // Takes an item that needs no time. It is finished with the event before it.
   static void pass(const BoardOutputs& outputs) {
     SerialLine::breathe();
     OutputActions::put(outputs, rests);
     SerialLine::breathe();
-    Item& item = items_[begun_++ & items_mask];
-    item.end = made_;
-    item.events = 0;
+    ++begun_;
+    const uint8_t place = newest();
+    ends_[place] = made_;
+    lasts_[place].note();
+    items_[place].events = 0;
   }
 
   [[gnu::noinline]] static void remember(const Segment& segment) {
-    Item& item = items_[begun_++ & items_mask];
-    item.end = static_cast<uint16_t>(made_ + left_);
+    ++begun_;
+    const uint8_t place = newest();
+    ends_[place] = static_cast<uint16_t>(made_ + left_);
+    Item& item = items_[place];
     item.events = segment.events;
-    item.directions = segment.directions;
-    item.flips = segment.flips;
+    item.directions = segment.directions & motors_mask;
+    item.flips = segment.flips & motors_mask;
     for (uint8_t m = 0; m < motors(); ++m) item.increments[m] = segment.increments[m];
   }
 
   // Whether the oldest item is done.
   static bool finished() {
-    over_ = finished_ != begun_ && left_of_oldest() <= 0;
+    over_ = begun_ != 0 && is_over();
     return over_;
   }
   // Forgets the oldest item after its steps were counted. Its fractions are in `at_start_`.
   static void forget() {
-    if (items_[finished_ & items_mask].events == 0) OutputActions::forget();
+    if (items_[oldest_].events == 0) OutputActions::forget();
     over_ = false;
-    ++finished_;
+    --begun_;
+    oldest_ = oldest_ == most_begun - 1 ? uint8_t{0} : static_cast<uint8_t>(oldest_ + 1);
     if (step_port_count > 1) SerialLine::breathe();
   }
   // For the oldest item: the events played, and the steps that a motor has made in them, down or up.
   static uint8_t played() {
-    const uint8_t events = items_[finished_ & items_mask].events;
+    const uint8_t events = items_[oldest_].events;
     if (over_) return events;
     const int16_t left = left_of_oldest();
     return left <= 0 ? events : left > events ? uint8_t{0} : static_cast<uint8_t>(events - left);
   }
-  [[gnu::noinline]] static int16_t steps(uint8_t motor) {
-    const Item& item = items_[finished_ & items_mask];
-    const uint8_t bit = static_cast<uint8_t>(1U << motor);
-    const uint8_t events = over_ ? item.events : played();
-    uint16_t accumulator = at_start_[motor];
-    int16_t steps = carries(accumulator, item.increments[motor], events);
-    if (over_) at_start_[motor] = accumulator;  // reported once, then forgotten
-    SerialLine::breathe();
-    if ((item.flips & bit) != 0) steps = static_cast<int16_t>(events - steps);
-    return (item.directions & bit) != 0 ? static_cast<int16_t>(-steps) : steps;
+  static int16_t steps(uint8_t motor) {
+    const Item& item = items_[oldest_];
+    return steps(item, over_ ? item.events : played(), motor);
   }
 
   // Adds `increment` to `accumulator` `events` times and returns the number of overflows. It is a 16 by 8 bit product,
@@ -185,8 +200,10 @@ class ChipPlayer {
 
   // Makes some events, and starts the timer if it stands still.
   static void refill() {
-    if (captured()) note_capture();
-    for (uint8_t pieces = most_pieces; pieces != 0 && left_ != 0 && make_events(); --pieces) {
+    for (uint8_t pieces = most_pieces; pieces != 0; --pieces) {
+      if (captured()) note_capture();
+      if (left_ == 0 || !has_room() || !make_events()) break;
+      if (RingTimes::are_short && running == 0 && waiting() >= enough_to_start && halted == 0) start();
       SerialLine::poll();
     }
     if (running == 0 && waiting() != 0 && halted == 0) start();
@@ -194,6 +211,8 @@ class ChipPlayer {
 
   // True if all events of the segment are made and another can come.
   static bool wants_more() { return left_ == 0; }
+  // True if there is room for events that are worth the work.
+  static bool is_low() { return static_cast<uint8_t>(most_ahead_ - waiting()) >= least_room_; }
   // True if the interrupt could reach the end of the ring before the other work of the loop is done.
   static bool is_short() { return running != 0 && waiting() < most_ahead_ / 4; }
   // True if the watched input has changed, at an event at which the interrupt looked. Until watch() is called again,
@@ -211,54 +230,81 @@ class ChipPlayer {
   static bool slipped() { return slipped_; }
 
  private:
-  static constexpr uint8_t items_mask = 3;
-  static constexpr uint8_t most_begun = 4;
+  // An item that has begun cannot be replaced, so a few are enough, but for short ones: they may have one event.
+  static constexpr uint8_t few_begun = 4;
+  static constexpr uint8_t most_begun = RingTimes::are_short ? 5 : 4;
+  static constexpr uint8_t worth_more_begun = 80;
   // Events are made a few at a time, or most_at_once. Many save the way in and out, but the line is not read meanwhile.
   // So many are made only when the interrupt comes so often that it sees every byte.
-  static constexpr uint8_t few_at_once = 8;
   static constexpr uint8_t most_pieces = 8;
+  // So many entries last until the next ones are made.
+  static constexpr uint8_t enough_to_start = 8;
   // A motion from rest begins with some empty events. They give time to fill the ring, and the interrupt reads the line
   // meanwhile.
   static constexpr uint16_t blank_ticks = often - 50;
-  static constexpr uint8_t blank_events = 6000 / blank_ticks;
-  static constexpr uint16_t start_ticks = 1500;  // about the time that it takes to write them
+  static constexpr uint8_t blank_events = (RingTimes::are_short ? 12000 : 6000) / blank_ticks;
+  static constexpr uint16_t start_ticks = 2500;  // about the time that it takes to write them
   // The interrupt may miss an alarm that is nearer than this.
   static constexpr uint16_t least_lead = 150;
 
+  static constexpr uint8_t motors_mask = (1U << pins.motors) - 1;
+  static constexpr unsigned bits_of_motors = pins.motors > 4 ? 8 : 4;
   // An item that was begun and is not finished.
   struct Item {
-    uint16_t end;  // the value of `made_` with its last event
     uint8_t events;
-    uint8_t directions;
-    uint8_t flips;
+    uint8_t directions : bits_of_motors;
+    uint8_t flips : bits_of_motors;
     uint16_t increments[pins.motors];
   };
 
   // On the Uno a loop less is worth more than a motor less.
   static uint8_t motors() { return pins.motors > 3 ? expansion.motors : pins.motors; }
+  // The steps of a motor in the first events of the oldest item.
+  [[gnu::noinline]] static int16_t steps(const Item& item, uint8_t events, uint8_t motor) {
+    const uint8_t bit = static_cast<uint8_t>(1U << motor);
+    const bool is_flipped = (item.flips & bit) != 0;
+    const bool goes_down = (item.directions & bit) != 0;
+    uint16_t accumulator = at_start_[motor];
+    int16_t steps = carries(accumulator, item.increments[motor], events);
+    if (over_) at_start_[motor] = accumulator;  // reported once, then forgotten
+    SerialLine::breathe();
+    if (is_flipped) steps = static_cast<int16_t>(events - steps);
+    return goes_down ? static_cast<int16_t>(-steps) : steps;
+  }
+  // Whether all events of the oldest item are played.
+  static bool is_over() {
+    const uint8_t oldest = oldest_;
+    const uint8_t ahead = waiting();
+    if (captured()) note_capture();  // after the look at the ring, because a capture may come at any time
+    const uint16_t end = ends_[oldest];
+    if (noted_) return static_cast<int16_t>(end - captured_at_) <= 0;
+    const int16_t since = static_cast<int16_t>(made_ - end);
+    return since >= 0 && lasts_[oldest].is_played(ahead, static_cast<uint16_t>(since));
+  }
   // Events of the oldest item that are not played yet.
   static int16_t left_of_oldest() {
-    uint16_t played = static_cast<uint16_t>(made_ - waiting());
-    if (captured()) note_capture();  // after the look at waiting(), because a capture may come at any time
+    const uint8_t now = fetched_entry();
+    uint16_t played = RingTimes::played(now, (head_ - now) & ring_mask, made_);
+    if (captured()) note_capture();  // after the look at the ring, because a capture may come at any time
     if (noted_) played = captured_at_;
-    return static_cast<int16_t>(items_[finished_ & items_mask].end - played);
+    return static_cast<int16_t>(ends_[oldest_] - played);
   }
   // Notes the event of a capture, which follows from the ring's entry. This must be done before the interrupt has gone
   // round the ring once more.
   [[gnu::noinline]] static void note_capture() {
     if (noted_) return;
-    const uint8_t now = fetched_entry();
-    const uint8_t since = static_cast<uint8_t>((now - entry_of(captured_entry)) & ring_mask);
-    captured_at_ = static_cast<uint16_t>(made_ - ((head_ - now) & ring_mask) - since);
+    const uint8_t then = entry_of(captured_entry);
+    captured_at_ = RingTimes::played(then, (head_ - then) & ring_mask, made_);
     noted_ = true;
+  }
+  // The place of the item begun last.
+  static uint8_t newest() {
+    const uint8_t place = static_cast<uint8_t>(oldest_ + begun_ - 1);
+    return place >= most_begun ? static_cast<uint8_t>(place - most_begun) : place;
   }
   static bool rests() { return running == 0 && waiting() == 0; }
   static uint8_t waiting() { return static_cast<uint8_t>((head_ - fetched_entry()) & ring_mask); }
 
-  static void set_alarm(uint8_t index) {
-    Ocr1ah::write(*time_high_of(index));
-    Ocr1al::write(*time_low_of(index));
-  }
   static uint16_t now() {
     const uint8_t low = Tcnt1l::read();
     return static_cast<uint16_t>(low | Tcnt1h::read() << 8);
@@ -269,16 +315,15 @@ class ChipPlayer {
     uint16_t time = static_cast<uint16_t>(now() + start_ticks);
     for (uint8_t left = blank_events; left != 0; --left) {
       time = static_cast<uint16_t>(time + blank_ticks);
-      set_time(head_, time);
+      RingTimes::place(head_, time);
       clear_toggles(head_);
       head_ = static_cast<uint8_t>((head_ + 1) & ring_mask);
       SerialLine::breathe();
     }
     flagged_byte(head_) = flag_special | flag_stop;
-    slow_end_ = static_cast<uint16_t>(made_ + 1);  // the interrupt does not come before that
+    if (!RingTimes::are_short) slow_end_ = static_cast<uint16_t>(made_ + 1);  // the interrupt does not come before that
     made_ = static_cast<uint16_t>(made_ + blank_events);
     expansion.time = static_cast<uint32_t>(time) << 16 | fraction;
-    gap_ = start_ticks + blank_ticks;
     fresh_ = true;
     start();
   }
@@ -294,53 +339,63 @@ class ChipPlayer {
 
   // True if the interrupt comes so often that it sees every byte off the line.
   [[gnu::noinline]] static bool is_watched(uint8_t ahead) {
-    return running != 0 && static_cast<int16_t>(made_ - ahead - slow_end_) >= 0;
+    return running != 0 && (RingTimes::are_short || static_cast<int16_t>(made_ - ahead - slow_end_) >= 0);
   }
 
-  // Returns false if there was nothing to do.
-  static bool make_events() {
-    const bool plays = running != 0;  // read first, because it may change at any moment
+  // Whether there is room for so many events that making them is worth the work.
+  static bool has_room() {
     const uint8_t ahead = waiting();
-    const uint8_t most = most_ahead_;
-    if (ahead >= most) return false;
-    // Worth the work only if there is room for many, or if few are ahead.
-    const uint8_t room = static_cast<uint8_t>(most - ahead);
-    if (room < least_room_ && room < left_) return false;
+    if (ahead >= most_ahead_) return false;
+    const uint8_t room = static_cast<uint8_t>(most_ahead_ - ahead);
+    return room >= least_room_ || room >= left_;
+  }
+  // Call if there is room. Returns false if turns or actions must be made first.
+  static bool make_events() {
+    if ((turns_ != 0 || OutputActions::riding() != 0) && !queue_turn()) return false;
+    make_piece(piece_behind(waiting()));
+    return true;
+  }
+  // How many entries to make at once behind so many that wait.
+  [[gnu::noinline]] static uint8_t piece_behind(uint8_t ahead) {
     if (line_is_watched == 0) {
       line_is_watched = is_watched(ahead);
       if (running == 0) line_is_watched = 0;  // the interrupt stopped in between
     }
-    // Events count only when all of them are made. At the highest rate an event takes 45 cycles to make, the
-    // interrupt's included, and 114 to play. So twice as many events as are ahead, less a few for the way, will be
-    // ready before the interrupt stops and no longer reads the line.
-    uint8_t at_once = most_at_once;
-    if (ahead < (most_at_once + few_at_once) / 2) at_once = static_cast<uint8_t>(2 * ahead - few_at_once);
-    if (ahead < few_at_once) at_once = few_at_once;
-    if (line_is_watched == 0) at_once = few_at_once;
-    uint8_t count = left_ < at_once ? left_ : at_once;
-    const uint8_t behind_this = static_cast<uint8_t>(ring_mask - head_);  // entries from here to the ring's end
-    if (count > behind_this) count = static_cast<uint8_t>(behind_this + 1);
+    // Events count only when all of them are made. At the highest rate an event takes half of its time to make, the
+    // interrupt's share included. So twice as many events as are ahead, less a few for the way, will be ready before
+    // the interrupt stops and no longer reads the line.
+    uint8_t count = most_at_once;
+    const uint8_t way_in = RingTimes::way_in();
+    if (RingTimes::are_slow()) {
+      if (ahead < most_at_once) count = ahead;
+    } else if (ahead < (most_at_once + way_in) / 2) {
+      count = static_cast<uint8_t>(2 * ahead - way_in);
+    }
+    const uint8_t few = RingTimes::few();
+    if (ahead < (few + way_in) / 2 || line_is_watched == 0) count = few;
+    if (!RingTimes::are_short && count > left_) count = left_;
+    count = RingTimes::before_the_end(head_, count);
+    const uint8_t room = static_cast<uint8_t>(most_ahead_ - ahead);
     if (count > room) count = room;
-    if ((turns_ != 0 || OutputActions::riding() != 0) && !queue_turn()) return false;
-
-    // The interrupt may reach the end of the ring while these events are made.
-    if (plays || ahead == 0) gap_ = static_cast<uint16_t>(expansion.interval >> 16);
+    return RingTimes::at_once(count);
+  }
+  // The interrupt may reach the end of the ring meanwhile.
+  [[gnu::noinline]] static void make_piece(uint8_t count) {
     const uint8_t first = head_;
-    const uint8_t behind = static_cast<uint8_t>((first + count) & ring_mask);
-    flagged_byte(behind) = flag_special | flag_stop;
     expansion.address = entry_address(first);
     SerialLine::breathe();
-    expand(count);
+    made_ = static_cast<uint16_t>(made_ + left_);
+    count = RingTimes::make(count, left_);
     SerialLine::breathe();
-    left_ = static_cast<uint8_t>(left_ - count);
-    made_ = static_cast<uint16_t>(made_ + count);
+    made_ = static_cast<uint16_t>(made_ - left_);
+    if (left_ == 0) lasts_[newest()].note();
+    const uint8_t behind = static_cast<uint8_t>((first + count) & ring_mask);
+    flagged_byte(behind) = flag_special | flag_stop;
     head_ = behind;
-    const uint8_t plain = static_cast<uint8_t>(flagged_byte(first) & ~(flag_special | flag_stop));
-    // From here on the interrupt may reach this entry.
-    flagged_byte(first) = turning_ ? static_cast<uint8_t>(plain | flag_special) : plain;
+    // From here on the interrupt may reach the first of them.
+    flagged_byte(first) = RingTimes::finished(flagged_byte(first), turning_);
     if (turning_) OutputActions::taken();
     turning_ = false;
-    return true;
   }
 
   static uint8_t turn_behind(uint8_t turn) {
@@ -360,16 +415,26 @@ class ChipPlayer {
   }
 
   static void start() {
-    const uint8_t first = fetched_entry();
-    catch_up(first);
+    uint8_t first = fetched_entry();
+    uint16_t due = RingTimes::due(first, head_);
+    uint16_t gap = fresh_ ? uint16_t{start_ticks + blank_ticks} : RingTimes::gap(first);
+    while (RingTimes::is_only_a_wait(first) && !is_in_time(due, gap)) {
+      const uint8_t next = static_cast<uint8_t>((first + 1) & ring_mask);
+      if (next == head_) break;  // its event is not made yet
+      if ((flagged_byte(first) & flag_special) != 0) turn_now(flagged_byte(first));
+      first = next;
+      const uint16_t more = RingTimes::gap(first);
+      due = static_cast<uint16_t>(due + more);
+      gap = static_cast<uint16_t>(gap + more);
+    }
+    if (!is_in_time(due, gap)) due = catch_up(first, due);
     fresh_ = false;
     fetch_entry(first);
     const uint8_t toggles = flagged_byte(first);
     if ((toggles & flag_special) != 0) turn_now(toggles);
-    set_alarm(first);
-    Tifr1::write(compare_match_a);
-    running = 1;
-    Timsk1::write(compare_match_a);
+    // A short time comes round again.
+    while (RingTimes::are_short && static_cast<uint16_t>(due - now()) > 240) SerialLine::breathe();
+    RingTimes::enable(first);
   }
   static void turn_now(uint8_t toggles) {
     const uint8_t tail = turns_tail;
@@ -377,48 +442,54 @@ class ChipPlayer {
     MotorOutputs::make(turn);
     if ((turn[0] & action_bits) != 0) OutputActions::act(turn[0] & action_bits);
     turns_tail = turn_behind(tail);
-    set_fetched_toggles(static_cast<uint8_t>(toggles & ~flag_special));
+    set_fetched_toggles(RingTimes::toggles_of(toggles));
   }
 
-  // Call when the interrupt stopped before an event that is late now. This event and all after it then come later
-  // still.
-  static void catch_up(uint8_t first) {
-    const uint16_t due = time_of(first);
+  // Whether an entry at which the interrupt stopped is still to come. `gap`: ticks from the entry before.
+  static bool is_in_time(uint16_t due, uint16_t gap) {
     const uint16_t ahead = static_cast<uint16_t>(due - now());
-    // A fraction may have made the interval one tick longer.
-    if (ahead > least_lead && static_cast<uint16_t>(ahead - 1) <= gap_) return;  // still in time
+    // A tick is lost where times are read.
+    return ahead > least_lead && static_cast<uint16_t>(ahead - 1) <= gap;
+  }
+  // Call when the interrupt stopped before an event that is late now. This event and all after it then come later
+  // still. Returns when.
+  static uint16_t catch_up(uint8_t first, uint16_t due) {
     if (!fresh_) slipped_ = true;
     // Nobody reads the line until the motion goes on.
-    if (static_cast<int16_t>(made_ - slow_end_) > 0) slow_end_ = made_;
+    if (!RingTimes::are_short && static_cast<int16_t>(made_ - slow_end_) > 0) slow_end_ = made_;
     const uint16_t later = static_cast<uint16_t>(now() + least_lead * 2 + 64 * waiting() - due);  // 64: the loop
     for (uint8_t i = first; i != head_; i = static_cast<uint8_t>((i + 1) & ring_mask)) {
-      set_time(i, static_cast<uint16_t>(time_of(i) + later));
+      RingTimes::delay(i, later);
       SerialLine::breathe();
     }
     expansion.time += static_cast<uint32_t>(later) << 16;
+    RingTimes::delay_next(later);
+    return static_cast<uint16_t>(due + later);
   }
 
-  static inline uint8_t head_ = 0;        // the entry after the last event
-  static inline uint8_t most_ahead_ = 0;  // how many events may be in the ring, at the rate of the loaded segment
-  static inline uint8_t least_room_ = 0;  // room in the ring for which it is worth making some
-  static inline uint8_t left_ = 0;        // events of the loaded segment that are not made yet
-  static inline uint8_t turns_ = 0;       // motors that reverse before its first event
-  static inline bool turning_ = false;    // the reversals are in the queue of turns, but the event is not flagged yet
+  static inline uint8_t head_ = 0;  // the entry after the last event
+  static inline uint8_t most_ahead_ =
+      most_events;  // how many entries may be in the ring, at the rate of the loaded segment
+  static inline uint8_t least_room_ = most_events;  // room in the ring for which it is worth making some
+  static inline uint8_t left_ = 0;                  // events of the loaded segment that are not made yet
+  static inline uint8_t turns_ = 0;                 // motors that reverse before its first event
+  static inline bool turning_ = false;  // the reversals are in the queue of turns, but the event is not flagged yet
   static inline uint8_t directions_ = 0;
   static inline uint8_t turns_head_ = turns_address & 0xff;
   static inline bool fresh_ = false;  // the clock was set for the events in the ring
-  static inline uint16_t gap_ = 0;    // whole ticks before the event at which the interrupt stopped
   static inline bool noted_ = false;  // a capture was noted, with its event in `captured_at_`
   static inline uint16_t captured_at_ = 0;
   static inline bool watching_ = false;
   static inline bool slipped_ = false;
   static inline uint16_t slow_end_ = 0;  // `made_` after the last slow events
   static inline uint16_t made_ = 0;      // events ever made
-  static inline uint8_t begun_ = 0;      // items ever begun
-  static inline uint8_t finished_ = 0;
-  static inline bool over_ = false;  // the oldest item is known to be done
+  static inline uint8_t oldest_ = 0;     // the place of the oldest item
+  static inline uint8_t begun_ = 0;      // items begun and not forgotten
+  static inline bool over_ = false;      // the oldest item is known to be done
 
   static inline Item items_[most_begun];
+  static inline uint16_t ends_[most_begun];  // of each, the value of `made_` with its last event
+  static inline RingTimes::Last lasts_[most_begun];
   static inline uint16_t at_start_[pins.motors] = {};  // the accumulators at the start of the oldest item
 };
 

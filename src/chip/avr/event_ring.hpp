@@ -1,8 +1,8 @@
 // EventRing: the events of the near future. The main loop makes them, and the step timer's interrupt plays them.
 //
-// An entry has a time (the timer's count) and the bits to toggle in each of the step ports. Its layout in RAM depends
-// on the board's interrupt: it must come from one entry to the next without an instruction that changes the flags, so
-// that it need not save them.
+// An entry has a time (the timer's count, or its low byte) and the bits to toggle in each of the step ports. Its layout
+// in RAM depends on the board's interrupt: it must come from one entry to the next without an instruction that changes
+// the flags, so that it need not save them.
 //
 // Invariant: the entry after the last event has both flags set, in the first step port's byte, and there the interrupt
 // stops. One flag alone means that the interrupt must toggle direction pins, taken from `turns`, before that event.
@@ -49,12 +49,4 @@ static_assert(first_free_address >= actions_address + sizeof(OutputAction) * (ac
 inline volatile uint8_t& flagged_byte(uint8_t index) {
   return *reinterpret_cast<volatile uint8_t*>(toggles_address(index));
 }
-inline uint16_t time_of(uint8_t index) {
-  return static_cast<uint16_t>(*time_high_of(index) << 8 | *time_low_of(index));
-}
-inline void set_time(uint8_t index, uint16_t time) {
-  *time_high_of(index) = static_cast<uint8_t>(time >> 8);
-  *time_low_of(index) = static_cast<uint8_t>(time);
-}
-
 }  // namespace passo::chip

@@ -2,6 +2,7 @@
 // So the interrupt has to keep only that number, which wraps at the end by itself.
 #pragma once
 
+#include "registers.hpp"
 #include <stdint.h>
 
 #include "passo/chip/mega_ramps.hpp"
@@ -29,6 +30,9 @@ inline constexpr uint16_t first_toggles_address = 0x400;
 inline constexpr uint16_t ring_entries = 256;
 inline constexpr uint8_t most_events = 220;   // two milliseconds at the highest rate; all of them will be played
 inline constexpr uint8_t most_at_once = 100;  // made in one call
+inline constexpr uint8_t way_in_events = 8;   // about what is played while events are begun to be made
+using StepAlarm = Ocr1al;
+using StepCount = Tcnt1l;
 // In the list of items. From 100 on the host fits motion finely.
 inline constexpr uint8_t queue_capacity = 160;
 

@@ -181,6 +181,20 @@ bool take_tick() {
   board.receive(hardware.line.take());
 }
 
+constexpr uint8_t most_bytes_a_turn = 32;
+
+// Makes events, of the next item if need be.
+[[gnu::noinline]] void keep_up() {
+  ChipPlayer::refill();
+  if (!ChipPlayer::wants_more() || !board.has_more()) return;
+  if (ChipPlayer::begins_many()) {
+    board.feed();
+  } else {
+    board.settle();
+  }
+  ChipPlayer::refill();
+}
+
 // One turn of the loop. Events come first: nothing else here may take longer than the events ahead of the interrupt.
 [[gnu::noinline]] void turn() {
   static uint8_t patience = 0;
@@ -189,15 +203,17 @@ bool take_tick() {
   SerialLine& line = hardware.line;
   SpindleCounter::look();
   line.poll();
-  if (ChipPlayer::wants_more() && board.has_more()) board.settle();
-  // Bytes are in a hurry only if the list is empty. While it is not, a flood of them must not hold up the events.
-  const uint8_t most = ChipPlayer::wants_more() && !(board.has_more() && ChipPlayer::is_short()) ? 32 : 16;
-  for (uint8_t taken = 0; line.has_byte() && taken < most; ++taken) {
+  keep_up();
+  // Some bytes at a time: events must not wait for a flood of them.
+  for (uint8_t taken = 0; line.has_byte() && taken < most_bytes_a_turn; ++taken) {
     receive();
     SerialLine::breathe();
+    if ((taken & 3) != 3) continue;
+    SpindleCounter::look();
+    if (ChipPlayer::is_low()) keep_up();
   }
   manual.feed();
-  ChipPlayer::refill();
+  keep_up();
   line.poll();
   // Inputs that the interrupt has seen are handled at once, and before the item with the capture is released. Others
   // can wait.
@@ -205,7 +221,7 @@ bool take_tick() {
   SerialLine::breathe();
   board.settle();
   line.poll();
-  ChipPlayer::refill();
+  keep_up();
   line.poll();
   // A credit repeats what earlier ones told, so it can wait while there is more urgent work.
   if (!board.owes_report() || !line.can_send()) return;

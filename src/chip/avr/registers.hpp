@@ -29,13 +29,18 @@ struct Port {
   }
 };
 
+using Tifr0 = Register<0x35>;
 using Tifr1 = Register<0x36>;
 using Tifr4 = Register<0x39>;  // only in the ATmega2560, like all of timers 4 and 5
 using Pcifr = Register<0x3b>;
 using Eifr = Register<0x3c>;
 using Gpior0 = Register<0x3e>;
-using Ocr0a = Register<0x47>;  // timer 0 does not run
-using Ocr0b = Register<0x48>;
+using Eearl = Register<0x41>;  // nobody reads or writes the EEPROM
+using Tccr0a = Register<0x44>;
+using Tccr0b = Register<0x45>;
+using Tcnt0 = Register<0x46>;
+using Ocr0a = Register<0x47>;
+using Ocr0b = Register<0x48>;  // nobody waits for this match
 using Gpior1 = Register<0x4a>;
 using Gpior2 = Register<0x4b>;
 using Mcusr = Register<0x54>;
@@ -47,6 +52,7 @@ using Eicrb = Register<0x6a>;
 using Pcmsk0 = Register<0x6b>;
 using Pcmsk1 = Register<0x6c>;
 using Pcmsk2 = Register<0x6d>;
+using Timsk0 = Register<0x6e>;
 using Timsk1 = Register<0x6f>;
 using Tccr1a = Register<0x80>;
 using Tccr1b = Register<0x81>;
@@ -75,7 +81,7 @@ using Tcnt5l = Register<0x124>;
 using Tcnt5h = Register<0x125>;
 
 inline constexpr uint8_t timer_overflow = 1 << 0;   // in TIFR1: every 65,536 cycles
-inline constexpr uint8_t compare_match_a = 1 << 1;  // in TIFR1 and TIMSK1
+inline constexpr uint8_t compare_match_a = 1 << 1;  // in TIFR0, TIMSK0, TIFR1 and TIMSK1
 inline constexpr uint8_t input_captured = 1 << 5;   // in TIFR4
 inline constexpr uint8_t byte_received = 1 << 7;    // in UCSR0A
 inline constexpr uint8_t may_send = 1 << 5;

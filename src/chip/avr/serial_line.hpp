@@ -72,8 +72,9 @@ class SerialLine {
           sts received_head, r30
           rjmp 1b
       2:
-    )" ::[ocr] "n"(Ocr1al::where),
-        [tcnt] "n"(Tcnt1l::where), [ucsra] "n"(Ucsr0a::where), [udr] "n"(Udr0::where), [received] "n"(received_address)
+    )" ::[ocr] "n"(StepAlarm::where),
+        [tcnt] "n"(StepCount::where), [ucsra] "n"(Ucsr0a::where), [udr] "n"(Udr0::where),
+        [received] "n"(received_address)
         : "r24", "r25", "r30", "r31", "memory");
   }
 

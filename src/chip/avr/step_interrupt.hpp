@@ -3,8 +3,8 @@
 // Registers r2 to r5 belong to the interrupt for the whole program. clang cannot be told so. It takes these registers
 // last, the program is written so that it never needs them, and check_program.sh looks for them in the finished
 // program.
-//   Uno    r3:r2  the next entry of the ring   r4  scratch           r5  the bits to toggle at the next event
-//   Mega      r2  the next entry of the ring   r3, r4, r6  scratch   r5  the same, on the first step port
+//   Uno    r3:r2  the next entry of the ring, whose page r3 stays   r4  scratch           r5  the next event's bits
+//   Mega      r2  the next entry of the ring                        r3, r4, r6  scratch   r5  on the first step port
 // With windings (winding_events.cpp) both are C++, and there are no such registers.
 #pragma once
 
@@ -29,6 +29,14 @@ struct Expansion {
 #endif
   uint16_t address;  // the entry to write next
   uint8_t motors;    // as many as the host knows of
+#if !defined PASSO_WINDINGS && !defined __AVR_ATmega2560__
+  // Of `expand_slowly`: the events that it may still make, and a break amid the wait for the next event.
+  uint8_t events;
+  uint8_t waits;    // of 256 ticks, still to come
+  uint8_t rest;     // ticks behind them, less 129
+  uint8_t is_amid;  // that wait has begun: `time` is the event's already
+  uint8_t at;       // the low byte of the last entry's time
+#endif
 #ifdef PASSO_WINDINGS
   uint8_t places[pins.motors];  // in each motor's WindingTable
   uint8_t held[pins.motors];    // the place whose windings have current, or windings_off
@@ -62,12 +70,21 @@ extern volatile uint8_t quiet_j;
 #else
 extern volatile uint8_t stops_b;
 extern volatile uint8_t stops_c;
-// The quiet levels of ports B and C are in OCR0A and OCR0B: the Uno's memory has no byte left.
+// The quiet levels of ports B and C are in OCR0B and EEARL: the Uno's memory has no byte left.
 #endif
 
 // Makes the next `events` events (at least one) of the segment and puts them into the ring. The first one keeps both
 // flags set, so that the interrupt does not run into unfinished ones. Reads the line between events.
 void expand(uint8_t events);
+#if !defined PASSO_WINDINGS && !defined __AVR_ATmega2560__
+// The same where events may be further apart than the timer's 256 ticks, with entries between them that only wait.
+// All intervals are under 512 ticks: up to two entries an event. Returns the low byte of the address behind the last
+// one.
+uint8_t expand_with_waits(uint8_t events);
+// Any intervals. Makes at most `entries` (at least one), and at most expansion.events events. Returns how many entries
+// less it made.
+uint8_t expand_slowly(uint8_t entries);
+#endif
 }
 
 }  // namespace passo::chip

@@ -23,10 +23,10 @@ inline constexpr char input_ports[] = {'B', 'D', 'E', 'J'};
 #else
 inline constexpr char input_ports[] = {'B', 'C'};
 [[gnu::always_inline]] inline uint8_t quiet_levels(char port) {
-  return port == 'B' ? Ocr0a::read() : Ocr0b::read();
+  return port == 'B' ? Ocr0b::read() : Eearl::read();
 }
 [[gnu::always_inline]] inline void set_quiet_levels(char port, uint8_t levels) {
-  port == 'B' ? Ocr0a::write(levels) : Ocr0b::write(levels);
+  port == 'B' ? Ocr0b::write(levels) : Eearl::write(levels);
 }
 #endif
 

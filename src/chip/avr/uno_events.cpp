@@ -8,7 +8,7 @@ namespace passo::chip {
 namespace {
 
 constexpr uint8_t toggle_port = 0x09;  // PIND
-// A pulse takes 19 cycles without padding.
+// A pulse takes 16 cycles without padding.
 constexpr uint8_t padding = about.step_pulse - pulse_without_padding;
 constexpr uint8_t io(uint16_t address) {
   return static_cast<uint8_t>(address - io_base);
@@ -22,7 +22,7 @@ extern "C" {
 [[gnu::naked, gnu::used, gnu::section(".vectors")]] void step_interrupt() {
   asm volatile(
       R"(
-      .rept 11                      ; the vectors before it
+      .rept 14                      ; the vectors before it
       jmp passo_reset
       .endr
                                     ; 4   to come here
@@ -33,38 +33,31 @@ extern "C" {
   1:  out %[port], r5               ; 1   the edge
       out %[gpior0], r30            ; 1
       out %[gpior1], r31            ; 1
-      movw r30, r2                  ; 1
+      lds r4, %[ucsra]              ; 2   a byte off the line does not wait for the main loop
+      sbrc r4, 7                    ; 2
+      rjmp 8f
+  9:  movw r30, r2                  ; 1
       ld r4, Z+                     ; 2
-      sts %[ocrah], r4              ; 2
+      out %[ocra], r4               ; 1
       ld r4, Z+                     ; 2
-      sts %[ocral], r4              ; 2
-      ld r4, Z+                     ; 2
-      ld r3, Z+                     ; 2   the page of the next entry
-      mov r2, r30                   ; 1
+      mov r2, r30                   ; 1   r3 stays: the ring is a page
       in r30, %[gpior0]             ; 1
       in r31, %[gpior1]             ; 1
       .rept %[padding]
       nop
       .endr
-      out %[port], r5               ; 1   the end of the pulse, 19 cycles after its start
+      out %[port], r5               ; 1   the end of the pulse, 16 cycles after its start
       mov r5, r4                    ; 1
       sbrc r5, %[special]           ; 2
       rjmp 2f
-  9:  lds r4, %[ucsra]              ; 2   a byte off the line does not wait for the main loop
-      sbrc r4, 7                    ; 2
-      rjmp 8f
-      reti                          ; 4
+      reti                          ; 4   32 in all
 
-  8:  out %[gpior0], r30            ; 17 in all
-      out %[gpior1], r31
-      lds r30, received_head
+  8:  lds r30, received_head        ; 12 more
       ldi r31, hi8(%[received])
       lds r4, %[udr]
       st Z+, r4
       sts received_head, r30
-      in r30, %[gpior0]
-      in r31, %[gpior1]
-      reti
+      rjmp 9b
 
       ; the entry just fetched is no plain event. Z is free again: what it held is still in the spare registers
   2:  in r4, %[sreg]
@@ -85,7 +78,7 @@ extern "C" {
       andi r31, %[action]
       breq 7f
       mov r30, r31
-  3:  ldi r31, hi8(%[turns])        ; outputs: 54 cycles after the event's edge they are switched
+  3:  ldi r31, hi8(%[turns])        ; outputs: 51 cycles after the event's edge they are switched
       push r24
       ld r24, Z+
       out %[port_b], r24
@@ -99,7 +92,7 @@ extern "C" {
   7:  out %[sreg], r4
       in r30, %[gpior0]
       in r31, %[gpior1]
-      rjmp 9b
+      reti
 
       ; behind the last event
   4:  ldi r30, 0
@@ -170,49 +163,19 @@ extern "C" {
       rjmp 3b
   )" ::[port] "n"(toggle_port),
       [pcifr] "n"(io(Pcifr::where)), [gpior0] "n"(io(Gpior0::where)), [gpior1] "n"(io(Gpior1::where)),
-      [sreg] "n"(io(Sreg::where)), [ocrah] "n"(Ocr1ah::where), [ocral] "n"(Ocr1al::where), [timsk] "n"(Timsk1::where),
-      [pinb] "n"(0x03), [pinc] "n"(0x06), [quiet_b] "n"(io(Ocr0a::where)), [quiet_c] "n"(io(Ocr0b::where)),
-      [special] "n"(1), [padding] "n"(padding), [stop] "n"(0),
-      [plain] "n"(0xff & ~(pins.flag_special | pins.flag_stop)), [turns] "n"(turns_address),
+      [sreg] "n"(io(Sreg::where)), [ocra] "n"(io(Ocr0a::where)), [timsk] "n"(Timsk0::where), [pinb] "n"(0x03),
+      [pinc] "n"(0x06), [quiet_b] "n"(io(Ocr0b::where)), [quiet_c] "n"(io(Eearl::where)), [special] "n"(0),
+      [padding] "n"(padding), [stop] "n"(1), [plain] "n"(pins.steps_on('D')), [turns] "n"(turns_address),
       [turns_mask] "n"(turns_mask), [turning] "n"(turning_bits), [action] "n"(action_bits), [safe] "n"(safe_action),
       [port_b] "n"(0x05), [port_c] "n"(0x08), [duty] "n"(Ocr2a::where), [control] "n"(Tccr2a::where),
       [ucsra] "n"(Ucsr0a::where), [udr] "n"(Udr0::where), [received] "n"(received_address));
 }
-static_assert(pins.flag_special == 1 << 1 && pins.flag_stop == 1 << 0 && pins.step_ports[0] == 'D');
+static_assert(pins.flag_special == 1 << 0 && pins.flag_stop == 1 << 1 && pins.step_ports[0] == 'D');
 
 // Registers: r7:r6 r9:r8 r11:r10 accumulators, r13:r12 r15:r14 r17:r16 increments, r21…r18 time, r25…r22 interval, r29
 // r28 r1 r0 change, X the entry, r30 the bits to toggle, r31 the flips. GPIOR2 has the number of events left.
 asm(R"(
-  .macro passo_motor low, high, low_increment, high_increment
-      add \low, \low_increment      ; 1
-      adc \high, \high_increment    ; 1
-      rol r30                       ; 1   a carry is a step
-  .endm
-  .macro passo_event
-      add r18, r22                  ; 4   time += interval
-      adc r19, r23
-      adc r20, r24
-      adc r21, r25
-      st X+, r21                    ; 4
-      st X+, r20
-      add r22, r0                   ; 4   interval += change
-      adc r23, r1
-      adc r24, r28
-      adc r25, r29
-      ldi r30, 0                    ; 1
-      passo_motor r10, r11, r16, r17  ; 9
-      passo_motor r8, r9, r14, r15
-      passo_motor r6, r7, r12, r13
-      lsl r30                       ; 2   to where their pins are
-      lsl r30
-      eor r30, r31                  ; 1
-      st X+, r30                    ; 2
-      adiw r26, 1                   ; 2
-  .endm
-)");
-
-[[gnu::naked]] void expand(uint8_t /*events: in r24*/) {
-  asm volatile(R"(
+  .macro passo_get_registers
       push r6
       push r7
       push r8
@@ -227,7 +190,6 @@ asm(R"(
       push r17
       push r28
       push r29
-      out %[left], r24
       lds r6, expansion + 0
       lds r7, expansion + 1
       lds r8, expansion + 2
@@ -248,13 +210,77 @@ asm(R"(
       lds r23, expansion + 17
       lds r24, expansion + 18
       lds r25, expansion + 19
+      lds r26, expansion + 25
+      lds r27, expansion + 26
+  .endm
+  .macro passo_put_registers
+      sts expansion, r6
+      sts expansion + 1, r7
+      sts expansion + 2, r8
+      sts expansion + 3, r9
+      sts expansion + 4, r10
+      sts expansion + 5, r11
+      sts expansion + 12, r18
+      sts expansion + 13, r19
+      sts expansion + 14, r20
+      sts expansion + 15, r21
+      sts expansion + 16, r22
+      sts expansion + 17, r23
+      sts expansion + 18, r24
+      sts expansion + 19, r25
+      clr r1
+      pop r29
+      pop r28
+      pop r17
+      pop r16
+      pop r15
+      pop r14
+      pop r13
+      pop r12
+      pop r11
+      pop r10
+      pop r9
+      pop r8
+      pop r7
+      pop r6
+  .endm
+  .macro passo_motor low, high, low_increment, high_increment
+      add \low, \low_increment      ; 1
+      adc \high, \high_increment    ; 1
+      rol r30                       ; 1   a carry is a step
+  .endm
+  .macro passo_motors
+      ldi r30, 0                    ; 1
+      passo_motor r10, r11, r16, r17  ; 9
+      passo_motor r8, r9, r14, r15
+      passo_motor r6, r7, r12, r13
+      lsl r30                       ; 2   to where their pins are
+      lsl r30
+  .endm
+  .macro passo_event
+      add r18, r22                  ; 4   time += interval
+      adc r19, r23
+      adc r20, r24
+      adc r21, r25
+      st X+, r20                    ; 2
+      add r22, r0                   ; 3   interval += change; both have 24 bits here
+      adc r23, r1
+      adc r24, r28
+      passo_motors                  ; 12
+      eor r30, r31                  ; 1
+      st X+, r30                    ; 2
+      ldi r27, 0x01                 ; 1   the ring is a page
+  .endm
+)");
+
+[[gnu::naked]] void expand(uint8_t /*events: in r24*/) {
+  asm volatile(R"(
+      out %[left], r24
+      passo_get_registers
       lds r0, expansion + 20
       lds r1, expansion + 21
       lds r28, expansion + 22
-      lds r29, expansion + 23
       lds r31, expansion + 24
-      lds r26, expansion + 25
-      lds r27, expansion + 26
 
       ori r31, %[flags]             ; the first one
       passo_event
@@ -279,41 +305,183 @@ asm(R"(
       breq 5f                       ; 1
       rjmp 3b                       ; 2
 
-  5:  sts expansion, r6
-      sts expansion + 1, r7
-      sts expansion + 2, r8
-      sts expansion + 3, r9
-      sts expansion + 4, r10
-      sts expansion + 5, r11
-      sts expansion + 12, r18
-      sts expansion + 13, r19
-      sts expansion + 14, r20
-      sts expansion + 15, r21
-      sts expansion + 16, r22
-      sts expansion + 17, r23
-      sts expansion + 18, r24
-      sts expansion + 19, r25
-      sts expansion + 25, r26
-      sts expansion + 26, r27
-      clr r1
-      pop r29
-      pop r28
-      pop r17
-      pop r16
-      pop r15
-      pop r14
-      pop r13
-      pop r12
-      pop r11
-      pop r10
-      pop r9
-      pop r8
-      pop r7
-      pop r6
+  5:  passo_put_registers
       ret
   )" ::[left] "n"(io(Gpior2::where)),
                [flags] "n"(pins.flag_special | pins.flag_stop));
 }
+
+// All intervals are under 512 ticks: at most one wait comes before an event.
+[[gnu::naked]] uint8_t expand_with_waits(uint8_t /*events: in r24*/) {
+  asm volatile(R"(
+      .macro passo_next             ; time += interval
+      mov r30, r20                  ; 1
+      add r18, r22                  ; 4
+      adc r19, r23
+      adc r20, r24
+      adc r21, r25
+      .endm
+      .macro passo_one_wait flagged
+      sbrs r24, 7                   ; 2   after 128 ticks, or after 256: the same low byte again
+      subi r30, 128
+      st X+, r30                    ; 2
+      ldi r30, \flagged             ; 1
+      st X+, r30                    ; 2
+      ldi r27, 0x01                 ; 1
+      .endm
+      .macro passo_other_event
+      st X+, r20                    ; 2
+      add r22, r0                   ; 4   interval += change
+      adc r23, r1
+      adc r24, r28
+      adc r25, r29
+      passo_motors                  ; 12
+      eor r30, r31                  ; 1
+      st X+, r30                    ; 2
+      ldi r27, 0x01                 ; 1
+      .endm
+
+      out %[left], r24
+      passo_get_registers
+      lds r0, expansion + 20
+      lds r1, expansion + 21
+      lds r28, expansion + 22
+      lds r29, expansion + 23
+      lds r31, expansion + 24
+
+      passo_next
+      sbrs r25, 0
+      rjmp 1f
+      passo_one_wait %[first_waits]
+      passo_other_event
+      rjmp 4f
+  1:  ori r31, %[flags]
+      passo_other_event
+      andi r31, 0xff - %[flags]
+      rjmp 4f
+
+  2:  passo_next
+      sbrs r25, 0                   ; 2
+      rjmp 3f
+      passo_one_wait %[wait]
+  3:  passo_other_event
+  4:  in r30, %[left]               ; 1
+      dec r30                       ; 1
+      out %[left], r30              ; 1
+      breq 5f                       ; 1
+      rjmp 2b                       ; 2   45 in all with a wait
+
+  5:  mov r30, r26
+      passo_put_registers
+      mov r24, r30
+      ret
+  )" ::[left] "n"(io(Gpior2::where)),
+               [flags] "n"(pins.flag_special | pins.flag_stop), [wait] "n"(pins.flag_stop),
+               [first_waits] "n"(first_waits | pins.flag_special | pins.flag_stop));
+}
+
+// Here r0 has the byte of a wait, r28 the low byte of the last entry's time, r29 what the first entry has beside its
+// toggles, and r31:r30 the ticks to the event, less 129, while it is waited for.
+[[gnu::naked]] uint8_t expand_slowly(uint8_t /*entries: in r24*/) {
+  asm volatile(R"(
+      .macro passo_wait
+      st X+, r28
+      mov r1, r0
+      or r1, r29
+      st X+, r1
+      ldi r27, 0x01
+      clr r29
+      in r1, %[left]
+      dec r1
+      out %[left], r1
+      .endm
+
+      out %[left], r24
+      passo_get_registers
+      ldi r29, %[wait]
+      mov r0, r29
+      ldi r29, %[first_waits]
+      lds r28, expansion + 32
+      lds r30, expansion + 30
+      lds r31, expansion + 31
+      tst r31
+      breq 1f
+      lds r31, expansion + 29       ; amid a wait
+      rjmp 4f
+
+  1:  mov r28, r20
+      mov r30, r21
+      add r18, r22                  ; time += interval
+      adc r19, r23
+      adc r20, r24
+      adc r21, r25
+      mov r31, r21
+      mov r1, r20
+      sub r1, r28
+      sbc r31, r30
+      mov r30, r1
+      subi r30, 129
+      sbci r31, 0
+      brcc 4f
+      sbrc r30, 7                   ; 65,536 ticks look like none
+      rjmp 6f                       ; 128 at most
+
+  4:  tst r31
+      breq 5f
+      dec r31
+      passo_wait                    ; 256 ticks: the same low byte again
+      brne 4b
+      rjmp 8f
+  5:  sbrs r30, 7
+      rjmp 6f
+      subi r30, 128                 ; the last two share what is left
+      subi r28, 128
+      passo_wait
+      breq 8f
+
+  6:  st X+, r20
+      lds r1, expansion + 20        ; interval += change
+      add r22, r1
+      lds r1, expansion + 21
+      adc r23, r1
+      lds r1, expansion + 22
+      adc r24, r1
+      lds r1, expansion + 23
+      adc r25, r1
+      passo_motors
+      lds r31, expansion + 24
+      eor r30, r31
+      andi r29, %[flags]
+      or r30, r29
+      st X+, r30
+      ldi r27, 0x01
+      clr r29
+      in r1, %[left]
+      dec r1
+      out %[left], r1
+      lds r31, expansion + 28
+      dec r31
+      sts expansion + 28, r31
+      breq 7f
+      and r1, r1
+      breq 7f
+      rjmp 1b
+
+  7:  sts expansion + 31, r29
+      rjmp 9f
+  8:  sts expansion + 29, r31
+      sts expansion + 30, r30
+      sts expansion + 32, r28
+      ldi r29, 1
+      sts expansion + 31, r29
+  9:  passo_put_registers
+      in r24, %[left]
+      ret
+  )" ::[left] "n"(io(Gpior2::where)),
+               [flags] "n"(pins.flag_special | pins.flag_stop), [wait] "n"(pins.flag_stop),
+               [first_waits] "n"(first_waits | pins.flag_special | pins.flag_stop));
+}
+static_assert(sizeof(Expansion) == 33 && ring_address == 0x100 && ring_entries * sizeof(EventEntry) == 0x100);
 static_assert(pins.motor[0].step.bit == 2 && pins.motor[1].step.bit == 3 && pins.motor[2].step.bit == 4,
               "the expander shifts the carries to these pins");
 static_assert((received_address & 0xff) == 0, "the receiving ring's index is the low byte of its addresses");

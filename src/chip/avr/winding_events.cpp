@@ -2,6 +2,7 @@
 // plays an event, and the expander that makes one. Motors without drivers turn slowly, so both are in C++, for any pin
 // map. docs/boards.md has the sums of their cycles.
 #include "event_ring.hpp"
+#include "long_times.hpp"
 #include "registers.hpp"
 #include "serial_line.hpp"
 #include "step_interrupt.hpp"

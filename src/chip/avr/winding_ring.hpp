@@ -2,6 +2,7 @@
 // one layout, any number of step ports, and no registers of the interrupt's own.
 #pragma once
 
+#include "registers.hpp"
 #include <stdint.h>
 
 #ifdef __AVR_ATmega2560__
@@ -29,6 +30,8 @@ inline constexpr uint8_t queue_capacity = 37;
 inline constexpr uint16_t ram_address = 0x100;
 #endif
 
+using StepAlarm = Ocr1al;
+using StepCount = Tcnt1l;
 inline constexpr uint8_t windings_off = 8;  // takes the place of a motor's place: no current
 inline constexpr uint8_t flag_special = 2;
 inline constexpr uint8_t flag_stop = 1;
@@ -49,7 +52,8 @@ inline constexpr uint16_t turns_address = actions_address + 0x20;
 inline constexpr uint8_t turns_mask = 0x07;
 // The interrupt takes all received bytes.
 inline constexpr uint16_t often = 500;
-inline constexpr uint8_t most_at_once = 8;  // the expander reads the line at every event
+inline constexpr uint8_t most_at_once = 8;   // the expander reads the line at every event
+inline constexpr uint8_t way_in_events = 8;  // about what is played while events are begun to be made
 inline constexpr uint16_t first_free_address = turns_address + turns_mask + 1;
 
 inline uint16_t entry_address(uint8_t index) {

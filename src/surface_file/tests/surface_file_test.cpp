@@ -77,6 +77,7 @@ TEST(Stl, is_read_as_text_and_as_bytes) {
   const Read binary = read(binary_stl(-2.5F, 1, 1));
   EXPECT_EQ(binary.words, "");
   EXPECT_NEAR(binary.surface.top(1, 1), -2.5, 1e-6);
+  EXPECT_EQ(read(binary_stl(-2.5F, 1, 1) + std::string(49, '\0')).surface.triangles(), 1U) << "some bytes more";
 }
 
 TEST(Stl, text_may_be_in_capitals_on_one_line_and_of_several_bodies) {

@@ -25,7 +25,8 @@ for (const line of fs.readFileSync(process.argv[3], 'ascii').split(/\r?\n/)) {
 const cpu = new CPU(new Uint16Array(program.buffer, program.byteOffset, program.length / 2));
 const ports = { B: new AVRIOPort(cpu, avr.portBConfig), C: new AVRIOPort(cpu, avr.portCConfig) };
 ports.D = new AVRIOPort(cpu, avr.portDConfig);
-new AVRTimer(cpu, avr.timer1Config); // the steps' clock; the others serve the spindle
+new AVRTimer(cpu, avr.timer0Config); // the steps' clock
+new AVRTimer(cpu, avr.timer1Config); // the main loop's; the third serves the spindle
 const usart = new AVRUSART(cpu, avr.usart0Config, 16e6);
 // Every switch is open: the inputs are high.
 for (const port of [ports.B, ports.C]) for (let bit = 0; bit < 8; ++bit) port.setPin(bit, true);

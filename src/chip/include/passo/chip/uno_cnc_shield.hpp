@@ -12,8 +12,8 @@ inline constexpr PinMap<3> uno_cnc_shield = {
               {.step = {'D', 3}, .direction = {'D', 6}, .enable = {'B', 0}},
               {.step = {'D', 4}, .direction = {'D', 7}, .enable = {'B', 0}}},
     .step_ports = {'D'},
-    .flag_special = 2,
-    .flag_stop = 1,
+    .flag_special = 1,
+    .flag_stop = 2,
     // Recent shields have the Z limit on D12, and the spindle's speed on D11.
     .limits = {{'B', 1}, {'B', 2}, {'B', 4}},
     .probe = {'C', 5},

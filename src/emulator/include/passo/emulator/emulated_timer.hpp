@@ -1,9 +1,11 @@
-// EmulatedTimer: timer 1 of the ATmegas, free running at the full clock, with its compare match A and its overflow flag
-// (no program uses the overflow as an interrupt). The class replaces simavr's timer, which forgets a preset count,
-// clears all flags when one is cleared, and forgets a match that was pending when its interrupt is enabled.
+// EmulatedTimer: timers 0 (8 bits) and 1 (16 bits) of the ATmegas, free running at the full clock, each with its
+// compare match A, and timer 1 with its overflow flag (no program uses the overflow as an interrupt). The class
+// replaces simavr's timer, which forgets a preset count, clears all flags when one is cleared, and forgets a match that
+// was pending when its interrupt is enabled.
 //
 // As in silicon, 16-bit registers go through the one byte TEMP that they share. A match sets its flag whether the
-// interrupt is enabled or not. A compare time that has just passed when it is written comes again after 65,536 cycles.
+// interrupt is enabled or not. A compare time that has just passed when it is written comes again after a whole turn of
+// the timer.
 #pragma once
 
 #include <cstdint>
@@ -20,21 +22,36 @@ class EmulatedTimer {
   explicit EmulatedTimer(EmulatedChip& chip);
   EmulatedTimer(const EmulatedTimer&) = delete;
 
-  // The cycle at which the timer stood at 0 and ran.
-  std::uint64_t started() const { return started_; }
+  // The cycle at which timer 1 stood at 0 and ran.
+  std::uint64_t started() const { return word_.started; }
 
  private:
-  std::uint16_t count() const;
+  // A timer that counts to `turn` - 1.
+  struct Counter {
+    std::uint64_t turn = 0;
+    std::uint16_t flags = 0;  // addresses of TIFRn and TIMSKn
+    std::uint16_t mask = 0;
+    avr_int_vector_t* match = nullptr;
+    std::uint64_t started = 0;
+    bool runs = false;
+    std::uint64_t compare = 0;
+
+    std::uint64_t count(const avr_t& avr) const;
+    void start(avr_t& avr, std::uint8_t control);
+    void set_alarm(avr_t& avr);
+    void clear(avr_t& avr, std::uint8_t flags_written) const;
+    void enable(avr_t& avr, std::uint8_t mask_written) const;
+  };
+
+  void replace_timer_0();
+  void replace_timer_1();
   std::uint64_t overflows() const;
-  void set_alarm();
-  static std::uint64_t on_match(avr_t* avr, std::uint64_t when, void* self);
+  static std::uint64_t on_match(avr_t* avr, std::uint64_t when, void* counter);
 
   avr_t& avr_;
-  avr_int_vector_t* match_ = nullptr;
-  std::uint64_t started_ = 0;
-  bool runs_ = false;
+  Counter byte_{.turn = 256, .flags = 0x35, .mask = 0x6e};
+  Counter word_{.turn = 65536, .flags = 0x36, .mask = 0x6f};
   std::uint8_t temp_ = 0;
-  std::uint16_t compare_ = 0;
   std::uint64_t overflows_cleared_ = 0;
 };
 

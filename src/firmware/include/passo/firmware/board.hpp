@@ -134,16 +134,17 @@ class Board : private BoardVoice<Hardware> {
 
   // Removes items that the player has finished, and gives it those that it can take. On a chip the main loop calls it.
   void settle() {
-    do {
+    for (;; load()) {
       breathe();
-      while (player_.finished()) {
-        retire();
-        player_.forget();
-        breathe();
-      }
+      while (player_.finished()) retire_one();
       if (!player_.ready() || !has_more()) return;
-      load();
-    } while (true);
+    }
+  }
+  // Gives the player one item, and removes no more than one for that: where events are short, they come first.
+  void feed() {
+    breathe();
+    if (!player_.ready() && player_.finished()) retire_one();
+    if (player_.ready() && has_more()) load();
   }
   // Whether there is an item, or a part of one, that the player has not begun.
   bool has_more() const { return !parts_.are_done() || begun_ != list_.size(); }
@@ -417,16 +418,15 @@ class Board : private BoardVoice<Hardware> {
   }
   [[gnu::noinline]] void load_part(Segment& segment, bool begins) {
     parts_.take(segment, begins);
-    if (is_root(segment.form)) keep_playable(parts_.part());
+    if (is_root(segment.form)) identity_.template keep_playable<Breath>(parts_.part(), motors_);
     player_.load(parts_.part());
   }
-  // A part that is too fast, which only a wrong host makes, is played as fast as may be.
-  [[gnu::noinline]] void keep_playable(Segment& part) {
-    if (identity_.template can_play<Breath>(part, motors_)) return;
-    if (part.interval < identity_.shortest_interval) part.interval = identity_.shortest_interval;
-    part.change = 0;
-  }
 
+  void retire_one() {
+    retire();
+    player_.forget();
+    breathe();
+  }
   // The oldest item, or a part of it, is done. Outputs are switched here, at the event before them.
   [[gnu::noinline]] void retire() {
     const auto& item = list_.front();

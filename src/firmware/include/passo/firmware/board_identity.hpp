@@ -50,6 +50,15 @@ struct BoardIdentity {
     const uint16_t times = static_cast<uint16_t>(segment.events - 1);
     return (times <= 0xFF && change >> 24 == 0 && change << 8 <= room) || product_fits<Pause>(change, times, room);
   }
+  // A part that is too fast, which only a wrong host makes, is played as fast as may be. Most parts brake.
+  template <class Pause, class Segment>
+  [[gnu::noinline]] void keep_playable(Segment& part, uint8_t motors_there) const {
+    const bool brakes = part.change >= 0 && part.change <= 0xffff && part.interval >> 31 == 0;
+    if (brakes && part.interval >= shortest_interval) return;
+    if (can_play<Pause>(part, motors_there)) return;
+    if (part.interval < shortest_interval) part.interval = shortest_interval;
+    part.change = 0;
+  }
 };
 
 // The interval at this many events a second, less a whole tick: the host fits its segments that closely. 0: no limit.

@@ -1,0 +1,90 @@
+// RingTimes where an entry of the ring has a time of 16 bits: the step timer is timer 1, and each entry is an event.
+// short_times.hpp is the counterpart with the same functions.
+#pragma once
+
+#include "event_ring.hpp"
+#include "registers.hpp"
+#include "step_interrupt.hpp"
+
+namespace passo::chip {
+
+inline uint16_t time_of(uint8_t index) {
+  return static_cast<uint16_t>(*time_high_of(index) << 8 | *time_low_of(index));
+}
+inline void set_time(uint8_t index, uint16_t time) {
+  *time_high_of(index) = static_cast<uint8_t>(time >> 8);
+  *time_low_of(index) = static_cast<uint8_t>(time);
+}
+
+class RingTimes {
+ public:
+  // The interrupt may be long away: then the main loop reads the line.
+  static constexpr bool are_short = false;
+
+  static void prepare() {
+    Tccr1a::write(0);
+    Tccr1b::write(1);
+  }
+  static void restart() {}
+  static void disable() { Timsk1::write(0); }
+  // Begins to play with this entry.
+  static void enable(uint8_t index) {
+    Ocr1ah::write(*time_high_of(index));
+    Ocr1al::write(*time_low_of(index));
+    Tifr1::write(compare_match_a);
+    running = 1;
+    Timsk1::write(compare_match_a);
+  }
+
+  // Where the last event of an item is in the ring, if that must be kept beside the number of events.
+  struct Last {
+    void note() {}
+    // `since`: events made after the item.
+    bool is_played(uint8_t waiting, uint16_t since) const { return waiting <= since; }
+  };
+
+  static void load() {}
+  static uint8_t way_in() { return way_in_events; }
+  // What to make at once where hardly any wait.
+  static uint8_t few() { return 8; }
+  // Room in the ring for which it is worth making some events.
+  static uint8_t least_room(uint8_t most_ahead) { return static_cast<uint8_t>(most_ahead / 8 * 3); }
+  // Whether an entry takes about as long to make as to play, at its shortest.
+  static constexpr bool are_slow() { return false; }
+  // How many of `count` entries to make at once.
+  static uint8_t at_once(uint8_t count) { return count; }
+  // The expander stops at the ring's end.
+  static uint8_t before_the_end(uint8_t first, uint8_t count) {
+    const uint8_t behind_this = static_cast<uint8_t>(ring_mask - first);  // entries from here to the ring's end
+    return count > behind_this ? static_cast<uint8_t>(behind_this + 1) : count;
+  }
+  // Makes `count` entries with as many events.
+  static uint8_t make(uint8_t count, uint8_t& left) {
+    expand(count);
+    left = static_cast<uint8_t>(left - count);
+    return count;
+  }
+  // The events played before this entry, with so many entries from there to the end of the ring. `made`: events ever.
+  static uint16_t played(uint8_t /*from*/, uint8_t entries, uint16_t made) {
+    return static_cast<uint16_t>(made - entries);
+  }
+  // The first byte of a finished entry, of what the expander has written.
+  static uint8_t finished(uint8_t written, bool turns) {
+    const uint8_t plain = static_cast<uint8_t>(written & ~(flag_special | flag_stop));
+    return turns ? static_cast<uint8_t>(plain | flag_special) : plain;
+  }
+  static uint8_t toggles_of(uint8_t flagged) { return static_cast<uint8_t>(flagged & ~flag_special); }
+
+  // The time of the entry at which the interrupt stopped; `head` is behind the last one.
+  static uint16_t due(uint8_t first, uint8_t /*head*/) { return time_of(first); }
+  // Ticks from the entry before, which may have been played.
+  static uint16_t gap(uint8_t index) {
+    return static_cast<uint16_t>(time_of(index) - time_of(static_cast<uint8_t>((index - 1) & ring_mask)));
+  }
+  static bool is_only_a_wait(uint8_t /*index*/) { return false; }
+  static void place(uint8_t index, uint16_t time) { set_time(index, time); }
+  static void delay(uint8_t index, uint16_t ticks) { set_time(index, static_cast<uint16_t>(time_of(index) + ticks)); }
+  static void delay_next(uint16_t /*ticks*/) {}
+};
+
+}  // namespace passo::chip

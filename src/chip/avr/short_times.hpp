@@ -1,0 +1,209 @@
+// RingTimes where an entry of the ring has the low byte of its time only: the step timer is timer 0, which goes round
+// every 256 ticks. Where events are further apart, entries come between that toggle nothing: waits. long_times.hpp is
+// the counterpart with the same functions.
+//
+// A wait is at most 256 ticks after the entry before it, and the event at least 129 after the last wait, so that the
+// interrupt is never late for it. Timer 1 runs beside timer 0 and gives the main loop the time in 16 bits. Between two
+// pieces of work all times are known in 16 bits: expansion.time is that of the last event made, or of the next one amid
+// a wait.
+#pragma once
+
+#include "event_ring.hpp"
+#include "registers.hpp"
+#include "serial_line.hpp"
+#include "step_interrupt.hpp"
+
+namespace passo::chip {
+
+class RingTimes {
+ public:
+  // While the interrupt plays it comes so often that it sees every byte off the line.
+  static constexpr bool are_short = true;
+
+  static void prepare() {
+    Tccr0a::write(0);
+    Tccr0b::write(0);
+    Tccr1a::write(0);
+    Tccr1b::write(0);
+    Tcnt0::write(0);
+    Tcnt1h::write(0);
+    Tcnt1l::write(0);
+    Tccr1b::write(1);
+    Tccr0b::write(1);
+  }
+  static void restart() {
+    expansion.is_amid = 0;
+    since_wait_ = since_count_ = 255;
+    reach_ = Reach::far;
+  }
+  static void disable() { Timsk0::write(0); }
+  static void enable(uint8_t index) {
+    Ocr0a::write(*time_low_of(index));
+    Tifr0::write(compare_match_a);
+    running = 1;
+    Timsk0::write(compare_match_a);
+  }
+
+  struct Last {
+    uint16_t entry;
+    void note() { entry = made_; }
+    bool is_played(uint8_t waiting, uint16_t /*since*/) const {
+      return waiting <= static_cast<uint16_t>(made_ - entry);
+    }
+  };
+
+  // A segment was loaded.
+  static void load() { reach_ = reach(); }
+  // Slow entries last long enough for the way in.
+  static uint8_t way_in() { return reach_ == Reach::near ? way_in_events : uint8_t{0}; }
+  // Whether an entry takes about as long to make as to play, at its shortest: 100 and 129 cycles.
+  static bool are_slow() { return reach_ == Reach::far; }
+  // What to make at once where hardly any wait.
+  static uint8_t few() { return reach_ == Reach::near ? few_events : most_waits_at_once; }
+  // Room in the ring for which it is worth making some. Slow events leave time, and the loop may be away for long.
+  static uint8_t least_room(uint8_t most_ahead) {
+    return static_cast<uint8_t>(reach_ == Reach::near ? most_ahead / 8 * 3 : most_ahead / 6);
+  }
+  // The line cannot wait for many slow events.
+  static uint8_t at_once(uint8_t count) {
+    return line_is_watched != 0 || count <= most_waits_at_once || reach_ == Reach::near ? count : most_waits_at_once;
+  }
+  // The expander wraps at the ring's end.
+  static uint8_t before_the_end(uint8_t /*first*/, uint8_t count) { return count; }
+  static uint8_t make(uint8_t count, uint8_t& left) {
+    if (reach_ != Reach::near) return make_slowly(count, left);
+    if (count > left) count = left;
+    expand(count);
+    left = static_cast<uint8_t>(left - count);
+    add(count);
+    since_wait_ = no_more_than_255(since_wait_, count);
+    return count;
+  }
+  [[gnu::noinline]] static uint8_t make_slowly(uint8_t count, uint8_t& left) {
+    since_wait_ = 0;
+    const bool begins = expansion.is_amid == 0;
+    if (reach_ == Reach::far && begins) reach_ = reach();
+    if (reach_ != Reach::far && begins && count > 1) {
+      uint8_t events = count / 2;
+      if (events > left) events = left;
+      left = static_cast<uint8_t>(left - events);
+      const uint8_t behind = expand_with_waits(events);
+      count = static_cast<uint8_t>(behind - static_cast<uint8_t>(expansion.address)) / sizeof(EventEntry);
+    } else {
+      expansion.events = left;
+      count = static_cast<uint8_t>(count - expand_slowly(count));
+      left = expansion.events;
+    }
+    add(count);
+    return count;
+  }
+  // A walk, if there are waits: from the entry at which the last walk ended, if it is still in the ring.
+  [[gnu::noinline]] static uint16_t played(uint8_t from, uint8_t entries, uint16_t made) {
+    uint16_t played;
+    if (entries <= since_wait_) {
+      played = static_cast<uint16_t>(made - entries);
+    } else if (since_count_ < ring_mask && since_count_ >= entries) {
+      const uint8_t back = static_cast<uint8_t>(since_count_ - entries);
+      played = static_cast<uint16_t>(counted_ + events(static_cast<uint8_t>(from - back), back));
+    } else {
+      played = static_cast<uint16_t>(made - events(from, entries));
+    }
+    counted_ = played;
+    since_count_ = entries;
+    return played;
+  }
+  static uint8_t finished(uint8_t written, bool turns) {
+    if ((written & first_waits) != 0) return turns ? flag_special | first_waits : flag_stop;
+    const uint8_t plain = static_cast<uint8_t>(written & ~(flag_special | flag_stop));
+    return turns ? static_cast<uint8_t>(plain | flag_special) : plain;
+  }
+  static uint8_t toggles_of(uint8_t flagged) { return static_cast<uint8_t>(flagged & ~(flag_special | first_waits)); }
+
+  // A walk, while the interrupt stands.
+  [[gnu::noinline]] static uint16_t due(uint8_t first, uint8_t head) {
+    uint16_t time = static_cast<uint16_t>(expansion.time >> 16);
+    if (expansion.is_amid != 0) time = static_cast<uint16_t>(time - (expansion.waits << 8) - expansion.rest - 129);
+    for (;;) {
+      head = (head - 1) & ring_mask;
+      if (head == first) return time;
+      time = static_cast<uint16_t>(time - gap(head));
+      SerialLine::breathe();
+    }
+  }
+  static uint16_t gap(uint8_t index) {
+    const uint8_t ticks =
+        static_cast<uint8_t>(*time_low_of(index) - *time_low_of(static_cast<uint8_t>((index - 1) & ring_mask)));
+    return ticks == 0 ? 256 : ticks;
+  }
+  static bool is_only_a_wait(uint8_t index) { return is_wait(flagged_byte(index)); }
+  static void place(uint8_t index, uint16_t time) {
+    *time_low_of(index) = static_cast<uint8_t>(time);
+    add(1);
+  }
+  static void delay(uint8_t index, uint16_t ticks) {
+    *time_low_of(index) = static_cast<uint8_t>(*time_low_of(index) + ticks);
+  }
+  // What is made amid a wait counts from the last entry.
+  static void delay_next(uint16_t ticks) { expansion.at = static_cast<uint8_t>(expansion.at + ticks); }
+
+ private:
+  static bool is_wait(uint8_t flagged) {
+    if ((flagged & flag_special) != 0) return (flagged & first_waits) != 0;
+    return (flagged & flag_stop) != 0;
+  }
+  static uint8_t no_more_than_255(uint8_t a, uint8_t b) {
+    return a > 255 - b ? uint8_t{255} : static_cast<uint8_t>(a + b);
+  }
+  static void add(uint8_t entries) {
+    made_ = static_cast<uint16_t>(made_ + entries);
+    since_count_ = no_more_than_255(since_count_, entries);
+  }
+  // Those that do not only wait, among so many entries from this one on: 12 cycles an entry.
+  static uint8_t events(uint8_t from, uint8_t entries) {
+    uint8_t events = 0;
+    if (entries == 0) return 0;
+    uint16_t at = toggles_address(from);
+    asm volatile(R"(
+      1:  ldi r31, 0x01             ; 1   the ring is a page
+          ld r25, Z+                ; 2
+          inc r30                   ; 1
+          sbrc r25, %[special]      ; 2
+          rjmp 3f
+          sbrs r25, %[stop]         ; 2
+      2:  inc %[events]             ; 1
+      4:  dec %[entries]            ; 1
+          brne 1b                   ; 2
+          rjmp 5f
+      3:  sbrs r25, %[first_waits]
+          rjmp 2b
+          rjmp 4b
+      5:
+    )"
+                 : [events] "+r"(events), [entries] "+r"(entries), "+z"(at)
+                 : [special] "n"(0), [stop] "n"(1), [first_waits] "n"(7)
+                 : "r25", "memory");
+    return events;
+  }
+  static_assert(flag_special == 1 << 0 && flag_stop == 1 << 1 && first_waits == 1 << 7 && ring_address == 0x100);
+  // What the next 255 intervals are all under: 256 ticks, 512, or none of these.
+  enum class Reach : uint8_t { near, middle, far };
+  [[gnu::noinline]] static Reach reach() {
+    const int32_t change = expansion.change;
+    if (change > 0xffff) return Reach::far;
+    uint32_t longest = expansion.interval;
+    if (change > 0) longest += static_cast<uint32_t>(static_cast<uint16_t>(change)) << 8;
+    const uint8_t ticks = static_cast<uint8_t>(longest >> 24);
+    return ticks == 0 ? Reach::near : ticks == 1 ? Reach::middle : Reach::far;
+  }
+
+  static constexpr uint8_t few_events = 8;
+  static constexpr uint8_t most_waits_at_once = 4;
+
+  static inline Reach reach_ = Reach::far;
+  static inline uint16_t made_ = 0;          // entries ever made
+  static inline uint8_t since_wait_ = 255;   // entries made since one that may be a wait; 255: or more
+  static inline uint8_t since_count_ = 255;  // entries made since the one before which events were counted, and
+  static inline uint16_t counted_ = 0;       // how many
+};
+
+}  // namespace passo::chip
