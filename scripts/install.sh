@@ -16,6 +16,7 @@ build_packages=(
   zlib1g-dev                 # packed TIFF pictures
   libsqlite3-dev             # jobs and history of passo serve
   libboost1.74-dev           # HTTP and WebSocket of passo serve
+  libmosquitto-dev           # status of passo serve for an MQTT broker
   libpolyclipping-dev        # unions and offsets of copper in passo cam
   libfreetype-dev libharfbuzz-dev  # letters in passo cam engrave
   libexpat1-dev              # SVG drawings in passo cam
@@ -35,6 +36,7 @@ test_packages=(
   clang-format clang-tidy    # style
   git ccache                 # checks of the tracked files; builds again in seconds
   gerbv                      # draws circuit boards beside passo's reader
+  mosquitto                  # a broker for the tests of passo serve --mqtt
   python3-ezdxf librecad-data openscad-testing-data  # reads DXF drawings beside passo's reader; 1,368 drawings
   jq                         # the table of scripts/motion_table.sh
   chromium                   # the stories of the page of passo serve

@@ -12,11 +12,16 @@ namespace passo {
 
 using Json = nlohmann::ordered_json;
 
+inline constexpr std::string_view uploads_path = "/api/v1/uploads";
 inline constexpr double a_minute = 60;  // s; the API's speeds are mm/min
 
 WebAnswer json_answer(unsigned status, const Json& json);
 // {"error": {"code": …, "message": …}}
 WebAnswer error_answer(unsigned status, std::string_view code, std::string_view message);
+
+// What a query says. A name is for people: what could do harm in a terminal or a page is left out.
+std::string name_from(std::string_view text, std::string_view otherwise);
+std::optional<Dialect> dialect_from(std::string_view query);
 
 // The refusals of more than one file.
 WebAnswer no_history();

@@ -29,7 +29,8 @@ unsigned status_of(RefusalCode code) {
   return code == RefusalCode::bad_value ? 400 : 409;
 }
 
-// A name for people: what could do harm in a terminal or a page is left out.
+}  // namespace
+
 std::string name_from(std::string_view text, std::string_view otherwise) {
   std::string name;
   for (const char c : text.substr(0, longest_name)) {
@@ -46,8 +47,6 @@ std::optional<Dialect> dialect_from(std::string_view query) {
   if (dialect.empty() || dialect == "linuxcnc") return Dialect::linuxcnc;
   return {};
 }
-
-}  // namespace
 
 std::string_view name_of(JobState state) {
   switch (state) {
@@ -93,7 +92,7 @@ std::size_t MachineApi::longest_body(const WebRequest& request) {
   if (request.method != "POST") return small_body;
   if (request.path.ends_with("/height-map")) return longest_map;
   if (request.path == make_files_path && options_.maker != nullptr) return Maker::longest_file;
-  return uploads ? ProgramStore::longest_program : small_body;
+  return uploads || request.path.starts_with(uploads_path) ? ProgramStore::longest_program : small_body;
 }
 
 WebAnswer MachineApi::answer(const WebRequest& request) {
@@ -156,6 +155,7 @@ WebAnswer MachineApi::look(const FoundRoute& found, const WebRequest& request) {
     for (const auto& [id, program] : programs_.all()) list.push_back(as_json(program, false));
     return json_answer(200, {{"programs", std::move(list)}});
   }
+  if (path.starts_with(uploads_path)) return look_at_uploads(found);
   const StoredProgram* const program = programs_.find(found.id);
   if (program == nullptr) return refusal(404);
   if (path.ends_with("/path")) return path_answer(*program, request.query);
@@ -171,6 +171,7 @@ WebAnswer MachineApi::look(const FoundRoute& found, const WebRequest& request) {
 WebAnswer MachineApi::change(const FoundRoute& found, const WebRequest& request) {
   const std::string_view path = found.route->path;
   if (path.starts_with(programs_path)) return change_programs(found, request);
+  if (path.starts_with(uploads_path)) return change_uploads(found, request);
   if (path.starts_with(queue_path)) return change_queue(found, request);
   if (path.starts_with(make_path)) return change_making(found, request);
   if (path.starts_with(interrupted_path)) return change_interrupted(found);

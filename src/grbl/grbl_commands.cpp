@@ -127,15 +127,20 @@ void GrblController::take_startup_line(const std::string& text) {
   answer(GrblError::none);
 }
 
-// The machine file keeps the settings, so only offsets can be restored.
+// The settings of the machine file stay as they are: they describe the machine. What a sender has chosen for itself
+// ($10, $13) and has set (offsets, start lines) goes back to what it was.
 void GrblController::restore(const std::string& text) {
-  if (text != "$RST=#") return answer(GrblError::bad_statement);
-  for (int system = 1; system <= 6; ++system) {
+  const bool all = text == "$RST=*";
+  const bool settings = all || text == "$RST=$";
+  if (!settings && text != "$RST=#") return answer(GrblError::bad_statement);
+  if (settings) choices_ = GrblChoices();
+  if (all) startup_[0] = startup_[1] = "";
+  for (int system = 1; system <= 6 && text != "$RST=$"; ++system) {
     std::string line = fmt::format("G10L2P{}", system);
     for (const Axis axis : grbl_axes_of(machine_)) line += fmt::format("{}0", letter_of(axis));
     if (program_.take(line, session_.now())) return answer(GrblError::bad_statement);
   }
-  static_cast<void>(program_.take("G92.1", session_.now()));
+  if (text != "$RST=$") static_cast<void>(program_.take("G92.1", session_.now()));
   say("[MSG:Restoring defaults]\r\n");
   answer(GrblError::none);
 }

@@ -186,6 +186,9 @@ struct ServeArguments {
   std::string http_token;               // file with the token that they need
   std::vector<std::string> http_names;  // by which others know this server, beside HOST
   std::string page;                     // folder with a page for browsers
+  std::string mqtt;                     // HOST or HOST:PORT of a broker that is told the status; empty: none
+  std::string mqtt_topic = "passo";     // all topics begin with it
+  std::string mqtt_login;               // file with USER:PASSWORD for the broker; empty: nobody logs in
   bool check = false;                   // only say whether this can be served
   std::string data;                     // folder for jobs and history; empty: nothing is kept
 };

@@ -158,6 +158,10 @@ CLI::App& add_serve(CLI::App& app, ServeArguments& arguments) {
                      "DEVICE[@BAUD]: a serial port for senders, at 115200 baud if nothing else is said");
   command.add_flag("--anybody-may-drive", arguments.anybody_may_drive,
                    "allow a HOST that other computers reach: the protocol has no password");
+  command.add_option("--mqtt", arguments.mqtt,
+                     "HOST[:PORT] of an MQTT broker that is told the status; it moves nothing");
+  command.add_option("--mqtt-topic", arguments.mqtt_topic, "what all its topics begin with")->capture_default_str();
+  command.add_option("--mqtt-login", arguments.mqtt_login, "FILE whose first line is USER:PASSWORD for the broker");
   command.add_flag("--check", arguments.check,
                    "only say whether the machine file and the options are good; nothing is opened, nothing moves");
   command.add_option("--http", arguments.http, "HOST:PORT for programs and browsers: HTTP and WebSocket");

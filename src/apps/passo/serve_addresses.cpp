@@ -7,6 +7,7 @@
 
 #include "opened_grbl.hpp"
 #include "program_input.hpp"
+#include "served_status.hpp"
 #include <fmt/format.h>
 #include <unistd.h>
 
@@ -118,6 +119,7 @@ int check_serve(const ServeArguments& arguments, const std::string& machine_name
   if (!arguments.grbl_tcp.empty() && !sender_address(arguments, arguments.grbl_tcp, code)) return code;
   if (!arguments.grbl_serial.empty() && !sender_port(arguments, code)) return code;
   if (!arguments.http.empty() && !web_place(arguments, code)) return code;
+  if (!arguments.mqtt.empty() && !ServedStatus::check(arguments, code)) return code;
   if (const auto board = parse_board_address(arguments.board); !board) return fail(exit_bad_program, board.error());
   if (names_grbl_machine(arguments.board)) {
     return fail(exit_bad_program,

@@ -161,13 +161,20 @@ int serve(const ServeArguments& given) {
     web = ServedWeb::open(arguments, *machine, opened->session(), owner, jobs, code);
     if (!web) return code;
   }
+  std::unique_ptr<ServedStatus> status;
+  if (!arguments.mqtt.empty()) {
+    status = ServedStatus::open(arguments, *machine, code);
+    if (!status) return code;
+  }
   fmt::print("{} on {}{}\n", machine->name, opened->has_board() ? arguments.board : "a virtual board",
              lines.empty() ? ":" : ", for senders of Grbl 1.1:");
   for (const auto& line : lines) fmt::print("  {}\n", line->name());
   if (web) fmt::print("For programs and browsers:\n  {}\n", web->name());
+  if (status) fmt::print("For displays:\n  {}\n", status->name());
   fmt::print("Ctrl-C stops the machine, and ends.\n");
   std::fflush(stdout);
   ServeDaemon daemon(*opened, grbl, owner, std::move(lines), web.get(), service);
+  daemon.tell(status.get());
   service.ready(machine->name);
   daemon.serve();
   service.stopping();

@@ -35,6 +35,7 @@ void ServeDaemon::serve() {
     mind_owner();
     turn();
     reply();
+    if (status_ != nullptr) status_->turn(session_);
     service_.alive();
   }
 }

@@ -8,6 +8,7 @@
 
 #include "opened_machine.hpp"
 #include "serve_web.hpp"
+#include "served_status.hpp"
 
 #include "passo/api/motion_owner.hpp"
 #include "passo/grbl/grbl_controller.hpp"
@@ -45,6 +46,8 @@ class ServeDaemon {
   ServeDaemon(OpenedMachine& machine, GrblController& grbl, MotionOwner& owner, Lines lines, ServedWeb* web,
               ServiceNotice& service);
 
+  // A broker is told the status too. `status` outlives the daemon; null: none is.
+  void tell(ServedStatus* status) { status_ = status; }
   // Until a signal comes.
   void serve();
   // Brakes what moves, and waits until it rests.
@@ -67,6 +70,7 @@ class ServeDaemon {
   Lines lines_;
   ServedWeb* web_;
   ServiceNotice& service_;
+  ServedStatus* status_ = nullptr;
   SenderLine* driver_ = nullptr;  // where the sender is
   WallClock clock_;
 };

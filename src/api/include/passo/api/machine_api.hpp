@@ -25,6 +25,7 @@
 #include "passo/api/maker.hpp"
 #include "passo/api/motion_owner.hpp"
 #include "passo/api/program_store.hpp"
+#include "passo/api/program_uploads.hpp"
 #include "passo/history/job_history.hpp"
 #include "passo/machine_file/machine_description.hpp"
 #include "passo/session/machine_session.hpp"
@@ -127,6 +128,9 @@ class MachineApi final : public WebHandler {
   WebAnswer look(const FoundRoute& found, const WebRequest& request);
   WebAnswer change(const FoundRoute& found, const WebRequest& request);
   WebAnswer change_programs(const FoundRoute& found, const WebRequest& request);
+  WebAnswer look_at_uploads(const FoundRoute& found) const;
+  WebAnswer begin_upload(const WebRequest& request);
+  WebAnswer change_uploads(const FoundRoute& found, const WebRequest& request);
   WebAnswer look_at_history(const FoundRoute& found, const WebRequest& request);
   WebAnswer change_queue(const FoundRoute& found, const WebRequest& request);
   WebAnswer take_ownership(const WebRequest& request);
@@ -166,6 +170,7 @@ class MachineApi final : public WebHandler {
   MotionOwner& owner_;
   ApiOptions options_;
   ProgramStore programs_;
+  ProgramUploads uploads_;
   ApiJob job_;
   Seconds owner_heard_{0};
   std::uint64_t job_owner_ = 0;    // MotionOwner::changes() when the job was asked for
