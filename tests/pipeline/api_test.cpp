@@ -350,6 +350,29 @@ TEST(Api, takes_requests_over_the_stream) {
 }
 
 // A machine whose jobs are kept.
+TEST(Api, a_program_that_was_checked_from_this_place_begins_at_once) {
+  ApiRun run;
+  run.own();
+  std::string text = "G21 G90 F600\n";
+  for (int i = 0; i < 20'000; ++i) text += i % 2 == 0 ? "G1 X1\n" : "G1 X0\n";
+  const std::string program = fmt::format("/programs/{}", run.upload(text + "M2\n"));
+  const auto turns_to = [&](const std::string& state) {
+    int turns = 0;
+    for (; turns < 10'000 && run.get("/status")["state"] != state && run.get(program)["state"] != state; ++turns)
+      run.turn();
+    return turns;
+  };
+  run.post(program + "/check");
+  EXPECT_GT(turns_to("good"), 4);
+  run.post(program + "/run");
+  EXPECT_LE(turns_to("Run"), 2);
+  run.pass(Seconds(0.05));
+  run.post("/stop");
+  ASSERT_TRUE(run.turn_until_state("Idle"));
+  run.post(program + "/run");
+  EXPECT_GT(turns_to("Run"), 2) << "from another place";
+}
+
 TEST(HomingRepeats, are_counted_from_the_first_homing_since_the_place_was_known) {
   const MachineDescription machine = example_machine("router");
   const AxisDescription& x = machine.axes[0];
