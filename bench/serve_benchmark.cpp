@@ -350,7 +350,7 @@ void measure_sender_hold(Daemon& daemon, RealBoard& board) {
   daemon.key.clear();
   const int sender = connect_to(static_cast<unsigned>(daemon.grbl));
   usleep(200'000);
-  write_all(sender, long_lines().substr(14));  // grbl has no G61.1 with a blank
+  write_all(sender, "$X\n" + long_lines().substr(14));  // grbl has no G61.1 with a blank
   print("a hold by !", measure_holds(
                            board, [&] { write_all(sender, "!"); }, [&] { write_all(sender, "~"); }));
   write_all(sender, "\x18");
@@ -369,12 +369,14 @@ void measure_long_program(Daemon& daemon, RealBoard& board) {
   const double checked = seconds_since(sent);
   const std::uint64_t steps = board.watch.steps();
   const auto asked = Clock::now();
+  const double used = daemon.processor();
   daemon.ask("POST", "/programs/" + id + "/run");
   for (int wait = 0; wait < 60'000 && board.watch.steps() == steps; ++wait) usleep(1000);
   std::printf(
       "a program of 1,000,000 lines (%.0f MB): uploaded in %.2f s, checked in %.2f s; first step %.2f s after the "
-      "start\n",
-      static_cast<double>(text.size()) / 1e6, uploaded, checked - uploaded, seconds_since(asked));
+      "start, %.2f s of a processor\n",
+      static_cast<double>(text.size()) / 1e6, uploaded, checked - uploaded, seconds_since(asked),
+      daemon.processor() - used);
   std::printf("memory: %.0f MB, at most %.0f MB\n", daemon.megabytes("VmRSS:"), daemon.megabytes("VmHWM:"));
   daemon.ask("POST", "/stop");
   daemon.await("Idle");

@@ -25,23 +25,27 @@ function precompressed(): Plugin {
   };
 }
 
-// The lab's module, which CMake makes of the program's own sources. Without it the page has all but the lab.
-const labModule = process.env.PASSO_LAB_WASM ?? '../build/release/src/lab/lab.wasm';
-function lab(): Plugin {
+// The modules that CMake makes of the program's own sources. Without them the page has all but the lab and the stock.
+const modules = {
+  'lab.wasm': process.env.PASSO_LAB_WASM ?? '../build/release/src/lab/lab.wasm',
+  'stock.wasm': process.env.PASSO_STOCK_WASM ?? '../build/release/src/stock/stock.wasm',
+};
+function core(): Plugin {
   return {
-    name: 'lab',
+    name: 'core',
     generateBundle() {
-      if (existsSync(labModule)) {
-        this.emitFile({ type: 'asset', fileName: 'lab.wasm', source: readFileSync(labModule) });
-      } else {
-        this.warn(`${labModule} is not there: the page has no lab`);
+      for (const [fileName, path] of Object.entries(modules)) {
+        if (existsSync(path)) this.emitFile({ type: 'asset', fileName, source: readFileSync(path) });
+        else this.warn(`${path} is not there: the page has no ${fileName}`);
       }
     },
     configureServer(server) {
-      server.middlewares.use('/lab.wasm', (_, reply) => {
-        reply.setHeader('Content-Type', 'application/wasm');
-        reply.end(readFileSync(labModule));
-      });
+      for (const [fileName, path] of Object.entries(modules)) {
+        server.middlewares.use(`/${fileName}`, (_, reply) => {
+          reply.setHeader('Content-Type', 'application/wasm');
+          reply.end(readFileSync(path));
+        });
+      }
     },
   };
 }
@@ -49,7 +53,7 @@ function lab(): Plugin {
 export default defineConfig({
   base: './',
   esbuild: { jsx: 'automatic', jsxImportSource: 'preact' },
-  plugins: [lab(), precompressed()],
+  plugins: [core(), precompressed()],
   build: {
     target: 'es2022',
     outDir: process.env.PASSO_PAGE_OUT ?? '../build/page',

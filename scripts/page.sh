@@ -1,8 +1,9 @@
 #!/usr/bin/env bash
-# scripts/page.sh [--test|--stories]: builds the page that `passo serve` shows, into build/page.
+# scripts/page.sh [--test|--stories [WORDS]]: builds the page that `passo serve` shows, into build/page.
 #
 #   --test      then runs the tests of the page's parts
-#   --stories   then runs whole stories: Chromium against build/release/passo (or $PASSO_PROGRAM) and its virtual machine
+#   --stories   then runs whole stories: Chromium against build/release/passo (or $PASSO_PROGRAM) and its virtual machine;
+#               with WORDS, a regular expression, those whose names have them
 #
 # It fetches what page/package-lock.json names, once. It needs node 18 or later with npm. Where something is missing, it
 # says what: alone it ends well, because all but the page works; with an option it ends with 77, "skipped".
@@ -12,7 +13,7 @@ cd "$(dirname "${BASH_SOURCE[0]}")/../page"
 case "${1-}" in
   "" | --test | --stories) ;;
   *)
-    sed -n '2,8s/^# \{0,1\}//p' "../scripts/page.sh"
+    sed -n '2,9s/^# \{0,1\}//p' "../scripts/page.sh"
     exit 2
     ;;
 esac
@@ -29,12 +30,12 @@ if ! cmp --silent package-lock.json node_modules/.passo-lock; then
   npm ci --ignore-scripts --no-audit --no-fund --silent || lacking "The page is not built: its parts could not be fetched." "${1-}"
   cp package-lock.json node_modules/.passo-lock
 fi
-# The lab's module is made of the program's sources, where CMake was set up and finds what it needs.
+# Two modules are made of the program's sources, where CMake was set up and finds what it needs.
 if [[ -e ../build/release/build.ninja && -n $(find ../build/release/src/lab -name lab.dir 2>/dev/null) ]]; then
-  cmake --build ../build/release --target lab >/dev/null || echo "lab.wasm could not be built: the page has no lab." >&2
+  cmake --build ../build/release --target lab stock >/dev/null || echo "lab.wasm, stock.wasm could not be built: the page lacks lab and stock." >&2
 fi
 # What has not changed is not built again.
-newest=$(find . ../build/release/src/lab/lab.wasm -path ./node_modules -prune -o -type f -newer ../build/page/index.html -print 2>/dev/null | head -1 || true)
+newest=$(find . ../build/release/src/lab/lab.wasm ../build/release/src/stock/stock.wasm -path ./node_modules -prune -o -type f -newer ../build/page/index.html -print 2>/dev/null | head -1 || true)
 if [[ ! -e ../build/page/index.html || -n $newest ]]; then
   npm run --silent build -- --logLevel warn
   touch ../build/page/index.html
@@ -44,6 +45,6 @@ case "${1-}" in
   --test) npm run --silent test ;;
   --stories)
     [[ -x ${PASSO_CHROMIUM:-/usr/bin/chromium} ]] || lacking "There is no Chromium: apt-get install chromium." --stories
-    npm run --silent stories
+    npm run --silent stories -- ${2:+-t "$2"}
     ;;
 esac

@@ -1,6 +1,7 @@
 // What the stories share: the real daemon with its virtual machine, and the real browser.
 import { spawn, type ChildProcess } from 'node:child_process';
 import { existsSync, mkdtempSync, readFileSync, rmSync, writeFileSync } from 'node:fs';
+import { createRequire } from 'node:module';
 import { tmpdir } from 'node:os';
 import { join, resolve } from 'node:path';
 import { chromium, type Browser, type BrowserContext, type Page } from 'playwright-core';
@@ -65,6 +66,7 @@ interface Start {
   machine?: string;
   board?: Board;
   data?: string; // a folder that outlives the daemon
+  touch?: readonly string[]; // what the virtual probe can touch
 }
 
 export class Daemon {
@@ -74,10 +76,11 @@ export class Daemon {
     private readonly folder: string,
   ) {}
 
-  static async start({ port = '0', machine, board, data }: Start = {}): Promise<Daemon> {
+  static async start({ port = '0', machine, board, data, touch = [] }: Start = {}): Promise<Daemon> {
     const folder = mkdtempSync(join(tmpdir(), 'passo-story-'));
     const words = ['serve', '--http', `127.0.0.1:${port}`, '--grbl-tcp', '127.0.0.1:0', '--page', pageFolder, '--data', data ?? folder];
     words.push('--machine', machine ?? smallMachine(folder));
+    for (const one of touch) words.push('--touch', one);
     if (board !== undefined) words.push('--board', `tcp:127.0.0.1:${board.port}`);
     const child = spawn(passo, words, { stdio: ['ignore', 'pipe', 'inherit'] });
     process.once('exit', () => child.kill('SIGKILL')); // a story that fails leaves nobody behind
@@ -151,4 +154,12 @@ export async function visit(browser: Browser, daemon: Daemon, path: string, how:
   await page.goto(`${daemon.address}#/${path}`);
   await page.getByTestId('state').waitFor();
   return { context, page, errors };
+}
+
+const axe = readFileSync(createRequire(import.meta.url).resolve('axe-core/axe.min.js'), 'utf8');
+// What axe-core finds wrong with the page as it is. It runs as the project's own tool, not as a script of the page: the
+// page's policy stays as it is.
+export async function violations(page: Page): Promise<string[]> {
+  const found = await page.evaluate(`(async () => { ${axe}; return (await axe.run(document, {resultTypes: ['violations']})).violations; })()`);
+  return (found as { id: string; nodes: { html: string }[] }[]).map((one) => `${one.id}: ${one.nodes.map((node) => node.html).join(' ')}`);
 }

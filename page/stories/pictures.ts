@@ -4,7 +4,7 @@ import { join } from 'node:path';
 import { Daemon, example, openBrowser, sleep, visit } from './kit';
 
 const folder = process.argv[2] ?? 'pictures';
-const pages = process.argv[3]?.split(',') ?? ['run', 'jog', 'files', 'make', 'console', 'pins', 'machine', 'lab'];
+const pages = process.argv[3]?.split(',') ?? ['run', 'jog', 'probe', 'files', 'make', 'console', 'pins', 'machine', 'lab'];
 const patience = 120_000; // ms, on a busy computer
 const sizes = [
   { name: 'wide', width: 1440, height: 900 },
@@ -46,6 +46,22 @@ async function make(page: import('playwright-core').Page): Promise<void> {
   await sleep(300);
 }
 
+// A probing cycle, and the height map of the program that is open.
+async function probe(page: import('playwright-core').Page, daemon: Daemon): Promise<void> {
+  const { programs } = await daemon.get<{ programs: { id: number }[] }>('/programs');
+  const map = [0, 20, 40, 60].flatMap((y) => [0, 25, 50, 75, 100].map((x) => `${x},${y},${(0.002 * x - 0.003 * y + 0.06 * Math.sin(x / 20)).toFixed(4)}`));
+  await daemon.post(`/programs/${programs.at(-1)?.id}/height-map`, `${map.join('\n')}\n`);
+  // The page looks for a map when it comes.
+  await page.goto(`${daemon.address}#/console`);
+  await sleep(300);
+  await page.goto(`${daemon.address}#/jog`);
+  await page.getByRole('radio', { name: 'Corner', exact: true }).check({ force: true });
+  await page.getByTestId('height-map').waitFor({ timeout: patience });
+  await page.locator('.probing').scrollIntoViewIfNeeded();
+  await page.evaluate(() => document.querySelector('.probing')?.scrollIntoView({ block: 'start' }));
+  await sleep(300);
+}
+
 // The four pictures of a page on one sheet, for the documentation.
 async function sheets(browser: import('playwright-core').Browser): Promise<void> {
   const page = await browser.newPage({ viewport: { width: 1600, height: 1000 } });
@@ -67,17 +83,20 @@ async function sheets(browser: import('playwright-core').Browser): Promise<void>
 mkdirSync(folder, { recursive: true });
 const browser = await openBrowser();
 for (const theme of ['dark', 'light'] as const) {
-  const daemon = await Daemon.start({ machine: example('machines/router.toml') });
+  const daemon = await Daemon.start({ machine: example('machines/strong-router.toml') });
   await prepare(daemon);
   for (const size of sizes) {
     const density = size.name === 'phone' ? 2 : 1;
     const { page, context } = await visit(browser, daemon, pages[0] ?? 'run', { theme, size, density });
     for (const path of pages) {
-      await page.goto(`${daemon.address}#/${path}`);
+      await page.goto(`${daemon.address}#/${path === 'probe' ? 'jog' : path}`);
       await sleep(900);
       if (path === 'make') await make(page);
+      if (path === 'probe') await probe(page, daemon);
+      if (path === 'files') await page.getByTestId('torque').getByText('%').waitFor({ timeout: patience });
       if (path === 'run') {
         await page.locator('.scene:not([data-shown=""])').waitFor({ timeout: patience });
+        await page.getByRole('button', { name: 'Stock', exact: true }).click();
         await page.locator('.text-line code span').first().waitFor({ state: 'attached', timeout: patience });
         await sleep(500);
       }

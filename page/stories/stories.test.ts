@@ -1,10 +1,8 @@
 // Whole stories, in the real browser, against the real daemon and its virtual machine. What has moved is asked of the
 // daemon.
-import { readFileSync } from 'node:fs';
-import { createRequire } from 'node:module';
 import type { Browser, Page } from 'playwright-core';
 import { afterAll, afterEach, beforeAll, beforeEach, describe, expect, it } from 'vitest';
-import { Daemon, openBrowser, sleep, visit } from './kit';
+import { Daemon, openBrowser, sleep, violations, visit } from './kit';
 
 let browser: Browser;
 let daemon: Daemon;
@@ -274,7 +272,6 @@ describe('a wrong program', () => {
 });
 
 describe('every page', () => {
-  const axe = readFileSync(createRequire(import.meta.url).resolve('axe-core/axe.min.js'), 'utf8');
 
   it('speaks four languages, and is fit for everybody', async () => {
     for (const [language, words] of [['en', 'Ready'], ['it', 'Pronta'], ['fr', 'Prête'], ['zh', '就绪']] as const) {
@@ -286,10 +283,7 @@ describe('every page', () => {
         await page.goto(`${daemon.address}#/${path}`);
         await page.locator(`main.page-${path} :is(section, form, .panel)`).first().waitFor();
         expect(await page.evaluate(() => document.documentElement.scrollWidth <= innerWidth), `${path} is too wide`).toBe(true);
-        // As the project's own tool, not as a script of the page: the page's policy stays as it is.
-        const found = await page.evaluate(`(async () => { ${axe}; return (await axe.run(document, {resultTypes: ['violations']})).violations; })()`);
-        const told = (found as { id: string; nodes: { html: string }[] }[]).map((one) => `${one.id}: ${one.nodes.map((node) => node.html).join(' ')}`);
-        expect(told, `${path} in ${language}`).toEqual([]);
+        expect(await violations(page), `${path} in ${language}`).toEqual([]);
       }
       expect(errors).toEqual([]);
       await context.close();

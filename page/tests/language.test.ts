@@ -3,18 +3,30 @@ import { fill, languageOf } from '../src/core/language';
 import { en } from '../src/lang/en';
 import { fr } from '../src/lang/fr';
 import { it as italian } from '../src/lang/it';
+import { en as moreEn } from '../src/lang/more/en';
+import { fr as moreFr } from '../src/lang/more/fr';
+import { it as moreItalian } from '../src/lang/more/it';
+import { zh as moreZh } from '../src/lang/more/zh';
 import { zh } from '../src/lang/zh';
 
 const names = (words: string): string[] => (words.match(/\{\w+\}/g) ?? []).sort();
 
 describe('languages', () => {
   it('has the same places for values in each translation', () => {
-    for (const table of [italian, fr, zh]) {
-      for (const key of Object.keys(en) as (keyof typeof en)[]) {
-        expect(names(table[key]), key).toEqual(names(en[key]));
-        expect(table[key].trim(), key).not.toBe('');
+    const same = (own: Record<string, string>, tables: readonly Record<string, string>[]): void => {
+      for (const table of tables) {
+        for (const [key, words] of Object.entries(own)) {
+          expect(names(table[key] ?? ''), key).toEqual(names(words));
+          expect(table[key]?.trim(), key).not.toBe('');
+        }
       }
-    }
+    };
+    same(en, [italian, fr, zh]);
+    same(moreEn, [moreItalian, moreFr, moreZh]);
+  });
+
+  it('says each thing once: no later table hides a word of the first', () => {
+    expect(Object.keys(moreEn).filter((key) => key in en)).toEqual([]);
   });
 
   it('fills in values, and leaves what it does not know', () => {

@@ -19,6 +19,7 @@ constexpr std::string_view queue_path = "/api/v1/queue";
 constexpr std::string_view history_path = "/api/v1/history";
 constexpr std::string_view machine_file_path = "/api/v1/machine/file";
 constexpr std::string_view make_path = "/api/v1/make";
+constexpr std::string_view study_path = "/api/v1/study";
 constexpr std::string_view make_files_path = "/api/v1/make/files";
 constexpr std::string_view interrupted_path = "/api/v1/interrupted";
 constexpr std::string_view alarms_path = "/api/v1/alarms";
@@ -138,6 +139,8 @@ WebAnswer MachineApi::look(const FoundRoute& found, const WebRequest& request) {
   if (path.ends_with("/status")) return {.body = status_text()};
   if (path == make_path) return make_answer();
   if (path.starts_with(make_path)) return made_picture();
+  if (path == study_path) return study_answer();
+  if (path.starts_with(study_path)) return study_file(path.ends_with("/picture"));
   if (path == machine_file_path) return machine_file_answer(options_.machine_access, options_.machine_file);
   if (path.ends_with("/machine")) return json_answer(200, machine_json(machine_, options_.version));
   if (path.ends_with("/openapi.json")) return {.body = options_.openapi};
@@ -174,6 +177,7 @@ WebAnswer MachineApi::change(const FoundRoute& found, const WebRequest& request)
   if (path.starts_with(uploads_path)) return change_uploads(found, request);
   if (path.starts_with(queue_path)) return change_queue(found, request);
   if (path.starts_with(make_path)) return change_making(found, request);
+  if (path == study_path) return begin_study(request.body);
   if (path.starts_with(interrupted_path)) return change_interrupted(found);
   if (path.starts_with(machine_file_path)) return change_machine_file(found, request);
   if (path == "/api/v1/owner") {

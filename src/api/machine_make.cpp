@@ -10,7 +10,8 @@
 namespace passo {
 namespace {
 
-constexpr std::array<std::string_view, 4> jobs = {"drill", "isolate", "outline", "relief"};
+constexpr std::array<std::string_view, 7> jobs = {"profile", "pocket",  "engrave", "drill",
+                                                  "isolate", "outline", "relief"};
 // Options that name files of this computer, or that belong to the program itself.
 constexpr std::array<std::string_view, 6> own_options = {"output", "picture", "json", "profile", "machine", "help"};
 constexpr std::size_t longest_value = 200;
@@ -142,7 +143,11 @@ WebAnswer MachineApi::begin_making(std::string_view body) {
   order.job = job.get<std::string>();
   const Json files = said.value("files", Json());
   const std::vector<std::string> kept = options_.maker->files();
-  if (!files.is_array() || files.empty()) return bad_order("\"files\": expected names of files that were sent");
+  const Json& said_options = said.contains("options") ? said["options"] : Json::object();
+  const bool has_letters = order.job == "engrave" && said_options.is_object() && said_options.contains("text");
+  if (!files.is_array() || (files.empty() && !has_letters)) {
+    return bad_order("\"files\": expected names of files that were sent");
+  }
   for (const Json& one : files) {
     if (!one.is_string() || !has(kept, one.get<std::string>())) {
       return bad_order("\"files\": expected names of files that were sent");
@@ -150,7 +155,7 @@ WebAnswer MachineApi::begin_making(std::string_view body) {
     order.files.push_back(one.get<std::string>());
   }
   std::string reason;
-  auto options = options_of(said.value("options", Json::object()), reason);
+  auto options = options_of(said_options, reason);
   if (!options) return bad_order(reason);
   order.options = std::move(*options);
   if (!options_.maker->begin(order)) return error_answer(409, "make.busy", "another program is being made");

@@ -5,14 +5,18 @@
 #include <cmath>
 #include <utility>
 
+#include "passo/geometry/vector3.hpp"
+
 namespace passo {
 namespace {
 
 constexpr double most_places = 65'535;
 constexpr int most_chords = 720;  // of one arc
 constexpr int spline_chords = 24;
-// Of the diagonal of the program's box: what a level may leave out.
-constexpr std::array<double, ProgramPath::levels> left_out = {0, 1.0 / 2000, 1.0 / 400};
+// Of the diagonal of the program's box: how far a level may be from the path.
+constexpr std::array<double, ProgramPath::levels> far_off = {0, 1.0 / 4000, 1.0 / 800};
+// A change of the programmed speed that a level keeps: half an octave.
+constexpr int notable_speed = 8;
 constexpr std::uint32_t magic = 0x50534150;  // "PASP"
 
 static_assert(std::endian::native == std::endian::little, "chunks are written as they lie in memory");
@@ -40,6 +44,58 @@ template <class Value>
 void append_all(std::string& bytes, const std::vector<Value>& values) {
   bytes.append(reinterpret_cast<const char*>(values.data()), values.size() * sizeof(Value));
 }
+
+bool are_alike(std::uint16_t a, std::uint16_t b) {
+  return (a & 0xffU) == (b & 0xffU) && std::abs(int(a >> 8U) - int(b >> 8U)) < notable_speed;
+}
+
+// The directions from a place in which a chord passes all points so far at no more than the tolerance: a cone. It is
+// never too wide: of two cones that overlap it takes the widest cone that lies in both.
+class ChordSleeve {
+ public:
+  ChordSleeve(const Vector3& from, double tolerance) : from_(from), tolerance_(tolerance) {}
+
+  // False: the chord to this point leaves out too much. Then the sleeve is spent.
+  bool takes(const Vector3& to) {
+    const Vector3 way = to - from_;
+    const double far = length(way);
+    if (far < farthest_ - tolerance_) return false;  // it turns back
+    farthest_ = std::max(farthest_, far);
+    if (far <= tolerance_) return true;
+    const Vector3 towards = way * (1 / far);
+    const double own = std::asin(tolerance_ / far);
+    if (half_ < 0) {
+      axis_ = towards;
+      half_ = own;
+      return true;
+    }
+    const double apart = std::acos(std::clamp(dot(axis_, towards), -1.0, 1.0));
+    if (apart > half_) return false;
+    narrow(towards, own, apart);
+    return true;
+  }
+
+ private:
+  void narrow(const Vector3& towards, double own, double apart) {
+    if (apart + half_ <= own) return;
+    if (apart + own <= half_) {
+      axis_ = towards;
+      half_ = own;
+      return;
+    }
+    const double half = (half_ + own - apart) / 2;
+    const double turn = half_ - half;  // from the old axis towards the new one
+    const double side = std::sin(apart);
+    axis_ = axis_ * (std::sin(apart - turn) / side) + towards * (std::sin(turn) / side);
+    half_ = half;
+  }
+
+  Vector3 from_;
+  double tolerance_;
+  double farthest_ = 0;
+  Vector3 axis_{};
+  double half_ = -1;  // of the cone's angle; below 0: each direction will do
+};
 
 }  // namespace
 
@@ -131,26 +187,33 @@ void ProgramPath::close_chunk() {
   chunks_.push_back(std::move(chunk));
 }
 
-// A coarser level keeps a point that lies far enough from the last one, and each change between rapid and feed.
+// A coarser level leaves out points from which the chord over them is nearer than the level may be off. It keeps each
+// change between rapid and feed, and each notable change of speed.
 std::string ProgramPath::chunk(std::size_t index, unsigned level) const {
   const Chunk& all = chunks_.at(index);
-  const double nearest = all_.diagonal() * left_out.at(level);
+  const double tolerance = all_.diagonal() * far_off.at(level);
   std::vector<Packed> points;
   std::vector<std::uint32_t> lines;
-  const std::size_t last = all.points.size() - 1;
-  for (std::size_t i = 0; i <= last; ++i) {
-    const bool turns_rapid = i < last && ((all.points[i + 1].flags ^ all.points[i].flags) & flag_rapid) != 0;
-    if (i > 0 && i < last && nearest > 0 && !turns_rapid) {
-      const Packed& kept = points.back();
-      std::array<double, 3> way{};
-      for (std::size_t k = 0; k < 3; ++k) {
-        way[k] = (double(all.points[i].place[k]) - double(kept.place[k])) * double(all.step[k]);
-      }
-      if (std::hypot(way[0], way[1], way[2]) < nearest) continue;
-    }
+  const auto keep = [&](std::size_t i) {
     points.push_back(all.points[i]);
     lines.push_back(all.lines[i]);
+  };
+  const auto place = [&](std::size_t i) {
+    const auto along = [&](std::size_t k) { return double(all.points[i].place[k]) * double(all.step[k]); };
+    return Vector3{along(0), along(1), along(2)};
+  };
+  keep(0);
+  ChordSleeve sleeve(place(0), tolerance);
+  std::uint16_t flags = all.points.size() > 1 ? all.points[1].flags : std::uint16_t{0};
+  for (std::size_t i = 1; i < all.points.size(); ++i) {
+    const bool goes_on = tolerance > 0 && are_alike(all.points[i].flags, flags) && sleeve.takes(place(i));
+    if (goes_on) continue;
+    if (i > 1) keep(i - 1);
+    flags = all.points[i].flags;
+    sleeve = ChordSleeve(place(i - 1), tolerance);
+    static_cast<void>(sleeve.takes(place(i)));
   }
+  if (all.points.size() > 1) keep(all.points.size() - 1);
   std::string bytes;
   bytes.reserve(40 + points.size() * (sizeof(Packed) + sizeof(std::uint32_t)));
   append(bytes, magic);

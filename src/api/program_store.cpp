@@ -95,6 +95,8 @@ void ProgramStore::check(std::uint64_t id, const MachineDescription& machine, co
     checker_.reset();
   }
   StoredProgram& program = found->second;
+  if (program.state == UploadState::good && program.checked_from == start) return;
+  program.checked_from = start;
   program.findings.clear();
   program.path_points = ProgramPath();
   make_room_for_path(id);

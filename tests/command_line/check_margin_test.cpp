@@ -1,5 +1,6 @@
 // The page of `passo check` as a user sees it: time, ways and what the motors can do.
 #include <cmath>
+#include <sstream>
 
 #include "kit/command_line.hpp"
 #include <gmock/gmock.h>
@@ -68,6 +69,27 @@ TEST_F(CheckMargin, is_drawn_along_the_path) {
   EXPECT_THAT(passo::test::read(path("margin.svg")), HasSubstr("<svg"));
   EXPECT_EQ(check(100, "--colour-by margin").code, 2);
   EXPECT_EQ(check(100, "--colour-by speed --picture " + path("speed.svg")).code, 2);
+}
+
+TEST_F(CheckMargin, is_written_for_each_line) {
+  const Outcome outcome = check(100, "--loads " + path("loads.csv"));
+  EXPECT_EQ(outcome.code, 0) << outcome.err;
+  std::istringstream lines(passo::test::read(path("loads.csv")));
+  std::string line;
+  std::getline(lines, line);
+  EXPECT_EQ(line, "line,load");
+  int moving = 0;
+  for (int before = 0; std::getline(lines, line); ++moving) {
+    const std::size_t comma = line.find(',');
+    ASSERT_NE(comma, std::string::npos) << line;
+    EXPECT_GT(std::stoi(line), before) << "each line of the program once, in order";
+    before = std::stoi(line);
+    const double load = std::stod(line.substr(comma + 1));
+    EXPECT_GT(load, 0) << line;
+    EXPECT_LT(load, 1) << "this machine is safe: " << line;
+  }
+  EXPECT_GT(moving, 0);
+  EXPECT_EQ(check(100, "--motion --loads " + path("loads.csv")).code, 2);
 }
 
 TEST_F(CheckMargin, agrees_with_the_physics_of_a_run) {

@@ -21,7 +21,7 @@ using Json = nlohmann::ordered_json;
 class ApiRun {
  public:
   explicit ApiRun(const KnownPosition& start = GrblRun::at_zero(), JobHistory* history = nullptr,
-                  const std::vector<Touchable>& things = {})
+                  const std::vector<Touchable>& things = {}, Studies* studies = nullptr)
       : run(example_machine("router"), start, things),
         api(run.description(), run.session(), owner,
             {.version = "1",
@@ -33,7 +33,8 @@ class ApiRun {
              .keep_offsets =
                  [this](const SavedParameters& parameters, const ToolTable& tools) {
                    if (keep) keep(parameters, tools);
-                 }}) {}
+                 },
+             .studies = studies}) {}
 
   Json ask(const std::string& method, const std::string& path, const std::string& body = "",
            const std::string& by = "") {

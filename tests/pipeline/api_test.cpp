@@ -79,6 +79,62 @@ TEST(ApiDescription, has_bodies_that_are_understood) {
   EXPECT_GE(examples, 5);
 }
 
+// Notes what was ordered, and answers at once.
+class NotedStudies final : public Studies {
+ public:
+  bool begin(const StudyOrder& order) override {
+    last = order;
+    result = {.state = StudyResult::State::done, .words = "said", .report = R"({"margin": null})"};
+    return true;
+  }
+  const StudyResult& look() override { return result; }
+  std::string loads() const override { return "line,load\n1,0.500\n"; }
+  std::string picture() const override { return ""; }
+  StudyOrder last;
+  StudyResult result;
+};
+
+TEST(ApiStudies, are_ordered_with_all_that_they_need) {
+  NotedStudies studies;
+  ApiRun run(GrblRun::at_zero(), nullptr, {}, &studies);
+  expect_members(openapi()["components"]["schemas"]["Study"], run.get("/study"), "Study");
+  EXPECT_EQ(run.get("/study")["state"], "none");
+  run.get("/study/loads");
+  EXPECT_EQ(run.status, 404U) << "nothing is done yet";
+  run.own();
+  run.post("/work", R"({"place": {"x": 5}})");
+  const std::uint64_t id = run.upload("G21 G1 X9 F100\nM2\n");
+  const Json answer = run.post("/study", fmt::format(R"({{"study": "motors", "program": {}, "machine": "text"}})", id));
+  EXPECT_EQ(run.status, 202U) << answer;
+  EXPECT_EQ(answer["program"], id);
+  EXPECT_EQ(studies.last.program, "G21 G1 X9 F100\nM2\n");
+  EXPECT_EQ(studies.last.machine, "text");
+  EXPECT_EQ(studies.last.dialect, "linuxcnc");
+  EXPECT_NE(studies.last.parameters.find("5221\t-5.0"), std::string::npos) << "the offsets of the work";
+  EXPECT_TRUE(answer["report"]["margin"].is_null());
+  run.post("/study", R"({"study": "tune", "machine": "text", "margin": 0.5})");
+  EXPECT_EQ(run.status, 202U);
+  EXPECT_EQ(studies.last.kind, StudyOrder::Kind::tune);
+  EXPECT_EQ(studies.last.margin, 0.5);
+  run.get("/study/picture");
+  EXPECT_EQ(run.status, 404U) << "there is none";
+}
+
+TEST(ApiStudies, refuse_what_is_no_order) {
+  NotedStudies studies;
+  ApiRun run(GrblRun::at_zero(), nullptr, {}, &studies);
+  for (const char* body :
+       {"", "[]", R"({"study": "moon"})", R"({"study": "tune"})", R"({"study": "tune", "machine": "m", "margin": 2})",
+        R"({"study": "tune", "machine": "m", "margin": "much"})", R"({"study": "motors", "machine": "m"})",
+        R"({"study": "motors", "machine": "m", "program": -1})", R"({"study": "tune", "machine": 5})"}) {
+    run.post("/study", body);
+    EXPECT_EQ(run.status, 400U) << body;
+  }
+  run.post("/study", R"({"study": "motors", "machine": "m", "program": 99})");
+  EXPECT_EQ(run.status, 404U);
+  EXPECT_TRUE(studies.last.machine.empty()) << "none was ordered";
+}
+
 TEST(Api, runs_a_program_after_its_check_and_tells_how_far_it_is) {
   ApiRun run;
   run.own();
@@ -294,6 +350,29 @@ TEST(Api, takes_requests_over_the_stream) {
 }
 
 // A machine whose jobs are kept.
+TEST(Api, a_program_that_was_checked_from_this_place_begins_at_once) {
+  ApiRun run;
+  run.own();
+  std::string text = "G21 G90 F600\n";
+  for (int i = 0; i < 20'000; ++i) text += i % 2 == 0 ? "G1 X1\n" : "G1 X0\n";
+  const std::string program = fmt::format("/programs/{}", run.upload(text + "M2\n"));
+  const auto turns_to = [&](const std::string& state) {
+    int turns = 0;
+    for (; turns < 10'000 && run.get("/status")["state"] != state && run.get(program)["state"] != state; ++turns)
+      run.turn();
+    return turns;
+  };
+  run.post(program + "/check");
+  EXPECT_GT(turns_to("good"), 4);
+  run.post(program + "/run");
+  EXPECT_LE(turns_to("Run"), 2);
+  run.pass(Seconds(0.05));
+  run.post("/stop");
+  ASSERT_TRUE(run.turn_until_state("Idle"));
+  run.post(program + "/run");
+  EXPECT_GT(turns_to("Run"), 2) << "from another place";
+}
+
 TEST(HomingRepeats, are_counted_from_the_first_homing_since_the_place_was_known) {
   const MachineDescription machine = example_machine("router");
   const AxisDescription& x = machine.axes[0];

@@ -4,13 +4,19 @@ import { en, type Words } from '../lang/en';
 import { fr } from '../lang/fr';
 import { it } from '../lang/it';
 import { zh } from '../lang/zh';
+import { en as moreEn } from '../lang/more/en';
+import { fr as moreFr } from '../lang/more/fr';
+import { it as moreIt } from '../lang/more/it';
+import type { MoreWords } from '../lang/more/words';
+import { zh as moreZh } from '../lang/more/zh';
 import { kept, oneOf } from './kept';
 
 export const languages = { en: 'English', it: 'Italiano', fr: 'Français', zh: '中文' } as const;
 export type Language = keyof typeof languages;
-export type Key = keyof Words;
+export type Key = keyof AllWords;
 
-const tables: Record<Language, Words> = { en, it, fr, zh };
+type AllWords = Words & MoreWords;
+const tables: Record<Language, AllWords> = { en: { ...en, ...moreEn }, it: { ...it, ...moreIt }, fr: { ...fr, ...moreFr }, zh: { ...zh, ...moreZh } };
 
 export function languageOf(wanted: readonly string[]): Language {
   for (const one of wanted) {

@@ -1,6 +1,8 @@
 // The program's own interpolators, ramps and motors, compiled to WebAssembly (src/lab in C++). Nothing is computed twice:
 // what the lab draws are the answers of this module, and a test compares them with what `passo` prints.
 
+import { startModule } from '../core/wasm';
+
 export interface Failed {
   error: string;
 }
@@ -176,18 +178,10 @@ export class LabCore {
   private constructor(exports: WebAssembly.Exports) {
     this.#exports = exports;
     this.#memory = exports.memory as WebAssembly.Memory;
-    (exports._initialize as () => void)();
   }
 
   static async load(bytes: BufferSource): Promise<LabCore> {
-    const module = await WebAssembly.compile(bytes);
-    // The module opens no file and prints nothing: what it might ask of a system is refused.
-    const refused = 8;
-    const imports: WebAssembly.Imports = {};
-    for (const { module: from, name } of WebAssembly.Module.imports(module)) {
-      imports[from] = { ...imports[from], [name]: () => refused };
-    }
-    return new LabCore((await WebAssembly.instantiate(module, imports)).exports);
+    return new LabCore(await startModule(bytes));
   }
 
   #ask<T>(question: string, ...values: number[]): Answer<T> {

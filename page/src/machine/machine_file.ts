@@ -83,6 +83,12 @@ export async function setValue(path: string, value: Value): Promise<void> {
   await push({ base: now.base, edits: { ...now.edits, [path]: value }, last: path });
 }
 
+// Several values in one step.
+export async function setValues(all: Values): Promise<void> {
+  const now = steps.value.at(-1);
+  if (now !== undefined) await push({ base: now.base, edits: { ...now.edits, ...all }, last: '' });
+}
+
 export async function takeText(text: string): Promise<void> {
   await attempt(async () => {
     const base = await post<Draft>('/machine/file/draft', { text });

@@ -1,6 +1,5 @@
 // Files and jobs: programs with what their check has found, the queue, the history.
-import { signal } from '@preact/signals';
-import { useEffect, useRef } from 'preact/hooks';
+import { useEffect } from 'preact/hooks';
 import { language, say } from '../core/language';
 import { attempt } from '../core/notices';
 import { confirm } from '../core/question';
@@ -17,51 +16,21 @@ import { pathIndex } from '../machine/path_index';
 import { checkProgram, chosen, deleteProgram, isListed, programs, sending, sendProgram, shown, shownId } from '../machine/programs';
 import { isUnderWay } from '../machine/words';
 import { Button } from '../parts/button';
+import { DropZone } from '../parts/drop_zone';
 import { Icon, type IconName } from '../parts/icon';
+import { MotorLoad } from '../parts/motor_load';
 import { picked } from '../scene/stage';
+import { isDrawing } from './make_forms';
+import { takeDrawings } from './make_order';
 
-const over = signal(false);
 const mostFindings = 100;
 
-async function take(files: FileList | null | undefined): Promise<void> {
-  for (const file of files ?? []) await attempt(() => sendProgram(file));
-}
-
-function DropZone() {
-  const input = useRef<HTMLInputElement>(null);
-  const why = isLive.value ? '' : say('why.lost');
-  return (
-    <div
-      class={`drop ${over.value ? 'over' : ''}`}
-      onDragOver={(event) => {
-        event.preventDefault();
-        over.value = true;
-      }}
-      onDragLeave={() => (over.value = false)}
-      onDrop={(event) => {
-        event.preventDefault();
-        over.value = false;
-        void take(event.dataTransfer?.files);
-      }}
-    >
-      <Icon name="upload" />
-      <span>{sending.value === null ? say('files.drop') : say('files.uploading', { name: sending.value })}</span>
-      <Button kind="accent" why={why} onClick={() => input.current?.click()}>
-        {say('files.choose')}
-      </Button>
-      <input
-        ref={input}
-        type="file"
-        hidden
-        multiple
-        aria-label={say('files.choose')}
-        onChange={(event) => {
-          const field = event.currentTarget;
-          void take(field.files).then(() => (field.value = ''));
-        }}
-      />
-    </div>
-  );
+async function take(files: readonly File[]): Promise<void> {
+  const drawings = files.filter((file) => isDrawing(file.name));
+  for (const file of files) if (!isDrawing(file.name)) await attempt(() => sendProgram(file));
+  if (drawings.length === 0) return;
+  goTo('make');
+  await takeDrawings(drawings);
 }
 
 const warned = (program: Program): boolean => program.state === 'good' && (program.findings?.length ?? 0) > 0;
@@ -140,6 +109,7 @@ function ShownProgram() {
           {say('files.delete')}
         </Button>
       </div>
+      <MotorLoad program={program} />
       <Findings program={program} />
     </section>
   );
@@ -256,7 +226,7 @@ export function FilesPage() {
   return (
     <div class="files">
       <div class="files-side">
-        <DropZone />
+        <DropZone words={sending.value === null ? say('files.drop') : say('files.uploading', { name: sending.value })} take={take} />
         <section class="panel" aria-label={say('files.programs')}>
           <h2>{say('files.programs')}</h2>
           {all.length === 0 && <p class="dim">{say('files.none')}</p>}

@@ -12,6 +12,8 @@ import { goToZero, home, makeZero } from '../machine/set_up';
 import { Button } from '../parts/button';
 import { Icon } from '../parts/icon';
 import { Position } from '../parts/position';
+import { Probing } from '../parts/probing';
+import { Slider } from '../parts/slider';
 import { Choice } from '../parts/view_dialog';
 
 const nameOf = (direction: Direction): string =>
@@ -116,20 +118,16 @@ function JogPanel() {
         all={[['0', say('jog.continuous')], ...steps.map((mm) => [String(mm), String(Number(fromMm(mm).toFixed(4)))] as const)]}
         set={(to) => (jogStep.value = Number(to))}
       />
-      <label class="jog-speed">
-        <span class="dim">{say('jog.speed')}</span>
-        <input
-          type="range"
-          min="0.01"
-          max="1"
-          step="0.01"
-          value={jogShare.value}
-          onInput={(event) => (jogShare.value = Number(event.currentTarget.value))}
-        />
-        <b class="figure">
-          {speedText(speed)} <span class="unit">{speedUnit()}</span>
-        </b>
-      </label>
+      <Slider
+        class="jog-speed"
+        name={say('jog.speed')}
+        value={jogShare.value}
+        least={0.01}
+        step={0.01}
+        words={speedText(speed)}
+        unit={speedUnit()}
+        set={(to) => (jogShare.value = to)}
+      />
       <p class={`keys-state ${windowHasFocus.value ? 'on' : ''}`}>
         <Icon name={windowHasFocus.value ? 'jog' : 'close'} />
         <span>
@@ -184,6 +182,7 @@ export function JogPage() {
         <SetUpPanel />
       </div>
       <JogPanel />
+      <Probing />
     </div>
   );
 }

@@ -3,6 +3,7 @@ import { say, type Key } from '../core/language';
 import { isRotary, lengthText, lengthUnit, placeText, speedText, speedUnit } from '../core/units';
 import type { MachineAxis } from '../machine/api';
 import { machine, status } from '../machine/connection';
+import { Tuning } from '../parts/tuning';
 import { MachineEditor } from './machine_editor';
 
 const columns: readonly [Key, (axis: MachineAxis) => string, (() => string)?][] = [
@@ -57,6 +58,7 @@ export function MachinePage() {
         <p class="dim">{say('machine.file')}</p>
       </section>
       <MachineEditor />
+      <Tuning />
       {inputs !== undefined && (
         <section class="panel" aria-label={say('machine.inputs')}>
           <h2>{say('machine.inputs')}</h2>

@@ -1,84 +1,23 @@
 // Make: drawings and pictures become programs. The picture follows the form.
-import { signal } from '@preact/signals';
-import { useEffect, useRef } from 'preact/hooks';
+import { useEffect } from 'preact/hooks';
 import { say } from '../core/language';
-import { kept } from '../core/kept';
 import { goTo } from '../core/route';
 import { isLive } from '../machine/connection';
-import { clearDrawings, make, madeCount, order, refreshMake, sendDrawing } from '../machine/maker';
+import { clearDrawings, make, madeCount, refreshMake } from '../machine/maker';
 import { token } from '../machine/token';
 import { Button } from '../parts/button';
-import { Icon } from '../parts/icon';
+import { DropZone } from '../parts/drop_zone';
 import { Choice } from '../parts/view_dialog';
 import { forms, type Field, type Form } from './make_forms';
-
-type Values = Record<string, string | boolean>;
-const isTable = (value: unknown): value is Record<string, Values> => typeof value === 'object' && value !== null;
-// What was filled in, by job.
-const filled = kept<Record<string, Values>>('make', {}, isTable);
-const job = signal(forms[0]?.job ?? '');
-const picked = signal<readonly string[]>([]);
-const over = signal(false);
-
-const valuesOf = (form: Form): Values => filled.value[form.job] ?? {};
-
-function ask(form: Form): void {
-  if (picked.value.length === 0) return;
-  const options = Object.fromEntries(Object.entries(valuesOf(form)).filter(([, value]) => value !== '' && value !== false));
-  const edge = options.edge;
-  order({ job: form.job, files: picked.value.filter((one) => one !== edge), options });
-}
-
-function set(form: Form, option: string, value: string | boolean): void {
-  filled.value = { ...filled.value, [form.job]: { ...valuesOf(form), [option]: value } };
-  ask(form);
-}
-
-async function take(form: Form, files: Iterable<File>): Promise<void> {
-  for (const file of files) await sendDrawing(file);
-  const known = make.value?.files ?? [];
-  if (picked.value.length === 0) picked.value = known.slice(-1);
-  ask(form);
-}
+import { ask, formNow, job, picked, set, takeDrawings, valuesOf } from './make_order';
 
 function Drawings({ form }: { form: Form }) {
-  const input = useRef<HTMLInputElement>(null);
   const files = make.value?.files ?? [];
   const why = isLive.value ? '' : say('why.lost');
   return (
     <section class="panel" aria-label={say('make.files')}>
       <h2>{say('make.files')}</h2>
-      <div
-        class={`drop ${over.value ? 'over' : ''}`}
-        onDragOver={(event) => {
-          event.preventDefault();
-          over.value = true;
-        }}
-        onDragLeave={() => (over.value = false)}
-        onDrop={(event) => {
-          event.preventDefault();
-          over.value = false;
-          void take(form, [...(event.dataTransfer?.files ?? [])]);
-        }}
-      >
-        <Icon name="upload" />
-        <span>{say('make.drop')}</span>
-        <Button kind="accent" why={why} onClick={() => input.current?.click()}>
-          {say('files.choose')}
-        </Button>
-        <input
-          ref={input}
-          type="file"
-          hidden
-          multiple
-          accept={form.files}
-          aria-label={say('files.choose')}
-          onChange={(event) => {
-            const field = event.currentTarget;
-            void take(form, [...(field.files ?? [])]).then(() => (field.value = ''));
-          }}
-        />
-      </div>
+      <DropZone words={say('make.drop')} accept={form.files} take={takeDrawings} />
       <ul class="make-files">
         {files.map((name) => (
           <li key={name}>
@@ -178,8 +117,7 @@ export function MakePage() {
   useEffect(() => {
     if (isLive.value) void refreshMake();
   }, [isLive.value]);
-  const form = forms.find((one) => one.job === job.value) ?? forms[0];
-  if (form === undefined) return null;
+  const form = formNow();
   return (
     <div class="make">
       <div class="pins-side">
@@ -190,8 +128,7 @@ export function MakePage() {
             all={forms.map((one) => [one.job, say(one.title)] as const)}
             set={(to) => {
               job.value = to;
-              const next = forms.find((one) => one.job === to);
-              if (next !== undefined) ask(next);
+              ask(formNow());
             }}
           />
         </section>

@@ -27,6 +27,7 @@ const shapes = {
   search: 'M10 4a6 6 0 1 0 0 12 6 6 0 0 0 0-12m5 11 6 6',
   upload: 'M12 16V4M7 9l5-5 5 5M4 20h16',
   trash: 'M4 7h16M9 7V4h6v3M6 7l1 14h10l1-14',
+  probe: 'M12 3v11M8 10l4 4 4-4M3 20h18M7 20v-3h10v3',
   up: 'M12 20V5M5 12l7-7 7 7',
 } as const;
 

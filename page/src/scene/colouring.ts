@@ -2,10 +2,11 @@
 import { computed, signal } from '@preact/signals';
 import { kept, oneOf } from '../core/kept';
 import { pathIndex } from '../machine/path_index';
-import { speedCode } from './path_data';
+import { loadsOfShown } from '../machine/studies';
+import { fullLoad, speedCode } from './path_data';
 import type { Colouring } from './renderer';
 
-export const tells = kept<Colouring['tells']>('path-tells', 'nothing', oneOf('nothing', 'speed', 'depth'));
+export const tells = kept<Colouring['tells']>('path-tells', 'nothing', oneOf('nothing', 'speed', 'depth', 'torque'));
 
 export const colouring = computed<Colouring>(() => {
   const index = pathIndex.value;
@@ -14,6 +15,7 @@ export const colouring = computed<Colouring>(() => {
     return { tells: wanted, low: speedCode(index.speeds.low), high: speedCode(index.speeds.high) };
   }
   if (wanted === 'depth' && index?.cuts != null) return { tells: wanted, low: index.cuts.low[2], high: index.cuts.high[2] };
+  if (wanted === 'torque' && loadsOfShown.value?.state === 'done') return { tells: wanted, low: 0, high: fullLoad };
   return { tells: 'nothing', low: 0, high: 1 };
 });
 

@@ -16,6 +16,16 @@ export interface PathPoints {
 export const flagRapid = 1;
 // Bits 8 to 15 of the flags: the programmed speed.
 export const speedCode = (mmAMinute: number): number => Math.min(255, Math.max(1, Math.round(16 * (Math.log2(mmAMinute / 60) + 6))));
+// Bits 1 to 7: the torque that the motors need, if it is known: 1 + 50 times the share of what is surely there.
+export const fullLoad = 50;
+export function noteLoads(points: PathPoints, loads: Uint16Array): void {
+  const { places, lines } = points;
+  for (let i = 0; i < points.count; ++i) {
+    const load = loads[lines[i]!] ?? 0; // 1 + hundredths
+    const code = load === 0 ? 0 : Math.min(127, 1 + ((load - 1) >> 1));
+    places[i * 4 + 3] = (places[i * 4 + 3]! & 0xff01) | (code << 1);
+  }
+}
 const magic = 0x50534150;
 const header = 40; // bytes
 

@@ -9,8 +9,8 @@ import { readChunk, type PathPoints } from './path_data';
 const fewPoints = 80_000; // so many are shown without a coarse level
 const atOnce = 4; // requests
 const finest = 0;
-// What a level may leave out, as a share of the box's diagonal; as the daemon has it.
-const leftOut = [0, 1 / 2000, 1 / 400];
+// How far a level may be from the path, as a share of the box's diagonal; as the daemon has it.
+const farOff = [0, 1 / 4000, 1 / 800];
 
 export interface PathListener {
   cleared: () => void;
@@ -35,12 +35,20 @@ export function finestChunks(): PathPoints[] {
   return [...best.values()].sort((a, b) => a.chunk - b.chunk);
 }
 
-// The coarsest level that leaves out nothing of a pixel or more.
+// The points that are always loaded, in their order.
+export function baseChunks(): PathPoints[] {
+  const index = pathIndex.peek();
+  if (index === null) return [];
+  const level = baseLevel(index);
+  return [...chunks.values()].filter((one) => one.level === level).sort((a, b) => a.chunk - b.chunk);
+}
+
+// The coarsest level that is nowhere half a pixel off.
 export function levelFor(index: PathIndex, mmAPixel: number): number {
   const box = index.all;
   if (box === null || baseLevel(index) === finest) return finest;
   const diagonal = Math.hypot(...box.high.map((high, k) => high - box.low[k]!));
-  return diagonal * leftOut[1]! <= mmAPixel * 1.2 ? 1 : finest;
+  return diagonal * farOff[1]! <= mmAPixel * 0.6 ? 1 : finest;
 }
 
 async function fetchChunk(index: PathIndex, chunk: number, level: number, mine: number): Promise<void> {

@@ -4,6 +4,7 @@ import { asNumbers, cone, type Line } from './furniture';
 import { bufferOf, Program, quadCorners } from './gl';
 import type { PathPoints, Vector } from './path_data';
 import { boxOf } from './path_data';
+import { StockDrawing } from './stock_drawing';
 import { lineFragment, lineVertex, pathFragment, pathVertex, toolFragment, toolVertex } from './shaders';
 
 const mostBusy = 1000; // ms
@@ -17,6 +18,8 @@ export interface Colours {
   tool: Colour;
   low: Colour;
   high: Colour;
+  stock: Colour;
+  floor: Colour; // of what is cut
 }
 
 interface DrawnChunk {
@@ -35,9 +38,9 @@ export interface Picture {
   section: number; // mm: nothing above it is drawn
 }
 
-// What the colour of a cut tells, and between which values: of the speed's code, or of the height in mm.
+// What the colour of a cut tells, and between which values: of the speed's code, of the height in mm, or of the torque's code.
 export interface Colouring {
-  tells: 'nothing' | 'speed' | 'depth';
+  tells: 'nothing' | 'speed' | 'depth' | 'torque';
   low: number;
   high: number;
 }
@@ -47,6 +50,7 @@ export class Renderer {
   private readonly path: Program;
   private readonly line: Program;
   private readonly tool: Program;
+  readonly stock: StockDrawing;
   private readonly corners: WebGLBuffer;
   private readonly cone: WebGLVertexArrayObject;
   private readonly coneCount: number;
@@ -55,7 +59,7 @@ export class Renderer {
   private fence: WebGLSync | null = null; // of the last picture
   private drawnAt = 0; // ms, of the page's clock
   private reach = 1000; // mm: beyond this nothing is drawn
-  colours: Colours = { ground: [0, 0, 0], cut: [1, 1, 1], rapid: [1, 1, 0], past: [0.5, 0.5, 0.5], tool: [1, 1, 0], low: [0, 0, 1], high: [1, 0, 0] };
+  colours: Colours = { ground: [0, 0, 0], cut: [1, 1, 1], rapid: [1, 1, 0], past: [0.5, 0.5, 0.5], tool: [1, 1, 0], low: [0, 0, 1], high: [1, 0, 0], stock: [0.8, 0.7, 0.5], floor: [0.5, 0.4, 0.3] };
 
   // Throws where there is no WebGL2.
   constructor(readonly canvas: HTMLCanvasElement) {
@@ -65,6 +69,7 @@ export class Renderer {
     this.path = new Program(gl, pathVertex, pathFragment);
     this.line = new Program(gl, lineVertex, lineFragment);
     this.tool = new Program(gl, toolVertex, toolFragment);
+    this.stock = new StockDrawing(gl);
     this.corners = bufferOf(gl, quadCorners);
     const numbers = cone();
     this.coneCount = numbers.length / 6;
@@ -101,6 +106,14 @@ export class Renderer {
     this.attribute(2, 4, gl.UNSIGNED_SHORT, 8, 8, 1);
     gl.bindVertexArray(null);
     this.chunks.set(`${points.chunk}/${points.level}`, { points, array, buffer });
+  }
+
+  // The flags of all points have changed.
+  renewChunks(): void {
+    for (const one of this.chunks.values()) {
+      this.gl.bindBuffer(this.gl.ARRAY_BUFFER, one.buffer);
+      this.gl.bufferSubData(this.gl.ARRAY_BUFFER, 0, one.points.places);
+    }
   }
 
   clearChunks(): void {
@@ -166,8 +179,11 @@ export class Renderer {
       gl.bindVertexArray(this.furniture.array);
       gl.drawArraysInstanced(gl.TRIANGLE_STRIP, 0, 4, this.furniture.count);
     }
+    const { right, up, back } = axesOf(picture.view);
+    const light = [0, 1, 2].map((k) => right[k]! * 0.35 + up[k]! * 0.45 + back[k]! * 0.82);
+    this.stock.draw(camera, light, { stock: this.colours.stock, cut: this.colours.floor }, picture.section);
     this.drawPath(picture, level, camera, density);
-    if (picture.tool !== null) this.drawTool(picture.tool, camera, picture.view);
+    if (picture.tool !== null) this.drawTool(picture.tool, camera, picture.view, light);
     gl.bindVertexArray(null);
     if (this.fence !== null) gl.deleteSync(this.fence);
     this.fence = gl.fenceSync(gl.SYNC_GPU_COMMANDS_COMPLETE, 0);
@@ -186,7 +202,7 @@ export class Renderer {
     path.number('thickness', 1.7 * density);
     path.number('showsRapids', picture.showsRapids ? 1 : 0);
     path.number('dash', 9 * density);
-    path.integer('tells', ['nothing', 'speed', 'depth'].indexOf(picture.colouring.tells));
+    path.integer('tells', ['nothing', 'speed', 'depth', 'torque'].indexOf(picture.colouring.tells));
     path.vector('range', [picture.colouring.low, picture.colouring.high]);
     path.vector('lowColour', this.colours.low);
     path.vector('highColour', this.colours.high);
@@ -204,10 +220,8 @@ export class Renderer {
     }
   }
 
-  private drawTool(place: Vector, camera: Float32Array, view: View): void {
+  private drawTool(place: Vector, camera: Float32Array, view: View, light: readonly number[]): void {
     const { gl, tool } = this;
-    const { right, up, back } = axesOf(view);
-    const light = [0, 1, 2].map((k) => right[k]! * 0.35 + up[k]! * 0.45 + back[k]! * 0.82);
     tool.use();
     tool.vector('camera', camera);
     tool.vector('tip', place);

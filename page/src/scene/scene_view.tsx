@@ -2,12 +2,15 @@
 import { useEffect, useRef, useState } from 'preact/hooks';
 import { say } from '../core/language';
 import { status } from '../machine/connection';
-import { lengthText, lengthUnit, speedText, speedUnit } from '../core/units';
+import { fromMm, lengthText, lengthUnit, speedText, speedUnit, toMm } from '../core/units';
 import { pathIndex, pathLoaded } from '../machine/path_index';
 import { workOffset } from '../machine/place';
+import { loadsOfShown, wantLoads } from '../machine/studies';
 import { isUnderWay } from '../machine/words';
 import { PickedLine } from '../parts/picked_line';
+import { Slider } from '../parts/slider';
 import { colouring, section, sectionShare, tells } from './colouring';
+import { showsStock, showStock, stockState, stockTool } from './stock_view';
 import { followsTool, picked, showsRapids, Stage } from './stage';
 
 export function SceneView() {
@@ -57,19 +60,64 @@ export function SceneView() {
         >
           {say('scene.section')}
         </button>
+        <button type="button" class="chip" aria-pressed={showsStock.value} onClick={() => showStock(!showsStock.value)}>
+          {say('scene.stock')}
+        </button>
         <label class="chip">
           <span class="unseen">{say('scene.colour')}</span>
           <select value={tells.value} onChange={(event) => (tells.value = event.currentTarget.value as typeof tells.value)}>
             <option value="nothing">{say('scene.colour.nothing')}</option>
             <option value="speed">{say('scene.colour.speed')}</option>
             <option value="depth">{say('scene.colour.depth')}</option>
+            <option value="torque">{say('scene.colour.torque')}</option>
           </select>
         </label>
       </div>
       <Section />
+      <Stock />
       <Legend />
       <div class="narrow-only">{!isUnderWay(status.value?.job ?? null) && <PickedLine />}</div>
       {pathLoaded.value < 1 && <p class="scene-loading">{say('scene.loading', { percent: Math.floor(pathLoaded.value * 100) })}</p>}
+    </div>
+  );
+}
+
+// The tool that cuts the stock: the program's path does not tell its shape.
+function Stock() {
+  const tool = stockTool.value;
+  if (!showsStock.value) return null;
+  if (stockState.value === 'missing') return <p class="scene-stock">{say('stock.missing')}</p>;
+  const number = (name: 'diameter' | 'angle', title: string, shownAs: string, read: (shown: number) => number) => (
+    <label>
+      <span>{title}</span>{' '}
+      <input
+        type="text"
+        inputMode="decimal"
+        value={shownAs}
+        onChange={(event) => {
+          const field = event.currentTarget;
+          const typed = read(Number(field.value.trim().replace(',', '.')));
+          const most = name === 'angle' ? 170 : 200;
+          if (typed >= (name === 'angle' ? 5 : 0.05) && typed <= most) stockTool.value = { ...tool, [name]: typed };
+          else field.value = shownAs;
+        }}
+      />
+    </label>
+  );
+  return (
+    <div class="scene-stock" role="group" aria-label={say('stock.tool')}>
+      <label>
+        <span class="unseen">{say('stock.tool')}</span>
+        <select value={tool.kind} onChange={(event) => (stockTool.value = { ...tool, kind: event.currentTarget.value as typeof tool.kind })}>
+          {(['flat', 'ball', 'vee'] as const).map((one) => (
+            <option key={one} value={one}>
+              {say(`stock.${one}`)}
+            </option>
+          ))}
+        </select>
+      </label>
+      {number('diameter', `Ø ${lengthUnit()}`, String(Number(fromMm(tool.diameter).toFixed(4))), toMm)}
+      {tool.kind === 'vee' && number('angle', '°', String(tool.angle), (shown) => shown)}
     </div>
   );
 }
@@ -80,33 +128,43 @@ function Section() {
   if (share === null) return null;
   const zero = workOffset.value.z ?? 0;
   return (
-    <label class="scene-section">
-      <span class="unseen">{say('scene.section')}</span>
-      <input
-        type="range"
-        min="0"
-        max="1"
-        step="0.005"
-        value={share}
-        onInput={(event) => (sectionShare.value = Number(event.currentTarget.value))}
-      />
-      <b>{share >= 1 ? say('scene.section.all') : `Z ${lengthText(section.value - zero, 2)} ${lengthUnit()}`}</b>
-    </label>
+    <Slider
+      class="scene-section"
+      name={say('scene.section')}
+      hidesName
+      value={share}
+      step={0.005}
+      words={share >= 1 ? say('scene.section.all') : `Z ${lengthText(section.value - zero, 2)} ${lengthUnit()}`}
+      set={(to) => (sectionShare.value = to)}
+    />
   );
+}
+
+// The torque is worked out when somebody wants to see it.
+function TorqueState() {
+  useEffect(wantLoads, []);
+  const loads = loadsOfShown.value;
+  if (loads?.state === 'done') return null;
+  const words = loads === null || loads.state === 'running' ? say('torque.running') : say(`torque.${loads.state}`, { why: loads.words });
+  return <p class="scene-legend">{words}</p>;
 }
 
 // What the colours tell, in figures.
 function Legend() {
   const now = colouring.value;
   const speeds = pathIndex.value?.speeds;
+  if (tells.value === 'torque' && now.tells === 'nothing') return <TorqueState />;
   if (now.tells === 'nothing') return null;
   const zero = workOffset.value.z ?? 0;
-  const words = (mm: number): string => (now.tells === 'depth' ? `Z ${lengthText(mm - zero, 2)}` : speedText(mm));
-  const [low, high] = now.tells === 'depth' ? [now.low, now.high] : [speeds?.low ?? 0, speeds?.high ?? 0];
+  const ends: Record<'speed' | 'depth' | 'torque', [string, string, string]> = {
+    speed: [speedText(speeds?.low ?? 0), speedText(speeds?.high ?? 0), speedUnit()],
+    depth: [`Z ${lengthText(now.low - zero, 2)}`, `Z ${lengthText(now.high - zero, 2)}`, lengthUnit()],
+    torque: ['0', '100', `% ${say('torque.unit')}`],
+  };
+  const [low, high, unit] = ends[now.tells];
   return (
     <p class="scene-legend">
-      <span>{words(low)}</span> <i /> <span>{words(high)}</span>{' '}
-      <span class="unit">{now.tells === 'depth' ? lengthUnit() : speedUnit()}</span>
+      <span>{low}</span> <i /> <span>{high}</span> <span class="unit">{unit}</span>
     </p>
   );
 }

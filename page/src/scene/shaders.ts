@@ -34,7 +34,7 @@ uniform vec3 rapidColour;
 uniform vec3 pastColour;
 uniform float thickness;
 uniform float showsRapids;
-uniform int tells;        // what the colour of a cut tells: 0 nothing, 1 its speed, 2 its depth
+uniform int tells;        // what the colour of a cut tells: 0 nothing, 1 its speed, 2 its depth, 3 its torque
 uniform vec2 range;       // of that: its value for the low and for the high colour
 uniform vec3 lowColour;
 uniform vec3 highColour;
@@ -46,7 +46,7 @@ void main() {
   isRapid = mod(end.w, 2.0);
   bool past = gl_InstanceID < done;
   height = origin.z + stepLength.z * (corner.x < 0.5 ? start.z : end.z);
-  float told = tells == 1 ? floor(end.w / 256.0) : height;
+  float told = tells == 1 ? floor(end.w / 256.0) : tells == 3 ? floor(mod(end.w, 256.0) / 2.0) - 1.0 : height;
   float share = clamp((told - range.x) / max(range.y - range.x, 1e-6), 0.0, 1.0);
   vec3 ownColour = tells == 0 ? cutColour : mix(lowColour, highColour, share);
   colour = isRapid > 0.5 ? rapidColour : past ? pastColour : ownColour;
@@ -118,4 +118,45 @@ uniform vec3 toolColour;
 out vec4 result;
 void main() {
   result = vec4(toolColour * shade, 1.0);
+}`;
+
+// The stock: the strip `gl_InstanceID` has the rows before and after it, and two vertices a column. The first and the
+// last column and row stand at the bottom: they make the walls.
+export const stockVertex = `#version 300 es
+precision highp float;
+precision highp int;
+precision highp sampler2D;
+uniform mat4 camera;
+uniform vec3 low;
+uniform vec3 high;
+uniform float cell;
+uniform int columns;
+uniform int rows;
+uniform sampler2D heights;  // below the top, mm
+out vec3 place;
+void main() {
+  ivec2 at = ivec2(gl_VertexID / 2 - 1, gl_InstanceID + (gl_VertexID & 1) - 1);
+  ivec2 inside = clamp(at, ivec2(0), ivec2(columns - 1, rows - 1));
+  float height = at == inside ? high.z + texelFetch(heights, inside, 0).r : low.z;
+  place = vec3(min(low.xy + (vec2(inside) + 0.5) * cell, high.xy), height);
+  gl_Position = camera * vec4(place, 1.0);
+  gl_Position.z += 0.0008;  // the path on a floor is seen
+}`;
+
+export const stockFragment = `#version 300 es
+precision highp float;
+in vec3 place;
+uniform vec3 low;
+uniform vec3 high;
+uniform vec3 light;
+uniform vec3 stockColour;
+uniform vec3 cutColour;
+uniform float section;
+out vec4 result;
+void main() {
+  if (place.z > section) discard;
+  vec3 normal = normalize(cross(dFdx(place), dFdy(place)));
+  float depth = clamp((high.z - place.z) / max(high.z - low.z, 1e-6), 0.0, 1.0);
+  vec3 colour = place.z > high.z - 1e-3 ? stockColour : mix(stockColour, cutColour, 0.45 + 0.4 * depth);
+  result = vec4(colour * (0.45 + 0.55 * abs(dot(normal, light))), 1.0);
 }`;

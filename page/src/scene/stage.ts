@@ -3,18 +3,21 @@ import { batch, effect, signal } from '@preact/signals';
 import { stable } from '../core/stable';
 import { theme, themeColour } from '../core/theme';
 import { machine, status } from '../machine/connection';
-import { pathIndex } from '../machine/path_index';
+import { pathIndex, pathLoaded } from '../machine/path_index';
 import { workOffset } from '../machine/place';
+import { loadsOfShown } from '../machine/studies';
 import { isUnderWay } from '../machine/words';
-import { colouring, section } from './colouring';
+import { colouring, section, tells } from './colouring';
 import { axesOf, fit, orbit, pan, project, views, zoom, type View } from './camera';
 import { box, grid, gridStep, triad } from './furniture';
 import { colourOf } from './gl';
-import { spotOfLine, type PathPoints, type Vector } from './path_data';
-import { finestChunks, levelFor, listenToPath, wantFine } from './path_loader';
+import { noteLoads, spotOfLine, type PathPoints, type Vector } from './path_data';
+import { finestChunks, levelFor, loadedChunks, listenToPath, wantFine } from './path_loader';
 import { pick } from './pick';
 import { doneOf } from './progress';
 import { Renderer, type Colour } from './renderer';
+import { StockScene } from './stock_scene';
+import { stockCutter, stockTool } from './stock_view';
 
 // The line that a person has picked, in the text or in the scene.
 export const picked = signal<number | null>(null);
@@ -38,6 +41,7 @@ export class Stage {
   private slipped = 0;
   private closerTimer: ReturnType<typeof setTimeout> | undefined;
   private readonly ends: (() => void)[] = [];
+  private readonly stock: StockScene;
   drawn = 0; // frames, for tests
 
   constructor(
@@ -45,6 +49,7 @@ export class Stage {
     private readonly labels: HTMLElement,
   ) {
     this.renderer = new Renderer(canvas);
+    this.stock = new StockScene(this.renderer);
     this.ends.push(
       listenToPath({ cleared: () => this.clear(), added: (points) => this.add(points) }),
       effect(() => this.colour(theme.value)),
@@ -53,8 +58,16 @@ export class Stage {
         if (pathIndex.value !== null && !this.touched) this.fitAll();
       }),
       effect(() => {
+        // The torque of each line, when it is known.
+        const loads = loadsOfShown.value;
+        if (loads?.state !== 'done' || tells.value !== 'torque') return;
+        for (const one of loadedChunks()) noteLoads(one, loads.lines);
+        this.renderer.renewChunks();
+        this.soon();
+      }),
+      effect(() => {
         // What changes the picture.
-        void [seen.value, showsRapids.value, followsTool.value, picked.value, colouring.value, section.value];
+        void [seen.value, showsRapids.value, followsTool.value, picked.value, colouring.value, section.value, stockCutter.value, stockTool.value, pathLoaded.value];
         this.soon();
       }),
     );
@@ -100,7 +113,7 @@ export class Stage {
     const of = (name: string): Colour => colourOf(themeColour(name));
     // The theme's variables count once the document has its new theme.
     requestAnimationFrame(() => {
-      this.renderer.colours = { ground: of('--scene'), cut: of('--cut'), rapid: of('--rapid'), past: of('--past'), tool: of('--tool'), low: of('--slow'), high: of('--fast') };
+      this.renderer.colours = { ground: of('--scene'), cut: of('--cut'), rapid: of('--rapid'), past: of('--past'), tool: of('--tool'), low: of('--slow'), high: of('--fast'), stock: of('--stock'), floor: of('--floor') };
       this.furnish();
     });
   }
@@ -123,6 +136,8 @@ export class Stage {
   }
 
   private add(points: PathPoints): void {
+    const loads = loadsOfShown.peek();
+    if (loads?.state === 'done' && tells.peek() === 'torque') noteLoads(points, loads.lines);
     this.renderer.addChunk(points);
     this.soon();
   }
@@ -159,12 +174,14 @@ export class Stage {
     const tool: Vector | null = now === null ? null : [now.place.x ?? 0, now.place.y ?? 0, now.place.z ?? 0];
     if (tool !== null && followsTool.peek()) this.view = { ...this.view, centre: tool };
     const runs = now !== null && isUnderWay(now.job) && now.line > 0;
+    const cutsMore = this.stock.advance(runs ? now.line : null, tool);
     const done = runs && tool !== null ? doneOf(finestChunks(), now.line, tool) : null;
     this.renderer.draw(
       { view: this.view, tool, showsRapids: showsRapids.peek(), done, colouring: colouring.peek(), section: section.peek() },
       this.level(),
     );
     this.label();
+    if (cutsMore) this.soon();
   }
 
   private level(): number {

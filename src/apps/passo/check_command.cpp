@@ -6,6 +6,7 @@
 #include <string>
 #include <utility>
 
+#include "cam_job.hpp"
 #include "check_page.hpp"
 #include "check_report.hpp"
 #include "commands.hpp"
@@ -149,6 +150,9 @@ std::string refusal_of(const CheckArguments& arguments) {
   if (arguments.cutting_force && measures_motion(arguments)) {
     return "--cutting-force is for a check without --motion, and without a picture of the motion";
   }
+  if (!arguments.loads.empty() && measures_motion(arguments)) {
+    return "--loads is for a check without --motion, and without a picture of the motion";
+  }
   if (arguments.report.empty()) return "";
   if (!arguments.report.ends_with(".html")) return arguments.report + ": a report's name ends in .html";
   if (measures_motion(arguments)) {
@@ -280,6 +284,7 @@ int check(const CheckArguments& arguments) {
   files.reads("--tool-table", arguments.stock.tool_table);
   files.writes("--picture", arguments.picture);
   files.writes("--report", arguments.report);
+  files.writes("--loads", arguments.loads);
   if (!files.are_apart()) return exit_bad_program;
 
   FirstLook first;
@@ -296,16 +301,22 @@ int check(const CheckArguments& arguments) {
   std::optional<CheckPage> page;
   PathRecorder path;
   LoadTrack track;
+  LineLoads loads;
   if (first.result.good) {
     const bool reports = !arguments.report.empty();
     page = judge(program->again(), *machine, *options, first.result,
                  {.path = reports || !arguments.picture.empty() ? &path : nullptr,
                   .track = reports ? &track : nullptr,
-                  .loads = stock ? &stock->loads : nullptr},
+                  .loads = stock ? &stock->loads : nullptr,
+                  .lines = arguments.loads.empty() ? nullptr : &loads},
                  [&](double share) { progress.update(share_of_first_look + (1 - share_of_first_look) * share); });
   }
   progress.clear();
   if (page) page->line = line_cost(std::move(*program), *machine, *options, first.result, page->summary.time());
+  if (page && !arguments.loads.empty()) {
+    const int code = write_text(arguments.loads, loads.text());
+    if (code != exit_done) return code;
+  }
   const int written = write_files(arguments, *machine, first, page, path, track);
   if (written != exit_done) return written;
   print(arguments, *machine, first, page, stock);

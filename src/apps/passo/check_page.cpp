@@ -182,6 +182,19 @@ static double watch_in_phases(const PlannedMove& move, MarginSurvey& survey, Loa
   return most;
 }
 
+void LineLoads::add(std::uint32_t line, double load) {
+  if (line >= loads_.size()) loads_.resize(line + 1, -1.0F);
+  loads_[line] = std::max(loads_[line], static_cast<float>(load));
+}
+
+std::string LineLoads::text() const {
+  std::string text = "line,load\n";
+  for (std::size_t line = 0; line < loads_.size(); ++line) {
+    if (loads_[line] >= 0) fmt::format_to(std::back_inserter(text), "{},{:.3f}\n", line, loads_[line]);
+  }
+  return text;
+}
+
 CheckPage judge(ProgramReader program, const MachineDescription& machine, const InterpreterOptions& options,
                 const ProgramCheck& check, const CheckWatchers& watchers, const std::function<void(double)>& progress) {
   Diagnostics findings;  // after a good check only what is known already
@@ -220,6 +233,7 @@ CheckPage judge(ProgramReader program, const MachineDescription& machine, const 
       load = survey.last_load();
     }
     if (move != nullptr) speeds.watch(*move);
+    if (move != nullptr && watchers.lines != nullptr) watchers.lines->add(move->segment.source.line, load);
     builder.watch(item, move != nullptr ? move->segment.work_zero : Point());
     if (watchers.path != nullptr) {
       watchers.path->load_of_next(load);

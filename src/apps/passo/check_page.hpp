@@ -5,6 +5,7 @@
 #include <functional>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "cut_loads.hpp"
 #include "line_cost.hpp"
@@ -32,11 +33,23 @@ struct CheckPage {
   bool lost() const { return margin.verdict == Verdict::lost; }
 };
 
+// The greatest load of each line of a program that moves. Memory: 4 bytes a line.
+class LineLoads {
+ public:
+  void add(std::uint32_t line, double load);
+  // CSV: a head, and a line `line,load` for each line that moves; 1: all of the torque that is surely there.
+  std::string text() const;
+
+ private:
+  std::vector<float> loads_;  // below 0: the line does not move
+};
+
 // What else gets the motion, with its load. Null: nobody wants it.
 struct CheckWatchers {
   PathRecorder* path = nullptr;
   LoadTrack* track = nullptr;
   CutLoads* loads = nullptr;  // of the same program's cut
+  LineLoads* lines = nullptr;
 };
 
 // Plans a program that was checked, judges its motion, and plays it over a line. `progress` is told now and then which

@@ -97,6 +97,7 @@ struct CheckArguments {
   std::string picture;    // of the motion; empty: none
   std::string colour_by;  // "margin": the picture shows the path, coloured by the motors' margin; empty: the motion
   std::string report;     // .html; empty: none
+  std::string loads;      // .csv: what each line needs of the motors; empty: none
   StockArguments stock;   // what is cut, with what
   std::optional<double> cutting_force;  // N/mm², of the material; empty: no stock is cut
   std::optional<double> spindle_speed;  // revolutions a minute, of a spindle that the program does not command
@@ -191,6 +192,7 @@ struct ServeArguments {
   std::string mqtt_login;               // file with USER:PASSWORD for the broker; empty: nobody logs in
   bool check = false;                   // only say whether this can be served
   std::string data;                     // folder for jobs and history; empty: nothing is kept
+  std::vector<std::string> touches;     // what the virtual machine's probe can touch, as of `run`
 };
 int serve(const ServeArguments& arguments);
 

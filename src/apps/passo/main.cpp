@@ -169,6 +169,8 @@ CLI::App& add_serve(CLI::App& app, ServeArguments& arguments) {
                      "FILE with a token that HTTP then asks for; needed where other computers reach HOST");
   command.add_option("--http-name", arguments.http_names, "a NAME by which browsers know this server, as a proxy's");
   command.add_option("--data", arguments.data, "DIR for the queue of jobs, their history and alarms");
+  command.add_option("--touch", arguments.touches,
+                     "what the probe of the virtual machine touches, as Z:-1.5 or X10:60,Y10:50,Z:-2; as of run");
   command.add_option("--page", arguments.page, "DIR with the page for browsers; without it the one beside the program");
   command.footer(
       "Examples:\n  passo serve                                    a virtual machine: try a sender on it\n"
@@ -268,6 +270,9 @@ int parse_and_run(int argc, char** argv) {
                            "margin: the picture shows the path instead, dark where the motors have little torque left");
   check_command.add_option("-r,--report", check_arguments.report,
                            "all of it as one page to read and to print, with pictures (FILE.html)");
+  check_command.add_option(
+      "--loads", check_arguments.loads,
+      "write what each line needs of the motors' torque: line,load; 1 is all that is surely there");
   add_cut(check_command, check_arguments);
   check_command.add_flag("--json", check_arguments.json, "print the findings as JSON");
   check_command.footer(

@@ -14,6 +14,7 @@
 #include "serve_daemon.hpp"
 #include "serve_web.hpp"
 #include "served_journal.hpp"
+#include "touch_option.hpp"
 #include <fmt/format.h>
 
 #include "passo/grbl/grbl_controller.hpp"
@@ -122,6 +123,11 @@ int serve(const ServeArguments& given) {
   if (!arguments.data.empty() && arguments.http.empty()) {
     return fail(exit_bad_program, "--data keeps the jobs of --http, which is missing [serve.data]");
   }
+  const std::optional<std::vector<Touchable>> things = read_touch_options(arguments.touches, *machine);
+  if (!things) return exit_bad_program;
+  if (!things->empty() && arguments.board != "virtual") {
+    return fail(exit_bad_program, "--touch is for the virtual machine [serve.touch]");
+  }
   if (arguments.check) return check_serve(arguments, machine->name);
   int code = exit_done;
   ServiceNotice service;
@@ -130,8 +136,8 @@ int serve(const ServeArguments& given) {
   outlive_readers();
   // A board that a killed program has left brakes by itself.
   const bool keeps = !arguments.data.empty();
-  const auto opened =
-      OpenedMachine::open(*machine, {.board = arguments.board, .tells_place = true, .may_move = keeps}, code);
+  const auto opened = OpenedMachine::open(
+      *machine, {.board = arguments.board, .touchables = *things, .tells_place = true, .may_move = keeps}, code);
   if (!opened) return code;
   brake_on_signals();
   std::unique_ptr<ServedJournal> journal;

@@ -33,7 +33,7 @@ double seconds_since_1970() {
 }
 
 ApiOptions api_options(const PageFolder* page, JobHistory* history, ServedOffsets* offsets, const ServedJobs& jobs,
-                       Maker& maker) {
+                       Maker& maker, Studies& studies) {
   ApiOptions options{.version = PASSO_VERSION, .openapi = openapi_text, .make_key = new_key};
   options.history = history;
   options.wall_time = seconds_since_1970;
@@ -53,6 +53,7 @@ ApiOptions api_options(const PageFolder* page, JobHistory* history, ServedOffset
   options.machine_file = jobs.machine_file;
   options.machine_access = jobs.machine_access;
   options.maker = &maker;
+  options.studies = &studies;
   if (jobs.journal != nullptr) options.broken_off = jobs.journal->found();
   return options;
 }
@@ -69,7 +70,8 @@ ServedWeb::ServedWeb(const ServeArguments& arguments, const MachineDescription& 
       history_(std::move(history)),
       offsets_(std::move(offsets)),
       api_(machine, session, owner,
-           api_options(arguments.page.empty() ? nullptr : &page_, history_.get(), offsets_.get(), jobs, maker_)) {}
+           api_options(arguments.page.empty() ? nullptr : &page_, history_.get(), offsets_.get(), jobs, maker_,
+                       studies_)) {}
 
 std::unique_ptr<ServedWeb> ServedWeb::open(const ServeArguments& arguments, const MachineDescription& machine,
                                            MachineSession& session, MotionOwner& owner, const ServedJobs& jobs,

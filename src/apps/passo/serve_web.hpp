@@ -12,6 +12,7 @@
 #include "served_journal.hpp"
 #include "served_maker.hpp"
 #include "served_offsets.hpp"
+#include "served_studies.hpp"
 
 #include "passo/api/machine_api.hpp"
 #include "passo/web/web_server.hpp"
@@ -58,6 +59,7 @@ class ServedWeb {
   std::unique_ptr<ServedOffsets> offsets_;  // may be null
   std::string host_;
   ServedMaker maker_;
+  ServedStudies studies_;
   MachineApi api_;
   std::unique_ptr<WebServer> server_;
   std::chrono::steady_clock::time_point published_;

@@ -26,6 +26,7 @@
 #include "passo/api/motion_owner.hpp"
 #include "passo/api/program_store.hpp"
 #include "passo/api/program_uploads.hpp"
+#include "passo/api/studies.hpp"
 #include "passo/history/job_history.hpp"
 #include "passo/machine_file/machine_description.hpp"
 #include "passo/session/machine_session.hpp"
@@ -75,6 +76,8 @@ struct ApiOptions {
   std::optional<BrokenOff> broken_off = {};  // the job of an earlier program
   // Makes programs of drawings; outlives this. Null: nobody does.
   Maker* maker = nullptr;
+  // Works out what takes longer; outlives this. Null: nobody does.
+  Studies* studies = nullptr;
 };
 
 // What a job has said by (PRINT,…), (MSG,…) and (LOG,…).
@@ -152,6 +155,9 @@ class MachineApi final : public WebHandler {
   WebAnswer clear_make_files();
   WebAnswer begin_making(std::string_view body);
   void heed_maker();
+  WebAnswer study_answer();
+  WebAnswer study_file(bool picture) const;
+  WebAnswer begin_study(std::string_view body);
   WebAnswer begin_job(const StoredProgram& program, std::int64_t history);
   WebAnswer resume_job(bool by_a_way_back);
   void note_alarm();
@@ -185,6 +191,8 @@ class MachineApi final : public WebHandler {
   bool heeds_maker_ = false;       // an order runs
   std::uint64_t made_ = 0;         // the program of the last order; 0: none
   std::uint64_t made_before_ = 0;  // of the order before
+  std::string study_;              // the last one that was ordered
+  std::uint64_t studied_ = 0;      // its program; 0: none
   std::optional<Ticket> ticket_;
   Diagnostics findings_;  // of the run
   std::vector<JobWords> words_;

@@ -35,6 +35,7 @@ struct StoredProgram {
   std::string text;
   std::uint64_t lines = 0;
   UploadState state = UploadState::unchecked;
+  Point checked_from = {};  // where the machine stood at the last check
   ProgramCheck check;
   std::uint64_t path = 0;  // the fingerprint of its path, after a good check
   Diagnostics findings;
@@ -61,7 +62,8 @@ class ProgramStore {
   bool remove(std::uint64_t id);
   const std::map<std::uint64_t, StoredProgram>& all() const { return programs_; }
 
-  // Begins the check of a program from this place on. One is checked at a time; the last one counts.
+  // Begins the check of a program from this place on. One is checked at a time; the last one counts. A program that was
+  // found good from this place is not checked again.
   void check(std::uint64_t id, const MachineDescription& machine, const Point& start);
   bool checks() const { return checker_ != nullptr; }
   // Checks a bounded piece.

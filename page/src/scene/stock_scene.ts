@@ -1,0 +1,45 @@
+// Keeps the drawn stock as far cut as the machine has come.
+import { pathIndex, pathLoaded } from '../machine/path_index';
+import { workOffset } from '../machine/place';
+import type { Vector } from './path_data';
+import { baseChunks } from './path_loader';
+import { doneOf, type Done } from './progress';
+import type { Renderer } from './renderer';
+import { blockOf } from './stock_cutter';
+import { stockCutter, stockTool } from './stock_view';
+
+const aFrame = 12; // ms of each picture
+
+export class StockScene {
+  private begun = ''; // what is cut, in words
+  private reached: Done | 'all' = { chunk: 0, share: 0 };
+
+  constructor(private readonly renderer: Renderer) {}
+
+  // `line`: the executed one; null: no job runs, and the whole program is cut. True: there is more to cut.
+  advance(line: number | null, tool: Vector | null): boolean {
+    const cutter = stockCutter.peek();
+    const index = pathIndex.peek();
+    if (cutter === null || index?.cuts == null || pathLoaded.peek() < 1) {
+      if (this.begun !== '') this.renderer.stock.end();
+      this.begun = '';
+      return false;
+    }
+    const shape = stockTool.peek();
+    const zero = workOffset.peek().z ?? 0;
+    const chunks = baseChunks();
+    const done = line === null || tool === null ? null : doneOf(chunks, line, tool);
+    const begun = JSON.stringify([index.program, index.points, index.cuts, shape, zero]);
+    const goesBack = done !== null && (this.reached === 'all' || done.chunk < this.reached.chunk || (done.chunk === this.reached.chunk && done.share < this.reached.share));
+    if (begun !== this.begun || goesBack) {
+      this.renderer.stock.end();
+      this.begun = begun;
+      if (cutter.begin(blockOf(index.cuts, zero, shape.diameter), shape) && cutter.shape !== null) this.renderer.stock.begin(cutter.shape);
+    }
+    this.reached = done ?? 'all';
+    const more = cutter.cut(chunks, done === null || tool === null ? null : { ...done, tool }, aFrame);
+    const changed = cutter.changed();
+    if (changed !== null) this.renderer.stock.write(changed.first, changed.heights);
+    return more;
+  }
+}

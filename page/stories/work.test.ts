@@ -1,0 +1,141 @@
+// What a person prepares: places found by the probe, a height map, the torque, the stock, limits for the motors, letters.
+import { mkdtempSync, readFileSync, rmSync, writeFileSync } from 'node:fs';
+import { tmpdir } from 'node:os';
+import { join } from 'node:path';
+import type { Browser, Page } from 'playwright-core';
+import { afterAll, beforeAll, describe, expect, it } from 'vitest';
+import { Daemon, example, openBrowser, violations, visit } from './kit';
+
+let browser: Browser;
+let daemon: Daemon;
+let folder: string;
+const patience = 60_000; // ms, on a busy computer
+beforeAll(async () => {
+  folder = mkdtempSync(join(tmpdir(), 'passo-story-'));
+  const machine = join(folder, 'machine.toml');
+  writeFileSync(machine, readFileSync(example('machines/strong-router.toml'), 'utf8'));
+  browser = await openBrowser();
+  // A block whose corner is 8 and 9 mm beside the probe, its top 11.2 mm below.
+  daemon = await Daemon.start({ machine, touch: ['X-8:90,Y-9:70,Z-50:-11.2'] });
+});
+afterAll(async () => {
+  await browser?.close();
+  await daemon?.end();
+  rmSync(folder, { recursive: true, force: true });
+});
+
+const part = 'G21 G90 G17\nF1200\nG0 Z5\nG0 X10 Y10\nG1 Z-1\nG1 X40\nG1 Y30\nG1 X10\nG1 Y10\nG0 Z5\nM2\n';
+const choose = (page: Page, name: string): Promise<void> => page.getByRole('radio', { name, exact: true }).check({ force: true });
+const enter = async (page: Page, name: RegExp, value: string): Promise<void> => {
+  const field = page.locator('.probing').getByRole('textbox', { name });
+  await field.fill(value);
+  await field.blur();
+};
+const agree = (page: Page, name: string): Promise<void> => page.getByRole('dialog').getByRole('button', { name, exact: true }).click();
+
+describe('the probe', () => {
+  it('finds a corner after a question with all facts, and a height map levels a program', { timeout: 240_000 }, async () => {
+    const { page, context, errors } = await visit(browser, daemon, 'files');
+    page.setDefaultTimeout(patience);
+    await page.setInputFiles('input[type=file]', { name: 'part.ngc', mimeType: 'text/plain', buffer: Buffer.from(part) });
+    await expect.poll(() => page.getByTestId('verdict').innerText(), { timeout: patience }).toContain('Good');
+    await page.goto(`${daemon.address}#/jog`);
+    await choose(page, 'Corner');
+    await choose(page, 'front left');
+    expect(await page.getByTestId('cycle-steps').innerText()).toContain('out by 25 mm');
+    expect(await violations(page)).toEqual([]);
+    await page.getByRole('button', { name: 'Probe …' }).click();
+    const question = page.getByRole('dialog');
+    expect(await question.innerText()).toContain('Sets X0, Y0 and Z0.');
+    expect(await question.innerText()).toContain('nothing is set');
+    await agree(page, 'Probe');
+    const found = await daemon.until((status) => status.job?.name === 'probe corner' && status.job.state === 'done', patience * 2);
+    expect(found.work_offset?.x).toBeCloseTo(-8, 1);
+    expect(found.work_offset?.y).toBeCloseTo(-9, 1);
+    expect(found.work_offset?.z).toBeCloseTo(-11.2, 1);
+    await choose(page, 'Height map');
+    for (const [name, value] of [[/^Places along X/, '3'], [/^Places along Y/, '2'], [/^Width along X/, '40'], [/^Width along Y/, '30']] as const) {
+      await enter(page, name, value);
+    }
+    await page.getByRole('button', { name: 'Probe …' }).click();
+    expect(await question.innerText()).toContain('The map is for part.ngc.');
+    await agree(page, 'Probe');
+    await page.getByTestId('height-map').waitFor({ timeout: patience * 2 });
+    expect(await page.getByTestId('height-map').innerText()).toContain('3 × 2 places');
+    await daemon.until((status) => status.state === 'Idle', patience);
+    await page.getByRole('button', { name: 'Level the program by it' }).click();
+    await expect.poll(async () => (await daemon.get<{ programs: unknown[] }>('/programs')).programs.length, { timeout: patience }).toBeGreaterThan(3);
+    // A program without a height map is asked for one.
+    expect(errors.filter((one) => !one.includes('404'))).toEqual([]);
+    await context.close();
+  });
+
+  it('says in a question, in each language, that nobody may be near, and asks for nothing impossible', async () => {
+    const { page, context } = await visit(browser, daemon, 'jog', { language: 'it' });
+    await choose(page, 'Foro');
+    await enter(page, /^Corsa/, '99999');
+    expect(await page.locator('.probing').getByRole('textbox', { name: /^Corsa/ }).inputValue()).toBe('1000');
+    expect(await page.locator('.probing').innerText()).toContain('Imposta X0 e Y0.');
+    await context.close();
+  });
+});
+
+describe('the torque of the motors', () => {
+  it('is told in Files and shown on the path, and the stock is seen as it is cut', { timeout: 240_000 }, async () => {
+    const { page, context, errors } = await visit(browser, daemon, 'files');
+    page.setDefaultTimeout(patience);
+    await page.setInputFiles('input[type=file]', { name: 'torque.ngc', mimeType: 'text/plain', buffer: Buffer.from(part) });
+    await expect.poll(() => page.getByTestId('torque').innerText(), { timeout: patience * 2 }).toMatch(/\d %/);
+    await page.getByRole('button', { name: 'Show it on the path' }).click();
+    await page.locator('.scene-legend').getByText('of the sure torque').waitFor();
+    const scene = page.locator('.scene canvas');
+    const before = await scene.screenshot();
+    await page.getByRole('button', { name: 'Stock', exact: true }).click();
+    await expect.poll(async () => (await scene.screenshot()).equals(before), { timeout: patience }).toBe(false);
+    await page.getByRole('group', { name: 'The tool that cuts the stock' }).waitFor();
+    expect(await violations(page)).toEqual([]);
+    expect(errors).toEqual([]);
+    await context.close();
+  });
+});
+
+describe('limits for the motors', () => {
+  it('are proposed with their curves, and taken into the table', { timeout: 240_000 }, async () => {
+    const { page, context, errors } = await visit(browser, daemon, 'machine');
+    page.setDefaultTimeout(patience);
+    await page.getByTestId('scale-X').waitFor();
+    await page.getByRole('button', { name: 'Work out the limits' }).click();
+    await page.getByTestId('tuned').waitFor({ timeout: patience * 3 });
+    const curves = page.getByRole('img', { name: /^Torque over speed/ });
+    await expect.poll(() => curves.evaluate((one) => (one as HTMLImageElement).naturalWidth), { timeout: patience }).toBeGreaterThan(0);
+    const speed = page.getByRole('textbox', { name: 'X Highest speed' });
+    const was = await speed.inputValue();
+    await page.getByRole('button', { name: 'Take these limits …' }).click();
+    await agree(page, 'Take these limits');
+    await expect.poll(() => speed.inputValue(), { timeout: patience }).not.toBe(was);
+    await page.getByRole('button', { name: 'Undo' }).click();
+    await expect.poll(() => speed.inputValue(), { timeout: patience }).toBe(was);
+    expect(errors).toEqual([]);
+    await context.close();
+  });
+});
+
+describe('Make', () => {
+  it('engraves letters, and a drawing that is dropped in Files is cleared as a pocket', { timeout: 240_000 }, async () => {
+    const { page, context, errors } = await visit(browser, daemon, 'make');
+    page.setDefaultTimeout(patience);
+    await choose(page, 'Engrave');
+    await page.getByRole('textbox', { name: 'Letters instead of a drawing' }).fill('Passo');
+    await expect.poll(() => page.getByTestId('make-state').innerText(), { timeout: patience }).toBe('Made');
+    await page.locator('.make-result img').waitFor();
+    await page.goto(`${daemon.address}#/files`);
+    const drawing = '<svg xmlns="http://www.w3.org/2000/svg" width="40mm" height="30mm" viewBox="0 0 40 30"><rect x="5" y="5" width="30" height="20"/></svg>';
+    await page.setInputFiles('input[type=file]', { name: 'tray.svg', mimeType: 'image/svg+xml', buffer: Buffer.from(drawing) });
+    await page.getByRole('checkbox', { name: 'tray.svg' }).waitFor();
+    await choose(page, 'Clear pockets');
+    const made = async (): Promise<string> => JSON.stringify(await daemon.get('/programs'));
+    await expect.poll(made, { timeout: patience }).toContain('tray-pocket.ngc');
+    expect(errors).toEqual([]);
+    await context.close();
+  });
+});

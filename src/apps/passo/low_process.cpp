@@ -1,0 +1,103 @@
+#include "low_process.hpp"
+
+#include <csignal>
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+
+#include <fcntl.h>
+#include <sys/resource.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+namespace passo {
+namespace {
+
+namespace fs = std::filesystem;
+
+void limit(decltype(RLIMIT_CPU) what, rlim_t most) {
+  const rlimit bound{most, most};
+  setrlimit(what, &bound);
+}
+
+// In the new process.
+[[noreturn]] void become(const std::string& folder, const std::vector<std::string>& words) {
+  std::vector<char*> pointers;
+  for (const std::string& word : words) pointers.push_back(const_cast<char*>(word.c_str()));
+  pointers.push_back(nullptr);
+  std::signal(SIGINT, SIG_IGN);  // Ctrl-C is for the server, which ends this process
+  std::signal(SIGTERM, SIG_DFL);
+  if (chdir(folder.c_str()) != 0) _exit(127);
+  const int said = open(LowProcess::said_file, O_WRONLY | O_CREAT | O_TRUNC, 0600);
+  const int printed = open(LowProcess::printed_file, O_WRONLY | O_CREAT | O_TRUNC, 0600);
+  dup2(open("/dev/null", O_RDWR), 0);
+  dup2(printed, 1);
+  dup2(said, 2);
+  close_range(3, ~0U, 0);
+  limit(RLIMIT_CPU, LowProcess::most_time);
+  limit(RLIMIT_AS, LowProcess::most_memory);
+  limit(RLIMIT_FSIZE, LowProcess::longest_file);
+  setpriority(PRIO_PROCESS, 0, 19);
+  execv("/proc/self/exe", pointers.data());
+  _exit(127);
+}
+
+}  // namespace
+
+bool LowProcess::begin(const std::string& folder, const std::vector<std::string>& words) {
+  if (process_ != 0) return false;
+  const pid_t process = fork();
+  if (process == 0) become(folder, words);
+  if (process > 0) process_ = process;
+  return process > 0;
+}
+
+std::optional<int> LowProcess::look() {
+  int status = 0;
+  if (process_ == 0 || waitpid(process_, &status, WNOHANG) != process_) return {};
+  process_ = 0;
+  return status;
+}
+
+void LowProcess::end() {
+  if (process_ == 0) return;
+  kill(process_, SIGKILL);
+  waitpid(process_, nullptr, 0);
+  process_ = 0;
+}
+
+std::string words_of_end(int status) {
+  if (WIFSIGNALED(status) && (WTERMSIG(status) == SIGXCPU || WTERMSIG(status) == SIGKILL)) {
+    return "it took too long, and was ended";
+  }
+  return "it has failed";
+}
+
+bool PassingFolder::make() {
+  if (!name_.empty()) return true;
+  std::error_code none;
+  std::string made = (fs::temp_directory_path(none) / "passo-make-XXXXXX").string();
+  if (mkdtemp(made.data()) == nullptr) return false;
+  name_ = made;
+  return true;
+}
+
+void PassingFolder::remove() {
+  std::error_code none;
+  if (!name_.empty()) fs::remove_all(name_, none);
+  name_.clear();
+}
+
+std::string content_of(const std::string& file) {
+  std::ifstream in(file, std::ios::binary);
+  return {std::istreambuf_iterator<char>(in), {}};
+}
+
+bool write_content(const std::string& file, std::string_view bytes) {
+  std::ofstream out(file, std::ios::binary);
+  out.write(bytes.data(), static_cast<std::streamsize>(bytes.size()));
+  return static_cast<bool>(out.flush());
+}
+
+}  // namespace passo

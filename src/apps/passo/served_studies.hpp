@@ -1,0 +1,25 @@
+// ServedStudies: `passo check` and `passo tune` for the API, as a process of its own (low_process.hpp).
+#pragma once
+
+#include <string>
+
+#include "low_process.hpp"
+
+#include "passo/api/studies.hpp"
+
+namespace passo {
+
+class ServedStudies final : public Studies {
+ public:
+  bool begin(const StudyOrder& order) override;
+  const StudyResult& look() override;
+  std::string loads() const override;
+  std::string picture() const override;
+
+ private:
+  PassingFolder folder_;
+  LowProcess process_;
+  StudyResult result_;
+};
+
+}  // namespace passo
