@@ -100,7 +100,7 @@ TEST_F(CamPart, an_inlay_has_a_pocket_and_a_mirrored_plug) {
   EXPECT_THAT(plug.out, HasSubstr("drawn: X -35 to -5"));
   EXPECT_THAT(plug.out, HasSubstr("4.5 mm deep at most"));
   EXPECT_THAT(passo("check " + path("plug.ngc") + router).out, HasSubstr("no errors"));
-  EXPECT_THAT(passo(both + "plug --tool 4").err, HasSubstr("--tool: expected 5.2 mm or more"));
+  EXPECT_THAT(passo("cam engrave " + svg + " --tool 4 --inlay plug").err, HasSubstr("--tool: expected 5.2 mm or more"));
 }
 
 TEST_F(CamPart, foam_is_cut_by_two_ends_of_a_wire) {
