@@ -1,5 +1,6 @@
 #include "passo/emulator/emulated_timer.hpp"
 
+#include <array>
 #include <stdexcept>
 
 #include <simavr/sim_avr.h>
@@ -12,6 +13,7 @@
 namespace passo {
 namespace {
 
+constexpr std::uint16_t tccr0a = 0x44;
 constexpr std::uint16_t tccr0b = 0x45;
 constexpr std::uint16_t tcnt0 = 0x46;
 constexpr std::uint16_t ocr0a = 0x47;
@@ -49,6 +51,12 @@ EmulatedTimer::EmulatedTimer(EmulatedChip& chip) : avr_(chip.avr()) {
 }
 
 void EmulatedTimer::replace_timer_0() {
+  on_write(avr_, tccr0a, &byte_, [](avr_t* avr, avr_io_addr_t, std::uint8_t value, void* counter) {
+    auto& timer = *static_cast<Counter*>(counter);
+    avr->data[tccr0a] = value;
+    timer.clears_on_match = (value & 3) == 2;
+    timer.set_alarm(*avr);
+  });
   on_write(avr_, tccr0b, &byte_, [](avr_t* avr, avr_io_addr_t, std::uint8_t value, void* counter) {
     avr->data[tccr0b] = value;
     static_cast<Counter*>(counter)->start(*avr, value);
@@ -113,20 +121,22 @@ void EmulatedTimer::replace_timer_1() {
 }
 
 std::uint64_t EmulatedTimer::Counter::count(const avr_t& avr) const {
-  return runs ? (avr.cycle - started) % turn : 0;
+  return prescale > 0 ? (avr.cycle - started) / prescale % length() : 0;
 }
 
 void EmulatedTimer::Counter::start(avr_t& avr, std::uint8_t control) {
-  runs = (control & 7) == 1;
+  constexpr std::array<std::uint64_t, 8> prescales = {0, 1, 8, 64, 256, 1024, 0, 0};
+  prescale = prescales[control & 7];
   started = avr.cycle;
   set_alarm(avr);
 }
 
 void EmulatedTimer::Counter::set_alarm(avr_t& avr) {
   avr_cycle_timer_cancel(&avr, on_match, this);
-  if (!runs) return;
-  const std::uint64_t ahead = (compare + turn - count(avr)) % turn;
-  avr_cycle_timer_register(&avr, ahead == 0 ? turn : ahead, on_match, this);
+  if (prescale == 0) return;
+  const std::uint64_t ahead = (compare + length() - count(avr)) % length();
+  const std::uint64_t since_count = (avr.cycle - started) % prescale;
+  avr_cycle_timer_register(&avr, (ahead == 0 ? length() : ahead) * prescale - since_count, on_match, this);
 }
 
 void EmulatedTimer::Counter::clear(avr_t& avr, std::uint8_t flags_written) const {
@@ -141,13 +151,13 @@ void EmulatedTimer::Counter::enable(avr_t& avr, std::uint8_t mask_written) const
 }
 
 std::uint64_t EmulatedTimer::overflows() const {
-  return word_.runs ? (avr_.cycle - word_.started) / word_.turn : 0;
+  return word_.prescale > 0 ? (avr_.cycle - word_.started) / word_.prescale / word_.turn : 0;
 }
 
 std::uint64_t EmulatedTimer::on_match(avr_t* avr, std::uint64_t when, void* counter) {
   const auto& timer = *static_cast<const Counter*>(counter);
   if (timer.match->pending == 0) avr_raise_interrupt(avr, timer.match);
-  return when + timer.turn;
+  return when + timer.length() * timer.prescale;
 }
 
 }  // namespace passo

@@ -1,7 +1,7 @@
-// EmulatedTimer: timers 0 (8 bits) and 1 (16 bits) of the ATmegas, free running at the full clock, each with its
-// compare match A, and timer 1 with its overflow flag (no program uses the overflow as an interrupt). The class
-// replaces simavr's timer, which forgets a preset count, clears all flags when one is cleared, and forgets a match that
-// was pending when its interrupt is enabled.
+// EmulatedTimer: timers 0 (8 bits) and 1 (16 bits) of the ATmegas, free running or (timer 0) cleared by a match, each
+// with its compare match A, and timer 1 with its overflow flag (no program uses the overflow as an interrupt). The
+// class replaces simavr's timer, which forgets a preset count, clears all flags when one is cleared, and forgets a
+// match that was pending when its interrupt is enabled.
 //
 // As in silicon, 16-bit registers go through the one byte TEMP that they share. A match sets its flag whether the
 // interrupt is enabled or not. A compare time that has just passed when it is written comes again after a whole turn of
@@ -26,15 +26,18 @@ class EmulatedTimer {
   std::uint64_t started() const { return word_.started; }
 
  private:
-  // A timer that counts to `turn` - 1.
+  // A timer that counts to `turn` - 1, or to its compare value where that clears it.
   struct Counter {
     std::uint64_t turn = 0;
     std::uint16_t flags = 0;  // addresses of TIFRn and TIMSKn
     std::uint16_t mask = 0;
     avr_int_vector_t* match = nullptr;
     std::uint64_t started = 0;
-    bool runs = false;
+    std::uint64_t prescale = 0;  // cycles a count; 0: the timer stands
+    bool clears_on_match = false;
     std::uint64_t compare = 0;
+
+    std::uint64_t length() const { return clears_on_match ? compare + 1 : turn; }
 
     std::uint64_t count(const avr_t& avr) const;
     void start(avr_t& avr, std::uint8_t control);

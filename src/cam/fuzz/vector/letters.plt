@@ -1,0 +1,1 @@
+IN;SP1;DT*;SI0.3,0.5;DI1,1;PU100,100;LBhello*;CP1,-1;SR1,2;DR0,1;LBwérld
