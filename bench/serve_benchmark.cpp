@@ -256,7 +256,6 @@ std::string relief(int lines) {
 
 // Reads what comes from all clients for so long. Returns the messages.
 std::uint64_t listen(std::vector<pollfd>& all, double seconds) {
-  std::uint64_t bytes = 0;
   std::uint64_t messages = 0;
   std::array<char, 65536> piece;
   for (const auto start = Clock::now(); seconds_since(start) < seconds;) {
@@ -265,7 +264,6 @@ std::uint64_t listen(std::vector<pollfd>& all, double seconds) {
       if ((one.revents & POLLIN) == 0) continue;
       const ssize_t got = read(one.fd, piece.data(), piece.size());
       for (ssize_t i = 0; i < got; ++i) messages += piece[static_cast<std::size_t>(i)] == '\n' ? 1 : 0;
-      bytes += got > 0 ? static_cast<std::uint64_t>(got) : 0;
     }
   }
   return messages;
