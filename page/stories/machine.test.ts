@@ -97,13 +97,13 @@ describe('inputs and outputs', () => {
     await page.getByRole('button', { name: 'End the set-up mode' }).waitFor();
     await flood.click();
     await daemon.until((status) => status.outputs.flood);
-    await expect.poll(() => page.getByTestId('pin-flood').innerText()).toBe('on');
+    await expect.poll(() => page.getByTestId('pin-flood').innerText(), { timeout: 10_000 }).toBe('on');
     await page.getByRole('button', { name: 'Spindle clockwise', exact: true }).click();
     await agree(page, 'Turn it');
     await daemon.until((status) => status.outputs.spindle === 'clockwise' && status.outputs.flood, 20_000);
     await page.getByRole('button', { name: 'End the set-up mode' }).click();
     await daemon.until((status) => status.state === 'Idle' && !status.outputs.flood && status.outputs.spindle === 'off');
-    await expect.poll(() => page.getByTestId('pin-flood').innerText()).toBe('off');
+    await expect.poll(() => page.getByTestId('pin-flood').innerText(), { timeout: 10_000 }).toBe('off');
     expect(errors).toEqual([]);
     await context.close();
   });

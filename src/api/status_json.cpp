@@ -226,7 +226,8 @@ Json as_json(const StoredProgram& program, bool with_findings) {
                {"lines", program.lines},
                {"state", name_of(program.state)},
                {"seconds", rounded(program.check.nominal_time.value())},
-               {"moves", program.check.moves}};
+               {"moves", program.check.moves},
+               {"height_map", program.height_map.has_value()}};
   if (with_findings) json["findings"] = as_json(program.findings);
   return json;
 }

@@ -81,6 +81,7 @@ export interface Program {
   state: 'unchecked' | 'checking' | 'good' | 'bad';
   seconds: number;
   moves: number;
+  height_map: boolean;
   findings?: Finding[];
 }
 

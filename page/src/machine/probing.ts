@@ -135,11 +135,12 @@ export interface HeightMap {
 }
 export const heightMap = signal<{ program: number; map: HeightMap } | null>(null);
 
-// A program without a map is no error.
+// A job may just have found one, so the daemon is asked, and not the list of programs.
 export async function lookForMap(program: number | null): Promise<void> {
   if (program === null) return void (heightMap.value = null);
   try {
-    heightMap.value = { program, map: await get<HeightMap>(`/programs/${program}/height-map`) };
+    const has = (await get<Program>(`/programs/${program}`)).height_map;
+    heightMap.value = has ? { program, map: await get<HeightMap>(`/programs/${program}/height-map`) } : null;
   } catch {
     heightMap.value = null;
   }
