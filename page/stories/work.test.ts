@@ -53,6 +53,7 @@ describe('the probe', () => {
     expect(found.work_offset?.x).toBeCloseTo(-8, 1);
     expect(found.work_offset?.y).toBeCloseTo(-9, 1);
     expect(found.work_offset?.z).toBeCloseTo(-11.2, 1);
+    await expect.poll(() => page.getByTestId('state').innerText(), { timeout: patience }).toBe('Ready');
     await choose(page, 'Height map');
     for (const [name, value] of [[/^Places along X/, '3'], [/^Places along Y/, '2'], [/^Width along X/, '40'], [/^Width along Y/, '30']] as const) {
       await enter(page, name, value);
