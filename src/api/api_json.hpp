@@ -18,6 +18,8 @@ inline constexpr double a_minute = 60;  // s; the API's speeds are mm/min
 WebAnswer json_answer(unsigned status, const Json& json);
 // {"error": {"code": …, "message": …}}
 WebAnswer error_answer(unsigned status, std::string_view code, std::string_view message);
+// 400: what the body should have been.
+WebAnswer bad_body(std::string_view message);
 
 // What a query says. A name is for people: what could do harm in a terminal or a page is left out.
 std::string name_from(std::string_view text, std::string_view otherwise);

@@ -191,7 +191,7 @@ WebAnswer MachineApi::change(const FoundRoute& found, const WebRequest& request)
   if (path == "/api/v1/probe") return begin_probing(request.body);
   std::string reason;
   auto wanted = read_request(path, body, machine_, reason);
-  if (!wanted) return error_answer(400, "http.bad-body", reason);
+  if (!wanted) return bad_body(reason);
   // Who holds or stops wants no motion, also of a job that is about to begin.
   const bool calls_off = path == "/api/v1/hold" || path == "/api/v1/stop";
   if (calls_off && job_.state == JobState::checking && !session_.busy()) {
@@ -232,10 +232,9 @@ WebAnswer MachineApi::set_work_zero(std::string_view body) {
   const Point zero = programs_.work_zero();
   std::string reason;
   const auto place = read_place(Json::parse(body, nullptr, false), machine_, status.position.place - zero, reason);
-  if (!place) return error_answer(400, "http.bad-body", reason);
+  if (!place) return bad_body(reason);
   const auto is_far = [](double value) { return std::abs(value) > farthest_zero; };
-  if (std::ranges::any_of(place->values, is_far))
-    return error_answer(400, "http.bad-body", "the place is too far away");
+  if (std::ranges::any_of(place->values, is_far)) return bad_body("the place is too far away");
   programs_.set_work_zero(status.position.place - *place);
   if (options_.keep_offsets) options_.keep_offsets(programs_.parameters(), programs_.tools());
   return json_answer(200, {{"work_offset", as_json(machine_, programs_.work_zero())}});
@@ -259,7 +258,7 @@ bool MachineApi::may_pass_on() const {
 // A sender's program that waits for its next line ends here.
 WebAnswer MachineApi::take_ownership(const WebRequest& request) {
   const Json body = request.body.empty() ? Json::object() : Json::parse(request.body, nullptr, false);
-  if (!body.is_object()) return error_answer(400, "http.bad-body", "the body is no JSON object");
+  if (!body.is_object()) return bad_body("the body is no JSON object");
   if (!may_pass_on() || job_.state == JobState::checking) {
     return error_answer(409, "owner.moves",
                         fmt::format("the machine moves for {}: hold it first, or wait", owner_.name()));
@@ -279,7 +278,7 @@ WebAnswer MachineApi::take_ownership(const WebRequest& request) {
 WebAnswer MachineApi::change_programs(const FoundRoute& found, const WebRequest& request) {
   if (found.route->path == programs_path) {
     const auto dialect = dialect_from(request.query);
-    if (!dialect) return error_answer(400, "http.bad-body", "the dialect is linuxcnc or grbl");
+    if (!dialect) return bad_body("the dialect is linuxcnc or grbl");
     const StoredProgram* const program =
         programs_.add(name_from(query_value(request.query, "name"), "program"), *dialect, request.body);
     return program != nullptr ? json_answer(201, as_json(*program, false)) : no_room();
@@ -327,7 +326,7 @@ WebAnswer MachineApi::change_queue(const FoundRoute& found, const WebRequest& re
   if (history == nullptr) return no_history();
   if (found.route->path == queue_path) {
     const auto dialect = dialect_from(request.query);
-    if (!dialect) return error_answer(400, "http.bad-body", "the dialect is linuxcnc or grbl");
+    if (!dialect) return bad_body("the dialect is linuxcnc or grbl");
     const auto id = history->add(name_from(query_value(request.query, "name"), "program"),
                                  *dialect == Dialect::grbl ? "grbl" : "linuxcnc", request.body, wall_time());
     return id ? json_answer(201, as_json(*history->find(*id))) : no_room();

@@ -18,10 +18,6 @@ std::string stamp_of(std::string_view text) {
   return fmt::format("{:016x}", fingerprint.value());
 }
 
-WebAnswer bad_body(std::string_view message) {
-  return error_answer(400, "http.bad-body", message);
-}
-
 // A member that nobody knows is a mistake.
 bool has_only(const Json& said, std::string_view one, std::string_view other) {
   for (const auto& [name, value] : said.items()) {

@@ -37,7 +37,7 @@ WebAnswer no_room() {
 }
 
 WebAnswer no_line() {
-  return error_answer(400, "http.bad-body", "from_line: expected the number of a line, 1 or more");
+  return bad_body("from_line: expected the number of a line, 1 or more");
 }
 
 std::optional<std::uint32_t> line_from(std::string_view text) {

@@ -85,10 +85,6 @@ WebAnswer no_maker() {
   return error_answer(404, "make.none", "this server makes no programs");
 }
 
-WebAnswer bad_order(std::string_view reason) {
-  return error_answer(400, "http.bad-body", reason);
-}
-
 }  // namespace
 
 WebAnswer MachineApi::make_answer() {
@@ -115,7 +111,7 @@ WebAnswer MachineApi::made_picture() const {
 
 WebAnswer MachineApi::keep_make_file(std::string_view name, std::string_view bytes) {
   if (options_.maker == nullptr) return no_maker();
-  if (name.empty() || name.front() == '.' || name.front() == '-') return bad_order("the file has no name");
+  if (name.empty() || name.front() == '.' || name.front() == '-') return bad_body("the file has no name");
   if (!options_.maker->keep(std::string(name), bytes)) {
     return error_answer(507, "make.no-room", "there is no room for this file: clear the others first");
   }
@@ -131,32 +127,32 @@ WebAnswer MachineApi::clear_make_files() {
 
 WebAnswer MachineApi::begin_making(std::string_view body) {
   const Json said = Json::parse(body, nullptr, false);
-  if (!said.is_object()) return bad_order("the body is no JSON object");
+  if (!said.is_object()) return bad_body("the body is no JSON object");
   for (const auto& [name, value] : said.items()) {
     if (name != "job" && name != "files" && name != "options")
-      return bad_order("there is no \"" + name.substr(0, 40) + "\"");
+      return bad_body("there is no \"" + name.substr(0, 40) + "\"");
   }
   if (options_.maker == nullptr) return no_maker();
   MakeOrder order;
   const Json job = said.value("job", Json());
-  if (!job.is_string() || !has(jobs, job.get<std::string>())) return bad_order("\"job\": expected one of GET /make");
+  if (!job.is_string() || !has(jobs, job.get<std::string>())) return bad_body("\"job\": expected one of GET /make");
   order.job = job.get<std::string>();
   const Json files = said.value("files", Json());
   const std::vector<std::string> kept = options_.maker->files();
   const Json& said_options = said.contains("options") ? said["options"] : Json::object();
   const bool has_letters = order.job == "engrave" && said_options.is_object() && said_options.contains("text");
   if (!files.is_array() || (files.empty() && !has_letters)) {
-    return bad_order("\"files\": expected names of files that were sent");
+    return bad_body("\"files\": expected names of files that were sent");
   }
   for (const Json& one : files) {
     if (!one.is_string() || !has(kept, one.get<std::string>())) {
-      return bad_order("\"files\": expected names of files that were sent");
+      return bad_body("\"files\": expected names of files that were sent");
     }
     order.files.push_back(one.get<std::string>());
   }
   std::string reason;
   auto options = options_of(said_options, reason);
-  if (!options) return bad_order(reason);
+  if (!options) return bad_body(reason);
   order.options = std::move(*options);
   if (!options_.maker->begin(order)) return error_answer(409, "make.busy", "another program is being made");
   made_before_ = std::exchange(made_, 0);

@@ -24,10 +24,6 @@ WebAnswer no_studies() {
   return error_answer(404, "study.none", "this server makes no studies");
 }
 
-WebAnswer bad_study(std::string_view reason) {
-  return error_answer(400, "http.bad-body", reason);
-}
-
 }  // namespace
 
 WebAnswer MachineApi::study_answer() {
@@ -51,15 +47,15 @@ WebAnswer MachineApi::study_file(bool picture) const {
 
 WebAnswer MachineApi::begin_study(std::string_view body) {
   const Json said = Json::parse(body, nullptr, false);
-  if (!said.is_object()) return bad_study("the body is no JSON object");
+  if (!said.is_object()) return bad_body("the body is no JSON object");
   for (const auto& [name, value] : said.items()) {
     if (name != "study" && name != "program" && name != "machine" && name != "margin") {
-      return bad_study("there is no \"" + name.substr(0, 40) + "\"");
+      return bad_body("there is no \"" + name.substr(0, 40) + "\"");
     }
   }
   if (options_.studies == nullptr) return no_studies();
   const Json study = said.value("study", Json());
-  if (study != "motors" && study != "tune") return bad_study("\"study\": expected motors or tune");
+  if (study != "motors" && study != "tune") return bad_body("\"study\": expected motors or tune");
   StudyOrder order;
   order.kind = study == "tune" ? StudyOrder::Kind::tune : StudyOrder::Kind::motors;
   const Json machine = said.value("machine", Json());
@@ -69,17 +65,17 @@ WebAnswer MachineApi::begin_study(std::string_view body) {
     order.machine = options_.machine_access.read().value_or("");
   }
   if (order.machine.empty() || order.machine.size() > longest_machine) {
-    return bad_study("\"machine\": expected the text of a machine file");
+    return bad_body("\"machine\": expected the text of a machine file");
   }
   const Json margin = said.value("margin", Json(order.margin));
   if (!margin.is_number() || !(margin >= least_margin && margin <= most_margin)) {
-    return bad_study("\"margin\": expected 0.1 to 0.9");
+    return bad_body("\"margin\": expected 0.1 to 0.9");
   }
   order.margin = margin.get<double>();
   std::uint64_t id = 0;
   if (order.kind == StudyOrder::Kind::motors) {
     const Json wanted = said.value("program", Json());
-    if (!wanted.is_number_unsigned()) return bad_study("\"program\": expected the number of a program");
+    if (!wanted.is_number_unsigned()) return bad_body("\"program\": expected the number of a program");
     id = wanted.get<std::uint64_t>();
     const StoredProgram* const program = programs_.find(id);
     if (program == nullptr) return refusal(404);

@@ -36,9 +36,9 @@ WebAnswer MachineApi::look_at_uploads(const FoundRoute& found) const {
 WebAnswer MachineApi::begin_upload(const WebRequest& request) {
   const auto bytes = bytes_from(query_value(request.query, "bytes"));
   const auto dialect = dialect_from(request.query);
-  if (!dialect) return error_answer(400, "http.bad-body", "the dialect is linuxcnc or grbl");
+  if (!dialect) return bad_body("the dialect is linuxcnc or grbl");
   if (!bytes || *bytes == 0) {
-    return error_answer(400, "http.bad-body", "bytes: expected how long the program is, 1 or more");
+    return bad_body("bytes: expected how long the program is, 1 or more");
   }
   if (*bytes > ProgramStore::longest_program) return refusal(413);
   const bool has_room = programs_.all().size() < ProgramStore::most_programs;
@@ -58,7 +58,7 @@ WebAnswer MachineApi::change_uploads(const FoundRoute& found, const WebRequest& 
     return json_answer(200, Json::object());
   }
   const auto from = bytes_from(query_value(request.query, "from"));
-  if (!from) return error_answer(400, "http.bad-body", "from: expected the byte where this piece begins");
+  if (!from) return bad_body("from: expected the byte where this piece begins");
   switch (uploads_.take(found.id, *from, request.body, session_.now())) {
     case ProgramUploads::Taken::more: return json_answer(200, upload_json(*upload));
     case ProgramUploads::Taken::gap:

@@ -95,6 +95,10 @@ WebAnswer error_answer(unsigned status, std::string_view code, std::string_view 
   return json_answer(status, {{"error", {{"code", code}, {"message", message}}}});
 }
 
+WebAnswer bad_body(std::string_view message) {
+  return error_answer(400, "http.bad-body", message);
+}
+
 Json as_json(const MachineDescription& machine, const Point& place) {
   Json json = Json::object();
   for (const AxisDescription& axis : machine.axes) json[axis_key(axis.axis)] = rounded(place[axis.axis]);

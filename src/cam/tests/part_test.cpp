@@ -3,6 +3,7 @@
 #include <cmath>
 #include <random>
 
+#include "closed_lines.hpp"
 #include "random_star.hpp"
 #include <gmock/gmock.h>
 
@@ -14,17 +15,11 @@
 namespace passo {
 namespace {
 
-using PathPoints = std::vector<PathPoint>;
+using test::box;
+using test::circle;
+using test::corner;
+using test::PathPoints;
 
-PathPoint corner(double x, double y, double bulge = 0) {
-  return {{to_nanometres(Mm(x)), to_nanometres(Mm(y))}, bulge};
-}
-PathPoints box(double x, double y, double width, double height) {
-  return {corner(x, y), corner(x + width, y), corner(x + width, y + height), corner(x, y + height)};
-}
-PathPoints circle(double x, double y, double radius) {
-  return {corner(x + radius, y, 1), corner(x - radius, y, 1)};
-}
 Nanometres mm(double length) {
   return to_nanometres(Mm(length));
 }

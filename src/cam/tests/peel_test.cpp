@@ -4,6 +4,7 @@
 #include <numbers>
 #include <vector>
 
+#include "closed_lines.hpp"
 #include <gmock/gmock.h>
 
 #include "passo/cam/bulge.hpp"
@@ -13,24 +14,17 @@
 namespace passo {
 namespace {
 
-using PeelLoop = std::vector<PathPoint>;
-
-PathPoint peel_corner(double x, double y, double bulge = 0) {
-  return {{to_nanometres(Mm(x)), to_nanometres(Mm(y))}, bulge};
-}
-PeelLoop peel_box(double x, double y, double width, double height) {
-  return {peel_corner(x, y), peel_corner(x + width, y), peel_corner(x + width, y + height), peel_corner(x, y + height)};
-}
-PeelLoop peel_circle(double x, double y, double radius) {
-  return {peel_corner(x + radius, y, 1), peel_corner(x - radius, y, 1)};
-}
+using test::box;
+using test::circle;
+using test::corner;
+using test::PathPoints;
 
 struct Peeled {
   PocketPlan plan;
   Region area;
   Diagnostics findings;
 };
-Peeled peeled(const std::vector<PeelLoop>& loops, double cutter, double degrees, bool climb = true) {
+Peeled peeled(const std::vector<PathPoints>& loops, double cutter, double degrees, bool climb = true) {
   Peeled result;
   result.area = enclosed_by(loops);
   result.plan = plan_pocket(result.area,
@@ -114,10 +108,9 @@ double engagement_by_squares(const PocketPlan& plan, double width, double height
 }
 
 TEST(Peel, never_has_more_of_the_cutter_in_the_stock_than_asked) {
-  const std::vector<std::vector<PeelLoop>> shapes = {
-      {peel_box(2, 2, 30, 22), peel_circle(13, 12, 4), peel_box(21, 8, 5, 8)},
-      {{peel_corner(2, 2), peel_corner(30, 2), peel_corner(30, 9), peel_corner(16, 9), peel_corner(22, 22),
-        peel_corner(2, 16, 0.4)}}};
+  const std::vector<std::vector<PathPoints>> shapes = {
+      {box(2, 2, 30, 22), circle(13, 12, 4), box(21, 8, 5, 8)},
+      {{corner(2, 2), corner(30, 2), corner(30, 9), corner(16, 9), corner(22, 22), corner(2, 16, 0.4)}}};
   for (std::size_t i = 0; i < shapes.size(); ++i) {
     const double degrees = i == 0 ? 60 : 100;
     const Peeled result = peeled(shapes[i], 3, degrees, i == 0);
@@ -131,12 +124,12 @@ TEST(Peel, never_has_more_of_the_cutter_in_the_stock_than_asked) {
 }
 
 TEST(Peel, loops_have_more_engagement_than_that) {
-  const Peeled loops = peeled({peel_box(2, 2, 26, 16)}, 3, 0);
+  const Peeled loops = peeled({box(2, 2, 26, 16)}, 3, 0);
   EXPECT_GT(engagement_by_squares(loops.plan, 34, 26, 3), 110);
 }
 
 TEST(Peel, leaves_nothing_but_corners) {
-  const Peeled result = peeled({peel_box(0, 0, 30, 20), peel_circle(15, 10, 3)}, 4, 60);
+  const Peeled result = peeled({box(0, 0, 30, 20), circle(15, 10, 3)}, 4, 60);
   // Four corners with a radius 1.1 times the cutter's.
   EXPECT_NEAR(result.plan.unreached_mm2, 4 * (1 - std::numbers::pi / 4) * 2.2 * 2.2, 0.1);
   EXPECT_EQ(render(result.findings, false), "");
@@ -145,18 +138,18 @@ TEST(Peel, leaves_nothing_but_corners) {
 // A channel from one wide place to another.
 TEST(Peel, leaves_a_slot_and_tells_it) {
   const auto dumbbell = [](double width) {
-    return PeelLoop{peel_corner(0, 0),
-                    peel_corner(12, 0),
-                    peel_corner(12, 6 - width / 2),
-                    peel_corner(20, 6 - width / 2),
-                    peel_corner(20, 0),
-                    peel_corner(32, 0),
-                    peel_corner(32, 12),
-                    peel_corner(20, 12),
-                    peel_corner(20, 6 + width / 2),
-                    peel_corner(12, 6 + width / 2),
-                    peel_corner(12, 12),
-                    peel_corner(0, 12)};
+    return PathPoints{corner(0, 0),
+                      corner(12, 0),
+                      corner(12, 6 - width / 2),
+                      corner(20, 6 - width / 2),
+                      corner(20, 0),
+                      corner(32, 0),
+                      corner(32, 12),
+                      corner(20, 12),
+                      corner(20, 6 + width / 2),
+                      corner(12, 6 + width / 2),
+                      corner(12, 12),
+                      corner(0, 12)};
   };
   const Peeled narrow = peeled({dumbbell(3.2)}, 3, 60);
   EXPECT_EQ(narrow.plan.pockets, 2U);
@@ -164,13 +157,13 @@ TEST(Peel, leaves_a_slot_and_tells_it) {
   const Peeled wide = peeled({dumbbell(3.6)}, 3, 60);
   EXPECT_EQ(wide.plan.pockets, 1U);
   EXPECT_LT(wide.plan.unreached_mm2, 5) << "only corners stay";
-  const Peeled slot = peeled({peel_box(0, 0, 20, 3.2)}, 3, 60);
+  const Peeled slot = peeled({box(0, 0, 20, 3.2)}, 3, 60);
 
   EXPECT_THAT(render(slot.findings, false), testing::HasSubstr("[pocket.narrow]"));
 }
 
 TEST(Peel, goes_down_once_for_each_layer_of_a_simple_pocket) {
-  const Peeled result = peeled({peel_circle(15, 15, 10)}, 4, 60);
+  const Peeled result = peeled({circle(15, 15, 10)}, 4, 60);
   ASSERT_EQ(result.plan.mill.tools.at(0).runs.size(), 1U);
   const MillRun& run = result.plan.mill.tools[0].runs[0];
   EXPECT_EQ(run.front().z.count, 0) << "a helix from the face";

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <random>
 
+#include "closed_lines.hpp"
 #include "random_star.hpp"
 #include <gmock/gmock.h>
 
@@ -13,11 +14,8 @@
 namespace passo {
 namespace {
 
-using VPoints = std::vector<PathPoint>;
-
-PathPoint v_corner(double x, double y, double bulge = 0) {
-  return {{to_nanometres(Mm(x)), to_nanometres(Mm(y))}, bulge};
-}
+using test::corner;
+using test::PathPoints;
 
 struct Carved {
   VCarvePlan plan;
@@ -93,7 +91,7 @@ void expect_carved(const Region& area, const VCarvePlan& plan, double slope, dou
 }
 
 TEST(VCarve, a_box_has_its_ridge_and_sharp_corners) {
-  const Region box = enclosed_by({{v_corner(0, 0), v_corner(20, 0), v_corner(20, 4), v_corner(0, 4)}});
+  const Region box = enclosed_by({{corner(0, 0), corner(20, 0), corner(20, 4), corner(0, 4)}});
   const Carved result = carved(box, {.angle_degrees = 90, .widest = to_nanometres(Mm(10))});
   EXPECT_TRUE(result.findings.all().empty());
   EXPECT_NEAR(to_mm(result.plan.deepest).value(), -2, 1e-5);
@@ -113,9 +111,9 @@ TEST(VCarve, a_box_has_its_ridge_and_sharp_corners) {
 TEST(VCarve, of_random_shapes_touches_both_sides_and_leaves_nothing) {
   std::mt19937_64 random(11);
   for (int trial = 0; trial < 6; ++trial) {
-    const VPoints points = test::random_star(
+    const PathPoints points = test::random_star(
         {.corners = 4 + trial, .nearest = 3, .farthest = 8, .bulge = trial % 2 == 0 ? 0 : 0.3}, random);
-    const Region area = enclosed_by({points, {v_corner(0.7, 0, 1), v_corner(-0.7, 0, 1)}});
+    const Region area = enclosed_by({points, {corner(0.7, 0, 1), corner(-0.7, 0, 1)}});
     VCarveOptions options{.angle_degrees = 60, .widest = to_nanometres(Mm(20))};
     if (trial >= 4) options.deepest = to_nanometres(Mm(-2));
     const Carved result = carved(area, options);
@@ -126,20 +124,19 @@ TEST(VCarve, of_random_shapes_touches_both_sides_and_leaves_nothing) {
 }
 
 TEST(VCarve, a_tip_comes_no_deeper_than_its_flanks_touch) {
-  const Region box = enclosed_by({{v_corner(0, 0), v_corner(20, 0), v_corner(20, 4), v_corner(0, 4)},
-                                  {v_corner(30, 0), v_corner(40, 0), v_corner(40, 0.3), v_corner(30, 0.3)}});
+  const Region box = enclosed_by({{corner(0, 0), corner(20, 0), corner(20, 4), corner(0, 4)},
+                                  {corner(30, 0), corner(40, 0), corner(40, 0.3), corner(30, 0.3)}});
   const Carved result =
       carved(box, {.angle_degrees = 90, .tip = to_nanometres(Mm(0.6)), .widest = to_nanometres(Mm(10))});
   EXPECT_NEAR(to_mm(result.plan.deepest).value(), -1.7, 1e-5);
-  EXPECT_TRUE(contains(result.plan.unreached, v_corner(35, 0.15).at));
-  EXPECT_FALSE(contains(result.plan.unreached, v_corner(10, 2).at));
-  expect_carved(enclosed_by({{v_corner(0, 0), v_corner(20, 0), v_corner(20, 4), v_corner(0, 4)}}), result.plan, 1, 0.6,
-                0.31);
+  EXPECT_TRUE(contains(result.plan.unreached, corner(35, 0.15).at));
+  EXPECT_FALSE(contains(result.plan.unreached, corner(10, 2).at));
+  expect_carved(enclosed_by({{corner(0, 0), corner(20, 0), corner(20, 4), corner(0, 4)}}), result.plan, 1, 0.6, 0.31);
 }
 
 // Chords of a curve are no corners: a ring has one way around, and no branches.
 TEST(VCarve, curves_have_no_branches) {
-  const Region ring = enclosed_by({{v_corner(10, 0, 1), v_corner(-10, 0, 1)}, {v_corner(8, 0, 1), v_corner(-8, 0, 1)}});
+  const Region ring = enclosed_by({{corner(10, 0, 1), corner(-10, 0, 1)}, {corner(8, 0, 1), corner(-8, 0, 1)}});
   const Carved result = carved(ring, {.angle_degrees = 60});
   ASSERT_EQ(result.plan.mill.tools.at(0).runs.size(), 1U);
   for (const MillPoint& point : result.plan.mill.tools.at(0).runs[0]) {
