@@ -6,14 +6,22 @@
 namespace passo {
 namespace {
 
-constexpr std::string_view of_drawing = "G-code, which a CAM program makes of the drawing";
+constexpr std::string_view of_dwg = "G-code; save the drawing as DXF, which passo cam profile, pocket and drill read";
 constexpr std::string_view of_holes = "G-code, which passo cam drill makes of the holes";
 constexpr std::string_view of_lines = "G-code, which passo cam profile or passo cam pocket makes of the drawing";
 constexpr std::string_view of_drawn_holes =
     "G-code, which passo cam profile or pocket makes of the drawing, or passo cam drill of its holes";
 constexpr std::string_view of_plot = "G-code, which passo cam engrave --on-line or passo cam profile makes of the plot";
-constexpr std::string_view of_picture = "G-code, which an engraving program makes of the picture";
+constexpr std::string_view of_picture = "a PNG or TIFF of the picture, of which passo cam relief makes G-code";
 constexpr std::string_view of_png = "G-code, which passo cam relief makes of the picture";
+constexpr std::string_view of_font = "G-code, which passo cam engrave --text --font makes with the font";
+constexpr std::string_view of_airfoil = "G-code, which passo cam wire --chord makes of the section";
+constexpr std::string_view of_heights = "G-code; the heights are for passo run --heights, or for passo cam relief";
+constexpr std::string_view of_description =
+    "G-code; the file is read by passo check PROGRAM --machine, or by passo simulate --tool-table";
+constexpr std::string_view of_paper =
+    "G-code; save the drawing as SVG or DXF, which passo cam profile, pocket and engrave read";
+constexpr std::string_view of_body = "an STL of the model, of which passo cam relief makes G-code";
 constexpr std::string_view of_stl = "G-code, which passo cam relief makes of the model, or a CAM program";
 constexpr std::string_view of_model = "G-code, which a CAM program makes of the model";
 constexpr std::string_view of_circuit = "G-code, which passo cam isolate or passo cam outline makes of the layer";
@@ -28,9 +36,17 @@ constexpr ForeignFile gif{"a GIF picture", of_picture};
 constexpr ForeignFile bmp{"a BMP picture", of_picture};
 constexpr ForeignFile svg{"an SVG drawing", of_lines};
 constexpr ForeignFile dxf{"a DXF drawing", of_drawn_holes};
-constexpr ForeignFile dwg{"a DWG drawing", of_drawing};
+constexpr ForeignFile dwg{"a DWG drawing", of_dwg};
 constexpr ForeignFile hpgl{"an HPGL plot", of_plot};
-constexpr ForeignFile pdf{"a PDF document", of_drawing};
+constexpr ForeignFile pdf{"a PDF document", of_paper};
+constexpr ForeignFile postscript{"a PostScript document", of_paper};
+constexpr ForeignFile svgz{"a compressed SVG drawing", of_lines};
+constexpr ForeignFile font{"a font", of_font};
+constexpr ForeignFile airfoil{"the section of a wing", of_airfoil};
+constexpr ForeignFile heights{"a height map", of_heights};
+constexpr ForeignFile description{"a TOML file, as of a machine or of tools", of_description};
+constexpr ForeignFile model{"a model of triangles (OBJ, PLY, OFF)", of_body};
+constexpr ForeignFile model_3mf{"a 3MF model", of_body};
 constexpr ForeignFile gerber{"a Gerber file", of_circuit};
 constexpr ForeignFile kicad{"a KiCad board", of_board};
 constexpr ForeignFile excellon{"an Excellon drill file", of_holes};
@@ -89,6 +105,14 @@ ForeignFile by_mark(std::string_view first) {
                          "ELF"sv,
                          elf},
                         {"%PDF-"sv, pdf},
+                        {"%!PS"sv, postscript},
+                        {"\xC5\xD0\xD3\xC6"sv, postscript},
+                        {"\0\1\0\0"sv, font},
+                        {"OTTO"sv, font},
+                        {"ttcf"sv, font},
+                        {"true\0"sv, font},
+                        {"wOFF"sv, font},
+                        {"wOF2"sv, font},
                         {"AutoCAD Binary DXF"sv, dxf},
                         {"AC10"sv, dwg},
                         {"ISO-10303-21"sv, step},
@@ -124,6 +148,65 @@ bool is_excellon(std::string_view line, std::string_view rest, const std::string
   return next.starts_with("METRIC") || next.starts_with("INCH") || next.starts_with("FMAT") || next.starts_with(';');
 }
 
+// Digits, and blanks before them alone.
+bool is_count(std::string_view columns) {
+  const std::string_view digits = trimmed(columns);
+  return !digits.empty() && columns.ends_with(digits) &&
+         std::ranges::all_of(digits, [](unsigned char c) { return std::isdigit(c) != 0; });
+}
+
+// LibreCAD's fonts say so. Those of Hershey begin with a number in five columns and a count in three, then letters.
+bool is_font(std::string_view first, std::string_view line) {
+  if (line.starts_with('#') && first.find("LibreCAD Font") != std::string_view::npos) return true;
+  const std::string_view whole = first.substr(0, first.find_first_of("\r\n"));
+  return whole.size() >= 10 && is_count(whole.substr(0, 5)) && is_count(whole.substr(5, 3)) &&
+         std::isupper(static_cast<unsigned char>(whole[8])) != 0 &&
+         std::isupper(static_cast<unsigned char>(whole[9])) != 0;
+}
+
+// So many numbers between blanks or commas, and nothing else. G-code has letters.
+std::size_t numbers_in(std::string_view line) {
+  std::size_t count = 0;
+  bool in_number = false;
+  for (const char c : line) {
+    const bool separates = is_space(c) || c == ',';
+    if (!separates && std::string_view("0123456789.+-eE").find(c) == std::string_view::npos) return 0;
+    if (!separates && !in_number && c != 'e' && c != 'E') ++count;
+    in_number = !separates;
+  }
+  return count;
+}
+
+// Lines of X and Y, a name before them perhaps; or lines of X, Y and Z.
+ForeignFile by_numbers(std::string_view line, std::string_view rest, const std::string& ending) {
+  const std::string_view second = take_line(rest);
+  const std::string_view third = take_line(rest);
+  const std::string_view fourth = take_line(rest);
+  if (numbers_in(line) == 3 && numbers_in(second) == 3) return heights;
+  // Lines of a parameter file begin with a whole number, those of a section with a share of its length.
+  const auto is_place = [&](std::string_view pair) {
+    return numbers_in(pair) == 2 &&
+           (ending == "dat" || pair.substr(0, pair.find_first_of(" \t,")).find('.') < pair.size());
+  };
+  if (is_place(second) && is_place(third) && is_place(fourth)) return airfoil;
+  return {};
+}
+
+// "[axis.X]" or "name = ": a bracket or an equals sign stands in G-code behind a letter or a #.
+bool is_toml(std::string_view first, const std::string& ending) {
+  if (ending == "toml") return true;
+  for (std::string_view rest = first.substr(0, first.rfind('\n')); !rest.empty();) {
+    const std::string_view line = take_line(rest);
+    if (line.starts_with("[axis.") || line.starts_with("[tool.") || line.starts_with("[board]")) return true;
+  }
+  return false;
+}
+
+bool is_triangles(std::string_view first, std::string_view line, const std::string& ending) {
+  if (line == "ply" || line == "OFF") return true;
+  return ending == "obj" && (first.find("\nv ") != std::string_view::npos || line.starts_with("v "));
+}
+
 ForeignFile by_text(std::string_view first, const std::string& ending) {
   std::string_view rest = first;
   const std::string_view line = take_line(rest);
@@ -136,6 +219,10 @@ ForeignFile by_text(std::string_view first, const std::string& ending) {
   if (line.starts_with("solid") && (first.find("facet") != std::string_view::npos || ending == "stl")) return stl;
   if (is_hpgl(line, ending)) return hpgl;
   if (is_excellon(line, rest, ending)) return excellon;
+  if (is_font(first, line)) return font;
+  if (is_triangles(first, line, ending)) return model;
+  if (is_toml(first, ending)) return description;
+  if (const ForeignFile of_numbers = by_numbers(line, rest, ending); !of_numbers.kind.empty()) return of_numbers;
   if (line == "999" && ending == "dxf") return dxf;
   return line == "0" && take_line(rest) == "SECTION" ? dxf : ForeignFile{};
 }
@@ -147,8 +234,11 @@ bool is_binary(std::string_view first) {
 }  // namespace
 
 ForeignFile foreign_file(const std::string& name, std::string_view first) {
-  if (const ForeignFile marked = by_mark(first); !marked.kind.empty()) return marked;
   const std::string ending = ending_of(name);
+  if (const ForeignFile marked = by_mark(first); !marked.kind.empty()) {
+    if (marked.kind == gzip.kind && ending == "svgz") return svgz;
+    return marked.kind == zip.kind && ending == "3mf" ? model_3mf : marked;
+  }
   if (!is_binary(first)) return by_text(first.starts_with("\xEF\xBB\xBF") ? first.substr(3) : first, ending);
   if (ending == "stl") return stl;
   if (first.starts_with("BM")) return bmp;

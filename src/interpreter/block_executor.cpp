@@ -5,14 +5,13 @@
 #include <cmath>
 
 #include "comment_text.hpp"
+#include "whole_number.hpp"
 #include <fmt/format.h>
 
 namespace passo {
 namespace {
 
 using enum ModalGroup;
-
-constexpr double whole_tolerance = 1e-4;
 
 // The digits after N, as far as they count; N words may have a fraction and any length.
 std::int64_t line_number_of(const Block& block) {
@@ -390,19 +389,19 @@ bool BlockExecutor::assign(const Block& block) {
     }
     double index = 0;
     if (!value_of(block, *assignment.index, parameters_, reporter_, index)) return false;
-    const double whole = std::round(index);
-    if (std::abs(index - whole) > whole_tolerance || whole < 1 || whole > highest_parameter) {
+    const std::optional<double> whole = whole_within(index, 1, highest_parameter);
+    if (!whole) {
       return fail("gcode.bad-parameter-number", assignment.index->span,
                   fmt::format("{} is not the number of a parameter", plain_number(index)),
                   fmt::format("a whole number, 1 to {}", highest_parameter));
     }
-    const auto number = static_cast<std::int64_t>(whole);
+    const auto number = static_cast<std::int64_t>(*whole);
     if (!Parameters::is_settable(number) || parameters_.is_machine_position(number)) {
       return fail("gcode.read-only-parameter", assignment.span,
-                  fmt::format("#{} tells what the machine does and cannot be set", plain_number(whole)),
+                  fmt::format("#{} tells what the machine does and cannot be set", plain_number(*whole)),
                   "another parameter");
     }
-    parameters_.set(static_cast<int>(whole), assigned_[i]);
+    parameters_.set(static_cast<int>(*whole), assigned_[i]);
   }
   return true;
 }

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "whole_number.hpp"
 #include <fmt/format.h>
 
 namespace passo {
@@ -11,7 +12,6 @@ namespace {
 
 using enum ModalGroup;
 
-constexpr double whole_tolerance = 1e-4;
 constexpr double feed_of_no_way = 0.1;  // units a minute: in inverse time, of a move that leads nowhere
 constexpr int every_spindle = -1;
 
@@ -24,16 +24,15 @@ bool CodeFamily::fail(std::string_view code, Span span, std::string message, std
 
 bool CodeFamily::whole_word(char letter, double lowest, double highest, std::int32_t& value) {
   const double number = words_[letter];
-  const double whole = std::round(number);
-  if (std::abs(number - whole) > whole_tolerance || whole < lowest || whole > highest) {
-    const bool is_whole = std::abs(number - whole) <= whole_tolerance;
+  const std::optional<double> whole = whole_within(number, lowest, highest);
+  if (!whole) {
     return fail("gcode.not-whole", words_.span(letter),
-                is_whole ? fmt::format("{} is {}, outside {} to {}", letter, plain_number(number), plain_number(lowest),
-                                       plain_number(highest))
-                         : fmt::format("{} is {}, which is not whole", letter, plain_number(number)),
+                is_whole(number) ? fmt::format("{} is {}, outside {} to {}", letter, plain_number(number),
+                                               plain_number(lowest), plain_number(highest))
+                                 : fmt::format("{} is {}, which is not whole", letter, plain_number(number)),
                 fmt::format("a whole number, {} to {}", plain_number(lowest), plain_number(highest)));
   }
-  value = static_cast<std::int32_t>(whole);
+  value = static_cast<std::int32_t>(*whole);
   return true;
 }
 

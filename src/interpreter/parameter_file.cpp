@@ -76,4 +76,15 @@ std::string parameter_file_text(const SavedParameters& parameters) {
   return text;
 }
 
+void set_lasting_offsets(SavedParameters& into, const SavedParameters& from) {
+  const auto lasts = [](int number) {
+    const bool is_of_g92 = number >= g92_active_parameter && number < work_system_parameter;
+    return is_always_saved(number) && !is_of_g92 && number != work_system_parameter;
+  };
+  std::erase_if(into, [&](const auto& one) { return lasts(one.first); });
+  for (const auto& [number, value] : from) {
+    if (lasts(number)) into[number] = value;
+  }
+}
+
 }  // namespace passo

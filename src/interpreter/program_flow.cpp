@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "whole_number.hpp"
 #include <fmt/format.h>
 
 namespace passo {
@@ -10,7 +11,7 @@ namespace {
 
 using enum ControlKind;
 
-constexpr double whole_tolerance = 1e-4;
+constexpr double highest_label = 1e9;
 
 std::string_view name_of(ControlKind kind) {
   switch (kind) {
@@ -393,13 +394,13 @@ bool ProgramFlow::label_of(const Control& control, Symbol& label) {
   if (!control.computed_label) return true;
   double value = 0;
   if (!value_of(*block_, *control.computed_label, parameters_, reporter_, value)) return false;
-  const double whole = std::round(value);
-  if (std::abs(value - whole) > whole_tolerance || whole < 0 || whole > 1e9) {
+  const std::optional<double> whole = whole_within(value, 0, highest_label);
+  if (!whole) {
     reporter_.error("gcode.bad-o-word", control.computed_label->span,
                     fmt::format("the label is {}", plain_number(value)), "a whole number, 0 or more");
     return false;
   }
-  label = symbols_.intern(plain_number(whole));
+  label = symbols_.intern(plain_number(*whole));
   return true;
 }
 
@@ -408,9 +409,9 @@ bool ProgramFlow::label_of_skipped(const Control& control, Symbol& label) const 
   label = control.label;
   if (!control.computed_label) return true;
   const Evaluation value = evaluate(*block_, *control.computed_label, parameters_);
-  const double whole = value ? std::round(*value) : -1;
-  if (whole < 0 || whole > 1e9 || std::abs(*value - whole) > whole_tolerance) return false;
-  label = symbols_.intern(plain_number(whole));
+  const std::optional<double> whole = value ? whole_within(*value, 0, highest_label) : std::nullopt;
+  if (!whole) return false;
+  label = symbols_.intern(plain_number(*whole));
   return true;
 }
 

@@ -5,6 +5,7 @@
 
 #include "path_deviation.hpp"
 #include "phase_peaks.hpp"
+#include "rounding.hpp"
 #include "step_peaks.hpp"
 #include "time_bound.hpp"
 #include "tube_bound.hpp"
@@ -15,10 +16,7 @@ namespace {
 
 // Limits are checked with this factor, because a plan has finitely many digits.
 constexpr double slack = 1.0005;
-// What rounding may leave: shares of an axis's velocity and acceleration limits, and mm of the place.
-constexpr double velocity_rounding = 1e-6;
-constexpr double acceleration_rounding = 1e-3;
-constexpr double place_rounding = 1e-9;
+constexpr double place_rounding = 1e-9;  // mm
 
 MotionProof begun(const ProofOptions& options) {
   MotionProof proof;
@@ -29,8 +27,9 @@ MotionProof begun(const ProofOptions& options) {
     own.velocity.limit = own.step_velocity.limit = axis.velocity.value();
     own.acceleration.limit = own.step_acceleration.limit = axis.acceleration.value();
     own.jerk.limit = axis.jerk.value();
-    own.velocity_jump.limit = velocity_rounding * axis.velocity.value();
-    if (axis.jerk > MmPerSecond3(0)) own.acceleration_jump.limit = acceleration_rounding * axis.acceleration.value();
+    own.velocity_jump.limit = proof::velocity_rounding * axis.velocity.value();
+    if (axis.jerk > MmPerSecond3(0))
+      own.acceleration_jump.limit = proof::acceleration_rounding * axis.acceleration.value();
     proof.axes.push_back(own);
   }
   return proof;

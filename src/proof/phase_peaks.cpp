@@ -4,14 +4,14 @@
 #include <cmath>
 #include <utility>
 
+#include "rounding.hpp"
+
 namespace passo::proof {
 namespace {
 
 constexpr double turn_between_looks = 0.05;  // radians
 constexpr double fewest_looks = 12;
 constexpr double most_looks = 4096;
-// A jump of the velocity by less than this share of an axis's limit is rounding, at a rest too.
-constexpr double velocity_rounding = 1e-6;
 
 }  // namespace
 

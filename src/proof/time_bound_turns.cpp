@@ -10,14 +10,12 @@
 #include <algorithm>
 #include <cmath>
 
+#include "rounding.hpp"
 #include "time_bound.hpp"
 
 namespace passo::proof {
 namespace {
 
-// Jumps of the acceleration and of the velocity below these shares of an axis's limits are rounding.
-constexpr double acceleration_rounding = 1e-3;
-constexpr double velocity_rounding = 1e-6;
 // A share of a curve's length: places that are no further apart, and turns that small, are rounding.
 constexpr double rounding_of_way = 1e-9;
 // Lower speeds in one place give lower speeds in others, by turning and by the axes' accelerations in turn. Three

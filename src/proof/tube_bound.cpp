@@ -6,8 +6,7 @@
 namespace passo::proof {
 namespace {
 
-constexpr std::size_t window = 4096;       // stations
-constexpr std::size_t stations_seen = 32;  // before a station
+constexpr std::size_t window = 4096;  // stations
 
 double size_of(const AxisRow& row) {
   double sum = 0;

@@ -33,6 +33,9 @@ struct Station {
       0;  // the axes that the feed counts, a bit each; 0: segments differ, so that the feed is unknown
 };
 
+// A bound at a station looks this many stations back.
+inline constexpr std::size_t stations_seen = 32;
+
 class TubePath {
  public:
   static constexpr double fastest = 1e6;  // mm/s, a feed that does not limit

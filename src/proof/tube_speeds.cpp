@@ -8,7 +8,6 @@ namespace {
 
 constexpr double nowhere = -1e18;
 constexpr double endless = 1e18;                          // the square of a speed that does not limit
-constexpr std::size_t stations_seen = 32;                 // before a station
 constexpr std::array<std::size_t, 3> spans = {1, 4, 16};  // of the legs whose normals are asked
 constexpr double parallel = 1e-6;
 constexpr double as_good = 0.98;

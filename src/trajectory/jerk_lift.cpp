@@ -6,7 +6,9 @@
 namespace passo {
 namespace {
 
-constexpr int most_steps = 40;
+// Usually 7 to 12 are enough. With many corners in a window a limit of one corner shortens the step of all of them, and
+// 40 were too few: the window was not lifted, and the motion came to rest at its end.
+constexpr int most_steps = 80;
 constexpr double first_target = 0.02;  // price times slack, as a share of the mean time of a cell
 constexpr double last_target = 1e-4;
 constexpr int steps_with_rows = 6;       // then they are made again

@@ -49,6 +49,9 @@ constexpr double least_slowing = 0.98;  // of squares of speeds
 
 constexpr double strong_braking = 0.05;  // share of the limit
 constexpr double settling = 0.5;         // share of the time of the final braking
+// Where the path is slow, braking takes a few cells only. The next window then began with speeds and accelerations so
+// near to its first limits that it could not keep them, and the motion came to rest there.
+constexpr std::size_t fewest_undecided = 32;
 
 }  // namespace
 
@@ -426,7 +429,8 @@ std::size_t JerkProfile::plan(bool closed) {
   return closed ? planned_ : decided_of_open();
 }
 
-// The plan's end is not the path's. What depends on the end is not decided: the braking for it, and some time before.
+// The plan's end is not the path's. What depends on the end is not decided: the braking for it, and some time and some
+// cells before.
 std::size_t JerkProfile::decided_of_open() const {
   std::size_t k = cells_.size();
   double braking = 0;
@@ -434,6 +438,7 @@ std::size_t JerkProfile::decided_of_open() const {
     braking += duration(--k);
   }
   for (double time = 0; k > 0 && time < settling * braking;) time += duration(--k);
+  if (cells_.size() >= 4 * fewest_undecided) k = std::min(k, cells_.size() - fewest_undecided);
   return k >= 2 ? k : 0;
 }
 

@@ -115,6 +115,7 @@ struct Planned {
   double seconds = 0;  // of the processor, from text to phases
   double time = 0;     // of the motion
   std::size_t phases = 0;
+  std::size_t rests = 0;  // phases that begin at rest, but for the first
 };
 
 Planned plan(const std::string& program, const MachineDescription& machine, Smoothness smooth) {
@@ -129,7 +130,11 @@ Planned plan(const std::string& program, const MachineDescription& machine, Smoo
   for (MotionItem item; planner.next(item);) {
     const auto* const move = std::get_if<PlannedMove>(&item);
     if (move == nullptr) continue;
+    const bool is_first = planned.phases == 0;
     planned.phases += move->phase_count;
+    planned.rests +=
+        static_cast<std::size_t>(std::count_if(move->begin() + (is_first ? 1 : 0), move->end(),
+                                               [](const Phase& phase) { return !(phase.velocity.value() > 0); }));
     planned.time += move->duration().value();
   }
   planned.seconds = static_cast<double>(std::clock() - begin) / CLOCKS_PER_SEC;
@@ -299,6 +304,16 @@ TEST(HardPrograms, are_planned_in_finer_cells_where_the_speed_changes_at_once) {
   for (AxisDescription& axis : without.axes) axis.jerk = MmPerSecond3(0);
   EXPECT_LT(plan(program, machine, Smoothness::slow_bending).time,
             1.1 * plan(program, without, Smoothness::slow_bending).time);
+}
+
+// A rotary axis turns to and fro between tiny arcs. Each window has hundreds of such corners, and none of the program's
+// first windows was lifted in 40 steps: the motion came to rest in the middle of the path.
+TEST(HardPrograms, go_on_through_many_slow_corners) {
+  for (const std::uint64_t number : {700079U, 700119U}) {
+    test::Random random = test::Random::of(number);
+    const MachineDescription machine = mixed_machine(random);
+    EXPECT_EQ(plan(mixed_program(random), machine, smoothness(machine)).rests, 0U) << number;
+  }
 }
 
 // What keeps limits of jerk is allowed without them, too. So on the same path no machine is slower without them. On the

@@ -20,5 +20,8 @@ using SavedParameters = std::map<int, double>;
 std::string parameter_file_text(const SavedParameters& parameters);
 // True: the parameter is saved even if the file did not name it.
 bool is_always_saved(int number);
+// Replaces the homes of G28 and G30 and the work systems' offsets in `into` by those of `from`. What belongs to one
+// program alone stays: G92, and which work system is in force.
+void set_lasting_offsets(SavedParameters& into, const SavedParameters& from);
 
 }  // namespace passo
