@@ -120,6 +120,8 @@ cat "$work"/*jobs
 [[ ${1-} != --pico ]] || exit 0
 programs=(../shared/peers/motion-mm/*.nc)
 if [[ -e ${programs[0]} ]]; then
+  # Some of them leave the router's travel.
+  sed -i 's/^travel_mm = .*/travel_mm = [-2000, 2000]/; s/^switch_at_mm = \(-\?\).*/switch_at_mm = \12001/' "$work"/{Uno,Mega}*.toml
   echo
   table printed
 else

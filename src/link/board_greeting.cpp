@@ -25,6 +25,7 @@ void BoardSession::greet(const Greeting& greeting) {
   greeting_ = greeting.number;
   sent_ = taken_ = executed_ = asked_behind_ = greeting_;
   decoder_.set_motors(motors_);
+  sent_segments_.begin(motors_);
   progressed_ = heard_ = port_.elapsed();
   phase_ = Phase::greeting;
   if (is_set_up()) return say_hello();

@@ -99,7 +99,12 @@ void BoardSession::ask_again() {
 void BoardSession::send(const BoardSegment& segment) {
   assert(segment.events > 0 && std::abs(segment.change) <= largest_change);
   assert(error_ || room() > 0);
-  send_counted(twins_.for_board(segment), motors_);
+  const BoardSegment for_board = twins_.for_board(segment);
+  const bool begins = status_ && !busy() && status_->executed == sent_;
+  send_counted(for_board, motors_);
+  if (!sent_segments_.keeps()) return;
+  if (begins) sent_segments_.stand_at(status_->positions);
+  sent_segments_.add(sent_, for_board, port_.elapsed());
 }
 
 void BoardSession::send(const BoardOutputs& outputs) {
@@ -125,7 +130,12 @@ ItemNumber BoardSession::replace(ItemNumber after, std::span<const LinkItem> ite
     announcement.add(frame.bytes, frame.size);
   }
   send_counted(announcement.replace());
-  for (const Frame& frame : frames_) send_frame(frame);
+  sent_segments_.drop_behind(after);
+  for (std::size_t i = 0; i < items.size(); ++i) {
+    send_frame(frames_[i]);
+    const auto* const segment = std::get_if<BoardSegment>(&items[i]);
+    if (segment != nullptr) sent_segments_.add(frames_[i].number, twins_.for_board(*segment), port_.elapsed());
+  }
   return static_cast<ItemNumber>(number + 1);
 }
 
@@ -361,7 +371,10 @@ void BoardSession::note_timeout(const BoardStatus& status) {
 }
 
 void BoardSession::note_probe(ProbeWatch::News news) {
-  if (news == ProbeWatch::News::happened) news_ = true;
+  if (news == ProbeWatch::News::happened) {
+    news_ = true;
+    sent_segments_.stop(port_.elapsed());
+  }
   if (news == ProbeWatch::News::begin_again) ask(Question::watch);
 }
 

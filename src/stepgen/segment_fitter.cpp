@@ -24,6 +24,8 @@ constexpr double cost_of_part = 50;
 constexpr double cost_of_event = 0.7;
 constexpr unsigned longest_root_part = 7;
 constexpr double parts_to_rest = 3;
+// So much a motor that has caught up may be ahead, in 1/65536 step: rounding.
+constexpr std::int64_t hair = 2;
 // A motor that moves less than this in one event stands still. In 1/65536 step.
 constexpr double still = 1e-4;
 
@@ -239,7 +241,11 @@ SegmentFitter::Advance SegmentFitter::advance_master(const Stretch& stretch, std
   const std::int64_t step = nearest(ideal) - along(stretch.sign, position);
   const std::int64_t increment = std::clamp<std::int64_t>(step, 0, whole_step);
   // If a stretch begins between two lines of its grid, a first segment of one event brings the master onto the grid.
-  return {.sign = stretch.sign, .increment = increment, .events = step == stretch.grid ? events : 1};
+  // Over a line, a master of whole steps that was ahead by rounding, or had no time to catch up, makes them all the
+  // same.
+  const bool steps_at_events = share_ != 0 && stretch.grid == whole_step && step >= whole_step - hair;
+  const bool is_on_grid = steps_at_events || step == stretch.grid;
+  return {.sign = stretch.sign, .increment = is_on_grid ? stretch.grid : increment, .events = is_on_grid ? events : 1};
 }
 
 SegmentFitter::Advance SegmentFitter::settle(std::int64_t position, double place, unsigned count) const {
@@ -433,8 +439,18 @@ std::optional<SegmentFitter::Bent> SegmentFitter::fit_bend(const EventBuffer& ev
   return {};
 }
 
+// A motor that stands still keeps its direction line.
+void SegmentFitter::write(const Advances& advances, std::uint8_t kept_directions, BoardSegment& segment) const {
+  for (unsigned m = 0; m < motors_; ++m) {
+    const bool was_down = (kept_directions >> m & 1U) != 0;
+    const int sign = advances[m].sign != 0 ? advances[m].sign : (was_down ? -1 : 1);
+    set_increment(segment, m, sign, advances[m].increment);
+  }
+}
+
 unsigned SegmentFitter::fit(const EventBuffer& events, const Stretch& stretch, const BoardModel& board,
                             BoardSegment& segment) {
+  if (share_ != 0 && catch_up(events, stretch, board, false, segment)) return 1;
   const std::uint8_t kept_directions = segment.directions;
   const auto most = static_cast<unsigned>(std::min<std::size_t>(events.size(), longest_));
   const Timing timing = fit_time(events, board.time(), most);
@@ -457,6 +473,10 @@ unsigned SegmentFitter::fit(const EventBuffer& events, const Stretch& stretch, c
       }
     }
   }
+  // A step at each event, and still too slow for two.
+  const auto lags = [](const Advance& advance) { return advance.events == 1 && advance.increment == whole_step; };
+  const bool any_lags = share_ != 0 && count == 1 && timing.events > 1 && std::ranges::any_of(advances, lags);
+  if (any_lags && catch_up(events, stretch, board, true, segment)) return 1;
 
   std::optional<Bent> bent;
   if (bends_ && share_ != 0 && count < timing.events && advances[stretch.master].events == timing.events) {
@@ -468,12 +488,7 @@ unsigned SegmentFitter::fit(const EventBuffer& events, const Stretch& stretch, c
                          .form = count > 1 ? form : std::uint8_t{0},
                          .interval = timing.interval,
                          .change = count > 1 ? timing.change : 0};
-  for (unsigned m = 0; m < motors_; ++m) {
-    // A motor that stands still keeps its direction line.
-    const bool was_down = (kept_directions >> m & 1U) != 0;
-    const int sign = advances[m].sign != 0 ? advances[m].sign : (was_down ? -1 : 1);
-    set_increment(segment, m, sign, advances[m].increment);
-  }
+  write(advances, kept_directions, segment);
   if (bent) {
     segment.bend = static_cast<std::uint8_t>(bent->motor | bent->lender << bend_shift<max_motors>);
     const std::int64_t change = bent->advance.sign > 0 ? bent->change : -bent->change;

@@ -74,6 +74,11 @@ class SegmentFitter {
   };
   using Advances = std::array<Advance, max_motors>;
 
+  // Where a motor is behind by a part of a step: a segment of two events up to the first event of `events`.
+  // `is_behind`: one is known to be.
+  bool catch_up(const EventBuffer& events, const Stretch& stretch, const BoardModel& board, bool is_behind,
+                BoardSegment& segment) const;
+  void write(const Advances& advances, std::uint8_t kept_directions, BoardSegment& segment) const;
   std::optional<Bent> fit_bend(const EventBuffer& events, const Stretch& stretch, const BoardModel& board,
                                const Timing& timing, Advances& advances);
   std::optional<Bent> bend_of(const EventBuffer& events, unsigned motor, std::int64_t position, unsigned count,

@@ -152,6 +152,49 @@ void expect_closed_others_not_to_stop(const HomingBoard& kind) {
   EXPECT_TRUE(bench.fault().has_value()) << "a hello ends the watch";
 }
 
+// Two switches are watched as one, which is on while any of them is. What is told names those that changed.
+void expect_right_names(const HomingBoard& kind, std::size_t one, std::size_t other) {
+  SCOPED_TRACE("limit pins " + std::to_string(one) + " and " + std::to_string(other));
+  BoardBench bench(kind.board);
+  bench.run(300'000);
+  bench.start(long_run(8 * kind.interval, 7), bit_of(one) | bit_of(other));
+  bench.run(120'000);
+  // Opens and closes both, and tells which are on and what was captured.
+  const auto press = [&](unsigned on, std::optional<unsigned> captured) {
+    SCOPED_TRACE("on: " + std::to_string(on));
+    const std::int32_t before = bench.captured() ? bench.captured()->positions[0] : 0;
+    const std::uint64_t pressed = bench.cycles();
+    set(bench, kind.limits[one], (on & bit_of(one)) != 0);
+    set(bench, kind.limits[other], (on & bit_of(other)) != 0);
+    bench.run(80'000);
+    ASSERT_TRUE(bench.captured().has_value());
+    const std::int32_t after = bench.captured()->positions[0];
+    if (captured) {
+      EXPECT_EQ(bench.captured()->input, *captured);
+      EXPECT_GE(after, steps_until(bench.seen()[0], pressed));
+      EXPECT_LE(after, steps_until(bench.seen()[0], pressed + kind.look));
+    } else {
+      EXPECT_EQ(after, before) << "whether any is on has not changed";
+    }
+    bench.ask();
+    bench.run(40'000);
+    ASSERT_TRUE(bench.status().has_value());
+    EXPECT_EQ(bench.status()->inputs & 0xffU, on);
+    EXPECT_NE(bench.status()->state & board_moves, 0) << "amid the motion";
+  };
+  const unsigned first = bit_of(one);
+  const unsigned second = bit_of(other);
+  press(second, second);
+  press(first | second, std::nullopt);
+  press(first, std::nullopt);
+  press(0, first | captured_released);
+  press(first | second, first | second);
+  press(second, std::nullopt);
+  press(0, second | captured_released);
+  press(first, first);
+  EXPECT_FALSE(bench.fault().has_value());
+}
+
 // With drivers the pins are looked at in assembly, of each port by itself; with windings in C++.
 TEST(UnoHoming, a_watched_limit_switch_captures_the_very_event) {
   const HomingBoard kind = uno();
@@ -174,6 +217,17 @@ TEST(WindingsHoming, a_watched_limit_switch_captures_the_very_event) {
       expect_exact_capture(kind, limit, false, 97);
     }
   }
+}
+
+// The two of an axis with two motors are on one port.
+TEST(UnoHoming, of_several_watched_switches_those_that_changed_are_named) {
+  expect_right_names(uno(), 0, 1);
+  expect_right_names(uno(), 2, 0);
+  expect_right_names(uno_windings_board(), 1, 2);
+}
+TEST(MegaHoming, of_several_watched_switches_those_that_changed_are_named) {
+  for (std::size_t axis = 0; axis < 3; ++axis) expect_right_names(mega(), axis, axis + 3);
+  expect_right_names(mega_windings_board(), 0, 3);
 }
 
 TEST(UnoHoming, all_other_limit_switches_stop_it) {

@@ -6,11 +6,13 @@
 #include <cstdio>
 #include <functional>
 #include <string>
+#include <utility>
 
 #include "emulator/bad_line.hpp"
 #include "emulator/board_kind.hpp"
 #include "kit/driven.hpp"
 #include "kit/example_machine.hpp"
+#include "kit/man_in_the_middle.hpp"
 #include "kit/seed.hpp"
 #include "kit/step_log.hpp"
 #include <gtest/gtest.h>
@@ -31,9 +33,8 @@ class EmulatedLineRun {
     int recoveries = 0;
     int recoveries_without_need = 0;  // of the run that was not cut
   };
-  // `machine`: the name of an example.
-  EmulatedLineRun(const BoardKind& board, const std::string& machine)
-      : board_(board), machine_(example_machine(machine)), reference_(steps_without_line()) {}
+  EmulatedLineRun(const BoardKind& board, MachineDescription machine)
+      : board_(board), machine_(std::move(machine)), reference_(steps_without_line()) {}
 
   // `spoil` is called when the greeting is over.
   Outcome run(const std::function<void(BadLine&)>& spoil) const {
@@ -49,6 +50,9 @@ class EmulatedLineRun {
     EXPECT_FALSE(job.unsuited()) << *job.unsuited();
     spoil(line);
     while (job.advance()) {
+      if (line.elapsed() < longest) continue;
+      ADD_FAILURE() << "it hangs";
+      break;
     }
     EXPECT_FALSE(job.link().error()) << message_of(*job.link().error());
     // The last edges are counted with the time that passes next.
@@ -86,7 +90,33 @@ class EmulatedLineRun {
     EXPECT_GT(faults, trials);
   }
 
+  // A man in the middle makes at least as many faults of each kind in frames to the board. The faults that a run gets
+  // depend on how the program is read ahead, and so on nothing but the seed.
+  void faults_of_each_kind(int wanted) const {
+    const std::uint64_t seed = test::seed();
+    for (const Mischief mischief : every_mischief) {
+      int faults = 0;
+      int recoveries = 0;
+      int runs = 0;
+      for (; faults < wanted && !testing::Test::HasFailure(); ++runs) {
+        SCOPED_TRACE(std::string(name_of(mischief)) + ", run " + std::to_string(runs));
+        ManInTheMiddle man(mischief, seed + static_cast<std::uint64_t>(runs), 12, 400);
+        const auto spoil = [&](BadLine& line) {
+          line.set_trouble([&man](bool to_board, const Bytes& bytes) { return man(to_board, bytes); });
+        };
+        recoveries += run(spoil).recoveries;
+        ASSERT_GT(man.faults_to_board, 0);
+        faults += man.faults_to_board;
+      }
+      std::printf("%s: %d faults in frames to the board in %d runs, %d rests\n", std::string(name_of(mischief)).c_str(),
+                  faults, runs, recoveries);
+    }
+  }
+
  private:
+  // The program takes a second; each fault may cost a rest.
+  static constexpr Seconds longest{300};
+
   static ProgramReader reader() {
     return ProgramReader::from_text(
         "t",

@@ -12,7 +12,7 @@ namespace {
 constexpr test::BoardKind pico{"pico", PASSO_MOTION_PICO, 8};
 
 const test::EmulatedLineRun& on_pico() {
-  static const test::EmulatedLineRun run(pico, "pico");
+  static const test::EmulatedLineRun run(pico, test::example_machine("pico"));
   return run;
 }
 
@@ -38,6 +38,10 @@ TEST_F(PicoOnABadLine, makes_no_wrong_step_of_random_faults) {
 }
 
 using PicoOnABadLineInFull = test::InFull<PicoOnABadLine>;
+TEST_F(PicoOnABadLineInFull, a_thousand_faults_of_each_kind) {
+  on_pico().faults_of_each_kind(static_cast<int>(1000 / test::in_full()));
+}
+
 TEST_F(PicoOnABadLineInFull, cut_before_every_frame) {
   cut_at_every(3 * test::in_full());
 }

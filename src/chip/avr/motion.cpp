@@ -148,6 +148,20 @@ bool take_tick() {
   SerialLine::breathe();
 }
 
+// The watched inputs while the motors turn. The interrupt tells a change, and which pins made it (`changed`). Several
+// count as one input, which is on while any of them is: until the interrupt tells, that one has not changed.
+[[gnu::noinline]] uint16_t watched_in_motion(uint16_t raw, uint16_t before, bool changed) {
+  const uint16_t watched = board.watched();
+  const bool was_on = (before & watched) != 0;
+  if (changed) {
+    const uint16_t moved = inputs_that_moved(watched);
+    raw = static_cast<uint16_t>(was_on ? raw & ~moved : raw | moved);
+  } else if (((raw & watched) != 0) != was_on) {
+    raw = before;
+  }
+  return raw & watched;
+}
+
 [[gnu::noinline]] void look_at_inputs() {
   const bool tick = take_tick();
   if (tick) count_tick();
@@ -156,10 +170,8 @@ bool take_tick() {
   const uint16_t watched = board.watched();
   const bool changed = ChipPlayer::captured();
   const uint16_t before = reader.inputs();
-  // During motion the interrupt reports changes of the watched input, and where.
   if (changed || (running != 0 && ChipPlayer::watches())) {
-    raw &= static_cast<uint16_t>(~watched);
-    raw |= (changed ? ~before : before) & watched;
+    raw = static_cast<uint16_t>((raw & ~watched) | watched_in_motion(raw, before, changed));
   }
   const uint16_t on = reader.look(raw, tick);
   // During motion the interrupt has stopped already. At rest nobody else looks.
@@ -171,7 +183,7 @@ bool take_tick() {
   SerialLine::breathe();
   if (told != 0 || tick) board.set_inputs(reader.inputs(), told);
   if (tick) manual.tick();
-  if ((told & watched) != 0) ChipPlayer::watch(false);
+  if (changed || (running == 0 && (told & watched) != 0)) ChipPlayer::watch(false);
   SerialLine::breathe();
   if (!ChipPlayer::watches()) watch_input();
 }

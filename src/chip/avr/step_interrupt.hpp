@@ -52,7 +52,8 @@ extern volatile uint8_t received_head;    // low byte of the address for the nex
 extern volatile uint8_t armed;            // the watched input has not changed yet
 extern volatile uint16_t captured_entry;  // the ring's register when it changed
 extern volatile uint8_t halted;           // a pin stopped the motion
-// The watched pins of one port: the address of its PINx, the pins, and their levels until they change.
+// The watched pins of one port: the address of its PINx, the pins, and their levels until they change. At the first
+// change the interrupt leaves in `watch_pins` those that changed.
 extern volatile uint16_t watch_port;
 extern volatile uint8_t watch_pins;
 extern volatile uint8_t watch_quiet;

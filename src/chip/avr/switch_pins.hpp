@@ -90,4 +90,16 @@ template <char port>
   watch_quiet = is_on ? static_cast<uint8_t>(~quiet) : quiet;
 }
 
+// After the interrupt has captured: which of the watched inputs it saw change. Several are limit switches of one port.
+[[gnu::noinline]] inline uint16_t inputs_that_moved(uint16_t watched) {
+  if ((watched & (watched - 1)) == 0) return watched;
+  uint16_t moved = 0;
+#pragma clang loop unroll(full)
+  for (uint8_t i = 0; i < most_axis_switches; ++i) {
+    const bool is_it = pins.limits[i].exists() && (watch_pins & pins.limits[i].mask()) != 0;
+    if (is_it) moved |= static_cast<uint16_t>(input_limit << i);
+  }
+  return moved & watched;
+}
+
 }  // namespace passo::chip

@@ -138,7 +138,8 @@ extern "C" {
       lds r25, watch_pins
       and r24, r25
       breq 6f
-      ldi r24, 0                    ; the first change counts
+      sts watch_pins, r24           ; the first change counts, and these pins made it
+      ldi r24, 0
       sts armed, r24
       sts captured_entry, r2
       sts captured_entry + 1, r3

@@ -48,8 +48,8 @@ constexpr uint8_t vectors_before = 11;
   return on_of('B', stops_b) != 0;
 }
 
-[[gnu::always_inline]] inline bool watched_changed() {
-  return ((*reinterpret_cast<volatile uint8_t*>(watch_port) ^ watch_quiet) & watch_pins) != 0;
+[[gnu::always_inline]] inline uint8_t pins_that_moved() {
+  return static_cast<uint8_t>((*reinterpret_cast<volatile uint8_t*>(watch_port) ^ watch_quiet) & watch_pins);
 }
 
 [[gnu::always_inline]] inline void stop_playing() {
@@ -70,8 +70,10 @@ constexpr uint8_t vectors_before = 11;
     act(safe_action);
     return false;
   }
-  if (armed != 0 && watched_changed()) {
+  if (armed == 0) return true;
+  if (const uint8_t moved = pins_that_moved(); moved != 0) {
     armed = 0;  // only the first change counts
+    watch_pins = moved;
     captured_entry = entry;
   }
   return true;

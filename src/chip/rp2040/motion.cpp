@@ -107,8 +107,9 @@ void look_at_inputs() {
   // of them is.
   if (changed || (!board().idle() && PicoPlayer::watches())) {
     const bool was_on = (before & watched) != 0;
-    raw &= static_cast<uint16_t>(~watched);
-    raw |= !changed ? before & watched : was_on ? 0 : watched;
+    const bool is_on = (raw & watched) != 0;
+    const uint16_t now = !changed ? (is_on == was_on ? raw : before) : was_on ? 0 : PicoWiring::captured_inputs();
+    raw = static_cast<uint16_t>((raw & ~watched) | (now & watched));
   }
   const uint16_t on = reader.look(raw, tick);
   // During motion the interrupt has stopped already. At rest nobody else looks.
@@ -118,7 +119,7 @@ void look_at_inputs() {
   told |= (reader.inputs() ^ before) & watched;
   if (changed) board().settle();  // releases the items finished before that
   if (told != 0 || tick) board().set_inputs(reader.inputs(), told);
-  if ((told & watched) != 0) PicoPlayer::watch(false);
+  if (changed || (board().idle() && (told & watched) != 0)) PicoPlayer::watch(false);
   if (!PicoPlayer::watches()) watch_input();
 }
 

@@ -190,12 +190,14 @@ class PicoPlayer {
   static bool captured() { return captured_; }
   static bool watches() { return armed_ || captured_; }
 
-  // The switches' interrupt: the watched pin has changed, or a switch stops the motors.
-  [[gnu::always_inline]] static void capture() {
-    if (!armed_) return;
+  // The switches' interrupt: the watched pin has changed, or a switch stops the motors. capture() tells whether this is
+  // the first change.
+  [[gnu::always_inline]] static bool capture() {
+    if (!armed_) return false;
     captured_at_ = StepStream::played();
     armed_ = false;
     captured_ = true;
+    return true;
   }
   [[gnu::always_inline]] static void halt() {
     StepStream::halt();

@@ -108,15 +108,9 @@ class PicoWiring {
     return was_on;
   }
   // Bits of BoardInput, set where a switch is on.
-  static uint16_t inputs() {
-    const uint32_t pins_on = pins_that_are_on();
-    uint32_t on = 0;
-#pragma clang loop unroll(full)
-    for (const PicoInput& input : pico_inputs) {
-      if ((pins_on & gpio_bit(input.gpio)) != 0) on |= input.which;
-    }
-    return static_cast<uint16_t>(on);
-  }
+  static uint16_t inputs() { return inputs_of(pins_that_are_on()); }
+  // Those that were on when the interrupt captured.
+  static uint16_t captured_inputs() { return inputs_of(captured_); }
 
   // From now on the interrupt is told of the pins in `stopping` when they go on, and of those in `watched` when they
   // leave the state `closed`, which means that any of them is on. Both are bits of BoardInput. While an axis is homed,
@@ -132,14 +126,12 @@ class PicoWiring {
     interrupts_on();
   }
   // Whether a pin that stops is on, since whenever.
-  static bool stops() {
-    return (pins_that_are_on() & stops_) != 0;
-  }
+  static bool stops() { return (pins_that_are_on() & stops_) != 0; }
   // The interrupt of the pins.
   [[gnu::always_inline]] static void switch_moved() {
     const uint32_t on = pins_that_are_on();
     if ((on & stops_) != 0 && !StepStream::dry()) PicoPlayer::halt();
-    if (watched_ != 0 && ((on & watched_) != 0) != was_closed_) PicoPlayer::capture();
+    if (watched_ != 0 && ((on & watched_) != 0) != was_closed_ && PicoPlayer::capture()) captured_ = on;
     SpindleCounter::index_moved();
     forget_edges();
   }
@@ -150,8 +142,14 @@ class PicoWiring {
   static constexpr uint16_t all_limits = 0xff;
   static constexpr uint32_t slice = pins.spindle_pwm / 2 % 8;
 
-  [[gnu::always_inline]] static uint32_t pins_that_are_on() {
-    return ~GpioIn::read() ^ on_when_high_;
+  [[gnu::always_inline]] static uint32_t pins_that_are_on() { return ~GpioIn::read() ^ on_when_high_; }
+  static uint16_t inputs_of(uint32_t pins_on) {
+    uint32_t on = 0;
+#pragma clang loop unroll(full)
+    for (const PicoInput& input : pico_inputs) {
+      if ((pins_on & gpio_bit(input.gpio)) != 0) on |= input.which;
+    }
+    return static_cast<uint16_t>(on);
   }
   static void invert(uint8_t gpio, bool inverted) {
     if (gpio == no_gpio) return;
@@ -195,6 +193,7 @@ class PicoWiring {
   static inline volatile uint32_t stops_ = 0;
   static inline volatile uint32_t watched_ = 0;
   static inline volatile bool was_closed_ = false;
+  static inline volatile uint32_t captured_ = 0;      // the pins that were on at a capture
   static inline volatile uint32_t on_when_high_ = 0;  // inputs whose switches are on when they are high
   static inline uint8_t inverted_outputs_ = 0;        // bits of PinSetup's outputs
   static inline uint8_t drivers_rest_ = 0;

@@ -202,6 +202,46 @@ TEST(StepGenerator, loose_times_take_few_segments_and_lose_no_step) {
   EXPECT_LE(segments, 7);
 }
 
+// The board's items for this motion over a line, as in a tail.
+std::vector<BoardItem> loose_items(const std::vector<MotionItem>& motion, const StepOptions& options) {
+  test::ListSource<MotionItem> source(motion);
+  StepGenerator generator(source, options);
+  generator.be_exact_to({.one_in = 1, .least_rate = Hertz(0), .longest_segment = longest_segment_of_all});
+  std::vector<BoardItem> items;
+  for (BoardItem item; generator.next(item);) items.push_back(item);
+  return items;
+}
+
+// The last event of X moves Y by more than a step. Y leads from there on, and must not stay behind for as long: then
+// each event would be a segment of its own.
+TEST(StepGenerator, a_motor_that_becomes_the_master_behind_its_place_catches_up) {
+  const StepOptions options = machine({640, 640});
+  const std::vector<MotionItem> motion = {
+      planned(Curve::line(xyz(0, 0), xyz(1, 0)), 0, 5.7, 5.7, 600),
+      planned(Curve::arc(xyz(1, 0), xyz(1.024, 0.024), Axis::x, Axis::y, 1, 0.024, std::numbers::pi / 2), 5.7, 5.7, 5.7,
+              600),
+      planned(Curve::line(xyz(1.024, 0.024), xyz(1.024, 1)), 5.7, 5.7, 0, 600)};
+  const std::vector<BoardItem> items = loose_items(motion, options);
+  EXPECT_LE(items.size(), 24U);
+  const oracle::Playback played = oracle::play(items, options);
+  EXPECT_EQ(played.counts[0], 655);
+  EXPECT_EQ(played.counts[1], 640);
+}
+
+// Both motors are due at each event, and one of them goes down: rounding decides between this event and the next.
+TEST(StepGenerator, a_diagonal_takes_few_segments) {
+  StepOptions options = machine({640, 640});
+  options.start = xyz(400, 3);
+  for (const double way : {6.0, -6.0}) {
+    const std::vector<BoardItem> items =
+        loose_items({planned(Curve::line(xyz(400, 3), xyz(400 + way, 9)), 40, 100, 0, 600),
+                     planned(Curve::line(xyz(400 + way, 9), xyz(400, 3)), 0, 100, 0, 600)},
+                    options);
+    EXPECT_LE(items.size(), 24U) << way;
+    EXPECT_EQ(oracle::play(items, options).counts[0], 0) << way;
+  }
+}
+
 // Over a line: the bends of an arc are a few segments, and each step comes within one and a half intervals of its time.
 TEST(StepGenerator, loose_arcs_take_few_segments_and_lose_no_step) {
   const StepOptions options = machine({640, 640, 640}, 140e3);

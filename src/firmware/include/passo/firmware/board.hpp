@@ -63,8 +63,8 @@ class Board : private BoardVoice<Hardware> {
     captured = watch_.that_count(captured, inputs_, inputs);
     inputs_ = inputs;
     if (motors_ == 0) return;
-    // The watched input is reported separately: it may go off while another goes on.
-    if ((captured & watched()) != 0) tell_captured(watched());
+    // The watched input is reported separately: it may go off while another goes on. Of several, those that changed.
+    if ((captured & watched()) != 0) tell_captured(captured & watched());
     captured &= static_cast<uint16_t>(~watched());
     if (captured != 0) tell_captured(captured);
   }

@@ -29,6 +29,7 @@
 
 #include "passo/link/board_port.hpp"
 #include "passo/link/link.hpp"
+#include "passo/link/sent_segments.hpp"
 #include "passo/link/twin_motors.hpp"
 #include "passo/wire/decoder.hpp"
 #include "passo/wire/message.hpp"
@@ -68,6 +69,8 @@ class BoardSession final : public Link {
 
   // Asks `about` or `status`, before the hello or after. settled() tells when the answer has come.
   void inquire(Question question);
+  // What was sent last, where somebody wants to look at single pulses: keep() them first.
+  SentSegments& sent_segments() { return sent_segments_; }
   // The board's answer to `about`. Empty: the board has not answered.
   const std::optional<About>& about() const { return about_; }
   // Readable characters that came before the hello: perhaps the greeting of other firmware.
@@ -227,6 +230,7 @@ class BoardSession final : public Link {
   bool rests_ = false;
   bool outputs_timed_out_ = false;  // as the board last told, and no outputs were sent since
   ProbeWatch probe_;
+  SentSegments sent_segments_;
   bool answered_ = true;  // the board has answered since the last frame was sent
   Seconds unanswered_since_{0};
   std::uint16_t inputs_ = 0;
