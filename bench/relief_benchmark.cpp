@@ -121,9 +121,15 @@ int main(int argc, char** argv) {
   carve(folder, "500 x 500, and the finished surface drawn", 500, "100",
         {"--step", "0.201", "--pitch", "1", "-p", (folder / "view.png").string()});
   carve(folder, "500 x 500, three cutters", 500, "100", {"--rough", "flat:6", "--rest", "ball:1"});
+  carve(folder, "500 x 500, offsets, contours, rest", 500, "100",
+        {"--rough", "flat:6", "--rough-way", "offsets", "--way", "contours", "--rest", "ball:1"});
+  carve(folder, "500 x 500, two cutters, removal held", 500, "100",
+        {"--rough", "flat:6", "--rough-removal", "3000", "--removal", "100", "--feed-most", "2000"});
   carve(folder, "4000 x 4000, each row of pixels", 4000, "400", {"--step", "0.1001", "--pitch", "1"});
   carve(folder, "4000 x 4000, three cutters, drawn", 4000, "400",
         {"--rough", "flat:6", "--rest", "ball:1", "-p", (folder / "view.png").string()});
+  carve(folder, "4000 x 4000, offsets, contours", 4000, "400",
+        {"--rough", "flat:6", "--rough-way", "offsets", "--way", "contours"});
   fs::remove_all(folder);
   return 0;
 }

@@ -37,22 +37,26 @@ std::vector<Curve> relief() {
   return moves;
 }
 
-ToolShape tool_of(ToolShape::Kind kind) {
-  ToolShape tool{.kind = kind, .radius = Mm(1.5)};
-  tool.half_angle = std::numbers::pi / 12;
-  if (kind == ToolShape::Kind::bull_nose) tool.tip_radius = Mm(0.5);
-  if (kind == ToolShape::Kind::tapered_ball) tool.tip_radius = Mm(0.5);
-  return tool;
+Cutter cutter_of(Cutter::Kind kind) {
+  constexpr Radians lean{std::numbers::pi / 12};
+  switch (kind) {
+    case Cutter::Kind::flat: break;
+    case Cutter::Kind::ball: return Cutter::ball(Mm(3));
+    case Cutter::Kind::v: return Cutter::vee(Mm(3), {2 * lean.value}, Mm(0));
+    case Cutter::Kind::bull_nose: return Cutter::bull_nose(Mm(3), Mm(0.5));
+    case Cutter::Kind::tapered_ball: return Cutter::tapered_ball(Mm(3), Mm(1), lean);
+  }
+  return Cutter::flat_end(Mm(3));
 }
 
 void cut_relief(benchmark::State& state) {
   const std::vector<Curve> moves = relief();
-  const auto kind = static_cast<ToolShape::Kind>(state.range(0));
+  const auto kind = static_cast<Cutter::Kind>(state.range(0));
   const auto threads = static_cast<unsigned>(state.range(1));
   double volume = 0;
   for (auto _ : state) {
     HeightField field = *HeightField::create({{0, 0, -6}, {100, 100, 0}}, Mm(0.1));
-    StockCutter cutter(field, {.tools = {tool_of(kind)}, .clamps = {}, .threads = threads},
+    StockCutter cutter(field, {.tools = {{.cutter = cutter_of(kind)}}, .clamps = {}, .threads = threads},
                        [&](const MoveCut& cut) { volume += cut.volume; });
     for (const Curve& move : moves) cutter.cut(move, {}, {});
     cutter.finish();

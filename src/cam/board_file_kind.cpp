@@ -185,4 +185,40 @@ std::string words_for(const BoardFileKind& kind) {
   return words;
 }
 
+std::optional<BoardFileKind> kind_of_words(std::string_view words) {
+  if (words == "nothing") return BoardFileKind{unknown, both, 0, "you"};
+  for (const BoardRole role : {copper, mask, paste, print, outline, drill, drawing}) {
+    for (const BoardSide side : {both, top, bottom, inner}) {
+      const BoardFileKind kind{role, side, 0, "you"};
+      const bool needs_side = role == copper;
+      if (words == words_for(kind) && !(needs_side && side == both)) return kind;
+    }
+  }
+  return {};
+}
+
+std::string short_name(const BoardFile& file) {
+  const std::size_t inside = file.name.rfind(": ");
+  const std::string name = inside == std::string::npos ? file.name : file.name.substr(inside + 2);
+  return name.substr(name.rfind('/') + 1);
+}
+
+std::string tell_kind(BoardJob& job, std::string_view name, std::string_view words) {
+  const std::optional<BoardFileKind> kind = kind_of_words(words);
+  if (!kind) {
+    return fmt::format("'{}' is no layer: expected top copper, bottom copper, outline, drill or nothing", words);
+  }
+  bool is_found = false;
+  for (BoardFile& file : job.files) {
+    if (file.name != name && short_name(file) != name) continue;
+    is_found = true;
+    const bool needs_drills = kind->role == BoardRole::drill;
+    if (kind->role != BoardRole::unknown && needs_drills != file.drills.has_value()) {
+      return fmt::format("{} is {} drill file", file.name, needs_drills ? "no" : "a");
+    }
+    file.kind = *kind;
+  }
+  return is_found ? std::string() : fmt::format("there is no file '{}' among those that were read", name);
+}
+
 }  // namespace passo

@@ -1,5 +1,7 @@
 #include "passo/cam/drawing_file.hpp"
 
+#include "gunzip.hpp"
+
 #include "passo/cam/kicad_board.hpp"
 #include "passo/diagnostics/file_bytes.hpp"
 
@@ -8,10 +10,19 @@ namespace passo {
 Drawing read_drawing(const std::string& path, const DrawingFileOptions& options, Diagnostics& diagnostics) {
   Drawing nothing;
   nothing.file = path;
-  const std::optional<std::string> bytes =
-      read_bytes(path, {.area = "drawing", .expected = "a drawing (DXF, SVG, HPGL), a drill file or a board of KiCad"},
-                 diagnostics);
+  std::optional<std::string> bytes = read_bytes(
+      path, {.area = "drawing", .expected = "a drawing (DXF, SVG, SVGZ, HPGL), a drill file or a board of KiCad"},
+      diagnostics);
   if (!bytes) return nothing;
+  if (looks_like_gzip(*bytes)) {
+    constexpr std::size_t most_unpacked = std::size_t{256} * 1024 * 1024;
+    bytes = gunzip(*bytes, most_unpacked);
+    if (!bytes) {
+      diagnostics.add(of_file("drawing.bad-gzip", path, "this compressed file is broken, or unpacks to over 256 MiB",
+                              "a drawing as SVGZ, or any drawing that gzip has compressed"));
+      return nothing;
+    }
+  }
   if (looks_like_dxf(*bytes)) return read_dxf(path, *bytes, options.dxf, diagnostics);
   if (looks_like_svg(*bytes)) return read_svg(path, *bytes, options.svg, diagnostics);
   if (looks_like_hpgl(*bytes)) return read_hpgl(path, *bytes, options.hpgl, diagnostics);

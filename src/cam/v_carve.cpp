@@ -1,6 +1,7 @@
 #include "passo/cam/v_carve.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numbers>
 #include <utility>
@@ -49,6 +50,7 @@ class VCarvePlanner {
     for (const MillRun& run : tool.runs) {
       for (const MillPoint& point : run) plan_.deepest = std::min(plan_.deepest, point.z);
     }
+    if (options_.step.count > 0) tool.runs = in_layers(std::move(tool.runs));
     if (!tool.runs.empty()) plan_.mill.tools.push_back(std::move(tool));
     if (options_.tip.count > 0) {
       constexpr Nanometres small{10'000};
@@ -83,6 +85,7 @@ class VCarvePlanner {
   }
   void clip(const MedialPiece& piece);
   void go_around_floors(std::vector<MillRun>& runs);
+  std::vector<MillRun> in_layers(std::vector<MillRun> runs);
 
   const Region& area_;
   const VCarveOptions& options_;
@@ -148,6 +151,68 @@ void VCarvePlanner::go_around_floors(std::vector<MillRun>& runs) {
     run.push_back({ring.front(), 0, plan_.floor_z});
     runs.push_back(std::move(run));
   }
+}
+
+// The place of a straight way at which it passes a depth.
+MillPoint at_depth(const MillPoint& from, const MillPoint& to, Nanometres z) {
+  const double share = static_cast<double>(z.count - from.z.count) / static_cast<double>(to.z.count - from.z.count);
+  const auto between = [&](Nanometres a, Nanometres b) {
+    return Nanometres{a.count + std::llround(share * static_cast<double>(b.count - a.count))};
+  };
+  return {{between(from.at.x, to.at.x), between(from.at.y, to.at.y)}, 0, z};
+}
+
+// A layer of a run: its parts below `above`, no deeper than `limit`.
+void add_layer(const MillRun& run, Nanometres above, Nanometres limit, std::vector<MillRun>& layer) {
+  MillRun part;
+  const auto end = [&] {
+    if (part.size() > 1) layer.push_back(std::move(part));
+    part.clear();
+  };
+  const auto add = [&](MillPoint point) {
+    point.z = std::max(point.z, limit);
+    if (part.empty() || part.back().at != point.at || part.back().z != point.z) part.push_back(point);
+  };
+  for (std::size_t i = 0; i < run.size(); ++i) {
+    const MillPoint& here = run[i];
+    if (i > 0) {
+      const MillPoint& before = run[i - 1];
+      // The depths that the way passes, in its order.
+      std::array<Nanometres, 2> bounds = {above, limit};
+      if (here.z > before.z) std::swap(bounds[0], bounds[1]);
+      for (const Nanometres bound : bounds) {
+        const bool passes = (before.z < bound && bound < here.z) || (here.z < bound && bound < before.z);
+        if (!passes) continue;
+        add(at_depth(before, here, bound));
+        if (bound == above && here.z > above) end();
+      }
+    }
+    if (here.z < above || (here.z == above && !part.empty())) {
+      add(here);
+    } else if (here.z == above) {
+      const bool goes_down = i + 1 < run.size() && run[i + 1].z < above;
+      if (goes_down) add(here);
+    }
+    if (here.z >= above && !part.empty() && (i + 1 == run.size() || run[i + 1].z >= above)) end();
+  }
+  end();
+}
+
+std::vector<MillRun> VCarvePlanner::in_layers(std::vector<MillRun> runs) {
+  const Nanometres deepest = plan_.deepest;
+  const Nanometres step{std::max<std::int64_t>(options_.step.count, 1)};
+  plan_.layers = static_cast<std::size_t>(std::max<std::int64_t>(1, (-deepest.count + step.count - 1) / step.count));
+  if (plan_.layers == 1) return runs;
+  std::vector<MillRun> all;
+  for (std::size_t i = 0; i < plan_.layers; ++i) {
+    const auto depth = [&](std::size_t layer) {
+      return Nanometres{std::max(deepest.count, -static_cast<std::int64_t>(layer) * step.count)};
+    };
+    // All ways begin in the first layer, those at the face too.
+    const Nanometres above = i == 0 ? Nanometres{1} : depth(i);
+    for (const MillRun& run : runs) add_layer(run, above, depth(i + 1), all);
+  }
+  return all;
 }
 
 }  // namespace

@@ -54,30 +54,36 @@ struct NodeRun {
   }
 };
 
-// Covers `heights` with straight lines that are nowhere below and at most `tolerance` above; the first begins at
-// `from`, at the first node. Calls emit(index, height in carved units) for the end of each. Each line reaches as far as
-// one can, and ends as low as it can. Source: the cone of slopes of Williams, "An efficient algorithm for the piecewise
-// linear approximation of planar curves", 1978.
+// The straight line from the node `begin`, at the height `from`, that is nowhere below `heights` and at most
+// `tolerance` above: it reaches as far as one can, and ends as low as it can. Calls emit(index, height in carved units)
+// for its end. Source: the cone of slopes of Williams, "An efficient algorithm for the piecewise linear approximation
+// of planar curves", 1978.
+template <class Emit>
+void fit_line(const std::vector<float>& heights, std::size_t begin, double from, double tolerance, const Emit& emit) {
+  double low = heights[begin + 1] - from;
+  double high = low + tolerance;
+  std::size_t end = begin + 1;
+  for (std::size_t i = begin + 2; i < heights.size(); ++i) {
+    const auto steps = static_cast<double>(i - begin);
+    const double need = heights[i] - from;
+    if (need > high * steps || need + tolerance < low * steps) break;
+    // At most one of the two bounds is usually drawn closer: no division then.
+    if (need > low * steps) low = need / steps;
+    if (need + tolerance < high * steps) high = (need + tolerance) / steps;
+    end = i;
+  }
+  emit(end, carved_height(from + low * static_cast<double>(end - begin)));
+}
+
+// Covers `heights` with such lines; the first begins at `from`, at the first node.
 template <class Emit>
 void fit_lines(const std::vector<float>& heights, double from, double tolerance, const Emit& emit) {
-  const std::size_t count = heights.size();
-  for (std::size_t begin = 0; begin + 1 < count;) {
-    double low = heights[begin + 1] - from;
-    double high = low + tolerance;
-    std::size_t end = begin + 1;
-    for (std::size_t i = begin + 2; i < count; ++i) {
-      const auto steps = static_cast<double>(i - begin);
-      const double need = heights[i] - from;
-      if (need > high * steps || need + tolerance < low * steps) break;
-      // At most one of the two bounds is usually drawn closer: no division then.
-      if (need > low * steps) low = need / steps;
-      if (need + tolerance < high * steps) high = (need + tolerance) / steps;
-      end = i;
-    }
-    const std::int64_t height = carved_height(from + low * static_cast<double>(end - begin));
-    emit(end, height);
-    from = static_cast<double>(height) / carved_units;
-    begin = end;
+  for (std::size_t begin = 0; begin + 1 < heights.size();) {
+    fit_line(heights, begin, from, tolerance, [&](std::size_t end, std::int64_t height) {
+      emit(end, height);
+      from = static_cast<double>(height) / carved_units;
+      begin = end;
+    });
   }
 }
 

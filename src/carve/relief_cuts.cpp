@@ -4,6 +4,8 @@
 
 #include "relief_passes.hpp"
 
+#include "passo/carve/relief_surface.hpp"
+
 namespace passo {
 namespace {
 
@@ -11,6 +13,8 @@ namespace {
 std::ptrdiff_t overrun_nodes(Mm overrun, Mm pitch) {
   return static_cast<std::ptrdiff_t>(std::ceil(overrun / pitch - 1e-6));
 }
+
+}  // namespace
 
 AreaSweep::Area area_of(const TipMap& map, std::ptrdiff_t step, std::ptrdiff_t gap) {
   return {.first_column = -map.margin_x,
@@ -21,10 +25,6 @@ AreaSweep::Area area_of(const TipMap& map, std::ptrdiff_t step, std::ptrdiff_t g
           .gap = gap};
 }
 
-float lowest_of(const HeightGrid& surface) {
-  return *std::min_element(surface.heights.begin(), surface.heights.end());
-}
-
 TipMap tips_of(const HeightGrid& surface, const Cutter& cutter, float floor, Mm overrun,
                const ReliefProgramOptions& options) {
   return drop_everywhere(DroppedCutter(surface, cutter, floor, CutterTable::Kind::below, options.beside),
@@ -32,7 +32,15 @@ TipMap tips_of(const HeightGrid& surface, const Cutter& cutter, float floor, Mm 
                          static_cast<std::size_t>(overrun_nodes(overrun, surface.pitch_y)), options.threads);
 }
 
-}  // namespace
+// The tip of the grown shape is lower by the stock.
+TipMap roughing_tips(const HeightGrid& surface, const ReliefProgramOptions& options) {
+  const ReliefRoughing& roughing = *options.roughing;
+  const float stock = grid_height(roughing.stock);
+  TipMap tips = tips_of(surface, roughing.tool.cutter.grown(roughing.stock), floor_of(surface),
+                        roughing_overrun(options), options);
+  for (float& height : tips.heights) height = std::min(0.0F, height + stock);
+  return tips;
+}
 
 // Level by level. On each level the cutter follows the surface where that is higher than the level, so that what it
 // leaves is even; it does so only where the level before was not as deep.
@@ -40,15 +48,8 @@ void rough_out(ReliefPass& pass, const HeightGrid& surface, const NodeLattice& l
                const std::function<void(double)>& progress) {
   const ReliefProgramOptions& options = pass.options();
   const ReliefRoughing& roughing = *options.roughing;
-  const float stock = grid_height(roughing.stock);
-  const float floor = lowest_of(surface);
-  // The tip of the grown shape is lower by the stock.
-  TipMap tips = tips_of(surface, roughing.tool.cutter.grown(roughing.stock), floor, roughing_overrun(options), options);
-  float lowest = 0;
-  for (float& height : tips.heights) {
-    height = std::min(0.0F, height + stock);
-    lowest = std::min(lowest, height);
-  }
+  const TipMap tips = roughing_tips(surface, options);
+  const float lowest = *std::min_element(tips.heights.begin(), tips.heights.end());
   pass.set_lattice(lattice);
   pass.writer().set_feeds({.along = roughing.tool.feed, .down = roughing.tool.plunge});
   const std::ptrdiff_t step = step_nodes(step_of(roughing.tool, options, true), surface.pitch_y);
@@ -74,7 +75,7 @@ namespace {
 class FinishRows {
  public:
   FinishRows(const HeightGrid& surface, const ReliefProgramOptions& options)
-      : cutter_(surface, options.finish.cutter, lowest_of(surface), CutterTable::Kind::below, options.beside),
+      : cutter_(surface, options.finish.cutter, floor_of(surface), CutterTable::Kind::below, options.beside),
         margin_x_(overrun_nodes(finishing_overrun(options), surface.pitch_x)),
         margin_y_(overrun_nodes(finishing_overrun(options), surface.pitch_y)),
         step_(step_nodes(step_of(options.finish, options, false), surface.pitch_y)),
@@ -154,7 +155,7 @@ void finish_rows(ReliefPass& pass, const HeightGrid& surface, const NodeLattice&
 void finish_spiral(ReliefPass& pass, const HeightGrid& surface, const NodeLattice& lattice,
                    const std::function<void(double)>& progress) {
   const ReliefProgramOptions& options = pass.options();
-  const TipMap tips = tips_of(surface, options.finish.cutter, lowest_of(surface), finishing_overrun(options), options);
+  const TipMap tips = tips_of(surface, options.finish.cutter, floor_of(surface), finishing_overrun(options), options);
   pass.set_lattice(lattice);
   const Mm step = step_of(options.finish, options, false);
   const std::ptrdiff_t step_x = step_nodes(step, surface.pitch_x);
@@ -206,7 +207,7 @@ HeightGrid left_by_finishing(const HeightGrid& surface, const ReliefProgramOptio
                              std::ptrdiff_t rim_y) {
   const Cutter& cutter = options.finish.cutter;
   HeightGrid left = surface.with_rim(static_cast<std::size_t>(rim_x), static_cast<std::size_t>(rim_y), 0);
-  TipMap tips = tips_of(surface, cutter, lowest_of(surface), finishing_overrun(options), options);
+  TipMap tips = tips_of(surface, cutter, floor_of(surface), finishing_overrun(options), options);
   for (float& height : tips.heights) height = -height;
   const HeightGrid upside_down{.columns = tips.columns,
                                .rows = tips.rows,
@@ -232,7 +233,7 @@ void finish_rest(ReliefPass& pass, const HeightGrid& surface, const NodeLattice&
                  const std::function<void(double)>& progress) {
   const ReliefProgramOptions& options = pass.options();
   const ReliefRest& rest = *options.rest;
-  const float floor = lowest_of(surface);
+  const float floor = floor_of(surface);
   const Mm overrun = rest_overrun(options);
   const std::ptrdiff_t rim_x = nodes_of(rest.tool.cutter.radius + overrun, surface.pitch_x) + 1;
   const std::ptrdiff_t rim_y = nodes_of(rest.tool.cutter.radius + overrun, surface.pitch_y) + 1;

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "row_arcs.hpp"
+
 namespace passo {
 
 TipRecord::TipRecord(const HeightGrid& surface, std::size_t margin_x, std::size_t margin_y)
@@ -24,6 +26,27 @@ void TipRecord::add(const NodeLattice& lattice, const NodeRun& run) {
   }
 }
 
+void TipRecord::add(const std::vector<CarvedCut>& way, const NodeLattice& lattice, const TipSurface& surface) {
+  const double pitch = std::min(surface.pitch_x(), surface.pitch_y());
+  for (const CarvedCut& cut : way) {
+    const double parts = std::ceil(length_of(cut) / pitch);
+    for (double i = 0; i <= parts; ++i) {
+      const CarvedPlace place = place_on(cut, parts > 0 ? i / parts : 1);
+      const auto node = [](std::int64_t at, double zero, double apart) {
+        return static_cast<std::ptrdiff_t>(std::llround((static_cast<double>(at) / carved_units - zero) / apart));
+      };
+      const std::ptrdiff_t x = node(place.x, lattice.x0, lattice.pitch_x);
+      const std::ptrdiff_t y = node(place.y, lattice.y0, lattice.pitch_y);
+      const double least =
+          surface.at({static_cast<double>(x) * surface.pitch_x(), static_cast<double>(y) * surface.pitch_y()});
+      const auto down = static_cast<float>(-std::max(least, static_cast<double>(place.z) / carved_units));
+      float& depth = depths_.heights[static_cast<std::size_t>(y + margin_y_) * depths_.columns +
+                                     static_cast<std::size_t>(x + margin_x_)];
+      depth = std::max(depth, down);
+    }
+  }
+}
+
 // What is left is the lowest envelope of all places of the cutter: the same dilation, upside down.
 void TipRecord::carve(const Cutter& cutter, unsigned threads, CarvedSurface& carved) const {
   const DroppedCutter lowest(depths_, cutter, 0, CutterTable::Kind::sampled);
@@ -37,20 +60,22 @@ void TipRecord::carve(const Cutter& cutter, unsigned threads, CarvedSurface& car
 }
 
 void ReliefPass::lift() {
+  is_at_work_ = false;
   writer_.rapid_up_down(carved_height(options_.clearance.value()));
 }
 
 void ReliefPass::cut(const NodeRun& run) {
-  cut_run(writer_, lattice_, run, options_.tolerance.value());
+  constexpr double least_tolerance = 0.001;  // of arcs, mm
+  if (options_.arcs && options_.tolerance.value() >= least_tolerance) {
+    cut_run_with_arcs(writer_, lattice_, run, options_.tolerance.value());
+  } else {
+    cut_run(writer_, lattice_, run, options_.tolerance.value());
+  }
   if (record_ != nullptr) record_->add(lattice_, run);
 }
 
 void ReliefPass::go_to_work(const NodeRun& run, double free_above) {
-  lift();
-  const CarvedPlace first = lattice_.at(run.column, run.row, 0);
-  writer_.rapid_to(first.x, first.y);
-  constexpr double above = 0.5;  // mm, of the stock, where the feed begins
-  writer_.rapid_up_down(std::min(carved_height(free_above + above), carved_height(options_.clearance.value())));
+  approach(lattice_.at(run.column, run.row, 0), free_above);
   const double pitch = run.step_x != 0 ? lattice_.pitch_x : lattice_.pitch_y;
   const double turned_pitch = run.step_x != 0 ? lattice_.pitch_y : lattice_.pitch_x;
   const double a_node = (lattice_.turned ? turned_pitch : pitch) * std::tan(options_.ramp.value);

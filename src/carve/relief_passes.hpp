@@ -6,9 +6,12 @@
 #include <memory>
 #include <vector>
 
+#include "level_lines.hpp"
+#include "level_path.hpp"
 #include "move_writer.hpp"
 #include "node_run.hpp"
 #include "parallel_rows.hpp"
+#include "stock_in_work.hpp"
 
 #include "passo/carve/dropped_cutter.hpp"
 #include "passo/carve/relief_program.hpp"
@@ -21,6 +24,8 @@ class TipRecord {
   TipRecord(const HeightGrid& surface, std::size_t margin_x, std::size_t margin_y);
 
   void add(const NodeLattice& lattice, const NodeRun& run);
+  // Ways between nodes count at the nearest node, at which the tip is no lower than it may be there.
+  void add(const std::vector<CarvedCut>& way, const NodeLattice& lattice, const TipSurface& surface);
   // Lowers `carved` to what the cutter has left.
   void carve(const Cutter& cutter, unsigned threads, CarvedSurface& carved) const;
 
@@ -39,6 +44,9 @@ class ReliefPass {
 
   void set_lattice(const NodeLattice& lattice) { lattice_ = lattice; }
   void set_record(TipRecord* record) { record_ = record; }
+  // The stock that the writer's moves cut, for what asks for it. None: nobody knows it.
+  void set_stock(StockInWork* stock) { stock_ = stock; }
+  StockInWork* stock() const { return stock_; }
 
   // Lifts the tool, goes to the run's first node, and enters the stock there. From `free_above` upwards there is no
   // stock.
@@ -47,13 +55,31 @@ class ReliefPass {
   void cut(const NodeRun& run);
   void lift();
 
+  // Where the tool is, in mm from node (0, 0).
+  FlatPlace flat_place() const { return flat(writer_.place()); }
+
+  // How the tool may get to a way.
+  struct WayEntry {
+    double near = 0;        // mm; a way that begins so near is gone to without lifting, where nothing stands between
+    bool sideways = false;  // at its depth, into the stock beside: what stands there is as wide as a row at most
+    bool is_for_stock = false;  // where no stock stands above the way, it is left out
+  };
+  // Gets to a way of lines and arcs, goes down along it, and cuts along all of it. Needs the stock.
+  void cut_way(const LevelPath& path, const TipSurface& surface, const WayEntry& entry);
+
  private:
+  FlatPlace flat(const CarvedPlace& place) const;
+  void approach(const CarvedPlace& place, double free_above);
+  void emit(CarvedCut cut, std::int64_t z);
+  std::size_t ramp_down(const LevelPath& path, double from, double to);
   void ramp_in(const NodeRun& run, double free_above, std::size_t nodes);
 
   MoveWriter& writer_;
   const ReliefProgramOptions& options_;
   NodeLattice lattice_;
   TipRecord* record_ = nullptr;
+  StockInWork* stock_ = nullptr;
+  bool is_at_work_ = false;  // this cutter, at a known place
 };
 
 // Rows of runs at one depth, in the order in which one can follow the other without lifting.
@@ -118,13 +144,26 @@ Mm finishing_overrun(const ReliefProgramOptions& options);
 Mm roughing_overrun(const ReliefProgramOptions& options);
 Mm rest_overrun(const ReliefProgramOptions& options);
 
+// The tip's heights on the surface and `overrun` around it. The tip goes nowhere below `floor`.
+TipMap tips_of(const HeightGrid& surface, const Cutter& cutter, float floor, Mm overrun,
+               const ReliefProgramOptions& options);
+// Of roughing: that of the cutter with the stock that it leaves, no higher than the stock's top.
+TipMap roughing_tips(const HeightGrid& surface, const ReliefProgramOptions& options);
+AreaSweep::Area area_of(const TipMap& map, std::ptrdiff_t step, std::ptrdiff_t gap);
+
 void rough_out(ReliefPass& pass, const HeightGrid& surface, const NodeLattice& lattice,
                const std::function<void(double)>& progress);
+// The same by offsets of each level's outline.
+void rough_by_offsets(ReliefPass& pass, const HeightGrid& surface, const NodeLattice& lattice,
+                      const std::function<void(double)>& progress);
 // `way` is rows or columns; for columns the surface is turned.
 void finish_rows(ReliefPass& pass, const HeightGrid& surface, const NodeLattice& lattice,
                  const std::function<void(double)>& progress);
 void finish_spiral(ReliefPass& pass, const HeightGrid& surface, const NodeLattice& lattice,
                    const std::function<void(double)>& progress);
+// Constant heights on what is steep, rows on the rest.
+void finish_contours(ReliefPass& pass, const HeightGrid& surface, const NodeLattice& lattice,
+                     const std::function<void(double)>& progress);
 void finish_rest(ReliefPass& pass, const HeightGrid& surface, const NodeLattice& lattice,
                  const std::function<void(double)>& progress);
 

@@ -5,6 +5,7 @@
 #include <memory>
 #include <utility>
 
+#include "held_removal.hpp"
 #include "relief_passes.hpp"
 #include <fmt/format.h>
 
@@ -32,7 +33,8 @@ class ReliefProgram {
         lattice_{.x0 = options.x0.value(),
                  .y0 = options.y0.value(),
                  .pitch_x = surface.pitch_x.value(),
-                 .pitch_y = surface.pitch_y.value()} {}
+                 .pitch_y = surface.pitch_y.value()},
+        removal_(writer_) {}
 
   ReliefReport write(bool wants_carved);
 
@@ -40,6 +42,7 @@ class ReliefProgram {
   using Cut = void (*)(ReliefPass&, const HeightGrid&, const NodeLattice&, const std::function<void(double)>&);
 
   void begin();
+  void watch_stock();
   void begin_tool(const char* what, const ReliefTool& tool);
   void end_tool(const char* what, const ReliefTool& tool, Mm step);
   void cut(Cut way, const HeightGrid& surface, bool turned);
@@ -54,6 +57,8 @@ class ReliefProgram {
   ReliefPass pass_;
   NodeLattice lattice_;
   ReliefReport report_;
+  std::optional<StockInWork> stock_;
+  HeldRemoval removal_;
   bool wants_carved_ = false;
   int tools_ = 1;
   int tool_ = 0;
@@ -86,17 +91,24 @@ void ReliefProgram::begin_tool(const char* what, const ReliefTool& tool) {
   }
   writer_.begin_at(carved_height(options_.clearance.value()));
   writer_.set_feeds({.along = tool.feed, .down = tool.plunge});
+  if (!stock_) return;
+  stock_->use(tool.cutter);
+  const double fastest = tool.fastest.value() > 0 ? tool.fastest / tool.feed : 1;
+  removal_.set({.mm3_a_minute = tool.removal, .fastest = std::max(1.0, fastest)}, tool.cutter.radius);
 }
 
 void ReliefProgram::end_tool(const char* what, const ReliefTool& tool, Mm step) {
   pass_.lift();
+  const double removal = removal_.take_most();
   const CarvingCost cost = writer_.take_cost();
   report_.parts.push_back({.what = what,
                            .tool = describe(tool.cutter),
                            .step = step,
                            .moves = cost.moves,
+                           .arcs = cost.arcs,
                            .cut = Mm(cost.cut_mm),
                            .rapid = Mm(cost.rapid_mm),
+                           .removal = removal,
                            .minutes = cost.feed_minutes});
 }
 
@@ -121,11 +133,29 @@ void ReliefProgram::record(const ReliefTool& tool, Mm overrun, const std::functi
 }
 
 void ReliefProgram::finish() {
+  if (options_.way == FinishWay::contours) cut(finish_contours, surface_, false);
   if (options_.way == FinishWay::spiral) cut(finish_spiral, surface_, false);
   if (options_.way == FinishWay::rows || options_.way == FinishWay::both) cut(finish_rows, surface_, false);
   if (options_.way == FinishWay::columns || options_.way == FinishWay::both) {
     cut(finish_rows, surface_.transposed(), true);
   }
+}
+
+// Only where somebody asks for it: it costs time.
+void ReliefProgram::watch_stock() {
+  const auto holds = [](const auto& part) { return part && part->tool.removal > 0; };
+  const bool is_asked = options_.way == FinishWay::contours || options_.finish.removal > 0 ||
+                        (options_.roughing && options_.roughing->way == RoughWay::offsets) ||
+                        holds(options_.roughing) || holds(options_.rest);
+  if (!is_asked) return;
+  Mm beyond = finishing_overrun(options_);
+  if (options_.roughing) beyond = std::max(beyond, roughing_overrun(options_));
+  if (options_.rest) beyond = std::max(beyond, rest_overrun(options_));
+  stock_.emplace(surface_, options_, beyond, [this](std::uint32_t number, double mm3) { removal_.told(number, mm3); });
+  pass_.set_stock(&*stock_);
+  removal_.set_stock(&*stock_);
+  writer_.set_taker(
+      {.take = [this](const CarvedCut& cut) { removal_.take(cut); }, .settle = [this] { removal_.settle(); }});
 }
 
 ReliefReport ReliefProgram::write(bool wants_carved) {
@@ -137,13 +167,15 @@ ReliefReport ReliefProgram::write(bool wants_carved) {
   tools_ = 1 + (options_.roughing ? 1 : 0) + (options_.rest ? 1 : 0);
   parts_ = tools_ + (options_.way == FinishWay::both ? 1 : 0);
   begin();
+  watch_stock();
   const auto nodes_step = [&](const ReliefTool& tool, bool is_roughing, Mm pitch) {
     return pitch * static_cast<double>(step_nodes(step_of(tool, options_, is_roughing), pitch));
   };
   if (options_.roughing) {
     const ReliefTool& tool = options_.roughing->tool;
     begin_tool("roughing", tool);
-    record(tool, roughing_overrun(options_), [&] { cut(rough_out, surface_, false); });
+    record(tool, roughing_overrun(options_),
+           [&] { cut(options_.roughing->way == RoughWay::offsets ? rough_by_offsets : rough_out, surface_, false); });
     end_tool("roughing", tool, nodes_step(tool, true, surface_.pitch_y));
   }
   begin_tool("finishing", options_.finish);
@@ -157,6 +189,7 @@ ReliefReport ReliefProgram::write(bool wants_carved) {
     record(tool, rest_overrun(options_), [&] { cut(finish_rest, surface_, false); });
     end_tool("rest finishing", tool, nodes_step(tool, false, surface_.pitch_y));
   }
+  writer_.restore_plane();
   if (options_.spindle) writer_.line("M5");
   writer_.line("M2");
   writer_.flush();

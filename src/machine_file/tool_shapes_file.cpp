@@ -32,25 +32,37 @@ std::optional<std::int32_t> number_of(std::string_view key) {
   return number;
 }
 
-ToolShape read_tool(TableReader& reader) {
-  ToolShape tool;
+Cutter read_cutter(TableReader& reader) {
   const std::optional<std::string> shape = reader.text(shape_key, "\"ball\"", Need::required);
-  const auto kind = shape ? tool_kind_of(*shape) : std::nullopt;
+  const auto kind = shape ? cutter_kind_of(*shape) : std::nullopt;
   if (shape && !kind) {
     reader.error("machine.shape", shape_key, fmt::format("{} is \"{}\"", reader.full_name(shape_key), *shape),
-                 tool_kind_names);
+                 cutter_kind_names);
   }
-  tool.kind = kind.value_or(ToolShape::Kind::flat);
-  tool.radius = Mm(reader.number(diameter_key, Need::required).value_or(2 * tool.radius.value()) / 2);
-  const bool is_cone = tool.kind == ToolShape::Kind::v || tool.kind == ToolShape::Kind::tapered_ball;
-  if (is_cone) {
-    const Need tip = tool.kind == ToolShape::Kind::v ? Need::optional : Need::required;
-    tool.tip_radius = Mm(reader.number(tip_key, tip).value_or(0) / 2);
-    tool.half_angle = reader.number(angle_key, Need::required).value_or(60) * std::numbers::pi / 360;
+  const auto diameter = Mm(reader.number(diameter_key, Need::required).value_or(3));
+  const auto tip = [&](Need need) { return Mm(reader.number(tip_key, need).value_or(0)); };
+  const auto included_angle = [&] {
+    return Radians{reader.number(angle_key, Need::required).value_or(60) * std::numbers::pi / 180};
+  };
+  switch (kind.value_or(Cutter::Kind::flat)) {
+    case Cutter::Kind::flat: break;
+    case Cutter::Kind::ball: return Cutter::ball(diameter);
+    case Cutter::Kind::bull_nose:
+      return Cutter::bull_nose(diameter, Mm(reader.number(corner_key, Need::required).value_or(0)));
+    case Cutter::Kind::v: {
+      const Mm flat = tip(Need::optional);
+      return Cutter::vee(diameter, included_angle(), flat);
+    }
+    case Cutter::Kind::tapered_ball: {
+      const Mm ball = tip(Need::required);
+      return Cutter::tapered_ball(diameter, ball, {included_angle().value / 2});
+    }
   }
-  if (tool.kind == ToolShape::Kind::bull_nose) {
-    tool.tip_radius = Mm(reader.number(corner_key, Need::required).value_or(0));
-  }
+  return Cutter::flat_end(diameter);
+}
+
+ToolShape read_tool(TableReader& reader) {
+  ToolShape tool{.cutter = read_cutter(reader)};
   tool.flute_length = Mm(reader.number(flute_key, Need::optional).value_or(0));
   tool.holder_radius = Mm(reader.number(holder_key, Need::optional).value_or(0) / 2);
   const Need from = tool.holder_radius > Mm(0) ? Need::required : Need::optional;

@@ -1,26 +1,12 @@
 #include "passo/report/stock_body.hpp"
 
 #include <algorithm>
-#include <array>
-#include <bit>
-#include <cmath>
-#include <cstring>
-#include <string>
 #include <vector>
+
+#include "triangle_writer.hpp"
 
 namespace passo {
 namespace {
-
-using Corner = std::array<float, 3>;
-
-// Numbers as the file has them, the lowest byte first.
-template <class Number>
-void append(std::string& bytes, Number number) {
-  static_assert(std::endian::native == std::endian::little);
-  char raw[sizeof number];  // NOLINT
-  std::memcpy(raw, &number, sizeof number);
-  bytes.append(raw, sizeof number);
-}
 
 // The corners of the body: those of a coarser or equal grid, with the stock's edges around it.
 class Lattice {
@@ -70,47 +56,6 @@ class Lattice {
   std::vector<std::size_t> rows_;
   std::vector<float> x_;
   std::vector<float> y_;
-};
-
-class TriangleWriter {
- public:
-  // Without a file the triangles are only counted.
-  explicit TriangleWriter(OutputFile* file) : file_(file) {}
-
-  void add(const Corner& a, const Corner& b, const Corner& c) {
-    ++count_;
-    if (file_ == nullptr) return;
-    for (const float part : normal_of(a, b, c)) append(bytes_, part);
-    for (const Corner* corner : {&a, &b, &c}) {
-      for (const float part : *corner) append(bytes_, part);
-    }
-    append(bytes_, std::uint16_t{0});
-    constexpr std::size_t written_at_once = 1 << 16;
-    if (bytes_.size() >= written_at_once) flush();
-  }
-  void square(const Corner& a, const Corner& b, const Corner& c, const Corner& d) {
-    add(a, b, c);
-    add(a, c, d);
-  }
-  void flush() {
-    if (file_ != nullptr) file_->write(bytes_);
-    bytes_.clear();
-  }
-  std::uint64_t count() const { return count_; }
-
- private:
-  static Corner normal_of(const Corner& a, const Corner& b, const Corner& c) {
-    const Corner u = {b[0] - a[0], b[1] - a[1], b[2] - a[2]};
-    const Corner v = {c[0] - a[0], c[1] - a[1], c[2] - a[2]};
-    Corner n = {u[1] * v[2] - u[2] * v[1], u[2] * v[0] - u[0] * v[2], u[0] * v[1] - u[1] * v[0]};
-    const float size = std::sqrt(n[0] * n[0] + n[1] * n[1] + n[2] * n[2]);
-    for (float& part : n) part = size > 0 ? part / size : 0;
-    return n;
-  }
-
-  OutputFile* file_;
-  std::string bytes_;
-  std::uint64_t count_ = 0;
 };
 
 struct LatticePlace {
@@ -163,17 +108,8 @@ std::size_t usual_body_step(const HeightField& field) {
 
 std::uint64_t write_stock_body(const HeightField& field, std::size_t step, OutputFile& file) {
   const Lattice lattice(field, std::max<std::size_t>(1, step));
-  TriangleWriter counter(nullptr);
-  write_body(lattice, counter);
-  constexpr std::size_t head_size = 80;
-  std::string head = "passo simulate: the stock after the cut, mm";
-  head.resize(head_size, ' ');
-  append(head, static_cast<std::uint32_t>(counter.count()));
-  file.write(head);
-  TriangleWriter writer(&file);
-  write_body(lattice, writer);
-  writer.flush();
-  return counter.count();
+  return write_triangles("passo simulate: the stock after the cut, mm", file,
+                         [&](TriangleWriter& out) { write_body(lattice, out); });
 }
 
 }  // namespace passo

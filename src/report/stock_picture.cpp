@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "axis_ticks.hpp"
+#include "face_view.hpp"
 #include "sheet.hpp"
 #include "stock_shading.hpp"
 #include <fmt/format.h>
@@ -14,34 +14,6 @@ namespace {
 using namespace sheet;
 
 const Pen edge{.colour = {0.62, 0.64, 0.67}, .width = 1};
-const Font heading{.size = 14, .colour = {0.48, 0.50, 0.54}};
-
-// The largest area of the field's shape within `room`, at its upper left.
-Area fitted(const HeightField& field, const Area& room) {
-  const double shape = static_cast<double>(field.columns()) / static_cast<double>(field.rows());
-  const double width = std::min(room.width, room.height * shape);
-  return {room.x, room.y, std::max(1.0, std::floor(width)), std::max(1.0, std::floor(width / shape))};
-}
-
-void draw_scales(Canvas& canvas, const HeightField& field, const Area& area) {
-  const double size_x = static_cast<double>(field.columns()) * field.cell();
-  const double size_y = static_cast<double>(field.rows()) * field.cell();
-  const double pixels = area.width / size_x;
-  const auto room_x = [&](const std::string& text) { return canvas.text_width(text, label) + 24; };
-  for (const Tick& tick : ticks(field.block().low.x, field.block().low.x + size_x, pixels, room_x)) {
-    const double x = area.x + (tick.value - field.block().low.x) * pixels;
-    canvas.line({x, area.bottom()}, {x, area.bottom() + 5}, edge);
-    canvas.text({x, area.bottom() + 16}, tick.label, label, Align::centre);
-  }
-  const auto room_y = [](const std::string&) { return 30.0; };
-  for (const Tick& tick : ticks(field.block().low.y, field.block().low.y + size_y, area.height / size_y, room_y)) {
-    const double y = area.bottom() - (tick.value - field.block().low.y) * area.height / size_y;
-    canvas.line({area.x - 5, y}, {area.x, y}, edge);
-    canvas.text({area.x - 9, y}, tick.label, label, Align::right);
-  }
-  canvas.text({area.x + area.width / 2, area.bottom() + 36}, "X, mm", heading, Align::centre);
-  canvas.text({area.x - 9, area.y - 16}, "Y, mm", heading, Align::right);
-}
 
 // A bar of colours from `low` to `high`, with words at its ends and below.
 template <class ColourAt>
@@ -107,11 +79,14 @@ Status<OutputError> draw_stock(const StockDrawing& drawing, const PictureOptions
   const double height = options.height;
   const int scale = options.format == PictureFormat::png ? options.pixels_per_unit : 2;
 
-  const Area above = fitted(drawing.field, {margin + 48, upper, width * 0.52 - margin, height - upper - lower});
+  const FaceExtent face{drawing.field.block().low.x, drawing.field.block().low.y,
+                        static_cast<double>(drawing.field.columns()) * drawing.field.cell(),
+                        static_cast<double>(drawing.field.rows()) * drawing.field.cell()};
+  const Area above = fitted(face, {margin + 48, upper, width * 0.52 - margin, height - upper - lower});
   canvas.image(above,
                shading.from_above(static_cast<int>(above.width) * scale, static_cast<int>(above.height) * scale));
   canvas.frame(above, edge);
-  draw_scales(canvas, drawing.field, above);
+  draw_scales(canvas, face, above);
 
   const double left = above.right() + 48;
   const Area body{std::floor(left), upper, std::floor(width - margin - left), height - upper - lower - 70};

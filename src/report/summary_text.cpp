@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include "passo/base/counted.hpp"
+#include "passo/report/line_words.hpp"
 #include "passo/report/summary.hpp"
 
 namespace passo {
@@ -120,9 +121,12 @@ class Text {
       line("holds", counted(static_cast<std::uint64_t>(board.held_items), "item"),
            fmt::format("  and rested {} for want of more", so_often(board.rests)));
     }
-    if (board.without_line) {
-      line("line", duration(board.cost_of_line()),
-           fmt::format("  longer than without it: {:.2g} %", 100 * (board.cost_of_line() / *board.without_line)));
+    if (!board.without_line) return;
+    const Seconds cost = board.cost_of_line();
+    if (cost < least_cost_of_line) {
+      line("line", "none", "  no longer than without it");
+    } else {
+      line("line", duration(cost), "  longer than without it: " + percent_of(cost, *board.without_line));
     }
   }
 
@@ -249,6 +253,11 @@ class Text {
 };
 
 }  // namespace
+
+std::string percent_of(Seconds part, Seconds whole) {
+  const double percent = whole > Seconds(0) ? 100 * (part / whole) : 0;
+  return percent < 0.1 ? "under 0.1 %" : fmt::format("{:.1f} %", percent);
+}
 
 std::string name_of_system(std::uint8_t system) {
   constexpr int first = 53;

@@ -31,14 +31,14 @@ void CutSummary::add(const MoveCut& cut) {
 
 void CutSummary::add_to_stretch(const MoveCut& cut) {
   const ToolShape& tool = tools_[cut.move.tool];
-  if (cut.way >= tool.radius.value()) stretch_ = {};
+  if (cut.way >= tool.cutter.radius.value()) stretch_ = {};
   stretch_.way += cut.way;
   stretch_.way_level += cut.way_level;
   stretch_.time += cut.move.time.value();
   stretch_.volume += cut.volume;
   stretch_.area += cut.area;
   raise(stretch_.most, cut.volume, cut.move.line);
-  if (stretch_.way < tool.radius.value()) return;
+  if (stretch_.way < tool.cutter.radius.value()) return;
   judge(stretch_, tool);
   stretch_ = {};
 }
@@ -48,7 +48,7 @@ void CutSummary::judge(const Stretch& stretch, const ToolShape& tool) {
   // A plunge has no width.
   if (stretch.way_level < 0.5 * stretch.way) return;
   const double width = stretch.area / stretch.way_level;
-  raise(engagement_, std::min(1.0, width / (2 * tool.radius.value())), stretch.most.line);
+  raise(engagement_, std::min(1.0, width / (2 * tool.cutter.radius.value())), stretch.most.line);
 }
 
 void CutSummary::find_troubles(const MoveCut& cut) {

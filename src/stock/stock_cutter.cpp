@@ -71,9 +71,9 @@ struct TileWork {
   std::vector<std::uint32_t> chords;  // of the batch
 };
 
-// A cylinder in place of the tool, for its holder.
-ToolShape holder_of(const ToolShape& tool) {
-  return {.kind = ToolShape::Kind::flat, .radius = tool.holder_radius};
+// A cylinder in place of the cutter, for the holder.
+Cutter holder_of(const ToolShape& tool) {
+  return Cutter::flat_end(tool.holder_radius * 2);
 }
 
 Sweep raised(const Sweep& sweep, Mm height) {
@@ -213,7 +213,8 @@ std::size_t StockCutter::Implementation::sort_into_tiles(std::size_t first) {
     const double lowest = sweep.low.z - block.high.z;
     if (lowest >= 0) continue;
     const bool holder_is_low = tool.holder_radius > Mm(0) && lowest + tool.holder_from.value() < 0;
-    const double reach = (holder_is_low ? std::max(tool.radius, tool.holder_radius) : tool.radius).value();
+    const Mm radius = tool.cutter.radius;
+    const double reach = (holder_is_low ? std::max(radius, tool.holder_radius) : radius).value();
     const auto [left, right] = std::minmax(sweep.high.x, sweep.low.x);
     const auto [lower, upper] = std::minmax(sweep.high.y, sweep.low.y);
     const TileRange across = tiles_along(left - reach, right + reach, block.low.x, field_.cell(), tiles_across_);
@@ -238,8 +239,9 @@ void StockCutter::Implementation::cut_one(TileWork& work, std::vector<MoveTally>
     MoveTally& tally = tallies[chord.move];
     const StockMove& move = moves_[chord.move].move;
     const double thinner = move.rapid ? rapid_share * field_.cell() + move.rounding.value() : 0;
-    const double rim = std::max(0.5 * tool.radius.value(), tool.radius.value() - thinner);
-    const TileCut cut = cut_tile(field_, work.tile, chord.sweep, tool, rim);
+    const double radius = tool.cutter.radius.value();
+    const double rim = std::max(0.5 * radius, radius - thinner);
+    const TileCut cut = cut_tile(field_, work.tile, chord.sweep, tool.cutter, rim);
     if (cut.cells > 0) {
       tally.volume += std::llround(cut.drop * volume_units);
       tally.cells += cut.cells;
@@ -266,7 +268,7 @@ void StockCutter::Implementation::cut_tiles(std::atomic<std::size_t>& next, std:
 
 void StockCutter::Implementation::look_at_clamps(const SweptChord& chord, MoveCut& cut) const {
   const ToolShape& tool = tool_of(chord);
-  const auto look = [&](const Clamp& clamp, const Sweep& sweep, const ToolShape& shape) {
+  const auto look = [&](const Clamp& clamp, const Sweep& sweep, const Cutter& shape) {
     if (sweep.low.z >= clamp.field.top()) return;
     for (const Tile& tile : clamp.tiles) {
       if (!comes_near(sweep, clamp.field, tile, shape.radius.value())) continue;
@@ -277,7 +279,7 @@ void StockCutter::Implementation::look_at_clamps(const SweptChord& chord, MoveCu
     }
   };
   for (const Clamp& clamp : clamps_) {
-    look(clamp, chord.sweep, tool);
+    look(clamp, chord.sweep, tool.cutter);
     if (tool.holder_radius > Mm(0)) look(clamp, raised(chord.sweep, tool.holder_from), holder_of(tool));
   }
 }

@@ -16,7 +16,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "passo/geometry/tool_shape.hpp"
+#include "passo/geometry/cutter.hpp"
 
 namespace passo {
 
@@ -165,20 +165,20 @@ struct RingProfile {
   }
 };
 
-// Calls `use` with the profile of the tool. `slope`: how far the way goes down for each millimetre of its length in X
+// Calls `use` with the profile of the cutter. `slope`: how far the way goes down for each millimetre of its length in X
 // Y.
 template <class Use>
-void with_profile(const ToolShape& tool, float slope, Use&& use) {
+void with_profile(const Cutter& cutter, float slope, Use&& use) {
   const auto number = [](Mm length) { return static_cast<float>(length.value()); };
-  const float rim = number(tool.radius);
-  const auto rise = static_cast<float>(tool.steepness());
-  switch (tool.kind) {
-    case ToolShape::Kind::flat: return use(FlatProfile(rim, slope));
-    case ToolShape::Kind::ball: return use(BallProfile(rim, slope));
-    case ToolShape::Kind::v: return use(ConeProfile(number(tool.tip_radius), rim, rise, slope));
-    case ToolShape::Kind::bull_nose: return use(RingProfile(number(tool.tip_radius), rim, slope));
-    case ToolShape::Kind::tapered_ball:
-      return use(TaperedProfile(number(tool.tip_radius), number(tool.tangent_radius()), rim, rise, slope));
+  const auto rise = [&] { return static_cast<float>(cutter.steepness()); };
+  const float rim = number(cutter.radius);
+  switch (cutter.kind()) {
+    case Cutter::Kind::flat: return use(FlatProfile(rim, slope));
+    case Cutter::Kind::ball: return use(BallProfile(rim, slope));
+    case Cutter::Kind::v: return use(ConeProfile(number(cutter.flat), rim, rise(), slope));
+    case Cutter::Kind::bull_nose: return use(RingProfile(number(cutter.corner), rim, slope));
+    case Cutter::Kind::tapered_ball:
+      return use(TaperedProfile(number(cutter.corner), number(cutter.arc_end()), rim, rise(), slope));
   }
 }
 

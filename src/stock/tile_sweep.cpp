@@ -184,7 +184,7 @@ class DropCount {
 };
 
 template <bool cuts, class Field>
-TileCut sweep_tile(Field& field, const Tile& tile, const Sweep& sweep, const ToolShape& tool, double rim) {
+TileCut sweep_tile(Field& field, const Tile& tile, const Sweep& sweep, const Cutter& cutter, double rim) {
   const LocalSweep local = local_sweep(field, tile, sweep, rim);
   const double cell = field.cell();
   const auto floor = static_cast<float>(field.bottom() - field.top());
@@ -195,7 +195,7 @@ TileCut sweep_tile(Field& field, const Tile& tile, const Sweep& sweep, const Too
   TileCut cut;
   DropCount count;
   RowDrops drops;
-  with_profile(tool, local.slope, [&](const auto& profile) {
+  with_profile(cutter, local.slope, [&](const auto& profile) {
     for (std::size_t row = first_row; static_cast<double>(row) <= last_row; ++row) {
       const double y = static_cast<double>(row) * cell;
       const auto [first, end] = columns_of(local, y, cell, tile.columns);
@@ -221,12 +221,12 @@ Sweep sweep_between(const Vector3& a, const Vector3& b) {
   return a.z >= b.z ? Sweep{a, b} : Sweep{b, a};
 }
 
-TileCut cut_tile(HeightField& field, const Tile& tile, const Sweep& sweep, const ToolShape& tool, double rim) {
-  return sweep_tile<true>(field, tile, sweep, tool, rim);
+TileCut cut_tile(HeightField& field, const Tile& tile, const Sweep& sweep, const Cutter& cutter, double rim) {
+  return sweep_tile<true>(field, tile, sweep, cutter, rim);
 }
 
-TileCut probe_tile(const HeightField& field, const Tile& tile, const Sweep& sweep, const ToolShape& tool, double rim) {
-  return sweep_tile<false>(field, tile, sweep, tool, rim);
+TileCut probe_tile(const HeightField& field, const Tile& tile, const Sweep& sweep, const Cutter& cutter, double rim) {
+  return sweep_tile<false>(field, tile, sweep, cutter, rim);
 }
 
 }  // namespace passo

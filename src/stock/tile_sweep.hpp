@@ -4,7 +4,7 @@
 #include <cstddef>
 #include <cstdint>
 
-#include "passo/geometry/tool_shape.hpp"
+#include "passo/geometry/cutter.hpp"
 #include "passo/geometry/vector3.hpp"
 #include "passo/stock/height_field.hpp"
 
@@ -37,8 +37,8 @@ struct TileCut {
 };
 
 // Cuts the field. `rim`: the radius within which the tool takes material, its own or a little less.
-TileCut cut_tile(HeightField& field, const Tile& tile, const Sweep& sweep, const ToolShape& tool, double rim);
+TileCut cut_tile(HeightField& field, const Tile& tile, const Sweep& sweep, const Cutter& cutter, double rim);
 // How deep the tool would be in the field; the field stays as it is.
-TileCut probe_tile(const HeightField& field, const Tile& tile, const Sweep& sweep, const ToolShape& tool, double rim);
+TileCut probe_tile(const HeightField& field, const Tile& tile, const Sweep& sweep, const Cutter& cutter, double rim);
 
 }  // namespace passo

@@ -46,6 +46,14 @@ Surface read_surface(const std::string& name, std::string_view bytes, Diagnostic
   return {};
 }
 
+std::vector<SurfaceTriangle> read_triangles(const std::string& path, Diagnostics& diagnostics) {
+  const auto bytes = read_bytes(path, {.area = "surface", .expected = "an STL file"}, diagnostics);
+  if (!bytes) return {};
+  if (looks_like_body(*bytes)) return read_stl(path, *bytes, diagnostics);
+  diagnostics.add(of_file("surface.unknown-kind", path, "this is no STL file", "a body in STL, text or binary"));
+  return {};
+}
+
 Surface read_surface(const std::string& path, Diagnostics& diagnostics) {
   const auto bytes = read_bytes(path, {.area = "surface", .expected = "an STL file or a height map"}, diagnostics);
   if (!bytes) return {};

@@ -115,6 +115,22 @@ TEST(BoardFileKinds, attributes_tell_what_a_file_is_for) {
   EXPECT_EQ(words_for(kind_by_function("")), "unknown");
 }
 
+TEST(BoardFileKinds, words_tell_the_kind_again) {
+  for (const char* const words :
+       {"top copper", "bottom copper", "inner copper", "outline", "drill", "top mask", "bottom print", "drawing"}) {
+    ASSERT_TRUE(kind_of_words(words)) << words;
+    EXPECT_EQ(words_for(*kind_of_words(words)), words);
+  }
+  EXPECT_EQ(kind_of_words("nothing")->role, BoardRole::unknown);
+  for (const char* const words : {"copper", "unknown", "", "Top Copper"}) EXPECT_FALSE(kind_of_words(words)) << words;
+}
+
+TEST(BoardFileKinds, a_short_name_has_neither_folder_nor_archive) {
+  EXPECT_EQ(short_name({.name = "job.zip: gerbers/b.gbr"}), "b.gbr");
+  EXPECT_EQ(short_name({.name = "job.zip: b.gbr"}), "b.gbr");
+  EXPECT_EQ(short_name({.name = "/a/b.gbr"}), "b.gbr");
+}
+
 TEST_F(BoardJobFiles, a_folder_is_read_in_the_order_of_layers) {
   write("b.GBL", small_gerber);
   write("b.GTL", small_gerber);

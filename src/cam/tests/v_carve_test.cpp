@@ -178,5 +178,33 @@ TEST(VCarve, a_plug_fits_the_pocket_of_the_same_lines) {
   EXPECT_THAT(render(findings, false), testing::HasSubstr("[engrave.narrow-cutter]"));
 }
 
+TEST(VCarve, in_layers_takes_no_more_than_a_step_and_leaves_nothing) {
+  std::mt19937_64 random(23);
+  for (int trial = 0; trial < 4; ++trial) {
+    const PathPoints points = test::random_star(
+        {.corners = 4 + trial, .nearest = 3, .farthest = 8, .bulge = trial % 2 == 0 ? 0 : 0.3}, random);
+    const Region area = enclosed_by({points, {corner(0.7, 0, 1), corner(-0.7, 0, 1)}});
+    VCarveOptions options{.angle_degrees = 60, .widest = to_nanometres(Mm(20)), .step = to_nanometres(Mm(0.7))};
+    if (trial == 3) options.deepest = to_nanometres(Mm(-2));
+    const Carved result = carved(area, options);
+    const double deepest = -to_mm(result.plan.deepest).value();
+    EXPECT_EQ(result.plan.layers, static_cast<std::size_t>(std::ceil(deepest / 0.7)));
+    double before = 0;  // of the runs so far
+    for (const MillRun& run : result.plan.mill.tools.at(0).runs) {
+      double least = 100;
+      double most = 0;
+      for (const MillPoint& point : run) {
+        least = std::min(least, -to_mm(point.z).value());
+        most = std::max(most, -to_mm(point.z).value());
+      }
+      // A run lies within its layer, and layers come one after another.
+      EXPECT_LE(most - least, 0.7 + 1e-6);
+      EXPECT_LE(most, before + 0.7 + 1e-6);
+      before = std::max(before, most);
+    }
+    expect_carved(area, result.plan, std::tan(M_PI / 6), 0, 0);
+  }
+}
+
 }  // namespace
 }  // namespace passo

@@ -5,7 +5,7 @@
 #include <random>
 #include <string>
 
-#include "gouge_oracle.hpp"
+#include "carved_moves.hpp"
 #include "kit/seed.hpp"
 #include <gmock/gmock.h>
 
@@ -16,125 +16,19 @@ using namespace test;
 using testing::HasSubstr;
 using testing::Not;
 
-struct ReadMove {
-  bool is_rapid = false;
-  double from[3] = {};
-  double to[3] = {};
-  std::size_t tool = 0;  // how many tools were changed before
-};
-
-std::vector<ReadMove> moves_of(const std::string& program) {
-  std::vector<ReadMove> moves;
-  double at[3] = {0, 0, 1000};
-  bool is_rapid = true;
-  bool knows_x = false;
-  std::size_t tool = 0;
-  std::size_t begin = 0;
-  while (begin < program.size()) {
-    const std::size_t end = program.find('\n', begin);
-    const std::string line = program.substr(begin, end - begin);
-    begin = end + 1;
-    if (line.find("M6") != std::string::npos) ++tool;
-    if (line.empty() || line[0] == '(' || line[0] == 'M' || line[0] == 'T' || line.starts_with("G17") ||
-        line.starts_with("G4")) {
-      continue;
-    }
-    ReadMove move{.tool = tool};
-    std::copy_n(at, 3, move.from);
-    for (std::size_t i = 0; i < line.size();) {
-      const char letter = line[i];
-      std::size_t used = 0;
-      const double value = std::stod(line.substr(i + 1), &used);
-      if (letter == 'G') is_rapid = value == 0;
-      if (letter == 'X' || letter == 'Y' || letter == 'Z') at[letter - 'X'] = value;
-      if (letter == 'X') knows_x = true;
-      i += 1 + used;
-      while (i < line.size() && line[i] == ' ') ++i;
-    }
-    move.is_rapid = is_rapid;
-    std::copy_n(at, 3, move.to);
-    if (knows_x) moves.push_back(move);
-  }
-  return moves;
-}
-
-struct Written {
-  std::string text;
-  ReliefReport report;
-};
-Written written(const HeightGrid& grid, const ReliefProgramOptions& options, bool wants_carved = false) {
-  Written program;
-  program.report = write_relief(
-      grid, options, [&](std::string_view text) { program.text += text; }, [](double) {}, wants_carved);
-  return program;
-}
-
-const OracleCutter& oracle_of(const char* text) {
-  for (const OracleCutter& cutter : oracle_cutters()) {
-    if (std::string(cutter.text) == text) return cutter;
-  }
-  return oracle_cutters().front();
-}
-
-// `every`: of the places along the moves, one in so many is checked.
-void expect_no_gouge(const HeightGrid& grid, const std::string& program, const std::vector<OracleCutter>& tools,
-                     int every) {
-  int places = 0;
-  for (const ReadMove& move : moves_of(program)) {
-    const OracleCutter& cutter = tools[tools.size() > 1 ? move.tool - 1 : 0];
-    const double length = std::hypot(move.to[0] - move.from[0], move.to[1] - move.from[1]);
-    const int parts = std::max(1, static_cast<int>(length / 0.07));
-    for (int i = 0; i <= parts; ++i) {
-      if (++places % every != 0 && !move.is_rapid) continue;
-      const double share = static_cast<double>(i) / parts;
-      const auto at = [&](int axis) { return move.from[axis] + (move.to[axis] - move.from[axis]) * share; };
-      ASSERT_GE(at(2), least_tip(grid, cutter, at(0), at(1), 3) - 1.5e-4)
-          << cutter.text << " at X" << at(0) << " Y" << at(1) << (move.is_rapid ? ", a rapid" : "");
-    }
-  }
-  EXPECT_GT(places, 1000);
-}
-
-ReliefProgramOptions options_of(const char* cutter) {
-  ReliefProgramOptions options;
-  options.finish.cutter = *parse_cutter(cutter);
-  options.finish.step_over = Mm(0.6);
-  options.tolerance = Mm(0.02);
-  return options;
-}
-
 TEST(ReliefProgram, never_cuts_into_a_random_surface) {
   std::mt19937_64 random(seed());
-  const FinishWay ways[] = {FinishWay::rows, FinishWay::columns, FinishWay::both, FinishWay::spiral};
+  const FinishWay ways[] = {FinishWay::contours, FinishWay::rows, FinishWay::columns, FinishWay::both,
+                            FinishWay::spiral};
   std::size_t i = 0;
   for (const OracleCutter& cutter : oracle_cutters()) {
     const HeightGrid grid = random_surface(random, 40, 30, Mm(0.2), Mm(0.25));
     ReliefProgramOptions options = options_of(cutter.text);
-    options.way = ways[i % 4];
+    options.way = ways[i % 5];
     options.ramps = i % 2 == 0;
     ++i;
     expect_no_gouge(grid, written(grid, options).text, {cutter}, 3);
   }
-}
-
-HeightGrid hills(std::size_t columns, std::size_t rows, double pitch, double high = 1.5) {
-  HeightGrid grid{.columns = columns, .rows = rows, .pitch_x = Mm(pitch), .pitch_y = Mm(pitch)};
-  for (std::size_t y = 0; y < rows; ++y) {
-    for (std::size_t x = 0; x < columns; ++x) {
-      const double u = static_cast<double>(x) * pitch;
-      const double v = static_cast<double>(y) * pitch;
-      grid.heights.push_back(grid_height(Mm(-2.5 + high * std::sin(u * 1.3) * std::cos(v * 1.1) + (u > 5 ? 1 : 0))));
-    }
-  }
-  return grid;
-}
-
-ReliefProgramOptions three_tools() {
-  ReliefProgramOptions options = options_of("ball:3");
-  options.roughing =
-      ReliefRoughing{.tool = {.cutter = *parse_cutter("flat:2.3")}, .step_down = Mm(1), .stock = Mm(0.2)};
-  options.rest = ReliefRest{.tool = {.cutter = *parse_cutter("taper:1:10:3")}};
-  return options;
 }
 
 TEST(ReliefProgram, with_three_tools_never_cuts_into_the_surface) {
@@ -145,55 +39,6 @@ TEST(ReliefProgram, with_three_tools_never_cuts_into_the_surface) {
   ASSERT_EQ(program.report.parts.size(), 3U);
   for (const ReliefPart& part : program.report.parts) EXPECT_GT(part.moves, 10U) << part.what;
 }
-
-// The stock as heights at fine places, cut by each place of the tool.
-class OracleStock {
- public:
-  OracleStock(double width, double length) : columns_(places(width)), rows_(places(length)) {
-    heights_.assign(columns_ * rows_, 0);
-  }
-
-  // How deep the cutter is in the stock. `share`: of its radius, what counts.
-  double depth_of(const OracleCutter& cutter, double x, double y, double z, double share = 1) const {
-    double deepest = 0;
-    const OracleCutter inner{cutter.text, cutter.radius * share, cutter.height};
-    each(inner, x, y, [&](std::size_t i, double height) { deepest = std::max(deepest, heights_[i] - z - height); });
-    return deepest;
-  }
-  void cut(const OracleCutter& cutter, double x, double y, double z) {
-    each(cutter, x, y, [&](std::size_t i, double height) { heights_[i] = std::min(heights_[i], z + height); });
-  }
-  double at(double x, double y) const {
-    return heights_[static_cast<std::size_t>((y + beyond) / fine) * columns_ +
-                    static_cast<std::size_t>((x + beyond) / fine)];
-  }
-
- private:
-  static constexpr double fine = 0.1;
-  static constexpr double beyond = 3.5;
-  static std::size_t places(double size) { return static_cast<std::size_t>((size + 2 * beyond) / fine) + 1; }
-
-  template <class Act>
-  void each(const OracleCutter& cutter, double x, double y, const Act& act) const {
-    const auto first = [&](double at) {
-      return static_cast<std::size_t>(std::max(0.0, (at - cutter.radius + beyond) / fine));
-    };
-    const auto end = [&](double at, std::size_t most) {
-      return std::min(most, static_cast<std::size_t>((at + cutter.radius + beyond) / fine) + 1);
-    };
-    for (std::size_t j = first(y); j < end(y, rows_); ++j) {
-      const double dy = static_cast<double>(j) * fine - beyond - y;
-      for (std::size_t i = first(x); i < end(x, columns_); ++i) {
-        const double away = std::hypot(static_cast<double>(i) * fine - beyond - x, dy);
-        if (away <= cutter.radius) act(j * columns_ + i, cutter.height(away));
-      }
-    }
-  }
-
-  std::size_t columns_;
-  std::size_t rows_;
-  std::vector<double> heights_;
-};
 
 TEST(ReliefProgram, has_no_rapid_through_the_stock_and_leaves_little) {
   const HeightGrid grid = hills(61, 51, 0.1, 0.8);  // its valleys are wider than the smallest tip

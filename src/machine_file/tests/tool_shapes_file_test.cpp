@@ -37,14 +37,14 @@ angle_deg = 12
   EXPECT_EQ(render(diagnostics, false), "");
   ASSERT_TRUE(tools.has_value());
   ASSERT_EQ(tools->size(), 4U);
-  EXPECT_EQ(tools->at(1).radius, Mm(3));
+  EXPECT_EQ(tools->at(1).cutter.radius, Mm(3));
   EXPECT_EQ(tools->at(1).flute_length, Mm(22));
   EXPECT_EQ(tools->at(1).holder_radius, Mm(15));
   EXPECT_EQ(tools->at(1).holder_from, Mm(28));
-  EXPECT_EQ(tools->at(7).kind, ToolShape::Kind::v);
-  EXPECT_NEAR(tools->at(7).half_angle, std::numbers::pi / 6, 1e-12);
-  EXPECT_EQ(tools->at(8).tip_radius, Mm(1));
-  EXPECT_EQ(tools->at(9).tip_radius, Mm(0.5));
+  EXPECT_EQ(tools->at(7).cutter.kind(), Cutter::Kind::v);
+  EXPECT_NEAR(tools->at(7).cutter.half_angle.value, std::numbers::pi / 6, 1e-12);
+  EXPECT_EQ(tools->at(8).cutter.corner, Mm(1));
+  EXPECT_EQ(tools->at(9).cutter.corner, Mm(0.5));
 }
 
 TEST(ToolShapesFile, refuses_what_is_no_tool) {

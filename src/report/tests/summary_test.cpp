@@ -108,6 +108,20 @@ TEST(RunSummary, has_the_json_keys_that_are_promised) {
   EXPECT_EQ(json.at("position_mm").at("Z").get<double>(), -1);
 }
 
+TEST(RunSummary, says_in_plain_words_what_the_line_costs) {
+  RunSummary summary = small_job();
+  const auto line_of = [&](double without) {
+    summary.board->without_line = Seconds(without);
+    const std::string text = to_text(summary, false);
+    const std::size_t from = text.find("\n  line ");
+    return from == std::string::npos ? text : text.substr(from + 3, text.find('\n', from + 1) - from - 3);
+  };
+  EXPECT_EQ(line_of(5.25), "line                    none    no longer than without it");
+  EXPECT_EQ(line_of(5.25 - 1e-9), line_of(5.25));
+  EXPECT_EQ(line_of(5.249), "line                0:00.001    longer than without it: under 0.1 %");
+  EXPECT_EQ(line_of(5), "line                0:00.250    longer than without it: 5.0 %");
+}
+
 TEST(RunSummary, of_a_job_without_motion_and_board_is_still_sound) {
   SummaryBuilder builder({Axis::x, Axis::a});
   RunSummary summary = builder.summary();

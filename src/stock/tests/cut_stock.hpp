@@ -17,10 +17,10 @@ inline Point point_at(double x, double y, double z) {
 }
 
 inline ToolShape flat_tool(double diameter) {
-  return {.kind = ToolShape::Kind::flat, .radius = Mm(diameter / 2)};
+  return {.cutter = Cutter::flat_end(Mm(diameter))};
 }
 inline ToolShape ball_tool(double diameter) {
-  return {.kind = ToolShape::Kind::ball, .radius = Mm(diameter / 2)};
+  return {.cutter = Cutter::ball(Mm(diameter))};
 }
 
 inline HeightField field_of(const StockBlock& block, double cell) {

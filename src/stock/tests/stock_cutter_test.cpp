@@ -137,8 +137,8 @@ Cutting random_cutting(unsigned threads, std::uint64_t seed) {
   std::mt19937_64 random(seed);
   std::uniform_real_distribution<double> x(-2, 42);
   std::uniform_real_distribution<double> z(-9, 3);
-  ToolShape v{.kind = ToolShape::Kind::v, .radius = Mm(3), .tip_radius = Mm(0.1)};
-  ToolShape bull{.kind = ToolShape::Kind::bull_nose, .radius = Mm(2), .tip_radius = Mm(0.5)};
+  const ToolShape v{.cutter = Cutter::vee(Mm(6), {std::numbers::pi / 3}, Mm(0.2))};
+  ToolShape bull{.cutter = Cutter::bull_nose(Mm(4), Mm(0.5))};
   bull.holder_radius = Mm(8);
   bull.holder_from = Mm(5);
   CutBlock stock(

@@ -17,18 +17,19 @@ using test::CutBlock;
 using test::point_at;
 
 // The underside of a tool, written once more: what a cutter is, without the roots that are solved for its sweep.
-double underside(const ToolShape& tool, double d) {
-  const double radius = tool.radius.value();
-  const double tip = tool.tip_radius.value();
+double underside(const Cutter& cutter, double d) {
+  const double radius = cutter.radius.value();
+  const double arc = cutter.corner.value();
+  const double flat = cutter.flat.value();
   const auto ball = [](double r, double away) { return r - std::sqrt(std::max(0.0, r * r - away * away)); };
-  switch (tool.kind) {
-    case ToolShape::Kind::flat: return 0;
-    case ToolShape::Kind::ball: return ball(radius, d);
-    case ToolShape::Kind::v: return d <= tip ? 0 : (d - tip) / std::tan(tool.half_angle);
-    case ToolShape::Kind::bull_nose: return d <= radius - tip ? 0 : ball(tip, d - radius + tip);
-    case ToolShape::Kind::tapered_ball: {
-      const double meets = tip * std::cos(tool.half_angle);
-      return d <= meets ? ball(tip, d) : ball(tip, meets) + (d - meets) / std::tan(tool.half_angle);
+  switch (cutter.kind()) {
+    case Cutter::Kind::flat: return 0;
+    case Cutter::Kind::ball: return ball(radius, d);
+    case Cutter::Kind::v: return d <= flat ? 0 : (d - flat) / std::tan(cutter.half_angle.value);
+    case Cutter::Kind::bull_nose: return d <= radius - arc ? 0 : ball(arc, d - radius + arc);
+    case Cutter::Kind::tapered_ball: {
+      const double meets = arc * std::cos(cutter.half_angle.value);
+      return d <= meets ? ball(arc, d) : ball(arc, meets) + (d - meets) / std::tan(cutter.half_angle.value);
     }
   }
   return 0;
@@ -39,15 +40,15 @@ struct Way {
   Vector3 to;
 };
 
-double at(const ToolShape& tool, const Way& way, double x, double y, double share) {
+double at(const Cutter& cutter, const Way& way, double x, double y, double share) {
   const Vector3 tip = way.from + (way.to - way.from) * share;
   const double d = std::hypot(x - tip.x, y - tip.y);
-  return d > tool.radius.value() ? std::numeric_limits<double>::infinity() : tip.z + underside(tool, d);
+  return d > cutter.radius.value() ? std::numeric_limits<double>::infinity() : tip.z + underside(cutter, d);
 }
 
 // Tries many places of the part of the way from where the tool reaches the place, and then closer and closer ones
 // around the best.
-double lowest(const ToolShape& tool, const Way& way, double x, double y) {
+double lowest(const Cutter& cutter, const Way& way, double x, double y) {
   const double way_x = way.to.x - way.from.x;
   const double way_y = way.to.y - way.from.y;
   const double level = std::hypot(way_x, way_y);
@@ -55,7 +56,7 @@ double lowest(const ToolShape& tool, const Way& way, double x, double y) {
   double to = 1;
   if (level > 0) {
     const double nearest = ((x - way.from.x) * way_x + (y - way.from.y) * way_y) / (level * level);
-    const double around = (tool.radius.value() + 0.01) / level;
+    const double around = (cutter.radius.value() + 0.01) / level;
     from = std::clamp(nearest - around, 0.0, 1.0);
     to = std::clamp(nearest + around, 0.0, 1.0);
   }
@@ -66,7 +67,7 @@ double lowest(const ToolShape& tool, const Way& way, double x, double y) {
     double here = std::numeric_limits<double>::infinity();
     for (int i = 0; i <= places; ++i) {
       const double share = from + (to - from) * i / places;
-      const double z = at(tool, way, x, y, share);
+      const double z = at(cutter, way, x, y, share);
       if (z < here) {
         here = z;
         where = share;
@@ -81,27 +82,30 @@ double lowest(const ToolShape& tool, const Way& way, double x, double y) {
 }
 
 // How far a place is from the edge of what the tool sweeps, seen from above.
-double from_edge(const ToolShape& tool, const Way& way, double x, double y) {
+double from_edge(const Cutter& cutter, const Way& way, double x, double y) {
   const Vector3 place{x, y, 0};
   const Vector3 near = nearest_of({way.from.x, way.from.y, 0}, {way.to.x, way.to.y, 0}, place);
-  return std::abs(length(near - place) - tool.radius.value());
+  return std::abs(length(near - place) - cutter.radius.value());
 }
 
-class SweepOracle : public testing::TestWithParam<ToolShape::Kind> {
+class SweepOracle : public testing::TestWithParam<Cutter::Kind> {
  protected:
   double random(double low, double high) { return std::uniform_real_distribution<double>(low, high)(random_); }
 
-  ToolShape tool() {
-    ToolShape tool{.kind = GetParam(), .radius = Mm(random(0.4, 4))};
-    const double radius = tool.radius.value();
-    tool.half_angle = random(0.1, 1.4);
-    switch (tool.kind) {
-      case ToolShape::Kind::v: tool.tip_radius = Mm(random(0, 1) < 0.3 ? 0 : random(0, 0.8) * radius); break;
-      case ToolShape::Kind::bull_nose: tool.tip_radius = Mm(random(0.05, 0.95) * radius); break;
-      case ToolShape::Kind::tapered_ball: tool.tip_radius = Mm(random(0.1, 0.9) * radius); break;
-      default: break;
+  Cutter cutter() {
+    const double radius = random(0.4, 4);
+    const Mm diameter(2 * radius);
+    const double half_angle = random(0.1, 1.4);
+    switch (GetParam()) {
+      case Cutter::Kind::flat: break;
+      case Cutter::Kind::ball: return Cutter::ball(diameter);
+      case Cutter::Kind::v:
+        return Cutter::vee(diameter, {2 * half_angle}, Mm(random(0, 1) < 0.3 ? 0 : random(0, 1.6) * radius));
+      case Cutter::Kind::bull_nose: return Cutter::bull_nose(diameter, Mm(random(0.05, 0.95) * radius));
+      case Cutter::Kind::tapered_ball:
+        return Cutter::tapered_ball(diameter, Mm(random(0.2, 1.8) * radius), {half_angle});
     }
-    return tool;
+    return Cutter::flat_end(diameter);
   }
 
   Way way() {
@@ -126,12 +130,12 @@ TEST_P(SweepOracle, finds_no_lower_and_no_higher_underside_than_the_closed_form)
   const char* const given = std::getenv("PASSO_RUNS");
   const int runs = given != nullptr ? std::atoi(given) : 12;
   // What docs/manual/simulate.md promises: for round corners, on ways that are next to level, 0.3 um a mm of radius.
-  const double most = GetParam() == ToolShape::Kind::bull_nose ? 1.2e-3 : 5e-4;
+  const double most = GetParam() == Cutter::Kind::bull_nose ? 1.2e-3 : 5e-4;
   double worst = 0;
   for (int i = 0; i < runs; ++i) {
-    const ToolShape cutter = tool();
+    const Cutter used = cutter();
     const Way way_of_tip = way();
-    CutBlock stock(block, cell, {.tools = {cutter}});
+    CutBlock stock(block, cell, {.tools = {{.cutter = used}}});
     const auto place = [](const Vector3& v) { return point_at(v.x, v.y, v.z); };
     stock.line(place(way_of_tip.from), place(way_of_tip.to));
     stock.cutter.finish();
@@ -139,28 +143,27 @@ TEST_P(SweepOracle, finds_no_lower_and_no_higher_underside_than_the_closed_form)
       for (std::size_t column = 0; column < stock.field.columns(); ++column) {
         const double x = stock.field.x_of(column);
         const double y = stock.field.y_of(row);
-        if (from_edge(cutter, way_of_tip, x, y) < 2e-3) continue;
-        const double expected = std::clamp(lowest(cutter, way_of_tip, x, y), -5.0, 0.0);
+        if (from_edge(used, way_of_tip, x, y) < 2e-3) continue;
+        const double expected = std::clamp(lowest(used, way_of_tip, x, y), -5.0, 0.0);
         worst = std::max(worst, std::abs(stock.field.height(column, row) - expected));
         ASSERT_NEAR(stock.field.height(column, row), expected, most)
-            << "move " << i << " at " << x << ", " << y << " radius " << cutter.radius.value() << " tip "
-            << cutter.tip_radius.value() << " angle " << cutter.half_angle << " from " << way_of_tip.from.x << ", "
-            << way_of_tip.from.y << ", " << way_of_tip.from.z << " to " << way_of_tip.to.x << ", " << way_of_tip.to.y
-            << ", " << way_of_tip.to.z;
+            << "move " << i << " at " << x << ", " << y << " " << describe(used) << " from " << way_of_tip.from.x
+            << ", " << way_of_tip.from.y << ", " << way_of_tip.from.z << " to " << way_of_tip.to.x << ", "
+            << way_of_tip.to.y << ", " << way_of_tip.to.z;
       }
     }
   }
   std::printf("worst: %.3f um in %d moves\n", worst * 1000, runs);
 }
 
-std::string name_of_parameter(const testing::TestParamInfo<ToolShape::Kind>& info) {
+std::string name_of_parameter(const testing::TestParamInfo<Cutter::Kind>& info) {
   const std::string name(name_of(info.param));
   return name.substr(0, name.find('-'));
 }
 
 INSTANTIATE_TEST_SUITE_P(Tools, SweepOracle,
-                         testing::Values(ToolShape::Kind::flat, ToolShape::Kind::ball, ToolShape::Kind::v,
-                                         ToolShape::Kind::bull_nose, ToolShape::Kind::tapered_ball),
+                         testing::Values(Cutter::Kind::flat, Cutter::Kind::ball, Cutter::Kind::v,
+                                         Cutter::Kind::bull_nose, Cutter::Kind::tapered_ball),
                          name_of_parameter);
 
 }  // namespace

@@ -20,7 +20,7 @@ using namespace passo;
 
 struct Stock {
   std::optional<HeightField> field;
-  ToolShape tool;
+  Cutter cutter;
   double rim = 0;
   // The rows that have changed since they were asked for: none, if the first is beyond the last.
   std::size_t first = 0;
@@ -58,16 +58,19 @@ bool PASSO_EXPORT(stock_begin)(double x0, double y0, double z0, double x1, doubl
   return true;
 }
 
-// Kinds: 0 flat, 1 ball, 2 V-shaped with `degrees` between its flanks. False: there is no such tool.
-bool PASSO_EXPORT(stock_tool)(int kind, double diameter, double degrees) {
-  ToolShape tool{.kind = kind == 1   ? ToolShape::Kind::ball
-                         : kind == 2 ? ToolShape::Kind::v
-                                     : ToolShape::Kind::flat,
-                 .radius = Mm(diameter / 2),
-                 .half_angle = degrees / 360 * std::numbers::pi};
-  if (!flaw_of(tool).empty()) return false;
-  stock().tool = tool;
-  stock().rim = tool.radius.value();
+// The cutter from now on. Kinds: 0 flat, 1 ball, 2 V-shaped, 3 with round corners, 4 tapered with a ball. `degrees`
+// between the flanks of a cone; `tip`: the diameter of its tip, or the radius of the corners. False: there is no such
+// cutter.
+bool PASSO_EXPORT(stock_tool)(int kind, double diameter, double degrees, double tip) {
+  const double angle = degrees / 180 * std::numbers::pi;
+  const Cutter cutter = kind == 1   ? Cutter::ball(Mm(diameter))
+                        : kind == 2 ? Cutter::vee(Mm(diameter), {angle}, Mm(tip))
+                        : kind == 3 ? Cutter::bull_nose(Mm(diameter), Mm(tip))
+                        : kind == 4 ? Cutter::tapered_ball(Mm(diameter), Mm(tip), {angle / 2})
+                                    : Cutter::flat_end(Mm(diameter));
+  if (!flaw_of(cutter).empty()) return false;
+  stock().cutter = cutter;
+  stock().rim = cutter.radius.value();
   return true;
 }
 
@@ -89,7 +92,7 @@ void PASSO_EXPORT(stock_cut)(double ax, double ay, double az, double bx, double 
                       .row = j * tile_size,
                       .columns = std::min(tile_size, field.columns() - i * tile_size),
                       .rows = std::min(tile_size, field.rows() - j * tile_size)};
-      if (cut_tile(field, tile, sweep, one.tool, one.rim).cells == 0) continue;
+      if (cut_tile(field, tile, sweep, one.cutter, one.rim).cells == 0) continue;
       if (one.first > one.last) {
         one.first = tile.row;
         one.last = tile.row;

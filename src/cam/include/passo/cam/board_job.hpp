@@ -23,11 +23,13 @@ struct BoardFileKind {
   BoardRole role = BoardRole::unknown;
   BoardSide side = BoardSide::both;
   std::uint32_t copper_layer = 0;  // of inner copper, as the file counts; 0: it does not say
-  const char* told_by = "";        // "attribute", "name" or "content"
+  const char* told_by = "";        // "attribute", "name", "content", or "you": the user has said so
 };
 
 // "top copper", "inner copper 2", "outline".
 std::string words_for(const BoardFileKind& kind);
+// The reverse, without a number. "nothing": the file is not used. Empty: there is no such layer.
+std::optional<BoardFileKind> kind_of_words(std::string_view words);
 // By .FileFunction: "Copper,L1,Top". Unknown: it says nothing.
 BoardFileKind kind_by_function(std::string_view function);
 // By the name, without folders.
@@ -40,6 +42,9 @@ struct BoardFile {
   std::optional<Drawing> drills = {};  // of a drill file
 };
 
+// By the name within its folder or archive.
+std::string short_name(const BoardFile& file);
+
 struct BoardJob {
   std::vector<BoardFile> files = {};       // those that were read, by role
   std::vector<std::string> left_out = {};  // names of files that are neither Gerber nor drill files
@@ -47,6 +52,10 @@ struct BoardJob {
 
 // Errors are in `diagnostics`: "board.…" and those of the readers.
 BoardJob read_board_job(const std::vector<std::string>& paths, Diagnostics& diagnostics);
+
+// What the user says of a file, by its name or its short one: this kind counts, and no guess. Returns why not; empty:
+// done.
+std::string tell_kind(BoardJob& job, std::string_view name, std::string_view words);
 
 // The face of the board: what its outline surrounds, without what is cut out inside. Empty: there is no outline, or it
 // is not closed within 0.1 mm.

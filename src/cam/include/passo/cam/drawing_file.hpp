@@ -1,4 +1,5 @@
-// read_drawing: a drawing from a file of any kind that cam/ knows. The kind is told by what is in the file.
+// read_drawing: a drawing from a file of any kind that cam/ knows. The kind is told by what is in the file,
+// which gzip may have compressed (SVGZ).
 #pragma once
 
 #include <cstdint>

@@ -8,6 +8,9 @@
 // once at the full depth, and `floor` tells what stays inside, for a flat cutter. Strokes that are narrower than the
 // cutter's tip are told as `unreached`.
 //
+// With a `step` the cutter goes in layers: so much deeper each time, along the places that are deeper than the layer
+// before. Every place is at last cut at its exact depth.
+//
 // The plug of an inlay is carved around: its lines lie at `start`, so it fits into a pocket that was carved along the
 // same lines at the face. A cutter that is too narrow to be that deep is an error "engrave.narrow-cutter".
 //
@@ -27,6 +30,7 @@ struct VCarveOptions {
   Nanometres tip{};              // width of its tip
   Nanometres widest{6'000'000};  // its diameter
   Nanometres deepest{};          // below `start`, negative; 0: as the cutter's width allows
+  Nanometres step{};             // of a layer, above 0; 0: all at once
   Nanometres start{};            // where the lines lie, below the face, 0 or negative: above, the walls go on
   Nanometres tolerance{2'000};   // of curves, in depth and sideways
   std::string words = {};        // for the operator
@@ -36,7 +40,8 @@ struct VCarveOptions {
 struct VCarvePlan {
   MillPlan mill = {};
   Nanometres deepest = {};  // below 0
-  Region floor = {};        // what stays of areas that are too wide, at the depth `floor_z`
+  std::size_t layers = 1;
+  Region floor = {};  // what stays of areas that are too wide, at the depth `floor_z`
   Nanometres floor_z = {};
   Region unreached = {};  // strokes narrower than the tip
 };

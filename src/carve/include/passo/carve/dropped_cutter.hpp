@@ -18,8 +18,8 @@
 #include <span>
 #include <vector>
 
-#include "passo/carve/cutter.hpp"
 #include "passo/carve/height_grid.hpp"
+#include "passo/geometry/cutter.hpp"
 
 namespace passo {
 

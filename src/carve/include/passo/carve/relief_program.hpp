@@ -17,24 +17,32 @@
 #include <string_view>
 #include <vector>
 
-#include "passo/carve/cutter.hpp"
 #include "passo/carve/dropped_cutter.hpp"
 #include "passo/carve/height_grid.hpp"
+#include "passo/geometry/cutter.hpp"
 
 namespace passo {
 
-// Rows are along X. A spiral goes inwards along the sides of a rectangle.
-enum class FinishWay : std::uint8_t { rows, columns, both, spiral };
+// Rows are along X. A spiral goes inwards along the sides of a rectangle. Contours are at constant heights where the
+// way is steeper than `steep`, and rows on the rest.
+enum class FinishWay : std::uint8_t { rows, columns, both, spiral, contours };
+// In rows, or by offsets of what a level takes off, from within outwards.
+enum class RoughWay : std::uint8_t { rows, offsets };
 
 struct ReliefTool {
   Cutter cutter = {};
   Mm step_over{0};  // 0: as `scallop` asks
   Mm feed{1000};    // a minute
   Mm plunge{300};   // the most that the tip goes down, a minute
+  // What it takes off a minute, mm3: the feed falls to a tenth where it would be more, and rises to `fastest` where it
+  // is less. 0: the feed knows nothing of it.
+  double removal = 0;
+  Mm fastest{0};  // a minute; 0: as `feed`
 };
 
 struct ReliefRoughing {
   ReliefTool tool = {};
+  RoughWay way = RoughWay::rows;
   Mm step_down{2};
   Mm stock{0.3};  // what it leaves, each way
 };
@@ -49,6 +57,8 @@ struct ReliefProgramOptions {
   std::vector<std::string> words = {};  // more comments
   ReliefTool finish = {};
   FinishWay way = FinishWay::rows;
+  Radians steep{0.785398};  // of contours: 45 degrees
+  bool arcs = true;         // arcs where they save lines
   std::optional<ReliefRoughing> roughing = {};
   std::optional<ReliefRest> rest = {};
   Mm scallop{0.02};                           // the ridges between two rows on a flat, where no step is given
@@ -71,8 +81,10 @@ struct ReliefPart {
   std::string tool = {};  // its description
   Mm step{};              // between rows
   std::uint64_t moves = 0;
-  Mm cut{};  // way in work
+  std::uint64_t arcs = 0;  // of these
+  Mm cut{};                // way in work
   Mm rapid{};
+  double removal = 0;  // the most that was taken off a minute, mm3, where it is held
   double minutes = 0;  // of the work at the feeds given; rapids and ramps of speed not counted
 };
 

@@ -11,6 +11,7 @@
 #include <cstddef>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "passo/diagnostics/diagnostic.hpp"
 #include "passo/surface/surface.hpp"
@@ -25,6 +26,9 @@ Surface read_surface(const std::string& path, Diagnostics& diagnostics);
 
 // The same, of a file that was read.
 Surface read_surface(const std::string& name, std::string_view bytes, Diagnostics& diagnostics);
+
+// The triangles of a body (STL). Errors are in `diagnostics`; another kind of file is one.
+std::vector<SurfaceTriangle> read_triangles(const std::string& path, Diagnostics& diagnostics);
 
 // Whether the bytes are those of a body (STL), not of a height map.
 bool looks_like_body(std::string_view bytes);

@@ -1,4 +1,4 @@
-#include "passo/carve/cutter.hpp"
+#include "passo/geometry/cutter.hpp"
 
 #include <cmath>
 #include <string>
@@ -57,9 +57,34 @@ TEST(Cutter, keeps_ridges_as_low_as_wanted) {
   EXPECT_NEAR(cutter_of("bull:6:1").step_for_scallop(Mm(0.02)).value(), 4 + 2 * std::sqrt(0.04 - 0.0004), 1e-12);
 }
 
+TEST(Cutter, knows_which_of_the_five_it_is) {
+  for (const auto& [text, kind] : {std::pair("ball:3", Cutter::Kind::ball),
+                                   {"flat:6", Cutter::Kind::flat},
+                                   {"bull:6:1", Cutter::Kind::bull_nose},
+                                   {"bull:6:3", Cutter::Kind::ball},
+                                   {"bull:6:0", Cutter::Kind::flat},
+                                   {"vee:60:6", Cutter::Kind::v},
+                                   {"vee:90:6:1", Cutter::Kind::v},
+                                   {"taper:1:5:6", Cutter::Kind::tapered_ball}}) {
+    EXPECT_EQ(cutter_of(text).kind(), kind) << text;
+    EXPECT_EQ(cutter_kind_of(name_of(kind)), kind) << text;
+  }
+  EXPECT_EQ(cutter_kind_of("drill"), std::nullopt);
+}
+
+// The corner's end may round to a hair inside of the radius: beyond the end there is a cone only if there is an angle.
+TEST(Cutter, is_finite_up_to_its_radius) {
+  for (double corner = 0.013; corner < 1.4; corner += 0.0171) {
+    const Cutter bull = Cutter::bull_nose(Mm(3), Mm(corner)).grown(Mm(0.1));
+    EXPECT_LE(bull.height(bull.radius).value(), corner + 0.1 + 1e-9) << corner;
+    EXPECT_LE(bull.slope(bull.radius), 20.001) << corner;
+  }
+}
+
 TEST(Cutter, that_is_none_is_refused_with_what_was_expected) {
-  for (const char* text : {"", "ball", "ball:", "ball:0", "ball:-1", "ball:nan", "ball:3:1", "flat:300", "bull:6:4",
-                           "vee:60", "vee:0:6", "vee:180:6", "vee:60:6:7", "taper:7:5:6", "taper:1:90:6", "drill:3"}) {
+  for (const char* text :
+       {"", "ball", "ball:", "ball:0", "ball:-1", "ball:nan", "ball:3:1", "flat:600", "vee:60:6:6", "bull:6:4",
+        "vee:60", "vee:0:6", "vee:180:6", "vee:60:6:7", "taper:7:5:6", "taper:1:90:6", "drill:3"}) {
     const Result<Cutter, std::string> cutter = parse_cutter(text);
     ASSERT_FALSE(cutter) << text;
     EXPECT_THAT(cutter.error(), HasSubstr("expected")) << text;

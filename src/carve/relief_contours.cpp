@@ -1,0 +1,180 @@
+// Finishing by contours: at constant heights where the way of the tip is steep, in rows where it is not.
+//
+// On a slope of the angle `steep` both are as far apart along the slope, so ridges are as high on both sides of it.
+#include <algorithm>
+#include <cmath>
+
+#include "relief_passes.hpp"
+
+#include "passo/carve/relief_surface.hpp"
+
+namespace passo {
+namespace {
+
+// A yes or no for each node of a map.
+class NodeMask {
+ public:
+  explicit NodeMask(const TipMap& map) : map_(map), marks_(map.columns * map.rows, 0) {}
+
+  // Nodes by their places in the map: margins counted.
+  char& mark(std::size_t column, std::size_t row) { return marks_[row * map_.columns + column]; }
+  bool at(std::ptrdiff_t column, std::ptrdiff_t row) const {
+    return marks_[static_cast<std::size_t>(row + map_.margin_y) * map_.columns +
+                  static_cast<std::size_t>(column + map_.margin_x)] != 0;
+  }
+  bool near(const FlatPlace& place, const TipSurface& surface) const {
+    const auto node = [](double at, double pitch, std::ptrdiff_t margin, std::size_t count) {
+      const auto nearest = static_cast<std::ptrdiff_t>(std::lround(at / pitch));
+      return std::clamp<std::ptrdiff_t>(nearest, -margin, static_cast<std::ptrdiff_t>(count) - 1 - margin);
+    };
+    return at(node(place.x, surface.pitch_x(), map_.margin_x, map_.columns),
+              node(place.y, surface.pitch_y(), map_.margin_y, map_.rows));
+  }
+  void invert() {
+    for (char& mark : marks_) mark = mark == 0 ? 1 : 0;
+  }
+  // So many nodes more each way.
+  void widen(std::ptrdiff_t columns, std::ptrdiff_t rows) {
+    for (std::size_t row = 0; row < map_.rows; ++row) widen_line(row * map_.columns, 1, map_.columns, columns);
+    for (std::size_t column = 0; column < map_.columns; ++column) widen_line(column, map_.columns, map_.rows, rows);
+  }
+
+ private:
+  void widen_line(std::size_t first, std::size_t apart, std::size_t count, std::ptrdiff_t nodes) {
+    std::ptrdiff_t last = -nodes - 1;  // the last mark before
+    std::vector<char>& line = line_;
+    line.assign(count, 0);
+    for (std::size_t i = 0; i < count; ++i) {
+      if (marks_[first + i * apart] != 0) last = static_cast<std::ptrdiff_t>(i);
+      if (static_cast<std::ptrdiff_t>(i) - last <= nodes) line[i] = 1;
+    }
+    last = static_cast<std::ptrdiff_t>(count) + nodes;
+    for (std::size_t i = count; i-- > 0;) {
+      if (marks_[first + i * apart] != 0) last = static_cast<std::ptrdiff_t>(i);
+      if (last - static_cast<std::ptrdiff_t>(i) <= nodes) line[i] = 1;
+    }
+    for (std::size_t i = 0; i < count; ++i) marks_[first + i * apart] = line[i];
+  }
+
+  const TipMap& map_;
+  std::vector<char> marks_;
+  std::vector<char> line_;
+};
+
+// The nodes from which the map goes up or down steeply.
+NodeMask steep_nodes(const TipMap& map, const HeightGrid& surface, Radians steep) {
+  NodeMask mask(map);
+  const double least = std::tan(steep.value) * std::tan(steep.value);
+  const auto slope = [&](std::size_t a, std::size_t b, Mm pitch) {
+    return (static_cast<double>(map.heights[b]) - static_cast<double>(map.heights[a])) / pitch.value();
+  };
+  for (std::size_t row = 0; row < map.rows; ++row) {
+    for (std::size_t column = 0; column < map.columns; ++column) {
+      const std::size_t i = row * map.columns + column;
+      double across = 0;
+      double up = 0;
+      if (column > 0) across = std::max(across, std::abs(slope(i - 1, i, surface.pitch_x)));
+      if (column + 1 < map.columns) across = std::max(across, std::abs(slope(i, i + 1, surface.pitch_x)));
+      if (row > 0) up = std::max(up, std::abs(slope(i - map.columns, i, surface.pitch_y)));
+      if (row + 1 < map.rows) up = std::max(up, std::abs(slope(i, i + map.columns, surface.pitch_y)));
+      mask.mark(column, row) = across * across + up * up >= least ? 1 : 0;
+    }
+  }
+  return mask;
+}
+
+// The lines of one level, always that one next which begins nearest to where the tool is.
+class NearestLines {
+ public:
+  void add(LevelLine&& line) {
+    Kept kept{.line = std::move(line), .low = {}, .high = {}};
+    kept.low = kept.high = kept.line.points.front();
+    for (const FlatPlace& point : kept.line.points) {
+      kept.low = {std::min(kept.low.x, point.x), std::min(kept.low.y, point.y)};
+      kept.high = {std::max(kept.high.x, point.x), std::max(kept.high.y, point.y)};
+    }
+    lines_.push_back(std::move(kept));
+  }
+  bool empty() const { return lines_.empty(); }
+  LevelLine take(const FlatPlace& from) {
+    // Of very many lines only some are looked at: those that were found last, and so lie near each other.
+    constexpr std::size_t most = 2000;
+    const std::size_t begin = lines_.size() > most ? lines_.size() - most : 0;
+    std::size_t best = begin;
+    for (std::size_t i = begin + 1; i < lines_.size(); ++i) {
+      if (lines_[i].away(from) < lines_[best].away(from)) best = i;
+    }
+    LevelLine line = std::move(lines_[best].line);
+    lines_.erase(lines_.begin() + static_cast<std::ptrdiff_t>(best));
+    begin_near(line, from);
+    return line;
+  }
+
+ private:
+  struct Kept {
+    LevelLine line;
+    FlatPlace low;
+    FlatPlace high;
+
+    double away(const FlatPlace& from) const {
+      if (!line.is_closed) return distance_between(from, line.points.front());
+      const double x = std::max({low.x - from.x, from.x - high.x, 0.0});
+      const double y = std::max({low.y - from.y, from.y - high.y, 0.0});
+      return std::hypot(x, y);
+    }
+  };
+  std::vector<Kept> lines_;
+};
+
+}  // namespace
+
+void finish_contours(ReliefPass& pass, const HeightGrid& surface, const NodeLattice& lattice,
+                     const std::function<void(double)>& progress) {
+  const ReliefProgramOptions& options = pass.options();
+  const Cutter& cutter = options.finish.cutter;
+  const float floor = floor_of(surface);
+  const TipMap tips = tips_of(surface, cutter, floor, finishing_overrun(options), options);
+  const TipSurface tip_surface(tips, surface.pitch_x, surface.pitch_y);
+  pass.set_lattice(lattice);
+  const Mm step = step_of(options.finish, options, false);
+  const std::ptrdiff_t step_x = step_nodes(step, surface.pitch_x);
+  const std::ptrdiff_t step_y = step_nodes(step, surface.pitch_y);
+  const NodeMask steep = steep_nodes(tips, surface, options.steep);
+  NodeMask level = steep;
+  level.invert();
+  level.widen(step_x, step_y);
+
+  const float top = *std::max_element(tips.heights.begin(), tips.heights.end());
+  const float lowest = *std::min_element(tips.heights.begin(), tips.heights.end());
+  const double wanted = step.value() * std::tan(options.steep.value);
+  const double levels = std::ceil(static_cast<double>(top - lowest) / wanted - 1e-6);
+  const double down = levels > 0 ? static_cast<double>(top - lowest) / levels : 0;
+  const LevelPathFit fit{.tolerance = options.tolerance.value(), .has_arcs = options.arcs};
+  const ReliefPass::WayEntry entry{.near = cutter.radius.value() * 2};
+  LevelLines lines(tips, surface.pitch_x, surface.pitch_y);
+  for (double i = 1; i <= levels; ++i) {
+    const float height = i < levels ? grid_height(Mm(static_cast<double>(top) - down * i)) : lowest;
+    NearestLines work;
+    lines.trace(height, [&](LevelLine&& line) {
+      const auto wants = [&](const FlatPlace& place) { return steep.near(place, tip_surface); };
+      for (LevelLine& part : parts_of(line, wants, step.value() * 2, step.value() * 2)) work.add(std::move(part));
+    });
+    while (!work.empty()) {
+      const LevelLine line = work.take(pass.flat_place());
+      pass.cut_way(fit_level_path(line, static_cast<double>(height), tip_surface, lattice, fit), tip_surface, entry);
+    }
+    progress(i / levels * 0.7);
+  }
+  AreaSweep sweep(
+      pass, area_of(tips, step_y, nodes_of(cutter.radius, surface.pitch_x)),
+      [&](auto column, auto row) { return level.at(column, row); },
+      [&](auto column, auto row) { return tips.at(column, row); },
+      [&](auto column, auto row) {
+        const FlatPlace place{static_cast<double>(column) * surface.pitch_x.value(),
+                              static_cast<double>(row) * surface.pitch_y.value()};
+        return static_cast<float>(pass.stock()->free_height(place, cutter.radius.value() / 2));
+      });
+  sweep.cut([&](double share) { progress(0.7 + share * 0.3); });
+}
+
+}  // namespace passo
