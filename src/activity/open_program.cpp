@@ -70,6 +70,12 @@ void OpenProgram::restart(const Point& place) {
   begin(place);
 }
 
+void OpenProgram::take_offsets(const SavedParameters& parameters, const Point& place) {
+  restart(place);
+  set_lasting_offsets(options_.parameters, parameters);
+  begin(place);
+}
+
 // As grbl does after M2: units, feed and tool offset stay.
 void OpenProgram::begin_after_end() {
   const ModesInForce modes = interpreter_->modes();
@@ -114,14 +120,18 @@ std::optional<Diagnostic> OpenProgram::check(std::string_view line) {
 }
 
 std::optional<Diagnostic> OpenProgram::give(std::string_view line, Seconds now, bool jogs) {
-  const bool was_empty = queue_.empty();
+  const std::size_t kept = queue_.size();
   answer_fault_.reset();
   auto answer = read(line);
   if (answer) return answer;
+  // As in grbl, a jog goes at the speed that it names.
+  for (std::size_t i = kept; jogs && i < queue_.size(); ++i) {
+    if (auto* const segment = std::get_if<Segment>(&queue_[i])) segment->heeds.feed_override = false;
+  }
   if (!queue_.empty()) {
     jogs_ = jogs;
     last_came_ = now;
-    if (was_empty) first_came_ = now;
+    if (kept == 0) first_came_ = now;
   }
   if (interpreter_->ended() && !asks_) begin_after_end();
   return answer;

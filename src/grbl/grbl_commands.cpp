@@ -1,4 +1,5 @@
 // GrblController: lines that begin with $.
+#include <algorithm>
 #include <charconv>
 #include <cmath>
 #include <utility>
@@ -12,7 +13,19 @@ namespace passo {
 namespace {
 
 constexpr std::string_view beyond_travel = "travel.exceeded";
-constexpr std::size_t jog_words_from = 3;  // after "$J="
+constexpr std::size_t jog_words_from = 3;    // after "$J="
+constexpr std::size_t build_words_from = 3;  // after "$I="
+
+// Units, distances and places: no other code belongs into a jog.
+bool is_jog(std::string_view words) {
+  if (words.find_first_of("IJKLMPRST$") != std::string_view::npos) return false;
+  for (std::size_t at = 0; (at = words.find('G', at)) != std::string_view::npos;) {
+    const std::size_t end = std::min(words.find_first_not_of("0123456789.", ++at), words.size());
+    const std::string_view code = words.substr(at, end - at);
+    if (code != "20" && code != "21" && code != "53" && code != "90" && code != "91") return false;
+  }
+  return true;
+}
 
 }  // namespace
 
@@ -28,11 +41,13 @@ void GrblController::take_command(const std::string& text) {
   if (text == "$X") return unlock();
   if (text == "$C") return toggle_check();
   if (text.starts_with("$J=")) return take_jog(text.substr(jog_words_from));
-  // All others only at rest, as in grbl.
-  if (!is_idle() && !(alarm_ && !session_.busy())) return answer(GrblError::not_idle);
+  // All others only at rest, as in grbl. Settings are shown in check mode and asleep too.
+  const bool at_rest = is_idle() || (alarm_ && !session_.busy());
+  const bool shows = text == "$$" && (checks_ || session_.state() == MachineState::sleep) && waits_ == Waits::none;
+  if (!at_rest && !shows) return answer(GrblError::not_idle);
   if (text == "$$") {
     std::string all;
-    for (const GrblSetting& setting : grbl_settings(kept_ ? kept_->machine() : machine_, choices_)) {
+    for (const GrblSetting& setting : grbl_settings(kept_ ? kept_->machine() : machine_, memory_.choices)) {
       all += fmt::format("${}={}\r\n", setting.number, setting.value);
     }
     say(std::move(all));
@@ -43,9 +58,10 @@ void GrblController::take_command(const std::string& text) {
     return answer(GrblError::none);
   }
   if (text == "$I") {
-    say(build_text());
+    say(build_text(memory_.build));
     return answer(GrblError::none);
   }
+  if (text.starts_with("$I=")) return take_build(text.substr(build_words_from));
   if (text == "$H") return home();
   if (text == "$SLP") return sleep();
   if (text.starts_with("$N")) return take_startup_line(text);
@@ -57,6 +73,7 @@ void GrblController::unlock() {
   if (alarm_) {
     const MachineState state = session_.state();
     if (state == MachineState::alarm || state == MachineState::fault) return answer(GrblError::locked);
+    if (is_door_open()) return answer(GrblError::door_open);
     alarm_ = false;
     say("[MSG:Caution: Unlocked]\r\n");
   }
@@ -78,7 +95,8 @@ void GrblController::toggle_check() {
 void GrblController::take_jog(const std::string& text) {
   const bool at_rest = is_idle();
   if (!at_rest && !(jogs() && !alarm_)) return answer(GrblError::not_idle);
-  if (text.find_first_of("IJKLMPRST$") != std::string::npos) return answer(GrblError::bad_jog);
+  if (!is_jog(text)) return answer(GrblError::bad_jog);
+  if (text.find_first_of("XYZABCUVW") == std::string::npos) return answer(GrblError::no_axis_words);
   const auto wrong = program_.take_jog(text, session_.now());
   if (!wrong) {
     begin_stream();
@@ -91,6 +109,7 @@ void GrblController::take_jog(const std::string& text) {
 // What the program has left open ends first; the spindle stops.
 void GrblController::home() {
   if (machine_.homing.empty()) return answer(GrblError::setting_disabled);
+  if (is_door_open()) return answer(GrblError::door_open);
   after_stop_ = [this] { begin_homing(); };
   stop_for(Waits::stop);
 }
@@ -113,58 +132,91 @@ void GrblController::sleep() {
 
 void GrblController::take_startup_line(const std::string& text) {
   if (text == "$N") {
-    say(fmt::format("$N0={}\r\n$N1={}\r\n", startup_[0], startup_[1]));
+    say(fmt::format("$N0={}\r\n$N1={}\r\n", memory_.startup[0], memory_.startup[1]));
     return answer(GrblError::none);
   }
   const bool is_good = text.size() >= 4 && (text[2] == '0' || text[2] == '1') && text[3] == '=';
   if (!is_good) return answer(GrblError::bad_statement);
   if (alarm_) return answer(GrblError::not_idle);
   const std::string line = text.substr(4);
+  if (line.size() > GrblMemory::longest) return answer(GrblError::line_too_long_to_keep);
   if (const auto wrong = line.empty() ? std::nullopt : program_.check(line)) {
     return answer(grbl_error_number(wrong->code).value_or(static_cast<int>(GrblError::unsupported)));
   }
-  startup_[text[2] - '0'] = line;
-  answer(GrblError::none);
+  memory_.startup[text[2] == '0' ? 0 : 1] = line;
+  answer(keep_memory() ? GrblError::none : GrblError::bad_statement);
+}
+
+// Senders and shops tell machines apart by these words, which stand in the answer to $I.
+void GrblController::take_build(const std::string& text) {
+  if (text.size() > GrblMemory::longest) return answer(GrblError::line_too_long_to_keep);
+  memory_.build = text;
+  answer(keep_memory() ? GrblError::none : GrblError::bad_statement);
+}
+
+void GrblController::remember(GrblMemory memory, std::function<bool(const GrblMemory&)> write) {
+  memory_ = std::move(memory);
+  write_memory_ = std::move(write);
+}
+
+// False, with a message: what counts now is forgotten at the end.
+bool GrblController::keep_memory() {
+  if (!write_memory_ || write_memory_(memory_)) return true;
+  say("[MSG:That counts now, and cannot be kept: the file cannot be written]\r\n");
+  return false;
+}
+
+bool GrblController::is_door_open() const {
+  return (session_.status().inputs & input_door) != 0;
 }
 
 // The settings of the machine file stay as they are: they describe the machine. What a sender has chosen for itself
-// ($10, $13) and has set (offsets, start lines) goes back to what it was.
+// ($10, $13) and has set (offsets, start lines, the build's words) goes back to what it was. A reset follows, as in
+// grbl.
 void GrblController::restore(const std::string& text) {
   const bool all = text == "$RST=*";
   const bool settings = all || text == "$RST=$";
   if (!settings && text != "$RST=#") return answer(GrblError::bad_statement);
-  if (settings) choices_ = GrblChoices();
-  if (all) startup_[0] = startup_[1] = "";
+  if (settings) memory_.choices = GrblChoices();
+  if (all) memory_ = GrblMemory();
   for (int system = 1; system <= 6 && text != "$RST=$"; ++system) {
     std::string line = fmt::format("G10L2P{}", system);
     for (const Axis axis : grbl_axes_of(machine_)) line += fmt::format("{}0", letter_of(axis));
     if (program_.take(line, session_.now())) return answer(GrblError::bad_statement);
   }
-  if (text != "$RST=$") static_cast<void>(program_.take("G92.1", session_.now()));
+  if (text != "$RST=$") {
+    static_cast<void>(program_.take("G92.1", session_.now()));
+    offsets_changed_ = true;
+  }
   say("[MSG:Restoring defaults]\r\n");
-  answer(GrblError::none);
+  answer(settings && !keep_memory() ? GrblError::bad_statement : GrblError::none);
+  reset();
 }
 
 void GrblController::take_setting(const std::string& text) {
-  const std::size_t equals = text.find('=');
-  if (equals == std::string::npos) return answer(GrblError::bad_statement);
+  const std::size_t equals = std::min(text.find('='), text.size());
   int number = 0;
   const char* const last = text.data() + equals;
   const auto [end, error] = std::from_chars(text.data() + 1, last, number);
+  if (error != std::errc()) {
+    const bool is_command = text.find_first_of("$GCXJ#HSIR", 1) == 1;
+    return answer(is_command ? GrblError::bad_statement : GrblError::bad_number);
+  }
+  if (end != last || equals == text.size()) return answer(GrblError::bad_statement);
   double value = 0;
   const char* const value_last = text.data() + text.size();
   const auto [value_end, value_error] = std::from_chars(last + 1, value_last, value);
-  if (error != std::errc() || end != last) return answer(GrblError::bad_statement);
-  if (value_error != std::errc() || value_end != value_last || !std::isfinite(value)) return answer(2);
-  if (value < 0) return answer(4);
+  if (value_error != std::errc() || !std::isfinite(value)) return answer(GrblError::bad_number);
+  if (value_end != value_last) return answer(GrblError::bad_statement);
+  if (value < 0) return answer(GrblError::negative_value);
   if (number == 10) {
-    choices_.status_mask = static_cast<unsigned>(std::lround(std::min(value, 255.0)));
+    memory_.choices.status_mask = static_cast<unsigned>(std::lround(std::min(value, 255.0)));
   } else if (number == 13) {
-    choices_.inches = value != 0;
+    memory_.choices.inches = value != 0;
   } else {
     return keep_setting(number, value);
   }
-  answer(GrblError::none);
+  answer(keep_memory() ? GrblError::none : GrblError::bad_statement);
 }
 
 void GrblController::keep_settings(std::string text, WriteFile write) {
@@ -174,6 +226,9 @@ void GrblController::keep_settings(std::string text, WriteFile write) {
 
 // The machine goes on with what it began with: its place is counted in steps of that.
 void GrblController::keep_setting(int number, double value) {
+  // A sender that writes back what it has read changes nothing.
+  const MachineDescription& machine = kept_ ? kept_->machine() : machine_;
+  if (has_setting(machine, memory_.choices, number, value)) return answer(GrblError::none);
   if (!kept_) return answer(GrblError::bad_statement);
   std::string reason;
   auto after = kept_->with(number, value, reason);

@@ -13,6 +13,12 @@ namespace {
 
 constexpr std::string_view outside_travel = "travel.exceeded";
 
+// Words by which a program changes what is kept: offsets, and the homes of G28 and G30.
+bool changes_offsets(const std::string& line) {
+  return line.find("G10") != std::string::npos || line.find("G28.1") != std::string::npos ||
+         line.find("G30.1") != std::string::npos;
+}
+
 // Lines that change nothing.
 bool is_question(const std::string& line) {
   return line == "$" || line == "$G" || line == "$$" || line == "$#" || line == "$I" || line == "$N";
@@ -33,6 +39,30 @@ void GrblController::connect() {
   say(std::string(grbl_banner));
   if (!drives_) say("[MSG:Another client drives the machine]\r\n");
   if (alarm_) say("[MSG:'$H'|'$X' to unlock]\r\n");
+  if (drives_ && !resets_ && !std::exchange(has_started_, true)) run_startup();
+}
+
+// Not while the controller is locked: they may move the machine.
+void GrblController::run_startup() {
+  if (alarm_) return;
+  for (const std::string& line : memory_.startup) {
+    if (line.empty()) continue;
+    const auto wrong = program_.take(line, session_.now());
+    const int error = wrong ? grbl_error_number(wrong->code).value_or(static_cast<int>(GrblError::unsupported)) : 0;
+    say(fmt::format(">{}:{}", line, error == 0 ? "ok\r\n" : fmt::format("error:{}\r\n", error)));
+  }
+}
+
+void GrblController::take_offsets(const SavedParameters& parameters) {
+  program_.take_offsets(parameters, session_.status().position.place);
+}
+
+// The disk may take its time while nothing moves.
+void GrblController::share_changed_offsets() {
+  const bool rests = !session_.busy() || session_.state() == MachineState::await_line;
+  if (!offsets_changed_ || !rests) return;
+  offsets_changed_ = false;
+  if (share_offsets_) share_offsets_(program_.parameters());
 }
 
 // A program that is held goes on with the next one who may drive.
@@ -76,6 +106,7 @@ void GrblController::turn(const std::vector<MachineChange>& changes) {
     std::exchange(after_stop_, nullptr)();
   }
   if (resets_ && !session_.busy() && session_.state() != MachineState::offline) end_reset();
+  share_changed_offsets();
   mind_jog_lease();
   begin_stream();
   take_lines();
@@ -98,6 +129,7 @@ void GrblController::heed(const MachineChange& change) {
   program_.restart(session_.status().position.place);
   if (change.outcome == Outcome::done) {
     alarm_ = false;
+    run_startup();
     return answer(GrblError::none);
   }
   const bool holds = change.fault && change.fault->code == "homing.not-released";
@@ -170,6 +202,7 @@ void GrblController::take_code(const std::string& text) {
     }
     return answer(grbl_error_number(wrong->code).value_or(static_cast<int>(GrblError::unsupported)));
   }
+  offsets_changed_ = offsets_changed_ || (!checks_ && changes_offsets(text));
   if (program_.asks()) {
     waits_ = Waits::probe;
     return begin_stream();
@@ -233,7 +266,7 @@ std::string GrblController::pins() const {
 }
 
 GrblUnits GrblController::units() const {
-  return {.axes = grbl_axes_of(machine_), .inches = choices_.inches};
+  return {.axes = grbl_axes_of(machine_), .inches = memory_.choices.inches};
 }
 
 }  // namespace passo

@@ -104,7 +104,7 @@ void GrblController::report_status() {
   offset_in_ = report.shows_offset ? (rests ? offset_each_at_rest : offset_each) - 1 : offset_in_ - 1;
   overrides_in_ = report.shows_overrides ? (rests ? overrides_each_at_rest : overrides_each) - 1 : overrides_in_ - 1;
   if (report.shows_offset) told_offset_ = report.work_offset;
-  say(status_text(report, units(), choices_.status_mask));
+  say(status_text(report, units(), memory_.choices.status_mask));
 }
 
 // At rest too: then the next motion waits for a resume.
@@ -174,13 +174,8 @@ void GrblController::end_reset() {
   feed_override_ = rapid_override_ = spindle_override_ = 100;
   send_overrides();
   program_.restart(session_.status().position.place);
+  has_started_ = false;
   connect();
-  if (alarm_) return;
-  for (const std::string& line : startup_) {
-    if (line.empty()) continue;
-    const auto wrong = program_.take(line, session_.now());
-    say(">" + line + (wrong ? ":error:20\r\n" : ":ok\r\n"));
-  }
 }
 
 void GrblController::change_feed(int percent) {

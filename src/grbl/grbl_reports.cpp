@@ -107,8 +107,8 @@ std::string offsets_text(const SavedParameters& parameters, const ModesInForce& 
 }
 
 // V: a spindle of any speed. Then the planner's blocks and the bytes of the receive buffer.
-std::string build_text() {
-  return fmt::format("[VER:1.1h.20190830:]\r\n[OPT:V,{},128]\r\n", grbl_planner_blocks);
+std::string build_text(std::string_view words) {
+  return fmt::format("[VER:1.1h.20190830:{}]\r\n[OPT:V,{},128]\r\n", words, grbl_planner_blocks);
 }
 
 std::string help_text() {

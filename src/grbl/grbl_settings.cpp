@@ -1,6 +1,7 @@
 #include "passo/grbl/grbl_settings.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 #include <fmt/format.h>
 
@@ -112,6 +113,14 @@ std::vector<GrblSetting> grbl_settings(const MachineDescription& machine, const 
     }
   }
   return all;
+}
+
+bool has_setting(const MachineDescription& machine, const GrblChoices& choices, int number, double value) {
+  constexpr double shown = 0.0006;  // three decimals
+  for (const GrblSetting& setting : grbl_settings(machine, choices)) {
+    if (setting.number == number) return std::abs(std::stod(setting.value) - value) <= shown;
+  }
+  return false;
 }
 
 }  // namespace passo

@@ -16,8 +16,6 @@ namespace {
 constexpr double a_minute = 60;
 // In mm: a pitch that makes no step too frequent for a board, whatever the axis is.
 constexpr double long_pitch = 1000;
-// grbl shows three decimals.
-constexpr double shown = 0.0006;
 
 struct Change {
   std::string path;
@@ -71,12 +69,39 @@ std::vector<Change> of_homing(const MachineDescription& machine, std::string_vie
   return changes;
 }
 
+// The level at which a pin is on.
+TomlText::Setting level(bool high) {
+  return std::string(high ? "high" : "low");
+}
+
+// A bit for each axis of the reports. Lines are written only for axes that change.
+std::vector<Change> of_directions(const MachineDescription& machine, double value) {
+  constexpr double highest_mask = 255;
+  if (value > highest_mask) return {};
+  const auto mask = static_cast<unsigned>(std::lround(value));
+  std::vector<Change> changes;
+  const std::vector<Axis> axes = grbl_axes_of(machine);
+  for (std::size_t i = 0; i < axes.size(); ++i) {
+    const bool inverted = ((mask >> i) & 1U) != 0;
+    const auto found = std::ranges::find(machine.axes, axes[i], &AxisDescription::axis);
+    if (found == machine.axes.end() || found->inverted == inverted) continue;
+    changes.push_back({key(*found, "inverted", "inverted"), inverted});
+  }
+  return changes;
+}
+
 std::vector<Change> changes_for(const MachineDescription& machine, int number, double value) {
   switch (number) {
+    case 0: return {{"board.step_pulse_us", tidy(value)}};
+    case 2: return {{"outputs.step", level(value == 0)}};
+    case 3: return of_directions(machine, value);
+    case 4: return {{"outputs.driver_enable", level(value != 0)}};
+    case 6: return {{"inputs.probe", level(value != 0)}};
     case 11: return {{"path_tolerance_mm", tidy(value)}};
     case 24: return of_homing(machine, "home.latch_mm_s", "home.latch_deg_s", value / a_minute);
     case 25: return of_homing(machine, "home.seek_mm_s", "home.seek_deg_s", value / a_minute);
     case 27: return of_homing(machine, "home.pull_off_mm", "home.pull_off_deg", value);
+    case 30: return {{"tool.max_rpm", tidy(value)}};
     default: break;
   }
   const AxisDescription* const axis = number >= 100 && number < 140 ? axis_of_setting(machine, number) : nullptr;
@@ -112,10 +137,7 @@ std::optional<std::string> KeptSettings::with(int number, double value, std::str
   const auto after = axis != nullptr ? with_scale(text_, *axis, value) : changed(text_, changes);
   reason = "No sound machine has that value";
   if (!after) return {};
-  for (const GrblSetting& setting : grbl_settings(*described(*after), {})) {
-    if (setting.number == number && std::abs(std::stod(setting.value) - value) <= shown) return after;
-  }
-  return {};
+  return has_setting(*described(*after), {}, number, value) ? after : std::nullopt;
 }
 
 }  // namespace passo

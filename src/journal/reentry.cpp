@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 #include <optional>
+#include <set>
 #include <utility>
 
 #include "path_of_program.hpp"
@@ -24,64 +25,87 @@ constexpr double repeatable_within = 0.05;
 // microsteps, 64 of them.
 constexpr double steps_to_the_field = 64;
 
-std::uint32_t line_of(const PathItem& item) {
-  return std::visit([](const auto& what) { return what.source.line; }, item);
-}
-
-// What is known of the lines of a program from its path: before it is smoothed, and after. The smoother merges lines
-// that go straight on; the merged one has the number of the first.
-class LinesOfPath {
+// What is known of the lines of a program from its path: before it is smoothed, and after. Each time that the path
+// comes to a line is a visit. The smoother merges lines that go straight on, and the merged one has the mark of the
+// first: so visits, and not lines, are the marks.
+class VisitsOfLines {
  public:
-  void note_other_file(std::uint32_t line) { facts(line).is_in_other_file = true; }
-  void note_programmed(const PathItem& item) {
+  void note_other_file(std::uint32_t line) { in_other_files_.insert(line); }
+  // Puts the number of the visit in the place of the line.
+  void mark(PathItem& item) {
     const auto* action = std::get_if<Action>(&item);
     probes_ = probes_ || (action != nullptr && action->kind == Action::Kind::probe_end);
-    if (action != nullptr || line_of(item) == line_) return;
-    Facts& here = facts(line_of(item));
-    if (here.times++ == 0) {
-      here.before = line_;
-      here.is_after_probe = probes_;
-    }
-    line_ = line_of(item);
+    if (action != nullptr) return;
+    std::uint32_t& line = std::get<Segment>(item).source.line;
+    if (visits_.empty() || visits_.back().line != line) visits_.push_back({.line = line, .is_after_probe = probes_});
+    line = static_cast<std::uint32_t>(visits_.size() - 1);
   }
   void note_smoothed(const PathItem& item, std::uint64_t number) {
-    Facts& here = facts(line_of(item));
-    if (std::holds_alternative<Segment>(item)) here.item = std::min(here.item, number);
+    const auto* segment = std::get_if<Segment>(&item);
+    if (segment == nullptr) return;
+    Visit& here = visits_[segment->source.line];
+    here.item = std::min(here.item, number);
   }
 
-  // Where the motion of this line begins, or that of the next line with motion. If that line was merged, where the
+  // Where the motion of this line begins, or that of the next line with motion. If that visit was merged, where the
   // merged one begins.
-  Result<PathPlace, ReentryRefusal> find(std::uint32_t line) const {
-    while (line < lines_.size() && lines_[line].times == 0) ++line;
-    if (line >= lines_.size()) return Failure{ReentryRefusal::no_motion};
-    for (; line != 0; line = lines_[line].before) {
-      const Facts& here = lines_[line];
-      if (here.is_in_other_file) return Failure{ReentryRefusal::other_file};
-      if (here.times > 1) return Failure{ReentryRefusal::done_often};
-      if (here.is_after_probe) return Failure{ReentryRefusal::after_probe};
-      if (here.item != none) return PathPlace{.item = here.item};
+  Result<PathPlace, LineProblem> find(std::uint32_t line, std::uint32_t pass) const {
+    std::uint32_t next = UINT32_MAX;
+    for (const Visit& visit : visits_) {
+      if (visit.line >= line) next = std::min(next, visit.line);
     }
-    return Failure{ReentryRefusal::path_changed};
+    if (next == UINT32_MAX) return Failure{LineProblem{ReentryRefusal::no_motion}};
+    if (in_other_files_.contains(next)) return Failure{LineProblem{ReentryRefusal::other_file}};
+    std::uint32_t times = 0;
+    std::size_t chosen = visits_.size();
+    for (std::size_t i = 0; i < visits_.size(); ++i) {
+      if (visits_[i].line == next && ++times == std::max(pass, 1U)) chosen = i;
+    }
+    if (pass == 0 && times > 1) return Failure{LineProblem{ReentryRefusal::done_often, times}};
+    if (pass > times) return Failure{LineProblem{ReentryRefusal::no_pass, times}};
+    return begin_of(chosen);
   }
 
  private:
   static constexpr std::uint64_t none = UINT64_MAX;
-  struct Facts {
+  struct Visit {
     std::uint64_t item = none;  // of the smoothed path
-    std::uint32_t times = 0;    // how often the path comes to the line
-    std::uint32_t before = 0;   // the line of the motion before, the first time
+    std::uint32_t line = 0;
     bool is_after_probe = false;
-    bool is_in_other_file = false;
   };
-  Facts& facts(std::uint32_t line) {
-    if (line >= lines_.size()) lines_.resize(std::size_t{line} + 1);
-    return lines_[line];
+  Result<PathPlace, LineProblem> begin_of(std::size_t visit) const {
+    for (;; --visit) {
+      if (visits_[visit].is_after_probe) return Failure{LineProblem{ReentryRefusal::after_probe}};
+      if (visits_[visit].item != none) return PathPlace{.item = visits_[visit].item};
+      if (visit == 0) return Failure{LineProblem{ReentryRefusal::path_changed}};
+    }
   }
 
-  std::vector<Facts> lines_;
-  std::uint32_t line_ = 0;  // of the motion noted last
+  std::vector<Visit> visits_;
+  std::set<std::uint32_t> in_other_files_;
   bool probes_ = false;
 };
+
+// The place so much farther along the path. What a probe move finds is not known.
+Result<PathPlace, LineProblem> farther(const ProgramReader& program, const MachineDescription& machine,
+                                       const InterpreterOptions& options, const PathPlace& from, Mm after) {
+  if (after <= Mm(0)) return from;
+  PathOfProgram chain(program.again(), machine, options);
+  RewindablePath& path = chain.path();
+  path.begin_at(from);
+  path.forget_passed();
+  PathItem item;
+  for (std::uint64_t number = from.item; path.next(item); ++number) {
+    if (const auto* action = std::get_if<Action>(&item)) {
+      if (action->kind == Action::Kind::probe_begin) return Failure{LineProblem{ReentryRefusal::after_probe}};
+      continue;
+    }
+    const Mm length = std::get<Segment>(item).curve.length();
+    if (after < length) return PathPlace{.item = number, .s = after};
+    after -= length;
+  }
+  return Failure{LineProblem{ReentryRefusal::beyond_end}};
+}
 
 std::string place_words(const MachineDescription& machine, const Point& place, bool with_z) {
   std::string words;
@@ -176,6 +200,8 @@ std::string_view code_of(ReentryRefusal refusal) {
   switch (refusal) {
     case ReentryRefusal::no_motion: return "reentry.no-motion";
     case ReentryRefusal::done_often: return "reentry.done-often";
+    case ReentryRefusal::no_pass: return "reentry.no-pass";
+    case ReentryRefusal::beyond_end: return "reentry.beyond-end";
     case ReentryRefusal::other_file: return "reentry.other-file";
     case ReentryRefusal::after_probe: return "reentry.after-probe";
     case ReentryRefusal::path_changed: return "reentry.path-changed";
@@ -189,8 +215,9 @@ std::string_view code_of(ReentryRefusal refusal) {
 std::string_view message_of(ReentryRefusal refusal) {
   switch (refusal) {
     case ReentryRefusal::no_motion: return "nothing moves from that line on";
-    case ReentryRefusal::done_often:
-      return "that line is done more than once: it is in a loop or a subprogram; name a line outside it";
+    case ReentryRefusal::done_often: return "that line is done more than once, in a loop or a subprogram";
+    case ReentryRefusal::no_pass: return "that line is not done so often";
+    case ReentryRefusal::beyond_end: return "the path ends before that distance after the line";
     case ReentryRefusal::other_file:
       return "a subprogram in another file has a line of that number too: name another line";
     case ReentryRefusal::after_probe: return "the way to that line depends on what a probe move finds: begin before it";
@@ -203,23 +230,34 @@ std::string_view message_of(ReentryRefusal refusal) {
   return "there is no way back onto the path";
 }
 
-Result<ResumePoint, ReentryRefusal> find_line(const ProgramReader& program, const MachineDescription& machine,
-                                              const InterpreterOptions& options, std::uint32_t line) {
+std::string message_of(const LineProblem& problem) {
+  switch (problem.refusal) {
+    case ReentryRefusal::done_often:
+      return fmt::format("that line is done {} times, in a loop or a subprogram: choose one of these passes",
+                         problem.times);
+    case ReentryRefusal::no_pass: return fmt::format("the number of passes of that line is {}", problem.times);
+    default: return std::string(message_of(problem.refusal));
+  }
+}
+
+Result<ResumePoint, LineProblem> find_line(const ProgramReader& program, const MachineDescription& machine,
+                                           const InterpreterOptions& options, const LinePlace& wanted) {
   PathOfProgram chain(program.again(), machine, options);
-  LinesOfPath lines;
+  VisitsOfLines visits;
   chain.operations().watch([&](const Operation& operation) {
-    if (!operation.file.empty() && operation.file != program.name()) lines.note_other_file(operation.source.line);
+    if (!operation.file.empty() && operation.file != program.name()) visits.note_other_file(operation.source.line);
   });
-  chain.programmed().watch([&](const PathItem& item) { lines.note_programmed(item); });
+  chain.programmed().watch([&](PathItem& item) { visits.mark(item); });
   RewindablePath& path = chain.path();
   path.forget_passed();
   PathItem item;
-  for (std::uint64_t number = 0; path.next(item); ++number) lines.note_smoothed(item, number);
-  if (chain.any_error()) return Failure{ReentryRefusal::bad_program};
-  const auto place = lines.find(line);
+  for (std::uint64_t number = 0; path.next(item); ++number) visits.note_smoothed(item, number);
+  if (chain.any_error()) return Failure{LineProblem{ReentryRefusal::bad_program}};
+  auto place = visits.find(wanted.line, wanted.pass);
+  if (place) place = farther(program, machine, options, *place, wanted.after);
   if (!place) return Failure{place.error()};
   const auto point = find_resume_point(program.again(), machine, options, *place);
-  if (!point) return Failure{ReentryRefusal::path_changed};
+  if (!point) return Failure{LineProblem{ReentryRefusal::path_changed}};
   return *point;
 }
 

@@ -107,5 +107,20 @@ TEST(ApiProbing, refuses_what_is_no_cycle_no_map_and_no_wish) {
   EXPECT_EQ(run.status, 409U);
 }
 
+TEST(ApiProbing, a_map_for_a_program_that_was_deleted_stays_with_its_cycle) {
+  ApiRun run(GrblRun::at_zero(), nullptr, plate(-2.25));
+  run.own();
+  const std::uint64_t id = run.upload("G0 X1\nM2\n");
+  const Json job = run.post(
+      "/probe", fmt::format(R"({{"cycle": "map", "program": {}, "x": 10, "y": 10, "columns": 2, "rows": 2}})", id));
+  ASSERT_EQ(run.status, 202U) << job;
+  ASSERT_TRUE(run.turn_until([&] { return run.api.job().state == JobState::running; })) << run.get("/status");
+  run.ask("DELETE", fmt::format("/programs/{}", id));
+  EXPECT_EQ(run.status, 200U);
+  ASSERT_TRUE(run.turn_until([&] { return run.api.job().state == JobState::done; })) << run.get("/status");
+  run.get(fmt::format("/programs/{}/height-map", job["program"].get<std::uint64_t>()));
+  EXPECT_EQ(run.status, 200U);
+}
+
 }  // namespace
 }  // namespace passo::test

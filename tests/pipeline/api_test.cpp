@@ -509,7 +509,7 @@ TEST(ApiHostile, random_requests_end_in_a_machine_that_obeys) {
       if (place != std::string::npos) path.replace(place, 4, std::to_string(random() % 3 + id - 1));
       if (route.method == "DELETE") continue;
       const Json answer = run.ask(std::string(route.method), path, bodies[random() % std::size(bodies)]);
-      if (!path.ends_with("metrics") && !path.ends_with("/text")) {
+      if (!path.ends_with("metrics") && !path.ends_with("/text") && path != "/pulses") {
         EXPECT_FALSE(answer.is_discarded()) << path;
       }
       if (random() % 3 == 0) run.pass(Seconds(0.02));

@@ -143,6 +143,19 @@ TEST(GrblJog, a_jog_leaves_the_modes_as_they_were) {
   EXPECT_EQ(run.reply(), before);
 }
 
+TEST(GrblJog, goes_at_its_own_speed_whatever_the_override) {
+  GrblRun run;
+  for (int i = 0; i < 20; ++i) run.send("\x92");
+  run.send("$J=G91 X100 F1200\n");
+  run.pass(Seconds(1));
+  EXPECT_NEAR(run.session().status().speed_now.value() * 60, 1200, 12);
+  run.send("\x85");
+  ASSERT_TRUE(run.turn_until([&] { return run.is("Idle"); }));
+  run.send("G91 G1 X50 F1200\n");
+  run.pass(Seconds(1));
+  EXPECT_NEAR(run.session().status().speed_now.value() * 60, 120, 2);
+}
+
 TEST(GrblJog, a_sender_that_goes_ends_its_jog) {
   GrblRun run;
   run.send("$J=G91 X100 F3000\n");
@@ -459,6 +472,72 @@ TEST(GrblSettings, are_written_into_the_machine_file_and_shown) {
   GrblRun without;
   without.send("$110=3000\n");
   EXPECT_EQ(without.reply(), "error:3");
+}
+
+TEST(GrblMemoryOf, a_controller_is_kept_and_its_start_lines_run_for_the_first_sender) {
+  std::vector<GrblMemory> kept;
+  {
+    GrblRun run;
+    run.grbl().remember({}, [&](const GrblMemory& memory) {
+      kept.push_back(memory);
+      return true;
+    });
+    run.grbl().connect();
+    run.send("$N1=G1X2F1200\n$I=SHOP\n$10=1\n$N0=" + std::string(80, 'G') + "\n$N0=G4711\n");
+    for (const char* reply : {"Grbl 1.1h ['$' for help]", "ok", "ok", "ok", "error:14", "error:20"}) {
+      EXPECT_EQ(run.reply(), reply);
+    }
+    ASSERT_EQ(kept.size(), 3U);
+  }
+  GrblRun again;
+  again.grbl().remember(kept.back(), [](const GrblMemory&) { return false; });
+  EXPECT_FALSE(again.session().busy()) << "nothing moves while nobody is there";
+  again.grbl().connect();
+  EXPECT_EQ(again.reply(), "Grbl 1.1h ['$' for help]");
+  EXPECT_EQ(again.reply(), ">G1X2F1200:ok");
+  ASSERT_TRUE(again.turn_until([&] { return again.session().status().now_at[Axis::x] == 2; }));
+  again.grbl().connect();
+  EXPECT_EQ(again.reply(), "Grbl 1.1h ['$' for help]");
+  again.pass(Seconds(0.5));
+  EXPECT_TRUE(again.replies.empty()) << "once: a later sender finds the controller at work";
+  again.send("$I=OTHER\n");
+  EXPECT_TRUE(again.reply().starts_with("[MSG:")) << "the disk is full";
+  EXPECT_EQ(again.reply(), "error:3");
+}
+
+TEST(GrblMemoryOf, offsets_are_shared_with_others_at_rest) {
+  GrblRun run;
+  std::vector<SavedParameters> shared;
+  run.grbl().share_offsets([&](const SavedParameters& parameters) { shared.push_back(parameters); });
+  run.send("G1 X10 F600\n");
+  ASSERT_TRUE(run.turn_until([&] { return run.session().state() == MachineState::run; }));
+  run.send("G10 L2 P2 X5\n");
+  run.pass(Seconds(0.1));
+  EXPECT_TRUE(shared.empty()) << "a disk takes its time";
+  ASSERT_TRUE(run.turn_until([&] { return !shared.empty(); }));
+  EXPECT_EQ(shared.back().at(5241), 5);
+  SavedParameters others = shared.back();
+  others[5221] = 7;
+  others[5211] = 99;  // G92 belongs to a program
+  run.grbl().take_offsets(others);
+  ASSERT_TRUE(run.turn_until([&] { return run.is("Idle"); }));
+  run.replies.clear();
+  run.send("$#\n");
+  EXPECT_EQ(run.reply(), "[G54:7.000,0.000,0.000]");
+  EXPECT_EQ(run.reply(), "[G55:5.000,0.000,0.000]");
+}
+
+TEST(GrblLock, is_not_opened_while_the_door_is) {
+  GrblRun run(example_machine("router"), {.place = Point(), .trust = Trust::unknown});
+  run.board().set_switch(input_door, true);
+  run.pass(Seconds(0.2));
+  run.replies.clear();
+  run.send("$X\n$H\n");
+  EXPECT_EQ(run.reply(), "error:13");
+  EXPECT_EQ(run.reply(), "error:13");
+  GrblRun closed(example_machine("router"), {.place = Point(), .trust = Trust::unknown});
+  closed.send("$X\n");
+  EXPECT_EQ(closed.reply(), "[MSG:Caution: Unlocked]");
 }
 
 // Any bytes: the controller answers each line once, and comes to rest after a reset.

@@ -230,7 +230,7 @@ void die_on_a_bad_line(int trials, const std::string& machine, Counted& counted)
     for (int host = 0; host < 50 && !bench.done && !testing::Test::HasFatalFailure(); ++host) {
       const bool lives = random() % 5 == 0;
       const HostEnd end = ends[random() % ends.size()];
-      bench.host(lives ? test::never : random() % 500, end);
+      bench.host(lives ? test::never : random() % 300, end);
       if (!bench.done) ++(end == HostEnd::stopped ? counted.stops : counted.deaths);
       bench.let_pass(Seconds(0.03 * static_cast<double>(random() % 5)));
     }

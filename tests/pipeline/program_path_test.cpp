@@ -203,5 +203,27 @@ TEST(ProgramStore, gives_windows_of_a_text) {
   EXPECT_EQ(store.add("end", Dialect::linuxcnc, "\n\n")->lines_from(2, 9), "\n");
 }
 
+TEST(ProgramPath, tells_which_tool_makes_each_motion) {
+  ProgramPath path;
+  const auto change_to = [&](std::int32_t tool) { path.add(Action{.kind = Action::Kind::tool_change, .tool = tool}); };
+  path.add(line(at(0, 0, 0), at(1, 0, 0), 1));
+  change_to(7);
+  Segment segment = line(at(1, 0, 0), at(2, 0, 0), 2);
+  segment.work_zero = at(0, 0, 30);
+  path.add(segment);
+  change_to(2);
+  path.add(line(at(2, 0, 0), at(3, 0, 0), 3, true));
+  change_to(7);
+  path.add(line(at(3, 0, 0), at(4, 0, 0), 4));
+  path.finish();
+  ASSERT_EQ(path.tools().size(), 3U);
+  EXPECT_EQ(path.tools()[1].number, 7);
+  EXPECT_EQ(path.tools()[1].zero_z, 30);
+  const Read read = read_chunk(path.chunk(0, 0));
+  EXPECT_EQ(read.flags, (std::vector<std::uint16_t>{0, 0, 2, 5, 2}));
+  // A coarser level keeps each change, though the points lie on one line.
+  EXPECT_EQ(read_chunk(path.chunk(0, 2)).flags, read.flags);
+}
+
 }  // namespace
 }  // namespace passo

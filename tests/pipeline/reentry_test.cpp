@@ -2,6 +2,8 @@
 // the same from there on.
 #include "passo/journal/reentry.hpp"
 
+#include <cmath>
+#include <numbers>
 #include <random>
 
 #include "api_kit.hpp"
@@ -217,9 +219,14 @@ TEST(ReenteredAtRandom, makes_the_same_part) {
   }
 }
 
-Result<ResumePoint, ReentryRefusal> line_of(const std::string& text, std::uint32_t line) {
+Result<ResumePoint, ReentryRefusal> line_of(const std::string& text, const LinePlace& place) {
   static const MachineDescription machine = short_router();
-  return find_line(ProgramReader::from_text("t", text), machine, InterpreterOptions(), line);
+  const auto found = find_line(ProgramReader::from_text("t", text), machine, InterpreterOptions(), place);
+  if (!found) return Failure{found.error().refusal};
+  return *found;
+}
+Result<ResumePoint, ReentryRefusal> line_of(const std::string& text, std::uint32_t line) {
+  return line_of(text, LinePlace{.line = line});
 }
 
 TEST(FromLine, has_all_that_the_lines_before_have_set) {
@@ -253,8 +260,7 @@ TEST(FromLine, is_refused_where_it_means_nothing) {
   EXPECT_EQ(line_of(loop, 6)->line, 6U);
   const std::string sub = "o1 sub\nG1 X1\nX2\no1 endsub\nG21 G90 F600\no1 call\no1 call\nG1 X9\nM2\n";
   EXPECT_EQ(line_of(sub, 2).error(), ReentryRefusal::done_often);
-  EXPECT_EQ(line_of(sub, 8).error(), ReentryRefusal::done_often)
-      << "goes straight on with a line of the sub: one motion";
+  EXPECT_EQ(line_of(sub, 8)->point[Axis::x], 1) << "goes straight on with a line of the sub: one motion";
   const std::string straight = "G21 G90 F600\nG1 X1\nX2\nX3\nY1\nM2\n";
   EXPECT_EQ(line_of(straight, 4)->line, 2U) << "merged: nothing is left out";
   EXPECT_EQ(line_of(straight, 5)->line, 5U);
@@ -267,6 +273,43 @@ TEST(FromLine, is_refused_where_it_means_nothing) {
   EXPECT_EQ(probe->line, 2U);
   EXPECT_EQ(probe->probes, 0U);
   EXPECT_EQ(line_of("G1 X1\nM2\n", 1).error(), ReentryRefusal::bad_program);
+}
+
+TEST(FromLine, a_pass_of_a_line_that_is_done_often_can_be_chosen) {
+  const std::string loop = "G21 G91 G61 F600\no1 repeat [3]\nG1 X1\nY1\no1 endrepeat\nG90 X9\nM2\n";
+  for (const unsigned pass : {1U, 2U, 3U}) {
+    const auto at = line_of(loop, {.line = 4, .pass = pass});
+    ASSERT_TRUE(at) << pass;
+    EXPECT_EQ(at->line, 4U);
+    EXPECT_EQ(at->point, (Point{{{static_cast<double>(pass), static_cast<double>(pass) - 1}}}));
+  }
+  EXPECT_EQ(line_of(loop, {.line = 4, .pass = 4}).error(), ReentryRefusal::no_pass);
+  EXPECT_EQ(line_of(loop, {.line = 6, .pass = 1})->line, 6U) << "a line that is done once has one pass";
+  const auto often = find_line(ProgramReader::from_text("t", loop), short_router(), InterpreterOptions(), {.line = 3});
+  EXPECT_EQ(often.error().times, 3U);
+  // A visit that was merged begins where the merged motion does: in the same pass.
+  const std::string merged = "G21 G91 F600\no1 repeat [2]\nG1 X1\nX1\nY1\no1 endrepeat\nM2\n";
+  EXPECT_NEAR(line_of(merged, {.line = 4, .pass = 2})->point[Axis::x], 2, 0.05) << "after a rounded corner";
+  EXPECT_EQ(line_of(merged, {.line = 4, .pass = 2})->line, 3U);
+  const std::string probing = "G21 G91 F60\no1 repeat [2]\nG1 X1\nG38.3 Z-1\nG1 Y1\no1 endrepeat\nM2\n";
+  EXPECT_EQ(line_of(probing, {.line = 3, .pass = 1})->line, 3U);
+  EXPECT_EQ(line_of(probing, {.line = 3, .pass = 2}).error(), ReentryRefusal::after_probe);
+}
+
+TEST(FromLine, any_point_of_the_path_can_be_chosen) {
+  const std::string text = "G21 G90 G61 F600\nG1 X10\nY10\nG2 X20 Y20 I10\nG1 X30\nM2\n";
+  const auto amid = line_of(text, {.line = 3, .pass = 0, .after = Mm(4)});
+  ASSERT_TRUE(amid);
+  EXPECT_EQ(amid->point, (Point{{{10, 4}}}));
+  EXPECT_EQ(amid->line, 3U);
+  const auto arc = line_of(text, {.line = 2, .pass = 0, .after = Mm(20 + 5 * std::numbers::pi / 2)});
+  ASSERT_TRUE(arc);
+  EXPECT_EQ(arc->line, 4U);
+  EXPECT_NEAR(std::hypot(arc->point[Axis::x] - 20, arc->point[Axis::y] - 10), 10, 1e-9) << "on the arc";
+  EXPECT_NEAR(arc->point[Axis::x], 20 - 10 * std::cos(std::numbers::pi / 4), 1e-9);
+  EXPECT_EQ(line_of(text, {.line = 5, .pass = 0, .after = Mm(10.001)}).error(), ReentryRefusal::beyond_end);
+  EXPECT_EQ(line_of("G21 G90 G1 X3 F60\nG38.3 Z-1\nG1 X1\nM2\n", {.line = 1, .pass = 0, .after = Mm(3.5)}).error(),
+            ReentryRefusal::after_probe);
 }
 
 TEST(FromLine, leads_up_over_and_down) {
@@ -290,7 +333,8 @@ TEST(FromLine, leads_up_over_and_down) {
 }
 
 // From each line on, the rest of the part is the same.
-void expect_same_part_from(const MachineDescription& machine, const std::string& text, const std::vector<int>& lines) {
+void expect_same_part_from(const MachineDescription& machine, const std::string& text, const std::vector<int>& lines,
+                           const std::string& more = {}) {
   JobBench whole(machine);
   {
     JobServer server(whole);
@@ -304,10 +348,10 @@ void expect_same_part_from(const MachineDescription& machine, const std::string&
     JobServer server(bench);
     const auto program = server.ask("POST", "/programs?name=part.ngc", text);
     const std::string path = fmt::format("/programs/{}", program["id"].get<int>());
-    const auto way = server.get(fmt::format("{}/way?from_line={}", path, line));
-    EXPECT_EQ(way["line"], line) << way;
+    const auto way = server.get(fmt::format("{}/way?from_line={}{}", path, line, more));
+    EXPECT_TRUE(way["line"] == line || !more.empty()) << way;
     EXPECT_GT(way["steps"].size(), 3U);
-    server.post(fmt::format("{}/run?from_line={}", path, line));
+    server.post(fmt::format("{}/run?from_line={}{}", path, line, more));
     ASSERT_EQ(server.status, 202U) << way;
     ASSERT_TRUE(server.to_end());
     EXPECT_EQ(server.job_state(), "done") << server.get("/status");
@@ -325,6 +369,13 @@ TEST(FromLine, the_line_may_be_an_arc_a_hole_of_a_cycle_or_in_a_sub) {
       "o1 sub\nG1 Z-2\nX[#1+3]\nG0 Z5\no1 endsub\nG21 G90 G64 P.02 F1800 M3 S1000\nG0 X0 Y0 Z5\nG1 Z-1\nG2 X8 Y0 I4\n"
       "G3 X12 Y4 R4\nG0 Z5\nG98 G81 X14 Y0 Z-3 R2\nX18\nG83 Y6 Z-4 R2 Q1\nG80\no1 call [20]\nG0 X0 Y0\nM2\n";
   expect_same_part_from(short_router(), text, {9, 13, 3});
+}
+
+TEST(FromLine, the_place_may_be_amid_a_move_of_a_loop) {
+  const std::string text =
+      "G21 G90 G64 P.02 F1800 M3 S1000\nG0 X0 Y0 Z5\nG1 Z-1\nG91\no1 repeat [4]\nG1 X6\nY2\nX-6\nY2\n"
+      "o1 endrepeat\nG90 G0 Z5\nX0 Y0\nM2\n";
+  expect_same_part_from(short_router(), text, {6, 8}, "&pass=3&after=2.5");
 }
 
 TEST(FromLine, rotary_axes_turn_to_their_places_on_the_way_over) {
@@ -357,6 +408,13 @@ TEST(FromLine, is_refused_with_its_reason_by_the_api) {
   EXPECT_EQ(server.post("/programs/1/run?from_line=x")["error"]["code"], "http.bad-body");
   EXPECT_EQ(server.get("/programs/1/way?from_line=99")["code"], "reentry.no-motion");
   EXPECT_EQ(server.get("/programs/1/way")["error"]["code"], "http.bad-body");
+  for (const char* const bad : {"pass=0", "pass=x", "after=-1", "after=nan", "after=1e999", "pass=4294967296"}) {
+    EXPECT_EQ(server.get(fmt::format("/programs/1/way?from_line=6&{}", bad))["error"]["code"], "http.bad-body") << bad;
+  }
+  EXPECT_EQ(server.get("/programs/1/way?from_line=6&pass=2")["code"], "reentry.no-pass");
+  EXPECT_EQ(server.get("/programs/1/way?from_line=6&after=1e9")["code"], "reentry.beyond-end");
+  const auto amid = server.get("/programs/1/way?from_line=6&pass=1&after=0.5");
+  EXPECT_EQ(amid["code"], "") << amid;
 }
 
 }  // namespace

@@ -17,6 +17,11 @@ std::string example_text(const std::string& name) {
   return {std::istreambuf_iterator<char>(file), {}};
 }
 
+std::optional<MachineDescription> parse(const std::string& text) {
+  Diagnostics diagnostics;
+  return parse_machine(text, "a test", diagnostics);
+}
+
 std::string value_of(const KeptSettings& kept, int number) {
   for (const GrblSetting& setting : grbl_settings(kept.machine(), {})) {
     if (setting.number == number) return setting.value;
@@ -57,6 +62,30 @@ TEST(KeptSettings, change_one_line_each_and_keep_its_comment) {
   }
 }
 
+TEST(KeptSettings, of_pins_directions_and_the_spindle_are_lines_of_their_tables) {
+  const std::string text = example_text("router");
+  struct Case {
+    int number;
+    double value;
+    const char* line;
+  };
+  for (const Case& one : {Case{0, 5, "step_pulse_us = 5\n"}, Case{2, 7, "step = \"low\"\n"},
+                          Case{3, 2, "inverted = true\n"}, Case{4, 1, "driver_enable = \"high\"\n"},
+                          Case{6, 1, "probe = \"high\"\n"}, Case{30, 18'000, "max_rpm = 18000\n"}}) {
+    KeptSettings kept(text);
+    std::string reason;
+    const auto after = kept.with(one.number, one.value, reason);
+    ASSERT_TRUE(after) << one.number << reason;
+    EXPECT_NE(after->find(one.line), std::string::npos) << *after;
+    EXPECT_TRUE(has_setting(*parse(*after), {}, one.number, one.value)) << one.number;
+  }
+  // Only all drivers at once, and only axes that are there.
+  for (const auto& [number, value] : {std::pair{2, 3.0}, {3, 8.0}, {3, 300.0}, {4, 2.0}, {30, 70'000.0}}) {
+    std::string reason;
+    EXPECT_FALSE(KeptSettings(text).with(number, value, reason)) << number;
+  }
+}
+
 TEST(KeptSettings, keep_the_end_of_the_travel_that_has_the_switch) {
   const std::string text = example_text("router");
   KeptSettings kept(text);
@@ -75,7 +104,7 @@ TEST(KeptSettings, of_homing_are_those_of_all_axes) {
 
 TEST(KeptSettings, refuse_what_the_file_does_not_have_and_what_is_not_sound) {
   const KeptSettings kept(example_text("router"));
-  for (const int number : {0, 1, 12, 20, 23, 30, 31, 99, 103, 109, 113, 140, 200, -1, 1000000}) {
+  for (const int number : {1, 5, 12, 20, 23, 31, 99, 103, 109, 113, 140, 200, -1, 1000000}) {
     std::string reason;
     EXPECT_FALSE(kept.with(number, 1, reason)) << number;
     EXPECT_NE(reason, "") << number;

@@ -82,6 +82,9 @@ class OpenProgram final : public Source<PathItem> {
   // Begins anew at `place`: modes as at first, offsets of work systems kept. G92 and the tool offset are forgotten.
   void restart(const Point& place);
 
+  // Begins anew at `place`, with the work systems' offsets and the homes of G28 and G30 from `parameters`.
+  void take_offsets(const SavedParameters& parameters, const Point& place);
+
   ModesInForce modes() const { return interpreter_->modes(); }
   SavedParameters parameters() const { return interpreter_->saved_parameters(); }
   // The source line of the item that was pulled last: the value of its N word, below 0: none.

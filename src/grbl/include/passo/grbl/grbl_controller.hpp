@@ -22,6 +22,7 @@
 
 #include "passo/activity/open_program.hpp"
 #include "passo/grbl/grbl_input.hpp"
+#include "passo/grbl/grbl_memory.hpp"
 #include "passo/grbl/grbl_reports.hpp"
 #include "passo/grbl/grbl_settings.hpp"
 #include "passo/grbl/kept_settings.hpp"
@@ -33,15 +34,20 @@ namespace passo {
 // grbl's numbers for what is wrong with a line, beside those for G-code.
 enum class GrblError : int {
   none = 0,
+  bad_number = 2,
   bad_statement = 3,
+  negative_value = 4,
   setting_disabled = 5,
   not_idle = 8,
   locked = 9,
   soft_limit_needs_homing = 10,
   line_overflow = 11,
+  door_open = 13,
+  line_too_long_to_keep = 14,
   jog_beyond_travel = 15,
   bad_jog = 16,
   unsupported = 20,
+  no_axis_words = 26,
 };
 
 enum class GrblAlarm : int {
@@ -67,7 +73,16 @@ class GrblController {
   using WriteFile = std::function<bool(const std::string& before, const std::string& after)>;
   void keep_settings(std::string text, WriteFile write);
 
-  // A sender has come: it is greeted, and what an earlier one has left unread is dropped.
+  // What the controller keeps over a restart begins as `memory`, and goes to `write` when a sender has changed it;
+  // `write` returns false if that is not possible.
+  void remember(GrblMemory memory, std::function<bool(const GrblMemory&)> write);
+  // Offsets of the work systems, and the homes of G28 and G30, are shared with others: `share` gets those that a sender
+  // has changed, once the machine rests. take_offsets() takes theirs; call while nothing moves for the senders.
+  void share_offsets(std::function<void(const SavedParameters&)> share) { share_offsets_ = std::move(share); }
+  void take_offsets(const SavedParameters& parameters);
+
+  // A sender has come: it is greeted, and what an earlier one has left unread is dropped. To the first one the
+  // controller has just started: its start lines run, unless it is locked.
   void connect();
   // The sender has gone: a jog ends, and a program is held until somebody resumes or resets it.
   void disconnect();
@@ -114,6 +129,11 @@ class GrblController {
   void take_jog(const std::string& text);
   void take_setting(const std::string& text);
   void keep_setting(int number, double value);
+  void take_build(const std::string& text);
+  bool keep_memory();
+  void run_startup();
+  bool is_door_open() const;
+  void share_changed_offsets();
   void take_startup_line(const std::string& text);
   void restore(const std::string& text);
   void toggle_check();
@@ -147,7 +167,9 @@ class GrblController {
   MachineSession& session_;
   OpenProgram& program_;
   GrblInput input_;
-  GrblChoices choices_;
+  GrblMemory memory_;
+  std::function<bool(const GrblMemory&)> write_memory_;
+  std::function<void(const SavedParameters&)> share_offsets_;
   std::optional<KeptSettings> kept_;
   WriteFile write_file_;
   std::vector<std::string> replies_;
@@ -155,20 +177,20 @@ class GrblController {
   std::function<void()> after_stop_;
   std::optional<Ticket> homing_;
   std::optional<ProbeOutcome> probe_;
-  bool must_touch_ = false;  // the probe move under way raises an alarm if nothing is touched
-  bool alarm_ = false;       // locked, until $X, $H
-  bool checks_ = false;      // $C
-  bool drives_ = true;       // senders may move the machine
-  bool resets_ = false;      // the machine comes to rest for a reset
-  int offset_in_ = 0;        // reports until the work offset is shown again; 0: in the next
+  bool alarm_ = false;   // locked, until $X, $H
+  bool checks_ = false;  // $C
+  bool drives_ = true;   // senders may move the machine
+  bool resets_ = false;  // the machine comes to rest for a reset
+  int offset_in_ = 0;    // reports until the work offset is shown again; 0: in the next
   int overrides_in_ = 1;
   Point told_offset_;
   int feed_override_ = 100;
   int rapid_override_ = 100;
   int spindle_override_ = 100;
-  std::string startup_[2];
-  Seconds heard_at_{0};  // any byte of the sender
-  Seconds asked_at_{0};  // for the status
+  bool has_started_ = false;      // the start lines have had their turn
+  bool offsets_changed_ = false;  // a sender has changed them, and nobody has heard of it
+  Seconds heard_at_{0};           // any byte of the sender
+  Seconds asked_at_{0};           // for the status
   std::optional<Seconds> pace_;
 };
 

@@ -53,8 +53,8 @@ std::string modes_text(const ModesInForce& modes, const GrblUnits& units);
 std::string offsets_text(const SavedParameters& parameters, const ModesInForce& modes,
                          const std::optional<ProbeOutcome>& probe, const GrblUnits& units);
 std::string probe_text(const std::optional<ProbeOutcome>& probe, const GrblUnits& units);
-// $I
-std::string build_text();
+// $I, with the words that somebody has set for this machine
+std::string build_text(std::string_view words);
 // $
 std::string help_text();
 

@@ -18,10 +18,14 @@ struct GrblSetting {
 struct GrblChoices {
   unsigned status_mask = 3;  // $10: bit 0 machine positions, else work positions; bit 1 the buffers
   bool inches = false;       // $13: reports are in inches
+  friend bool operator==(const GrblChoices&, const GrblChoices&) = default;
 };
 
 // In the order of their numbers.
 std::vector<GrblSetting> grbl_settings(const MachineDescription& machine, const GrblChoices& choices);
+
+// True: the setting has that value, as far as senders are shown it.
+bool has_setting(const MachineDescription& machine, const GrblChoices& choices, int number, double value);
 
 // The axes of reports: X, Y and Z always, because senders expect them; then the machine's others, six at most.
 std::vector<Axis> grbl_axes_of(const MachineDescription& machine);

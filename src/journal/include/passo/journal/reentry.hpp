@@ -18,7 +18,9 @@ namespace passo {
 
 enum class ReentryRefusal : std::uint8_t {
   no_motion,     // no motion comes from that line on
-  done_often,    // the line is done more than once: it is in a loop or in a subprogram
+  done_often,    // the line is done more than once, and no pass was chosen
+  no_pass,       // the line is not done so often
+  beyond_end,    // the path ends before that distance after the line
   other_file,    // a subprogram in another file has a line of that number too
   after_probe,   // the way there depends on what a probe finds
   path_changed,  // the path has no such place
@@ -30,10 +32,24 @@ std::string_view code_of(ReentryRefusal refusal);
 // A sentence without a full stop.
 std::string_view message_of(ReentryRefusal refusal);
 
-// Where the motion of a line of the main program begins, or that of the next line with motion. A line that was merged
-// with lines before it, because they go straight on, begins where the merged one does. Memory: 24 bytes a line.
-Result<ResumePoint, ReentryRefusal> find_line(const ProgramReader& program, const MachineDescription& machine,
-                                              const InterpreterOptions& options, std::uint32_t line);
+// A point of a program's path: `after` a line's motion has begun, along the path. In loops and subprograms the path
+// comes to a line several times: `pass` says which of them counts, 1 is the first. Times that follow each other without
+// another line's motion between them are one pass.
+struct LinePlace {
+  std::uint32_t line = 0;
+  std::uint32_t pass = 0;  // 0: the line is done once
+  Mm after{0};
+};
+struct LineProblem {
+  ReentryRefusal refusal = ReentryRefusal::no_motion;
+  std::uint32_t times = 0;  // how often the line is done
+};
+std::string message_of(const LineProblem& problem);
+
+// Where that point is. A line without motion means the next one with motion. A line that was merged with lines before
+// it, because they go straight on, begins where the merged one does. Memory: 16 bytes a move.
+Result<ResumePoint, LineProblem> find_line(const ProgramReader& program, const MachineDescription& machine,
+                                           const InterpreterOptions& options, const LinePlace& wanted);
 
 struct Reentry {
   ResumePoint at;
