@@ -4,7 +4,7 @@ import { tmpdir } from 'node:os';
 import { join } from 'node:path';
 import type { Browser, Page } from 'playwright-core';
 import { afterAll, beforeAll, describe, expect, it } from 'vitest';
-import { Daemon, openBrowser, smallMachine, visit } from './kit';
+import { Daemon, openBrowser, smallMachine, violations, visit } from './kit';
 
 let browser: Browser;
 let daemon: Daemon;
@@ -104,6 +104,31 @@ describe('inputs and outputs', () => {
     await page.getByRole('button', { name: 'End the set-up mode' }).click();
     await daemon.until((status) => status.state === 'Idle' && !status.outputs.flood && status.outputs.spindle === 'off');
     await expect.poll(() => page.getByTestId('pin-flood').innerText(), { timeout: 10_000 }).toBe('off');
+    expect(errors).toEqual([]);
+    await context.close();
+  });
+});
+
+describe('single pulses', () => {
+  it('are shown with the times at which the board makes them', async () => {
+    const { key } = (await daemon.post('/owner', '{"name": "story"}')) as { key: string };
+    const { id } = (await daemon.post('/programs?name=pulses.ngc', 'G21 G91 G1 X1 F600\nM2\n')) as { id: number };
+    await daemon.post(`/programs/${id}/run`, '', key);
+    await daemon.until((status) => status.job?.state === 'done', 30_000);
+    await fetch(`${daemon.address}api/v1/owner`, { method: 'DELETE', headers: { 'X-Passo-Key': key } });
+    const { page, context, errors } = await visit(browser, daemon, 'pins');
+    const pulses = page.getByRole('region', { name: 'Single pulses' });
+    const reading = (): Promise<string> => page.getByTestId('pulses').innerText();
+    await expect.poll(reading, { timeout: 20_000 }).toMatch(/X \d+, [\d.]+ .s after the pulse before: [\d,]+ steps\/s/);
+    const canvas = pulses.getByRole('img', { name: 'Single pulses' });
+    const wide = await canvas.screenshot();
+    const countOf = (words: string): number => Number(/X (-?\d+)/.exec(words)?.[1]);
+    const last = countOf(await reading());
+    await pulses.getByRole('button', { name: 'To the pulse before' }).click();
+    await expect.poll(async () => countOf(await reading())).toBe(last - 1);
+    for (let i = 0; i < 4; ++i) await pulses.getByRole('button', { name: 'Nearer' }).click();
+    await expect.poll(async () => (await canvas.screenshot()).equals(wide), { timeout: 20_000 }).toBe(false);
+    expect(await violations(page)).toEqual([]);
     expect(errors).toEqual([]);
     await context.close();
   });

@@ -1,7 +1,7 @@
 // Drawings become programs, with a picture that follows the form.
 import type { Browser } from 'playwright-core';
 import { afterAll, beforeAll, describe, expect, it } from 'vitest';
-import { Daemon, openBrowser, visit } from './kit';
+import { Daemon, example, openBrowser, visit } from './kit';
 
 let browser: Browser;
 let daemon: Daemon;
@@ -45,6 +45,32 @@ describe('a drill file', () => {
     await page.getByRole('checkbox', { name: 'wrong.drl' }).check();
     await expect.poll(() => page.getByTestId('make-state').innerText(), { timeout: 20_000 }).toBe('Not made');
     expect(await page.locator('.make-result pre').innerText()).toContain('wrong.drl');
+    expect(errors).toEqual([]);
+    await context.close();
+  });
+});
+
+describe('a whole board', () => {
+  it('becomes programs in the order in which they are run, and a layer that was guessed wrong is told', async () => {
+    const { page, context, errors } = await visit(browser, daemon, 'make');
+    const files = ['timer-B_Cu.gbr', 'timer-Edge_Cuts.gbr', 'timer.drl'].map((name) => example(`boards/${name}`));
+    await page.setInputFiles('input[type=file]', files);
+    await page.getByRole('heading', { name: 'What to do when' }).waitFor({ timeout: 40_000 });
+    const steps = (): Promise<string[]> => page.locator('.board-step h3').allInnerTexts();
+    expect((await steps()).map((one) => one.split('\n')[0])).toEqual(['1. Fix the blank', '2. Drill', '3. Mill the back', '4. Cut the board out']);
+    const layers = page.getByRole('region', { name: 'Layers: is each one right?' });
+    expect(await layers.getByRole('combobox').evaluateAll((all) => all.map((one) => (one as HTMLSelectElement).value))).toEqual(['bottom copper', 'outline', 'drill']);
+    await layers.getByRole('combobox', { name: 'timer-B_Cu.gbr' }).selectOption('top copper');
+    await expect.poll(async () => (await steps()).join(), { timeout: 40_000 }).toContain('Mill the front');
+    const { programs } = await daemon.get<{ programs: { name: string }[] }>('/programs');
+    const names = programs.map((one) => one.name).filter((name) => name.startsWith('timer-B_Cu'));
+    expect(names).toEqual(['timer-B_Cu-1-drill.ngc', 'timer-B_Cu-2-isolate-front.ngc', 'timer-B_Cu-3-outline.ngc']);
+    for (const picture of await page.locator('.board-step img').all()) {
+      await picture.scrollIntoViewIfNeeded();
+      await expect.poll(() => picture.evaluate((one) => (one as HTMLImageElement).naturalWidth)).toBeGreaterThan(0);
+    }
+    await page.getByRole('button', { name: 'To this program: 2-isolate-front.ngc' }).click();
+    await expect.poll(() => page.locator('h2.title').innerText()).toBe('timer-B_Cu-2-isolate-front.ngc');
     expect(errors).toEqual([]);
     await context.close();
   });

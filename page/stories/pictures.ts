@@ -46,6 +46,27 @@ async function make(page: import('playwright-core').Page): Promise<void> {
   await sleep(300);
 }
 
+// What to do when, for a whole board.
+async function board(page: import('playwright-core').Page, daemon: Daemon): Promise<void> {
+  await page.goto(`${daemon.address}#/make`);
+  await page.getByRole('radio', { name: 'A whole circuit board' }).check({ force: true });
+  await page.setInputFiles('input[type=file]', ['timer-B_Cu.gbr', 'timer-Edge_Cuts.gbr', 'timer.drl'].map((name) => example(`boards/${name}`)));
+  await page.getByRole('heading', { name: 'What to do when' }).waitFor({ timeout: patience });
+  for (const picture of await page.locator('.board-step img').all()) await picture.evaluate((one) => one.setAttribute('loading', 'eager'));
+  await sleep(2500);
+  await page.screenshot({ path: join(folder, 'page-board.png'), timeout: patience });
+}
+
+// A strip of single pulses, while a program runs.
+async function pulses(page: import('playwright-core').Page, daemon: Daemon): Promise<void> {
+  await page.goto(`${daemon.address}#/pins`);
+  const strip = page.getByRole('region', { name: 'Single pulses' });
+  await strip.getByText('after the pulse before').waitFor({ timeout: patience });
+  await strip.getByRole('button', { name: 'Nearer' }).click();
+  await sleep(1500);
+  await strip.screenshot({ path: join(folder, 'page-pulses.png'), timeout: patience });
+}
+
 // A probing cycle, and the height map of the program that is open.
 async function probe(page: import('playwright-core').Page, daemon: Daemon): Promise<void> {
   const { programs } = await daemon.get<{ programs: { id: number }[] }>('/programs');
@@ -102,11 +123,13 @@ for (const theme of ['dark', 'light'] as const) {
       }
       await page.screenshot({ path: join(folder, `${path}-${theme}-${size.name}.png`), timeout: patience });
     }
+    if (size.name === 'wide' && theme === 'light' && pages.includes('make')) await board(page, daemon);
     if (size.name === 'wide' && pages.includes('run')) {
       await page.goto(`${daemon.address}#/run`);
       await startFrom(page, daemon);
       await sleep(300);
       await page.screenshot({ path: join(folder, `running-${theme}-${size.name}.png`), timeout: patience });
+      if (theme === 'dark') await pulses(page, daemon);
       await fetch(`${daemon.address}api/v1/stop`, { method: 'POST' });
       await daemon.until((status) => status.state === 'Idle');
       await sleep(1500);

@@ -360,7 +360,7 @@ export const en = {
   'outputs.spindle.on': 'Turn it',
   'strip.title': 'The last 20 seconds',
   'strip.stand': 'Stand still',
-  'strip.what': 'Motors: steps a second, upwards in the positive direction. The daemon tells changes 30 times a second; the Lab shows single pulses and windings.',
+  'strip.what': 'Motors: steps a second, upwards in the positive direction. The daemon tells changes 30 times a second; single pulses are below.',
   // The machine file
   'file.title': 'Machine file',
   'file.what': 'Every change is tried at once, and refused with the reason. Nothing counts before it is written. Comments stay.',

@@ -348,7 +348,7 @@ export const fr: Words = {
   'outputs.spindle.on': 'Faire tourner',
   'strip.title': 'Les 20 dernières secondes',
   'strip.stand': 'Figer',
-  'strip.what': 'Moteurs : pas par seconde, vers le haut dans le sens positif. Le serveur dit les changements 30 fois par seconde ; le Laboratoire montre chaque impulsion et les bobines.',
+  'strip.what': 'Moteurs : pas par seconde, vers le haut dans le sens positif. Le serveur dit les changements 30 fois par seconde ; les impulsions une à une sont plus bas.',
   'file.title': 'Fichier de la machine',
   'file.what': 'Chaque changement est essayé aussitôt, et refusé avec la raison. Rien ne compte avant d’être écrit. Les commentaires restent.',
   'file.later': 'Le fichier a changé. Il compte au prochain démarrage de passo serve.',

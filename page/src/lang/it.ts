@@ -348,7 +348,7 @@ export const it: Words = {
   'outputs.spindle.on': 'Fai girare',
   'strip.title': 'Gli ultimi 20 secondi',
   'strip.stand': 'Ferma',
-  'strip.what': 'Motori: passi al secondo, verso l’alto nel verso positivo. Il server dice i cambi 30 volte al secondo; il Laboratorio mostra singoli impulsi e avvolgimenti.',
+  'strip.what': 'Motori: passi al secondo, verso l’alto nel verso positivo. Il server dice i cambi 30 volte al secondo; i singoli impulsi sono qui sotto.',
   'file.title': 'File della macchina',
   'file.what': 'Ogni modifica è provata subito, e rifiutata con il motivo. Nulla vale prima che sia scritto. I commenti restano.',
   'file.later': 'Il file è cambiato. Vale dal prossimo avvio di passo serve.',

@@ -348,7 +348,7 @@ export const zh: Words = {
   'outputs.spindle.on': '转动',
   'strip.title': '最近 20 秒',
   'strip.stand': '定格',
-  'strip.what': '电机：每秒步数，向上为正方向。守护程序每秒报告 30 次变化；单个脉冲和绕组请看实验室。',
+  'strip.what': '电机：每秒步数，向上为正方向。守护程序每秒报告 30 次变化；单个脉冲见下方。',
   'file.title': '机床文件',
   'file.what': '每次修改立即试验，不成立则说明原因并拒绝。写入之前一切不生效。注释保留。',
   'file.later': '文件已更改，将在 passo serve 下次启动时生效。',

@@ -12,6 +12,37 @@ export interface Make {
   words: string;
   picture: string;
   program: number | null;
+  programs: number[]; // in the order in which they are run
+  report: BoardReport | null;
+  page: boolean; // what to do when, as a file of its own
+}
+// What `passo cam board --json` tells.
+export type BoardStepKind = 'blank' | 'drill' | 'heights-front' | 'heights-back' | 'front' | 'turn' | 'find-holes' | 'back' | 'edge';
+export interface BoardStep {
+  step: BoardStepKind;
+  title: string;
+  program: string; // its file; empty: there is none
+  tools: string[];
+  figures: string;
+  time_s: number | null;
+}
+export interface BoardFile {
+  file: string;
+  name: string; // within its folder or archive
+  layer: string; // "top copper"
+  told_by: 'attribute' | 'name' | 'content' | 'you';
+  drill_file: boolean;
+}
+export interface BoardReport {
+  machine: string;
+  files: BoardFile[];
+  left_out: string[];
+  board: { across_mm: number; up_mm: number };
+  margin_mm: number;
+  up: 'front' | 'back';
+  turn: '' | 'x' | 'y';
+  holes: '' | 'pins' | 'probe';
+  steps: BoardStep[];
 }
 export const make = signal<Make | null>(null);
 // Counts the orders that have ended, so that each has a picture of its own.
@@ -37,8 +68,10 @@ export async function clearDrawings(): Promise<void> {
 export interface Order {
   job: string;
   files: string[];
-  options: Record<string, string | number | boolean>;
+  options: Options;
+  profile?: Record<string, Options>; // of a board: options of the jobs that it needs
 }
+export type Options = Record<string, string | number | boolean | string[]>;
 
 let wanted: Order | null = null;
 let works = false;

@@ -5,6 +5,13 @@ export interface Box {
   low: [number, number, number];
   high: [number, number, number];
 }
+// `tool` 0: the program has put none in. `diameter`: mm, by the tool table. `zero_z`: machine Z of the work's zero with
+// this tool's length.
+export interface UsedTool {
+  tool: number;
+  diameter: number | null;
+  zero_z: number;
+}
 export interface PathIndex {
   program: number;
   complete: boolean;
@@ -16,6 +23,7 @@ export interface PathIndex {
   cuts: Box | null;
   work: Box | null; // feeds, work coordinates
   speeds: { low: number; high: number } | null; // programmed feeds, mm/min
+  tools: UsedTool[];
 }
 export const pathIndex = signal<PathIndex | null>(null);
 export const pathBox = computed<Box | null>(() => pathIndex.value?.work ?? null);

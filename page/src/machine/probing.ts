@@ -136,14 +136,17 @@ export interface HeightMap {
 export const heightMap = signal<{ program: number; map: HeightMap } | null>(null);
 
 // A job may just have found one, so the daemon is asked, and not the list of programs.
+let looks = 0; // an answer to an earlier look is dropped
 export async function lookForMap(program: number | null): Promise<void> {
-  if (program === null) return void (heightMap.value = null);
+  const mine = ++looks;
+  let found: { program: number; map: HeightMap } | null = null;
   try {
-    const has = (await get<Program>(`/programs/${program}`)).height_map;
-    heightMap.value = has ? { program, map: await get<HeightMap>(`/programs/${program}/height-map`) } : null;
+    const has = program !== null && (await get<Program>(`/programs/${program}`)).height_map;
+    if (has) found = { program, map: await get<HeightMap>(`/programs/${program}/height-map`) };
   } catch {
-    heightMap.value = null;
+    // The program has just been deleted.
   }
+  if (mine === looks) heightMap.value = found;
 }
 
 export async function level(program: Program): Promise<void> {

@@ -14,6 +14,9 @@ export const consoleName = 'console.ngc';
 export const setUpName = 'set-up.ngc';
 export const isListed = (program: Program): boolean => program.name !== consoleName && program.name !== setUpName;
 
+// What a probing cycle runs. An uploaded name has no space. A height map without a program stays with its own cycle.
+export const isProbing = (program: Program): boolean => /^probe [a-z]+$/.test(program.name);
+
 const jobProgram = computed(() => {
   const job = status.value?.job ?? null;
   return isUnderWay(job) ? (job?.program ?? null) : null;
@@ -25,6 +28,13 @@ export const shownId = computed<number | null>(() => {
   if (has(chosen.value)) return chosen.value;
   return all.at(-1)?.id ?? null;
 });
+
+// The program that a height map is for: never a probing cycle that has just ended, and is still shown.
+export function mapTarget(all: readonly Program[], shownOne: number | null, chosenOne: number | null): Program | null {
+  const own = all.filter((one) => isListed(one) && !isProbing(one));
+  return own.find((one) => one.id === shownOne) ?? own.find((one) => one.id === chosenOne) ?? own.at(-1) ?? null;
+}
+export const programForMap = computed(() => mapTarget(programs.value, shownId.value, chosen.value));
 
 // With its findings, which the list does not have.
 export const shown = signal<Program | null>(null);

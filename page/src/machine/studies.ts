@@ -12,10 +12,14 @@ export interface LoadedLine {
   line: number;
   axis: string;
   verdict: Verdict;
+  want: 'torque' | 'jump' | 'calm';
   needed_nm: number;
   low_nm: number;
-  cause: string;
-  cure?: string;
+  full_steps_s: number;
+  // What would be safe; of a rapid, the velocity of its axis too. Lengths are mm, or degrees.
+  safe_acceleration?: number;
+  safe_feed_mm_min?: number;
+  safe_velocity_mm_min?: number;
 }
 export interface Tuning {
   verdict: Verdict;

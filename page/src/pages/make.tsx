@@ -9,7 +9,8 @@ import { Button } from '../parts/button';
 import { DropZone } from '../parts/drop_zone';
 import { Choice } from '../parts/view_dialog';
 import { forms, type Field, type Form } from './make_forms';
-import { ask, formNow, job, picked, set, takeDrawings, valuesOf } from './make_order';
+import { BoardLayers, BoardSteps } from './make_board';
+import { ask, fieldsOf, formNow, isOwn, job, layers, partsOf, pick, picked, set, takeDrawings, valuesOf } from './make_order';
 
 function Drawings({ form }: { form: Form }) {
   const files = make.value?.files ?? [];
@@ -18,18 +19,12 @@ function Drawings({ form }: { form: Form }) {
     <section class="panel" aria-label={say('make.files')}>
       <h2>{say('make.files')}</h2>
       <DropZone words={say('make.drop')} accept={form.files} take={takeDrawings} />
+      {form.job === 'wire' && <p class="dim">{say('make.wire.sides')}</p>}
       <ul class="make-files">
         {files.map((name) => (
           <li key={name}>
             <label>
-              <input
-                type="checkbox"
-                checked={picked.value.includes(name)}
-                onChange={(event) => {
-                  picked.value = event.currentTarget.checked ? [...picked.value, name] : picked.value.filter((one) => one !== name);
-                  ask(form);
-                }}
-              />{' '}
+              <input type="checkbox" checked={picked.value.includes(name)} onChange={(event) => pick(name, event.currentTarget.checked)} />{' '}
               {name}
             </label>
           </li>
@@ -41,6 +36,7 @@ function Drawings({ form }: { form: Form }) {
           why={why}
           onClick={() => {
             picked.value = [];
+            layers.value = {};
             return clearDrawings();
           }}
         >
@@ -86,6 +82,16 @@ function OneField({ form, field }: { form: Form; field: Field }) {
   );
 }
 
+function Fields({ form, fields }: { form: Form; fields: readonly Field[] }) {
+  return (
+    <div class="make-fields">
+      {fields.map((field) => (
+        <OneField key={`${form.job} ${field.option}`} form={form} field={field} />
+      ))}
+    </div>
+  );
+}
+
 function Result() {
   const now = make.value;
   const shown = now !== null && now.state === 'done' && now.picture !== '';
@@ -98,17 +104,18 @@ function Result() {
           {say(`make.state.${now?.state ?? 'none'}`)}
         </span>
       </div>
-      {shown && <img src={`api/v1/make/picture?order=${madeCount.value}${secret}`} alt={say('make.picture')} />}
+      {shown && now.job !== 'board' && <img src={`api/v1/make/picture?order=${madeCount.value}${secret}`} alt={say('make.picture')} />}
       {now !== null && now.words !== '' && (
         <pre class={`toml ${now.state === 'failed' ? 'failed' : ''}`} lang="en" tabIndex={0}>
           {now.words}
         </pre>
       )}
-      <div class="row">
+      <BoardSteps />
+      {now?.job !== 'board' && <div class="row">
         <Button kind="accent" icon="run" why={now?.program == null ? say('make.none') : ''} onClick={() => goTo('files')}>
           {say('make.open')}
         </Button>
-      </div>
+      </div>}
     </section>
   );
 }
@@ -135,13 +142,24 @@ export function MakePage() {
         <Drawings form={form} />
         <section class="panel" aria-label={say(form.title)}>
           <h2>{say(form.title)}</h2>
-          <div class="make-fields">
-            {form.fields.map((field) => (
-              <OneField key={`${form.job} ${field.option}`} form={form} field={field} />
-            ))}
-          </div>
+          <Fields form={form} fields={form.fields} />
+          {form.more !== undefined && (
+            <details>
+              <summary>{say('make.more')}</summary>
+              <Fields form={form} fields={form.more} />
+            </details>
+          )}
+          {partsOf(form).map((part) => (
+            <details key={part.job}>
+              <summary>
+                {say(part.title)}: {say('make.board.options')}
+              </summary>
+              <Fields form={part} fields={fieldsOf(part).filter((field) => isOwn(form, field))} />
+            </details>
+          ))}
           <p class="dim">{say('make.lengths')}</p>
         </section>
+        {form.job === 'board' && <BoardLayers />}
       </div>
       <Result />
     </div>

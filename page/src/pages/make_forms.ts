@@ -12,8 +12,12 @@ export interface Form {
   job: string;
   title: Key;
   files: string; // what the file dialog offers
+  most?: number; // files at once
   withoutFiles?: string; // an option that needs no drawing
   fields: readonly Field[];
+  more?: readonly Field[]; // that few need
+  parts?: readonly string[]; // jobs that it needs; their options are those of their own forms
+  decides?: readonly string[]; // options of these jobs that it sets itself
 }
 
 const text = (option: string, title: Key, usual = ''): Field => ({ option, title, kind: 'text', usual });
@@ -21,8 +25,14 @@ const flag = (option: string, title: Key): Field => ({ option, title, kind: 'fla
 const choice = (option: string, title: Key, choices: readonly (readonly [string, Key])[]): Field => ({ option, title, kind: 'choice', choices });
 const mirror = choice('mirror', 'make.mirror', [['x', 'make.mirror.x'], ['y', 'make.mirror.y']]);
 const zero = choice('zero', 'make.zero', [['lower-left', 'make.zero.low']]);
-const ends = [text('clearance', 'make.clearance', '2mm'), text('spindle', 'make.spindle'), zero, mirror];
+const ends = [text('clearance', 'make.clearance', '2mm'), text('spindle', 'make.spindle', '12000'), zero, mirror];
 const milled = [text('feed', 'make.feed', '200mm'), text('plunge-feed', 'make.plunge', '60mm'), ...ends, flag('conventional', 'make.conventional')];
+const units = choice('units', 'make.units', [['cm', 'make.units.cm'], ['inch', 'make.units.inch']]);
+const input = choice('input', 'make.input', [['mm', 'make.units.mm'], ['cm', 'make.units.cm'], ['inch', 'make.units.inch']]);
+const seldom = [units, input, text('scale', 'make.scale'), text('mirror-at', 'make.mirror.at'), text('align', 'make.align.holes'), text('park', 'make.park', '0,0')];
+const join = text('join', 'make.join', '0.1mm');
+const sheet = text('sheet', 'make.sheet');
+const layer = text('layer', 'make.layer');
 
 // Of what is cut out along a line.
 const cutOut = [
@@ -35,7 +45,7 @@ const cutOut = [
   text('lead', 'make.lead'),
   flag('dog-bones', 'make.dogbones'),
 ];
-const drawings = '.svg,.dxf';
+const drawings = '.svg,.dxf,.hpgl,.plt';
 
 export const forms: readonly [Form, ...Form[]] = [
   {
@@ -46,9 +56,10 @@ export const forms: readonly [Form, ...Form[]] = [
       choice('side', 'make.side', [['outside', 'make.side.outside'], ['inside', 'make.side.inside'], ['on', 'make.side.on']]),
       text('tool', 'make.tool', '2mm'),
       ...cutOut,
-      text('layer', 'make.layer'),
+      layer,
       ...milled,
     ],
+    more: [join, text('tab', 'make.tab'), sheet, ...seldom],
   },
   {
     job: 'pocket',
@@ -60,14 +71,15 @@ export const forms: readonly [Form, ...Form[]] = [
       text('step', 'make.layers', '1mm'),
       text('step-over', 'make.over', '40'),
       text('ramp', 'make.ramp', '5'),
-      text('layer', 'make.layer'),
+      layer,
       ...milled,
     ],
+    more: [text('engagement', 'make.engagement', '0'), join, sheet, ...seldom],
   },
   {
     job: 'engrave',
     title: 'make.engrave',
-    files: `${drawings},.ttf,.otf`,
+    files: `${drawings},.ttf,.otf,.lff,.jhf`,
     withoutFiles: 'text',
     fields: [
       text('text', 'make.text'),
@@ -82,11 +94,27 @@ export const forms: readonly [Form, ...Form[]] = [
       text('clear', 'make.clear.tool'),
       ...milled,
     ],
+    more: [
+      flag('on-line', 'make.on.line'),
+      choice('inlay', 'make.inlay', [['pocket', 'make.inlay.pocket'], ['plug', 'make.inlay.plug']]),
+      text('inlay-depth', 'make.inlay.depth', '4mm'),
+      text('glue-gap', 'make.inlay.glue', '0.5mm'),
+      text('saw-gap', 'make.inlay.saw', '1mm'),
+      text('margin', 'make.inlay.margin', '5mm'),
+      text('clear-step', 'make.clear.step', '1mm'),
+      text('arc', 'make.arc'),
+      text('turn', 'make.turned', '0'),
+      text('line-space', 'make.line.space', '1.6'),
+      join,
+      layer,
+      sheet,
+      ...seldom,
+    ],
   },
   {
     job: 'drill',
     title: 'make.drill',
-    files: '.drl,.xln,.exc,.txt,.dxf',
+    files: '.drl,.xln,.exc,.txt,.dxf,.kicad_pcb',
     fields: [
       text('depth', 'make.depth', '-2mm'),
       text('tools', 'make.tools'),
@@ -97,11 +125,20 @@ export const forms: readonly [Form, ...Form[]] = [
       ...ends,
       flag('plain', 'make.plain'),
     ],
+    more: [
+      text('tolerance', 'make.tolerance.drill', '0.05mm'),
+      text('mill-step', 'make.step', '0.5mm'),
+      text('mill-feed', 'make.mill.feed', '150mm'),
+      text('align-drill', 'make.align.drill', '3mm'),
+      choice('zeros', 'make.zeros', [['leading', 'make.zeros.leading'], ['trailing', 'make.zeros.trailing']]),
+      layer,
+      ...seldom,
+    ],
   },
   {
     job: 'isolate',
     title: 'make.isolate',
-    files: '.gbr,.gtl,.gbl,.dxf,.top,.bot',
+    files: '.gbr,.gtl,.gbl,.dxf,.top,.bot,.kicad_pcb',
     fields: [
       text('tool', 'make.tools.width', '0.2mm'),
       text('v', 'make.v'),
@@ -112,21 +149,37 @@ export const forms: readonly [Form, ...Form[]] = [
       { option: 'edge', title: 'make.edge', kind: 'file' },
       ...milled,
     ],
+    more: [flag('voronoi', 'make.voronoi'), text('overlap', 'make.overlap', '50'), text('tolerance', 'make.tolerance.copper', '0.004mm'), layer, ...seldom],
   },
   {
     job: 'outline',
     title: 'make.outline',
-    files: '.gbr,.gko,.gm1,.dxf',
+    files: '.gbr,.gko,.gm1,.dxf,.svg,.kicad_pcb',
     fields: [
       text('tool', 'make.tool', '2mm'),
       ...cutOut,
       ...milled,
     ],
+    more: [text('tab', 'make.tab'), join, layer, ...seldom],
+  },
+  {
+    job: 'board',
+    title: 'make.board',
+    files: '.zip,.gbr,.gtl,.gbl,.gko,.gm1,.gts,.gbs,.gto,.gbo,.gtp,.gbp,.top,.bot,.drl,.xln,.exc,.txt,.kicad_pcb',
+    fields: [
+      choice('turn', 'make.mirror', [['x', 'make.mirror.x'], ['y', 'make.mirror.y']]),
+      text('margin', 'make.board.margin', '10mm'),
+      text('pins', 'make.board.pins', '5mm'),
+      flag('probe-holes', 'make.board.probe'),
+      text('heights', 'make.board.heights'),
+    ],
+    parts: ['drill', 'isolate', 'outline'],
+    decides: ['zero', 'mirror', 'mirror-at', 'align', 'edge', 'layer', 'tab', 'zeros'],
   },
   {
     job: 'relief',
     title: 'make.relief',
-    files: '.png,.stl,.csv,.xyz',
+    files: '.png,.tif,.tiff,.stl,.csv,.xyz',
     fields: [
       text('width', 'make.width', '100mm'),
       text('depth', 'make.relief.depth', '3mm'),
@@ -147,14 +200,62 @@ export const forms: readonly [Form, ...Form[]] = [
       text('clearance', 'make.clearance', '5mm'),
       text('spindle', 'make.spindle'),
     ],
+    more: [
+      text('length', 'make.length'),
+      choice('origin', 'make.zero', [['lower-right', 'make.origin.lower.right'], ['upper-left', 'make.origin.upper.left'], ['upper-right', 'make.origin.upper.right'], ['center', 'make.origin.center']]),
+      text('gamma', 'make.gamma', '1'),
+      choice('channel', 'make.channel', [['alpha', 'make.channel.alpha']]),
+      text('margin', 'make.rim', '0mm'),
+      choice('margin-level', 'make.rim.level', [['top', 'make.rim.top']]),
+      text('pitch', 'make.pitch'),
+      text('step', 'make.rows.step'),
+      text('tolerance', 'make.tolerance', '0.01mm'),
+      text('overrun', 'make.overrun'),
+      choice('entry', 'make.entry', [['plunge', 'make.entry.plunge']]),
+      text('ramp-angle', 'make.ramp', '5'),
+      text('rough-step', 'make.rough.step'),
+      text('rough-down', 'make.rough.down', '2mm'),
+      text('rough-stock', 'make.rough.stock', '0.3mm'),
+      text('rough-feed', 'make.rough.feed'),
+      text('rest-step', 'make.rest.step'),
+      text('rest-least', 'make.rest.least', '0.05mm'),
+      text('rest-feed', 'make.rest.feed'),
+    ],
+  },
+  {
+    job: 'wire',
+    title: 'make.wire',
+    files: `${drawings},.dat`,
+    most: 2,
+    fields: [
+      choice('axes', 'make.wire.axes', [['XY', 'make.wire.xy'], ['XYUV', 'make.wire.xyuv']]),
+      choice('keep', 'make.wire.keep', [['outside', 'make.side.outside'], ['line', 'make.side.on']]),
+      text('kerf', 'make.wire.kerf', '1mm'),
+      text('feed', 'make.feed', '200mm'),
+      text('most-feed', 'make.wire.most'),
+      text('span', 'make.wire.span'),
+      text('width', 'make.wire.width'),
+      text('chord', 'make.wire.chord'),
+      text('right-at', 'make.wire.right', '0,0'),
+      text('right-turn', 'make.wire.turn', '0'),
+      text('block', 'make.wire.block'),
+      text('lead', 'make.wire.lead', '10mm'),
+      text('heat', 'make.wire.heat'),
+      zero,
+    ],
+    more: [text('block-at', 'make.wire.block.at'), text('tolerance', 'make.tolerance', '0.01mm'), join, layer, units, input, text('scale', 'make.scale')],
   },
 ];
 
-const kindOf = (name: string): string => (/\.[a-z0-9]+$/i.exec(name)?.[0] ?? '').toLowerCase();
+const kindOf = (name: string): string => (/\.[a-z0-9_]+$/i.exec(name)?.[0] ?? '').toLowerCase();
 const takes = (form: Form, kind: string): boolean => kind !== '' && form.files.split(',').includes(kind);
 
-// The form that takes such a file: the one at hand if it does.
-export const formFor = (name: string, atHand: Form): Form =>
-  [atHand, ...forms].find((form) => takes(form, kindOf(name))) ?? atHand;
+// The form that takes such files: the one at hand if it does. Several files of a board make a whole board, as a zip does.
+export function formFor(names: readonly string[], atHand: Form): Form {
+  const kinds = names.map(kindOf);
+  const fits = (form: Form): boolean => kinds.every((kind) => takes(form, kind));
+  const several = forms.find((form) => form.parts !== undefined && kinds.length > 1 && fits(form) && kinds.some((kind) => kind !== '.txt'));
+  return [several ?? atHand, ...forms].find(fits) ?? [atHand, ...forms].find((form) => takes(form, kinds.at(-1) ?? '')) ?? atHand;
+}
 // Whether a file is a drawing or a picture, and no G-code.
 export const isDrawing = (name: string): boolean => kindOf(name) !== '.txt' && forms.some((form) => takes(form, kindOf(name)));

@@ -1,8 +1,8 @@
 // What is to be made: the job, its drawings, and what was filled in. It outlives a look at another page.
 import { signal } from '@preact/signals';
 import { kept } from '../core/kept';
-import { make, order, sendDrawing } from '../machine/maker';
-import { formFor, forms, type Form } from './make_forms';
+import { make, order, sendDrawing, type Options } from '../machine/maker';
+import { formFor, forms, type Field, type Form } from './make_forms';
 
 type Values = Record<string, string | boolean>;
 const isTable = (value: unknown): value is Record<string, Values> => typeof value === 'object' && value !== null;
@@ -10,31 +10,63 @@ const isTable = (value: unknown): value is Record<string, Values> => typeof valu
 const filled = kept<Record<string, Values>>('make', {}, isTable);
 export const job = signal(forms[0].job);
 export const picked = signal<readonly string[]>([]);
+// What a person says of a board's files, by their names: 'top copper'.
+export const layers = signal<Readonly<Record<string, string>>>({});
 
 export const valuesOf = (form: Form): Values => filled.value[form.job] ?? {};
 export const formNow = (): Form => forms.find((one) => one.job === job.value) ?? forms[0];
+export const fieldsOf = (form: Form): readonly Field[] => [...form.fields, ...(form.more ?? [])];
+// The forms whose fields belong to this one: what a board needs.
+export const partsOf = (form: Form): readonly Form[] => (form.parts ?? []).flatMap((name) => forms.find((one) => one.job === name) ?? []);
+
+// Of a form in another one: without what that one decides itself.
+export const isOwn = (form: Form, field: Field): boolean => !(form.decides ?? []).includes(field.option);
+
+function optionsOf(form: Form, without: (field: Field) => boolean = () => false): Options {
+  const values = valuesOf(form);
+  const filledIn = fieldsOf(form).filter((field) => !without(field) && values[field.option] !== undefined && values[field.option] !== '' && values[field.option] !== false);
+  return Object.fromEntries(filledIn.map((field) => [field.option, values[field.option]!]));
+}
 
 export function ask(form: Form): void {
-  const options = Object.fromEntries(Object.entries(valuesOf(form)).filter(([, value]) => value !== '' && value !== false));
+  const options = optionsOf(form);
   // Letters need no drawing, and have none.
   const hasText = form.withoutFiles !== undefined && options[form.withoutFiles] !== undefined;
   // What a field names is no drawing: a board's edge, a font.
-  const named = form.fields.filter((field) => field.kind === 'file').map((field) => options[field.option]);
-  const files = hasText ? [] : picked.value.filter((one) => !named.includes(one));
-  if (files.length > 0 || hasText) order({ job: form.job, files, options });
+  const named = fieldsOf(form).filter((field) => field.kind === 'file').map((field) => options[field.option]);
+  const files = hasText ? [] : picked.value.filter((one) => !named.includes(one)).slice(0, form.most);
+  if (files.length === 0 && !hasText) return;
+  if (form.parts === undefined) return order({ job: form.job, files, options });
+  const known = new Set(make.value?.job === form.job ? make.value.report?.files.map((one) => one.name) : []);
+  const told = Object.entries(layers.value).filter(([name]) => known.has(name));
+  const profile = Object.fromEntries(partsOf(form).map((part) => [part.job, optionsOf(part, (field) => !isOwn(form, field))]));
+  order({ job: form.job, files, options: { ...options, as: told.map(([name, layer]) => `${name}=${layer}`) }, profile });
 }
 
 export function set(form: Form, option: string, value: string | boolean): void {
   filled.value = { ...filled.value, [form.job]: { ...valuesOf(form), [option]: value } };
-  ask(form);
+  ask(formNow());
 }
 
-// A drawing that the job at hand cannot use leads to the first one that can.
+export function setLayer(name: string, layer: string): void {
+  layers.value = { ...layers.value, [name]: layer };
+  ask(formNow());
+}
+
+export function pick(name: string, isPicked: boolean): void {
+  picked.value = isPicked ? [...picked.value, name] : picked.value.filter((one) => one !== name);
+  ask(formNow());
+}
+
+// A drawing that the job at hand cannot use leads to the first one that can. Several files of a board make one.
 export async function takeDrawings(files: readonly File[]): Promise<void> {
   for (const file of files) await sendDrawing(file);
+  const known = new Set(make.value?.files ?? []);
+  const names = files.map((file) => file.name).filter((name) => known.has(name));
   const last = files.at(-1);
-  if (last !== undefined) job.value = formFor(last.name, formNow()).job;
-  const known = make.value?.files ?? [];
-  if (picked.value.length === 0) picked.value = known.slice(-1);
-  ask(formNow());
+  if (last !== undefined) job.value = formFor(files.map((file) => file.name), formNow()).job;
+  const form = formNow();
+  if (form.parts !== undefined) picked.value = [...new Set([...picked.value, ...names])];
+  else if (picked.value.length === 0) picked.value = (make.value?.files ?? []).slice(-(form.most ?? 1));
+  ask(form);
 }

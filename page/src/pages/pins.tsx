@@ -2,6 +2,7 @@
 import { signal } from '@preact/signals';
 import { useEffect, useRef, useState } from 'preact/hooks';
 import { language, say } from '../core/language';
+import { letterScale } from '../core/letters';
 import { confirm } from '../core/question';
 import { theme, themeColour } from '../core/theme';
 import { moveAs, whyNot } from '../machine/actions';
@@ -9,6 +10,7 @@ import { machine, status } from '../machine/connection';
 import { changedAt, isOn, levelOf, pins, samples, shownFor, type Pin, type Sample } from '../machine/pins';
 import { endSetUp, isSetUp, setUp, type Turn } from '../machine/set_up_mode';
 import { Button } from '../parts/button';
+import { PulseStrip } from '../parts/pulse_strip';
 
 const nameOf = (pin: Pin): string => {
   if (pin.name !== 'limit') return say(`pin.${pin.name}` as Parameters<typeof say>[0]);
@@ -192,16 +194,17 @@ function Outputs() {
 
 // Which rows the strip has: the pins, and then each motor's steps a second, upwards in its positive direction.
 function drawStrip(canvas: HTMLCanvasElement, all: readonly Sample[], names: readonly string[], motors: number): void {
-  const density = window.devicePixelRatio;
+  const scale = letterScale();
+  const density = window.devicePixelRatio * scale;
   const rows = names.length;
   const row = 24;
-  canvas.style.height = `${rows * row}px`;
-  canvas.width = Math.max(1, Math.round(canvas.clientWidth * density));
+  canvas.style.height = `${rows * row * scale}px`;
+  canvas.width = Math.max(1, Math.round(canvas.clientWidth * window.devicePixelRatio));
   canvas.height = Math.max(1, Math.round(rows * row * density));
   const pen = canvas.getContext('2d');
   if (pen === null) return;
   pen.scale(density, density);
-  const width = canvas.clientWidth;
+  const width = canvas.clientWidth / scale;
   const label = Math.min(150, width * 0.35);
   const now = performance.now();
   const x = (at: number): number => label + Math.max(0, 1 - (now - at) / shownFor) * (width - label - 4);
@@ -291,6 +294,7 @@ export function PinsPage() {
         </div>
         <Strip />
       </div>
+      <PulseStrip />
     </div>
   );
 }

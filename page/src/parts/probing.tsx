@@ -8,7 +8,7 @@ import {
   fieldsOf, figure, heightMap, kind, kinds, level, lookForMap, probe, setValue, side, sideOf, stepsOf, valueOf, valuesOf, waysOf,
   type Field, type HeightMap, type Kind,
 } from '../machine/probing';
-import { shown } from '../machine/programs';
+import { programForMap, shown } from '../machine/programs';
 import { Button } from './button';
 import { viewsOf, type CycleView, type Spot } from './cycle_picture';
 import { Choice } from './view_dialog';
@@ -99,7 +99,7 @@ function OneField({ of, field }: { of: Kind; field: Field }) {
 
 export function Probing() {
   const of = kind.value;
-  const program = shown.value;
+  const program = programForMap.value ?? shown.value;
   const job = status.value?.job;
   void units.value;
   // A job that has ended may have found a map.
@@ -143,7 +143,7 @@ export function Probing() {
               ))}
             </div>
           </details>
-          <Button kind="accent" icon="probe" why={whyNot('Idle')} onClick={() => probe(of, program)}>
+          <Button kind="accent" icon="probe" why={whyNot('Idle')} onClick={() => probe(of, programForMap.value)}>
             {say('probe.begin')} …
           </Button>
         </div>
@@ -182,7 +182,7 @@ function drawMap(canvas: HTMLCanvasElement, map: HeightMap): void {
 
 function MapPanel() {
   const canvas = useRef<HTMLCanvasElement>(null);
-  const program = shown.value;
+  const program = programForMap.value ?? shown.value;
   const known = heightMap.value;
   const map = known !== null && known.program === program?.id ? known.map : null;
   useEffect(() => {

@@ -11,12 +11,15 @@ export interface PathPoints {
   // Four numbers a point: x, y, z, flags. The place is origin + step * number, mm.
   places: Uint16Array;
   lines: Uint32Array;
+  // Where another tool is put in: from this point on, which of the program's tools.
+  tools: readonly { from: number; tool: number }[];
 }
 
 export const flagRapid = 1;
 // Bits 8 to 15 of the flags: the programmed speed.
 export const speedCode = (mmAMinute: number): number => Math.min(255, Math.max(1, Math.round(16 * (Math.log2(mmAMinute / 60) + 6))));
-// Bits 1 to 7: the torque that the motors need, if it is known: 1 + 50 times the share of what is surely there.
+// Bits 1 to 7: as the daemon sends them, the tool. It is noted apart, and then they are the torque that the motors need,
+// if it is known: 1 + 50 times the share of what is surely there.
 export const fullLoad = 50;
 export function noteLoads(points: PathPoints, loads: Uint16Array): void {
   const { places, lines } = points;
@@ -35,15 +38,28 @@ export function readChunk(bytes: ArrayBuffer): PathPoints {
   const count = view.getUint32(4, true);
   if (bytes.byteLength !== header + count * 12) throw new Error('this chunk of a path is cut off');
   const vector = (at: number): Vector => [view.getFloat32(at, true), view.getFloat32(at + 4, true), view.getFloat32(at + 8, true)];
+  const places = new Uint16Array(bytes, header, count * 4);
   return {
     count,
+    tools: takeTools(places, count),
     chunk: view.getUint32(8, true),
     level: view.getUint32(12, true),
     origin: vector(16),
     step: vector(28),
-    places: new Uint16Array(bytes, header, count * 4),
+    places,
     lines: new Uint32Array(bytes, header + count * 8, count),
   };
+}
+
+// Reads the tools out of the flags, where the torque comes later.
+function takeTools(places: Uint16Array, count: number): { from: number; tool: number }[] {
+  const tools: { from: number; tool: number }[] = [];
+  for (let i = 0; i < count; ++i) {
+    const tool = (places[i * 4 + 3]! >> 1) & 127;
+    if (tool !== tools.at(-1)?.tool) tools.push({ from: i, tool });
+    places[i * 4 + 3] = places[i * 4 + 3]! & 0xff01;
+  }
+  return tools;
 }
 
 export function placeAt(points: PathPoints, i: number, into: Vector = [0, 0, 0]): Vector {

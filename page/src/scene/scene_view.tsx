@@ -2,7 +2,7 @@
 import { useEffect, useRef, useState } from 'preact/hooks';
 import { say } from '../core/language';
 import { status } from '../machine/connection';
-import { fromMm, lengthText, lengthUnit, speedText, speedUnit, toMm } from '../core/units';
+import { lengthText, lengthUnit, speedText, speedUnit } from '../core/units';
 import { pathIndex, pathLoaded } from '../machine/path_index';
 import { workOffset } from '../machine/place';
 import { loadsOfShown, wantLoads } from '../machine/studies';
@@ -10,7 +10,8 @@ import { isUnderWay } from '../machine/words';
 import { PickedLine } from '../parts/picked_line';
 import { Slider } from '../parts/slider';
 import { colouring, section, sectionShare, tells } from './colouring';
-import { showsStock, showStock, stockState, stockTool } from './stock_view';
+import { StockTools } from './stock_tools';
+import { showsStock, showStock } from './stock_view';
 import { followsTool, picked, showsRapids, Stage } from './stage';
 
 export function SceneView() {
@@ -74,50 +75,10 @@ export function SceneView() {
         </label>
       </div>
       <Section />
-      <Stock />
+      <StockTools />
       <Legend />
       <div class="narrow-only">{!isUnderWay(status.value?.job ?? null) && <PickedLine />}</div>
       {pathLoaded.value < 1 && <p class="scene-loading">{say('scene.loading', { percent: Math.floor(pathLoaded.value * 100) })}</p>}
-    </div>
-  );
-}
-
-// The tool that cuts the stock: the program's path does not tell its shape.
-function Stock() {
-  const tool = stockTool.value;
-  if (!showsStock.value) return null;
-  if (stockState.value === 'missing') return <p class="scene-stock">{say('stock.missing')}</p>;
-  const number = (name: 'diameter' | 'angle', title: string, shownAs: string, read: (shown: number) => number) => (
-    <label>
-      <span>{title}</span>{' '}
-      <input
-        type="text"
-        inputMode="decimal"
-        value={shownAs}
-        onChange={(event) => {
-          const field = event.currentTarget;
-          const typed = read(Number(field.value.trim().replace(',', '.')));
-          const most = name === 'angle' ? 170 : 200;
-          if (typed >= (name === 'angle' ? 5 : 0.05) && typed <= most) stockTool.value = { ...tool, [name]: typed };
-          else field.value = shownAs;
-        }}
-      />
-    </label>
-  );
-  return (
-    <div class="scene-stock" role="group" aria-label={say('stock.tool')}>
-      <label>
-        <span class="unseen">{say('stock.tool')}</span>
-        <select value={tool.kind} onChange={(event) => (stockTool.value = { ...tool, kind: event.currentTarget.value as typeof tool.kind })}>
-          {(['flat', 'ball', 'vee'] as const).map((one) => (
-            <option key={one} value={one}>
-              {say(`stock.${one}`)}
-            </option>
-          ))}
-        </select>
-      </label>
-      {number('diameter', `Ø ${lengthUnit()}`, String(Number(fromMm(tool.diameter).toFixed(4))), toMm)}
-      {tool.kind === 'vee' && number('angle', '°', String(tool.angle), (shown) => shown)}
     </div>
   );
 }

@@ -17,7 +17,7 @@ import { pick } from './pick';
 import { doneOf } from './progress';
 import { Renderer, type Colour } from './renderer';
 import { StockScene } from './stock_scene';
-import { stockCutter, stockTool } from './stock_view';
+import { cutters, stockCutter } from './stock_view';
 
 // The line that a person has picked, in the text or in the scene.
 export const picked = signal<number | null>(null);
@@ -67,7 +67,7 @@ export class Stage {
       }),
       effect(() => {
         // What changes the picture.
-        void [seen.value, showsRapids.value, followsTool.value, picked.value, colouring.value, section.value, stockCutter.value, stockTool.value, pathLoaded.value];
+        void [seen.value, showsRapids.value, followsTool.value, picked.value, colouring.value, section.value, stockCutter.value, cutters.value, pathLoaded.value];
         this.soon();
       }),
     );

@@ -2,10 +2,17 @@
 // machine is. Without a job it is cut by the whole program.
 import { placeAt, type PathPoints, type Vector } from './path_data';
 
+export type ToolKind = 'flat' | 'ball' | 'vee' | 'bull' | 'taper';
 export interface StockTool {
-  kind: 'flat' | 'ball' | 'vee';
+  kind: ToolKind;
   diameter: number; // mm
-  angle: number; // degrees between the flanks of a vee
+  angle: number; // degrees between the flanks of a cone
+  tip: number; // mm: diameter of a cone's tip; radius of round corners
+}
+// What cuts a part of the path. Its tip is lower than the path's place by `length`, which the program has corrected.
+export interface Cutter {
+  shape: StockTool;
+  length: number;
 }
 export interface Block {
   low: Vector;
@@ -25,7 +32,7 @@ export interface CutTo {
 }
 
 const mostCells = 200_000; // a scene that turns has to draw them
-const kinds = ['flat', 'ball', 'vee'] as const;
+const kinds: readonly ToolKind[] = ['flat', 'ball', 'vee', 'bull', 'taper'];
 type Call = (...numbers: number[]) => number;
 
 // The block that the feeds need, as `passo simulate` takes it: as wide as the tool goes, its top at the work's zero or the
@@ -49,6 +56,8 @@ export class StockCutter {
   private chunk = 0; // which of the path is cut next
   private point = 1;
   private texture: HeightTexture | null = null;
+  private tools: readonly Cutter[] = [];
+  private tool = -1; // which one is in; below 0: none
 
   constructor(private readonly exports: WebAssembly.Exports) {}
 
@@ -56,11 +65,14 @@ export class StockCutter {
     return (this.exports[`stock_${name}`] as Call)(...numbers);
   }
 
-  begin(block: Block, tool: StockTool): boolean {
+  // `tools`: in the order in which the path counts them.
+  begin(block: Block, tools: readonly Cutter[]): boolean {
     const cell = cellOf(block);
     this.chunk = 0;
     this.point = 1;
-    const good = this.call('tool', kinds.indexOf(tool.kind), tool.diameter, tool.angle) && this.call('begin', ...block.low, ...block.high, cell);
+    this.tools = tools;
+    this.tool = -1;
+    const good = this.call('begin', ...block.low, ...block.high, cell);
     this.texture = good ? { columns: this.call('columns'), rows: this.call('rows'), cell, block } : null;
     return this.texture !== null;
   }
@@ -79,20 +91,36 @@ export class StockCutter {
       const isLast = to !== null && points.chunk === to.chunk;
       const last = isLast ? Math.min(points.count, 1 + Math.floor(to.share * (points.count - 1))) : points.count;
       for (; this.point < last; ++this.point) {
+        const cutter = this.put(points, this.point);
         placeAt(points, this.point - 1, a);
         placeAt(points, this.point, b);
-        this.call('cut', ...a, ...b);
+        if (cutter !== null) this.call('cut', a[0], a[1], a[2] - cutter.length, b[0], b[1], b[2] - cutter.length);
         if ((this.point & 63) === 0 && performance.now() > end) return true;
       }
       if (isLast) {
         // The motion that is being made.
         placeAt(points, Math.max(0, this.point - 1), a);
-        this.call('cut', ...a, ...to.tool);
+        const cutter = this.put(points, Math.min(this.point, points.count - 1));
+        const [x, y, z] = to.tool;
+        if (cutter !== null) this.call('cut', a[0], a[1], a[2] - cutter.length, x, y, z - cutter.length);
         return false;
       }
       ++this.chunk;
       this.point = 1;
     }
+  }
+
+  // The tool that makes the motion to this point. Null: there is no such tool.
+  private put(points: PathPoints, point: number): Cutter | null {
+    const next = points.tools.findIndex((one) => one.from > point);
+    const part = points.tools.at(next < 0 ? -1 : Math.max(0, next - 1));
+    const wanted = Math.min(part?.tool ?? 0, this.tools.length - 1);
+    const cutter = this.tools[wanted] ?? null;
+    if (cutter === null || wanted === this.tool) return cutter;
+    const { kind, diameter, angle, tip } = cutter.shape;
+    const good = this.call('tool', kinds.indexOf(kind), diameter, angle, tip) !== 0;
+    this.tool = good ? wanted : -1;
+    return good ? cutter : null;
   }
 
   // The rows that have changed since the last call, from the top down in mm. Null: none.

@@ -6,7 +6,7 @@ import { baseChunks } from './path_loader';
 import { doneOf, type Done } from './progress';
 import type { Renderer } from './renderer';
 import { blockOf } from './stock_cutter';
-import { stockCutter, stockTool } from './stock_view';
+import { cutters, stockCutter } from './stock_view';
 
 const aFrame = 12; // ms of each picture
 
@@ -20,21 +20,25 @@ export class StockScene {
   advance(line: number | null, tool: Vector | null): boolean {
     const cutter = stockCutter.peek();
     const index = pathIndex.peek();
-    if (cutter === null || index?.cuts == null || pathLoaded.peek() < 1) {
+    if (cutter === null || index?.cuts == null || index.work === null || pathLoaded.peek() < 1) {
       if (this.begun !== '') this.renderer.stock.end();
       this.begun = '';
       return false;
     }
-    const shape = stockTool.peek();
+    const tools = cutters.peek();
     const zero = workOffset.peek().z ?? 0;
     const chunks = baseChunks();
     const done = line === null || tool === null ? null : doneOf(chunks, line, tool);
-    const begun = JSON.stringify([index.program, index.points, index.cuts, shape, zero]);
+    const begun = JSON.stringify([index.program, index.points, index.cuts, tools, zero]);
     const goesBack = done !== null && (this.reached === 'all' || done.chunk < this.reached.chunk || (done.chunk === this.reached.chunk && done.share < this.reached.share));
     if (begun !== this.begun || goesBack) {
       this.renderer.stock.end();
       this.begun = begun;
-      if (cutter.begin(blockOf(index.cuts, zero, shape.diameter), shape) && cutter.shape !== null) this.renderer.stock.begin(cutter.shape);
+      // As deep as the tips go, and not the spindle.
+      const cuts = { low: [...index.cuts.low] as Vector, high: [...index.cuts.high] as Vector };
+      [cuts.low[2], cuts.high[2]] = [index.work.low[2] + zero, index.work.high[2] + zero];
+      const widest = Math.max(...tools.map((one) => one.shape.diameter));
+      if (cutter.begin(blockOf(cuts, zero, widest), tools) && cutter.shape !== null) this.renderer.stock.begin(cutter.shape);
     }
     this.reached = done ?? 'all';
     const more = cutter.cut(chunks, done === null || tool === null ? null : { ...done, tool }, aFrame);

@@ -1,0 +1,101 @@
+// The tools that cut the stock, one for each that the program puts in: from a file of tools, or as somebody says.
+import { useRef, useState } from 'preact/hooks';
+import { say } from '../core/language';
+import { fromMm, lengthUnit, toMm } from '../core/units';
+import type { UsedTool } from '../machine/path_index';
+import type { StockTool, ToolKind } from './stock_cutter';
+import { shapeOf, showsStock, stockState, toolShapes, usedTools } from './stock_view';
+import { isGoodTool, readToolFile } from './tool_file';
+
+const kinds: readonly ToolKind[] = ['flat', 'ball', 'vee', 'bull', 'taper'];
+const shown = (mm: number): string => String(Number(fromMm(mm).toFixed(4)));
+
+// What a kind begins with, where the sizes of the one before make no tool.
+function asKind(tool: StockTool, kind: ToolKind): StockTool {
+  const same = { ...tool, kind };
+  if (isGoodTool(same)) return same;
+  return { kind, diameter: tool.diameter, angle: kind === 'taper' ? 10 : 60, tip: kind === 'vee' ? 0 : tool.diameter / 4 };
+}
+
+function NumberField({ title, value, set }: { title: string; value: string; set: (typed: number) => boolean }) {
+  return (
+    <label>
+      <span>{title}</span>{' '}
+      <input
+        type="text"
+        inputMode="decimal"
+        value={value}
+        onChange={(event) => {
+          const field = event.currentTarget;
+          if (!set(Number(field.value.trim().replace(',', '.')))) field.value = value;
+        }}
+      />
+    </label>
+  );
+}
+
+function OneTool({ used }: { used: UsedTool }) {
+  const tool = shapeOf(used);
+  const set = (to: StockTool): boolean => {
+    const good = isGoodTool(to);
+    if (good) toolShapes.value = { ...toolShapes.value, [used.tool]: to };
+    return good;
+  };
+  const name = used.tool === 0 ? say('stock.tool') : say('stock.tool.number', { number: used.tool });
+  return (
+    <div class="scene-tool" role="group" aria-label={name}>
+      {used.tool !== 0 && <b>T{used.tool}</b>}
+      <label>
+        <span class="unseen">{name}</span>
+        <select value={tool.kind} onChange={(event) => set(asKind(tool, event.currentTarget.value as ToolKind))}>
+          {kinds.map((one) => (
+            <option key={one} value={one}>
+              {say(`stock.${one}`)}
+            </option>
+          ))}
+        </select>
+      </label>
+      <NumberField title={`Ø ${lengthUnit()}`} value={shown(tool.diameter)} set={(typed) => set({ ...tool, diameter: toMm(typed) })} />
+      {(tool.kind === 'vee' || tool.kind === 'taper') && <NumberField title="°" value={String(tool.angle)} set={(typed) => set({ ...tool, angle: typed })} />}
+      {tool.kind !== 'flat' && tool.kind !== 'ball' && (
+        <NumberField title={say(tool.kind === 'bull' ? 'stock.corner' : 'stock.tip')} value={shown(tool.tip)} set={(typed) => set({ ...tool, tip: toMm(typed) })} />
+      )}
+    </div>
+  );
+}
+
+export function StockTools() {
+  const input = useRef<HTMLInputElement>(null);
+  const [said, setSaid] = useState('');
+  if (!showsStock.value) return null;
+  if (stockState.value === 'missing') return <p class="scene-stock">{say('stock.missing')}</p>;
+  const take = async (file: File | undefined): Promise<void> => {
+    if (file === undefined) return;
+    const tools = readToolFile(await file.text());
+    toolShapes.value = { ...toolShapes.value, ...tools };
+    const count = Object.keys(tools).length;
+    setSaid(count === 0 ? say('stock.file.none', { name: file.name }) : say('stock.file.read', { name: file.name, count }));
+  };
+  return (
+    <div class="scene-stock" role="group" aria-label={say('stock.tools')}>
+      {usedTools.value.map((used) => (
+        <OneTool key={used.tool} used={used} />
+      ))}
+      <button type="button" class="chip" onClick={() => input.current?.click()}>
+        {say('stock.file')}
+      </button>
+      <input
+        ref={input}
+        type="file"
+        hidden
+        accept=".toml"
+        aria-label={say('stock.file')}
+        onChange={(event) => {
+          const field = event.currentTarget;
+          void take(field.files?.[0]).then(() => (field.value = ''));
+        }}
+      />
+      <span role="status">{said}</span>
+    </div>
+  );
+}
