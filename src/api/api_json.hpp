@@ -27,7 +27,7 @@ std::optional<Dialect> dialect_from(std::string_view query);
 
 // The refusals of more than one file.
 WebAnswer no_history();
-WebAnswer no_line();
+WebAnswer no_place();
 WebAnswer no_room();
 
 Json as_json(const MachineDescription& machine, const Point& place);
@@ -39,7 +39,7 @@ Json as_json(const HistoryJob& job);
 // What the last homing has found, and how well all homings agree.
 Json as_json(const std::vector<HomedAxis>& homed, const HomingRepeats& repeats);
 // What viewers ask of a program.
-WebAnswer path_answer(const StoredProgram& program, std::string_view query);
+WebAnswer path_answer(const StoredProgram& program, const ToolTable& tools, std::string_view query);
 WebAnswer text_answer(const StoredProgram& program, std::string_view query);
 WebAnswer height_map_answer(const StoredProgram& program, std::string_view query);
 
@@ -59,8 +59,8 @@ WebAnswer machine_file_answer(const MachineFileAccess& file, const FileStamp& in
 WebAnswer try_machine_file(const MachineFileAccess& file, std::string_view body);
 WebAnswer write_machine_file(const MachineFileAccess& file, const FileStamp& in_force, std::string_view body);
 
-// A line of a program, from 1. Empty: it is none.
-std::optional<std::uint32_t> line_from(std::string_view text);
+// from_line, pass and after of a query. Empty: they are no place of a program.
+std::optional<LinePlace> place_from(std::string_view query);
 
 // The session's request in the body of a POST. Empty, with the reason: the body is none.
 std::optional<Request> read_request(std::string_view path, const Json& body, const MachineDescription& machine,

@@ -20,6 +20,7 @@ constexpr std::string_view history_path = "/api/v1/history";
 constexpr std::string_view machine_file_path = "/api/v1/machine/file";
 constexpr std::string_view make_path = "/api/v1/make";
 constexpr std::string_view study_path = "/api/v1/study";
+constexpr std::string_view pulses_path = "/api/v1/pulses";
 constexpr std::string_view make_files_path = "/api/v1/make/files";
 constexpr std::string_view interrupted_path = "/api/v1/interrupted";
 constexpr std::string_view alarms_path = "/api/v1/alarms";
@@ -66,6 +67,7 @@ MachineApi::MachineApi(const MachineDescription& machine, MachineSession& sessio
                        ApiOptions options)
     : machine_(machine), session_(session), owner_(owner), options_(std::move(options)), repeats_(machine) {
   programs_.set_offsets(options_.parameters, options_.tools);
+  session_.board().sent_segments().keep(machine_.board.clock);
   if (options_.keeper == nullptr || options_.history == nullptr) return;
   kept_ = std::make_unique<KeptJob>(machine, session, *options_.keeper, *options_.history, programs_,
                                     KeptJob::Names{.made_by = options_.version, .machine = options_.machine_file});
@@ -138,7 +140,8 @@ WebAnswer MachineApi::look(const FoundRoute& found, const WebRequest& request) {
   }
   if (path.ends_with("/status")) return {.body = status_text()};
   if (path == make_path) return make_answer();
-  if (path.starts_with(make_path)) return made_picture();
+  if (path.starts_with(make_path)) return path.ends_with("/page") ? made_page() : made_picture(request.query);
+  if (path == pulses_path) return pulses_answer(request.query);
   if (path == study_path) return study_answer();
   if (path.starts_with(study_path)) return study_file(path.ends_with("/picture"));
   if (path == machine_file_path) return machine_file_answer(options_.machine_access, options_.machine_file);
@@ -161,12 +164,12 @@ WebAnswer MachineApi::look(const FoundRoute& found, const WebRequest& request) {
   if (path.starts_with(uploads_path)) return look_at_uploads(found);
   const StoredProgram* const program = programs_.find(found.id);
   if (program == nullptr) return refusal(404);
-  if (path.ends_with("/path")) return path_answer(*program, request.query);
+  if (path.ends_with("/path")) return path_answer(*program, programs_.tools(), request.query);
   if (path.ends_with("/text")) return text_answer(*program, request.query);
   if (path.ends_with("/height-map")) return height_map_answer(*program, request.query);
   if (path.ends_with("/way")) {
-    const auto line = line_from(query_value(request.query, "from_line"));
-    return line ? json_answer(200, as_json(machine_, way_to(*program, *line))) : no_line();
+    const auto from = place_from(request.query);
+    return from ? json_answer(200, as_json(machine_, way_to(*program, *from))) : no_place();
   }
   return json_answer(200, as_json(*program, true));
 }
@@ -240,6 +243,12 @@ WebAnswer MachineApi::set_work_zero(std::string_view body) {
   return json_answer(200, {{"work_offset", as_json(machine_, programs_.work_zero())}});
 }
 
+void MachineApi::take_offsets(const SavedParameters& parameters) {
+  SavedParameters all = programs_.parameters();
+  set_lasting_offsets(all, parameters);
+  if (all != programs_.parameters()) programs_.set_offsets(all, programs_.tools());
+}
+
 WebAnswer MachineApi::ask(Request wanted) {
   const auto ticket = session_.request(std::move(wanted));
   if (!ticket)
@@ -296,7 +305,7 @@ WebAnswer MachineApi::change_programs(const FoundRoute& found, const WebRequest&
     return json_answer(200, Json::object());
   }
   if (is_checked_for_job) return error_answer(409, "machine.busy", "a job is about to begin");
-  if (found.route->path.ends_with("/run")) return run_program(*program, query_value(request.query, "from_line"));
+  if (found.route->path.ends_with("/run")) return run_program(*program, request.query);
   programs_.check(found.id, machine_, session_.status().position.place);
   return json_answer(202, as_json(*program, false));
 }

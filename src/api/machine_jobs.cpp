@@ -1,6 +1,7 @@
 // MachineApi: how a program becomes a job, and what becomes of the job.
 #include <algorithm>
 #include <charconv>
+#include <cmath>
 #include <utility>
 
 #include "api_json.hpp"
@@ -36,19 +37,29 @@ WebAnswer no_room() {
   return error_answer(507, "programs.no-room", "there are too many programs: delete some first");
 }
 
-WebAnswer no_line() {
-  return bad_body("from_line: expected the number of a line, 1 or more");
+WebAnswer no_place() {
+  return bad_body(
+      "from_line: expected the number of a line, 1 or more; pass: a number, 1 or more; after: millimetres, 0 or more");
 }
 
-std::optional<std::uint32_t> line_from(std::string_view text) {
-  std::uint32_t line = 0;
-  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), line);
-  if (error != std::errc() || end != text.data() + text.size() || line == 0) return {};
-  return line;
+std::optional<LinePlace> place_from(std::string_view query) {
+  const auto read = [query](const char* key, auto& value) {
+    const std::string_view text = query_value(query, key);
+    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+    return error == std::errc() && end == text.data() + text.size();
+  };
+  const auto is_given = [query](const char* key) { return !query_value(query, key).empty(); };
+  LinePlace place;
+  double after = 0;
+  if (!read("from_line", place.line) || place.line == 0) return {};
+  if (is_given("pass") && (!read("pass", place.pass) || place.pass == 0)) return {};
+  if (is_given("after") && (!read("after", after) || !std::isfinite(after) || after < 0)) return {};
+  place.after = Mm(after);
+  return place;
 }
 
 // From where the machine stands to the first motion of a line. Goes through the program.
-Result<Reentry, ReentryProblem> MachineApi::way_to(const StoredProgram& program, std::uint32_t line) const {
+Result<Reentry, ReentryProblem> MachineApi::way_to(const StoredProgram& program, const LinePlace& from) const {
   const KnownPosition position = session_.status().position;
   const auto refused = [](ReentryRefusal refusal) {
     return Failure{ReentryProblem{.code = code_of(refusal), .why = std::string(message_of(refusal))}};
@@ -60,22 +71,22 @@ Result<Reentry, ReentryProblem> MachineApi::way_to(const StoredProgram& program,
   }
   InterpreterOptions options = programs_.options_of(program);
   options.start = position.place;
-  const auto at = find_line(ProgramReader::from_text(program.name, program.text), machine_, options, line);
-  if (!at) return refused(at.error());
+  const auto at = find_line(ProgramReader::from_text(program.name, program.text), machine_, options, from);
+  if (!at) return Failure{ReentryProblem{.code = code_of(at.error().refusal), .why = message_of(at.error())}};
   auto way = plan_reentry(machine_, *at, position.place);
   if (!way) return refused(way.error());
   return std::move(*way);
 }
 
-WebAnswer MachineApi::run_program(const StoredProgram& program, std::string_view from_line) {
-  if (from_line.empty()) return begin_job(program, 0);
-  const auto line = line_from(from_line);
-  if (!line) return no_line();
+WebAnswer MachineApi::run_program(const StoredProgram& program, std::string_view query) {
+  if (query_value(query, "from_line").empty()) return begin_job(program, 0);
+  const auto from = place_from(query);
+  if (!from) return no_place();
   if (session_.state() == MachineState::idle) {
-    if (const auto way = way_to(program, *line); !way) return error_answer(409, way.error().code, way.error().why);
+    if (const auto way = way_to(program, *from); !way) return error_answer(409, way.error().code, way.error().why);
   }
   WebAnswer answer = begin_job(program, 0);
-  if (answer.status == 202) from_line_ = *line;
+  if (answer.status == 202) from_ = from;
   return answer;
 }
 
@@ -93,7 +104,7 @@ WebAnswer MachineApi::begin_job(const StoredProgram& program, std::int64_t histo
     if (history == 0) return no_room();
   }
   resumes_ = reenters_ = named_ = false;
-  from_line_ = 0;
+  from_.reset();
   map_for_ = 0;
   job_ = {.id = job_.id + 1,
           .program = program.id,
@@ -117,6 +128,11 @@ WebAnswer MachineApi::change_interrupted(const FoundRoute& found) {
   return json_answer(200, Json::object());
 }
 
+std::optional<Point> MachineApi::broken_off_at() {
+  const InterruptedJob* const job = kept_ ? kept_->interrupted() : nullptr;
+  return job != nullptr && job->back_at ? std::optional(job->back_at->point) : std::nullopt;
+}
+
 // The job that was broken off goes on amid its path. It is checked from where it began.
 WebAnswer MachineApi::resume_job(bool by_a_way_back) {
   const InterruptedJob& broken = *kept_->interrupted();
@@ -134,7 +150,7 @@ WebAnswer MachineApi::resume_job(bool by_a_way_back) {
   if (program == nullptr) return no_room();
   resumes_ = true;
   reenters_ = by_a_way_back;
-  from_line_ = 0;
+  from_.reset();
   named_ = false;
   job_ = {.id = job_.id + 1,
           .program = program->id,
@@ -160,8 +176,8 @@ void MachineApi::name_job() {
   if (owner_.changes() != job_owner_) return end_job(JobState::stopped, "the ownership of motion was passed on");
   if (program.state != UploadState::good) return end_job(JobState::failed, words_of_error(program));
   way_.reset();
-  if (from_line_ != 0) {
-    auto way = way_to(program, from_line_);
+  if (from_) {
+    auto way = way_to(program, *from_);
     if (!way) return end_job(JobState::failed, way.error().why);
     way_ = std::move(*way);
   }

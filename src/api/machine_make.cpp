@@ -1,6 +1,7 @@
 // MachineApi: programs made of drawings and pictures.
 #include <algorithm>
 #include <array>
+#include <charconv>
 #include <cmath>
 #include <utility>
 
@@ -10,12 +11,16 @@
 namespace passo {
 namespace {
 
-constexpr std::array<std::string_view, 7> jobs = {"profile", "pocket",  "engrave", "drill",
-                                                  "isolate", "outline", "relief"};
+constexpr std::array<std::string_view, 9> jobs = {"profile", "pocket", "engrave", "drill", "isolate",
+                                                  "outline", "board",  "relief",  "wire"};
+// Whose options a board's order may have, too.
+constexpr std::array<std::string_view, 3> board_tables = {"drill", "isolate", "outline"};
 // Options that name files of this computer, or that belong to the program itself.
-constexpr std::array<std::string_view, 6> own_options = {"output", "picture", "json", "profile", "machine", "help"};
+constexpr std::array<std::string_view, 7> own_options = {"output",  "picture",  "json", "profile",
+                                                         "machine", "remember", "help"};
 constexpr std::size_t longest_value = 200;
 constexpr std::size_t most_options = 60;
+constexpr std::size_t most_values = 200;
 
 const char* name_of(MakeResult::State state) {
   switch (state) {
@@ -55,9 +60,14 @@ bool is_value(std::string_view value) {
   return true;
 }
 
+struct MakeOption {
+  std::string name;
+  std::optional<std::string> value;  // empty: a flag
+};
+
 // Empty, with a reason: the options are none.
-std::optional<std::vector<std::string>> options_of(const Json& json, std::string& reason) {
-  std::vector<std::string> options;
+std::optional<std::vector<MakeOption>> options_of(const Json& json, std::string& reason) {
+  std::vector<MakeOption> options;
   if (!json.is_object() || json.size() > most_options) {
     reason = "\"options\": expected an object";
     return {};
@@ -66,19 +76,47 @@ std::optional<std::vector<std::string>> options_of(const Json& json, std::string
     reason = fmt::format("there is no option \"{}\" here", name.substr(0, 40));
     if (!is_option(name)) return {};
     if (value.is_boolean()) {
-      if (value.get<bool>()) options.push_back("--" + name);
+      if (value.get<bool>()) options.push_back({name, {}});
       continue;
     }
-    reason = fmt::format("\"{}\": expected a text, a number, true or false", name);
-    const bool is_number = value.is_number() && std::isfinite(value.get<double>());
-    if (!is_number && !value.is_string()) return {};
-    const std::string text = is_number ? fmt::format("{}", value.get<double>()) : value.get<std::string>();
-    if (text.empty()) continue;
-    if (!is_value(text)) return {};
-    options.push_back(fmt::format("--{}={}", name, text));
+    reason = fmt::format("\"{}\": expected a text, a number, true or false, or a list of texts", name);
+    for (const Json& one : value.is_array() ? value : Json::array({value})) {
+      const bool is_number = one.is_number() && std::isfinite(one.get<double>());
+      if (!is_number && !one.is_string()) return {};
+      const std::string text = is_number ? fmt::format("{}", one.get<double>()) : one.get<std::string>();
+      if (text.empty()) continue;
+      if (!is_value(text) || options.size() >= most_values) return {};
+      options.push_back({name, text});
+    }
   }
   reason.clear();
   return options;
+}
+
+// As lines of a profile (machine_file/option_profile.hpp). Empty, with a reason: there is no such profile.
+std::optional<std::string> profile_of(const Json& json, std::string& reason) {
+  std::string text;
+  if (!json.is_object()) {
+    reason = "\"profile\": expected an object";
+    return {};
+  }
+  for (const auto& [table, values] : json.items()) {
+    reason = fmt::format("\"profile\": there is no table \"{}\"", table.substr(0, 40));
+    if (!has(board_tables, table)) return {};
+    const auto options = options_of(values, reason);
+    if (!options) return {};
+    text += fmt::format("[{}]\n", table);
+    std::string last;
+    for (const auto& [name, value] : *options) {
+      reason = fmt::format("\"{}\": expected one value", name);
+      if (std::exchange(last, name) == name) return {};
+      // A JSON text is a TOML text, too.
+      text += fmt::format("{} = {}\n", name,
+                          value ? Json(*value).dump(-1, ' ', true, Json::error_handler_t::replace) : "true");
+    }
+  }
+  reason.clear();
+  return text;
 }
 
 WebAnswer no_maker() {
@@ -91,22 +129,38 @@ WebAnswer MachineApi::make_answer() {
   if (options_.maker == nullptr) return no_maker();
   heed_maker();
   const MakeResult& result = options_.maker->look();
+  const Json report = Json::parse(result.report, nullptr, false);
   return json_answer(200, {{"jobs", jobs},
                            {"files", options_.maker->files()},
                            {"state", name_of(result.state)},
                            {"job", result.job},
                            {"words", result.words},
                            {"picture", result.picture_type},
-                           {"program", made_ != 0 ? Json(made_) : Json()}});
+                           {"program", made_.empty() ? Json() : Json(made_.front())},
+                           {"programs", made_},
+                           {"report", report.is_object() ? report : Json()},
+                           {"page", result.has_page}});
 }
 
-WebAnswer MachineApi::made_picture() const {
+WebAnswer MachineApi::made_picture(std::string_view query) const {
   if (options_.maker == nullptr) return no_maker();
   const MakeResult& result = options_.maker->look();
-  if (result.state != MakeResult::State::done || result.picture_type.empty()) {
-    return error_answer(404, "http.not-found", "there is no picture");
-  }
-  return {.type = result.picture_type, .body = options_.maker->picture()};
+  const bool done = result.state == MakeResult::State::done && !result.picture_type.empty();
+  const std::string_view digits = query_value(query, "number");
+  std::size_t number = 0;
+  std::from_chars(digits.data(), digits.data() + digits.size(), number);
+  std::string picture = done ? options_.maker->picture(digits.empty() ? std::optional<std::size_t>() : number) : "";
+  if (picture.empty()) return error_answer(404, "http.not-found", "there is no picture");
+  return {.type = result.picture_type, .body = std::move(picture)};
+}
+
+// The page has its style within, and runs nothing.
+WebAnswer MachineApi::made_page() const {
+  if (options_.maker == nullptr) return no_maker();
+  if (!options_.maker->look().has_page) return error_answer(404, "http.not-found", "there is no page");
+  return {.type = "text/html; charset=utf-8",
+          .body = options_.maker->page(),
+          .policy = "default-src 'none'; style-src 'unsafe-inline'; img-src data:; frame-ancestors 'none'"};
 }
 
 WebAnswer MachineApi::keep_make_file(std::string_view name, std::string_view bytes) {
@@ -121,7 +175,7 @@ WebAnswer MachineApi::keep_make_file(std::string_view name, std::string_view byt
 WebAnswer MachineApi::clear_make_files() {
   if (options_.maker == nullptr) return no_maker();
   options_.maker->clear();
-  made_ = 0;
+  made_.clear();
   return make_answer();
 }
 
@@ -129,7 +183,7 @@ WebAnswer MachineApi::begin_making(std::string_view body) {
   const Json said = Json::parse(body, nullptr, false);
   if (!said.is_object()) return bad_body("the body is no JSON object");
   for (const auto& [name, value] : said.items()) {
-    if (name != "job" && name != "files" && name != "options")
+    if (name != "job" && name != "files" && name != "options" && name != "profile")
       return bad_body("there is no \"" + name.substr(0, 40) + "\"");
   }
   if (options_.maker == nullptr) return no_maker();
@@ -153,28 +207,42 @@ WebAnswer MachineApi::begin_making(std::string_view body) {
   std::string reason;
   auto options = options_of(said_options, reason);
   if (!options) return bad_body(reason);
-  order.options = std::move(*options);
+  for (const auto& [name, value] : *options) {
+    order.options.push_back("--" + name + (value ? "=" + *value : std::string()));
+  }
+  if (order.job == "board") {
+    const auto profile = profile_of(said.contains("profile") ? said["profile"] : Json::object(), reason);
+    if (!profile) return bad_body(reason);
+    order.profile = *profile;
+    if (options_.machine_access.read) order.machine = options_.machine_access.read().value_or("");
+  } else if (said.contains("profile")) {
+    return bad_body("\"profile\": only a board has one");
+  }
   if (!options_.maker->begin(order)) return error_answer(409, "make.busy", "another program is being made");
-  made_before_ = std::exchange(made_, 0);
+  made_before_ = std::exchange(made_, {});
   heeds_maker_ = true;
   WebAnswer answer = make_answer();
   answer.status = 202;
   return answer;
 }
 
-// A program that is made goes to the others. One that is made again takes the place of the one before.
+// Programs that are made go to the others. One that is made again takes the place of the one before.
 void MachineApi::heed_maker() {
   if (!heeds_maker_) return;
   const MakeResult& result = options_.maker->look();
   if (result.state == MakeResult::State::running) return;
   heeds_maker_ = false;
   if (result.state != MakeResult::State::done) return;
-  const StoredProgram* const before = programs_.find(made_before_);
-  const bool is_used =
-      job_.program == made_before_ && (job_.state == JobState::checking || job_.state == JobState::running);
-  if (before != nullptr && before->name == result.name && !is_used) programs_.remove(made_before_);
-  const StoredProgram* const program = programs_.add(result.name, Dialect::linuxcnc, options_.maker->program());
-  if (program != nullptr) made_ = program->id;
+  const bool runs = job_.state == JobState::checking || job_.state == JobState::running;
+  for (const std::uint64_t id : made_before_) {
+    const StoredProgram* const before = programs_.find(id);
+    if (before != nullptr && has(result.names, before->name) && !(runs && job_.program == id)) programs_.remove(id);
+  }
+  for (std::size_t i = 0; i < result.names.size(); ++i) {
+    const StoredProgram* const program = programs_.add(result.names[i], Dialect::linuxcnc, options_.maker->program(i));
+    made_.push_back(program != nullptr ? program->id : 0);
+  }
+  std::erase(made_, 0U);
 }
 
 }  // namespace passo

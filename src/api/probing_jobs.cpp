@@ -117,7 +117,9 @@ void MachineApi::keep_results() {
     if (words.kind == "log") text += words.text + "\n";
   }
   Diagnostics ignored;
-  if (auto map = read_height_map("log", text, ignored)) programs_.set_height_map(map_for_, std::move(*map));
+  // Somebody may have deleted the program meanwhile: the map then stays with the cycle that has found it.
+  const std::uint64_t owner = programs_.find(map_for_) != nullptr ? map_for_ : job_.program;
+  if (auto map = read_height_map("log", text, ignored)) programs_.set_height_map(owner, std::move(*map));
 }
 
 WebAnswer MachineApi::words_answer() const {

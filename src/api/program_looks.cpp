@@ -1,6 +1,7 @@
 // What viewers ask of a program: its path in chunks, and a window of its text.
 #include <algorithm>
 #include <charconv>
+#include <cmath>
 #include <limits>
 
 #include "api_json.hpp"
@@ -28,13 +29,25 @@ Json as_json(const ProgramPath::Speeds& speeds) {
   return {{"low", speeds.low.value() * a_minute}, {"high", speeds.high.value() * a_minute}};
 }
 
+// The diameter is that of the tool table; null: unknown.
+Json tools_json(const ProgramPath& path, const ToolTable& tools) {
+  Json list = Json::array();
+  for (const ProgramPath::UsedTool& used : path.tools()) {
+    const Tool* const tool = tools.find(used.number);
+    const double diameter = tool == nullptr ? 0 : std::abs(tool->diameter.value());
+    list.push_back(
+        {{"tool", used.number}, {"diameter", diameter > 0 ? Json(diameter) : Json()}, {"zero_z", used.zero_z}});
+  }
+  return list;
+}
+
 WebAnswer bad_number(const std::string& what) {
   return error_answer(400, "http.bad-body", what);
 }
 
 }  // namespace
 
-WebAnswer path_answer(const StoredProgram& program, std::string_view query) {
+WebAnswer path_answer(const StoredProgram& program, const ToolTable& tools, std::string_view query) {
   const ProgramPath& path = program.path_points;
   if (query_value(query, "chunk").empty()) {
     return json_answer(200, {{"program", program.id},
@@ -46,7 +59,8 @@ WebAnswer path_answer(const StoredProgram& program, std::string_view query) {
                              {"all", as_json(path.all())},
                              {"cuts", as_json(path.cuts())},
                              {"work", as_json(path.work())},
-                             {"speeds", as_json(path.speeds())}});
+                             {"speeds", as_json(path.speeds())},
+                             {"tools", tools_json(path, tools)}});
   }
   const auto chunk = number_of(query, "chunk");
   const auto level = query_value(query, "level").empty() ? std::optional<std::uint64_t>(0) : number_of(query, "level");

@@ -117,6 +117,8 @@ std::uint16_t ProgramPath::speed_flags(MmPerSecond speed) {
 }
 
 void ProgramPath::add(const PathItem& item) {
+  const auto* const action = std::get_if<Action>(&item);
+  if (action != nullptr && action->kind == Action::Kind::tool_change) tool_ = action->tool;
   const auto* const segment = std::get_if<Segment>(&item);
   if (segment == nullptr || segment->takes_up_backlash || !segment->curve.has_length()) return;
   const int chords = chords_of(segment->curve, chord_error);
@@ -126,8 +128,9 @@ void ProgramPath::add(const PathItem& item) {
   }
   const Coordinates zero = place_of(segment->work_zero);
   const std::uint32_t line = segment->source.line;
-  const std::uint16_t flags = segment->rapid ? flag_rapid : speed_flags(segment->speed);
-  if (flags > flag_rapid) {
+  const std::uint16_t speed = segment->rapid ? flag_rapid : speed_flags(segment->speed);
+  const auto flags = static_cast<std::uint16_t>(speed | tool_flags(zero[2]));
+  if (speed > flag_rapid) {
     speeds_.low = std::min(speeds_.low, segment->speed);
     speeds_.high = std::max(speeds_.high, segment->speed);
   }
@@ -147,6 +150,13 @@ void ProgramPath::add(const PathItem& item) {
     note(place);
     add_point(place, line, flags);
   }
+}
+
+std::uint16_t ProgramPath::tool_flags(double zero_z) {
+  auto found = std::ranges::find(tools_, tool_, &UsedTool::number);
+  if (found == tools_.end() && tools_.size() < most_tools) found = tools_.insert(found, {tool_, zero_z});
+  const auto index = std::min<std::size_t>(static_cast<std::size_t>(found - tools_.begin()), most_tools - 1);
+  return static_cast<std::uint16_t>(index << 1U);
 }
 
 void ProgramPath::finish() {

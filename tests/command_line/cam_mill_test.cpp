@@ -1,6 +1,7 @@
 // passo cam isolate, outline and board, as a user starts them: from Gerber files to programs that run.
 #include "kit/command_line.hpp"
 #include <gmock/gmock.h>
+#include <nlohmann/json.hpp>
 
 namespace {
 
@@ -118,6 +119,40 @@ TEST_F(CamMill, a_whole_board_gets_numbered_programs_and_a_page) {
   // Both sides lie in the same place: the pads of the back are mirrored about the middle of the board.
   EXPECT_THAT(read(path("job/1-drill.ngc")), HasSubstr("X5 Y17.5"));
   EXPECT_THAT(read(path("job/3-isolate-back.ngc")), HasSubstr("about X10 mm"));
+}
+
+TEST_F(CamMill, what_a_file_is_can_be_said_and_the_steps_are_told_as_json) {
+  copper();
+  copper("odd.gbr", "Soldermask,Bot");
+  edge();
+  drills();
+  const Outcome made =
+      cam("board " + path("") + " --as odd.gbr='bottom copper' --as board-PTH.drl=nothing --json -o " + path("job"));
+  ASSERT_EQ(made.code, 0) << made.err;
+  const auto json = nlohmann::json::parse(made.out);
+  EXPECT_EQ(json["turn"], "x");
+  EXPECT_EQ(json["holes"], "pins");
+  std::string steps;
+  for (const auto& step : json["steps"]) steps += step["step"].get<std::string>() + " ";
+  EXPECT_EQ(steps, "blank drill front turn back edge ");
+  EXPECT_EQ(json["steps"][2]["program"], "2-isolate-front.ngc");
+  for (const auto& file : json["files"]) {
+    EXPECT_EQ(file["told_by"] == "you", file["name"] == "odd.gbr" || file["name"] == "board-PTH.drl") << file;
+    EXPECT_EQ(file["drill_file"], file["name"] == "board-PTH.drl") << file;
+  }
+  EXPECT_THAT(read(path("job/1-drill.ngc")), Not(HasSubstr("0.8")));
+  EXPECT_THAT(read(path("job/board.html")), HasSubstr("bottom copper (told by you)"));
+  EXPECT_THAT(read(path("job/board.svg")), HasSubstr("<svg"));
+  const std::string board = "board " + path("") + " -o " + path("job");
+  EXPECT_THAT(cam(board + " --as odd.gbr").err, HasSubstr("expected FILE=LAYER"));
+  EXPECT_THAT(cam(board + " --as odd.gbr=copper").err, HasSubstr("is no layer: expected top copper"));
+  EXPECT_THAT(cam(board + " --as odd.gbr=drill").err, HasSubstr("is no drill file"));
+  EXPECT_THAT(cam(board + " --as board-PTH.drl=outline").err, HasSubstr("is a drill file"));
+  EXPECT_EQ(cam(board + " --as none.gbr=outline").code, 2);
+  // What was read is told also where nothing can be made of it.
+  const Outcome refused = cam("board " + path("odd.gbr") + " --json -o " + path("job"));
+  EXPECT_EQ(refused.code, 2);
+  EXPECT_EQ(nlohmann::json::parse(refused.out)["files"][0]["layer"], "bottom mask");
 }
 
 // The probe's programs speak of the same places as those that mill.

@@ -1,5 +1,6 @@
 // passo cam relief, as a user starts it: from a picture to a program that a machine can run.
 #include "kit/command_line.hpp"
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 
 namespace {
@@ -54,6 +55,36 @@ TEST_F(CamRelief, without_output_the_program_goes_to_standard_output_and_is_alwa
   EXPECT_EQ(relief(flower + " --width 10 --way both --cutter vee:60:3:0.2 --step 1").out, made.out);
 }
 
+TEST_F(CamRelief, contours_offsets_arcs_and_held_removal_run_on_a_machine_and_cut_no_gouge) {
+  std::string map;
+  std::string target;
+  for (int y = 0; y <= 20; ++y) {
+    for (int x = 0; x <= 20; ++x) {
+      const double out = std::hypot(x - 10, y - 10);
+      const double high = std::max(0.0, 4 - out * 0.6);
+      map += fmt::format("{},{},{}\n", x, y, high);
+      target += fmt::format("{},{},{}\n", x, y, high - 4);
+    }
+  }
+  const std::string program = path("c.ngc");
+  const Outcome made =
+      relief(write("cone.csv", map) +
+             " --pitch 0.2 --cutter ball:2 --way contours --steep 25 --rough flat:4 --rough-way offsets "
+             "--rough-removal 900 --feed-most 2000 -o " +
+             program);
+  EXPECT_EQ(made.code, 0) << made.err;
+  EXPECT_THAT(made.out, HasSubstr(" of them arcs, "));
+  EXPECT_THAT(made.out, HasSubstr(" mm3 a minute\n"));
+  const Outcome checked = passo("check " + program + " -m " + source + "/examples/machines/router.toml");
+  EXPECT_EQ(checked.code, 0) << checked.err;
+  EXPECT_THAT(checked.err, Not(HasSubstr("warning")));
+  const Outcome cut = passo("simulate " + program + " --tool 1=flat:4 --tool 2=ball:2 --cell 0.2 --compare " +
+                            write("target.csv", target));
+  EXPECT_THAT(cut.out, HasSubstr("gouges          none")) << cut.err;
+  EXPECT_EQ(relief(flower + " --width 10 --way contours --moves lines -o " + program).code, 0);
+  EXPECT_THAT(read(program), Not(testing::AnyOf(HasSubstr("G2 "), HasSubstr("G3 "), HasSubstr("G18"))));
+}
+
 TEST_F(CamRelief, a_height_map_is_carved_too) {
   std::string map;
   for (int y = 0; y < 3; ++y) {
@@ -85,6 +116,9 @@ TEST_F(CamRelief, what_is_wrong_is_told_and_nothing_is_written) {
   refused(flower + " --depth 300", "--depth: expected 0.001 to 250 mm, found '300'");
   refused(flower + " --pitch 0.001", "[relief.too-many-nodes]");
   refused(flower + " --origin top", "--origin: expected lower-left");
+  refused(flower + " --way waterline", "--way: waterline not in");
+  refused(flower + " --removal=-1", "--removal: expected a number from 0");
+  refused(flower + " --feed-most 0", "--feed-most: expected 1 to 100000 mm, found '0'");
   refused(flower + " -p view.svg", "should end in .png");
   EXPECT_EQ(relief(flower + " -o " + flower).code, 2) << "the picture itself would be overwritten";
   EXPECT_FALSE(std::filesystem::exists(path("r.ngc")));

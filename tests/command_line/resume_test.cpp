@@ -312,6 +312,13 @@ TEST_F(Resumed, or_from_a_line_whose_steps_are_shown_first) {
   const Outcome nowhere = passo(from_line + "77");
   EXPECT_EQ(nowhere.code, 2);
   EXPECT_NE(nowhere.err.find("[reentry.no-motion]"), std::string::npos) << nowhere.err;
+  const std::string loop = write("loop.ngc", "G21 G90 F900\no1 repeat [2]\nG1 X5\nX1 Y1\no1 endrepeat\nG1 X0 Y0\nM2\n");
+  const std::string from_loop = "run " + loop + " --json -m " + machine_ + " --from-line 4";
+  EXPECT_NE(passo(from_loop).err.find("as --pass 2 [reentry.done-often]"), std::string::npos) << passo(from_loop).err;
+  const Outcome second = passo(from_loop + " --pass 2 --after 1.5");
+  EXPECT_EQ(second.code, 0) << second.err;
+  EXPECT_EQ(nlohmann::json::parse(second.out)["steps"]["X"]["net"], 0);
+  EXPECT_EQ(passo("run " + loop + " -m " + machine_ + " --pass 2").code, 2) << "without a line";
   const Outcome unasked = passo(command("--from-line 5"));
   EXPECT_EQ(unasked.code, 2);
   EXPECT_NE(unasked.err.find("[run.from-line-unasked]"), std::string::npos) << unasked.err;

@@ -1,4 +1,5 @@
 // passo serve --http: the program itself, spoken to over a socket.
+#include <algorithm>
 #include <csignal>
 #include <filesystem>
 #include <string>
@@ -6,6 +7,8 @@
 
 #include "kit/served_board.hpp"
 #include <arpa/inet.h>
+#include <fcntl.h>
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <netinet/in.h>
 #include <nlohmann/json.hpp>
@@ -190,6 +193,70 @@ TEST_F(ServeHttp, resumes_a_job_amid_a_move_after_it_was_killed) {
   EXPECT_EQ(counted[2], alone["Z"]["net"]);
 }
 
+// A virtual board dies with its host, as by a power cut: the machine homes, goes back onto the path and makes the part.
+TEST_F(ServeHttp, goes_on_with_a_job_of_a_virtual_board_that_died_with_it) {
+  std::string text =
+      "name = \"Small\"\n[board]\nclock_hz = 16_000_000\nmax_event_rate_hz = 20_000\n[homing]\norder = \"Z(XY)\"\n";
+  for (const char axis : {'X', 'Y', 'Z'}) {
+    text += fmt::format(
+        "[axis.{0}]\nsteps_per_mm = 100\ntravel_mm = [-4, 4]\nmax_velocity_mm_s = 60\nmax_acceleration_mm_s2 = 900\n"
+        "[axis.{0}.home]\ndirection = \"{1}\"\nswitch_at_mm = {2}\nseek_mm_s = 40\nlatch_mm_s = 4\npull_off_mm = 0.5\n",
+        axis, axis == 'Z' ? "high" : "low", axis == 'Z' ? 4.5 : -4.5);
+  }
+  const std::string machine = write("small.toml", text);
+  const std::string part = "G21 G90 G61 F150\nG1 X3\nY2\nX0 Z-1\nG0 Z3\nM2\n";
+  const std::vector<std::string> options = {"--data", path("data"), "-m", machine};
+  const auto key = [&] { return "X-Passo-Key: " + json("POST", "/owner", "{}").value("key", "") + "\r\n"; };
+  serve(options);
+  json("POST", "/programs?name=part.ngc", part);
+  json("POST", "/programs/1/run", "", key());
+  EXPECT_TRUE(until([&] { return json("GET", "/status")["place"]["y"] > 0.5; }));
+  EXPECT_EQ(end(SIGKILL), -SIGKILL);
+  serve(options);
+  EXPECT_EQ(json("GET", "/status")["trust"], "unknown") << json("GET", "/status");
+  EXPECT_EQ(json("GET", "/interrupted")["interrupted"]["code"], "resume.board-reset");
+  json("POST", "/home", "", key());
+  EXPECT_TRUE(until([&] { return json("GET", "/status")["trust"] == "homed"; })) << json("GET", "/status");
+  const auto way = json("GET", "/interrupted")["interrupted"]["reentry"];
+  EXPECT_EQ(way["code"], "") << "homing has found the machine where the job was: " << way;
+  EXPECT_EQ(way["line"], 3) << way;
+  EXPECT_EQ(json("POST", "/interrupted/reenter", "", key())["state"], "checking");
+  EXPECT_TRUE(until([&] { return json("GET", "/status")["job"]["state"] == "done"; })) << json("GET", "/status");
+  EXPECT_EQ(json("GET", "/status")["place"], (nlohmann::json{{"x", 0.0}, {"y", 2.0}, {"z", 3.0}}));
+  EXPECT_EQ(json("GET", "/interrupted")["interrupted"], nullptr);
+}
+
+// What senders set is there after a restart: their offsets, which programs have too, and what grbl keeps.
+TEST_F(ServeHttp, keeps_what_senders_have_set) {
+  // Sends lines, and hears until each has its answer.
+  const auto say = [&](const std::string& lines) {
+    serve({"--data", path("data"), "--grbl-pty", path("grbl")});
+    const int terminal = open(path("grbl").c_str(), O_RDWR | O_NOCTTY | O_NONBLOCK);
+    EXPECT_EQ(::write(terminal, lines.data(), lines.size()), static_cast<ssize_t>(lines.size()));
+    std::string heard;
+    char bytes[4096];
+    const auto is_answered = [&] {
+      const ssize_t got = ::read(terminal, bytes, sizeof bytes);
+      if (got > 0) heard.append(bytes, static_cast<std::size_t>(got));
+      std::ptrdiff_t answers = 0;
+      for (std::size_t at = 0; (at = heard.find("\nok\r", at)) != std::string::npos; ++at) ++answers;
+      return answers == std::count(lines.begin(), lines.end(), '\n');
+    };
+    EXPECT_TRUE(until(is_answered)) << heard;
+    close(terminal);
+    return heard;
+  };
+  say("$I=SHOP 2\n$N0=G17\n$10=1\nG10 L2 P2 X5\n");
+  EXPECT_TRUE(until([&] { return std::filesystem::exists(path("data/work.var")); }));
+  end();
+  const std::string again = say("$I\n$N\n$#\n$10=1\n");
+  EXPECT_THAT(again, HasSubstr("[VER:1.1h.20190830:SHOP2]"));
+  EXPECT_THAT(again, HasSubstr(">G17:ok"));
+  EXPECT_THAT(again, HasSubstr("$N0=G17\r\n$N1=\r\n"));
+  EXPECT_THAT(again, HasSubstr("[G55:5.000,0.000,0.000]"));
+  end();
+}
+
 TEST_F(ServeHttp, asks_for_the_token_and_for_its_own_name) {
   const std::string token = write("token", "0123456789abcdef\n");
   serve({"--http-token", token});
@@ -354,7 +421,12 @@ TEST_F(ServeHttp, makes_a_program_of_a_drill_file) {
   EXPECT_THAT(failed["words"].get<std::string>(), HasSubstr("wrong.drl"));
   // Nothing of this computer is read or written, but what was sent.
   for (const char* const order :
-       {R"({"job": "board", "files": ["holes.drl"]})", R"({"job": "drill", "files": ["/etc/passwd"]})",
+       {R"({"job": "show", "files": ["holes.drl"]})", R"({"job": "drill", "files": ["holes.drl"], "profile": {}})",
+        R"({"job": "board", "files": ["holes.drl"], "options": {"machine": "/etc/passwd"}})",
+        R"({"job": "board", "files": ["holes.drl"], "profile": {"board": {}}})",
+        R"({"job": "board", "files": ["holes.drl"], "profile": {"isolate": {"edge": "../x"}}})",
+        R"({"job": "board", "files": ["holes.drl"], "profile": {"drill": {"tools": ["1", "2"]}}})",
+        R"({"job": "drill", "files": ["/etc/passwd"]})",
         R"({"job": "drill", "files": ["holes.drl"], "options": {"output": "x"}})",
         R"({"job": "isolate", "files": ["holes.drl"], "options": {"edge": "/etc/passwd"}})",
         R"({"job": "isolate", "files": ["holes.drl"], "options": {"edge": "../x"}})"}) {
@@ -362,6 +434,41 @@ TEST_F(ServeHttp, makes_a_program_of_a_drill_file) {
   }
   EXPECT_EQ(send("../x", "a")["files"].dump().find('/'), std::string::npos);
   EXPECT_TRUE(json("DELETE", "/make/files")["files"].empty());
+}
+
+TEST_F(ServeHttp, makes_all_programs_of_a_board_and_says_what_to_do_when) {
+  serve();
+  const std::string head = "%FSLAX46Y46*%\n%MOMM*%\n%LPD*%\n%ADD10C,1*%\nD10*\n";
+  json("POST", "/make/files?name=odd.gbr", head + "X5000000Y5000000D02*\nX9000000Y5000000D01*\nM02*\n");
+  json("POST", "/make/files?name=board.gko",
+       head + "X0Y0D02*\nX20000000Y0D01*\nX20000000Y15000000D01*\nX0Y15000000D01*\nX0Y0D01*\nM02*\n");
+  json("POST", "/make/files?name=holes.drl", "M48\nMETRIC\nT1C0.800\n%\nT1\nX5.0Y5.0\nM30\n");
+  const auto make = [&](const std::string& options) {
+    json("POST", "/make", R"({"job": "board", "files": ["odd.gbr", "board.gko", "holes.drl"], )" + options + "}");
+    until([&] { return json("GET", "/make")["state"] != "running"; });
+    return json("GET", "/make");
+  };
+  const auto unknown = make(R"("options": {})");
+  EXPECT_EQ(unknown["programs"].size(), 2U) << unknown;
+  EXPECT_EQ(unknown["report"]["files"][2]["layer"], "unknown");
+  const auto made = make(R"("options": {"as": ["odd.gbr=top copper"], "margin": 12},
+                            "profile": {"outline": {"depth": "-1.6", "tabs": 2}, "drill": {"plain": true}})");
+  ASSERT_EQ(made["state"], "done") << made;
+  ASSERT_EQ(made["programs"].size(), 3U);
+  EXPECT_EQ(json("GET", "/programs")["programs"].size(), 3U) << "programs that are made again take their places";
+  const auto text = [&](std::size_t at) {
+    return ask("GET", "/api/v1/programs/" + std::to_string(made["programs"][at].get<int>()) + "/text");
+  };
+  EXPECT_THAT(text(0), Not(HasSubstr("G81")));
+  EXPECT_THAT(text(2), HasSubstr("Z-1.6"));
+  EXPECT_EQ(json("GET", "/programs/" + std::to_string(made["programs"][1].get<int>()))["name"],
+            "odd-2-isolate-front.ngc");
+  EXPECT_EQ(made["report"]["margin_mm"], 12);
+  EXPECT_GT(made["report"]["steps"][1]["time_s"].get<double>(), 1);
+  EXPECT_THAT(ask("GET", "/api/v1/make/picture"), HasSubstr("<svg"));
+  EXPECT_NE(ask("GET", "/api/v1/make/picture?number=2"), ask("GET", "/api/v1/make/picture?number=0"));
+  EXPECT_THAT(ask("GET", "/api/v1/make/picture?number=9"), HasSubstr("there is no picture"));
+  EXPECT_THAT(ask("GET", "/api/v1/make/page"), HasSubstr("Mill the front"));
 }
 
 TEST_F(ServeHttp, tells_systemd_that_it_is_ready_lives_and_ends) {

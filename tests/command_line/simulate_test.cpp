@@ -30,7 +30,7 @@ TEST_F(Simulate, tells_what_a_program_takes_off) {
   EXPECT_EQ(done.code, 0) << done.err;
   EXPECT_EQ(done.err, "");
   EXPECT_THAT(done.out, HasSubstr("X 0 to 60, Y 0 to 40, Z -10 to 0; 600 x 400 cells of 0.1 mm"));
-  EXPECT_THAT(done.out, HasSubstr("T1 flat 6 mm"));
+  EXPECT_THAT(done.out, HasSubstr("T1 flat end, 6 mm"));
   EXPECT_THAT(done.out, HasSubstr("depth of cut    2.000 mm at most"));
   const nlohmann::json json = json_of(slots() + " --tool flat:6 --stock X0:60,Y0:40,Z-10:0");
   const double slot = 2 * (40 * 6 + 3.14159265 * 9);
@@ -162,6 +162,35 @@ TEST_F(Simulate, gives_the_same_bytes_for_any_number_of_threads) {
   EXPECT_EQ(simulate(pocket + path("1.stl") + " --threads 1").code, 0);
   EXPECT_EQ(simulate(pocket + path("3.stl") + " --threads 3").code, 0);
   EXPECT_EQ(read(path("1.stl")), read(path("3.stl")));
+}
+
+// A pyramid: around a square of 10 mm on the left, of 16 mm on the right.
+TEST_F(Simulate, a_hot_wire_leaves_what_lies_between_two_profiles) {
+  const std::string program =
+      write("w.ngc", "G21 G90\nG0 X-5 Y5 U-5 V2\nG1 X5 U2 F100\nX15 U18\nY15 V18\nX5 U2\nY5 V2\nX-5 U-5\nM2\n");
+  const std::string wire = program + " --wire 1 --span 100 --stock X0:20,Y0:20,Z0:100 --cell 0.2 ";
+  const Outcome done = simulate(wire + "--stl " + path("w.stl") + " --picture " + path("w.png"));
+  EXPECT_EQ(done.code, 0) << done.err;
+  EXPECT_EQ(done.err, "");
+  EXPECT_THAT(done.out, HasSubstr("X Y at Z 0, U V at Z 100"));
+  EXPECT_THAT(done.out, HasSubstr("(cut free)"));
+  EXPECT_GT(std::filesystem::file_size(path("w.png")), 10'000U);
+  EXPECT_GT(std::filesystem::file_size(path("w.stl")), 10'000U);
+  const nlohmann::json json = json_of(wire + "--compare " + path("w.stl"));
+  ASSERT_EQ(json["pieces"].size(), 2U);
+  EXPECT_NEAR(json["pieces"][1]["mm3"], (81 + 9 * 15 + 225) * 100 / 3.0, 150);
+  EXPECT_TRUE(json["pieces"][1]["cut_free"]);
+  EXPECT_EQ(json["gouges"]["cells"], 0);
+
+  EXPECT_THAT(simulate(program + " --wire 1").err, HasSubstr("expected --span"));
+  EXPECT_THAT(simulate(wire + "--compare " + program).err, HasSubstr("[surface.unknown-kind]"));
+  EXPECT_EQ(simulate(wire + "--tool flat:6").code, 2);
+  EXPECT_EQ(simulate(program + " --wire x").code, 2);
+  const std::string rapid = write("r.ngc", "G21 G90\nG0 X-5 Y5\nG1 X5 F100\nG0 Y15\nG1 X-5\nM2\n");
+  const Outcome told = simulate(rapid + " --wire 1 --stock X0:20,Y0:20");
+  EXPECT_EQ(told.code, 1);
+  EXPECT_THAT(told.err, HasSubstr("r.ngc:4"));
+  EXPECT_THAT(told.err, HasSubstr("[simulate.rapid]"));
 }
 
 }  // namespace

@@ -142,6 +142,7 @@ struct CamEngraveArguments : CamMillArguments {
   std::string tip = "0mm";
   std::string tool = "6mm";
   std::string depth;  // at most; empty: as the cutter's width allows
+  std::string step;   // of a layer; empty: all at once
   std::string clear;  // diameter of a flat cutter for wide areas; empty: none
   std::string clear_step = "1mm";
   std::string inlay;                // pocket or plug; empty: neither
@@ -184,6 +185,8 @@ struct CamBoardArguments {
   std::string pin_distance = "5mm";  // of the alignment holes from the board's edge; 0: none
   bool probe_holes = false;          // the holes are for the probe, which finds the board that was turned over
   std::string heights;               // COLUMNSxROWS places of a height map of each side; empty: none
+  std::vector<std::string> told;     // FILE=LAYER: what the user says of files
+  bool json = false;                 // what was made, on standard output
 };
 int cam_board(const CamBoardArguments& arguments, CamDrillArguments drill, CamIsolateArguments isolate,
               CamOutlineArguments outline);
@@ -212,8 +215,10 @@ struct CamReliefArguments {
   std::string pitch;                    // empty: as fine as the cutters need
   std::string origin = "lower-left";    // a corner, center or X,Y
   std::string cutter = "ball:3";
-  std::string way = "rows";  // columns, both or spiral
-  std::string step;          // empty: as `scallop` says
+  std::string way = "rows";    // columns, both, spiral or contours
+  double steep = 45;           // degrees; of contours
+  std::string moves = "arcs";  // or lines
+  std::string step;            // empty: as `scallop` says
   std::string scallop = "0.02mm";
   std::string tolerance = "0.01mm";
   std::string clearance = "5mm";
@@ -222,15 +227,20 @@ struct CamReliefArguments {
   double ramp_angle = 5;       // degrees
   std::string feed = "1000mm";
   std::string plunge = "300mm";
-  std::string rough;  // a cutter; empty: no roughing
+  double removal = 0;              // mm3 a minute; 0: the feed does not look at it
+  std::string feed_most;           // empty: as `feed`
+  std::string rough;               // a cutter; empty: no roughing
+  std::string rough_way = "rows";  // or offsets
   std::string rough_step;
   std::string rough_down = "2mm";
   std::string rough_stock = "0.3mm";
   std::string rough_feed;  // empty: as `feed`
-  std::string rest;        // a cutter; empty: no rest finishing
+  double rough_removal = 0;
+  std::string rest;  // a cutter; empty: no rest finishing
   std::string rest_step;
   std::string rest_least = "0.05mm";
-  std::string rest_feed;          // empty: as `feed`
+  std::string rest_feed;  // empty: as `feed`
+  double rest_removal = 0;
   std::uint32_t spindle = 12000;  // turns a minute; 0: the program leaves the spindle alone
 };
 int cam_relief(const CamReliefArguments& arguments);

@@ -3,16 +3,16 @@
 #include <array>
 #include <cstdio>
 #include <filesystem>
-#include <fstream>
-#include <iterator>
 
 #include "cam_board_page.hpp"
 #include "cam_job.hpp"
 #include "check_page.hpp"
+#include "low_process.hpp"
 
 #include "passo/cam/board_job.hpp"
 #include "passo/machine_file/machine_description.hpp"
 #include "passo/probing/probing_cycle.hpp"
+#include "passo/report/board_picture.hpp"
 
 namespace passo {
 namespace {
@@ -87,6 +87,8 @@ class BoardMaker {
       : arguments_(arguments), plan_(plan), machine_(machine) {}
 
   int make(CamDrillArguments drill, CamIsolateArguments isolate, CamOutlineArguments outline);
+  const std::string& folder() const { return arguments_.output; }
+  void tell_files() const;
   BoardPage page;
 
  private:
@@ -113,7 +115,8 @@ class BoardMaker {
   }
   template <class Arguments>
   int add(Arguments arguments, int (*command)(const Arguments&, const CamSources*, CamMade*), const CamSources& sources,
-          std::string title, std::vector<std::string> words);
+          BoardStep step);
+  void tell(const BoardStep& step) const;
   std::array<DrawnPoint, 2> pins(Nanometres distance) const;
   // In the programs, of either side.
   std::pair<double, double> in_program(DrawnPoint at) const {
@@ -133,24 +136,28 @@ class BoardMaker {
 
 template <class Arguments>
 int BoardMaker::add(Arguments arguments, int (*command)(const Arguments&, const CamSources*, CamMade*),
-                    const CamSources& sources, std::string title, std::vector<std::string> words) {
+                    const CamSources& sources, BoardStep step) {
   CamMade made;
   if (const int code = command(arguments, &sources, &made); code != exit_done) return code;
-  BoardStep step{.title = std::move(title),
-                 .program = std::filesystem::path(arguments.output).filename().string(),
-                 .tools = made.tools,
-                 .words = std::move(words),
-                 .figures = made.summary,
-                 .time = "",
-                 .picture = ""};
-  std::ifstream picture(arguments.picture, std::ios::binary);
-  step.picture.assign(std::istreambuf_iterator<char>(picture), {});
-  if (machine_ != nullptr) {
-    if (const std::optional<Seconds> time = time_of(arguments.output, *machine_)) step.time = clock_words(*time);
-  }
-  fmt::print("{}: {}{}\n{}", step.program, step.title, step.time.empty() ? "" : ", " + step.time, step.figures);
+  step.program = std::filesystem::path(arguments.output).filename().string();
+  step.tools = made.tools;
+  step.figures = made.summary;
+  step.picture = content_of(arguments.picture);
+  if (machine_ != nullptr) step.time = time_of(arguments.output, *machine_);
+  tell(step);
   page.steps.push_back(std::move(step));
   return exit_done;
+}
+
+void BoardMaker::tell_files() const {
+  if (arguments_.json) return;
+  for (const BoardPageFile& file : page.files) fmt::print("{}\n", words_for(file));
+}
+
+void BoardMaker::tell(const BoardStep& step) const {
+  if (arguments_.json) return;
+  const std::string time = step.time ? ", " + clock_words(*step.time) : "";
+  fmt::print("{}: {}{}\n{}", step.program, step.title, time, step.figures);
 }
 
 // Two holes beside the board, midway between which it is turned over.
@@ -170,7 +177,7 @@ int BoardMaker::add_probing(const ProbingCycle& cycle, const char* what, BoardSt
   if (!program) return fail(exit_bad_program, program.error());
   step.program = fmt::format("{}-{}.ngc", ++programs_, what);
   const int code = write_text((std::filesystem::path(arguments_.output) / step.program).string(), *program);
-  if (code == exit_done) fmt::print("{}: {}\n", step.program, step.title);
+  if (code == exit_done) tell(step);
   page.steps.push_back(std::move(step));
   return code;
 }
@@ -178,7 +185,7 @@ int BoardMaker::add_probing(const ProbingCycle& cycle, const char* what, BoardSt
 // Each hole comes to where the other was, so the first program and this one speak of the same two places.
 int BoardMaker::turn_over(const CamDrillArguments& drill, std::optional<std::array<DrawnPoint, 2>> holes) {
   const std::string over = is_x() ? "from left to right" : "from top to bottom";
-  BoardStep step{.title = "Turn the board over", .words = {}};
+  BoardStep step{.kind = "turn", .title = "Turn the board over"};
   if (!holes || !arguments_.probe_holes) {
     step.words = {fmt::format("Turn it over {}{}.", over, holes ? ", and put the pins in" : ""),
                   "X0 Y0 stays where it is; set Z0 to the face that is up now."};
@@ -190,6 +197,7 @@ int BoardMaker::turn_over(const CamDrillArguments& drill, std::optional<std::arr
   const auto [x, y] = in_program(holes->front());
   const auto [second_x, second_y] = in_program(holes->back());
   const char* const which = is_x() ? "left" : "front";
+  step.kind = "find-holes";
   step.title = "Turn the board over, and find it";
   step.words = {
       fmt::format("Turn it over {}, and clamp it as it lies: it may be moved and turned a little.", over),
@@ -215,7 +223,7 @@ int BoardMaker::find_heights(const char* side) {
   const auto [x, y] = in_program(plan_.box.least);
   const std::string map = fmt::format("heights-{}.csv", side);
   const std::string mill = fmt::format("{}-isolate-{}", programs_ + 2, side);
-  BoardStep step{.title = fmt::format("Measure the {}", side), .words = {}};
+  BoardStep step{.kind = fmt::format("heights-{}", side), .title = fmt::format("Measure the {}", side)};
   step.words = {
       "Put the probe in, set Z0 to the face, and run the program with the option --log " + map + ".",
       fmt::format("passo level {0}.ngc --map {1} -o {0}-level.ngc writes what to run in the next step.", mill, map)};
@@ -240,18 +248,19 @@ int BoardMaker::make(CamDrillArguments drill, CamIsolateArguments isolate, CamOu
   const std::string zero =
       fmt::format("The lower left corner of the board lies at X{0:.4g} Y{0:.4g} mm; Z0 is the face of the blank.",
                   to_mm(margin_).value());
-  page.steps.push_back({.title = "Fix the blank",
-                        .program = "",
-                        .tools = {},
-                        .words = {fmt::format("The board is {:.4g} x {:.4g} mm; leave room around it.",
-                                              to_mm(plan_.box.most.x - plan_.box.least.x).value(),
-                                              to_mm(plan_.box.most.y - plan_.box.least.y).value()),
-                                  only_back ? "The copper (the back of the board) is up." : "The front is up.", zero},
-                        .figures = "",
-                        .time = "",
-                        .picture = ""});
+  page.width = to_mm(plan_.box.most.x - plan_.box.least.x).value();
+  page.height = to_mm(plan_.box.most.y - plan_.box.least.y).value();
+  page.margin = to_mm(margin_).value();
+  page.up = only_back ? "back" : "front";
+  page.turn = !two_sides ? "" : is_x() ? "x" : "y";
+  page.steps.push_back(
+      {.kind = "blank",
+       .title = "Fix the blank",
+       .words = {fmt::format("The board is {:.4g} x {:.4g} mm; leave room around it.", page.width, page.height),
+                 only_back ? "The copper (the back of the board) is up." : "The front is up.", zero}});
   CamSources sources{.drills = plan_.drills, .layer = {}, .board = plan_.face};
   const bool has_pins = two_sides && distance.count > 0;
+  if (has_pins) page.holes = arguments_.probe_holes ? "probe" : "pins";
   std::optional<std::array<DrawnPoint, 2>> holes;
   if (has_pins) {
     holes = pins(distance);
@@ -268,7 +277,8 @@ int BoardMaker::make(CamDrillArguments drill, CamIsolateArguments isolate, CamOu
               ? "Two of the holes, beside the board, are for the probe."
               : "Two of the holes are for pins: drill them on into the table, and do not move the blank.");
     }
-    if (const int code = add(drill, &cam_drill, sources, "Drill", std::move(words)); code != exit_done) return code;
+    BoardStep step{.kind = "drill", .title = "Drill", .words = std::move(words)};
+    if (const int code = add(drill, &cam_drill, sources, std::move(step)); code != exit_done) return code;
   }
   for (const bool is_back : {false, true}) {
     const std::optional<BoardLayer>& side = is_back ? plan_.back : plan_.front;
@@ -281,17 +291,51 @@ int BoardMaker::make(CamDrillArguments drill, CamIsolateArguments isolate, CamOu
     place(copper, is_back);
     name(copper, is_back ? "isolate-back" : "isolate-front");
     sources.layer = *side;
-    const int code =
-        add(copper, &cam_isolate, sources, is_back ? "Mill the back" : "Mill the front",
-            {"Put the cutter in, and set Z0 with care: its width depends on the depth.", "Run the program."});
+    BoardStep step{
+        .kind = is_back ? "back" : "front",
+        .title = is_back ? "Mill the back" : "Mill the front",
+        .words = {"Put the cutter in, and set Z0 with care: its width depends on the depth.", "Run the program."}};
+    const int code = add(copper, &cam_isolate, sources, std::move(step));
     if (code != exit_done) return code;
   }
   if (!plan_.edge) return exit_done;
   place(outline, plan_.back.has_value());
   name(outline, "outline");
   sources.layer = *plan_.edge;
-  return add(outline, &cam_outline, sources, "Cut the board out",
-             {"Put the cutter in, and set Z0.", "Run the program.", "Cut the tabs, if there are some."});
+  return add(outline, &cam_outline, sources,
+             {.kind = "edge",
+              .title = "Cut the board out",
+              .words = {"Put the cutter in, and set Z0.", "Run the program.", "Cut the tabs, if there are some."}});
+}
+
+// What --as says. Returns why it cannot be; empty: done.
+std::string heed_words(BoardJob& job, const std::vector<std::string>& told) {
+  for (const std::string& one : told) {
+    const std::size_t at = one.rfind('=');
+    if (at == std::string::npos) return "--as: expected FILE=LAYER, not '" + one + "'";
+    const std::string why = tell_kind(job, one.substr(0, at), one.substr(at + 1));
+    if (!why.empty()) return "--as: " + why;
+  }
+  return {};
+}
+
+// The programs, their pictures, and the page.
+int make_all(BoardMaker& maker, const BoardJob& job, CamDrillArguments drill, CamIsolateArguments isolate,
+             CamOutlineArguments outline) {
+  const std::filesystem::path folder = maker.folder();
+  std::error_code error;
+  std::filesystem::create_directories(folder, error);
+  if (error) return fail(exit_failed, folder.string() + ": " + error.message());
+  if (isolate.tools.empty() && isolate.v.empty()) isolate.tools = "0.2mm";
+  maker.tell_files();
+  int code = maker.make(std::move(drill), std::move(isolate), std::move(outline));
+  if (code != exit_done) return code;
+  const std::string picture = (folder / "board.svg").string();
+  code = write_picture(picture, maker.page.name,
+                       [&](const PictureOptions& options, OutputFile& file) { return draw_board(job, options, file); });
+  if (code != exit_done) return code;
+  maker.page.steps.front().picture = content_of(picture);
+  return write_text((folder / "board.html").string(), to_html(maker.page));
 }
 
 }  // namespace
@@ -305,33 +349,33 @@ int cam_board(const CamBoardArguments& arguments, CamDrillArguments drill, CamIs
     show(findings);
     if (!machine) return exit_bad_machine;
   }
-  const BoardJob job = read_board_job(arguments.paths, findings);
+  BoardJob job = read_board_job(arguments.paths, findings);
+  if (!findings.any_error()) {
+    if (const std::string why = heed_words(job, arguments.told); !why.empty()) return fail(exit_bad_program, why);
+  }
   LengthArguments lengths(*mm_of_unit(outline.units));
   const BoardPlan plan = plan_of(job, lengths.any("--join", outline.join), findings);
-  if (!lengths.message().empty()) return fail(exit_bad_program, lengths.message());
-  show(findings);
-  if (findings.any_error()) return exit_bad_program;
-  if (plan.drills.empty() && !plan.front && !plan.back && !plan.edge) {
-    return fail(exit_bad_program, "there is no copper, no edge and no drill file among these files");
-  }
-  std::error_code error;
-  std::filesystem::create_directories(arguments.output, error);
-  if (error) return fail(exit_failed, arguments.output + ": " + error.message());
-  if (isolate.tools.empty() && isolate.v.empty()) isolate.tools = "0.2mm";
-
   BoardMaker maker(arguments, plan, machine ? &*machine : nullptr);
   maker.page.name = std::filesystem::path(arguments.paths.front()).filename().string();
   if (maker.page.name.empty()) maker.page.name = arguments.paths.front();  // "gerbers/"
   if (machine) maker.page.machine = machine->name;
   for (const BoardFile& file : job.files) {
     maker.page.files.push_back(
-        fmt::format("{}: {} (told by its {})", file.name, words_for(file.kind), file.kind.told_by));
-    fmt::print("{}\n", maker.page.files.back());
+        {file.name, short_name(file), words_for(file.kind), file.kind.told_by, file.drills.has_value()});
   }
   maker.page.left_out = job.left_out;
-  const int code = maker.make(std::move(drill), std::move(isolate), std::move(outline));
-  if (code != exit_done) return code;
-  return write_text((std::filesystem::path(arguments.output) / "board.html").string(), to_html(maker.page));
+  int code = exit_done;
+  if (!lengths.message().empty()) code = fail(exit_bad_program, lengths.message());
+  show(findings);
+  if (findings.any_error()) code = exit_bad_program;
+  if (code == exit_done && plan.drills.empty() && !plan.front && !plan.back && !plan.edge) {
+    code = fail(exit_bad_program, "there is no copper, no edge and no drill file among these files");
+  }
+  if (code == exit_done) code = make_all(maker, job, std::move(drill), std::move(isolate), std::move(outline));
+  // What was read helps to mend what was refused.
+  if (code != exit_done) maker.page.steps.clear();
+  if (arguments.json) fmt::print("{}", to_json(maker.page));
+  return code;
 }
 
 }  // namespace passo

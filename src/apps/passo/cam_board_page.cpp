@@ -1,8 +1,10 @@
 #include "cam_board_page.hpp"
 
+#include "check_page.hpp"
 #include "check_style.hpp"
 #include "html_page.hpp"
 #include <fmt/format.h>
+#include <nlohmann/json.hpp>
 
 #include "passo/report/html.hpp"
 
@@ -21,20 +23,57 @@ std::string list_of(const std::vector<std::string>& items, const char* kind) {
 std::string step_html(const BoardStep& step, std::size_t number) {
   std::string html = fmt::format("<section><h2>{}. {}</h2>\n", number, html_text(step.title));
   html += list_of(step.words, "ol");
-  if (step.program.empty()) return html + "</section>\n";
+  // A letter for each step makes the ids of the pictures differ.
+  const std::string name(1, static_cast<char>('a' + static_cast<char>(number % 26)));
+  const std::string figure =
+      step.picture.empty() ? "" : "<figure>" + inline_svg(step.picture, name, step.title) + "</figure>\n";
+  if (step.program.empty()) return html + figure + "</section>\n";
   html += fmt::format("<dl><div><dt>Program</dt><dd>{}</dd></div>", html_text(step.program));
   for (std::size_t i = 0; i < step.tools.size(); ++i) {
     html += fmt::format("<div><dt>Tool {}</dt><dd>{}</dd></div>", i + 1, html_text(step.tools[i]));
   }
-  if (!step.time.empty()) html += fmt::format("<div><dt>Time</dt><dd>{}</dd></div>", html_text(step.time));
-  html += "</dl>\n";
-  // A letter for each step makes the ids of the pictures differ.
-  const std::string name(1, static_cast<char>('a' + static_cast<char>(number % 26)));
-  if (!step.picture.empty()) html += "<figure>" + inline_svg(step.picture, name, step.title) + "</figure>\n";
-  return html + fmt::format("<pre>{}</pre></section>\n", html_text(step.figures));
+  if (step.time) html += fmt::format("<div><dt>Time</dt><dd>{}</dd></div>", clock_words(*step.time));
+  return html + "</dl>\n" + figure + fmt::format("<pre>{}</pre></section>\n", html_text(step.figures));
 }
 
 }  // namespace
+
+std::string words_for(const BoardPageFile& file) {
+  return fmt::format("{}: {} (told by {})", file.name, file.layer,
+                     file.told_by == "you" ? "you" : "its " + file.told_by);
+}
+
+std::string to_json(const BoardPage& page) {
+  nlohmann::ordered_json files = nlohmann::ordered_json::array();
+  for (const BoardPageFile& file : page.files) {
+    files.push_back({{"file", file.name},
+                     {"name", file.short_name},
+                     {"layer", file.layer},
+                     {"told_by", file.told_by},
+                     {"drill_file", file.is_drill_file}});
+  }
+  nlohmann::ordered_json steps = nlohmann::ordered_json::array();
+  for (const BoardStep& step : page.steps) {
+    steps.push_back({{"step", step.kind},
+                     {"title", step.title},
+                     {"words", step.words},
+                     {"program", step.program},
+                     {"tools", step.tools},
+                     {"figures", step.figures},
+                     {"time_s", step.time ? nlohmann::ordered_json(step.time->value()) : nlohmann::ordered_json()}});
+  }
+  const nlohmann::ordered_json json = {{"name", page.name},
+                                       {"machine", page.machine},
+                                       {"files", std::move(files)},
+                                       {"left_out", page.left_out},
+                                       {"board", {{"across_mm", page.width}, {"up_mm", page.height}}},
+                                       {"margin_mm", page.margin},
+                                       {"up", page.up},
+                                       {"turn", page.turn},
+                                       {"holes", page.holes},
+                                       {"steps", std::move(steps)}};
+  return json.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n";
+}
 
 std::string to_html(const BoardPage& page) {
   const std::string name = html_text(page.name);
@@ -44,7 +83,9 @@ std::string to_html(const BoardPage& page) {
               ? "<p class=\"quiet\">Without a machine file (-m) the times are unknown.</p></header>\n"
               : fmt::format("<p class=\"quiet\">The times are those on {}.</p></header>\n", html_text(page.machine));
   for (std::size_t i = 0; i < page.steps.size(); ++i) html += step_html(page.steps[i], i + 1);
-  html += "<section><h2>What was read</h2>\n" + list_of(page.files, "ul");
+  std::vector<std::string> files;
+  for (const BoardPageFile& file : page.files) files.push_back(words_for(file));
+  html += "<section><h2>What was read</h2>\n" + list_of(files, "ul");
   if (!page.left_out.empty()) html += "<p>Left out:</p>\n" + list_of(page.left_out, "ul");
   return html + "</section>\n" + html_page_end("Every option: docs/manual/circuit-boards.md.");
 }

@@ -93,6 +93,11 @@ EngraveJob engrave_job_of(const CamEngraveArguments& arguments, const MillJob& j
     lengths.refuse(fmt::format("--tip: expected a width of 0 or more, less than --tool, found '{}'", arguments.tip));
   }
   if (!arguments.depth.empty()) carving.deepest = lengths.below_0("--depth", arguments.depth, "-2");
+  if (!arguments.step.empty()) {
+    constexpr Nanometres least_step{10'000};
+    carving.step = lengths.above_0("--step", arguments.step);
+    if (carving.step < least_step) lengths.refuse("--step: expected 0.01 mm or more");
+  }
   choose_inlay(arguments, engrave, lengths);
   carving.words = fmt::format("V of {:g} degrees, {:.4g} mm", arguments.angle, to_mm(carving.widest).value());
   if (carving.tip.count > 0) carving.words += fmt::format(", tip {:.4g} mm", to_mm(carving.tip).value());
@@ -137,7 +142,7 @@ int engrave_lines(const CamEngraveArguments& arguments, const MillJob& job, cons
   ProfileOptions options{.side = ProfileSide::on};
   constexpr Nanometres usual_depth{-300'000};
   options.cut.depth = carving.deepest.count < 0 ? carving.deepest : usual_depth;
-  options.cut.step = engrave.clearing.step;
+  options.cut.step = carving.step.count > 0 ? carving.step : engrave.clearing.step;
   options.cut.words = carving.words;
   options.cut.park = job.program.park;
   const double slope = std::tan(carving.angle_degrees / 360 * std::numbers::pi);
@@ -208,13 +213,16 @@ int cam_engrave(const CamEngraveArguments& arguments) {
   const double stays = area_mm2(warned);
   std::string words = size_words(*part) + fmt::format("{:.4g} mm² carved, {:.4g} mm deep at most\n",
                                                       area_mm2(area) - stays, -to_mm(plan.deepest).value());
+  if (plan.layers > 1) words += fmt::format("in {} layers\n", plan.layers);
   if (stays > 0) {
     words +=
         fmt::format("not reached: {:.4g} mm², too wide for the V-shaped cutter{}\n", stays,
                     engrave.clears ? ", too narrow for the flat one, or for the tip" : ": --clear D, a flat cutter");
   }
-  nlohmann::ordered_json json = {
-      {"area_mm2", area_mm2(area)}, {"unreached_mm2", stays}, {"deepest_mm", to_mm(plan.deepest).value()}};
+  nlohmann::ordered_json json = {{"area_mm2", area_mm2(area)},
+                                 {"unreached_mm2", stays},
+                                 {"deepest_mm", to_mm(plan.deepest).value()},
+                                 {"layers", plan.layers}};
   return deliver(arguments, job, {plan.mill, area, warned, {}, words, json.dump(2)});
 }
 

@@ -175,6 +175,13 @@ void add_cam_board_command(CLI::App& cam, CamArguments& all) {
   board.add_flag("--probe-holes", arguments.probe_holes,
                  "no pins: after turning over a program finds the two holes with the probe");
   board.add_option("--heights", arguments.heights, "9x6: a program for each side probes its heights at a grid");
+  board
+      .add_option(
+          "--as", arguments.told,
+          "FILE=LAYER: what a file is, where the guess is wrong: top copper, bottom copper,\noutline, drill, or "
+          "nothing; may be given again")
+      ->take_all();
+  board.add_flag("--json", arguments.json, "what was read, and the steps, for scripts");
   board.footer(board_examples);
   board.callback([&all] {
     all.chosen = [&all] {

@@ -39,6 +39,7 @@ constexpr const char* engrave_examples =
   passo cam engrave plot.hpgl --on-line --depth -0.2 -o plot.ngc               what a pen plotter would draw
   passo cam engrave logo.svg --angle 90 --tool 6 --depth -2 --clear 2 -p logo.png -o logo.ngc
                                                            wide areas get a flat floor by a cutter of 2 mm first
+  passo cam engrave sign.svg --angle 60 --tool 12 --step 2 -o sign.ngc         deep letters in layers of 2 mm
   passo cam engrave star.svg --inlay pocket --clear 3 -o pocket.ngc            an inlay: the hole, and what fills it
   passo cam engrave star.svg --inlay plug --clear 3 -o plug.ngc
 
@@ -125,6 +126,7 @@ void add_engrave_command(CLI::App& cam, CamArguments& all) {
   engrave.add_option("--tool", arguments.tool, "its diameter, the widest that it carves")->capture_default_str();
   engrave.add_option("--depth", arguments.depth,
                      "the deepest, below 0; without it as the cutter's width allows, on lines -0.3mm");
+  engrave.add_option("--step", arguments.step, "how much deeper it goes at a time; without it to the depth at once");
   engrave.add_option("--clear", arguments.clear, "diameter of a flat cutter that clears what is wider, before");
   engrave.add_option("--clear-step", arguments.clear_step, "how deep a layer of it is, at most")->capture_default_str();
   engrave

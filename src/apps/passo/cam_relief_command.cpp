@@ -42,8 +42,10 @@ class ReliefReading {
   }
   Cutter cutter(const char* option, const std::string& text) {
     const Result<Cutter, std::string> read = parse_cutter(text);
-    if (read) return *read;
-    refuse(fmt::format("{}: {}", option, read.error()));
+    constexpr Mm widest{200};  // what the table below the cutter is made for
+    if (read && read->radius * 2 <= widest) return *read;
+    refuse(read ? fmt::format("{}: '{}': expected a diameter of at most 200 mm", option, text)
+                : fmt::format("{}: {}", option, read.error()));
     return {};
   }
   void refuse(const std::string& message) {
@@ -78,34 +80,42 @@ ReliefShape shape_of(const CamReliefArguments& arguments, ReliefReading& read) {
 }
 
 ReliefTool tool_of(ReliefReading& read, const char* option, const std::string& cutter, const std::string& step,
-                   const std::string& feed, const CamReliefArguments& arguments) {
+                   const std::string& feed, double removal, const CamReliefArguments& arguments) {
   constexpr Mm fastest{100'000};
   ReliefTool tool;
   tool.cutter = read.cutter(option, cutter);
   if (!step.empty()) tool.step_over = read.length(fmt::format("{}-step", option).c_str(), step, least_length, Mm(100));
   tool.feed = read.length("--feed", feed.empty() ? arguments.feed : feed, Mm(1), fastest);
   tool.plunge = read.length("--plunge", arguments.plunge, Mm(1), fastest);
+  tool.removal = removal;
+  if (!arguments.feed_most.empty()) tool.fastest = read.length("--feed-most", arguments.feed_most, Mm(1), fastest);
   return tool;
 }
 
 ReliefProgramOptions program_of(const CamReliefArguments& arguments, ReliefReading& read) {
   ReliefProgramOptions program;
   program.name = arguments.output.empty() ? "relief" : std::filesystem::path(arguments.output).filename().string();
-  program.finish = tool_of(read, "--cutter", arguments.cutter, arguments.step, arguments.feed, arguments);
-  program.way = arguments.way == "columns"  ? FinishWay::columns
-                : arguments.way == "both"   ? FinishWay::both
-                : arguments.way == "spiral" ? FinishWay::spiral
-                                            : FinishWay::rows;
+  program.finish =
+      tool_of(read, "--cutter", arguments.cutter, arguments.step, arguments.feed, arguments.removal, arguments);
+  program.way = arguments.way == "columns"    ? FinishWay::columns
+                : arguments.way == "both"     ? FinishWay::both
+                : arguments.way == "spiral"   ? FinishWay::spiral
+                : arguments.way == "contours" ? FinishWay::contours
+                                              : FinishWay::rows;
+  program.steep = {arguments.steep * std::numbers::pi / 180};
+  program.arcs = arguments.moves == "arcs";
   if (!arguments.rough.empty()) {
-    program.roughing = ReliefRoughing{
-        .tool = tool_of(read, "--rough", arguments.rough, arguments.rough_step, arguments.rough_feed, arguments),
-        .step_down = read.length("--rough-down", arguments.rough_down, Mm(0.01), deepest_relief),
-        .stock = read.length("--rough-stock", arguments.rough_stock, Mm(0), Mm(50))};
+    program.roughing =
+        ReliefRoughing{.tool = tool_of(read, "--rough", arguments.rough, arguments.rough_step, arguments.rough_feed,
+                                       arguments.rough_removal, arguments),
+                       .way = arguments.rough_way == "offsets" ? RoughWay::offsets : RoughWay::rows,
+                       .step_down = read.length("--rough-down", arguments.rough_down, Mm(0.01), deepest_relief),
+                       .stock = read.length("--rough-stock", arguments.rough_stock, Mm(0), Mm(50))};
   }
   if (!arguments.rest.empty()) {
-    program.rest =
-        ReliefRest{.tool = tool_of(read, "--rest", arguments.rest, arguments.rest_step, arguments.rest_feed, arguments),
-                   .least = read.length("--rest-least", arguments.rest_least, least_length, Mm(10))};
+    program.rest = ReliefRest{.tool = tool_of(read, "--rest", arguments.rest, arguments.rest_step, arguments.rest_feed,
+                                              arguments.rest_removal, arguments),
+                              .least = read.length("--rest-least", arguments.rest_least, least_length, Mm(10))};
   }
   program.scallop = read.length("--scallop", arguments.scallop, Mm(0.0001), Mm(10));
   program.tolerance = read.length("--tolerance", arguments.tolerance, Mm(0), Mm(1));
@@ -158,7 +168,8 @@ std::optional<ReliefGrid> read_relief(const CamReliefArguments& arguments, const
                            "facets as text, or as many triangles as its head promises"));
       return std::nullopt;
     }
-    if (!read.is_body && !foreign.kind.empty()) {
+    const bool is_read = read.is_body || foreign.kind.empty() || foreign.kind == "a height map";
+    if (!is_read) {
       findings.add(of_file("picture.unknown-kind", arguments.file, fmt::format("this is {}", foreign.kind),
                            "a PNG or TIFF picture, an STL file or a height map x,y,z"));
       return std::nullopt;
@@ -208,7 +219,7 @@ std::string grid_words(const HeightGrid& grid) {
                                 ? fmt::format("{:.4g}", grid.pitch_x.value())
                                 : fmt::format("{:.4g} x {:.4g}", grid.pitch_x.value(), grid.pitch_y.value());
   return fmt::format("{:.6g} x {:.6g} mm, {:.5g} mm deep; {} x {} nodes, {} mm apart", grid.width().value(),
-                     grid.length().value(), -static_cast<double>(floor_of(grid)), grid.columns, grid.rows, pitch);
+                     grid.length().value(), 0.0 - static_cast<double>(floor_of(grid)), grid.columns, grid.rows, pitch);
 }
 
 std::string minutes_words(double minutes) {
@@ -220,10 +231,12 @@ std::string minutes_words(double minutes) {
 std::string summary_of(const ReliefReport& report) {
   std::string text;
   for (const ReliefPart& part : report.parts) {
-    text +=
-        fmt::format("{}: {}; rows {:.4g} mm apart, {} moves, {:.2f} m of work, {:.2f} m of rapids, {} at the feeds\n",
-                    part.what, part.tool, part.step.value(), part.moves, part.cut.value() / 1000,
-                    part.rapid.value() / 1000, minutes_words(part.minutes));
+    std::string more = part.arcs > 0 ? fmt::format(", {} of them arcs", part.arcs) : "";
+    text += fmt::format(
+        "{}: {}; rows {:.4g} mm apart, {} moves{}, {:.2f} m of work, {:.2f} m of rapids, {} at the feeds{}\n",
+        part.what, part.tool, part.step.value(), part.moves, more, part.cut.value() / 1000, part.rapid.value() / 1000,
+        minutes_words(part.minutes),
+        part.removal > 0 ? fmt::format(", at most {:.0f} mm3 a minute", part.removal) : "");
   }
   return text;
 }

@@ -15,6 +15,10 @@ Examples:
                                                                    three cutters, changed with M6
   passo cam relief seal.png --mirror --invert --cutter vee:40:3:0.1 --scallop 0.01 -o seal.ngc
   passo cam relief part.stl --cutter ball:2 --way both --step 0.3 -p part.png -o part.ngc
+  passo cam relief wall.stl --cutter bull:6:1 --way contours --rough flat:8 --rough-way offsets -o wall.ngc
+                                                                   constant heights where it is steep, offsets on each level
+  passo cam relief face.png --rough flat:6 --rough-removal 3000 --removal 150 --feed-most 2500 -o face.ngc
+                                                                   the feed holds what is cut, mm3 a minute
   passo cam relief map.png --origin center --margin 5 --margin-level top --spindle 18000 -o map.ngc
 
 Every option, and what is promised: docs/manual/relief.md.)";
@@ -44,8 +48,14 @@ void add_shape(CLI::App& relief, CamReliefArguments& arguments) {
 
 void add_finishing(CLI::App& relief, CamReliefArguments& arguments) {
   relief.add_option("--cutter", arguments.cutter, "the cutter that finishes")->capture_default_str();
-  relief.add_option("--way", arguments.way, "rows (along X), columns (along Y), both or spiral")
-      ->check(CLI::IsMember({"rows", "columns", "both", "spiral"}))
+  relief.add_option("--way", arguments.way, "rows (along X), columns (along Y), both, spiral or contours")
+      ->check(CLI::IsMember({"rows", "columns", "both", "spiral", "contours"}))
+      ->capture_default_str();
+  relief.add_option("--steep", arguments.steep, "contours: where it is steeper, degrees; rows on the rest")
+      ->check(number_range(10.0, 80.0))
+      ->capture_default_str();
+  relief.add_option("--moves", arguments.moves, "arcs: lines and arcs, whichever are fewer; or lines only")
+      ->check(CLI::IsMember({"arcs", "lines"}))
       ->capture_default_str();
   relief.add_option("--step", arguments.step, "between rows; without it as --scallop says");
   relief.add_option("--scallop", arguments.scallop, "height of the ridges between rows, on a flat")
@@ -63,6 +73,11 @@ void add_finishing(CLI::App& relief, CamReliefArguments& arguments) {
       ->capture_default_str();
   relief.add_option("--feed", arguments.feed, "a minute")->capture_default_str();
   relief.add_option("--plunge", arguments.plunge, "the most that a tip goes down, a minute")->capture_default_str();
+  relief
+      .add_option("--removal", arguments.removal,
+                  "hold what is cut, mm3 a minute: slower where it would be more, and see --feed-most")
+      ->check(number_range(0.0, 1e7));
+  relief.add_option("--feed-most", arguments.feed_most, "up to this feed where less than the removal is cut");
   relief.add_option("--spindle", arguments.spindle, "turns a minute; 0: the program leaves the spindle alone")
       ->capture_default_str();
 }
@@ -80,14 +95,21 @@ void add_relief_command(CLI::App& cam, CamArguments& all) {
   add_shape(relief, arguments);
   add_finishing(relief, arguments);
   relief.add_option("--rough", arguments.rough, "this cutter roughs first, level by level");
+  relief.add_option("--rough-way", arguments.rough_way, "rows, or offsets of what a level takes off")
+      ->check(CLI::IsMember({"rows", "offsets"}))
+      ->capture_default_str();
   relief.add_option("--rough-step", arguments.rough_step, "between its rows; without it 0.4 of its diameter");
   relief.add_option("--rough-down", arguments.rough_down, "the height of a level")->capture_default_str();
   relief.add_option("--rough-stock", arguments.rough_stock, "what it leaves, each way")->capture_default_str();
   relief.add_option("--rough-feed", arguments.rough_feed, "a minute; without it --feed");
+  relief.add_option("--rough-removal", arguments.rough_removal, "hold what it cuts, mm3 a minute")
+      ->check(number_range(0.0, 1e7));
   relief.add_option("--rest", arguments.rest, "this cutter finishes where the other one is too large");
   relief.add_option("--rest-step", arguments.rest_step, "between its rows; without it as --scallop says");
   relief.add_option("--rest-least", arguments.rest_least, "what the other cutter may leave")->capture_default_str();
   relief.add_option("--rest-feed", arguments.rest_feed, "a minute; without it --feed");
+  relief.add_option("--rest-removal", arguments.rest_removal, "hold what it cuts, mm3 a minute")
+      ->check(number_range(0.0, 1e7));
   relief.footer(relief_examples);
   relief.callback([&all] { all.chosen = [&all] { return cam_relief(all.relief); }; });
 }

@@ -1,8 +1,7 @@
 // passo cam show: which layers the files of a circuit board have.
 #include <algorithm>
-#include <filesystem>
 
-#include "cam_arguments.hpp"
+#include "cam_job.hpp"
 #include "findings_json.hpp"
 #include "named_files.hpp"
 #include "program_input.hpp"
@@ -25,11 +24,6 @@ struct ShownSize {
 ShownSize size_of(const std::optional<DrawnBox>& box) {
   if (!box) return {};
   return {to_mm(box->most.x - box->least.x).value(), to_mm(box->most.y - box->least.y).value()};
-}
-
-// Without folders.
-std::string short_name(const BoardFile& file) {
-  return std::filesystem::path(file.name).filename().string();
 }
 
 // A row of the table: what a user needs to tell whether this is the layer.
@@ -89,17 +83,6 @@ void print_table(const BoardJob& job) {
   }
 }
 
-int draw(const BoardJob& job, const CamShowArguments& arguments, PictureFormat format) {
-  Result<OutputFile, OutputError> file = OutputFile::open(arguments.picture);
-  if (!file) return fail(exit_failed, file.error().message);
-  PictureOptions options;
-  options.format = format;
-  options.program = arguments.files.front();
-  Status<OutputError> done = draw_board(job, options, *file);
-  if (done) done = file->commit();
-  return done ? exit_done : fail(exit_failed, done.error().message);
-}
-
 }  // namespace
 
 int cam_show(const CamShowArguments& arguments) {
@@ -123,7 +106,9 @@ int cam_show(const CamShowArguments& arguments) {
     return exit_bad_program;
   }
   arguments.json ? print_json(job) : print_table(job);
-  return format ? draw(job, arguments, *format) : exit_done;
+  if (!format) return exit_done;
+  return write_picture(arguments.picture, arguments.files.front(),
+                       [&](const PictureOptions& options, OutputFile& file) { return draw_board(job, options, file); });
 }
 
 }  // namespace passo

@@ -4,6 +4,7 @@
 #include <numbers>
 
 #include "cam_part.hpp"
+#include "wire_kerfs.hpp"
 #include <nlohmann/json.hpp>
 
 #include "passo/cam/airfoil.hpp"
@@ -23,31 +24,6 @@ struct WireJob {
   Nanometres join = {};
   std::optional<DrawnBox> block = {};
 };
-
-// "1.2", or "1.6@100,1@200": widths that were measured at speeds.
-std::vector<WireKerf> kerfs_of(const CamWireArguments& arguments, double feed, LengthArguments& lengths) {
-  std::vector<WireKerf> kerfs;
-  std::string_view rest = arguments.kerf;
-  while (!rest.empty()) {
-    const std::string_view part = rest.substr(0, rest.find(','));
-    rest.remove_prefix(std::min(rest.size(), part.size() + 1));
-    const std::size_t at = part.find('@');
-    const Nanometres width = lengths.any("--kerf", std::string(part.substr(0, at)));
-    const double speed = at == std::string_view::npos
-                             ? feed
-                             : to_mm(lengths.above_0("--kerf", std::string(part.substr(at + 1)))).value();
-    constexpr Nanometres widest{50'000'000};
-    if (width.count < 0 || width > widest) lengths.refuse("--kerf: expected a width of 0 to 50 mm");
-    kerfs.push_back({speed, to_mm(width).value()});
-  }
-  std::ranges::sort(kerfs, {}, &WireKerf::speed);
-  const auto same = std::ranges::adjacent_find(kerfs, {}, &WireKerf::speed);
-  if (kerfs.empty() || same != kerfs.end()) {
-    lengths.refuse(
-        fmt::format("--kerf: expected WIDTH, or WIDTH@SPEED,... at different speeds, found '{}'", arguments.kerf));
-  }
-  return kerfs;
-}
 
 // Where the profiles lie along the wire.
 void find_span(const CamWireArguments& arguments, WireJob& job, LengthArguments& lengths) {
@@ -75,7 +51,7 @@ WireJob wire_job_of(const CamWireArguments& arguments, LengthArguments& lengths)
   cut.most_feed =
       arguments.most_feed.empty() ? 3 * cut.feed : to_mm(lengths.above_0("--most-feed", arguments.most_feed)).value();
   if (cut.most_feed < cut.feed) lengths.refuse("--most-feed: expected the feed or more");
-  cut.kerf = kerfs_of(arguments, cut.feed, lengths);
+  cut.kerf = kerfs_of("--kerf", arguments.kerf, cut.feed, lengths);
   if (cut.keeps == WireKeeps::line) cut.kerf = {{cut.feed, 0}};
   cut.lead = lengths.any("--lead", arguments.lead);
   if (cut.lead.count < 0) lengths.refuse("--lead: expected a length of 0 or more");

@@ -81,12 +81,21 @@ std::string speed_words(const CheckPage& page) {
   return words;
 }
 
+// Whether no line needs more torque for its motion than there surely is.
+bool only_swings(const MarginVerdict& margin) {
+  return std::ranges::none_of(
+      margin.worst, [](const MarginSpot& spot) { return spot.verdict != Verdict::safe && spot.want == Want::torque; });
+}
+
 std::string motor_words(const CheckPage& page) {
   if (!page.knows_motors) return "";
   std::string words = fmt::format("motors          {}", name_of(page.margin.verdict));
   if (page.margin.verdict == Verdict::safe) words += ": they have the torque, weak ones too";
   if (page.margin.verdict == Verdict::doubtful) words += ": weak motors may lose steps";
   if (page.margin.verdict == Verdict::lost) words += ": they lose steps";
+  if (page.margin.verdict != Verdict::safe && only_swings(page.margin)) {
+    words += ", because they swing; the torque alone would be enough";
+  }
   words += "\n";
   for (const AxisMargin& axis : page.margin.axes) {
     words += fmt::format("  {}             ", letter_of(axis.axis));
@@ -158,7 +167,11 @@ nlohmann::ordered_json as_json(const MarginSpot& spot) {
                                  {"acceleration", spot.acceleration.value()},
                                  {"cause", cause_of(spot)}};
   if (spot.safe_acceleration) json["safe_acceleration"] = spot.safe_acceleration->value();
-  if (spot.safe_path_speed) json["safe_feed_mm_min"] = 60 * spot.safe_path_speed->value();
+  if (spot.safe_path_speed) {
+    json["safe_feed_mm_min"] = 60 * spot.safe_path_speed->value();
+    // A rapid is slowed by the velocity of its axis.
+    if (spot.rapid) json["safe_velocity_mm_min"] = 60 * (*spot.safe_path_speed / spot.path_speed * spot.speed.value());
+  }
   if (spot.verdict != Verdict::safe) json["cure"] = cure_of(spot);
   return json;
 }

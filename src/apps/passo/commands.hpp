@@ -62,6 +62,8 @@ struct RunArguments {
   std::string journal;                    // empty: usual_journal()
   bool resume = false;                    // goes on where another run was interrupted
   std::uint32_t from_line = 0;            // the line where the program is to begin; 0: its first
+  std::uint32_t pass = 0;                 // which time that the path comes to that line; 0: it comes once
+  double after = 0;                       // mm along the path from there
   bool home = false;                      // homes the machine first; the program then begins where homing ends
   bool from_here = false;                 // the machine stands at machine zero, whatever was known
   bool yes = false;                       // goes on at M0, M1 and M6 without asking

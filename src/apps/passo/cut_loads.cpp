@@ -17,16 +17,16 @@ namespace {
 constexpr double shortest_piece = 1;  // mm
 constexpr double most_pieces = 4096;  // of a feed
 
-// The distance from the axis at which the tool's underside is so high above the tip: where the cut is widest.
-double reach_at(const ToolShape& tool, double depth) {
-  const double radius = tool.radius.value();
-  if (tool.height_at(tool.radius).value() <= depth) return radius;
+// The distance from the axis at which the cutter's underside is so high above the tip: where the cut is widest.
+double reach_at(const Cutter& cutter, double depth) {
+  const double radius = cutter.radius.value();
+  if (cutter.height(cutter.radius).value() <= depth) return radius;
   double low = 0;
   double high = radius;
   constexpr int halvings = 30;
   for (int i = 0; i < halvings; ++i) {
     const double middle = (low + high) / 2;
-    (tool.height_at(Mm(middle)).value() <= depth ? low : high) = middle;
+    (cutter.height(Mm(middle)).value() <= depth ? low : high) = middle;
   }
   return high;
 }
@@ -54,7 +54,7 @@ class ForceMeter {
     way_ += cut.way;
     volume_ += cut.volume;
     depth_ = std::max(depth_, cut.depth);
-    if (way_ >= outcome_.simulation.tools[tool_].radius.value()) finish();
+    if (way_ >= outcome_.simulation.tools[tool_].cutter.radius.value()) finish();
   }
   // Call it at the end.
   void finish() {
@@ -62,7 +62,7 @@ class ForceMeter {
     constexpr double seconds_a_minute = 60;
     if (volume_ > 0 && feeds_.back().revolutions > 0) {
       const double way = std::max(way_, least_cells * outcome_.simulation.field.cell());
-      const double reach = reach_at(outcome_.simulation.tools[tool_], depth_);
+      const double reach = reach_at(outcome_.simulation.tools[tool_].cutter, depth_);
       const double cutting_speed = 2 * std::numbers::pi * reach * feeds_.back().revolutions / seconds_a_minute;
       give(material_.specific_force * volume_ / way / cutting_speed);
     }
@@ -112,9 +112,9 @@ void cut_feed(StockCutter& cutter, ForceMeter& meter, const TipMove& move, const
   for (double i = 0; i < count; ++i) {
     meter.expect(index, move.revolutions_per_minute, move.segment->speed);
     if (count == 1) {
-      cutter.cut(curve, move.zero, part);
+      cutter.cut(curve, Vector3::of(move.zero), part);
     } else {
-      cutter.cut(curve.part(Mm(length * i / count), Mm(length * (i + 1) / count)), move.zero, part);
+      cutter.cut(curve.part(Mm(length * i / count), Mm(length * (i + 1) / count)), Vector3::of(move.zero), part);
     }
   }
 }
@@ -205,9 +205,9 @@ std::optional<CutOutcome> cut_by_program(const StockJob& job, const StockWishes&
                          .time = move.time,
                          .rounding = move.segment->tolerance};
     if (kind.rapid) {
-      cutter.cut(move.segment->curve, move.zero, kind);
+      cutter.cut(move.segment->curve, Vector3::of(move.zero), kind);
     } else {
-      const double piece = std::max((*tools)[place->second].radius.value(), shortest_piece);
+      const double piece = std::max((*tools)[place->second].cutter.radius.value(), shortest_piece);
       cut_feed(cutter, meter, move, kind, outcome.loads.add(*move.segment), piece);
     }
   }

@@ -354,6 +354,8 @@ bool suits_grbl(const RunArguments& arguments) {
   } else if (arguments.from_here) {
     words =
         "--from-here: a machine that speaks Grbl keeps its own position: home it, or set its work zero [grbl.cannot]";
+  } else if (arguments.pass > 0 || arguments.after > 0) {
+    words = "--pass and --after: a machine that speaks Grbl begins at a line that is done once [grbl.cannot]";
   } else if (!arguments.pictures.empty() || !arguments.traces.empty() || !arguments.report.empty() ||
              !arguments.log.empty()) {
     words =

@@ -9,6 +9,7 @@
 
 #include "passo/activity/stage_options.hpp"
 #include "passo/link/await.hpp"
+#include "passo/report/line_words.hpp"
 #include "passo/trajectory/planner.hpp"
 
 namespace passo {
@@ -68,10 +69,10 @@ std::optional<LineCost> line_cost(ProgramReader program, const MachineDescriptio
 std::string to_text(const LineCost& cost) {
   std::string words = fmt::format("line            to a board with {} places: ", cost.held_items);
   if (!cost.trouble.empty()) return words + cost.trouble + "\n";
-  if (cost.cost() < Seconds(0.0005)) {
+  if (cost.cost() < least_cost_of_line) {
     words += "costs no time";
   } else {
-    words += fmt::format("{:.3f} s longer, {:.2g} %", cost.cost().value(), 100 * cost.share());
+    words += fmt::format("{:.3f} s longer, {}", cost.cost().value(), percent_of(cost.cost(), cost.without));
   }
   if (cost.slowdowns > 0) words += fmt::format("; slower {} where its places are few", so_often(cost.slowdowns));
   if (cost.rests > 0) words += fmt::format("; rests {} for want of more", so_often(cost.rests));

@@ -228,6 +228,14 @@ int parse_and_run(int argc, char** argv) {
                   "N: begins at the first motion of line N, with all that the lines before have set: up, spindle on, "
                   "over, down; shows these steps and asks")
       ->check(CLI::PositiveNumber);
+  run_command
+      .add_option("--pass", run_arguments.pass,
+                  "K: with --from-line, the K-th time that the path comes to that line, in a loop or a subprogram")
+      ->check(CLI::PositiveNumber);
+  run_command
+      .add_option("--after", run_arguments.after,
+                  "MM: with --from-line, so far along the path after that line's motion has begun")
+      ->check(CLI::NonNegativeNumber);
   run_command.add_option("--journal", run_arguments.journal,
                          "FILE: where a run over a line notes what --resume needs; without it "
                          "$XDG_STATE_HOME/passo/BOARD.journal or ~/.local/state/passo/BOARD.journal");

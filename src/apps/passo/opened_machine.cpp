@@ -97,9 +97,12 @@ std::unique_ptr<OpenedMachine> OpenedMachine::open(const MachineDescription& mac
     }
     opened->line_.emplace(opened->machine_, machine.board.clock, LineOptions());
     if (wish.cut) opened->line_->cut(wish.cut->at, wish.cut->missing);
-    opened->session_ = std::make_unique<MachineSession>(
-        machine, *opened->line_,
-        SessionOptions{.over_a_line = true, .care = virtual_line, .greeting = {.session = 1}, .start = at_zero});
+    opened->session_ = std::make_unique<MachineSession>(machine, *opened->line_,
+                                                        SessionOptions{.over_a_line = true,
+                                                                       .care = virtual_line,
+                                                                       .greeting = {.session = 1},
+                                                                       .tells_place = wish.tells_place,
+                                                                       .start = at_zero});
     return opened;
   }
   const auto address = parse_board_address(wish.board);
@@ -160,6 +163,11 @@ std::uint16_t OpenedMachine::new_session_number() const {
     number = static_cast<std::uint16_t>(any_number(2, 65535));
   } while (number == present);
   return number;
+}
+
+void OpenedMachine::stand_in_truth_at(const Point& place) {
+  plant_->stand_at(truth_at(description_, place));
+  machine_.connect(*plant_);
 }
 
 // What a board has heard it never forgets as long as it has power. So the record is written before the board hears.

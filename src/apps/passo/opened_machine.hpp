@@ -63,6 +63,8 @@ class OpenedMachine {
   Result<KnownPosition, PlaceDoubt> place() const;
   // Says where the machine stands, before the hello.
   void start_at(const KnownPosition& position) { session_->start_at(position); }
+  // A virtual machine stands here in truth, whatever its board believes. Call before the board drives it.
+  void stand_in_truth_at(const Point& place);
   // Greets the board, and waits until the machine is ready. False, with a message: the board does not suit.
   [[nodiscard]] bool greet(const Greeting& greeting, int& code);
   // A greeting by which the board is recognised later, if that is worth while.

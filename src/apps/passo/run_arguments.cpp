@@ -42,6 +42,8 @@ bool suits_the_board(const RunArguments& arguments) {
     words = "--disturb needs --physics: without it the motors do what they are told, whatever holds them";
   } else if (arguments.from_line > 0 && arguments.resume) {
     words = "--resume knows the line where the job goes on, so --from-line has no place beside it";
+  } else if (arguments.from_line == 0 && (arguments.pass > 0 || arguments.after > 0)) {
+    words = "--pass and --after tell more of the place that --from-line names, so they need it";
   } else if (arguments.from_here && arguments.resume) {
     words = "--resume knows where the job began, so --from-here has no place beside it";
   }

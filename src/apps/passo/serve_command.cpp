@@ -65,14 +65,24 @@ std::optional<MachineDescription> described(const std::string& text, const std::
   return machine;
 }
 
+bool write_file(const std::string& file, const std::string& text) {
+  Result<OutputFile, OutputError> output = OutputFile::open(file);
+  if (!output) return false;
+  output->write(text);
+  return output->commit().has_value();
+}
+
 // Whoever has changed the file meanwhile is not overwritten.
 bool replace_file(const std::string& file, const std::string& before, const std::string& after) {
   Diagnostics ignored;
-  if (machine_file_text(file, ignored) != before) return false;
-  Result<OutputFile, OutputError> output = OutputFile::open(file);
-  if (!output) return false;
-  output->write(after);
-  return output->commit().has_value();
+  return machine_file_text(file, ignored) == before && write_file(file, after);
+}
+
+// What senders have set outlives the daemon, as it outlives a reset of a controller's board.
+void remember(GrblController& grbl, const std::string& folder) {
+  const std::string file = (std::filesystem::path(folder) / "grbl.txt").string();
+  grbl.remember(read_grbl_memory(read_state_file(file).value_or("")),
+                [file](const GrblMemory& memory) { return write_file(file, grbl_memory_text(memory)); });
 }
 
 MachineFileAccess access_to(const std::string& file) {
@@ -98,18 +108,24 @@ ServeArguments with_usual(ServeArguments arguments) {
   return arguments;
 }
 
-// The journal of the last job is read before the board hears of another session. Null, with a message.
+// The journal of the last job is read before the board hears of another session. Null, with a message. A virtual board
+// that had a job has died with its host: nobody knows where its machine stands (docs/decisions/0109).
 std::unique_ptr<ServedJournal> open_journal(const std::string& folder, OpenedMachine& opened,
                                             const Greeting& greeting) {
   if (const auto words = opened.wait_for_rest()) {
     fail(exit_failed, "the board: " + *words);
     return nullptr;
   }
-  if (const auto place = opened.place()) opened.start_at(*place);
   std::error_code error;
   std::filesystem::create_directories(folder, error);
   auto journal = ServedJournal::open(folder, opened);
   if (!journal || !journal->take_up(greeting)) return nullptr;
+  const auto place = opened.place();
+  if (!opened.is_on_a_line() && journal->found()) {
+    opened.start_at({.place = Point(), .trust = Trust::unknown});
+  } else if (place) {
+    opened.start_at(*place);
+  }
   return journal;
 }
 
@@ -136,13 +152,18 @@ int serve(const ServeArguments& given) {
   outlive_readers();
   // A board that a killed program has left brakes by itself.
   const bool keeps = !arguments.data.empty();
-  const auto opened = OpenedMachine::open(
-      *machine, {.board = arguments.board, .touchables = *things, .tells_place = true, .may_move = keeps}, code);
+  const auto opened = OpenedMachine::open(*machine,
+                                          {.board = arguments.board,
+                                           .over_a_line = keeps && arguments.board == "virtual",
+                                           .touchables = *things,
+                                           .tells_place = true,
+                                           .may_move = keeps},
+                                          code);
   if (!opened) return code;
   brake_on_signals();
   std::unique_ptr<ServedJournal> journal;
   const Greeting greeting = opened->any_greeting();
-  if (keeps && opened->is_on_a_line()) {
+  if (keeps) {
     journal = open_journal(arguments.data, *opened, greeting);
     if (!journal) return exit_failed;
   }
@@ -166,7 +187,10 @@ int serve(const ServeArguments& given) {
   if (!arguments.http.empty()) {
     web = ServedWeb::open(arguments, *machine, opened->session(), owner, jobs, code);
     if (!web) return code;
+    web->share_offsets(grbl);
+    if (const auto place = web->broken_off_at(); place && !opened->has_board()) opened->stand_in_truth_at(*place);
   }
+  if (keeps) remember(grbl, arguments.data);
   std::unique_ptr<ServedStatus> status;
   if (!arguments.mqtt.empty()) {
     status = ServedStatus::open(arguments, *machine, code);

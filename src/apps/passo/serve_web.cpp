@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <functional>
 #include <random>
 #include <utility>
 
@@ -33,9 +34,11 @@ double seconds_since_1970() {
 }
 
 ApiOptions api_options(const PageFolder* page, JobHistory* history, ServedOffsets* offsets, const ServedJobs& jobs,
-                       Maker& maker, Studies& studies) {
+                       Maker& maker, Studies& studies,
+                       std::function<void(const SavedParameters&, const ToolTable&)> keep) {
   ApiOptions options{.version = PASSO_VERSION, .openapi = openapi_text, .make_key = new_key};
   options.history = history;
+  options.keep_offsets = std::move(keep);
   options.wall_time = seconds_since_1970;
   options.page = [page](const WebRequest& request) -> std::optional<WebAnswer> {
     if (page != nullptr) return page->answer(request);
@@ -45,9 +48,6 @@ ApiOptions api_options(const PageFolder* page, JobHistory* history, ServedOffset
   if (offsets != nullptr) {
     options.parameters = offsets->parameters();
     options.tools = offsets->tools();
-    options.keep_offsets = [offsets](const SavedParameters& parameters, const ToolTable& tools) {
-      offsets->keep(parameters, tools);
-    };
   }
   options.keeper = jobs.journal;
   options.machine_file = jobs.machine_file;
@@ -69,9 +69,11 @@ ServedWeb::ServedWeb(const ServeArguments& arguments, const MachineDescription& 
       has_page_(!arguments.page.empty()),
       history_(std::move(history)),
       offsets_(std::move(offsets)),
-      api_(machine, session, owner,
-           api_options(arguments.page.empty() ? nullptr : &page_, history_.get(), offsets_.get(), jobs, maker_,
-                       studies_)) {}
+      api_(
+          machine, session, owner,
+          api_options(arguments.page.empty() ? nullptr : &page_, history_.get(), offsets_.get(), jobs, maker_, studies_,
+                      [this](const SavedParameters& parameters, const ToolTable& tools) { keep(parameters, tools); })) {
+}
 
 std::unique_ptr<ServedWeb> ServedWeb::open(const ServeArguments& arguments, const MachineDescription& machine,
                                            MachineSession& session, MotionOwner& owner, const ServedJobs& jobs,
@@ -136,6 +138,20 @@ void ServedWeb::publish() {
   told_owner_ = owner_.changes();
   told_job_ = api_.job();
   server_->publish(api_.status_text());
+}
+
+void ServedWeb::share_offsets(GrblController& grbl) {
+  grbl_ = &grbl;
+  grbl.take_offsets(api_.parameters());
+  grbl.share_offsets([this](const SavedParameters& parameters) {
+    api_.take_offsets(parameters);
+    if (offsets_) offsets_->keep(api_.parameters(), api_.tools());
+  });
+}
+
+void ServedWeb::keep(const SavedParameters& parameters, const ToolTable& tools) {
+  if (offsets_) offsets_->keep(parameters, tools);
+  if (grbl_ != nullptr) grbl_->take_offsets(parameters);
 }
 
 }  // namespace passo

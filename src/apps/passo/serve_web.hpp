@@ -15,6 +15,7 @@
 #include "served_studies.hpp"
 
 #include "passo/api/machine_api.hpp"
+#include "passo/grbl/grbl_controller.hpp"
 #include "passo/web/web_server.hpp"
 
 namespace passo {
@@ -40,8 +41,12 @@ class ServedWeb {
   // How long the loop may wait for others.
   Seconds most_wait(Seconds most) const;
   void hear_changes(const std::vector<MachineChange>& changes) { api_.heed(changes); }
+  // Where the motors of the job that was broken off were last, as far as that is sure.
+  std::optional<Point> broken_off_at() { return api_.broken_off_at(); }
   // A job that is stopped from now on can go on when the program runs again.
   void leave() { api_.leave(); }
+  // From now on senders and programs have the same offsets. `grbl` outlives this.
+  void share_offsets(GrblController& grbl);
   // Hears the clients, and tells those who watch what is new.
   void turn();
 
@@ -50,6 +55,7 @@ class ServedWeb {
             MotionOwner& owner, std::unique_ptr<JobHistory> history, std::unique_ptr<ServedOffsets> offsets,
             const ServedJobs& jobs);
   void publish();
+  void keep(const SavedParameters& parameters, const ToolTable& tools);
 
   MachineSession& session_;
   MotionOwner& owner_;
@@ -57,6 +63,7 @@ class ServedWeb {
   bool has_page_ = false;
   std::unique_ptr<JobHistory> history_;     // may be null
   std::unique_ptr<ServedOffsets> offsets_;  // may be null
+  GrblController* grbl_ = nullptr;          // what senders speak to
   std::string host_;
   ServedMaker maker_;
   ServedStudies studies_;

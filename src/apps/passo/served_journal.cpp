@@ -11,7 +11,7 @@ std::unique_ptr<ServedJournal> ServedJournal::open(const std::string& folder, Op
   const std::string path = (std::filesystem::path(folder) / "job.journal").string();
   std::unique_ptr<ServedJournal> journal(new ServedJournal(path, machine));
   if (journal->file_.claim()) return journal;
-  fail(exit_failed, path + ": another passo that runs now keeps this journal [journal.in-use]");
+  fail(exit_failed, "--data " + path + ": another passo that runs now keeps its jobs there [serve.data]");
   return nullptr;
 }
 
@@ -20,6 +20,8 @@ bool ServedJournal::take_up(const Greeting& greeting) {
   if (!journal) return true;
   found_ = broken_off(*journal, machine_.before(), greeting);
   found_->noted_at = noted_at();
+  // A virtual board lives and dies with its host.
+  if (!machine_.is_on_a_line()) found_->refused = ResumeRefusal::board_reset;
   if (found_->refused) return true;
   JournalWriter writer(file_);
   writer.begin(found_->head);

@@ -1,7 +1,9 @@
 #include "served_maker.hpp"
 
 #include <algorithm>
+#include <cstdlib>
 #include <filesystem>
+#include <utility>
 
 #include <sys/wait.h>
 
@@ -12,9 +14,14 @@ namespace fs = std::filesystem;
 
 // A name that no uploaded file has: those begin with no dot.
 constexpr const char* made_folder = ".made";
+constexpr const char* board_profile = ".made/profile.toml";
+constexpr const char* board_machine = ".made/machine.toml";
+constexpr std::string_view board_job = "board";
 
 std::string picture_file(const std::string& job) {
-  return std::string(made_folder) + (job == "relief" ? "/picture.png" : "/picture.svg");
+  return std::string(made_folder) + (job == board_job  ? "/board.svg"
+                                     : job == "relief" ? "/picture.png"
+                                                       : "/picture.svg");
 }
 
 // The name stands in the program and in its picture.
@@ -56,44 +63,76 @@ bool ServedMaker::begin(const MakeOrder& order) {
   std::error_code none;
   fs::remove_all(folder_.path(made_folder), none);
   fs::create_directory(folder_.path(made_folder), none);
-  const std::string picture = picture_file(order.job);
   // A text to engrave has no file.
-  const std::string stem = order.files.empty() ? "text" : fs::path(order.files.front()).stem().string();
-  const std::string name = stem + "-" + order.job + ".ngc";
-  const std::string program = program_file(name);
+  stem_ = order.files.empty() ? "text" : fs::path(order.files.front()).stem().string();
   std::vector<std::string> words = {"passo", "cam", order.job};
   words.insert(words.end(), order.options.begin(), order.options.end());
-  for (const std::string& word :
-       {std::string("--output"), program, std::string("--picture"), picture, std::string("--")}) {
-    words.push_back(word);
+  result_ = {.state = MakeResult::State::running, .job = order.job};
+  made_.clear();
+  const auto add_file = [&](const char* option, const char* name, const std::string& text) {
+    words.insert(words.end(), {option, name});
+    return write_content(folder_.path(name), text);
+  };
+  if (order.job == board_job) {
+    words.insert(words.end(), {"--output", made_folder, "--json"});
+    if (!order.profile.empty() && !add_file("--profile", board_profile, order.profile)) return false;
+    if (!order.machine.empty() && !add_file("--machine", board_machine, order.machine)) return false;
+  } else {
+    result_.names = {stem_ + "-" + order.job + ".ngc"};
+    made_ = {program_file(result_.names.front())};
+    words.insert(words.end(), {"--output", made_.front(), "--picture", picture_file(order.job)});
   }
+  words.emplace_back("--");
   words.insert(words.end(), order.files.begin(), order.files.end());
-  if (!process_.begin(folder_.name(), words)) return false;
-  result_ = {.state = MakeResult::State::running, .job = order.job, .name = name, .words = {}, .picture_type = {}};
-  return true;
+  return process_.begin(folder_.name(), words);
 }
 
 const MakeResult& ServedMaker::look() {
   const std::optional<int> end = process_.look();
   if (!end) return result_;
   result_.words = content_of(folder_.path(LowProcess::said_file)).substr(0, LowProcess::longest_words);
+  bool good = WIFEXITED(*end) && WEXITSTATUS(*end) == 0;
+  if (result_.job == board_job) look_at_board();
   std::error_code none;
-  const bool good =
-      WIFEXITED(*end) && WEXITSTATUS(*end) == 0 && fs::exists(folder_.path(program_file(result_.name)), none);
+  good = good && !made_.empty() && fs::exists(folder_.path(made_.front()), none);
   result_.state = good ? MakeResult::State::done : MakeResult::State::failed;
   if (!good && result_.words.empty()) result_.words = words_of_end(*end);
+  if (!good) result_.names.clear();
+  result_.has_page = good && result_.job == board_job;
   if (good && fs::exists(folder_.path(picture_file(result_.job)), none)) {
     result_.picture_type = result_.job == "relief" ? "image/png" : "image/svg+xml";
   }
   return result_;
 }
 
-std::string ServedMaker::program() const {
-  return content_of(folder_.path(program_file(result_.name)));
+// A board's programs are numbered: "2-isolate-front.ngc".
+void ServedMaker::look_at_board() {
+  result_.report = content_of(folder_.path(LowProcess::printed_file));
+  std::error_code none;
+  std::vector<std::pair<int, std::string>> found;
+  for (fs::directory_iterator at(folder_.path(made_folder), none), end; !none && at != end; at.increment(none)) {
+    const std::string name = at->path().filename().string();
+    if (at->path().extension() == ".ngc") found.emplace_back(std::atoi(name.c_str()), name);
+  }
+  std::ranges::sort(found);
+  for (const auto& [number, name] : found) {
+    made_.push_back(program_file(name));
+    result_.names.push_back(stem_ + "-" + name);
+  }
 }
 
-std::string ServedMaker::picture() const {
-  return content_of(folder_.path(picture_file(result_.job)));
+std::string ServedMaker::program(std::size_t number) const {
+  return number < made_.size() ? content_of(folder_.path(made_[number])) : std::string();
+}
+
+std::string ServedMaker::picture(std::optional<std::size_t> number) const {
+  if (!number) return content_of(folder_.path(picture_file(result_.job)));
+  if (*number >= made_.size()) return {};
+  return content_of(folder_.path(fs::path(made_[*number]).replace_extension(".svg").string()));
+}
+
+std::string ServedMaker::page() const {
+  return content_of(folder_.path(std::string(made_folder) + "/board.html"));
 }
 
 }  // namespace passo

@@ -21,10 +21,13 @@ class ServedMaker final : public Maker {
   void clear() override;
   bool begin(const MakeOrder& order) override;
   const MakeResult& look() override;
-  std::string program() const override;
-  std::string picture() const override;
+  std::string program(std::size_t number) const override;
+  std::string picture(std::optional<std::size_t> number) const override;
+  std::string page() const override;
 
  private:
+  void look_at_board();
+
   struct Kept {
     std::string name;
     std::size_t bytes = 0;
@@ -32,7 +35,9 @@ class ServedMaker final : public Maker {
 
   PassingFolder folder_;
   std::vector<Kept> kept_;
+  std::string stem_;  // of the programs' names
   MakeResult result_;
+  std::vector<std::string> made_;  // the programs' files, in the folder
   LowProcess process_;
 };
 

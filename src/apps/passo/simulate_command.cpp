@@ -74,7 +74,7 @@ CutSummary cut(const StockJob& job, const Wishes& wishes, const FeedLook& pass, 
     // A tool that only goes to where another one is taken up need not have a shape.
     const auto place = places.find(move.tool);
     if (place == places.end() || move.segment->takes_up_backlash) continue;
-    cutter.cut(move.segment->curve, move.zero,
+    cutter.cut(move.segment->curve, Vector3::of(move.zero),
                {.line = move.segment->source.line,
                 .tool = place->second,
                 .rapid = move.segment->rapid,
@@ -193,6 +193,7 @@ int simulate_job(const SimulateArguments& arguments, const Wishes& wishes, const
 }  // namespace
 
 int simulate(const SimulateArguments& arguments) {
+  if (!arguments.wire.empty()) return simulate_wire(arguments);
   Result<StockWishes, std::string> stock = stock_wishes(arguments.stock);
   if (!stock) return fail(exit_bad_program, stock.error());
   if (const std::string refusal = refusal_of(arguments); !refusal.empty()) return fail(exit_bad_program, refusal);

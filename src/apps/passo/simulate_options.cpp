@@ -18,6 +18,7 @@ Examples:
   passo simulate finish.ngc --tool ball:3 --compare part.stl --picture left.png      material left and gouges, in colour
   passo simulate part.ngc --tool flat:6 -m router.toml         along the curves that this machine drives at corners
   passo simulate part.ngc --tool flat:6 --json | jq .removed_mm3
+  passo simulate wing.ngc --wire 1.6@100,1.0@200,0.8@400 --span 900 --stock Z150:750 --picture wing.png --stl wing.stl
 
 Exit code 1: the cut would go wrong (a rapid through the stock, the holder, a clamp, the flutes, a gouge).
 See docs/manual/simulate.md.)";
@@ -67,6 +68,17 @@ CLI::App& add_simulate_command(CLI::App& app, SimulateArguments& arguments) {
       ->capture_default_str();
   command.add_option("--threads", arguments.threads, "how many cut; without it as many as there are processors")
       ->check(CLI::Range(1U, 64U));
+  auto* const wire = command.add_option("--wire", arguments.wire,
+                                        "a hot wire cuts, and melts so much: W, or W@V,W@V as measured at mm a minute");
+  command
+      .add_option("--span", arguments.span, "of the wire, from the left tower (Z 0) to the right one; where U V move")
+      ->needs(wire);
+  command
+      .add_option("--slices", arguments.slices,
+                  "of the foam, from its left face to its right one; without it as its taper needs")
+      ->check(CLI::Range(std::size_t{2}, std::size_t{2000}))
+      ->needs(wire);
+  for (const char* const option : {"--tool", "--tool-table", "--clamp"}) wire->excludes(command.get_option(option));
   command.add_flag("--json", arguments.json, "print it as JSON");
   command.footer(simulate_examples);
   return command;

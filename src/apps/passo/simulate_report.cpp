@@ -1,7 +1,6 @@
 #include "simulate_report.hpp"
 
 #include <cmath>
-#include <numbers>
 
 #include "findings_json.hpp"
 #include <fmt/format.h>
@@ -39,25 +38,10 @@ TroubleWords words_of(CutTrouble::Kind kind) {
   return {"simulate.below", "T{0} cuts {1} below the stock: into what lies there", "", Severity::warning};
 }
 
-std::string shape_in_words(const ToolShape& tool) {
-  std::string words = fmt::format("{} {:g} mm", name_of(tool.kind), 2 * tool.radius.value());
-  const double degrees = tool.half_angle * 360 / std::numbers::pi;
-  switch (tool.kind) {
-    case ToolShape::Kind::flat:
-    case ToolShape::Kind::ball: break;
-    case ToolShape::Kind::v: words += fmt::format(" {:g}\u00B0", degrees); break;
-    case ToolShape::Kind::bull_nose: words += fmt::format(", corners {:g} mm", tool.tip_radius.value()); break;
-    case ToolShape::Kind::tapered_ball:
-      words += fmt::format(" {:g}\u00B0, ball {:g} mm", degrees, 2 * tool.tip_radius.value());
-      break;
-  }
-  return words;
-}
-
 std::string tools_in_words(const Simulation& simulation) {
   std::string words;
   for (std::size_t i = 0; i < simulation.tools.size(); ++i) {
-    words += fmt::format("{}T{} {}", i > 0 ? "; " : "", simulation.numbers[i], shape_in_words(simulation.tools[i]));
+    words += fmt::format("{}T{} {}", i > 0 ? "; " : "", simulation.numbers[i], describe(simulation.tools[i].cutter));
   }
   return words;
 }
@@ -162,8 +146,8 @@ std::string to_json(const Simulation& simulation, const Diagnostics& findings) {
   nlohmann::ordered_json tools = nlohmann::ordered_json::array();
   for (std::size_t i = 0; i < simulation.tools.size(); ++i) {
     tools.push_back({{"tool", simulation.numbers[i]},
-                     {"shape", std::string(name_of(simulation.tools[i].kind))},
-                     {"diameter_mm", 2 * simulation.tools[i].radius.value()}});
+                     {"shape", std::string(name_of(simulation.tools[i].cutter.kind()))},
+                     {"diameter_mm", 2 * simulation.tools[i].cutter.radius.value()}});
   }
   nlohmann::ordered_json json = {{"good", !findings.any_error()},
                                  {"moves", summary.moves()},

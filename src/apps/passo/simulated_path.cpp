@@ -10,11 +10,13 @@ namespace {
 
 constexpr double no_limit = 1e9;  // mm
 
-PathOptions path_options_of(const MachineDescription* machine, const std::string& program, const Point& start) {
+PathOptions path_options_of(const MachineDescription* machine, const std::string& program, const Point& start,
+                            AxisSet beside) {
   PathOptions options;
   if (machine != nullptr) {
     options = path_options(*machine, program, start);
   } else {
+    options.axes = beside;
     for (const Axis axis : {Axis::x, Axis::y, Axis::z}) options.axes.add(axis);
     options.start = start;
     options.file = program;
@@ -27,9 +29,9 @@ PathOptions path_options_of(const MachineDescription* machine, const std::string
 }  // namespace
 
 SimulatedPath::SimulatedPath(ProgramReader program, const InterpreterOptions& options,
-                             const MachineDescription* machine, Diagnostics& diagnostics)
+                             const MachineDescription* machine, Diagnostics& diagnostics, AxisSet beside)
     : diagnostics_(diagnostics),
-      path_options_(path_options_of(machine, program.name(), options.start)),
+      path_options_(path_options_of(machine, program.name(), options.start, beside)),
       interpreter_(std::move(program), options, diagnostics),
       builder_(interpreter_, path_options_, diagnostics),
       watched_(builder_) {
@@ -47,10 +49,10 @@ void SimulatedPath::note_zeros(const PathItem& item) {
   if (!is_known) zeros_.push_back({segment->work_zero, tool});
 }
 
-Vector3 SimulatedPath::zero_of(const Segment& segment) {
+Point SimulatedPath::zero_of(const Segment& segment) {
   while (zeros_.size() > 1 && zeros_.front().work != segment.work_zero) zeros_.pop_front();
-  const Vector3 tool = Vector3::of(zeros_.front().tool);
-  if (!first_zero_) first_zero_ = Vector3::of(zeros_.front().work) - tool;
+  const Point& tool = zeros_.front().tool;
+  if (!first_zero_) first_zero_ = zeros_.front().work - tool;
   return *first_zero_ + tool;
 }
 

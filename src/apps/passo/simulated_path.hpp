@@ -11,7 +11,7 @@
 
 #include "passo/activity/stage_options.hpp"
 #include "passo/base/tap.hpp"
-#include "passo/geometry/vector3.hpp"
+#include "passo/geometry/axes.hpp"
 #include "passo/interpreter/interpreter.hpp"
 #include "passo/machine_file/machine_description.hpp"
 #include "passo/path/path_builder.hpp"
@@ -21,7 +21,7 @@ namespace passo {
 
 struct TipMove {
   const Segment* segment = nullptr;   // in machine coordinates, until the next move
-  Vector3 zero;                       // tip = machine - zero
+  Point zero;                         // tip = machine - zero
   std::int32_t tool = 0;              // its number; 0: none was changed to
   Seconds time{0};                    // at the programmed speed; 0 for a rapid of an unknown machine
   double revolutions_per_minute = 0;  // of the spindle as commanded; 0: it stands, or has no speed
@@ -30,9 +30,9 @@ struct TipMove {
 class SimulatedPath {
  public:
   // `machine`: whose path is followed, with its corners rounded; null: the path as the program has it. `diagnostics`
-  // and `machine` outlive the path.
+  // and `machine` outlive the path. `beside`: axes that a program has beside X Y Z, where there is no machine.
   SimulatedPath(ProgramReader program, const InterpreterOptions& options, const MachineDescription* machine,
-                Diagnostics& diagnostics);
+                Diagnostics& diagnostics, AxisSet beside = {});
 
   [[nodiscard]] bool next(TipMove& move);
 
@@ -44,7 +44,7 @@ class SimulatedPath {
   };
 
   void note_zeros(const PathItem& item);
-  Vector3 zero_of(const Segment& segment);
+  Point zero_of(const Segment& segment);
 
   Diagnostics& diagnostics_;
   PathOptions path_options_;
@@ -54,7 +54,7 @@ class SimulatedPath {
   Tap<PathItem> watched_;
   std::unique_ptr<PathSmoother> smoother_;  // null: no machine
   std::deque<Zeros> zeros_;                 // of the segments that the smoother still has, each once
-  std::optional<Vector3> first_zero_;
+  std::optional<Point> first_zero_;
   std::int32_t tool_ = 0;
   double revolutions_per_minute_ = 0;
   PathItem item_;

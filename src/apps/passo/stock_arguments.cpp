@@ -1,8 +1,6 @@
 #include "stock_arguments.hpp"
 
 #include <charconv>
-#include <cmath>
-#include <numbers>
 #include <vector>
 
 #include "length_argument.hpp"
@@ -73,54 +71,20 @@ Result<StockBlock, std::string> parse_clamp(std::string_view text) {
 }
 
 Result<WishedTool, std::string> parse_tool(std::string_view text) {
-  const auto refuse = [&](const std::string& why) {
-    return Failure{fmt::format(
-        "--tool '{}': {}; expected [NUMBER=]SHAPE:NUMBERS, as flat:6, 2=ball:3, bull:6:1, vee:60:6 or taper:1:5:6",
-        text, why)};
-  };
   WishedTool tool;
   std::string_view words = text;
   if (const std::size_t equals = text.find('='); equals != std::string_view::npos) {
     std::int32_t number = 0;
     const auto [end, error] = std::from_chars(text.data(), text.data() + equals, number);
-    if (error != std::errc() || end != text.data() + equals || number < 0) return refuse("no number of a tool");
+    if (error != std::errc() || end != text.data() + equals || number < 0) {
+      return Failure{fmt::format("--tool '{}': expected a tool's number before the '=', as 2=ball:3", text)};
+    }
     tool.number = number;
     words = text.substr(equals + 1);
   }
-  const std::vector<std::string_view> parts = parts_between(words, ':');
-  const auto kind = tool_kind_of(parts.front());
-  if (!kind) return refuse(fmt::format("no shape '{}'", parts.front()));
-  std::vector<double> numbers;
-  for (std::size_t i = 1; i < parts.size(); ++i) {
-    const Result<Mm, std::string> number = parse_length("", parts[i], 1);
-    if (!number) return refuse(fmt::format("no number '{}'", parts[i]));
-    numbers.push_back(number->value());
-  }
-  ToolShape& shape = tool.shape;
-  shape.kind = *kind;
-  std::size_t least = 1;
-  std::size_t most = 1;
-  if (*kind == ToolShape::Kind::v) least = 2, most = 3;
-  if (*kind == ToolShape::Kind::bull_nose) least = most = 2;
-  if (*kind == ToolShape::Kind::tapered_ball) least = most = 3;
-  if (numbers.size() < least || numbers.size() > most) return refuse(fmt::format("{} numbers", numbers.size()));
-  constexpr double degree = std::numbers::pi / 180;
-  switch (*kind) {
-    case ToolShape::Kind::bull_nose: shape.tip_radius = Mm(numbers[1]); [[fallthrough]];
-    case ToolShape::Kind::flat:
-    case ToolShape::Kind::ball: shape.radius = Mm(numbers[0] / 2); break;
-    case ToolShape::Kind::v:
-      shape.half_angle = numbers[0] / 2 * degree;
-      shape.radius = Mm(numbers[1] / 2);
-      shape.tip_radius = Mm(numbers.size() > 2 ? numbers[2] / 2 : 0);
-      break;
-    case ToolShape::Kind::tapered_ball:
-      shape.tip_radius = Mm(numbers[0] / 2);
-      shape.half_angle = numbers[1] * degree;
-      shape.radius = Mm(numbers[2] / 2);
-      break;
-  }
-  if (const std::string flaw = flaw_of(shape); !flaw.empty()) return refuse(flaw);
+  const Result<Cutter, std::string> cutter = parse_cutter(words);
+  if (!cutter) return Failure{"--tool " + cutter.error()};
+  tool.shape.cutter = *cutter;
   return tool;
 }
 

@@ -20,7 +20,7 @@ std::optional<ToolShape> shape_of(const StockWishes& wishes, const InterpreterOp
   if (wishes.any_tool) return wishes.any_tool;
   const Tool* const tool = options.tools.find(number);
   if (tool == nullptr || tool->diameter == Mm(0)) return std::nullopt;
-  return ToolShape{.kind = ToolShape::Kind::flat, .radius = Mm(std::abs(tool->diameter.value()) / 2)};
+  return ToolShape{.cutter = Cutter::flat_end(Mm(std::abs(tool->diameter.value())))};
 }
 
 Result<StockBlock, std::string> block_of(const WishedBlock& wished, const FeedReach& feeds) {
@@ -86,15 +86,15 @@ FeedLook look_at_feeds(const StockJob& job, const StockWishes& wishes, Diagnosti
   TipMove move;
   FindingsDisplay display(findings);
   while (path.next(move)) {
-    if (pass.moves++ == 0) pass.zero = move.zero.z;
+    if (pass.moves++ == 0) pass.zero = move.zero[Axis::z];
     display.update();
     if (move.segment->rapid) continue;
     pass.tools.try_emplace(move.tool, move.segment->source.line);
     const Box box = move.segment->curve.extents();
     const auto shape = shape_of(wishes, job.options, move.tool);
-    const double radius = shape ? shape->radius.value() : 0;
-    const Vector3 low = Vector3::of(box.low) - move.zero - Vector3{radius, radius, 0};
-    const Vector3 high = Vector3::of(box.high) - move.zero + Vector3{radius, radius, 0};
+    const double radius = shape ? shape->cutter.radius.value() : 0;
+    const Vector3 low = Vector3::of(box.low - move.zero) - Vector3{radius, radius, 0};
+    const Vector3 high = Vector3::of(box.high - move.zero) + Vector3{radius, radius, 0};
     FeedReach& feeds = pass.feeds;
     feeds.low = {std::min(feeds.low.x, low.x), std::min(feeds.low.y, low.y), std::min(feeds.low.z, low.z)};
     feeds.high = {std::max(feeds.high.x, high.x), std::max(feeds.high.y, high.y), std::max(feeds.high.z, high.z)};

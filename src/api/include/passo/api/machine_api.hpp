@@ -118,6 +118,12 @@ class MachineApi final : public WebHandler {
   bool is_checking() const { return programs_.checks(); }
   // The status, as GET /api/v1/status gives it.
   std::string status_text() const;
+  // The offsets and tools of the programs. take_offsets() takes those that a sender has changed.
+  const SavedParameters& parameters() const { return programs_.parameters(); }
+  const ToolTable& tools() const { return programs_.tools(); }
+  void take_offsets(const SavedParameters& parameters);
+  // Where the motors of the job that was broken off were last, as far as that is sure. Empty: there is none.
+  std::optional<Point> broken_off_at();
   // What web servers count, for the metrics.
   void watch(const WebServer& server) { server_ = &server; }
   const ApiJob& job() const { return job_; }
@@ -150,7 +156,9 @@ class MachineApi final : public WebHandler {
   WebAnswer change_interrupted(const FoundRoute& found);
   WebAnswer change_making(const FoundRoute& found, const WebRequest& request);
   WebAnswer make_answer();
-  WebAnswer made_picture() const;
+  WebAnswer made_picture(std::string_view query) const;
+  WebAnswer made_page() const;
+  WebAnswer pulses_answer(std::string_view query);
   WebAnswer keep_make_file(std::string_view name, std::string_view bytes);
   WebAnswer clear_make_files();
   WebAnswer begin_making(std::string_view body);
@@ -162,8 +170,8 @@ class MachineApi final : public WebHandler {
   WebAnswer resume_job(bool by_a_way_back);
   void note_alarm();
   double wall_time() const { return options_.wall_time ? options_.wall_time() : 0; }
-  WebAnswer run_program(const StoredProgram& program, std::string_view from_line);
-  Result<Reentry, ReentryProblem> way_to(const StoredProgram& program, std::uint32_t line) const;
+  WebAnswer run_program(const StoredProgram& program, std::string_view query);
+  Result<Reentry, ReentryProblem> way_to(const StoredProgram& program, const LinePlace& from) const;
   void begin_checked_job();
   void name_job();
   void start_job();
@@ -184,15 +192,15 @@ class MachineApi final : public WebHandler {
   bool resumes_ = false;           // the job was broken off, and goes on
   bool reenters_ = false;          // by a way back onto its path
   bool named_ = false;             // the job's journal is begun
-  std::uint32_t from_line_ = 0;    // where the job is to begin; 0: at its beginning
+  std::optional<LinePlace> from_;  // where the job is to begin; empty: at its beginning
   std::optional<Reentry> way_;     // the way there
   std::string stopped_by_;         // who has asked to stop the job
   bool leaves_ = false;
-  bool heeds_maker_ = false;       // an order runs
-  std::uint64_t made_ = 0;         // the program of the last order; 0: none
-  std::uint64_t made_before_ = 0;  // of the order before
-  std::string study_;              // the last one that was ordered
-  std::uint64_t studied_ = 0;      // its program; 0: none
+  bool heeds_maker_ = false;                // an order runs
+  std::vector<std::uint64_t> made_;         // the programs of the last order
+  std::vector<std::uint64_t> made_before_;  // of the order before
+  std::string study_;                       // the last one that was ordered
+  std::uint64_t studied_ = 0;               // its program; 0: none
   std::optional<Ticket> ticket_;
   Diagnostics findings_;  // of the run
   std::vector<JobWords> words_;

@@ -5,6 +5,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -15,15 +16,19 @@ struct MakeOrder {
   std::string job;                   // "drill"
   std::vector<std::string> files;    // names that were kept
   std::vector<std::string> options;  // "--depth=-2"
+  std::string profile = {};          // of a board: options of the commands that it needs, as TOML; empty: none
+  std::string machine = {};          // of a board: the machine file's text, for the times; empty: unknown
 };
 
 struct MakeResult {
   enum class State : std::uint8_t { none, running, done, failed };
   State state = State::none;
   std::string job;
-  std::string name;          // of the program
-  std::string words;         // what was said; why it failed
-  std::string picture_type;  // "image/svg+xml"; empty: there is no picture
+  std::vector<std::string> names = {};  // of the programs, in the order in which they are run
+  std::string words = {};               // what was said; why it failed
+  std::string picture_type = {};        // "image/svg+xml"; empty: there is no picture
+  std::string report = {};              // of a board: what was read, and the steps, as JSON; also where it failed
+  bool has_page = false;                // of a board: what to do when
 };
 
 class Maker {
@@ -40,9 +45,12 @@ class Maker {
   virtual bool begin(const MakeOrder& order) = 0;
   // How it goes. Call often: it is cheap while nothing changes.
   virtual const MakeResult& look() = 0;
-  // Of the last order that is done.
-  virtual std::string program() const = 0;
-  virtual std::string picture() const = 0;
+  // Of the last order that is done. Programs count from 0.
+  virtual std::string program(std::size_t number) const = 0;
+  // The whole picture, or that of one of several programs.
+  virtual std::string picture(std::optional<std::size_t> number) const = 0;
+  // HTML.
+  virtual std::string page() const = 0;
 };
 
 }  // namespace passo

@@ -26,6 +26,8 @@ class ProgramPath {
   static constexpr std::uint16_t flag_rapid = 1;
   // Bits 8 to 15 of the flags: the programmed speed, as 16 (log2(mm/s) + 6), 1 to 255; 0: a rapid, or no speed.
   static std::uint16_t speed_flags(MmPerSecond speed);
+  // Bits 1 to 7 of the flags: which of tools() is in the spindle.
+  static constexpr std::size_t most_tools = 128;
 
   using Coordinates = std::array<double, 3>;
   // An empty box has low above high.
@@ -55,6 +57,12 @@ class ProgramPath {
     bool empty() const { return low > high; }
   };
   const Speeds& speeds() const { return speeds_; }
+  struct UsedTool {
+    std::int32_t number = 0;  // 0: the program has put none in
+    double zero_z = 0;        // mm: machine Z of the work's zero with this tool's length, at its first motion
+  };
+  // The tools that are used, by their first motion. Beyond most_tools, the last one stands for all others.
+  const std::vector<UsedTool>& tools() const { return tools_; }
   const Range& work() const { return work_; }  // feeds alone, in the work coordinates that were in force
   std::size_t bytes() const { return points_ * (sizeof(Packed) + sizeof(std::uint32_t)); }
 
@@ -82,8 +90,11 @@ class ProgramPath {
 
   void add_point(const Coordinates& place, std::uint32_t line, std::uint16_t flags);
   void close_chunk();
+  std::uint16_t tool_flags(double zero_z);
 
   std::vector<Chunk> chunks_;
+  std::vector<UsedTool> tools_;
+  std::int32_t tool_ = 0;     // in the spindle; 0: nobody has said
   std::vector<Fresh> fresh_;  // of the chunk that is not full yet
   std::size_t points_ = 0;
   Range all_;

@@ -1,4 +1,5 @@
-// Tap<T>: stands between two stages and shows each item to those who watch, without changing it.
+// Tap<T>: stands between two stages and shows each item to those who watch. A watcher that takes a T& may mark the item
+// for the stages behind; all others take a const T&.
 #pragma once
 
 #include <functional>
@@ -12,7 +13,7 @@ namespace passo {
 template <class T>
 class Tap final : public Source<T> {
  public:
-  using Watcher = std::function<void(const T&)>;
+  using Watcher = std::function<void(T&)>;
 
   explicit Tap(Source<T>& source) : source_(source) {}
   void watch(Watcher watcher) { watchers_.push_back(std::move(watcher)); }
