@@ -219,30 +219,35 @@ WebAnswer MachineApi::begin_making(std::string_view body) {
     return bad_body("\"profile\": only a board has one");
   }
   if (!options_.maker->begin(order)) return error_answer(409, "make.busy", "another program is being made");
-  made_before_ = std::exchange(made_, {});
-  heeds_maker_ = true;
+  made_.clear();
+  making_ = order.job + "/" + (order.files.empty() ? std::string() : order.files.front());
   WebAnswer answer = make_answer();
   answer.status = 202;
   return answer;
 }
 
-// Programs that are made go to the others. One that is made again takes the place of the one before.
+// Programs that are made go to the others. What is made again of the same drawing takes the place of what was made
+// before, also where a board has other steps now.
 void MachineApi::heed_maker() {
-  if (!heeds_maker_) return;
+  if (making_.empty()) return;
   const MakeResult& result = options_.maker->look();
   if (result.state == MakeResult::State::running) return;
-  heeds_maker_ = false;
+  const std::string source = std::exchange(making_, {});
   if (result.state != MakeResult::State::done) return;
   const bool runs = job_.state == JobState::checking || job_.state == JobState::running;
-  for (const std::uint64_t id : made_before_) {
-    const StoredProgram* const before = programs_.find(id);
-    if (before != nullptr && has(result.names, before->name) && !(runs && job_.program == id)) programs_.remove(id);
+  const auto is_gone = [&](std::uint64_t id) { return programs_.find(id) == nullptr; };
+  for (const std::uint64_t id : made_of_[source]) {
+    if (!is_gone(id) && !(runs && job_.program == id)) programs_.remove(id);
   }
+  for (auto& [name, ids] : made_of_) std::erase_if(ids, is_gone);
+  std::erase_if(made_of_, [](const auto& one) { return one.second.empty(); });
   for (std::size_t i = 0; i < result.names.size(); ++i) {
     const StoredProgram* const program = programs_.add(result.names[i], Dialect::linuxcnc, options_.maker->program(i));
     made_.push_back(program != nullptr ? program->id : 0);
   }
   std::erase(made_, 0U);
+  std::vector<std::uint64_t>& all = made_of_[source];
+  all.insert(all.end(), made_.begin(), made_.end());
 }
 
 }  // namespace passo

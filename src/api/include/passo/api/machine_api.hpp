@@ -13,6 +13,7 @@
 
 #include <cstdint>
 #include <functional>
+#include <map>
 #include <memory>
 #include <optional>
 #include <string>
@@ -196,9 +197,9 @@ class MachineApi final : public WebHandler {
   std::optional<Reentry> way_;     // the way there
   std::string stopped_by_;         // who has asked to stop the job
   bool leaves_ = false;
-  bool heeds_maker_ = false;                // an order runs
-  std::vector<std::uint64_t> made_;         // the programs of the last order
-  std::vector<std::uint64_t> made_before_;  // of the order before
+  std::string making_;               // what is made of what, as "board/a.gbr"; empty: no order runs
+  std::vector<std::uint64_t> made_;  // the programs of the last order
+  std::map<std::string, std::vector<std::uint64_t>, std::less<>> made_of_;
   std::string study_;                       // the last one that was ordered
   std::uint64_t studied_ = 0;               // its program; 0: none
   std::optional<Ticket> ticket_;
