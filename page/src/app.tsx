@@ -10,6 +10,7 @@ import { ConnectionBanner } from './parts/connection_banner';
 import { Notices, QuestionDialog } from './parts/dialogs';
 import { Icon } from './parts/icon';
 import { InterruptedBanner } from './parts/interrupted_card';
+import { StartDialog } from './parts/start_dialog';
 import { OwnerBanner, StateBanner } from './parts/state_banner';
 import { openDialog, ViewDialogs } from './parts/view_dialog';
 
@@ -79,6 +80,7 @@ export function App() {
       <Navigation />
       <Notices />
       <QuestionDialog />
+      <StartDialog />
       <ViewDialogs />
     </div>
   );

@@ -22,7 +22,7 @@ afterAll(async () => {
 
 const part = 'G21 G90 G17\nF900\nG0 X10 Y10 Z-10\nG1 Z-12\nG1 X60\nG2 X60 Y40 J15\nG1 X10\nG1 Y10\nG0 Z0\nM2\n';
 const click = (page: Page, name: string | RegExp): Promise<void> =>
-  page.getByRole('button', { name, exact: typeof name === 'string' }).first().click({ timeout: 10_000 });
+  page.getByRole('button', { name, exact: typeof name === 'string' }).first().click();
 const agree = (page: Page, name: string): Promise<void> => page.getByRole('dialog').getByRole('button', { name }).click();
 
 async function send(page: Page, daemon: Daemon): Promise<void> {
@@ -35,7 +35,7 @@ async function home(page: Page, daemon: Daemon): Promise<void> {
   await page.goto(`${daemon.address}#/jog`);
   await click(page, 'Home');
   await agree(page, 'Home');
-  await daemon.until((status) => status.trust === 'homed' && status.state === 'Idle', 60_000);
+  await daemon.until((status) => status.trust === 'homed' && status.state === 'Idle');
 }
 async function startPart(page: Page, daemon: Daemon): Promise<void> {
   await send(page, daemon);
@@ -54,15 +54,15 @@ describe('a job that was broken off', () => {
     const first = await Daemon.start({ machine, board, data });
     const { page, context, errors } = await visit(browser, first, 'files');
     await startPart(page, first);
-    await first.until((status) => status.state === 'Run' && status.line === 6, 30_000);
+    await first.until((status) => status.state === 'Run' && status.line === 6);
     await first.end('SIGKILL');
     // The board plays what it holds, and rests. The same page finds the new daemon by itself.
     const second = await Daemon.start({ machine, board, data, port: new URL(first.address).port });
     const card = page.getByRole('region', { name: 'Broken off' });
-    await card.waitFor({ timeout: 30_000 });
+    await card.waitFor();
     expect(await card.innerText()).toContain('part.ngc');
     expect(await card.innerText()).toContain('exactly where the machine stands');
-    await expect.poll(() => page.locator('.act.go').getAttribute('title'), { timeout: 10_000 }).toContain('broken off');
+    await expect.poll(() => page.locator('.act.go').getAttribute('title')).toContain('broken off');
     // Other pages lead to it.
     await page.goto(`${second.address}#/files`);
     await page.getByText('The job part.ngc was broken off.').waitFor();
@@ -91,18 +91,18 @@ describe('a job that was broken off', () => {
     const { page, context } = await visit(browser, first, 'jog');
     await home(page, first);
     await startPart(page, first);
-    await first.until((status) => status.state === 'Run' && status.line === 7, 30_000);
+    await first.until((status) => status.state === 'Run' && status.line === 7);
     board.cutPower();
     await first.end('SIGKILL');
     const second = await Daemon.start({ machine, board, data, port: new URL(first.address).port });
     const card = page.getByRole('region', { name: 'Broken off' });
     await page.goto(`${second.address}#/run`);
-    await card.waitFor({ timeout: 30_000 });
+    await card.waitFor();
     expect(await card.innerText()).toContain('resume.board-reset');
     expect(await page.getByRole('button', { name: 'Resume here' }).count()).toBe(0);
     await card.getByRole('button', { name: 'Home', exact: true }).click();
     await agree(page, 'Home');
-    await second.until((status) => status.trust === 'homed' && status.state === 'Idle', 60_000);
+    await second.until((status) => status.trust === 'homed' && status.state === 'Idle');
     await card.getByText('The way back, step by step').waitFor();
     await expect.poll(() => card.locator('li').count()).toBeGreaterThan(2);
     await card.getByRole('button', { name: 'Back by a safe way' }).click();
@@ -114,7 +114,7 @@ describe('a job that was broken off', () => {
     await context.close();
     await second.end();
     await board.end();
-  }, 300_000);
+  });
 });
 
 describe('a start amid a program', () => {
@@ -129,7 +129,7 @@ describe('a start amid a program', () => {
     await steps.first().waitFor();
     expect(await steps.last().innerText()).toContain('line 7');
     await agree(page, 'Start');
-    await daemon.until((status) => status.state === 'Run' && status.line >= 7, 30_000);
+    await daemon.until((status) => status.state === 'Run' && status.line >= 7);
     same(await endOf(daemon), { x: 10, y: 10, z: 0 });
     expect(errors).toEqual([]);
     await context.close();

@@ -99,7 +99,7 @@ export class Daemon {
   status(): Promise<Status> {
     return this.get<Status>('/status');
   }
-  async until(what: (status: Status) => boolean, within = 15_000): Promise<Status> {
+  async until(what: (status: Status) => boolean, within = 60_000): Promise<Status> {
     const end = Date.now() + within;
     for (;;) {
       const status = await this.status();
@@ -144,7 +144,7 @@ export async function visit(browser: Browser, daemon: Daemon, path: string, how:
     deviceScaleFactor: how.density ?? 1,
   });
   const page = await context.newPage();
-  page.setDefaultTimeout(20_000);
+  page.setDefaultTimeout(60_000);
   const errors: string[] = [];
   page.on('pageerror', (error) => errors.push(String(error)));
   page.on('console', (message) => {

@@ -22,7 +22,7 @@ afterAll(async () => {
   rmSync(folder, { recursive: true, force: true });
 });
 
-const click = (page: Page, name: string): Promise<void> => page.getByRole('button', { name, exact: true }).first().click({ timeout: 8000 });
+const click = (page: Page, name: string): Promise<void> => page.getByRole('button', { name, exact: true }).first().click();
 const agree = (page: Page, name: string): Promise<void> => page.getByRole('dialog').getByRole('button', { name }).click();
 const enter = async (page: Page, field: string, text: string): Promise<void> => {
   await page.getByRole('textbox', { name: field, exact: true }).fill(text);
@@ -97,13 +97,13 @@ describe('inputs and outputs', () => {
     await page.getByRole('button', { name: 'End the set-up mode' }).waitFor();
     await flood.click();
     await daemon.until((status) => status.outputs.flood);
-    await expect.poll(() => page.getByTestId('pin-flood').innerText(), { timeout: 10_000 }).toBe('on');
+    await expect.poll(() => page.getByTestId('pin-flood').innerText()).toBe('on');
     await page.getByRole('button', { name: 'Spindle clockwise', exact: true }).click();
     await agree(page, 'Turn it');
-    await daemon.until((status) => status.outputs.spindle === 'clockwise' && status.outputs.flood, 20_000);
+    await daemon.until((status) => status.outputs.spindle === 'clockwise' && status.outputs.flood);
     await page.getByRole('button', { name: 'End the set-up mode' }).click();
     await daemon.until((status) => status.state === 'Idle' && !status.outputs.flood && status.outputs.spindle === 'off');
-    await expect.poll(() => page.getByTestId('pin-flood').innerText(), { timeout: 10_000 }).toBe('off');
+    await expect.poll(() => page.getByTestId('pin-flood').innerText()).toBe('off');
     expect(errors).toEqual([]);
     await context.close();
   });
@@ -114,12 +114,12 @@ describe('single pulses', () => {
     const { key } = (await daemon.post('/owner', '{"name": "story"}')) as { key: string };
     const { id } = (await daemon.post('/programs?name=pulses.ngc', 'G21 G91 G1 X1 F600\nM2\n')) as { id: number };
     await daemon.post(`/programs/${id}/run`, '', key);
-    await daemon.until((status) => status.job?.state === 'done', 30_000);
+    await daemon.until((status) => status.job?.state === 'done');
     await fetch(`${daemon.address}api/v1/owner`, { method: 'DELETE', headers: { 'X-Passo-Key': key } });
     const { page, context, errors } = await visit(browser, daemon, 'pins');
     const pulses = page.getByRole('region', { name: 'Single pulses' });
     const reading = (): Promise<string> => page.getByTestId('pulses').innerText();
-    await expect.poll(reading, { timeout: 20_000 }).toMatch(/X \d+, [\d.]+ .s after the pulse before: [\d,]+ steps\/s/);
+    await expect.poll(reading).toMatch(/X \d+, [\d.]+ .s after the pulse before: [\d,]+ steps\/s/);
     const canvas = pulses.getByRole('img', { name: 'Single pulses' });
     const wide = await canvas.screenshot();
     const countOf = (words: string): number => Number(/X (-?\d+)/.exec(words)?.[1]);
@@ -127,7 +127,7 @@ describe('single pulses', () => {
     await pulses.getByRole('button', { name: 'To the pulse before' }).click();
     await expect.poll(async () => countOf(await reading())).toBe(last - 1);
     for (let i = 0; i < 4; ++i) await pulses.getByRole('button', { name: 'Nearer' }).click();
-    await expect.poll(async () => (await canvas.screenshot()).equals(wide), { timeout: 20_000 }).toBe(false);
+    await expect.poll(async () => (await canvas.screenshot()).equals(wide)).toBe(false);
     expect(await violations(page)).toEqual([]);
     expect(errors).toEqual([]);
     await context.close();
@@ -174,7 +174,7 @@ describe('the scene', () => {
     const { page, context, errors } = await visit(browser, daemon, 'files');
     const part = 'G21 G90\nG0 X0 Y0 Z0\nG1 X10 F300\nG1 Z-4 F60\nG1 Y10 F1200\nM2\n';
     await page.setInputFiles('input[type=file]', { name: 'speeds.ngc', mimeType: 'text/plain', buffer: Buffer.from(part) });
-    await expect.poll(() => page.getByTestId('verdict').innerText(), { timeout: 20_000 }).toContain('Good');
+    await expect.poll(() => page.getByTestId('verdict').innerText()).toContain('Good');
     await page.goto(`${daemon.address}#/run`);
     const tells = page.getByRole('combobox', { name: 'What the colours tell' });
     const legend = page.locator('.scene-legend');

@@ -22,28 +22,28 @@ describe('a drill file', () => {
     const send = (name: string, text: string): Promise<void> =>
       page.setInputFiles('input[type=file]', { name, mimeType: 'text/plain', buffer: Buffer.from(text) });
     await send('holes.drl', holes);
-    await expect.poll(() => page.getByTestId('make-state').innerText(), { timeout: 20_000 }).toBe('Made');
+    await expect.poll(() => page.getByTestId('make-state').innerText()).toBe('Made');
     const picture = page.getByRole('img', { name: 'What is cut' });
     await picture.waitFor();
     expect(await picture.evaluate((one) => (one as HTMLImageElement).naturalWidth)).toBeGreaterThan(0);
     const before = await picture.getAttribute('src');
     await page.getByRole('textbox', { name: 'Depth' }).fill('-3.25');
     await page.getByRole('checkbox', { name: 'Plain moves, no cycles' }).check();
-    await expect.poll(() => picture.getAttribute('src'), { timeout: 20_000 }).not.toBe(before);
+    await expect.poll(() => picture.getAttribute('src')).not.toBe(before);
     const text = async (): Promise<string> => {
       const { programs } = await daemon.get<{ programs: { id: number }[] }>('/programs');
       // Made again, it takes the place of the one before.
       expect(programs.length).toBe(1);
       return (await fetch(`${daemon.address}api/v1/programs/${programs[0]?.id}/text`)).text();
     };
-    await expect.poll(text, { timeout: 20_000 }).toContain('Z-3.25');
+    await expect.poll(text).toContain('Z-3.25');
     await page.getByRole('button', { name: 'To the program' }).click();
-    await expect.poll(() => page.getByTestId('verdict').innerText(), { timeout: 20_000 }).toContain('Good');
+    await expect.poll(() => page.getByTestId('verdict').innerText()).toContain('Good');
     await page.goto(`${daemon.address}#/make`);
     await send('wrong.drl', 'this is no drill file\n');
     await page.getByRole('checkbox', { name: 'holes.drl' }).uncheck();
     await page.getByRole('checkbox', { name: 'wrong.drl' }).check();
-    await expect.poll(() => page.getByTestId('make-state').innerText(), { timeout: 20_000 }).toBe('Not made');
+    await expect.poll(() => page.getByTestId('make-state').innerText()).toBe('Not made');
     expect(await page.locator('.make-result pre').innerText()).toContain('wrong.drl');
     expect(errors).toEqual([]);
     await context.close();
@@ -55,13 +55,13 @@ describe('a whole board', () => {
     const { page, context, errors } = await visit(browser, daemon, 'make');
     const files = ['timer-B_Cu.gbr', 'timer-Edge_Cuts.gbr', 'timer.drl'].map((name) => example(`boards/${name}`));
     await page.setInputFiles('input[type=file]', files);
-    await page.getByRole('heading', { name: 'What to do when' }).waitFor({ timeout: 40_000 });
+    await page.getByRole('heading', { name: 'What to do when' }).waitFor();
     const steps = (): Promise<string[]> => page.locator('.board-step h3').allInnerTexts();
     expect((await steps()).map((one) => one.split('\n')[0])).toEqual(['1. Fix the blank', '2. Drill', '3. Mill the back', '4. Cut the board out']);
     const layers = page.getByRole('region', { name: 'Layers: is each one right?' });
     expect(await layers.getByRole('combobox').evaluateAll((all) => all.map((one) => (one as HTMLSelectElement).value))).toEqual(['bottom copper', 'outline', 'drill']);
     await layers.getByRole('combobox', { name: 'timer-B_Cu.gbr' }).selectOption('top copper');
-    await expect.poll(async () => (await steps()).join(), { timeout: 40_000 }).toContain('Mill the front');
+    await expect.poll(async () => (await steps()).join()).toContain('Mill the front');
     const { programs } = await daemon.get<{ programs: { name: string }[] }>('/programs');
     const names = programs.map((one) => one.name).filter((name) => name.startsWith('timer-B_Cu'));
     expect(names).toEqual(['timer-B_Cu-1-drill.ngc', 'timer-B_Cu-2-isolate-front.ngc', 'timer-B_Cu-3-outline.ngc']);

@@ -20,7 +20,7 @@ afterAll(async () => {
 });
 
 const part = 'G21 G90 G17\nF1200\nG0 Z5\nG0 X10 Y10\nG1 Z-1\nG1 X60\nG2 X60 Y40 J15\nG1 X10\nG1 Y10\nG0 Z5\nM2\n';
-const click = (page: Page, name: string | RegExp): Promise<void> => page.getByRole('button', { name, exact: typeof name === 'string' }).first().click({ timeout: 8000 });
+const click = (page: Page, name: string | RegExp): Promise<void> => page.getByRole('button', { name, exact: typeof name === 'string' }).first().click();
 const send = (page: Page, name: string, text: string): Promise<void> =>
   page.setInputFiles('input[type=file]', { name, mimeType: 'text/plain', buffer: Buffer.from(text) });
 
@@ -45,7 +45,7 @@ describe('first start to first cut', () => {
     const { page, context, errors } = await visit(browser, daemon, 'jog');
     await click(page, 'Home');
     await page.getByRole('dialog').getByRole('button', { name: 'Home' }).click();
-    await daemon.until((status) => status.trust === 'homed' && status.state === 'Idle', 40_000);
+    await daemon.until((status) => status.trust === 'homed' && status.state === 'Idle');
     await page.getByText('Homed').waitFor();
     // Steps so short that no lease ends amid them, however busy the computer is.
     await page.getByRole('radio', { name: '1', exact: true }).check();
@@ -68,7 +68,7 @@ describe('first start to first cut', () => {
     await startProgram(page);
     await daemon.until((status) => status.state === 'Run' && status.line >= 6);
     await expect.poll(() => page.locator('.text-line.executed').count()).toBe(1);
-    const ended = await daemon.until((status) => status.job?.state === 'done', 30_000);
+    const ended = await daemon.until((status) => status.job?.state === 'done');
     expect((ended.place.x ?? 0) - (ended.work_offset?.x ?? 0)).toBeCloseTo(10, 3);
     expect(errors).toEqual([]);
     await context.close();
@@ -100,7 +100,7 @@ describe('a program on its way', () => {
     for (let presses = 0; presses < 8; ++presses) await click(second.page, 'Feed more');
     await click(second.page, 'Resume');
     await daemon.until((status) => status.state === 'Run');
-    await daemon.until((status) => status.job?.state === 'done', 40_000);
+    await daemon.until((status) => status.job?.state === 'done');
     await expect.poll(() => second.page.getByTestId('state').innerText()).toBe('Ready');
     expect(second.errors).toEqual([]);
     await second.context.close();
@@ -250,7 +250,7 @@ describe('a lost daemon', () => {
       expect(await button.getAttribute('title')).toContain('connection');
     }
     const again = await Daemon.start({ port });
-    await lost.waitFor({ state: 'detached', timeout: 30_000 });
+    await lost.waitFor({ state: 'detached' });
     await context.close();
     await again.end();
   });

@@ -34,7 +34,7 @@ const enter = async (page: Page, name: RegExp, value: string): Promise<void> => 
 const agree = (page: Page, name: string): Promise<void> => page.getByRole('dialog').getByRole('button', { name, exact: true }).click();
 
 describe('the probe', () => {
-  it('finds a corner after a question with all facts, and a height map levels a program', { timeout: 240_000 }, async () => {
+  it('finds a corner after a question with all facts, and a height map levels a program', async () => {
     const { page, context, errors } = await visit(browser, daemon, 'files');
     page.setDefaultTimeout(patience);
     await page.setInputFiles('input[type=file]', { name: 'part.ngc', mimeType: 'text/plain', buffer: Buffer.from(part) });
@@ -81,7 +81,7 @@ describe('the probe', () => {
 });
 
 describe('the torque of the motors', () => {
-  it('is told in Files and shown on the path, and the stock is seen as it is cut', { timeout: 240_000 }, async () => {
+  it('is told in Files and shown on the path, and the stock is seen as it is cut', async () => {
     const { page, context, errors } = await visit(browser, daemon, 'files');
     page.setDefaultTimeout(patience);
     await page.setInputFiles('input[type=file]', { name: 'torque.ngc', mimeType: 'text/plain', buffer: Buffer.from(part) });
@@ -100,7 +100,7 @@ describe('the torque of the motors', () => {
 });
 
 describe('limits for the motors', () => {
-  it('are proposed with their curves, and taken into the table', { timeout: 240_000 }, async () => {
+  it('are proposed with their curves, and taken into the table', async () => {
     const { page, context, errors } = await visit(browser, daemon, 'machine');
     page.setDefaultTimeout(patience);
     await page.getByTestId('scale-X').waitFor();
@@ -121,7 +121,7 @@ describe('limits for the motors', () => {
 });
 
 describe('Make', () => {
-  it('engraves letters, and a drawing that is dropped in Files is cleared as a pocket', { timeout: 240_000 }, async () => {
+  it('engraves letters, and a drawing that is dropped in Files is cleared as a pocket', async () => {
     const { page, context, errors } = await visit(browser, daemon, 'make');
     page.setDefaultTimeout(patience);
     await choose(page, 'Engrave');

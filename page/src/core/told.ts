@@ -1,0 +1,2 @@
+// What the daemon says, in the language of the page.
+export const told = (words: string): string | null => (words === '' ? '' : null);

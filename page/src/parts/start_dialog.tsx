@@ -1,0 +1,79 @@
+// The start amid a program: what the machine will do, step by step, and where exactly it begins.
+import { say } from '../core/language';
+import { fromMm, lengthUnit, readLength } from '../core/units';
+import { whyNoStart } from '../machine/actions';
+import { beginThere, changeStart, noStart, startsAt } from '../machine/way_back';
+import { Button } from './button';
+import { Dialog } from './dialogs';
+import { Told, ToldSteps } from './told';
+
+const shownLength = (mm: number): string => String(Number(fromMm(mm).toFixed(4)));
+
+export function StartDialog() {
+  const now = startsAt.value;
+  if (now === null) return null;
+  const { way } = now;
+  const refused = way !== null && way.code !== '';
+  const why = way === null ? say('way.looking') : refused ? say('way.refused') : whyNoStart.value;
+  return (
+    <Dialog title={say('way.ask', { name: now.program.name, line: way?.line ?? now.line })} onClose={noStart}>
+      <div aria-live="polite">
+        {way === null && <p class="dim">{say('way.looking')}</p>}
+        {refused && (
+          <p class="refusal">
+            <Told words={way.why} code={way.code} />
+          </p>
+        )}
+        {way !== null && !refused && (
+          <>
+            <p>{say('way.what')}</p>
+            <ToldSteps steps={way.steps} />
+            <p>{say('way.clear')}</p>
+          </>
+        )}
+      </div>
+      <details open={now.pass !== null || now.after > 0 || way?.code === 'reentry.done-often'}>
+        <summary>{say('way.where')}</summary>
+        <div class="make-fields">
+          <label class="make-field">
+            <span class="dim">{say('way.pass')}</span>
+            <input
+              type="text"
+              inputMode="numeric"
+              value={now.pass ?? ''}
+              placeholder="1"
+              onChange={(event) => {
+                const field = event.currentTarget;
+                const typed = field.value.trim();
+                if (typed === '' || (/^\d{1,9}$/.test(typed) && Number(typed) > 0)) return changeStart({ pass: typed === '' ? null : Number(typed) });
+                field.value = String(now.pass ?? '');
+              }}
+            />
+          </label>
+          <label class="make-field">
+            <span class="dim">
+              {say('way.after')} {lengthUnit()}
+            </span>
+            <input
+              type="text"
+              inputMode="decimal"
+              value={shownLength(now.after)}
+              onChange={(event) => {
+                const field = event.currentTarget;
+                const mm = field.value.trim() === '' ? 0 : readLength(field.value);
+                if (mm !== undefined && mm >= 0) return changeStart({ after: mm });
+                field.value = shownLength(now.after);
+              }}
+            />
+          </label>
+        </div>
+      </details>
+      <div class="dialog-actions">
+        <Button onClick={noStart}>{say('frame.cancel')}</Button>
+        <Button kind="go" why={why} onClick={beginThere}>
+          {say('do.start')}
+        </Button>
+      </div>
+    </Dialog>
+  );
+}
