@@ -200,8 +200,8 @@ class MachineApi final : public WebHandler {
   std::string making_;               // what is made of what, as "board/a.gbr"; empty: no order runs
   std::vector<std::uint64_t> made_;  // the programs of the last order
   std::map<std::string, std::vector<std::uint64_t>, std::less<>> made_of_;
-  std::string study_;                       // the last one that was ordered
-  std::uint64_t studied_ = 0;               // its program; 0: none
+  std::string study_;          // the last one that was ordered
+  std::uint64_t studied_ = 0;  // its program; 0: none
   std::optional<Ticket> ticket_;
   Diagnostics findings_;  // of the run
   std::vector<JobWords> words_;
