@@ -1,5 +1,6 @@
 // What the page tells in passing: refusals, and what was done. Screen readers hear it.
 import { signal } from '@preact/signals';
+import { toldOr } from './told';
 
 export interface Notice {
   id: number;
@@ -21,13 +22,15 @@ export function dismiss(id: number): void {
   notices.value = notices.peek().filter((one) => one.id !== id);
 }
 
+export const wordsOfError = (error: unknown): string => toldOr(error instanceof Error ? error.message : String(error));
+
 // Does what a button asks, and tells why it was refused.
 export async function attempt(what: () => Promise<unknown>): Promise<boolean> {
   try {
     await what();
     return true;
   } catch (error) {
-    notify('refused', error instanceof Error ? error.message : String(error));
+    notify('refused', wordsOfError(error));
     return false;
   }
 }

@@ -1,4 +1,5 @@
 // The requests of docs/api/openapi.json, and what they answer. Lengths are mm, speeds mm/min, times seconds.
+import { say } from '../core/language';
 import { ownerKey } from './owner_key';
 import { token } from './token';
 
@@ -138,8 +139,8 @@ export async function ask(method: string, path: string, body?: BodyInit, within 
       ...(body === undefined ? {} : { body }),
       signal: AbortSignal.timeout(within),
     });
-  } catch (error) {
-    throw new Refused(0, 'page.unreached', String(error instanceof Error ? error.message : error));
+  } catch {
+    throw new Refused(0, 'page.unreached', say('connection.unreached'));
   }
   if (!answer.ok) throw await refusalOf(answer);
   return answer;

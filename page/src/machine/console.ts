@@ -1,5 +1,6 @@
 // Lines that a person types: each is checked, and run as a program of its own.
 import { attempt } from '../core/notices';
+import { toldOr } from '../core/told';
 import type { Program } from './api';
 import { get, post, remove, upload } from './api';
 import { status } from './connection';
@@ -28,7 +29,7 @@ async function tellFindings(id: number): Promise<void> {
     const program = await get<Program>(`/programs/${id}`);
     if (program.state !== 'checking' && status.value?.job?.state !== 'checking') {
       for (const one of program.findings ?? []) {
-        note(one.severity === 'error' ? 'refused' : 'warning', `${one.message}. ${one.expected} [${one.code}]`);
+        note(one.severity === 'error' ? 'refused' : 'warning', `${toldOr(one.message)}. ${toldOr(one.expected)} [${one.code}]`);
       }
       const first = program.findings?.find((one) => one.severity === 'error');
       if (first !== undefined) throw new Error(first.message);

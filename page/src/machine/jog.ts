@@ -1,7 +1,7 @@
 // The page's one jogger: keys, buttons and touches hold it.
 import { effect, signal } from '@preact/signals';
 import { kept } from '../core/kept';
-import { notify } from '../core/notices';
+import { notify, wordsOfError } from '../core/notices';
 import { path } from '../core/route';
 import { isTyping } from '../core/typing';
 import { asked } from '../core/question';
@@ -28,7 +28,7 @@ export const jogger = new Jogger(
       if (!tell('/stop')) void post('/stop').catch(() => undefined);
     },
   },
-  (error) => notify('refused', error instanceof Error ? error.message : String(error)),
+  (error) => notify('refused', wordsOfError(error)),
 );
 
 export type Direction = Readonly<Record<string, -1 | 0 | 1>>;

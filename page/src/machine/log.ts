@@ -2,6 +2,7 @@
 import { effect, signal } from '@preact/signals';
 import { say } from '../core/language';
 import { notices } from '../core/notices';
+import { toldOr } from '../core/told';
 import { connection, status } from './connection';
 
 export type LogKind = 'state' | 'asked' | 'done' | 'refused' | 'warning' | 'alarm';
@@ -34,10 +35,10 @@ export function followLog(): void {
     if (now === null) return;
     if (now.state !== state) {
       const isBad = now.state === 'Alarm' || now.state === 'Fault';
-      note(isBad ? 'alarm' : 'state', `${say(`state.${now.state}`)}${isBad && now.trouble !== '' ? `: ${now.trouble}` : ''}`);
+      note(isBad ? 'alarm' : 'state', `${say(`state.${now.state}`)}${isBad && now.trouble !== '' ? `: ${toldOr(now.trouble)}` : ''}`);
       state = now.state;
     }
-    const words = now.job === null ? '' : `${now.job.name}: ${now.job.state}${now.job.why === '' ? '' : `, ${now.job.why}`}`;
+    const words = now.job === null ? '' : `${now.job.name}: ${say(`job.${now.job.state}`)}${now.job.why === '' ? '' : `, ${toldOr(now.job.why)}`}`;
     if (words !== job && words !== '') note(now.job?.state === 'failed' ? 'refused' : 'done', words);
     job = words;
   });

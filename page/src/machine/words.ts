@@ -1,5 +1,6 @@
 // What the machine does, in words, and what a person does next.
 import { say } from '../core/language';
+import { toldOr } from '../core/told';
 import type { Job, Status } from './api';
 
 export type Tone = 'calm' | 'go' | 'wait' | 'bad';
@@ -36,7 +37,7 @@ export interface Facts {
 function nextOf({ status, hasProgram, canHome }: Facts): string {
   const { state } = status;
   if (state === 'Idle') {
-    if (status.job !== null && status.job.state === 'failed') return status.job.why;
+    if (status.job !== null && status.job.state === 'failed') return say('state.Idle.job.failed', { why: toldOr(status.job.why) });
     if (canHome && status.trust !== 'homed' && !hasProgram) return say('state.Idle.home');
     return say(hasProgram ? 'state.Idle.next' : 'state.Idle.open');
   }
@@ -45,7 +46,7 @@ function nextOf({ status, hasProgram, canHome }: Facts): string {
     return status.waits_for_tool === null ? say('state.Tool.next') : say('state.Tool.tool', { tool: status.waits_for_tool });
   }
   const next = say(`state.${state}.next`);
-  const trouble = status.trouble;
+  const trouble = toldOr(status.trouble);
   return trouble === '' || (state !== 'Alarm' && state !== 'Fault') ? next : `${trouble}. ${next}`;
 }
 

@@ -3,6 +3,7 @@ import { useEffect } from 'preact/hooks';
 import { language, say } from '../core/language';
 import { attempt } from '../core/notices';
 import { confirm } from '../core/question';
+import { toldOr } from '../core/told';
 import { goTo } from '../core/route';
 import { durationText, momentText } from '../core/time';
 import { lengthText, lengthUnit } from '../core/units';
@@ -135,8 +136,8 @@ function Findings({ program }: { program: Program }) {
             >
               <Icon name={one.severity === 'error' ? 'bad' : 'warn'} />
               <span>
-                <b>{say('run.line', { line: one.line })}</b> {one.message}.{' '}
-                {one.expected !== '' && <span class="dim">{say('files.expected', { expected: one.expected })}</span>}{' '}
+                <b>{say('run.line', { line: one.line })}</b> {toldOr(one.message)}.{' '}
+                {one.expected !== '' && <span class="dim">{say('files.expected', { expected: toldOr(one.expected) })}</span>}{' '}
                 <code class="dim">{one.code}</code>
               </span>
             </button>
@@ -189,7 +190,7 @@ function JobList({ jobs, none, queued }: { jobs: readonly HistoryJob[]; none: st
           <span class="file-name">{job.name}</span>
           <span class="dim">
             {say(`files.job.${job.state}`)}
-            {job.why === '' ? '' : `: ${job.why}`}
+            {job.why === '' ? '' : `: ${toldOr(job.why)}`}
           </span>
           <span class="dim">{momentText(queued ? job.queued_at : job.ended_at, language.value)}</span>
           {queued && (
@@ -254,7 +255,7 @@ export function FilesPage() {
                 {alarms.value.map((one) => (
                   <li key={one.at}>
                     <Icon name="bad" />
-                    <span>{one.words}</span>
+                    <span>{toldOr(one.words)}</span>
                     <span class="dim">{momentText(one.at, language.value)}</span>
                   </li>
                 ))}

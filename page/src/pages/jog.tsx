@@ -2,6 +2,7 @@
 import type { ComponentChildren } from 'preact';
 import { useRef } from 'preact/hooks';
 import { say } from '../core/language';
+import { notify } from '../core/notices';
 import { fromMm, lengthText, lengthUnit, speedText, speedUnit, units } from '../core/units';
 import { whyNot } from '../machine/actions';
 import { machine, status } from '../machine/connection';
@@ -31,6 +32,7 @@ function PadButton({ direction, turn, children }: { direction: Direction; turn?:
   const name = nameOf(direction);
   const why = whyNot('Idle', 'Jog');
   const begin = (event: PointerEvent): void => {
+    if (why !== '') notify('refused', why);
     if (event.button !== 0 || !canJog()) return;
     (event.currentTarget as HTMLElement).setPointerCapture(event.pointerId);
     holds.current = true;

@@ -3,6 +3,7 @@
 import { Fragment } from 'preact';
 import { useEffect, useRef } from 'preact/hooks';
 import { language, say, type Key } from '../core/language';
+import { toldOr } from '../core/told';
 import { confirm } from '../core/question';
 import { fromMm, isRotary, lengthUnit, toMm, units } from '../core/units';
 import { whyNot } from '../machine/actions';
@@ -231,10 +232,10 @@ function Findings() {
       <Icon name="warn" />
       <div>
         <strong>{say('file.refused')}</strong>
-        <ul lang="en">
+        <ul>
           {now.findings.map((one) => (
             <li key={`${one.line} ${one.message}`}>
-              {one.message}. {one.expected} <code class="dim">{one.code}</code>
+              {toldOr(one.message)}. {toldOr(one.expected)} <code class="dim">{one.code}</code>
               {one.line > 0 && <code class="finding-line">{`${one.line}: ${lines[one.line - 1] ?? ''}`}</code>}
             </li>
           ))}

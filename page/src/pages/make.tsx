@@ -66,7 +66,8 @@ function OneField({ form, field }: { form: Form; field: Field }) {
       </label>
     );
   }
-  const choices = field.kind === 'file' ? (make.value?.files ?? []).map((name) => [name, name] as const) : (field.choices ?? []).map(([one, title]) => [one, say(title)] as const);
+  const files = field.kind === 'file' ? (make.value?.files ?? []).map((name) => [name, name] as const) : [];
+  const choices = [...(field.choices ?? []).map(([one, title]) => [one, say(title)] as const), ...files];
   return (
     <label class="make-field">
       <span class="dim">{say(field.title)}</span>

@@ -83,7 +83,7 @@ export const forms: readonly [Form, ...Form[]] = [
     withoutFiles: 'text',
     fields: [
       text('text', 'make.text'),
-      { option: 'font', title: 'make.font', kind: 'file' },
+      { option: 'font', title: 'make.font', kind: 'file', choices: [['simplex', 'make.font.simplex']] },
       text('height', 'make.letters', '10mm'),
       choice('text-align', 'make.align', [['middle', 'make.align.middle'], ['right', 'make.align.right']]),
       text('around', 'make.around'),

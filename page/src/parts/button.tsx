@@ -1,5 +1,7 @@
-// A button that tells why it cannot be used. It stays reachable by the keyboard, so that everybody hears the reason.
+// A button that tells why it cannot be used: a mouse by pointing at it, a finger by pressing it. It stays reachable by the
+// keyboard, so that everybody hears the reason.
 import type { ComponentChildren } from 'preact';
+import { notify } from '../core/notices';
 import { Icon, type IconName } from './icon';
 
 interface Props {
@@ -23,7 +25,7 @@ export function Button({ onClick, icon, kind = 'plain', why = '', label, pressed
       aria-label={label === undefined ? undefined : off ? `${label}: ${why}` : label}
       aria-pressed={pressed}
       title={off ? why : undefined}
-      onClick={() => (off ? undefined : onClick())}
+      onClick={() => (off ? notify('refused', why) : onClick())}
     >
       {icon && <Icon name={icon} />}
       {children !== undefined && <span class="button-words">{children}</span>}

@@ -6,6 +6,7 @@ import { dismiss, notices } from '../core/notices';
 import { asked } from '../core/question';
 import { Button } from './button';
 import { Icon } from './icon';
+import { ToldSteps } from './told';
 
 export function Dialog({ title, onClose, children }: { title: string; onClose: () => void; children: ComponentChildren }) {
   const box = useRef<HTMLDialogElement>(null);
@@ -38,13 +39,7 @@ export function QuestionDialog() {
           </tbody>
         </table>
       )}
-      {question.steps !== undefined && (
-        <ol class="steps" lang="en">
-          {question.steps.map((step) => (
-            <li key={step}>{step}</li>
-          ))}
-        </ol>
-      )}
+      {question.steps !== undefined && <ToldSteps steps={question.steps} />}
       {question.facts.slice(1).map((fact) => (
         <p key={fact}>{fact}</p>
       ))}

@@ -1,6 +1,7 @@
 // The job that was broken off, with all facts on one card; and a line that leads to it from the other pages.
 import { language, say } from '../core/language';
 import { path, goTo } from '../core/route';
+import { toldOr } from '../core/told';
 import { momentText } from '../core/time';
 import { whyNot } from '../machine/actions';
 import { status } from '../machine/connection';
@@ -10,6 +11,7 @@ import { home } from '../machine/set_up';
 import { dropInterrupted, reenterInterrupted, resumeInterrupted } from '../machine/way_back';
 import { Button } from './button';
 import { Icon } from './icon';
+import { ToldSteps } from './told';
 
 export function InterruptedBanner() {
   const broken = interrupted.value;
@@ -40,19 +42,15 @@ export function InterruptedCard() {
           <Fact name={say('broken.noted')} words={momentText(broken.noted_at, language.value)} />
           <Fact name={say('broken.where')} words={say('run.line', { line: broken.line ?? reentry.line ?? '?' })} />
           {place !== null && <Fact name={say('run.machine')} words={placeWords(place)} />}
-          {broken.job.why !== '' && <Fact name={say('broken.why')} words={broken.job.why} />}
-          <Fact name={say('broken.goes')} words={broken.goes_on ? say('broken.goes.exactly') : `${broken.why}.`} code={broken.code} />
-          {!broken.goes_on && reentry.code !== '' && <Fact name={say('broken.back')} words={`${reentry.why}.`} code={reentry.code} />}
+          {broken.job.why !== '' && <Fact name={say('broken.why')} words={toldOr(broken.job.why)} />}
+          <Fact name={say('broken.goes')} words={broken.goes_on ? say('broken.goes.exactly') : `${toldOr(broken.why)}.`} code={broken.code} />
+          {!broken.goes_on && reentry.code !== '' && <Fact name={say('broken.back')} words={`${toldOr(reentry.why)}.`} code={reentry.code} />}
         </tbody>
       </table>
       {reentry.steps.length > 0 && (
         <details open={!broken.goes_on}>
           <summary>{say('broken.back.steps')}</summary>
-          <ol class="steps" lang="en">
-            {reentry.steps.map((step) => (
-              <li key={step}>{step}</li>
-            ))}
-          </ol>
+          <ToldSteps steps={reentry.steps} />
         </details>
       )}
       <div class="row">
@@ -69,7 +67,7 @@ export function InterruptedCard() {
         <Button
           kind={broken.goes_on || needsHome ? 'plain' : 'go'}
           icon="resume"
-          why={why !== '' ? why : reentry.why}
+          why={why !== '' ? why : toldOr(reentry.why)}
           onClick={() => reenterInterrupted(broken)}
         >
           {say('broken.reenter')}

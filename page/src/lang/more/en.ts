@@ -159,6 +159,7 @@ export const en = {
   'make.over': 'From loop to loop, % of the cutter',
   'make.text': 'Letters instead of a drawing',
   'make.font': 'Font (a file that was sent)',
+  'make.font.simplex': 'single lines (Simplex)',
   'make.letters': 'Height of a capital letter',
   'make.align': 'X0 in a line of text',
   'make.align.middle': 'in the middle',

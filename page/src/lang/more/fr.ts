@@ -158,6 +158,7 @@ export const fr: MoreWords = {
   'make.over': 'De tour en tour, % de la fraise',
   'make.text': 'Des lettres au lieu d’un dessin',
   'make.font': 'Police (un fichier envoyé)',
+  'make.font.simplex': 'traits simples (Simplex)',
   'make.letters': 'Hauteur d’une majuscule',
   'make.align': 'X0 dans une ligne de texte',
   'make.align.middle': 'au milieu',

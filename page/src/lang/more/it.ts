@@ -158,6 +158,7 @@ export const it: MoreWords = {
   'make.over': 'Da giro a giro, % della fresa',
   'make.text': 'Lettere invece di un disegno',
   'make.font': 'Carattere (un file inviato)',
+  'make.font.simplex': 'linee singole (Simplex)',
   'make.letters': 'Altezza di una maiuscola',
   'make.align': 'X0 in una riga di testo',
   'make.align.middle': 'al centro',

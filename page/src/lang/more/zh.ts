@@ -158,6 +158,7 @@ export const zh: MoreWords = {
   'make.over': '圈距，刀径的百分比',
   'make.text': '用文字代替图纸',
   'make.font': '字体（已上传的文件）',
+  'make.font.simplex': '单线字体（Simplex）',
   'make.letters': '大写字母的高度',
   'make.align': '一行文字中的 X0',
   'make.align.middle': '居中',

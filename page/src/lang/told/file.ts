@@ -1,0 +1,30 @@
+// Why a machine file is refused.
+import { saying, type Saying } from './saying';
+
+export const file: readonly Saying[] = [
+  saying('{key} goes from {low} to {high}', '{key} va de {low} à {high}', '{key} va da {low} a {high}', '{key} 从 {low} 到 {high}'),
+  saying('the low end first, then the high end', 'd’abord le bas, puis le haut', 'prima l’estremo basso, poi quello alto', '先低端，后高端'),
+  saying('{key} is {value}, and {off} off it the machine has left its travel of {low} to {high}', '{key} vaut {value}, et {off} plus loin la machine est sortie de sa course de {low} à {high}', '{key} vale {value}, e {off} più in là la macchina è uscita dalla sua corsa da {low} a {high}', '{key} 为 {value}，再退 {off} 机床就超出行程 {low} 至 {high}'),
+  saying('a switch, less {key}, within the travel', 'un interrupteur qui, moins {key}, est dans la course', 'un interruttore che, meno {key}, sia nella corsa', '开关位置减去 {key} 应在行程内'),
+  saying('{key} is {value}', '{key} vaut {value}', '{key} vale {value}', '{key} 为 {value}'),
+  saying('a number from {low} to {high}', 'un nombre de {low} à {high}', 'un numero da {low} a {high}', '{low} 到 {high} 的数'),
+  saying('a whole number from {low} to {high}', 'un nombre entier de {low} à {high}', 'un numero intero da {low} a {high}', '{low} 到 {high} 的整数'),
+  saying('motor {motor} turns axis {axis} already', 'le moteur {motor} fait déjà tourner l’axe {axis}', 'il motore {motor} muove già l’asse {axis}', '电机 {motor} 已用于 {axis} 轴'),
+  saying('a motor of its own for each axis', 'un moteur à lui pour chaque axe', 'un motore proprio per ogni asse', '每根轴用各自的电机'),
+  saying('axis {axis} has motor {motor}', 'l’axe {axis} a le moteur {motor}', 'l’asse {axis} ha il motore {motor}', '{axis} 轴用电机 {motor}'),
+  saying('[axis.{axis}] lacks its motor', '[axis.{axis}] n’a pas son moteur', 'a [axis.{axis}] manca il motore', '[axis.{axis}] 缺少电机'),
+  saying('a motor for every axis, or for none: then they are in the order X Y Z A B C U V W', 'un moteur pour chaque axe, ou pour aucun : ils sont alors dans l’ordre X Y Z A B C U V W', 'un motore per ogni asse, o per nessuno: allora sono nell’ordine X Y Z A B C U V W', '每根轴都写电机，或都不写：则按 X Y Z A B C U V W 顺序'),
+  saying('axis {axis} needs {steps} steps a second for {speed}/s, and the board makes {most} events', 'l’axe {axis} demande {steps} pas par seconde pour {speed}/s, et la carte en fait {most}', 'l’asse {axis} chiede {steps} passi al secondo per {speed}/s, e la scheda ne fa {most}', '{axis} 轴在 {speed}/s 需要每秒 {steps} 步，控制板最多 {most}'),
+  saying('axis {axis} would start at {speed}/s, and is never faster than {most}/s', 'l’axe {axis} partirait à {speed}/s, et ne dépasse jamais {most}/s', 'l’asse {axis} partirebbe a {speed}/s, e non supera mai {most}/s', '{axis} 轴起动速度 {speed}/s，而最高仅 {most}/s'),
+  saying('at {speed}/s the motor of axis {axis} has nothing left to accelerate with', 'à {speed}/s le moteur de l’axe {axis} n’a plus rien pour accélérer', 'a {speed}/s il motore dell’asse {axis} non ha più nulla per accelerare', '在 {speed}/s 时 {axis} 轴电机已无加速余力'),
+  saying('{key} below {most}, or a stronger motor', '{key} sous {most}, ou un moteur plus fort', '{key} sotto {most}, o un motore più forte', '{key} 低于 {most}，或更强的电机'),
+  saying('{first} and {second} are both given', '{first} et {second} sont tous deux donnés', '{first} e {second} sono dati entrambi', '{first} 与 {second} 同时给出'),
+  saying('the machine has no axis', 'la machine n’a pas d’axe', 'la macchina non ha assi', '机床没有轴'),
+  saying('a table for each axis, as in [axis.X]', 'une table pour chaque axe, comme [axis.X]', 'una tabella per ogni asse, come [axis.X]', '每根轴一个表，如 [axis.X]'),
+  saying('{where} lacks {what}', 'dans {where}, il manque {what}', 'in {where} manca {what}', '{where} 缺少 {what}'),
+  saying('{where} has no |key| {key}', '{where} n’a pas de clé {key}', '{where} non ha la chiave {key}', '{where} 没有键 {key}'),
+  saying('{where} has no |table| {key}', '{where} n’a pas de table {key}', '{where} non ha la tabella {key}', '{where} 没有表 {key}'),
+  saying('a machine file', 'un fichier machine', 'un file macchina', '机床文件'),
+  saying('the two motors of axis {axis} share limit switch {input}', 'les deux moteurs de l’axe {axis} partagent le fin de course {input}', 'i due motori dell’asse {axis} condividono il finecorsa {input}', '{axis} 轴的两个电机共用限位开关 {input}'),
+  saying('the file is empty', 'le fichier est vide', 'il file è vuoto', '文件是空的'),
+];

@@ -1,0 +1,49 @@
+// What the daemon says is translated by its sentences: they are those of its sources, and each language keeps their values.
+import { readdirSync, readFileSync } from 'node:fs';
+import { join, resolve } from 'node:path';
+import { afterEach, describe, expect, it } from 'vitest';
+import { language } from '../src/core/language';
+import { sayings, told } from '../src/core/told';
+
+const root = resolve(import.meta.dirname, '../../src');
+
+// All texts of the program, those that stand side by side joined.
+function textsOfSources(): string {
+  const files = readdirSync(root, { recursive: true, encoding: 'utf8' }).filter((name) => /\.(cpp|hpp)$/.test(name) && !name.includes('tests/'));
+  const texts = files.flatMap((name) => [...readFileSync(join(root, name), 'utf8').matchAll(/"(?:[^"\\\n]|\\.)*"(?:\s*"(?:[^"\\\n]|\\.)*")*/g)]);
+  return texts.map((one) => one[0].replace(/"\s*"/g, '').slice(1, -1)).join('\n');
+}
+const valuesOf = (words: string): string[] => (words.match(/\{\w+\}/g) ?? []).sort();
+
+afterEach(() => (language.value = 'en'));
+
+describe('a sentence of the daemon', () => {
+  it('is one of its sources, piece by piece', () => {
+    const texts = textsOfSources();
+    const strange = sayings.flatMap((one) =>
+      one.en
+        .split(/\{\w+\}|\|/)
+        .map((piece) => piece.replaceAll('’', "'").trim())
+        .filter((piece) => piece.length > 3 && !texts.includes(piece)),
+    );
+    expect(strange).toEqual([]);
+  });
+
+  it('has its values in each language', () => {
+    const wrong = sayings.filter((one) => [one.fr, one.it, one.zh].some((words) => words === '' || valuesOf(words).some((value) => !valuesOf(one.en).includes(value))));
+    expect(wrong).toEqual([]);
+  });
+
+  it('is said in the language of the page, with its values', () => {
+    language.value = 'it';
+    expect(told('Z would reach -12.000 (work -2.000), 2.000 mm below its travel\'s end at -10.000')).toBe(
+      'Z arriverebbe a -12.000 (pezzo -2.000), 2.000 mm sotto la fine della corsa a -10.000',
+    );
+    language.value = 'fr';
+    expect(told('the machine is not idle: Run')).toBe('la machine n’est pas au repos : Usinage en cours');
+    expect(told('line 3: no feed rate is set [gcode.missing-feed]')).toBe('ligne 3 : aucune avance n’est donnée [gcode.missing-feed]');
+    language.value = 'zh';
+    expect(told('X.microsteps is 0')).toBe('X.microsteps 为 0');
+    expect(told('nobody knows this sentence')).toBeNull();
+  });
+});
