@@ -20,6 +20,7 @@ import './style/theme.css';
 import './style/frame.css';
 import './style/parts.css';
 import './style/pages.css';
+import './style/small.css';
 
 readToken();
 rememberOwnerKey();

@@ -30,6 +30,10 @@ export function speedText(mmAMinute: number): string {
   return fixed(mmAMinute * perMm(), units.value === 'inch' ? 1 : 0);
 }
 export const toMm = (shown: number): number => shown / perMm();
+// A count for each mm, as one for each shown unit.
+export const perLength = (perMillimetre: number): number => perMillimetre / perMm();
+// A thousandth of the unit.
+export const smallUnit = (): string => (units.value === 'inch' ? 'mil' : 'µm');
 export const fromMm = (mm: number): number => mm * perMm();
 
 // What a person typed, in the shown units, as mm. A comma may stand for the point.

@@ -121,7 +121,7 @@ export interface Scale {
   words: string; // "200 × 16 ÷ 5"
   steps: number; // a mm or a degree
 }
-export function scaleOf(all: Values, axis: string, rotary: boolean): Scale | undefined {
+export function scaleOf(all: Values, axis: string, rotary: boolean, shown: (mm: number) => string = String): Scale | undefined {
   const number = (key: string): number | undefined => {
     const value = all[`axis.${axis}.${key}`];
     return typeof value === 'number' ? value : undefined;
@@ -134,5 +134,5 @@ export function scaleOf(all: Values, axis: string, rotary: boolean): Scale | und
   if (turn === undefined || way === undefined || way <= 0) return undefined;
   return rotary
     ? { words: `${turn} × ${micro} × ${way} ÷ 360`, steps: (turn * micro * way) / 360 }
-    : { words: `${turn} × ${micro} ÷ ${way}`, steps: (turn * micro) / way };
+    : { words: `${turn} × ${micro} ÷ ${shown(way)}`, steps: (turn * micro) / way };
 }

@@ -77,7 +77,7 @@ export function ConsolePage() {
         <div class="log-lines" role="log" aria-label={say('console.log')} tabIndex={0}>
           {lines.length === 0 && <p class="dim">{say(sought.value === '' ? 'console.empty' : 'console.nothing')}</p>}
           {lines.map((line) => (
-            <div class={`log-line ${line.kind}`} key={line.id}>
+            <div class={`log-line ${line.kind === 'state' ? '' : line.kind}`} key={line.id}>
               <time>{line.at.toLocaleTimeString(language.value)}</time>
               <Icon name={icons[line.kind]} />
               <span>{line.words}</span>

@@ -237,18 +237,18 @@ export function FilesPage() {
             ))}
           </ul>
         </section>
-        {keeps.value === false && <p class="dim">{say('files.history.off')}</p>}
+        {keeps.value === false && <p class="dim past">{say('files.history.off')}</p>}
         {keeps.value === true && (
           <>
-            <section class="panel" aria-label={say('files.queued')}>
+            <section class="panel past" aria-label={say('files.queued')}>
               <h2>{say('files.queued')}</h2>
               <JobList jobs={queue.value} none={say('files.queued.none')} queued={true} />
             </section>
-            <section class="panel" aria-label={say('files.history')}>
+            <section class="panel past" aria-label={say('files.history')}>
               <h2>{say('files.history')}</h2>
               <JobList jobs={ended.value} none={say('files.history.none')} queued={false} />
             </section>
-            <section class="panel" aria-label={say('files.alarms')}>
+            <section class="panel past" aria-label={say('files.alarms')}>
               <h2>{say('files.alarms')}</h2>
               {alarms.value.length === 0 && <p class="dim">{say('files.alarms.none')}</p>}
               <ul class="jobs">

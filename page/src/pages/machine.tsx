@@ -1,6 +1,6 @@
 // The machine: what its file says, and its inputs now.
 import { say, type Key } from '../core/language';
-import { isRotary, lengthText, lengthUnit, placeText, speedText, speedUnit } from '../core/units';
+import { isRotary, lengthText, lengthUnit, perLength, placeText, smallUnit, speedText, speedUnit } from '../core/units';
 import type { MachineAxis } from '../machine/api';
 import { machine, status } from '../machine/connection';
 import { Tuning } from '../parts/tuning';
@@ -12,13 +12,16 @@ const columns: readonly [Key, (axis: MachineAxis) => string, (() => string)?][] 
   ['machine.travel', (axis) => placeText(axis.axis, axis.high - axis.low), lengthUnit],
   ['machine.speed', (axis) => speedText(axis.speed), speedUnit],
   ['machine.acceleration', (axis) => lengthText(axis.acceleration ?? 0, 1), () => `${lengthUnit()}/s²`],
-  ['machine.steps', (axis) => String(axis.steps_per_unit ?? ''), () => '1/mm'],
-  ['machine.step', (axis) => stepText(axis), () => 'µm'],
+  ['machine.steps', (axis) => stepsText(axis), () => `1/${lengthUnit()}`],
+  ['machine.step', (axis) => stepText(axis), smallUnit],
   ['machine.homes', (axis) => say(axis.homes ? 'machine.homes.yes' : 'machine.homes.no')],
 ];
 
-const stepText = (axis: MachineAxis): string =>
-  axis.steps_per_unit === undefined ? '' : (1000 / axis.steps_per_unit).toFixed(isRotary(axis.axis) ? 1 : 2);
+const stepsText = ({ axis, steps_per_unit: steps }: MachineAxis): string =>
+  steps === undefined ? '' : String(Number((isRotary(axis) ? steps : perLength(steps)).toPrecision(9)));
+// Thousandths of a unit: of a millimetre, an inch, a degree.
+const stepText = ({ axis, steps_per_unit: steps }: MachineAxis): string =>
+  steps === undefined ? '' : isRotary(axis) ? (1000 / steps).toFixed(1) : (1000 / perLength(steps)).toFixed(2);
 
 export function MachinePage() {
   const known = machine.value;

@@ -5,7 +5,7 @@ import { useEffect, useRef } from 'preact/hooks';
 import { language, say, type Key } from '../core/language';
 import { toldOr } from '../core/told';
 import { confirm } from '../core/question';
-import { fromMm, isRotary, lengthUnit, toMm, units } from '../core/units';
+import { fromMm, isRotary, lengthUnit, perLength, smallUnit, toMm, units } from '../core/units';
 import { whyNot } from '../machine/actions';
 import { isLive, machine, status } from '../machine/connection';
 import {
@@ -19,7 +19,7 @@ interface Row {
   key: string; // of lengths; a rotary axis has the other
   rotary?: string;
   unit?: string; // after the length's unit
-  kind: 'plain' | 'length' | 'flag' | 'choice';
+  kind: 'plain' | 'length' | 'per length' | 'flag' | 'choice';
   at?: number; // of a list
   choices?: readonly string[];
 }
@@ -27,7 +27,7 @@ const rows: readonly Row[] = [
   { title: 'file.turn', key: 'steps_per_turn', kind: 'plain' },
   { title: 'file.micro', key: 'microsteps', kind: 'plain' },
   { title: 'file.pitch', key: 'screw_pitch_mm', rotary: 'gear_ratio', kind: 'length' },
-  { title: 'file.direct', key: 'steps_per_mm', rotary: 'steps_per_deg', kind: 'plain' },
+  { title: 'file.direct', key: 'steps_per_mm', rotary: 'steps_per_deg', kind: 'per length' },
   { title: 'machine.from', key: 'travel_mm', rotary: 'travel_deg', kind: 'length', at: 0 },
   { title: 'machine.to', key: 'travel_mm', rotary: 'travel_deg', kind: 'length', at: 1 },
   { title: 'machine.speed', key: 'max_velocity_mm_s', rotary: 'max_velocity_deg_s', kind: 'length', unit: '/s' },
@@ -44,7 +44,8 @@ const rows: readonly Row[] = [
 ];
 const guided = (path: string): boolean => /^axis\.[A-Z]\./.test(path) && rows.some((row) => [row.key, row.rotary].includes(path.slice(7)));
 
-const digits = (value: number): string => String(Number(value.toPrecision(9)));
+// Inches have as many digits as their millimetres need.
+const digits = (value: number): string => String(Number(value.toPrecision(units.value === 'inch' ? 6 : 9)));
 const readNumber = (text: string): number | undefined => {
   const plain = text.trim().replace(',', '.');
   return /^[-+]?(\d+\.?\d*|\.\d+)(e[-+]?\d+)?$/i.test(plain) ? Number(plain) : undefined;
@@ -86,8 +87,9 @@ function Field({ label, path, kind, at, choices }: FieldProps) {
   if (typeof value === 'string') {
     return <input type="text" {...shared} value={value} onChange={(event) => set(event.currentTarget.value)} />;
   }
-  const isLength = kind === 'length';
-  const text = Array.isArray(value) ? value.join(', ') : value === undefined ? '' : digits(isLength ? fromMm(value) : value);
+  const shown = kind === 'length' ? fromMm : kind === 'per length' ? perLength : (one: number) => one;
+  const read = kind === 'length' ? toMm : kind === 'per length' ? fromMm : (one: number) => one;
+  const text = Array.isArray(value) ? value.join(', ') : value === undefined ? '' : digits(shown(value));
   return (
     <input
       type="text"
@@ -102,7 +104,7 @@ function Field({ label, path, kind, at, choices }: FieldProps) {
           if (list.every((one) => one !== undefined)) return set(list);
         } else {
           const number = readNumber(field.value);
-          if (number !== undefined) return set(isLength ? Number(toMm(number).toPrecision(9)) : number);
+          if (number !== undefined) return set(Number(read(number).toPrecision(9)));
         }
         field.value = text; // no number: as it was
       }}
@@ -137,14 +139,14 @@ function AxesTable({ axes }: { axes: readonly string[] }) {
                       <Field
                         label={`${axis} ${say(row.title)}`}
                         path={`axis.${axis}.${rotary ? (row.rotary ?? row.key) : row.key}`}
-                        kind={rotary && row.kind === 'length' ? 'plain' : row.kind}
+                        kind={rotary && row.kind.endsWith('length') ? 'plain' : row.kind}
                         at={row.at}
                         choices={row.choices}
                       />
                     </td>
                   );
                 })}
-                <td class="unit">{row.kind === 'length' ? `${lengthUnit()}${row.unit ?? ''}` : ''}</td>
+                <td class="unit">{row.kind === 'length' ? `${lengthUnit()}${row.unit ?? ''}` : row.kind === 'per length' ? `1/${lengthUnit()}` : ''}</td>
               </tr>
               {i === 3 && <ScaleRow axes={axes} />}
             </Fragment>
@@ -162,17 +164,17 @@ function ScaleRow({ axes }: { axes: readonly string[] }) {
       <th scope="row">{say('file.scale')}</th>
       {axes.map((axis) => {
         const rotary = isRotary(axis.toLowerCase());
-        const scale = scaleOf(values.value, axis, rotary);
+        const scale = scaleOf(values.value, axis, rotary, (mm) => digits(fromMm(mm)));
         if (scale === undefined) return <td key={axis}>–</td>;
         return (
           <td key={axis} data-testid={`scale-${axis}`}>
-            <span class="dim">{scale.words} =</span> <b>{digits(scale.steps)}</b>
+            <span class="dim">{scale.words} =</span> <b>{digits(rotary ? scale.steps : perLength(scale.steps))}</b>
             <br />
-            <span class="dim">{say('file.one', { step: rotary ? `${(1 / scale.steps).toPrecision(3)}°` : `${(1000 / scale.steps).toPrecision(3)} µm` })}</span>
+            <span class="dim">{say('file.one', { step: rotary ? `${(1 / scale.steps).toPrecision(3)}°` : `${(1000 / perLength(scale.steps)).toPrecision(3)} ${smallUnit()}` })}</span>
           </td>
         );
       })}
-      <td class="unit">{say('file.steps.unit')}</td>
+      <td class="unit">{say('file.steps.unit', { unit: lengthUnit() })}</td>
     </tr>
   );
 }

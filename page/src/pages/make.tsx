@@ -2,13 +2,14 @@
 import { useEffect } from 'preact/hooks';
 import { say } from '../core/language';
 import { goTo } from '../core/route';
+import { lengthUnit } from '../core/units';
 import { isLive } from '../machine/connection';
 import { clearDrawings, make, madeCount, refreshMake } from '../machine/maker';
 import { token } from '../machine/token';
 import { Button } from '../parts/button';
 import { DropZone } from '../parts/drop_zone';
 import { Choice } from '../parts/view_dialog';
-import { forms, type Field, type Form } from './make_forms';
+import { forms, usualOf, withUnit, type Field, type Form } from './make_forms';
 import { BoardLayers, BoardSteps } from './make_board';
 import { ask, fieldsOf, formNow, isOwn, job, layers, partsOf, pick, picked, set, takeDrawings, valuesOf } from './make_order';
 
@@ -62,7 +63,7 @@ function OneField({ form, field }: { form: Form; field: Field }) {
     return (
       <label class="make-field">
         <span class="dim">{say(field.title)}</span>
-        <input type="text" value={words} placeholder={field.usual ?? ''} onInput={(event) => set(form, field.option, event.currentTarget.value.trim())} />
+        <input type="text" value={words} placeholder={usualOf(field)} onInput={(event) => set(form, field.option, event.currentTarget.value.trim())} onChange={(event) => set(form, field.option, withUnit(field, event.currentTarget.value.trim()))} />
       </label>
     );
   }
@@ -72,7 +73,7 @@ function OneField({ form, field }: { form: Form; field: Field }) {
     <label class="make-field">
       <span class="dim">{say(field.title)}</span>
       <select value={words} onChange={(event) => set(form, field.option, event.currentTarget.value)}>
-        <option value="">{say('make.usual')}</option>
+        <option value="">{say(field.without ?? 'make.usual')}</option>
         {choices.map(([one, title]) => (
           <option key={one} value={one}>
             {title}
@@ -158,7 +159,7 @@ export function MakePage() {
               <Fields form={part} fields={fieldsOf(part).filter((field) => isOwn(form, field))} />
             </details>
           ))}
-          <p class="dim">{say('make.lengths')}</p>
+          <p class="dim">{say('make.lengths', { unit: lengthUnit() })}</p>
         </section>
         {form.job === 'board' && <BoardLayers />}
       </div>

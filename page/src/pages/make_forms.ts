@@ -1,5 +1,6 @@
 // The jobs of `passo cam` as forms. A field that is left empty takes the default, which stands in it.
 import type { Key } from '../core/language';
+import { fromMm, lengthUnit } from '../core/units';
 
 export interface Field {
   option: string;
@@ -7,6 +8,7 @@ export interface Field {
   kind: 'text' | 'flag' | 'choice' | 'file';
   usual?: string;
   choices?: readonly (readonly [string, Key])[];
+  without?: Key; // what counts where nothing is chosen
 }
 export interface Form {
   job: string;
@@ -22,13 +24,13 @@ export interface Form {
 
 const text = (option: string, title: Key, usual = ''): Field => ({ option, title, kind: 'text', usual });
 const flag = (option: string, title: Key): Field => ({ option, title, kind: 'flag' });
-const choice = (option: string, title: Key, choices: readonly (readonly [string, Key])[]): Field => ({ option, title, kind: 'choice', choices });
-const mirror = choice('mirror', 'make.mirror', [['x', 'make.mirror.x'], ['y', 'make.mirror.y']]);
-const zero = choice('zero', 'make.zero', [['lower-left', 'make.zero.low']]);
+const choice = (option: string, title: Key, without: Key, choices: readonly (readonly [string, Key])[]): Field => ({ option, title, kind: 'choice', without, choices });
+const mirror = choice('mirror', 'make.mirror', 'make.mirror.not', [['x', 'make.mirror.x'], ['y', 'make.mirror.y']]);
+const zero = choice('zero', 'make.zero', 'make.zero.drawn', [['lower-left', 'make.zero.low']]);
 const ends = [text('clearance', 'make.clearance', '2mm'), text('spindle', 'make.spindle', '12000'), zero, mirror];
 const milled = [text('feed', 'make.feed', '200mm'), text('plunge-feed', 'make.plunge', '60mm'), ...ends, flag('conventional', 'make.conventional')];
-const units = choice('units', 'make.units', [['cm', 'make.units.cm'], ['inch', 'make.units.inch']]);
-const input = choice('input', 'make.input', [['mm', 'make.units.mm'], ['cm', 'make.units.cm'], ['inch', 'make.units.inch']]);
+const units = choice('units', 'make.units', 'make.units.mm', [['cm', 'make.units.cm'], ['inch', 'make.units.inch']]);
+const input = choice('input', 'make.input', 'make.as.file', [['mm', 'make.units.mm'], ['cm', 'make.units.cm'], ['inch', 'make.units.inch']]);
 const seldom = [units, input, text('scale', 'make.scale'), text('mirror-at', 'make.mirror.at'), text('align', 'make.align.holes'), text('park', 'make.park', '0,0')];
 const join = text('join', 'make.join', '0.1mm');
 const sheet = text('sheet', 'make.sheet');
@@ -53,7 +55,7 @@ export const forms: readonly [Form, ...Form[]] = [
     title: 'make.profile',
     files: drawings,
     fields: [
-      choice('side', 'make.side', [['outside', 'make.side.outside'], ['inside', 'make.side.inside'], ['on', 'make.side.on']]),
+      choice('side', 'make.side', 'make.side.part', [['outside', 'make.side.outside'], ['inside', 'make.side.inside'], ['on', 'make.side.on']]),
       text('tool', 'make.tool', '2mm'),
       ...cutOut,
       layer,
@@ -83,9 +85,9 @@ export const forms: readonly [Form, ...Form[]] = [
     withoutFiles: 'text',
     fields: [
       text('text', 'make.text'),
-      { option: 'font', title: 'make.font', kind: 'file', choices: [['simplex', 'make.font.simplex']] },
+      { option: 'font', title: 'make.font', kind: 'file', without: 'make.font.usual', choices: [['simplex', 'make.font.simplex']] },
       text('height', 'make.letters', '10mm'),
-      choice('text-align', 'make.align', [['middle', 'make.align.middle'], ['right', 'make.align.right']]),
+      choice('text-align', 'make.align', 'make.align.left', [['middle', 'make.align.middle'], ['right', 'make.align.right']]),
       text('around', 'make.around'),
       text('angle', 'make.angle', '60'),
       text('tip', 'make.tip', '0mm'),
@@ -96,7 +98,7 @@ export const forms: readonly [Form, ...Form[]] = [
     ],
     more: [
       flag('on-line', 'make.on.line'),
-      choice('inlay', 'make.inlay', [['pocket', 'make.inlay.pocket'], ['plug', 'make.inlay.plug']]),
+      choice('inlay', 'make.inlay', 'make.inlay.none', [['pocket', 'make.inlay.pocket'], ['plug', 'make.inlay.plug']]),
       text('inlay-depth', 'make.inlay.depth', '4mm'),
       text('glue-gap', 'make.inlay.glue', '0.5mm'),
       text('saw-gap', 'make.inlay.saw', '1mm'),
@@ -131,7 +133,7 @@ export const forms: readonly [Form, ...Form[]] = [
       text('mill-step', 'make.step', '0.5mm'),
       text('mill-feed', 'make.mill.feed', '150mm'),
       text('align-drill', 'make.align.drill', '3mm'),
-      choice('zeros', 'make.zeros', [['leading', 'make.zeros.leading'], ['trailing', 'make.zeros.trailing']]),
+      choice('zeros', 'make.zeros', 'make.as.file', [['leading', 'make.zeros.leading'], ['trailing', 'make.zeros.trailing']]),
       layer,
       ...seldom,
     ],
@@ -147,7 +149,7 @@ export const forms: readonly [Form, ...Form[]] = [
       text('passes', 'make.passes', '1'),
       text('width', 'make.free'),
       flag('clear', 'make.clear'),
-      { option: 'edge', title: 'make.edge', kind: 'file' },
+      { option: 'edge', title: 'make.edge', kind: 'file', without: 'make.edge.none' },
       ...milled,
     ],
     more: [flag('voronoi', 'make.voronoi'), text('overlap', 'make.overlap', '50'), text('tolerance', 'make.tolerance.copper', '0.004mm'), layer, ...seldom],
@@ -168,7 +170,7 @@ export const forms: readonly [Form, ...Form[]] = [
     title: 'make.board',
     files: '.zip,.gbr,.gtl,.gbl,.gko,.gm1,.gts,.gbs,.gto,.gbo,.gtp,.gbp,.top,.bot,.drl,.xln,.exc,.txt,.kicad_pcb',
     fields: [
-      choice('turn', 'make.mirror', [['x', 'make.mirror.x'], ['y', 'make.mirror.y']]),
+      choice('turn', 'make.mirror', 'make.mirror.x', [['y', 'make.mirror.y']]),
       text('margin', 'make.board.margin', '10mm'),
       text('pins', 'make.board.pins', '5mm'),
       flag('probe-holes', 'make.board.probe'),
@@ -185,8 +187,7 @@ export const forms: readonly [Form, ...Form[]] = [
       text('width', 'make.width', '100mm'),
       text('depth', 'make.relief.depth', '3mm'),
       text('cutter', 'make.cutter', 'ball:3'),
-      choice('way', 'make.way', [
-        ['rows', 'make.way.rows'],
+      choice('way', 'make.way', 'make.way.rows', [
         ['columns', 'make.way.columns'],
         ['both', 'make.way.both'],
         ['spiral', 'make.way.spiral'],
@@ -204,22 +205,22 @@ export const forms: readonly [Form, ...Form[]] = [
     ],
     more: [
       text('length', 'make.length'),
-      choice('origin', 'make.zero', [['lower-right', 'make.origin.lower.right'], ['upper-left', 'make.origin.upper.left'], ['upper-right', 'make.origin.upper.right'], ['center', 'make.origin.center']]),
+      choice('origin', 'make.zero', 'make.zero.low', [['lower-right', 'make.origin.lower.right'], ['upper-left', 'make.origin.upper.left'], ['upper-right', 'make.origin.upper.right'], ['center', 'make.origin.center']]),
       text('gamma', 'make.gamma', '1'),
-      choice('channel', 'make.channel', [['alpha', 'make.channel.alpha']]),
+      choice('channel', 'make.channel', 'make.channel.luminance', [['alpha', 'make.channel.alpha']]),
       text('margin', 'make.rim', '0mm'),
-      choice('margin-level', 'make.rim.level', [['top', 'make.rim.top']]),
+      choice('margin-level', 'make.rim.level', 'make.rim.bottom', [['top', 'make.rim.top']]),
       text('pitch', 'make.pitch'),
       text('step', 'make.rows.step'),
       text('steep', 'make.steep', '45'),
-      choice('moves', 'make.moves', [['lines', 'make.moves.lines']]),
+      choice('moves', 'make.moves', 'make.moves.arcs', [['lines', 'make.moves.lines']]),
       text('removal', 'make.removal'),
       text('feed-most', 'make.feed.most'),
       text('tolerance', 'make.tolerance', '0.01mm'),
       text('overrun', 'make.overrun'),
-      choice('entry', 'make.entry', [['plunge', 'make.entry.plunge']]),
+      choice('entry', 'make.entry', 'make.entry.ramp', [['plunge', 'make.entry.plunge']]),
       text('ramp-angle', 'make.ramp', '5'),
-      choice('rough-way', 'make.rough.way', [['offsets', 'make.rough.way.offsets']]),
+      choice('rough-way', 'make.rough.way', 'make.way.rows', [['offsets', 'make.rough.way.offsets']]),
       text('rough-step', 'make.rough.step'),
       text('rough-down', 'make.rough.down', '2mm'),
       text('rough-stock', 'make.rough.stock', '0.3mm'),
@@ -237,8 +238,8 @@ export const forms: readonly [Form, ...Form[]] = [
     files: `${drawings},.dat`,
     most: 2,
     fields: [
-      choice('axes', 'make.wire.axes', [['XY', 'make.wire.xy'], ['XYUV', 'make.wire.xyuv']]),
-      choice('keep', 'make.wire.keep', [['outside', 'make.side.outside'], ['line', 'make.side.on']]),
+      choice('axes', 'make.wire.axes', 'make.wire.axes.needed', [['XY', 'make.wire.xy'], ['XYUV', 'make.wire.xyuv']]),
+      choice('keep', 'make.wire.keep', 'make.side.inside', [['outside', 'make.side.outside'], ['line', 'make.side.on']]),
       text('kerf', 'make.wire.kerf', '1mm'),
       text('feed', 'make.feed', '200mm'),
       text('most-feed', 'make.wire.most'),
@@ -255,6 +256,28 @@ export const forms: readonly [Form, ...Form[]] = [
     more: [text('block-at', 'make.wire.block.at'), text('tolerance', 'make.tolerance', '0.01mm'), join, layer, units, input, text('scale', 'make.scale')],
   },
 ];
+
+// Texts that are no lengths. Cutters are lengths within words: they have their units themselves.
+const noLengths = new Set([
+  'text', 'layer', 'angle', 'arc', 'turn', 'line-space', 'spindle', 'tabs', 'ramp', 'ramp-angle', 'step-over', 'engagement', 'overlap', 'passes',
+  'gamma', 'scale', 'steep', 'removal', 'rough-removal', 'rest-removal', 'v', 'cutter', 'rough', 'rest', 'heights', 'right-turn', 'heat',
+]);
+const isLength = (field: Field): boolean => field.kind === 'text' && !noLengths.has(field.option);
+const bare = /^[-+]?(\d+\.?\d*|\.\d+|\d+\/\d+)$/;
+
+// Bare numbers are in the unit of the page. They are sent with it, and keep it where the page shows another one later.
+export function withUnit<T extends string | boolean>(field: Field, value: T): T | string {
+  if (typeof value !== 'string' || !isLength(field)) return value;
+  return value
+    .split(',')
+    .map((one) => (bare.test(one.trim()) ? `${one.trim()}${lengthUnit()}` : one.trim()))
+    .join(',');
+}
+// What counts where nothing is filled in, in the unit of the page.
+export function usualOf({ usual = '' }: Field): string {
+  const mm = /^(-?[\d.]+)mm$/.exec(usual)?.[1];
+  return mm === undefined || lengthUnit() === 'mm' ? usual : `${Number(fromMm(Number(mm)).toPrecision(3))}${lengthUnit()}`;
+}
 
 const kindOf = (name: string): string => (/\.[a-z0-9_]+$/i.exec(name)?.[0] ?? '').toLowerCase();
 const takes = (form: Form, kind: string): boolean => kind !== '' && form.files.split(',').includes(kind);

@@ -6,6 +6,7 @@ import { isLive } from '../machine/connection';
 import { draft, setValues, values } from '../machine/machine_file';
 import { tune, tunedCount, tuning, type Tuning as Report } from '../machine/studies';
 import { token } from '../machine/token';
+import { fromMm, isRotary, lengthUnit } from '../core/units';
 import { Button } from './button';
 import { Slider } from './slider';
 
@@ -54,14 +55,18 @@ function Proposal({ report }: { report: Report }) {
                 <th scope="row">{say(`tune.${limit}`)}</th>
                 {report.axes.map((one) => {
                   const set = report.values.find((value) => value.key.startsWith(`axis.${one.axis}.${limit}`));
+                  const shown = (value: number): string => short(isRotary(one.axis.toLowerCase()) ? value : fromMm(value));
                   return (
                     <td key={one.axis}>
-                      {set !== undefined && <span class="dim">{short(set.before)} → </span>}
-                      <b>{set === undefined ? '–' : short(set.after)}</b>
+                      {set !== undefined && <span class="dim">{shown(set.before)} → </span>}
+                      <b>{set === undefined ? '–' : shown(set.after)}</b>
                     </td>
                   );
                 })}
-                <td class="unit">mm{unit}</td>
+                <td class="unit">
+                  {lengthUnit()}
+                  {unit}
+                </td>
               </tr>
             ))}
             <tr>

@@ -1,0 +1,56 @@
+// The forms of Make: what a person types, and what is sent.
+import { afterEach, describe, expect, it } from 'vitest';
+import { units } from '../src/core/units';
+import { formFor, forms, usualOf, withUnit, type Field } from '../src/pages/make_forms';
+import { fieldsOf } from '../src/pages/make_order';
+
+const field = (job: string, option: string): Field => {
+  const form = forms.find((one) => one.job === job);
+  const found = form === undefined ? undefined : fieldsOf(form).find((one) => one.option === option);
+  if (found === undefined) throw new Error(`${job} has no ${option}`);
+  return found;
+};
+
+afterEach(() => (units.value = 'mm'));
+
+describe('a length', () => {
+  it('that has no unit is in the unit of the page, each of a list', () => {
+    expect(withUnit(field('profile', 'depth'), '-1.5')).toBe('-1.5mm');
+    units.value = 'inch';
+    expect(withUnit(field('profile', 'depth'), '-.06')).toBe('-.06in');
+    expect(withUnit(field('profile', 'tool'), '1/8')).toBe('1/8in');
+    expect(withUnit(field('isolate', 'tool'), '0.04, 0.2mm')).toBe('0.04in,0.2mm');
+    expect(withUnit(field('profile', 'depth'), '')).toBe('');
+  });
+  it('keeps the unit that it has', () => {
+    units.value = 'inch';
+    expect(withUnit(field('profile', 'depth'), '-30mil')).toBe('-30mil');
+  });
+  it('stands in the unit of the page where nothing is filled in', () => {
+    expect(usualOf(field('profile', 'tool'))).toBe('2mm');
+    units.value = 'inch';
+    expect(usualOf(field('profile', 'tool'))).toBe('0.0787in');
+    expect(usualOf(field('profile', 'spindle'))).toBe('12000');
+  });
+});
+
+describe('what is no length', () => {
+  it('gets no unit', () => {
+    units.value = 'inch';
+    for (const [job, option] of [['profile', 'spindle'], ['profile', 'tabs'], ['engrave', 'text'], ['engrave', 'angle'], ['relief', 'cutter'], ['relief', 'removal'], ['pocket', 'step-over']] as const) {
+      expect(withUnit(field(job, option), '12')).toBe('12');
+    }
+    expect(withUnit(field('profile', 'dog-bones'), true)).toBe(true);
+  });
+});
+
+describe('files', () => {
+  it('lead to the form that takes them', () => {
+    const [first] = forms;
+    expect(formFor(['a.svg'], first).job).toBe('profile');
+    expect(formFor(['a.drl'], first).job).toBe('drill');
+    expect(formFor(['a.gtl', 'a.drl'], first).job).toBe('board');
+    expect(formFor(['a.png'], first).job).toBe('relief');
+    expect(formFor(['wing.dat'], first).job).toBe('wire');
+  });
+});
