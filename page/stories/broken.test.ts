@@ -117,7 +117,36 @@ describe('a job that was broken off', () => {
   });
 });
 
+const lap = 'G21 G90\nF900\no1 repeat [3]\nG1 X20\nG1 X0\no1 endrepeat\nM2\n';
+
 describe('a start amid a program', () => {
+  it('asks which time of a line is meant, and begins after a length, with the steps in inches', async () => {
+    const daemon = await Daemon.start({ machine });
+    const { page, context, errors } = await visit(browser, daemon, 'jog', { units: 'inch' });
+    await home(page, daemon);
+    await page.goto(`${daemon.address}#/files`);
+    await page.setInputFiles('input[type=file]', { name: 'lap.ngc', mimeType: 'text/plain', buffer: Buffer.from(lap) });
+    await expect.poll(() => page.getByTestId('verdict').innerText()).toContain('Good');
+    await page.goto(`${daemon.address}#/run`);
+    await page.locator('.text-line', { hasText: 'G1 X20' }).click();
+    await page.locator('.picked-line:visible').getByRole('button', { name: /Start at line 4/ }).click();
+    const question = page.getByRole('dialog');
+    await question.getByText('that line is done 3 times').waitFor();
+    expect(await question.getByRole('button', { name: 'Start' }).getAttribute('aria-disabled')).toBe('true');
+    await question.getByRole('textbox', { name: /^Which time/ }).fill('3');
+    await question.getByRole('textbox', { name: /^After the line/ }).fill('0.5');
+    await page.keyboard.press('Tab');
+    await question.locator('li').first().waitFor();
+    // Half an inch after X0.
+    await question.getByText('X0.5000').first().waitFor();
+    await agree(page, 'Start');
+    await daemon.until((status) => status.state === 'Run');
+    expect((await endOf(daemon)).x).toBeCloseTo(0, 3);
+    expect(errors).toEqual([]);
+    await context.close();
+    await daemon.end();
+  });
+
   it('shows each step before the machine makes it', async () => {
     const daemon = await Daemon.start({ machine });
     const { page, context, errors } = await visit(browser, daemon, 'jog');

@@ -83,6 +83,34 @@ describe('the machine file', () => {
   });
 });
 
+describe('usual values of the work', () => {
+  it('are written into the machine file, and count in Make', async () => {
+    const { page, context, errors } = await visit(browser, daemon, 'machine', { language: 'it' });
+    await page.getByTestId('scale-X').waitFor();
+    await enter(page, 'Altezza dei rapidi sopra il pezzo', '-7');
+    // Refused, in the language of the page.
+    await page.getByText('work.clearance_mm vale -7').waitFor();
+    await enter(page, 'Altezza dei rapidi sopra il pezzo', '7');
+    await enter(page, 'Profondità di lavoro', '-2,5');
+    await click(page, 'Scrivi il file');
+    await agree(page, 'Scrivi il file');
+    await expect.poll(() => readFileSync(machine, 'utf8')).toContain('[work]\nclearance_mm = 7\ndepth_mm = -2.5');
+    await page.goto(`${daemon.address}#/make`);
+    await page.getByRole('radio', { name: 'Forare' }).check({ force: true });
+    expect(await page.getByRole('textbox', { name: 'Altezza dei rapidi' }).getAttribute('placeholder')).toBe('7mm');
+    const holes = 'M48\nMETRIC\nT1C0.800\n%\nT1\nX10.0Y10.0\nM30\n';
+    await page.setInputFiles('input[type=file]', { name: 'work.drl', mimeType: 'text/plain', buffer: Buffer.from(holes) });
+    await expect.poll(async () => JSON.stringify(await daemon.get('/programs'))).toContain('work-drill.ngc');
+    const { programs } = await daemon.get<{ programs: { id: number; name: string }[] }>('/programs');
+    const id = programs.find((one) => one.name === 'work-drill.ngc')?.id;
+    const text = await (await fetch(`${daemon.address}api/v1/programs/${id}/text`)).text();
+    expect(text).toContain('Z7');
+    expect(text).toContain('Z-2.5');
+    expect(errors).toEqual([]);
+    await context.close();
+  });
+});
+
 describe('inputs and outputs', () => {
   it('are live, and outputs are switched in the set-up mode only', async () => {
     const { page, context, errors } = await visit(browser, daemon, 'pins');

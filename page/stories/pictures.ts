@@ -37,24 +37,23 @@ async function startFrom(page: import('playwright-core').Page, daemon: Daemon): 
 
 // The holes of an example board.
 async function make(page: import('playwright-core').Page): Promise<void> {
-  if ((await page.getByRole('checkbox', { name: 'timer.drl' }).count()) === 0) {
-    await page.setInputFiles('input[type=file]', example('boards/timer.drl'));
-  } else {
-    await page.getByRole('checkbox', { name: 'timer.drl' }).check();
-  }
+  const known = page.getByRole('checkbox', { name: 'timer.drl' });
+  if ((await known.count()) === 0) await page.setInputFiles('input[type=file]', example('boards/timer.drl'));
+  else await known.check();
   await page.locator('.make-result img').waitFor({ timeout: patience });
   await sleep(300);
 }
 
 // What to do when, for a whole board.
-async function board(page: import('playwright-core').Page, daemon: Daemon): Promise<void> {
-  await page.goto(`${daemon.address}#/make`);
+async function board(browser: import('playwright-core').Browser, daemon: Daemon): Promise<void> {
+  const { page, context } = await visit(browser, daemon, 'make', { theme: 'light', size: { width: 1440, height: 900 } });
   await page.getByRole('radio', { name: 'A whole circuit board' }).check({ force: true });
   await page.setInputFiles('input[type=file]', ['timer-B_Cu.gbr', 'timer-Edge_Cuts.gbr', 'timer.drl'].map((name) => example(`boards/${name}`)));
   await page.getByRole('heading', { name: 'What to do when' }).waitFor({ timeout: patience });
   for (const picture of await page.locator('.board-step img').all()) await picture.evaluate((one) => one.setAttribute('loading', 'eager'));
   await sleep(2500);
   await page.screenshot({ path: join(folder, 'page-board.png'), timeout: patience });
+  await context.close();
 }
 
 // A strip of single pulses, while a program runs.
@@ -123,7 +122,6 @@ for (const theme of ['dark', 'light'] as const) {
       }
       await page.screenshot({ path: join(folder, `${path}-${theme}-${size.name}.png`), timeout: patience });
     }
-    if (size.name === 'wide' && theme === 'light' && pages.includes('make')) await board(page, daemon);
     if (size.name === 'wide' && pages.includes('run')) {
       await page.goto(`${daemon.address}#/run`);
       await startFrom(page, daemon);
@@ -136,6 +134,7 @@ for (const theme of ['dark', 'light'] as const) {
     }
     await context.close();
   }
+  if (theme === 'light' && pages.includes('make')) await board(browser, daemon);
   await daemon.end();
 }
 await sheets(browser);

@@ -32,15 +32,10 @@ constexpr NumberKey droop_key{"droop_percent", 0, 50, "3"};
 constexpr NumberKey ripple_key{"ripple_percent", 0, 50, "5"};
 constexpr NumberKey ripple_rate_key{"ripple_hz", 0.01, 1000, "2"};
 
-constexpr NumberKey silent_spindle_key{"spindle_off_after_s", 0, 25.5, "2"};
-constexpr NumberKey silent_mist_key{"mist_off_after_s", 0, 25.5, "2"};
-constexpr NumberKey silent_flood_key{"flood_off_after_s", 0, 25.5, "10"};
-constexpr NumberKey spindle_wait_key{"spindle_wait_s", 0, 1000, "5"};
 
 constexpr NumberKey turn_key{"steps_per_turn", 1, 1e6, "400"};
 constexpr NumberKey microsteps_key{"microsteps", 1, 1024, "16"};
 constexpr NumberKey motor_key{"motor", 0, most_motors - 1, "0"};
-
 constexpr std::string_view torque_table = "torque";
 constexpr std::string_view home_table = "home";
 constexpr std::string_view second_table = "second_motor";
@@ -101,6 +96,7 @@ class MachineReader {
   void read_probe(const TomlEntry& entry);
   void read_spindle(const TomlEntry& entry);
   void read_silence(const TomlEntry& entry);
+  void look_at_work(const TomlEntry& entry) const;
   void read_pins(const TomlEntry* inputs, const TomlEntry* outputs);
   void read_homing(const TomlEntry* entry);
   void read_axes(const TomlEntry& entry);
@@ -137,6 +133,7 @@ MachineDescription MachineReader::read() {
   const TomlEntry* probe = top.table("probe", "a table [probe]", Need::optional);
   const TomlEntry* spindle = top.table("spindle", "a table [spindle]", Need::optional);
   const TomlEntry* silence = top.table("silence", "a table [silence]", Need::optional);
+  const TomlEntry* work = top.table("work", "a table [work]", Need::optional);
   const TomlEntry* inputs = top.table("inputs", "a table [inputs]", Need::optional);
   const TomlEntry* outputs = top.table("outputs", "a table [outputs]", Need::optional);
   const TomlEntry* homing = top.table("homing", "a table [homing]", Need::optional);
@@ -147,6 +144,7 @@ MachineDescription MachineReader::read() {
   if (probe != nullptr) read_probe(*probe);
   if (spindle != nullptr) read_spindle(*spindle);
   if (silence != nullptr) read_silence(*silence);
+  if (work != nullptr) look_at_work(*work);
   read_pins(inputs, outputs);
   if (axes != nullptr) read_axes(*axes);
   read_homing(homing);
@@ -222,11 +220,13 @@ void MachineReader::read_spindle(const TomlEntry& entry) {
 
 void MachineReader::read_silence(const TomlEntry& entry) {
   TableReader reader(std::get<TomlTable>(entry.value.content), "silence", entry.place, reporter_);
-  SilenceDescription& silence = machine_.silence;
-  read_tenths(reader, silent_spindle_key, silence.spindle);
-  read_tenths(reader, silent_mist_key, silence.mist);
-  read_tenths(reader, silent_flood_key, silence.flood);
-  if (const auto wait = reader.number(spindle_wait_key, Need::optional)) silence.spindle_wait = Seconds(*wait);
+  passo::read_silence(reader, machine_.silence);
+  finish(reader);
+}
+
+void MachineReader::look_at_work(const TomlEntry& entry) const {
+  TableReader reader(std::get<TomlTable>(entry.value.content), "work", entry.place, reporter_);
+  check_work(reader);
   finish(reader);
 }
 

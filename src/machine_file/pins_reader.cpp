@@ -13,12 +13,32 @@ const char* const level_code = "machine.level";
 constexpr double shortest_silence = 0.5;
 
 constexpr NumberKey drivers_off_key{"drivers_off_after_s", 0, 25.5, "20"};
+constexpr NumberKey silent_spindle_key{"spindle_off_after_s", 0, 25.5, "2"};
+constexpr NumberKey silent_mist_key{"mist_off_after_s", 0, 25.5, "2"};
+constexpr NumberKey silent_flood_key{"flood_off_after_s", 0, 25.5, "10"};
+constexpr NumberKey spindle_wait_key{"spindle_wait_s", 0, 1000, "5"};
+constexpr NumberKey clearance_key{"clearance_mm", 0.01, 1000, "5"};
+constexpr NumberKey depth_key{"depth_mm", -1000, -0.001, "-2"};
 
 void read_high(TableReader& reader, std::string_view key, bool& is_high) {
   is_high = reader.is_second_of(level_code, key, "low", "high", Need::optional).value_or(false);
 }
 void read_low(TableReader& reader, std::string_view key, bool& is_low) {
   is_low = reader.is_second_of(level_code, key, "high", "low", Need::optional).value_or(false);
+}
+
+// A time after which a silent host's outputs end: whole tenths of a second, or 0. Reports anything else.
+void read_tenths(TableReader& reader, const NumberKey& key, Seconds& time) {
+  const auto given = reader.number(key, Need::optional);
+  if (!given) return;
+  const double tenths = std::round(*given * 10);
+  const bool is_whole = std::abs(*given * 10 - tenths) < 1e-6;
+  if (*given != 0 && (*given < shortest_silence || !is_whole)) {
+    reader.error("machine.silence", key.name, fmt::format("{} = {:g}", reader.full_name(key.name), *given),
+                 fmt::format("{:g} to {:g} seconds in whole tenths, or 0 for never", shortest_silence, key.most));
+    return;
+  }
+  time = Seconds(tenths / 10);
 }
 
 }  // namespace
@@ -55,17 +75,15 @@ void read_windings(TableReader& reader, BoardDescription& board) {
   }
 }
 
-void read_tenths(TableReader& reader, const NumberKey& key, Seconds& time) {
-  const auto given = reader.number(key, Need::optional);
-  if (!given) return;
-  const double tenths = std::round(*given * 10);
-  const bool is_whole = std::abs(*given * 10 - tenths) < 1e-6;
-  if (*given != 0 && (*given < shortest_silence || !is_whole)) {
-    reader.error("machine.silence", key.name, fmt::format("{} = {:g}", reader.full_name(key.name), *given),
-                 fmt::format("{:g} to {:g} seconds in whole tenths, or 0 for never", shortest_silence, key.most));
-    return;
-  }
-  time = Seconds(tenths / 10);
+void read_silence(TableReader& reader, SilenceDescription& silence) {
+  read_tenths(reader, silent_spindle_key, silence.spindle);
+  read_tenths(reader, silent_mist_key, silence.mist);
+  read_tenths(reader, silent_flood_key, silence.flood);
+  if (const auto wait = reader.number(spindle_wait_key, Need::optional)) silence.spindle_wait = Seconds(*wait);
+}
+
+void check_work(TableReader& reader) {
+  for (const NumberKey& key : {clearance_key, depth_key}) static_cast<void>(reader.number(key, Need::optional));
 }
 
 }  // namespace passo

@@ -1,4 +1,4 @@
-// Reads what a machine file says of the board's pins: [inputs], [outputs], and windings on pins.
+// Reads what a machine file says of the board's pins: [inputs], [outputs], windings on pins, and [silence]; and [work].
 #pragma once
 
 #include "table_reader.hpp"
@@ -11,7 +11,9 @@ void read_inputs(TableReader& reader, PinsDescription& pins);
 void read_outputs(TableReader& reader, PinsDescription& pins);
 void read_windings(TableReader& reader, BoardDescription& board);
 
-// A time after which a silent host's outputs end: whole tenths of a second, or 0. Reports anything else.
-void read_tenths(TableReader& reader, const NumberKey& key, Seconds& time);
+void read_silence(TableReader& reader, SilenceDescription& silence);
+
+// Usual values of the work, for the page. They are checked, and no motion depends on them.
+void check_work(TableReader& reader);
 
 }  // namespace passo

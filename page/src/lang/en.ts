@@ -398,6 +398,8 @@ export const en = {
   'file.home.latch': 'Measure',
   'file.home.off': 'Back off',
   'file.home.input': 'Limit input',
+  'file.clearance': 'Height of rapids above the work',
+  'file.depth': 'Working depth',
   'file.low': 'low',
   'file.high': 'high',
   'file.others': 'All other values ({count})',

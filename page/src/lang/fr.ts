@@ -385,6 +385,8 @@ export const fr: Words = {
   'file.home.latch': 'Mesure',
   'file.home.off': 'Dégagement',
   'file.home.input': 'Entrée de fin de course',
+  'file.clearance': 'Hauteur des rapides au-dessus de la pièce',
+  'file.depth': 'Profondeur d’usinage',
   'file.low': 'bas',
   'file.high': 'haut',
   'file.others': 'Toutes les autres valeurs ({count})',

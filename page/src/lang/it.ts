@@ -385,6 +385,8 @@ export const it: Words = {
   'file.home.latch': 'Misura',
   'file.home.off': 'Distacco',
   'file.home.input': 'Ingresso di finecorsa',
+  'file.clearance': 'Altezza dei rapidi sopra il pezzo',
+  'file.depth': 'Profondità di lavoro',
   'file.low': 'basso',
   'file.high': 'alto',
   'file.others': 'Tutti gli altri valori ({count})',

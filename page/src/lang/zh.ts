@@ -385,6 +385,8 @@ export const zh: Words = {
   'file.home.latch': '测量速度',
   'file.home.off': '退开距离',
   'file.home.input': '限位输入',
+  'file.clearance': '工件上方快移高度',
+  'file.depth': '加工深度',
   'file.low': '低端',
   'file.high': '高端',
   'file.others': '所有其他值（{count}）',

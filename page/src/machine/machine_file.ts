@@ -50,6 +50,17 @@ export const changes = computed<[string, Value | undefined, Value][]>(() => {
     .map(([path, value]) => [path, before[path], value]);
 });
 
+// Usual values of the work, as the file has them: undefined where it says nothing.
+export const usualClearance = computed(() => usualOf('work.clearance_mm'));
+export const usualDepth = computed(() => usualOf('work.depth_mm'));
+function usualOf(path: string): number | undefined {
+  const value = file.value?.values[path];
+  return typeof value === 'number' ? value : undefined;
+}
+export async function needFile(): Promise<void> {
+  if (file.peek() === null) await loadFile();
+}
+
 let asked = 0;
 
 async function show(step: Step): Promise<void> {

@@ -5,6 +5,7 @@ import { lengthText, lengthUnit } from '../core/units';
 import { moveAs } from './actions';
 import { machine } from './connection';
 import { runLine } from './console';
+import { needFile, usualClearance } from './machine_file';
 import { placeWords, workPlace } from './place';
 
 export async function makeZero(which: readonly string[]): Promise<void> {
@@ -17,9 +18,11 @@ export async function makeZero(which: readonly string[]): Promise<void> {
   if (yes) await moveAs('/work', { place: Object.fromEntries(which.map((axis) => [axis, 0])) });
 }
 
-const clearance = 5; // mm above the work's zero
+const otherwise = 5; // mm above the work's zero, where the machine file says nothing
 
 export async function goToZero(): Promise<void> {
+  await needFile();
+  const clearance = usualClearance.value ?? otherwise;
   const place = workPlace.value;
   const yes = await confirm({
     title: say('jog.goto.ask'),

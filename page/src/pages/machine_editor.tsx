@@ -42,7 +42,9 @@ const rows: readonly Row[] = [
   { title: 'file.home.off', key: 'home.pull_off_mm', rotary: 'home.pull_off_deg', kind: 'length' },
   { title: 'file.home.input', key: 'home.input', kind: 'plain' },
 ];
-const guided = (path: string): boolean => /^axis\.[A-Z]\./.test(path) && rows.some((row) => [row.key, row.rotary].includes(path.slice(7)));
+// Of the work, whatever the axis.
+const ofWork: readonly [string, Key][] = [['work.clearance_mm', 'file.clearance'], ['work.depth_mm', 'file.depth']];
+const guided = (path: string): boolean => path.startsWith('work.') || /^axis\.[A-Z]\./.test(path) && rows.some((row) => [row.key, row.rotary].includes(path.slice(7)));
 
 // Inches have as many digits as their millimetres need.
 const digits = (value: number): string => String(Number(value.toPrecision(units.value === 'inch' ? 6 : 9)));
@@ -179,6 +181,21 @@ function ScaleRow({ axes }: { axes: readonly string[] }) {
   );
 }
 
+function Work() {
+  return (
+    <div class="make-fields editor">
+      {ofWork.map(([path, title]) => (
+        <label key={path} class="make-field">
+          <span class="dim">
+            {say(title)} {lengthUnit()}
+          </span>
+          <Field label={say(title)} path={path} kind="length" />
+        </label>
+      ))}
+    </div>
+  );
+}
+
 function Others() {
   const paths = Object.keys(values.value).filter((path) => !guided(path));
   return (
@@ -307,6 +324,7 @@ export function MachineEditor() {
       </div>
       <Findings />
       {axes.length > 0 && <AxesTable axes={axes} />}
+      {axes.length > 0 && <Work />}
       {axes.length > 0 && <Others />}
       <details>
         <summary>{say('file.text')}</summary>

@@ -4,6 +4,7 @@ import { say } from '../core/language';
 import { goTo } from '../core/route';
 import { lengthUnit } from '../core/units';
 import { isLive } from '../machine/connection';
+import { needFile } from '../machine/machine_file';
 import { clearDrawings, make, madeCount, refreshMake } from '../machine/maker';
 import { token } from '../machine/token';
 import { Button } from '../parts/button';
@@ -124,7 +125,9 @@ function Result() {
 
 export function MakePage() {
   useEffect(() => {
-    if (isLive.value) void refreshMake();
+    if (!isLive.value) return;
+    void refreshMake();
+    void needFile();
   }, [isLive.value]);
   const form = formNow();
   return (

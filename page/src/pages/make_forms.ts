@@ -1,12 +1,14 @@
 // The jobs of `passo cam` as forms. A field that is left empty takes the default, which stands in it.
 import type { Key } from '../core/language';
 import { fromMm, lengthUnit } from '../core/units';
+import { usualClearance, usualDepth } from '../machine/machine_file';
 
 export interface Field {
   option: string;
   title: Key;
   kind: 'text' | 'flag' | 'choice' | 'file';
   usual?: string;
+  ofMachine?: 'clearance' | 'depth'; // the machine file may say otherwise
   choices?: readonly (readonly [string, Key])[];
   without?: Key; // what counts where nothing is chosen
 }
@@ -23,11 +25,14 @@ export interface Form {
 }
 
 const text = (option: string, title: Key, usual = ''): Field => ({ option, title, kind: 'text', usual });
+// Lengths that the machine file may have as its usual ones.
+const clearance = (usual: string): Field => ({ ...text('clearance', 'make.clearance', usual), ofMachine: 'clearance' });
+const depth = (usual: string): Field => ({ ...text('depth', 'make.depth', usual), ofMachine: 'depth' });
 const flag = (option: string, title: Key): Field => ({ option, title, kind: 'flag' });
 const choice = (option: string, title: Key, without: Key, choices: readonly (readonly [string, Key])[]): Field => ({ option, title, kind: 'choice', without, choices });
 const mirror = choice('mirror', 'make.mirror', 'make.mirror.not', [['x', 'make.mirror.x'], ['y', 'make.mirror.y']]);
 const zero = choice('zero', 'make.zero', 'make.zero.drawn', [['lower-left', 'make.zero.low']]);
-const ends = [text('clearance', 'make.clearance', '2mm'), text('spindle', 'make.spindle', '12000'), zero, mirror];
+const ends = [clearance('2mm'), text('spindle', 'make.spindle', '12000'), zero, mirror];
 const milled = [text('feed', 'make.feed', '200mm'), text('plunge-feed', 'make.plunge', '60mm'), ...ends, flag('conventional', 'make.conventional')];
 const units = choice('units', 'make.units', 'make.units.mm', [['cm', 'make.units.cm'], ['inch', 'make.units.inch']]);
 const input = choice('input', 'make.input', 'make.as.file', [['mm', 'make.units.mm'], ['cm', 'make.units.cm'], ['inch', 'make.units.inch']]);
@@ -38,7 +43,7 @@ const layer = text('layer', 'make.layer');
 
 // Of what is cut out along a line.
 const cutOut = [
-  text('depth', 'make.depth', '-1.8mm'),
+  depth('-1.8mm'),
   text('step', 'make.step', '0.5mm'),
   text('tabs', 'make.tabs', '0'),
   text('tab-width', 'make.tabs.width', '2mm'),
@@ -69,7 +74,7 @@ export const forms: readonly [Form, ...Form[]] = [
     files: drawings,
     fields: [
       text('tool', 'make.tool', '3mm'),
-      text('depth', 'make.depth', '-3mm'),
+      depth('-3mm'),
       text('step', 'make.layers', '1mm'),
       text('step-over', 'make.over', '40'),
       text('ramp', 'make.ramp', '5'),
@@ -119,7 +124,7 @@ export const forms: readonly [Form, ...Form[]] = [
     title: 'make.drill',
     files: '.drl,.xln,.exc,.txt,.dxf,.kicad_pcb',
     fields: [
-      text('depth', 'make.depth', '-2mm'),
+      depth('-2mm'),
       text('tools', 'make.tools'),
       text('drill', 'make.drill.one'),
       text('mill', 'make.drill.mill'),
@@ -200,7 +205,7 @@ export const forms: readonly [Form, ...Form[]] = [
       flag('mirror', 'make.relief.mirror'),
       text('feed', 'make.feed', '1000mm'),
       text('plunge', 'make.plunge', '300mm'),
-      text('clearance', 'make.clearance', '5mm'),
+      clearance('5mm'),
       text('spindle', 'make.spindle'),
     ],
     more: [
@@ -273,8 +278,14 @@ export function withUnit<T extends string | boolean>(field: Field, value: T): T 
     .map((one) => (bare.test(one.trim()) ? `${one.trim()}${lengthUnit()}` : one.trim()))
     .join(',');
 }
+// What the machine file says of it, as it is sent.
+export function ofMachine({ ofMachine: which }: Field): string | undefined {
+  const mm = which === 'clearance' ? usualClearance.value : which === 'depth' ? usualDepth.value : undefined;
+  return mm === undefined ? undefined : `${mm}mm`;
+}
 // What counts where nothing is filled in, in the unit of the page.
-export function usualOf({ usual = '' }: Field): string {
+export function usualOf(field: Field): string {
+  const usual = ofMachine(field) ?? field.usual ?? '';
   const mm = /^(-?[\d.]+)mm$/.exec(usual)?.[1];
   return mm === undefined || lengthUnit() === 'mm' ? usual : `${Number(fromMm(Number(mm)).toPrecision(3))}${lengthUnit()}`;
 }

@@ -2,7 +2,7 @@
 import { signal } from '@preact/signals';
 import { kept } from '../core/kept';
 import { make, order, sendDrawing, type Options } from '../machine/maker';
-import { formFor, forms, withUnit, type Field, type Form } from './make_forms';
+import { formFor, forms, ofMachine, withUnit, type Field, type Form } from './make_forms';
 
 type Values = Record<string, string | boolean>;
 const isTable = (value: unknown): value is Record<string, Values> => typeof value === 'object' && value !== null;
@@ -24,8 +24,8 @@ export const isOwn = (form: Form, field: Field): boolean => !(form.decides ?? []
 
 function optionsOf(form: Form, without: (field: Field) => boolean = () => false): Options {
   const values = valuesOf(form);
-  const filledIn = fieldsOf(form).filter((field) => !without(field) && values[field.option] !== undefined && values[field.option] !== '' && values[field.option] !== false);
-  return Object.fromEntries(filledIn.map((field) => [field.option, withUnit(field, values[field.option]!)]));
+  const all = fieldsOf(form).filter((field) => !without(field)).map((field) => [field, values[field.option] || ofMachine(field)] as const);
+  return Object.fromEntries(all.flatMap(([field, value]) => (value === undefined ? [] : [[field.option, withUnit(field, value)]])));
 }
 
 export function ask(form: Form): void {

@@ -63,6 +63,7 @@ TEST(MachineManual, explains_every_key_that_a_message_may_name_and_each_code) {
                             "[probe]\n",
                             "[spindle]\n",
                             "[silence]\n",
+                            "[work]\n",
                             "[homing]\n",
                             "[inputs]\n",
                             "[outputs]\n",

@@ -54,6 +54,14 @@ TEST(PinsFile, refuses_what_is_no_level) {
   EXPECT_THAT(codes_of_pins("[outputs]\nspindel = \"low\"\n"), testing::HasSubstr("perhaps spindle"));
 }
 
+TEST(WorkOfAMachine, has_usual_values_that_are_checked) {
+  Diagnostics none;
+  EXPECT_TRUE(parse_machine(std::string(sound_machine) + "[work]\nclearance_mm = 5\ndepth_mm = -2\n", "m.toml", none));
+  EXPECT_EQ(codes_of_pins("[work]\nclearance_mm = -5\n"), "machine.out-of-range a number from 0.01 to 1000\n");
+  EXPECT_EQ(codes_of_pins("[work]\ndepth_mm = 2\n"), "machine.out-of-range a number from -1000 to -0.001\n");
+  EXPECT_THAT(codes_of_pins("[work]\nclearence_mm = 5\n"), testing::HasSubstr("perhaps clearance_mm"));
+}
+
 TEST(PinsFile, tells_of_windings_on_the_pins_of_the_board) {
   std::string text = sound_machine;
   const std::string board = "[board]\n";
