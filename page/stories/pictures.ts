@@ -1,5 +1,5 @@
 // Pictures of each page, in both themes and two sizes: scripts/page_pictures.sh FOLDER
-import { existsSync, mkdirSync, readdirSync, readFileSync } from 'node:fs';
+import { copyFileSync, existsSync, mkdirSync, readdirSync, readFileSync } from 'node:fs';
 import { join } from 'node:path';
 import { Daemon, example, openBrowser, sleep, visit } from './kit';
 
@@ -24,6 +24,13 @@ async function prepare(daemon: Daemon): Promise<void> {
   await daemon.post(`/programs/${id}/check`, '');
   await sleep(1500);
   await fetch(`${daemon.address}api/v1/owner`, { method: 'DELETE', headers: { 'X-Passo-Key': key } });
+}
+
+// The program that is open: the newest one, unless somebody has chosen.
+async function choose(page: import('playwright-core').Page, daemon: Daemon, name: string): Promise<void> {
+  await page.goto(`${daemon.address}#/files`);
+  await page.locator('.file-row', { hasText: name }).click();
+  await page.mouse.move(0, 0);
 }
 
 async function startFrom(page: import('playwright-core').Page, daemon: Daemon): Promise<void> {
@@ -98,6 +105,9 @@ async function sheets(browser: import('playwright-core').Browser): Promise<void>
     await page.locator('body').screenshot({ path: join(folder, `page-${name}.jpg`), type: 'jpeg', quality: 82, timeout: patience });
   }
   await page.close();
+  for (const [one, name] of [['running-dark-wide', 'page-run'], ['probe-dark-wide', 'page-probe']] as const) {
+    if (existsSync(join(folder, `${one}.png`))) copyFileSync(join(folder, `${one}.png`), join(folder, `${name}.png`));
+  }
 }
 
 mkdirSync(folder, { recursive: true });
@@ -109,6 +119,7 @@ for (const theme of ['dark', 'light'] as const) {
     const density = size.name === 'phone' ? 2 : 1;
     const { page, context } = await visit(browser, daemon, pages[0] ?? 'run', { theme, size, density });
     for (const path of pages) {
+      if (path === 'run' || path === 'files') await choose(page, daemon, 'engrave.ngc');
       await page.goto(`${daemon.address}#/${path === 'probe' ? 'jog' : path}`);
       await sleep(900);
       if (path === 'make') await make(page);
@@ -123,6 +134,7 @@ for (const theme of ['dark', 'light'] as const) {
       await page.screenshot({ path: join(folder, `${path}-${theme}-${size.name}.png`), timeout: patience });
     }
     if (size.name === 'wide' && pages.includes('run')) {
+      await choose(page, daemon, 'engrave.ngc');
       await page.goto(`${daemon.address}#/run`);
       await startFrom(page, daemon);
       await sleep(300);

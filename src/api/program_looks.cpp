@@ -35,8 +35,10 @@ Json tools_json(const ProgramPath& path, const ToolTable& tools) {
   for (const ProgramPath::UsedTool& used : path.tools()) {
     const Tool* const tool = tools.find(used.number);
     const double diameter = tool == nullptr ? 0 : std::abs(tool->diameter.value());
-    list.push_back(
-        {{"tool", used.number}, {"diameter", diameter > 0 ? Json(diameter) : Json()}, {"zero_z", used.zero_z}});
+    list.push_back({{"tool", used.number},
+                    {"diameter", diameter > 0 ? Json(diameter) : Json()},
+                    {"zero_z", used.zero_z},
+                    {"feeds", used.feeds}});
   }
   return list;
 }

@@ -129,7 +129,7 @@ void ProgramPath::add(const PathItem& item) {
   const Coordinates zero = place_of(segment->work_zero);
   const std::uint32_t line = segment->source.line;
   const std::uint16_t speed = segment->rapid ? flag_rapid : speed_flags(segment->speed);
-  const auto flags = static_cast<std::uint16_t>(speed | tool_flags(zero[2]));
+  const auto flags = static_cast<std::uint16_t>(speed | tool_flags(zero[2], !segment->rapid));
   if (speed > flag_rapid) {
     speeds_.low = std::min(speeds_.low, segment->speed);
     speeds_.high = std::max(speeds_.high, segment->speed);
@@ -152,10 +152,11 @@ void ProgramPath::add(const PathItem& item) {
   }
 }
 
-std::uint16_t ProgramPath::tool_flags(double zero_z) {
+std::uint16_t ProgramPath::tool_flags(double zero_z, bool feeds) {
   auto found = std::ranges::find(tools_, tool_, &UsedTool::number);
   if (found == tools_.end() && tools_.size() < most_tools) found = tools_.insert(found, {tool_, zero_z});
   const auto index = std::min<std::size_t>(static_cast<std::size_t>(found - tools_.begin()), most_tools - 1);
+  tools_[index].feeds |= feeds;
   return static_cast<std::uint16_t>(index << 1U);
 }
 

@@ -32,7 +32,6 @@ constexpr NumberKey droop_key{"droop_percent", 0, 50, "3"};
 constexpr NumberKey ripple_key{"ripple_percent", 0, 50, "5"};
 constexpr NumberKey ripple_rate_key{"ripple_hz", 0.01, 1000, "2"};
 
-
 constexpr NumberKey turn_key{"steps_per_turn", 1, 1e6, "400"};
 constexpr NumberKey microsteps_key{"microsteps", 1, 1024, "16"};
 constexpr NumberKey motor_key{"motor", 0, most_motors - 1, "0"};

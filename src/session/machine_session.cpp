@@ -460,6 +460,9 @@ MachineStatus MachineSession::status() const {
   status.ahead = work_->ahead;
   status.activity = work_->activity->kind();
   status.progress = work_->activity->progress();
+  if (work_->whole > Seconds(0)) {
+    status.progress = std::min((work_->path->time() + work_->progress_ahead.at(now())) / work_->whole, 1.0);
+  }
   status.committed = drive.committed();
   status.outputs = drive.outputs();
   status.executes = work_->lines_ahead.at(now());

@@ -158,6 +158,7 @@ MachineSession::Answer MachineSession::take(request::Start& start) {
                                            *work->findings, start.nominal_time, std::move(start.known_probes));
   work->program = program.get();
   work->activity = std::move(program);
+  if (start.live) work->whole = start.nominal_time;
   work->watchers = std::move(start.watchers);
   DriveOptions options = drive_options();
   options.spindle_wait = machine_.silence.spindle_wait;
@@ -206,17 +207,26 @@ MachineSession::Answer MachineSession::take(request::DropLines&) {
 // Puts the work's activity on a drive, and connects all watchers.
 void MachineSession::put_on_drive(Work& work, const DriveOptions& options, bool knows_ahead) {
   AnswerBook& answers = work.lines != nullptr ? work.lines->answers() : work.answers;
-  work.drive =
-      std::make_unique<MotionDrive>(*work.activity, motion_limits(machine_), step_options(), board_, answers, options);
+  const MotionLimits limits = motion_limits(machine_);
+  work.path = std::make_unique<LeftOutTime>(*work.activity, limits, options.begin_at.value_or(PathPlace()).item);
+  work.drive = std::make_unique<MotionDrive>(*work.path, limits, step_options(), board_, answers, options);
   MotionDrive& drive = *work.drive;
   Watchers& watchers = work.watchers;
   work.ahead = position_.place;
   if (knows_ahead) {
-    drive.motion().watch([this, &work](const MotionItem& item) {
+    drive.motion().watch([this, &work, limits](const MotionItem& item) {
+      const Seconds end = now() + work.drive->committed();
       const auto* move = std::get_if<PlannedMove>(&item);
-      if (move == nullptr) return;
+      if (move == nullptr) {
+        const Seconds dwell = std::get<Action>(item).dwell;
+        if (dwell > Seconds(0)) work.progress_ahead.plan(dwell, end, end + dwell, now());
+        return;
+      }
+      const Seconds begins = end - move->duration();
       work.ahead = move->segment.tool_at(move->to);
-      work.lines_ahead.plan(move->segment.source, now() + work.drive->committed() - move->duration(), now());
+      work.lines_ahead.plan(move->segment.source, begins, now());
+      const double share = (move->to - move->from()) / move->segment.curve.length();
+      work.progress_ahead.plan(nominal_time_of(move->segment, limits) * share, begins, end, now());
     });
   }
   if (work.program != nullptr && watchers.operations) work.program->operations().watch(watchers.operations);

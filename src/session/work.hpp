@@ -6,6 +6,8 @@
 #include <optional>
 #include <utility>
 
+#include "progress_ahead.hpp"
+
 #include "passo/activity/homing_path.hpp"
 #include "passo/activity/program.hpp"
 #include "passo/drive/motion_drive.hpp"
@@ -67,10 +69,13 @@ class MachineSession::Work {
   OpenProgram* lines = nullptr;  // the program behind the activity, if it comes line by line
   bool drops = false;            // what is queued is being dropped
   HomingPath* homing = nullptr;
+  std::unique_ptr<LeftOutTime> path;  // the activity's, as the drive gets it
   std::unique_ptr<MotionDrive> drive;
   std::unique_ptr<ProgramChecker> checker;  // for a check, which has no activity
   Point ahead;                              // the end of the planned path, for live motion
   LinesAhead lines_ahead;                   // the same
+  ProgressAhead progress_ahead;             // the same
+  Seconds whole{0};                         // the nominal time of a program that tells its progress
 };
 
 }  // namespace passo

@@ -219,6 +219,8 @@ TEST(ProgramPath, tells_which_tool_makes_each_motion) {
   ASSERT_EQ(path.tools().size(), 3U);
   EXPECT_EQ(path.tools()[1].number, 7);
   EXPECT_EQ(path.tools()[1].zero_z, 30);
+  EXPECT_TRUE(path.tools()[0].feeds && path.tools()[1].feeds);
+  EXPECT_FALSE(path.tools()[2].feeds);
   const Read read = read_chunk(path.chunk(0, 0));
   EXPECT_EQ(read.flags, (std::vector<std::uint16_t>{0, 0, 2, 5, 2}));
   // A coarser level keeps each change, though the points lie on one line.

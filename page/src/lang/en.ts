@@ -43,6 +43,7 @@ export const en = {
   'state.Idle': 'Ready',
   'state.Idle.next': 'Start the program, or jog.',
   'state.Idle.open': 'Open a program, or jog.',
+  'state.Idle.bad': 'The program has errors: Files tells which.',
   'state.Idle.home': 'Home the machine, or go on if it stands where it should.',
   'state.Idle.job.done': 'The program has ended.',
   'state.Idle.job.failed': 'The last job has failed: {why}',

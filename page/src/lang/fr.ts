@@ -41,6 +41,7 @@ export const fr: Words = {
   'state.Idle': 'Prête',
   'state.Idle.next': 'Lancer le programme, ou déplacer à la main.',
   'state.Idle.open': 'Ouvrir un programme, ou déplacer à la main.',
+  'state.Idle.bad': 'Le programme a des erreurs : voyez Fichiers.',
   'state.Idle.home': 'Prendre l’origine machine, ou continuer si la machine est bien placée.',
   'state.Idle.job.done': 'Le programme est terminé.',
   'state.Idle.job.failed': 'Le dernier travail a échoué : {why}',

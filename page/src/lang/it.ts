@@ -41,6 +41,7 @@ export const it: Words = {
   'state.Idle': 'Pronta',
   'state.Idle.next': 'Avviare il programma, o muovere a mano.',
   'state.Idle.open': 'Aprire un programma, o muovere a mano.',
+  'state.Idle.bad': 'Il programma ha errori: vedi File.',
   'state.Idle.home': 'Azzerare la macchina, o proseguire se è al posto giusto.',
   'state.Idle.job.done': 'Il programma è finito.',
   'state.Idle.job.failed': 'L’ultimo lavoro è fallito: {why}',

@@ -41,6 +41,7 @@ export const zh: Words = {
   'state.Idle': '就绪',
   'state.Idle.next': '启动程序，或点动。',
   'state.Idle.open': '打开程序，或点动。',
+  'state.Idle.bad': '程序有错误：请看“文件”页。',
   'state.Idle.home': '请回原点;如果机床位置正确，也可继续。',
   'state.Idle.job.done': '程序已结束。',
   'state.Idle.job.failed': '上一个作业失败：{why}',

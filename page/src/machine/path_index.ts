@@ -11,6 +11,7 @@ export interface UsedTool {
   tool: number;
   diameter: number | null;
   zero_z: number;
+  feeds: boolean; // else it makes rapids alone
 }
 export interface PathIndex {
   program: number;

@@ -30,16 +30,16 @@ const tones: Record<Status['state'], Tone> = {
 
 export interface Facts {
   status: Status;
-  hasProgram: boolean;
+  program: 'none' | 'bad' | 'open';
   canHome: boolean;
 }
 
-function nextOf({ status, hasProgram, canHome }: Facts): string {
+function nextOf({ status, program, canHome }: Facts): string {
   const { state } = status;
   if (state === 'Idle') {
     if (status.job !== null && status.job.state === 'failed') return say('state.Idle.job.failed', { why: toldOr(status.job.why) });
-    if (canHome && status.trust !== 'homed' && !hasProgram) return say('state.Idle.home');
-    return say(hasProgram ? 'state.Idle.next' : 'state.Idle.open');
+    if (canHome && status.trust !== 'homed' && program === 'none') return say('state.Idle.home');
+    return say(program === 'none' ? 'state.Idle.open' : program === 'bad' ? 'state.Idle.bad' : 'state.Idle.next');
   }
   if (state === 'Run') return say('state.Run.next', { line: status.line });
   if (state === 'Tool') {

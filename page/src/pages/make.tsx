@@ -5,14 +5,14 @@ import { goTo } from '../core/route';
 import { lengthUnit } from '../core/units';
 import { isLive } from '../machine/connection';
 import { needFile } from '../machine/machine_file';
-import { clearDrawings, make, madeCount, refreshMake } from '../machine/maker';
+import { clearDrawings, make, madeCount } from '../machine/maker';
 import { token } from '../machine/token';
 import { Button } from '../parts/button';
 import { DropZone } from '../parts/drop_zone';
 import { Choice } from '../parts/view_dialog';
 import { forms, usualOf, withUnit, type Field, type Form } from './make_forms';
 import { BoardLayers, BoardSteps } from './make_board';
-import { ask, fieldsOf, formNow, isOwn, job, layers, partsOf, pick, picked, set, takeDrawings, valuesOf } from './make_order';
+import { ask, fieldsOf, formNow, isOwn, job, layers, lookAtMake, partsOf, pick, picked, set, takeDrawings, valuesOf } from './make_order';
 
 function Drawings({ form }: { form: Form }) {
   const files = make.value?.files ?? [];
@@ -126,7 +126,7 @@ function Result() {
 export function MakePage() {
   useEffect(() => {
     if (!isLive.value) return;
-    void refreshMake();
+    void lookAtMake();
     void needFile();
   }, [isLive.value]);
   const form = formNow();

@@ -1,7 +1,7 @@
 // What is to be made: the job, its drawings, and what was filled in. It outlives a look at another page.
 import { signal } from '@preact/signals';
 import { kept } from '../core/kept';
-import { make, order, sendDrawing, type Options } from '../machine/maker';
+import { make, order, refreshMake, sendDrawing, type Options } from '../machine/maker';
 import { formFor, forms, ofMachine, withUnit, type Field, type Form } from './make_forms';
 
 type Values = Record<string, string | boolean>;
@@ -12,6 +12,15 @@ export const job = signal(forms[0].job);
 export const picked = signal<readonly string[]>([]);
 // What a person says of a board's files, by their names: 'top copper'.
 export const layers = signal<Readonly<Record<string, string>>>({});
+
+// A page that comes anew shows what was made last.
+let isNew = true;
+export async function lookAtMake(): Promise<void> {
+  await refreshMake();
+  const last = make.value?.job ?? '';
+  if (isNew && picked.value.length === 0 && forms.some((one) => one.job === last)) job.value = last;
+  isNew = false;
+}
 
 export const valuesOf = (form: Form): Values => filled.value[form.job] ?? {};
 export const formNow = (): Form => forms.find((one) => one.job === job.value) ?? forms[0];
@@ -55,6 +64,7 @@ export function setLayer(name: string, layer: string): void {
 
 export function pick(name: string, isPicked: boolean): void {
   picked.value = isPicked ? [...picked.value, name] : picked.value.filter((one) => one !== name);
+  if (isPicked) job.value = formFor([name], formNow()).job;
   ask(formNow());
 }
 

@@ -16,7 +16,7 @@ const words = computed(() => {
   const now = status.value;
   if (now === null) return null;
   const canHome = machine.value?.axes.some((one) => one.homes) ?? false;
-  return stateWords({ status: now, hasProgram: shown.value !== null, canHome });
+  return stateWords({ status: now, program: shown.value === null ? 'none' : shown.value.state === 'bad' ? 'bad' : 'open', canHome });
 });
 
 export function StateBanner() {

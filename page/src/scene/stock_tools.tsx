@@ -78,7 +78,7 @@ export function StockTools() {
   };
   return (
     <div class="scene-stock" role="group" aria-label={say('stock.tools')}>
-      {usedTools.value.map((used) => (
+      {usedTools.value.filter((used) => used.feeds).map((used) => (
         <OneTool key={used.tool} used={used} />
       ))}
       <button type="button" class="chip" onClick={() => input.current?.click()}>

@@ -18,7 +18,7 @@ export const stockState = signal<'none' | 'loading' | 'there' | 'missing'>('none
 let cutter: StockCutter | null = null;
 
 const usual: StockTool = { kind: 'flat', diameter: 3, angle: 60, tip: 0 };
-const noTool: readonly UsedTool[] = [{ tool: 0, diameter: null, zero_z: 0 }];
+const noTool: readonly UsedTool[] = [{ tool: 0, diameter: null, zero_z: 0, feeds: true }];
 
 // Those of the shown program.
 export const usedTools = computed<readonly UsedTool[]>(() => {

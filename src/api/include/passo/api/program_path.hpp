@@ -60,6 +60,7 @@ class ProgramPath {
   struct UsedTool {
     std::int32_t number = 0;  // 0: the program has put none in
     double zero_z = 0;        // mm: machine Z of the work's zero with this tool's length, at its first motion
+    bool feeds = false;       // else it makes rapids alone
   };
   // The tools that are used, by their first motion. Beyond most_tools, the last one stands for all others.
   const std::vector<UsedTool>& tools() const { return tools_; }
@@ -90,7 +91,7 @@ class ProgramPath {
 
   void add_point(const Coordinates& place, std::uint32_t line, std::uint16_t flags);
   void close_chunk();
-  std::uint16_t tool_flags(double zero_z);
+  std::uint16_t tool_flags(double zero_z, bool feeds);
 
   std::vector<Chunk> chunks_;
   std::vector<UsedTool> tools_;
