@@ -125,7 +125,9 @@ describe('Make', () => {
     const { page, context, errors } = await visit(browser, daemon, 'make');
     page.setDefaultTimeout(patience);
     await choose(page, 'Engrave');
-    await page.getByRole('textbox', { name: 'Letters instead of a drawing' }).fill('Passo');
+    const letters = page.getByRole('textbox', { name: 'Letters instead of a drawing' });
+    await letters.pressSequentially('No. 7');
+    expect(await letters.inputValue()).toBe('No. 7');
     await expect.poll(() => page.getByTestId('make-state').innerText(), { timeout: patience }).toBe('Made');
     await page.locator('.make-result img').waitFor();
     await page.goto(`${daemon.address}#/files`);

@@ -424,6 +424,7 @@ export const en = {
   'keys.jog': 'X and Y, on the page “Set up”',
   'keys.jog.z': 'Z, on the page “Set up”',
   'keys.keypad': 'All directions, on the page “Set up”',
+  'keys.lines': 'A line of the program, on the page “Run”',
   'keys.space': 'Space',
   'keys.arrows': 'Arrows',
   'keys.numpad': 'Numeric keypad',

@@ -410,6 +410,7 @@ export const fr: Words = {
   'keys.jog': 'X et Y, sur la page « Réglage »',
   'keys.jog.z': 'Z, sur la page « Réglage »',
   'keys.keypad': 'Toutes les directions, sur la page « Réglage »',
+  'keys.lines': 'Une ligne du programme, sur la page « Usinage »',
   'keys.space': 'Espace',
   'keys.arrows': 'Flèches',
   'keys.numpad': 'Pavé numérique',

@@ -410,6 +410,7 @@ export const it: Words = {
   'keys.jog': 'X e Y, nella pagina “Preparazione”',
   'keys.jog.z': 'Z, nella pagina “Preparazione”',
   'keys.keypad': 'Tutte le direzioni, nella pagina “Preparazione”',
+  'keys.lines': 'Una riga del programma, sulla pagina “Lavoro”',
   'keys.space': 'Spazio',
   'keys.arrows': 'Frecce',
   'keys.numpad': 'Tastierino numerico',

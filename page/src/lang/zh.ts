@@ -410,6 +410,7 @@ export const zh: Words = {
   'keys.jog': 'X 和 Y，在“对刀”页面',
   'keys.jog.z': 'Z，在“对刀”页面',
   'keys.keypad': '所有方向，在“对刀”页面',
+  'keys.lines': '“加工”页上选择程序行',
   'keys.space': '空格',
   'keys.arrows': '方向键',
   'keys.numpad': '数字小键盘',

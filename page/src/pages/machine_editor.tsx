@@ -13,6 +13,7 @@ import {
 } from '../machine/machine_file';
 import { Button } from '../parts/button';
 import { Icon } from '../parts/icon';
+import { Typed } from '../parts/typed';
 
 interface Row {
   title: Key;
@@ -87,28 +88,25 @@ function Field({ label, path, kind, at, choices }: FieldProps) {
     );
   }
   if (typeof value === 'string') {
-    return <input type="text" {...shared} value={value} onChange={(event) => set(event.currentTarget.value)} />;
+    return <Typed {...shared} value={value} take={set} />;
   }
   const shown = kind === 'length' ? fromMm : kind === 'per length' ? perLength : (one: number) => one;
   const read = kind === 'length' ? toMm : kind === 'per length' ? fromMm : (one: number) => one;
   const text = Array.isArray(value) ? value.join(', ') : value === undefined ? '' : digits(shown(value));
   return (
-    <input
-      type="text"
+    <Typed
       inputMode="decimal"
       {...shared}
       value={text}
       placeholder="–"
-      onChange={(event) => {
-        const field = event.currentTarget;
+      take={(typed) => {
         if (Array.isArray(value)) {
-          const list = field.value.split(',').map((one) => readNumber(one));
-          if (list.every((one) => one !== undefined)) return set(list);
+          const list = typed.split(',').map((one) => readNumber(one));
+          if (list.every((one) => one !== undefined)) set(list);
         } else {
-          const number = readNumber(field.value);
-          if (number !== undefined) return set(Number(read(number).toPrecision(9)));
+          const number = readNumber(typed);
+          if (number !== undefined) set(Number(read(number).toPrecision(9)));
         }
-        field.value = text; // no number: as it was
       }}
     />
   );

@@ -64,7 +64,7 @@ function OneField({ form, field }: { form: Form; field: Field }) {
     return (
       <label class="make-field">
         <span class="dim">{say(field.title)}</span>
-        <input type="text" value={words} placeholder={usualOf(field)} onInput={(event) => set(form, field.option, event.currentTarget.value.trim())} onChange={(event) => set(form, field.option, withUnit(field, event.currentTarget.value.trim()))} />
+        <input type="text" value={words} placeholder={usualOf(field)} onInput={(event) => set(form, field.option, event.currentTarget.value)} onChange={(event) => set(form, field.option, withUnit(field, event.currentTarget.value.trim()))} />
       </label>
     );
   }

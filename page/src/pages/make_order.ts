@@ -31,9 +31,11 @@ export const partsOf = (form: Form): readonly Form[] => (form.parts ?? []).flatM
 // Of a form in another one: without what that one decides itself.
 export const isOwn = (form: Form, field: Field): boolean => !(form.decides ?? []).includes(field.option);
 
+const filledIn = (value: string | boolean | undefined): string | boolean | undefined => (typeof value === 'string' ? value.trim() : value);
+
 function optionsOf(form: Form, without: (field: Field) => boolean = () => false): Options {
   const values = valuesOf(form);
-  const all = fieldsOf(form).filter((field) => !without(field)).map((field) => [field, values[field.option] || ofMachine(field)] as const);
+  const all = fieldsOf(form).filter((field) => !without(field)).map((field) => [field, filledIn(values[field.option]) || ofMachine(field)] as const);
   return Object.fromEntries(all.flatMap(([field, value]) => (value === undefined ? [] : [[field.option, withUnit(field, value)]])));
 }
 

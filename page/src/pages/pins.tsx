@@ -11,6 +11,7 @@ import { changedAt, isOn, levelOf, pins, samples, shownFor, type Pin, type Sampl
 import { endSetUp, isSetUp, setUp, type Turn } from '../machine/set_up_mode';
 import { Button } from '../parts/button';
 import { PulseStrip } from '../parts/pulse_strip';
+import { Typed } from '../parts/typed';
 
 const nameOf = (pin: Pin): string => {
   if (pin.name !== 'limit') return say(`pin.${pin.name}` as Parameters<typeof say>[0]);
@@ -172,12 +173,10 @@ function Outputs() {
             <span class="dim">
               {say('run.spindle')}, {say('run.rpm')}
             </span>{' '}
-            <input
-              type="number"
-              min="1"
-              max={most}
-              value={speed.value}
-              onChange={(event) => (speed.value = Math.min(most, Math.max(1, Math.round(Number(event.currentTarget.value) || 1))))}
+            <Typed
+              inputMode="numeric"
+              value={String(speed.value)}
+              take={(typed) => (speed.value = Math.min(most, Math.max(1, Math.round(Number(typed) || 1))))}
             />
           </label>
         )}

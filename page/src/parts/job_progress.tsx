@@ -72,7 +72,9 @@ export function JobProgress() {
         </div>
       </div>
       <p class="dim job-line">
-        {say('run.of.lines', { line: now?.line ?? 0, lines: program.lines.toLocaleString(language.value) })}
+        {now === null
+          ? say('files.lines', { lines: program.lines.toLocaleString(language.value) })
+          : say('run.of.lines', { line: now.line, lines: program.lines.toLocaleString(language.value) })}
       </p>
     </section>
   );

@@ -11,6 +11,7 @@ import {
 import { programForMap, shown } from '../machine/programs';
 import { Button } from './button';
 import { viewsOf, type CycleView, type Spot } from './cycle_picture';
+import { Typed } from './typed';
 import { Choice } from './view_dialog';
 
 const room = 12; // around a picture, in its own units
@@ -82,15 +83,12 @@ function OneField({ of, field }: { of: Kind; field: Field }) {
       <span class="dim">
         {say(field.title)} {unit}
       </span>
-      <input
-        type="text"
+      <Typed
         inputMode="decimal"
         value={shownValue(of, field)}
-        onChange={(event) => {
-          const input = event.currentTarget;
-          const typed = Number(input.value.trim().replace(',', '.'));
-          if (input.value.trim() !== '' && Number.isFinite(typed)) setValue(of, field, isLength(field) ? toMm(typed) : Math.round(typed));
-          input.value = shownValue(of, field);
+        take={(text) => {
+          const typed = Number(text.trim().replace(',', '.'));
+          if (text.trim() !== '' && Number.isFinite(typed)) setValue(of, field, isLength(field) ? toMm(typed) : Math.round(typed));
         }}
       />
     </label>

@@ -74,6 +74,14 @@ export function ProgramView() {
       </button>,
     );
   }
+  // The arrows pick a line, as a click does.
+  const pickByKey = (event: KeyboardEvent): void => {
+    const steps: Record<string, number> = { ArrowUp: -1, ArrowDown: 1, PageUp: -Math.floor(shownLines), PageDown: Math.floor(shownLines) };
+    const way = steps[event.key];
+    if (way === undefined || runs) return;
+    event.preventDefault();
+    picked.value = Math.min(text.lines, Math.max(1, picked.value === null ? firstWhole + 1 : picked.value + way));
+  };
   const scroll = (): void => {
     if (box.current === null) return;
     setTop(box.current.scrollTop);
@@ -82,7 +90,7 @@ export function ProgramView() {
   };
   return (
     <div class="panel text">
-      <div class="text-box" ref={box} onScroll={scroll} tabIndex={0} role="region" aria-label={say('run.program')}>
+      <div class="text-box" ref={box} onScroll={scroll} onKeyDown={pickByKey} tabIndex={0} role="region" aria-label={say('run.program')}>
         <div class="text-spacer" style={{ height: `${spacerOf(scrolled)}px` }}>
           <div class="text-window" style={{ height: `${size.height}px` }}>
             <div class="text-line probe" ref={probe} aria-hidden="true">

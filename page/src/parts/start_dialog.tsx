@@ -6,6 +6,7 @@ import { beginThere, changeStart, noStart, startsAt } from '../machine/way_back'
 import { Button } from './button';
 import { Dialog } from './dialogs';
 import { Told, ToldSteps } from './told';
+import { Typed } from './typed';
 
 const shownLength = (mm: number): string => String(Number(fromMm(mm).toFixed(4)));
 
@@ -37,16 +38,13 @@ export function StartDialog() {
         <div class="make-fields">
           <label class="make-field">
             <span class="dim">{say('way.pass')}</span>
-            <input
-              type="text"
+            <Typed
               inputMode="numeric"
-              value={now.pass ?? ''}
+              value={String(now.pass ?? '')}
               placeholder="1"
-              onChange={(event) => {
-                const field = event.currentTarget;
-                const typed = field.value.trim();
-                if (typed === '' || (/^\d{1,9}$/.test(typed) && Number(typed) > 0)) return changeStart({ pass: typed === '' ? null : Number(typed) });
-                field.value = String(now.pass ?? '');
+              take={(text) => {
+                const typed = text.trim();
+                if (typed === '' || (/^\d{1,9}$/.test(typed) && Number(typed) > 0)) void changeStart({ pass: typed === '' ? null : Number(typed) });
               }}
             />
           </label>
@@ -54,15 +52,12 @@ export function StartDialog() {
             <span class="dim">
               {say('way.after')} {lengthUnit()}
             </span>
-            <input
-              type="text"
+            <Typed
               inputMode="decimal"
               value={shownLength(now.after)}
-              onChange={(event) => {
-                const field = event.currentTarget;
-                const mm = field.value.trim() === '' ? 0 : readLength(field.value);
-                if (mm !== undefined && mm >= 0) return changeStart({ after: mm });
-                field.value = shownLength(now.after);
+              take={(text) => {
+                const mm = text.trim() === '' ? 0 : readLength(text);
+                if (mm !== undefined && mm >= 0) void changeStart({ after: mm });
               }}
             />
           </label>

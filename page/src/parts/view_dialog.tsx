@@ -72,6 +72,7 @@ const shortcuts: readonly [() => string, Key][] = [
   [() => say('keys.space'), 'keys.hold'],
   [() => '1 … 9', 'keys.pages'],
   [() => say('keys.arrows'), 'keys.jog'],
+  [() => say('keys.arrows'), 'keys.lines'],
   [() => 'Page Up, Page Down', 'keys.jog.z'],
   [() => say('keys.numpad'), 'keys.keypad'],
   [() => '?', 'keys.help'],

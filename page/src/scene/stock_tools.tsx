@@ -4,6 +4,7 @@ import { say } from '../core/language';
 import { fromMm, lengthUnit, toMm } from '../core/units';
 import type { UsedTool } from '../machine/path_index';
 import type { StockTool, ToolKind } from './stock_cutter';
+import { Typed } from '../parts/typed';
 import { shapeOf, showsStock, stockState, toolShapes, usedTools } from './stock_view';
 import { isGoodTool, readToolFile } from './tool_file';
 
@@ -21,15 +22,7 @@ function NumberField({ title, value, set }: { title: string; value: string; set:
   return (
     <label>
       <span>{title}</span>{' '}
-      <input
-        type="text"
-        inputMode="decimal"
-        value={value}
-        onChange={(event) => {
-          const field = event.currentTarget;
-          if (!set(Number(field.value.trim().replace(',', '.')))) field.value = value;
-        }}
-      />
+      <Typed inputMode="decimal" value={value} take={(typed) => set(Number(typed.trim().replace(',', '.')))} />
     </label>
   );
 }
