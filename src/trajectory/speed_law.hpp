@@ -30,7 +30,8 @@ class SpeedLaw {
   [[nodiscard]] virtual bool go_on(PlannedMove& move) = 0;
   // Gives the next move on the shortest way to rest. Returns false at rest.
   [[nodiscard]] virtual bool brake(PlannedMove& move) = 0;
-  // All moves that brake() would give, without giving them.
+  // The shortest way to rest if the motion must end here, without giving any move of it. Limits of jerk do not count:
+  // such an end is no part of the program (decision 0108).
   virtual void braking_plan(std::vector<PlannedMove>& plan) = 0;
 };
 
