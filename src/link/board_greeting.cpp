@@ -42,6 +42,8 @@ void BoardSession::forget_what_was() {
   turned_.reset();
   rehearsed_.reset();
   kept_.clear();
+  burst_ = 0;
+  time_a_frame_ = Seconds(0);
   probe_ = {};
   usual_question_ = last_question_ = Question::status;
   answered_ = true;

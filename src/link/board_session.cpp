@@ -23,6 +23,10 @@ constexpr double most_patiences = 2;
 
 constexpr std::size_t most_gibberish = 256;
 
+// So many frames tell how fast the board takes frames. The rate at which a slow burst is forgotten.
+constexpr std::size_t long_burst = 8;
+constexpr double patience_with_bursts = 0.95;
+
 }  // namespace
 
 BoardSession::BoardSession(BoardPort& port, const LineCare& care)
@@ -428,8 +432,15 @@ void BoardSession::note_taken(std::uint8_t sequence) {
   progressed_ = moved_on_ = port_.elapsed();
   news_ = true;
   while (!kept_.empty() && later_by(kept_.front().number, taken_) <= 0) kept_.pop_front();
+  if (kept_.empty()) note_end_of_burst();
   if (later_by(taken_, on_wire_) > 0) on_wire_ = taken_;
   put_frames_on_wire();
+}
+
+void BoardSession::note_end_of_burst() {
+  const Seconds each = (port_.elapsed() - burst_began_) / static_cast<double>(burst_);
+  if (burst_ >= long_burst) time_a_frame_ = std::max(each, time_a_frame_ * patience_with_bursts);
+  burst_ = 0;
 }
 
 // Repeats the first of the frames that the board does not have, in order. A question after them tells whether they have
@@ -462,7 +473,11 @@ void BoardSession::send_frame(const Frame& frame) {
   begin_to_expect();
   sent_ = frame.number;
   rests_ = false;
-  if (may_lose()) kept_.push_back(frame);
+  if (may_lose()) {
+    if (kept_.empty()) burst_began_ = port_.elapsed();
+    kept_.push_back(frame);
+    ++burst_;
+  }
   answered_ = false;
   unanswered_since_ = port_.elapsed();
   moved_on_ = port_.elapsed();

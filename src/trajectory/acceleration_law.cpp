@@ -90,7 +90,7 @@ class AccelerationLaw final : public SpeedLaw {
     return true;
   }
 
-  void braking_plan(std::vector<PlannedMove>& plan) override {
+  void braking_plan(Planner::Braking /*how*/, std::vector<PlannedMove>& plan) override {
     double speed_squared = speed_squared_;
     std::uint64_t segment = path_.first();
     for (std::size_t i = 0; speed_squared > 0 && i < cells_.size() && !(i > 0 && cells_[i].begins_at_rest()); ++i) {

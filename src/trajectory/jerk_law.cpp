@@ -63,10 +63,10 @@ class JerkLaw final : public SpeedLaw {
     return produce(move);
   }
 
-  // The shortest way to rest has no limit of jerk. If there is none, a SpeedChange leads to rest. If that is not possible
-  // either, the motion goes on as planned to a place where it is, or to rest.
-  void braking_plan(std::vector<PlannedMove>& plan) override {
-    if (emergency_brake_.plan(path_, now_, plan)) return;
+  // The shortest gentle way to rest is a SpeedChange. If none is possible, the motion goes on as planned to a place where
+  // one is, or to rest.
+  void braking_plan(Planner::Braking how, std::vector<PlannedMove>& plan) override {
+    if (how == Planner::Braking::hard && emergency_brake_.plan(path_, now_, plan)) return;
     Outlook outlook{.pieces = given_pieces_};
     PathState state = now_;
     double since_trial = between_trials;

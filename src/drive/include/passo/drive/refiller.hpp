@@ -45,7 +45,8 @@ struct TailOptions {
   Seconds longest_move{0.005};   // no planned move is longer
   // How exact the segments are. Segments exact to the tick would, in the first milliseconds after a rest, be hundreds a
   // second more than a line can carry. They would also be more than a board with few places can hold. Boards with fewer
-  // places than `few_places`, and motion in haste, get the kind "in few places".
+  // places than `few_places`, and motion in haste, get the kind "in few places". Tails of such boards have no limits of
+  // jerk, because a tail with limits of jerk has two or three times as many items (decision 0108).
   std::size_t few_places = 100;
   Exactness motion{.one_in = 64, .longest_segment = longest_segment_of_all};
   Exactness motion_in_few_places{.one_in = 2, .least_rate = Hertz(1'000), .longest_segment = longest_segment_of_all};
@@ -157,6 +158,7 @@ class Refiller final : public Feed {
   };
 
   void commit();
+  bool has_few_places() const { return places_ < options_.few_places; }
   bool counts_items() const;
   bool in_haste() const { return attention_ == Attention::probes || attention_ == Attention::follows; }
   bool may_plan();

@@ -111,6 +111,7 @@ class BoardSession final : public Link {
   std::optional<Turned> take_turned() override { return std::exchange(turned_, std::nullopt); }
   bool answered() const override { return answered_; }
   Seconds answer_time() const override { return answer_time_; }
+  Seconds time_a_frame() const override { return time_a_frame_; }
   // The inputs that were switched on since the last call, as the board told or its status shows. Bits of BoardInput.
   std::uint16_t take_pressed() { return std::exchange(pressed_, std::uint16_t{0}); }
   // The inputs that are on now, as far as the board has told.
@@ -185,6 +186,7 @@ class BoardSession final : public Link {
   void note_timeout(const BoardStatus& status);
   void note_probe(ProbeWatch::News news);
   void note_taken(std::uint8_t sequence);
+  void note_end_of_burst();
   void repeat();
   void put_frames_on_wire();
   template <class Message, class... More>
@@ -245,6 +247,9 @@ class BoardSession final : public Link {
   bool news_ = false;          // since poll() began
   std::vector<Frame> frames_;  // the frames of a replacement while it is put together
   std::deque<Frame> kept_;     // frames sent and, as far as the host knows, not taken
+  std::size_t burst_ = 0;      // frames sent since nothing was kept
+  Seconds burst_began_{0};
+  Seconds time_a_frame_{0};
   Seconds heard_{0};           // when the board last said anything
   Seconds progressed_{0};      // when the board last answered, took or executed something
   Seconds quiet_since_{0};     // when the board did, or was asked again
