@@ -160,7 +160,7 @@ void Refiller::commit() {
 
 // True: fewer items are better than more exact ones.
 bool Refiller::counts_items() const {
-  return in_haste() || has_few_places();
+  return in_haste() || places_ < options_.few_places;
 }
 
 // The board has enough motion while one refill is sent and answered and the next one has not arrived yet.
@@ -328,7 +328,8 @@ bool Refiller::is_far_from_last_tail() const {
 
 // Finds how the machine would come to rest after the pulled items.
 Refiller::Tail Refiller::find_tail() {
-  stages_.planner.braking_plan(plan_, has_few_places() ? Planner::Braking::hard : Planner::Braking::gentle);
+  const bool is_gentle = places_ >= options_.places_for_gentle_tails;
+  stages_.planner.braking_plan(plan_, is_gentle ? Planner::Braking::gentle : Planner::Braking::hard);
   Tail tail{.from = given_, .rest = {.place = given_, .outputs = stages_.outputs}};
   for (const PlannedMove& move : plan_) tail.rest.place = stages_.path.behind(tail.rest.place, move);
   tail.motion.from = motion_played_.given();

@@ -1,7 +1,7 @@
 // EmergencyBrake: from motion on the path to rest, as soon as the axes can, whatever their limits of jerk. Private to
 // trajectory/.
 //
-// Where a board has few places, the end of what the board holds is such a motion (decision 0108). The board plays it only
+// Where a board is small, the end of what the board holds is such a motion (decision 0108). The board plays it only
 // if nothing more comes, when its line is cut for instance. Velocities and accelerations, which the torque of the motors
 // limits, are kept. Limits of jerk keep a machine from shaking while it cuts.
 #pragma once

@@ -45,9 +45,11 @@ struct TailOptions {
   Seconds longest_move{0.005};   // no planned move is longer
   // How exact the segments are. Segments exact to the tick would, in the first milliseconds after a rest, be hundreds a
   // second more than a line can carry. They would also be more than a board with few places can hold. Boards with fewer
-  // places than `few_places`, and motion in haste, get the kind "in few places". Tails of such boards have no limits of
-  // jerk, because a tail with limits of jerk has two or three times as many items (decision 0108).
+  // places than `few_places`, and motion in haste, get the kind "in few places".
   std::size_t few_places = 100;
+  // On a board with fewer places tails have no limits of jerk: with them a tail has two or three times as many items,
+  // which a small board also takes slowly (decision 0108).
+  std::size_t places_for_gentle_tails = 200;
   Exactness motion{.one_in = 64, .longest_segment = longest_segment_of_all};
   Exactness motion_in_few_places{.one_in = 2, .least_rate = Hertz(1'000), .longest_segment = longest_segment_of_all};
   // A segment that is off by a whole interval may brake twice as hard where it begins as where it ends.
@@ -158,7 +160,6 @@ class Refiller final : public Feed {
   };
 
   void commit();
-  bool has_few_places() const { return places_ < options_.few_places; }
   bool counts_items() const;
   bool in_haste() const { return attention_ == Attention::probes || attention_ == Attention::follows; }
   bool may_plan();
