@@ -1,11 +1,11 @@
 #!/usr/bin/env bash
-# scripts/board_table.sh [--pico | PROGRAM...]: how long jobs take over a line to an Uno, a Mega and a Pico, beside the time
+# scripts/board_table.sh [--pico | --chips | PROGRAM...]: how long jobs take over a line to an Uno, a Mega and a Pico, beside the time
 # that they take without a line. Writes the tables into docs/boards.md, between their marks; with --pico, that of the Pico
-# only; with PROGRAM, these programs only, just printed. Where they are at hand, the programs of ../shared/peers/motion-mm
-# come after that, in a table that is printed only.
+# only; with --chips, that of the emulated Uno and Mega only; with PROGRAM, these programs only, just printed. Where they
+# are at hand, the programs of ../shared/peers/motion-mm come after that, in a table that is printed only.
 #
-# The boards are virtual, with the places and the rates of the real ones, on a line of 500 kbaud. scripts/board_rates.sh
-# measures what the chips themselves keep up with.
+# The boards are virtual, with the places and the rates of the real ones, on a line of 500 kbaud. With --chips the firmware
+# itself plays, which also takes its time for each frame.
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
 
@@ -72,14 +72,16 @@ machine Mega-fast 160 110000 171 none
 value() { awk -v word="$1" '$1 == word { print $2; exit }'; }
 seconds() { awk -F: '{ printf "%.2f", $1 * 60 + $2 }'; }
 
-# row PROGRAM MACHINE
+# row PROGRAM MACHINE [BOARD]: over a line to a virtual board, or to that one.
 row() {
   local alone line
   if ! alone=$("$passo" run "$1" -m "$work/$2.toml" 2>/dev/null); then
     echo "| $(basename "${1%.*}") | ${2/-/, } | leaves the travel | | | | |"
     return
   fi
-  line=$("$passo" run "$1" -m "$work/$2.toml" --cut-cable-at 9999:1 2>/dev/null)
+  local over=(--cut-cable-at 9999:1)
+  [[ -z ${3-} ]] || over=(--yes --board "$3")
+  line=$("$passo" run "$1" -m "$work/$2.toml" "${over[@]}" 2>/dev/null)
   local without with rests sent
   without=$(value end <<<"$alone" | seconds)
   with=$(value end <<<"$line" | seconds)
@@ -90,7 +92,7 @@ row() {
 }
 
 programs=("$@")
-[[ ${1-} != --pico ]] || programs=()
+[[ ${1-} != --* ]] || programs=()
 ((${#programs[@]} > 0)) || programs=("$work"/circles-F*.ngc "$work/rapids.ngc" examples/pocket.ngc examples/engrave.ngc examples/drill-board.ngc)
 table() {
   echo "| program | board | without a line, s | over the line, s | ratio | rests for want of more | sent |"
@@ -109,6 +111,24 @@ pico_table() {
   done
   for name in "$work"/{circles-F6000,rapids,moves-3d,chords-spiral}.ngc examples/engrave.ngc; do row "$name" Pico-jerk; done
 }
+chip_table() {
+  echo "| program | chip | without a line, s | over the line, s | ratio | rests for want of more | sent |"
+  echo "|---|---|---:|---:|---:|---|---:|"
+  local board name
+  for board in Uno Mega Uno-jerk Mega-jerk; do
+    for name in "$work"/{circles-F3600,circles-F6000,rapids,chords-spiral}.ngc examples/{engrave,drill-board}.ngc; do
+      chip=${board%-jerk}
+      row "$name" "$board" "sim:${chip,}"
+    done
+  done
+}
+if [[ ${1-} == --chips ]]; then
+  cmake --build "$build" --parallel "$(nproc)" --target emulated_boards >/dev/null
+  chip_table >"$work/chip-jobs"
+  scripts/put_tables.sh docs/boards.md "$work"
+  cat "$work/chip-jobs"
+  exit
+fi
 if (($# > 0)) && [[ $1 != --pico ]]; then
   table "$@"
   exit

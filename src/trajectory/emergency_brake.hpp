@@ -2,8 +2,8 @@
 // trajectory/.
 //
 // Where a board is small, the end of what the board holds is such a motion (decision 0108). The board plays it only
-// if nothing more comes, when its line is cut for instance. Velocities and accelerations, which the torque of the motors
-// limits, are kept. Limits of jerk keep a machine from shaking while it cuts.
+// if nothing more comes, when its line is cut for instance. Velocities and accelerations, which the torque of the
+// motors limits, are kept. Limits of jerk keep a machine from shaking while it cuts.
 #pragma once
 
 #include <vector>

@@ -63,8 +63,8 @@ class JerkLaw final : public SpeedLaw {
     return produce(move);
   }
 
-  // The shortest gentle way to rest is a SpeedChange. If none is possible, the motion goes on as planned to a place where
-  // one is, or to rest.
+  // The shortest gentle way to rest is a SpeedChange. If none is possible, the motion goes on as planned to a place
+  // where one is, or to rest.
   void braking_plan(Planner::Braking how, std::vector<PlannedMove>& plan) override {
     if (how == Planner::Braking::hard && emergency_brake_.plan(path_, now_, plan)) return;
     Outlook outlook{.pieces = given_pieces_};

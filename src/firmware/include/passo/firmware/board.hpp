@@ -57,8 +57,7 @@ class Board : private BoardVoice<Hardware> {
     owed_ = can_send ? uint8_t{0} : owed_ == 0 ? uint8_t{1} : owed_;
     if (can_send) send(progress());
   }
-  // Call when the input pins have changed. Changes of inputs in `captured` are reported at once, with the motors' place
-  // at this very event.
+  // Call when the input pins have changed. Changes of inputs in `captured` are reported at once, with the place.
   void set_inputs(uint16_t inputs, uint16_t captured = 0) {
     captured = watch_.that_count(captured, inputs_, inputs);
     inputs_ = inputs;
@@ -371,10 +370,7 @@ class Board : private BoardVoice<Hardware> {
       if (!list_.gathering()) silence_.forget_off();
     }
     accept();
-    if (list_.gathering()) {
-      add_to_sums(frame);
-      owed_ = static_cast<uint8_t>(owed_ + (expected_ & 1));  // the host waits for places in the receiver's buffer
-    }
+    if (list_.gathering()) add_to_sums(frame);
     list_.append();
     breathe();
     if (list_.gathering()) return;
@@ -389,6 +385,7 @@ class Board : private BoardVoice<Hardware> {
   [[gnu::noinline]] void add_to_sums(const WireFrame& frame) {
     breathe();
     sums_.template add<Breath>(frame, motors_);
+    owed_ = static_cast<uint8_t>(owed_ + (expected_ & 1));  // the host waits until its bytes are taken
     breathe();
   }
 

@@ -250,10 +250,10 @@ class BoardSession final : public Link {
   std::size_t burst_ = 0;      // frames sent since nothing was kept
   Seconds burst_began_{0};
   Seconds time_a_frame_{0};
-  Seconds heard_{0};           // when the board last said anything
-  Seconds progressed_{0};      // when the board last answered, took or executed something
-  Seconds quiet_since_{0};     // when the board did, or was asked again
-  Seconds moved_on_{0};        // when the board last took something, or the host asked or sent
+  Seconds heard_{0};        // when the board last said anything
+  Seconds progressed_{0};   // when the board last answered, took or executed something
+  Seconds quiet_since_{0};  // when the board did, or was asked again
+  Seconds moved_on_{0};     // when the board last took something, or the host asked or sent
   std::uint64_t frames_sent_ = 0;
   std::uint64_t bytes_sent_ = 0;
   std::uint64_t frames_repeated_ = 0;
