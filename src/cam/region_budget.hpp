@@ -20,9 +20,9 @@ class RegionBudget {
  private:
   bool spend(std::size_t cost, std::size_t& left);
 
-  std::size_t crossings_ = 8'000'000;
-  std::size_t comparisons_ = 500'000'000;
-  std::size_t passed_ = 6'000'000'000;
+  std::size_t crossings_ = 4'000'000;
+  std::size_t comparisons_ = 400'000'000;
+  std::size_t passed_ = 1'000'000'000;
 };
 
 }  // namespace passo
