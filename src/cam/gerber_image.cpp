@@ -188,7 +188,9 @@ Region GerberPlacement::placed(const Region& region) const {
   return result;
 }
 
+// A stroke of an aperture without a face, as of a macro that draws nothing, has rings of no points.
 void GerberImage::add(Region object, bool is_dark) {
+  std::erase_if(object.rings, [](const DrawnRing& ring) { return ring.size() < 3; });
   if (object.empty()) return;
   points += points_of(object);
   if (runs.empty() || runs.back().is_dark != is_dark) runs.push_back({is_dark, {}});

@@ -67,7 +67,8 @@ MqttPublisher::~MqttPublisher() = default;
 
 Result<std::unique_ptr<MqttPublisher>, std::string> MqttPublisher::open(const MqttPlace& place) {
   const MosquittoLibrary* const library = mosquitto_library();
-  if (library == nullptr) return Failure{std::string("libmosquitto is not installed: scripts/install.sh --build gets it")};
+  if (library == nullptr)
+    return Failure{std::string("libmosquitto is not installed: scripts/install.sh --build gets it")};
   auto client = std::make_unique<Client>(place, *library);
   mosquitto* const line = client->line;
   if (line == nullptr) return Failure{std::string("no memory for MQTT")};
@@ -89,8 +90,8 @@ unsigned MqttPublisher::connections() const {
 void MqttPublisher::tell(std::string_view name, std::string_view text) {
   const std::string topic = client_->place.topic + "/" + std::string(name);
   // At most once: without a broker nothing is kept.
-  static_cast<void>(
-      client_->library.publish(client_->line, nullptr, topic.c_str(), static_cast<int>(text.size()), text.data(), 0, true));
+  static_cast<void>(client_->library.publish(client_->line, nullptr, topic.c_str(), static_cast<int>(text.size()),
+                                             text.data(), 0, true));
 }
 
 }  // namespace passo

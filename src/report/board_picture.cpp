@@ -90,6 +90,13 @@ class SideDrawing {
   SideDrawing(Canvas& canvas, const DrawnBox& box, const Area& area, bool is_turned)
       : canvas_(canvas), view_(box, area), turn_{box.least.x + box.most.x}, is_turned_(is_turned) {}
 
+  // A box, and a little around it, for lines along its edge.
+  Area place_of(const DrawnBox& box) const {
+    constexpr double around = 4;
+    const Spot low = view_.spot(box.least);
+    const Spot high = view_.spot(box.most);
+    return {low.x - around, high.y - around, high.x - low.x + 2 * around, low.y - high.y + 2 * around};
+  }
   void fill(const Region& region, const Colour& colour) {
     for (const DrawnRing& ring : region.rings) {
       canvas_.move_to(spot(ring.front()));
@@ -134,6 +141,8 @@ class SideDrawing {
 void draw_side(Canvas& canvas, const BoardJob& job, const Side& side, const Region& face, const DrawnBox& box,
                const Area& area) {
   SideDrawing drawing(canvas, box, area, side.is_turned);
+  // Files of layout programs have titles and remarks beside the board.
+  canvas.clip(drawing.place_of(box));
   drawing.fill(face, side.has_mask ? masked_board : bare_board);
   drawing.fill(side.copper, side.has_mask ? masked_copper : bare_copper);
   if (side.has_mask) drawing.fill(common(side.copper, side.mask), bare_copper);
@@ -144,6 +153,7 @@ void draw_side(Canvas& canvas, const BoardJob& job, const Side& side, const Regi
   for (const BoardFile& file : job.files) {
     if (file.drills) drawing.draw_holes(*file.drills);
   }
+  canvas.end_clip();
 }
 
 }  // namespace

@@ -170,7 +170,7 @@ bool compare(const fs::path& path) {
   fs::remove(png.string() + ".log");
   if (theirs.dark.empty()) return false;
   Bitmap ours = bitmap_of(layer.dark, {{std::llround(left * nm_per_inch)}, {std::llround(low * nm_per_inch)}},
-                                nm_per_inch / dpi, theirs.width, theirs.height);
+                          nm_per_inch / dpi, theirs.width, theirs.height);
   if (layer.is_negative) {
     for (std::uint8_t& pixel : ours.dark) pixel = pixel == 0 ? 1 : 0;
   }

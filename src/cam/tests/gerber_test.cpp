@@ -265,6 +265,12 @@ TEST(Gerber, what_is_wrong_is_told_with_its_place) {
 }
 
 // Each of the dark ones meets those clear ones that are near, and no others: all of them would be too many.
+TEST(Gerber, strokes_of_an_aperture_without_a_face_cover_nothing) {
+  const ReadGerber read = read_mm("%AMT*7,0,0,1,0,2,0*%\n%ADD10T*%\nD10*\nX0Y0D02*\nX5000Y0D01*\nX5000Y5000D03*\n");
+  EXPECT_EQ(gerber_code(read), "");
+  EXPECT_TRUE(read.layer.dark.empty());
+}
+
 TEST(Gerber, hundreds_of_pads_have_hundreds_of_openings) {
   constexpr int side = 45;
   std::string pads;
