@@ -1,6 +1,7 @@
 #!/usr/bin/env bash
 # scripts/licences.sh [PROGRAM...]: the licences of all that is linked: a line for each Debian package whose library a
-# program loads, or whose headers are compiled into it. Without PROGRAM: all that scripts/test.sh builds for users.
+# program loads at its start or later, or whose headers are compiled into it. Without PROGRAM: all that scripts/test.sh
+# builds for users.
 #
 # The licence is the one that the package states in /usr/share/doc/PACKAGE/copyright for its files at large ("Files: *").
 # Where the statement has no such part, it is every licence that is named there, those of tests and build files too.
@@ -8,6 +9,7 @@ set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
 
 compiled_in=(libcli11-dev nlohmann-json3-dev libboost1.74-dev)  # headers only
+loaded_late=(libmosquitto.so.1)  # by an option, not at the start: docs/decisions/0120
 programs=("$@")
 if (($# == 0)); then programs=(build/release/passo build/release/passo-emulate-avr); fi
 
@@ -26,6 +28,17 @@ stated_by() {  # PACKAGE
   fi
   echo "${licences:-see $file}"
 }
+libraries_of() {  # PROGRAM or library: those that it loads at its start, and theirs
+  ldd "$1" | sed -n 's/.*=> \(\/[^ ]*\) .*/\1/p'
+}
+late_libraries_of() {  # PROGRAM: those that it opens later, and theirs
+  local name library
+  for name in "${loaded_late[@]}"; do
+    grep -qaF "$name" "$1" || continue
+    library=$(/sbin/ldconfig -p | awk -v name="$name" '$1 == name { print $NF; exit }')
+    [[ -z $library ]] || { echo "$library"; libraries_of "$library"; }
+  done
+}
 list() {  # PACKAGE...
   local package
   for package in "$@"; do
@@ -39,7 +52,7 @@ for program in "${programs[@]}"; do
     exit 1
   fi
   echo "$program loads:"
-  mapfile -t packages < <(ldd "$program" | sed -n 's/.*=> \(\/[^ ]*\) .*/\1/p' |
+  mapfile -t packages < <({ libraries_of "$program"; late_libraries_of "$program"; } | sort -u |
     while read -r library; do package_of "$library"; done | sort -u)
   list "${packages[@]}"
 done

@@ -88,11 +88,25 @@ BoardLayer read_board_layer(const std::string& path, const DrawingFileOptions& o
     return layer;
   }
   GerberLayer gerber = read_gerber(path, *bytes, diagnostics);
-  layer.face = std::move(gerber.dark);
+  if (gerber.is_negative && !options.is_edge) {
+    layer.bare = std::move(gerber.dark);
+  } else {
+    layer.face = std::move(gerber.dark);
+  }
   layer.lines = std::move(gerber.strokes);
   layer.lines.file = path;
-  if (gerber.is_negative) layer.lines.notes.push_back("the layer is negative: what it draws is free of copper");
   return layer;
+}
+
+Region covered_by(const BoardLayer& layer, const Region& board, Diagnostics& diagnostics) {
+  if (!layer.bare) return layer.face;
+  if (board.empty()) {
+    diagnostics.add(of_file("isolation.negative", layer.lines.file,
+                            "the layer is a negative, so it covers all of the board but what it draws",
+                            "the board's edge: --edge FILE, or a file that is the outline"));
+    return {};
+  }
+  return united(layer.face, subtracted(board, *layer.bare));
 }
 
 BoardEdge board_edge(const BoardLayer& layer, Nanometres join, Diagnostics& diagnostics) {

@@ -29,13 +29,13 @@ struct GerberWord {
 
 class GerberReader {
  public:
-  GerberReader(const std::string& name, std::string_view text, Diagnostics& diagnostics)
+  GerberReader(const std::string& name, std::string_view text, Diagnostics& diagnostics, std::size_t most_points)
       : file_(name),
         text_(text),
         findings_(file_, text_, diagnostics),
         attributes_(layer_),
         old_codes_(findings_, numbers_),
-        plotter_(layer_, findings_),
+        plotter_(layer_, findings_, most_points),
         apertures_(layer_, findings_, numbers_, plotter_) {
     find_unit(text);
   }
@@ -425,8 +425,9 @@ void GerberReader::read_block() {
 
 }  // namespace
 
-GerberLayer read_gerber(const std::string& name, std::string_view text, Diagnostics& diagnostics) {
-  return GerberReader(name, text, diagnostics).read();
+GerberLayer read_gerber(const std::string& name, std::string_view text, Diagnostics& diagnostics,
+                        std::size_t most_points) {
+  return GerberReader(name, text, diagnostics, most_points).read();
 }
 
 bool looks_like_gerber(std::string_view text) {

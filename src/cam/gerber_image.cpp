@@ -51,13 +51,15 @@ class Composition {
     std::ranges::stable_sort(objects, {}, [](const Region& object) { return bounds(object)->least; });
     const std::optional<Region> united_clear = united_by_halves(std::move(objects));
     if (!united_clear) return false;
-    const Region& clear = *united_clear;
-    const std::optional<DrawnBox> box = bounds(clear);
+    const std::optional<DrawnBox> box = bounds(*united_clear);
     if (!box) return true;
-    for (const DarkObject& dark : dark_) looked_at_ += 1 + dark.boxes.size() / 8;
-    if (looked_at_ > most_looked_at) return false;
+    const std::vector<DrawnBox> boxes = boxes_of(*united_clear);
     for (DarkObject& dark : dark_) {
-      if (overlap(dark.box, *box) && !take_away(clear, *box, dark)) return false;
+      looked_at_ += 1 + dark.boxes.size() / 8;
+      if (looked_at_ > most_looked_at) return false;
+      if (!overlap(dark.box, *box)) continue;
+      looked_at_ += boxes.size() / 8;
+      if (!take_away(near(*united_clear, boxes, dark.box), dark)) return false;
     }
     std::erase_if(dark_, [](const DarkObject& dark) { return dark.region.empty(); });
     return true;
@@ -76,13 +78,24 @@ class Composition {
   }
 
  private:
+  // The rings that come near a box: the others enclose nothing of it.
+  static Region near(const Region& region, const std::vector<DrawnBox>& boxes, const DrawnBox& box) {
+    Region rings;
+    for (std::size_t i = 0; i < boxes.size(); ++i) {
+      if (overlap(boxes[i], box)) rings.rings.push_back(region.rings[i]);
+    }
+    return rings;
+  }
+
   // Rings that lie clear of what is taken away stay as they are: a plane's thousandth opening costs what its first did.
-  bool take_away(const Region& clear, const DrawnBox& box, DarkObject& dark) {
+  bool take_away(const Region& clear, DarkObject& dark) {
+    const std::optional<DrawnBox> box = bounds(clear);
+    if (!box) return true;
     Region touched;
     std::vector<DrawnRing>& rings = dark.region.rings;
     std::size_t kept = 0;
     for (std::size_t i = 0; i < rings.size(); ++i) {
-      if (overlap(dark.boxes[i], box)) {
+      if (overlap(dark.boxes[i], *box)) {
         touched.rings.push_back(std::move(rings[i]));
         continue;
       }
@@ -175,7 +188,9 @@ Region GerberPlacement::placed(const Region& region) const {
   return result;
 }
 
+// A stroke of an aperture without a face, as of a macro that draws nothing, has rings of no points.
 void GerberImage::add(Region object, bool is_dark) {
+  std::erase_if(object.rings, [](const DrawnRing& ring) { return ring.size() < 3; });
   if (object.empty()) return;
   points += points_of(object);
   if (runs.empty() || runs.back().is_dark != is_dark) runs.push_back({is_dark, {}});

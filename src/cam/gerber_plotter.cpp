@@ -61,12 +61,12 @@ void measure(const Region& shape, GerberAperture& aperture) {
 
 bool GerberPlotter::has_room_for(std::size_t points) {
   if (is_full_) return false;
-  if (points <= most_gerber_points - points_) {
+  if (points <= most_points_ - points_) {
     points_ += points;
     return true;
   }
   is_full_ = true;
-  return findings_.refuse(0, 0, "gerber.too-large", fmt::format("here the image exceeds {} points", most_gerber_points),
+  return findings_.refuse(0, 0, "gerber.too-large", fmt::format("here the image exceeds {} points", most_points_),
                           "a smaller layer, or fewer repeats");
 }
 
@@ -334,7 +334,7 @@ void GerberPlotter::pop_frame() {
     return;
   }
   const std::int64_t copies = frame.across * frame.up;
-  const auto most_copies = static_cast<std::int64_t>(most_gerber_points / frame.image.points_of_copy()) + 1;
+  const auto most_copies = static_cast<std::int64_t>(most_points_ / frame.image.points_of_copy()) + 1;
   if (!has_room_for(frame.image.points_of_copy() * static_cast<std::size_t>(std::min(copies, most_copies)))) return;
   for (std::int64_t i = 0; i < frame.across; ++i) {
     for (std::int64_t j = 0; j < frame.up; ++j) {

@@ -32,7 +32,11 @@ struct ArcWords {
 
 class GerberPlotter {
  public:
-  GerberPlotter(GerberLayer& layer, GerberFindings& findings) : layer_(layer), findings_(findings) {
+  GerberPlotter(GerberLayer& layer, GerberFindings& findings, std::size_t most_points)
+      : layer_(layer),
+        findings_(findings),
+        most_points_(most_points),
+        budget_(static_cast<double>(most_points) / static_cast<double>(most_gerber_points)) {
     frames_.emplace_back();
   }
 
@@ -112,6 +116,7 @@ class GerberPlotter {
   Tool tool_;
   bool tool_is_new_ = true;
   std::size_t points_ = 0;
+  std::size_t most_points_;
   bool is_full_ = false;
   RegionBudget budget_;
 };

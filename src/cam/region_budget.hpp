@@ -11,6 +11,10 @@ namespace passo {
 
 class RegionBudget {
  public:
+  // `share`: of what a layer may cost.
+  explicit RegionBudget(double share = 1)
+      : crossings_(part_of(4e6, share)), comparisons_(part_of(4e8, share)), passed_(part_of(1e9, share)) {}
+
   // Whether these rings can be united; then what that costs is spent. Costs are crossings of edges, and how many edges
   // a sweep over all corners passes.
   bool affords(const std::vector<const DrawnRing*>& rings);
@@ -18,11 +22,12 @@ class RegionBudget {
   bool affords(const std::vector<DrawnRing>& rings);
 
  private:
+  static std::size_t part_of(double all, double share) { return static_cast<std::size_t>(all * share); }
   bool spend(std::size_t cost, std::size_t& left);
 
-  std::size_t crossings_ = 8'000'000;
-  std::size_t comparisons_ = 500'000'000;
-  std::size_t passed_ = 6'000'000'000;
+  std::size_t crossings_;
+  std::size_t comparisons_;
+  std::size_t passed_;
 };
 
 }  // namespace passo

@@ -5,7 +5,7 @@
 #include <thread>
 #include <utility>
 
-#include <mosquitto.h>
+#include "mosquitto_library.hpp"
 
 namespace passo {
 namespace {
@@ -18,15 +18,16 @@ constexpr int looks_between_attempts = 20;
 }  // namespace
 
 struct MqttPublisher::Client {
-  explicit Client(const MqttPlace& its_place) : place(its_place), online(place.topic + "/online") {
-    mosquitto_lib_init();
-    line = mosquitto_new(nullptr, true, this);
+  Client(const MqttPlace& its_place, const MosquittoLibrary& its_library)
+      : library(its_library), place(its_place), online(place.topic + "/online") {
+    library.lib_init();
+    line = library.create(nullptr, true, this);
   }
   ~Client() {
     ends = true;
     if (thread.joinable()) thread.join();
-    if (line != nullptr) mosquitto_destroy(line);
-    mosquitto_lib_cleanup();
+    if (line != nullptr) library.destroy(line);
+    library.lib_cleanup();
   }
   Client(const Client&) = delete;
   Client& operator=(const Client&) = delete;
@@ -35,23 +36,24 @@ struct MqttPublisher::Client {
   static void connected(mosquitto* line, void* self, int result) {
     if (result != 0) return;
     auto& client = *static_cast<Client*>(self);
-    mosquitto_publish(line, nullptr, client.online.c_str(), 1, "1", at_least_once, true);
+    client.library.publish(line, nullptr, client.online.c_str(), 1, "1", at_least_once, true);
     ++client.connections;
   }
   // The library's own thread gives up a broker that refuses the first attempt; this one does not.
   void run() {
     while (!ends) {
-      const int begun = mosquitto_connect_async(line, place.host.c_str(), static_cast<int>(place.port), keep_alive);
-      while (begun == MOSQ_ERR_SUCCESS && !ends && mosquitto_loop(line, look, 1) == MOSQ_ERR_SUCCESS) continue;
+      const int begun = library.connect_async(line, place.host.c_str(), static_cast<int>(place.port), keep_alive);
+      while (begun == MOSQ_ERR_SUCCESS && !ends && library.loop(line, look, 1) == MOSQ_ERR_SUCCESS) continue;
       for (int i = 0; i < looks_between_attempts && !ends; ++i) {
         std::this_thread::sleep_for(std::chrono::milliseconds(look));
       }
     }
-    mosquitto_publish(line, nullptr, online.c_str(), 1, "0", at_least_once, true);
-    mosquitto_disconnect(line);
-    for (int i = 0; i < 5 && mosquitto_loop(line, look, 1) == MOSQ_ERR_SUCCESS; ++i) continue;
+    library.publish(line, nullptr, online.c_str(), 1, "0", at_least_once, true);
+    library.disconnect(line);
+    for (int i = 0; i < 5 && library.loop(line, look, 1) == MOSQ_ERR_SUCCESS; ++i) continue;
   }
 
+  const MosquittoLibrary& library;
   MqttPlace place;
   std::string online;
   mosquitto* line = nullptr;
@@ -64,16 +66,19 @@ MqttPublisher::MqttPublisher(std::unique_ptr<Client> client) : client_(std::move
 MqttPublisher::~MqttPublisher() = default;
 
 Result<std::unique_ptr<MqttPublisher>, std::string> MqttPublisher::open(const MqttPlace& place) {
-  auto client = std::make_unique<Client>(place);
+  const MosquittoLibrary* const library = mosquitto_library();
+  if (library == nullptr)
+    return Failure{std::string("libmosquitto is not installed: scripts/install.sh --build gets it")};
+  auto client = std::make_unique<Client>(place, *library);
   mosquitto* const line = client->line;
   if (line == nullptr) return Failure{std::string("no memory for MQTT")};
-  mosquitto_threaded_set(line, true);
-  int error = mosquitto_will_set(line, client->online.c_str(), 1, "0", at_least_once, true);
+  library->threaded_set(line, true);
+  int error = library->will_set(line, client->online.c_str(), 1, "0", at_least_once, true);
   if (error == MOSQ_ERR_SUCCESS && !place.user.empty()) {
-    error = mosquitto_username_pw_set(line, place.user.c_str(), place.password.c_str());
+    error = library->username_pw_set(line, place.user.c_str(), place.password.c_str());
   }
-  if (error != MOSQ_ERR_SUCCESS) return Failure{std::string(mosquitto_strerror(error))};
-  mosquitto_connect_callback_set(line, Client::connected);
+  if (error != MOSQ_ERR_SUCCESS) return Failure{std::string(library->strerror(error))};
+  library->connect_callback_set(line, Client::connected);
   client->thread = std::thread([all = client.get()] { all->run(); });
   return std::unique_ptr<MqttPublisher>(new MqttPublisher(std::move(client)));
 }
@@ -85,8 +90,8 @@ unsigned MqttPublisher::connections() const {
 void MqttPublisher::tell(std::string_view name, std::string_view text) {
   const std::string topic = client_->place.topic + "/" + std::string(name);
   // At most once: without a broker nothing is kept.
-  static_cast<void>(
-      mosquitto_publish(client_->line, nullptr, topic.c_str(), static_cast<int>(text.size()), text.data(), 0, true));
+  static_cast<void>(client_->library.publish(client_->line, nullptr, topic.c_str(), static_cast<int>(text.size()),
+                                             text.data(), 0, true));
 }
 
 }  // namespace passo

@@ -29,12 +29,17 @@ struct Side {
   bool has_mask = false;
 };
 
-Side side_of(const BoardJob& job, const char* name, BoardSide which) {
+// A negative layer draws what the board has not.
+Region copper_of(const GerberLayer& layer, const Region& board) {
+  return layer.is_negative && !board.empty() ? subtracted(board, layer.dark) : layer.dark;
+}
+
+Side side_of(const BoardJob& job, const Region& board, const char* name, BoardSide which) {
   Side side{.name = name, .side = which, .is_turned = which == BoardSide::bottom};
   for (const BoardFile& file : job.files) {
     if (file.kind.side != which || !file.layer) continue;
     const Region& dark = file.layer->dark;
-    if (file.kind.role == BoardRole::copper) side.copper = united(side.copper, dark);
+    if (file.kind.role == BoardRole::copper) side.copper = united(side.copper, copper_of(*file.layer, board));
     if (file.kind.role == BoardRole::print) side.print = united(side.print, dark);
     if (file.kind.role == BoardRole::mask) side.mask = united(side.mask, dark);
     if (file.kind.role == BoardRole::mask) side.has_mask = true;
@@ -43,9 +48,10 @@ Side side_of(const BoardJob& job, const char* name, BoardSide which) {
 }
 
 // Top and bottom, if there is something on them; else all layers as one.
-std::vector<Side> sides_of(const BoardJob& job) {
+std::vector<Side> sides_of(const BoardJob& job, const Region& board) {
   std::vector<Side> sides;
-  for (Side& side : std::vector<Side>{side_of(job, "Top", BoardSide::top), side_of(job, "Bottom", BoardSide::bottom)}) {
+  for (Side& side : std::vector<Side>{side_of(job, board, "Top", BoardSide::top),
+                                      side_of(job, board, "Bottom", BoardSide::bottom)}) {
     if (!side.copper.empty() || !side.print.empty() || !side.mask.empty()) sides.push_back(std::move(side));
   }
   if (!sides.empty()) return sides;
@@ -84,6 +90,13 @@ class SideDrawing {
   SideDrawing(Canvas& canvas, const DrawnBox& box, const Area& area, bool is_turned)
       : canvas_(canvas), view_(box, area), turn_{box.least.x + box.most.x}, is_turned_(is_turned) {}
 
+  // A box, and a little around it, for lines along its edge.
+  Area place_of(const DrawnBox& box) const {
+    constexpr double around = 4;
+    const Spot low = view_.spot(box.least);
+    const Spot high = view_.spot(box.most);
+    return {low.x - around, high.y - around, high.x - low.x + 2 * around, low.y - high.y + 2 * around};
+  }
   void fill(const Region& region, const Colour& colour) {
     for (const DrawnRing& ring : region.rings) {
       canvas_.move_to(spot(ring.front()));
@@ -128,6 +141,8 @@ class SideDrawing {
 void draw_side(Canvas& canvas, const BoardJob& job, const Side& side, const Region& face, const DrawnBox& box,
                const Area& area) {
   SideDrawing drawing(canvas, box, area, side.is_turned);
+  // Files of layout programs have titles and remarks beside the board.
+  canvas.clip(drawing.place_of(box));
   drawing.fill(face, side.has_mask ? masked_board : bare_board);
   drawing.fill(side.copper, side.has_mask ? masked_copper : bare_copper);
   if (side.has_mask) drawing.fill(common(side.copper, side.mask), bare_copper);
@@ -138,6 +153,7 @@ void draw_side(Canvas& canvas, const BoardJob& job, const Side& side, const Regi
   for (const BoardFile& file : job.files) {
     if (file.drills) drawing.draw_holes(*file.drills);
   }
+  canvas.end_clip();
 }
 
 }  // namespace
@@ -145,7 +161,7 @@ void draw_side(Canvas& canvas, const BoardJob& job, const Side& side, const Regi
 Status<OutputError> draw_board(const BoardJob& job, const PictureOptions& options, OutputFile& file) {
   Canvas canvas(options, file);
   const Region face = board_face(job);
-  const std::vector<Side> sides = sides_of(job);
+  const std::vector<Side> sides = sides_of(job, face);
   const std::optional<DrawnBox> box = box_of(job, face, sides);
   std::string words = fmt::format("{} files", job.files.size());
   if (box) {

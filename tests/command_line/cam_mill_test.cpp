@@ -49,6 +49,23 @@ TEST_F(CamMill, an_isolated_layer_loses_no_copper_and_its_program_is_good) {
   EXPECT_EQ(check(path("f.ngc")).code, 0);
 }
 
+// A negative layer draws what the board has not: an opening around a pad, and the ground beside the edge.
+TEST_F(CamMill, a_negative_layer_covers_the_board_but_what_it_draws) {
+  const std::string plane =
+      write("plane.gbr", std::string(begin) +
+                             "%TF.FilePolarity,Negative*%\n%ADD10C,4.0*%\n%ADD11C,2.0*%\nD10*\nX10000000Y7500000D03*\n"
+                             "%LPC*%\nD11*\nX10000000Y7500000D03*\nM02*\n");
+  const std::string isolate = "isolate " + plane + " --tool 0.5 -o " + path("plane.ngc");
+  const Outcome alone = cam(isolate);
+  EXPECT_EQ(alone.code, 2);
+  EXPECT_THAT(alone.err, HasSubstr("--edge FILE"));
+  EXPECT_THAT(alone.err, HasSubstr("[isolation.negative]"));
+  const Outcome made = cam(isolate + " --edge " + edge());
+  EXPECT_EQ(made.code, 0) << made.err;
+  // 20 x 15 mm with two round corners, less a ring of 2 and 1 mm of radius.
+  EXPECT_THAT(made.out, HasSubstr("0 of 288.9 mm\u00B2 of copper lost; 2 islands, all apart"));
+}
+
 TEST_F(CamMill, ways_midway_between_islands_end_at_the_edge) {
   const std::string options = "isolate " + copper() + " --edge " + edge() + " --tool 0.12 --voronoi";
   const Outcome made = cam(options + " -o " + path("v.ngc") + " -p " + path("v.svg"));

@@ -31,10 +31,20 @@ std::string exact(Nanometres length) {
   return fmt::format("{:.6f}mm", to_mm(length).value());
 }
 
+// Several files may be one side.
+void add_copper(const BoardFile& file, std::optional<BoardLayer>& side) {
+  const GerberLayer& layer = *file.layer;
+  if (!side) side = BoardLayer{};
+  side->lines.file = file.name;
+  if (layer.is_negative) {
+    side->bare = united(side->bare.value_or(Region{}), layer.dark);
+  } else {
+    side->face = united(side->face, layer.dark);
+  }
+}
+
 BoardPlan plan_of(const BoardJob& job, Nanometres join, Diagnostics& findings) {
   BoardPlan plan;
-  std::vector<Region> fronts;
-  std::vector<Region> backs;
   std::string edge_name;
   for (const BoardFile& file : job.files) {
     if (file.drills && file.kind.role == BoardRole::drill) plan.drills.push_back(*file.drills);
@@ -44,8 +54,8 @@ BoardPlan plan_of(const BoardJob& job, Nanometres join, Diagnostics& findings) {
       edge_name = file.name;
     }
     if (file.kind.role != BoardRole::copper) continue;
-    if (file.kind.side == BoardSide::top) fronts.push_back(file.layer->dark);
-    if (file.kind.side == BoardSide::bottom) backs.push_back(file.layer->dark);
+    if (file.kind.side == BoardSide::top) add_copper(file, plan.front);
+    if (file.kind.side == BoardSide::bottom) add_copper(file, plan.back);
   }
   if (plan.edge) {
     plan.edge->lines.file = edge_name;
@@ -55,11 +65,12 @@ BoardPlan plan_of(const BoardJob& job, Nanometres join, Diagnostics& findings) {
       plan.edge.reset();
     }
   }
-  if (!fronts.empty()) plan.front = BoardLayer{united(fronts), {}};
-  if (!backs.empty()) plan.back = BoardLayer{united(backs), {}};
   std::vector<Region> all = {plan.face};
-  for (const auto& layer : {plan.front, plan.back}) {
-    if (layer && plan.face.empty()) all.push_back(layer->face);
+  for (std::optional<BoardLayer>* const side : {&plan.front, &plan.back}) {
+    if (!*side) continue;
+    (*side)->face = covered_by(**side, plan.face, findings);
+    (*side)->bare.reset();
+    if (plan.face.empty()) all.push_back((*side)->face);
   }
   plan.box = bounds(united(all)).value_or(DrawnBox{});
   return plan;

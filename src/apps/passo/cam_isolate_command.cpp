@@ -158,14 +158,18 @@ int cam_isolate(const CamIsolateArguments& arguments, const CamSources* given, C
 
   const std::optional<CamSources> sources = given != nullptr ? *given : read(arguments, job);
   if (!sources) return exit_bad_program;
-  Region copper = mirrored(sources->layer.face, job.mirror);
+  Diagnostics findings;
+  Region copper = mirrored(covered_by(sources->layer, sources->board, findings), job.mirror);
+  if (findings.any_error()) {
+    show(findings);
+    return exit_bad_program;
+  }
   options.board = mirrored(sources->board, job.mirror);
   if (const std::optional<DrawnBox> box = bounds(copper); options.clear && options.board.empty() && box) {
     options.board = grown(filled({rectangle(*box)}), {2'000'000});
   }
   move_to_zero(job.zero, options.board.empty() ? copper : options.board, {&copper, &options.board});
 
-  Diagnostics findings;
   const IsolationPlan plan = plan_isolation(copper, options, findings);
   if (findings.any_error()) {
     show(findings);

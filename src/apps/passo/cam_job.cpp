@@ -148,6 +148,7 @@ std::optional<BoardLayer> read_layers(const std::vector<std::string>& files, con
     BoardLayer layer = read_board_layer(file, job.reading, findings);
     for (const std::string& words : layer.lines.notes) note(file + ": " + words);
     faces.push_back(std::move(layer.face));
+    if (layer.bare) all.bare = all.bare ? united(*all.bare, *layer.bare) : std::move(*layer.bare);
     all.lines.file = file;
     std::ranges::move(layer.lines.holes, std::back_inserter(all.lines.holes));
     std::ranges::move(layer.lines.paths, std::back_inserter(all.lines.paths));

@@ -4,7 +4,7 @@
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
-#include <iterator>
+#include <vector>
 
 #include <fcntl.h>
 #include <sys/resource.h>
@@ -91,7 +91,13 @@ void PassingFolder::remove() {
 
 std::string content_of(const std::string& file) {
   std::ifstream in(file, std::ios::binary);
-  return {std::istreambuf_iterator<char>(in), {}};
+  std::string content;
+  std::vector<char> piece(65536);
+  do {
+    in.read(piece.data(), static_cast<std::streamsize>(piece.size()));
+    content.append(piece.data(), static_cast<std::size_t>(in.gcount()));
+  } while (in);
+  return content;
 }
 
 bool write_content(const std::string& file, std::string_view bytes) {

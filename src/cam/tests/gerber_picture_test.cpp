@@ -169,8 +169,11 @@ bool compare(const fs::path& path) {
   fs::remove(png);
   fs::remove(png.string() + ".log");
   if (theirs.dark.empty()) return false;
-  const Bitmap ours = bitmap_of(layer.dark, {{std::llround(left * nm_per_inch)}, {std::llround(low * nm_per_inch)}},
-                                nm_per_inch / dpi, theirs.width, theirs.height);
+  Bitmap ours = bitmap_of(layer.dark, {{std::llround(left * nm_per_inch)}, {std::llround(low * nm_per_inch)}},
+                          nm_per_inch / dpi, theirs.width, theirs.height);
+  if (layer.is_negative) {
+    for (std::uint8_t& pixel : ours.dark) pixel = pixel == 0 ? 1 : 0;
+  }
   std::size_t differing = 0;
   std::size_t beyond_edges = 0;
   std::size_t dark = 0;

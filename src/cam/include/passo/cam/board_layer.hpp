@@ -4,6 +4,7 @@
 // without a width covers nothing; it is still among the lines, from which edge_loops() makes an outline.
 #pragma once
 
+#include <optional>
 #include <string>
 
 #include "passo/cam/drawing_file.hpp"
@@ -13,12 +14,16 @@
 namespace passo {
 
 struct BoardLayer {
-  Region face = {};    // all that the layer covers
-  Drawing lines = {};  // the middles of its strokes; its notes are those of the file
+  Region face = {};                 // all that the layer covers
+  Drawing lines = {};               // the middles of its strokes; its notes are those of the file
+  std::optional<Region> bare = {};  // of a negative layer: what it draws. It covers all else of the board, too
 };
 
 // Errors are those of the readers, and of a KiCad board "kicad.which-layer" and "kicad.no-layer".
 BoardLayer read_board_layer(const std::string& path, const DrawingFileOptions& options, Diagnostics& diagnostics);
+
+// What the layer covers of the board. "isolation.negative": a negative layer, and nobody knows the board.
+Region covered_by(const BoardLayer& layer, const Region& board, Diagnostics& diagnostics);
 
 // What a drawing covers.
 Region face_of(const Drawing& drawing);

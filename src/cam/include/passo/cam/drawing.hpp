@@ -41,7 +41,10 @@ struct DrawnPoint {
 };
 
 inline double distance_nm(DrawnPoint a, DrawnPoint b) {
-  return std::hypot(static_cast<double>(a.x.count - b.x.count), static_cast<double>(a.y.count - b.y.count));
+  // No place is so far that its square were too much for a double: std::hypot() would take four times as long.
+  const auto across = static_cast<double>(a.x.count - b.x.count);
+  const auto up = static_cast<double>(a.y.count - b.y.count);
+  return std::sqrt(across * across + up * up);
 }
 
 struct DrawnHole {

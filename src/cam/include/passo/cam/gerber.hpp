@@ -54,8 +54,10 @@ struct GerberLayer {
   bool is_negative = false;              // .FilePolarity, IPNEG: what is dark here is free of copper
 };
 
-// Errors are in `diagnostics`; the layer then holds what was read so far. Notes are in strokes.notes.
-GerberLayer read_gerber(const std::string& name, std::string_view text, Diagnostics& diagnostics);
+// Errors are in `diagnostics`; the layer then holds what was read so far. Notes are in strokes.notes. A fuzzer asks for
+// fewer points: each of its texts has to be read at once.
+GerberLayer read_gerber(const std::string& name, std::string_view text, Diagnostics& diagnostics,
+                        std::size_t most_points = most_gerber_points);
 
 // Whether the text begins like a Gerber file.
 bool looks_like_gerber(std::string_view text);
