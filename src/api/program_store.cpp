@@ -85,6 +85,11 @@ void ProgramStore::set_height_map(std::uint64_t id, HeightMap map) {
   if (found != programs_.end()) found->second.height_map = std::move(map);
 }
 
+void ProgramStore::set_planned_time(std::uint64_t id, Seconds time) {
+  const auto found = programs_.find(id);
+  if (found != programs_.end()) found->second.planned_time = time;
+}
+
 void ProgramStore::check(std::uint64_t id, const MachineDescription& machine, const Point& start) {
   const auto found = programs_.find(id);
   if (found == programs_.end()) return;
@@ -98,6 +103,7 @@ void ProgramStore::check(std::uint64_t id, const MachineDescription& machine, co
   if (program.state == UploadState::good && program.checked_from == start) return;
   program.checked_from = start;
   program.findings.clear();
+  program.planned_time.reset();
   program.path_points = ProgramPath();
   make_room_for_path(id);
   program.state = UploadState::checking;
@@ -148,6 +154,7 @@ void ProgramStore::forget_checks() {
   checker_.reset();
   for (auto& [id, program] : programs_) {
     program.state = UploadState::unchecked;
+    program.planned_time.reset();
     program.path_points = ProgramPath();
   }
 }

@@ -208,7 +208,8 @@ MachineSession::Answer MachineSession::take(request::DropLines&) {
 void MachineSession::put_on_drive(Work& work, const DriveOptions& options, bool knows_ahead) {
   AnswerBook& answers = work.lines != nullptr ? work.lines->answers() : work.answers;
   const MotionLimits limits = motion_limits(machine_);
-  work.path = std::make_unique<LeftOutTime>(*work.activity, limits, options.begin_at.value_or(PathPlace()).item);
+  work.path = std::make_unique<LeftOutTime>(*work.activity, limits, options.begin_at.value_or(PathPlace()));
+  work.progress_ahead.begin_with(options.lead_in, limits);
   work.drive = std::make_unique<MotionDrive>(*work.path, limits, step_options(), board_, answers, options);
   MotionDrive& drive = *work.drive;
   Watchers& watchers = work.watchers;
@@ -219,14 +220,13 @@ void MachineSession::put_on_drive(Work& work, const DriveOptions& options, bool 
       const auto* move = std::get_if<PlannedMove>(&item);
       if (move == nullptr) {
         const Seconds dwell = std::get<Action>(item).dwell;
-        if (dwell > Seconds(0)) work.progress_ahead.plan(dwell, end, end + dwell, now());
+        if (dwell > Seconds(0)) work.progress_ahead.plan(dwell, end - dwell, end, now());
         return;
       }
       const Seconds begins = end - move->duration();
       work.ahead = move->segment.tool_at(move->to);
       work.lines_ahead.plan(move->segment.source, begins, now());
-      const double share = (move->to - move->from()) / move->segment.curve.length();
-      work.progress_ahead.plan(nominal_time_of(move->segment, limits) * share, begins, end, now());
+      work.progress_ahead.plan(nominal_time_of(*move, limits), begins, end, now());
     });
   }
   if (work.program != nullptr && watchers.operations) work.program->operations().watch(watchers.operations);
