@@ -216,17 +216,18 @@ void MachineSession::put_on_drive(Work& work, const DriveOptions& options, bool 
   work.ahead = position_.place;
   if (knows_ahead) {
     drive.motion().watch([this, &work, limits](const MotionItem& item) {
-      const Seconds end = now() + work.drive->committed();
       const auto* move = std::get_if<PlannedMove>(&item);
+      const Seconds time = move != nullptr ? move->duration() : std::get<Action>(item).dwell;
+      // A refiller commits a motion piece by piece, after it was given. Directly it is committed at once.
+      const bool is_committed = work.drive->refiller() == nullptr;
+      const Seconds begins = now() + work.drive->committed() - (is_committed ? time : Seconds(0));
       if (move == nullptr) {
-        const Seconds dwell = std::get<Action>(item).dwell;
-        if (dwell > Seconds(0)) work.progress_ahead.plan(dwell, end - dwell, end, now());
+        if (time > Seconds(0)) work.progress_ahead.plan(time, begins, begins + time, now());
         return;
       }
-      const Seconds begins = end - move->duration();
       work.ahead = move->segment.tool_at(move->to);
       work.lines_ahead.plan(move->segment.source, begins, now());
-      work.progress_ahead.plan(nominal_time_of(*move, limits), begins, end, now());
+      work.progress_ahead.plan(nominal_time_of(*move, limits), begins, begins + time, now());
     });
   }
   if (work.program != nullptr && watchers.operations) work.program->operations().watch(watchers.operations);

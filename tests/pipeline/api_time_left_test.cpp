@@ -29,15 +29,15 @@ struct Told {
 std::vector<Told> told_until_done(ApiRun& run, const std::function<void()>& at_half = {}) {
   std::vector<Told> all;
   bool is_before = true;
-  run.turn_until([&] {
+  while (run.api.job().state == JobState::checking || run.api.job().state == JobState::running) {
+    run.pass(Seconds(0.05));
     const Json status = run.get("/status");
     if (status["left"].is_number()) all.push_back({run.run.session().now(), Seconds(status["left"].get<double>())});
     if (is_before && at_half && status["progress"].is_number() && status["progress"] > 0.5) {
       is_before = false;
       at_half();
     }
-    return run.api.job().state == JobState::done;
-  });
+  }
   EXPECT_EQ(run.api.job().state, JobState::done);
   return all;
 }
