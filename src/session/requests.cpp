@@ -204,6 +204,11 @@ MachineSession::Answer MachineSession::take(request::DropLines&) {
   return ticket;
 }
 
+Seconds MachineSession::clock_of(const Work& work) const {
+  const Refiller* const refiller = work.drive->refiller();
+  return refiller != nullptr ? refiller->executed_time() : now();
+}
+
 // Puts the work's activity on a drive, and connects all watchers.
 void MachineSession::put_on_drive(Work& work, const DriveOptions& options, bool knows_ahead) {
   AnswerBook& answers = work.lines != nullptr ? work.lines->answers() : work.answers;
@@ -218,16 +223,16 @@ void MachineSession::put_on_drive(Work& work, const DriveOptions& options, bool 
     drive.motion().watch([this, &work, limits](const MotionItem& item) {
       const auto* move = std::get_if<PlannedMove>(&item);
       const Seconds time = move != nullptr ? move->duration() : std::get<Action>(item).dwell;
-      // A refiller commits a motion piece by piece, after it was given. Directly it is committed at once.
-      const bool is_committed = work.drive->refiller() == nullptr;
-      const Seconds begins = now() + work.drive->committed() - (is_committed ? time : Seconds(0));
+      const Refiller* const refiller = work.drive->refiller();
+      const Seconds ends = refiller != nullptr ? refiller->given_time() : now() + work.drive->committed();
+      const Seconds begins = ends - time;
       if (move == nullptr) {
-        if (time > Seconds(0)) work.progress_ahead.plan(time, begins, begins + time, now());
+        if (time > Seconds(0)) work.progress_ahead.plan(time, begins, ends, clock_of(work));
         return;
       }
       work.ahead = move->segment.tool_at(move->to);
-      work.lines_ahead.plan(move->segment.source, begins, now());
-      work.progress_ahead.plan(nominal_time_of(*move, limits), begins, begins + time, now());
+      work.lines_ahead.plan(move->segment.source, begins, clock_of(work));
+      work.progress_ahead.plan(nominal_time_of(*move, limits), begins, ends, clock_of(work));
     });
   }
   if (work.program != nullptr && watchers.operations) work.program->operations().watch(watchers.operations);

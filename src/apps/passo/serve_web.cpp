@@ -71,11 +71,11 @@ ServedWeb::ServedWeb(const ServeArguments& arguments, const MachineDescription& 
       history_(std::move(history)),
       offsets_(std::move(offsets)),
       timer_(machine),
-      api_(
-          machine, session, owner,
-          api_options(arguments.page.empty() ? nullptr : &page_, history_.get(), offsets_.get(), jobs, maker_, studies_, timer_,
-                      [this](const SavedParameters& parameters, const ToolTable& tools) { keep(parameters, tools); })) {
-}
+      api_(machine, session, owner,
+           api_options(arguments.page.empty() ? nullptr : &page_, history_.get(), offsets_.get(), jobs, maker_,
+                       studies_, timer_, [this](const SavedParameters& parameters, const ToolTable& tools) {
+                         keep(parameters, tools);
+                       })) {}
 
 std::unique_ptr<ServedWeb> ServedWeb::open(const ServeArguments& arguments, const MachineDescription& machine,
                                            MachineSession& session, MotionOwner& owner, const ServedJobs& jobs,

@@ -1,5 +1,5 @@
-// ServedTimer: times the motion of programs in a thread of its own, at the lowest priority: the machine's loop waits for
-// nothing. What the thread uses is its own.
+// ServedTimer: times the motion of programs in a thread of its own, at the lowest priority: the machine's loop waits
+// for nothing. What the thread uses is its own.
 #pragma once
 
 #include <atomic>

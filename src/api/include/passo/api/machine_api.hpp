@@ -24,8 +24,8 @@
 #include "passo/api/api_routes.hpp"
 #include "passo/api/kept_job.hpp"
 #include "passo/api/maker.hpp"
-#include "passo/api/motion_times.hpp"
 #include "passo/api/motion_owner.hpp"
+#include "passo/api/motion_times.hpp"
 #include "passo/api/program_store.hpp"
 #include "passo/api/program_uploads.hpp"
 #include "passo/api/studies.hpp"
@@ -214,11 +214,11 @@ class MachineApi final : public WebHandler {
   // The program that is timed or was timed last, and its times, as far as they are known.
   std::uint64_t timed_ = 0;
   std::uint64_t timed_path_ = 0;
-  MotionFactors timed_factors_;             // of the order
+  MotionFactors timed_factors_;  // of the order
   bool is_timing_ = false;
-  std::optional<MotionTimes> times_;        // of that program
-  MotionFactors times_factors_;             // those that they were planned with
-  std::uint64_t map_for_ = 0;  // the program that gets the height map which the job probes; 0: it probes none
+  std::optional<MotionTimes> times_;  // of that program
+  MotionFactors times_factors_;       // those that they were planned with
+  std::uint64_t map_for_ = 0;         // the program that gets the height map which the job probes; 0: it probes none
   HomingRepeats repeats_;
   std::vector<HomedAxis> homed_;     // by the last homing
   std::optional<Point> homes_from_;  // where the machine stood, if that was known when a homing began

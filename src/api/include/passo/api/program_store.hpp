@@ -38,7 +38,7 @@ struct StoredProgram {
   Point checked_from = {};  // where the machine stood at the last check
   ProgramCheck check;
   std::optional<Seconds> planned_time;  // of its motion, with all ramps, at overrides of 100 %
-  std::uint64_t path = 0;  // the fingerprint of its path, after a good check
+  std::uint64_t path = 0;               // the fingerprint of its path, after a good check
   Diagnostics findings;
   ProgramPath path_points;                 // of the last check; for viewers
   std::optional<HeightMap> height_map{};   // of the surface that it is to be levelled on
