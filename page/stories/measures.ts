@@ -42,7 +42,7 @@ function memory(): Map<string, number> {
   const found = new Map<string, number>();
   for (const pid of browserProcesses()) {
     try {
-      const kind = /\0--type=([a-z-]+)/.exec(readFileSync(`/proc/${pid}/cmdline`, 'utf8'))?.[1] ?? 'browser';
+      const kind = /[\0 ]--type=([a-z-]+)/.exec(readFileSync(`/proc/${pid}/cmdline`, 'utf8'))?.[1] ?? 'browser';
       const kilobytes = Number(/^Pss:\s+(\d+)/m.exec(readFileSync(`/proc/${pid}/smaps_rollup`, 'utf8'))?.[1] ?? 0);
       found.set(kind, (found.get(kind) ?? 0) + kilobytes / 1000);
     } catch {

@@ -13,6 +13,18 @@ constexpr std::uint64_t lines_a_mark = 256;
 constexpr int selected_system = 5220;
 constexpr int first_offset = 5221;
 
+// A parameter that nobody has set counts like one that a program has left as it was.
+bool mean_the_same(const SavedParameters& one, const SavedParameters& other) {
+  const auto is_in = [](const SavedParameters& all) {
+    return [&all](const auto& parameter) {
+      const double usual = parameter.first == selected_system ? 1 : 0;
+      const auto found = all.find(parameter.first);
+      return parameter.second == (found == all.end() ? usual : found->second);
+    };
+  };
+  return std::ranges::all_of(one, is_in(other)) && std::ranges::all_of(other, is_in(one));
+}
+
 }  // namespace
 
 std::string_view name_of(UploadState state) {
@@ -144,10 +156,10 @@ void ProgramStore::set_work_zero(const Point& zero) {
 }
 
 void ProgramStore::set_offsets(const SavedParameters& parameters, const ToolTable& tools) {
-  if (parameters == parameters_ && tools == tools_) return;
+  const bool change_nothing = mean_the_same(parameters, parameters_) && tools == tools_;
   parameters_ = parameters;
   tools_ = tools;
-  forget_checks();
+  if (!change_nothing) forget_checks();
 }
 
 void ProgramStore::forget_checks() {

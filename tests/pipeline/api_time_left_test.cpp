@@ -63,6 +63,7 @@ TEST(TimeLeft, comes_true_to_the_second_wherever_the_pace_changes) {
   EXPECT_NEAR(planned, (end - begin).value(), 0.5);
   EXPECT_LT(run.get(fmt::format("/programs/{}", id))["seconds"].get<double>(), planned / 2) << "ramps take their time";
   EXPECT_TRUE(run.get("/status")["left"].is_null());
+  EXPECT_EQ(run.get(fmt::format("/programs/{}", id))["state"], "good") << "it has changed no offset";
 }
 
 TEST(TimeLeft, follows_the_overrides) {
