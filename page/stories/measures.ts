@@ -37,17 +37,25 @@ function browserProcesses(): number[] {
   const ours = (pid: number): boolean => pid === process.pid || (parents.has(pid) && ours(parents.get(pid) ?? 0));
   return [...parents.keys()].filter((pid) => pid !== process.pid && !daemons.has(pid) && ours(pid));
 }
-// MB, what is shared counted once.
-function memory(): number {
-  let kilobytes = 0;
+// MB by kinds of processes, what is shared counted once. The page itself is in the renderer.
+function memory(): Map<string, number> {
+  const found = new Map<string, number>();
   for (const pid of browserProcesses()) {
     try {
-      kilobytes += Number(/^Pss:\s+(\d+)/m.exec(readFileSync(`/proc/${pid}/smaps_rollup`, 'utf8'))?.[1] ?? 0);
+      const kind = /[\0 ]--type=([a-z-]+)/.exec(readFileSync(`/proc/${pid}/cmdline`, 'utf8'))?.[1] ?? 'browser';
+      const kilobytes = Number(/^Pss:\s+(\d+)/m.exec(readFileSync(`/proc/${pid}/smaps_rollup`, 'utf8'))?.[1] ?? 0);
+      found.set(kind, (found.get(kind) ?? 0) + kilobytes / 1000);
     } catch {
       // It has just ended.
     }
   }
-  return kilobytes / 1000;
+  return found;
+}
+function tellMemory(when: string, asked: string): void {
+  const all = memory();
+  const sum = [...all.values()].reduce((one, other) => one + other, 0);
+  tell(`Memory of the browser, ${when}`, `${sum.toFixed(0)} MB`, asked);
+  for (const [kind, megabytes] of [...all].sort((one, other) => other[1] - one[1])) tell(`  ${kind}`, `${megabytes.toFixed(0)} MB`, '');
 }
 // Seconds of processors.
 function processorTime(): number {
@@ -130,16 +138,20 @@ async function large(page: Page, daemon: Daemon, folder: string): Promise<void> 
   await page.evaluate(() => new Promise((done) => requestAnimationFrame(() => requestAnimationFrame(done))));
   tell(`${moves} moves: shown`, time(), '3 s on two cores');
   await sleep(1500);
-  tell('Memory of the browser with it, all processes', `${memory().toFixed(0)} MB`, '500 MB');
+  tellMemory('with it', '500 MB');
 }
 
 const folder = mkdtempSync(join(tmpdir(), 'passo-measures-'));
 const browser = await openBrowser();
 const daemon = await Daemon.start({ machine: example('machines/router.toml') });
+const empty = await browser.newPage();
+await sleep(1000);
+tellMemory('with an empty page', '');
+await empty.close();
 const { page } = await visit(browser, daemon, 'run');
 await idle(page);
 await latency(page, daemon);
-tell('Memory of the browser, without a program', `${memory().toFixed(0)} MB`, '');
+tellMemory('without a program', '500 MB');
 await large(page, daemon, folder);
 await browser.close();
 await daemon.end();

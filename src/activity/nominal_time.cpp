@@ -14,4 +14,8 @@ Seconds nominal_time_of(const PathItem& item, const MotionLimits& limits) {
   return speed > 0 ? segment.curve.length() / MmPerSecond(speed) : Seconds(0);
 }
 
+Seconds nominal_time_of(const PlannedMove& move, const MotionLimits& limits) {
+  return nominal_time_of(PathItem(move.segment), limits) * ((move.to - move.from()) / move.segment.curve.length());
+}
+
 }  // namespace passo

@@ -30,6 +30,9 @@ WebAnswer no_history();
 WebAnswer no_place();
 WebAnswer no_room();
 
+// Six decimals: a tenth of a step of a fine machine.
+double rounded(double value);
+
 Json as_json(const MachineDescription& machine, const Point& place);
 Json as_json(const MachineDescription& machine, const MachineStatus& status);
 Json as_json(const MotionOwner& owner);

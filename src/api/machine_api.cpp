@@ -367,6 +367,7 @@ void MachineApi::turn() {
   if (owner_.kind() == MotionOwner::Kind::client && is_silent && !session_.busy()) owner_.give_back();
   programs_.turn();
   heed_maker();
+  mind_times();
   if (kept_) kept_->look();
   if (job_.state == JobState::checking && !programs_.checks()) begin_checked_job();
   // The disk may take its time while nothing moves.
@@ -374,7 +375,10 @@ void MachineApi::turn() {
 }
 
 std::string MachineApi::status_text() const {
-  Json json = as_json(machine_, session_.status());
+  const MachineStatus status = session_.status();
+  Json json = as_json(machine_, status);
+  const std::optional<Seconds> left = time_left(status);
+  json["left"] = left ? Json(rounded(left->value())) : Json();
   json["work_offset"] = as_json(machine_, programs_.work_zero());
   json["owner"] = as_json(owner_);
   json["job"] = as_json(job_);

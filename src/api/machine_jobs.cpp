@@ -225,6 +225,7 @@ void MachineApi::end_job(JobState state, std::string why) {
   job_.state = state;
   job_.why = std::move(why);
   ticket_.reset();
+  map_for_ = 0;
   ++jobs_ended_;
   if (named_) kept_->end(state == JobState::interrupted);
   named_ = false;

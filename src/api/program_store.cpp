@@ -13,6 +13,18 @@ constexpr std::uint64_t lines_a_mark = 256;
 constexpr int selected_system = 5220;
 constexpr int first_offset = 5221;
 
+// A parameter that nobody has set counts like one that a program has left as it was.
+bool mean_the_same(const SavedParameters& one, const SavedParameters& other) {
+  const auto is_in = [](const SavedParameters& all) {
+    return [&all](const auto& parameter) {
+      const double usual = parameter.first == selected_system ? 1 : 0;
+      const auto found = all.find(parameter.first);
+      return parameter.second == (found == all.end() ? usual : found->second);
+    };
+  };
+  return std::ranges::all_of(one, is_in(other)) && std::ranges::all_of(other, is_in(one));
+}
+
 }  // namespace
 
 std::string_view name_of(UploadState state) {
@@ -85,6 +97,11 @@ void ProgramStore::set_height_map(std::uint64_t id, HeightMap map) {
   if (found != programs_.end()) found->second.height_map = std::move(map);
 }
 
+void ProgramStore::set_planned_time(std::uint64_t id, Seconds time) {
+  const auto found = programs_.find(id);
+  if (found != programs_.end()) found->second.planned_time = time;
+}
+
 void ProgramStore::check(std::uint64_t id, const MachineDescription& machine, const Point& start) {
   const auto found = programs_.find(id);
   if (found == programs_.end()) return;
@@ -98,6 +115,7 @@ void ProgramStore::check(std::uint64_t id, const MachineDescription& machine, co
   if (program.state == UploadState::good && program.checked_from == start) return;
   program.checked_from = start;
   program.findings.clear();
+  program.planned_time.reset();
   program.path_points = ProgramPath();
   make_room_for_path(id);
   program.state = UploadState::checking;
@@ -138,16 +156,17 @@ void ProgramStore::set_work_zero(const Point& zero) {
 }
 
 void ProgramStore::set_offsets(const SavedParameters& parameters, const ToolTable& tools) {
-  if (parameters == parameters_ && tools == tools_) return;
+  const bool change_nothing = mean_the_same(parameters, parameters_) && tools == tools_;
   parameters_ = parameters;
   tools_ = tools;
-  forget_checks();
+  if (!change_nothing) forget_checks();
 }
 
 void ProgramStore::forget_checks() {
   checker_.reset();
   for (auto& [id, program] : programs_) {
     program.state = UploadState::unchecked;
+    program.planned_time.reset();
     program.path_points = ProgramPath();
   }
 }

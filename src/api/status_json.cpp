@@ -22,11 +22,6 @@ Json names_of(const HoldReasons& holds) {
   return list;
 }
 
-// Six decimals: a tenth of a step of a fine machine.
-double rounded(double value) {
-  return std::round(value * 1e6) / 1e6 + 0.0;
-}
-
 // The numbers of the closed limit switches.
 Json closed_limits(const MachineDescription& machine, std::uint16_t inputs) {
   Json list = Json::array();
@@ -84,6 +79,10 @@ const char* name_of(SpindleDirection direction) {
 }
 
 }  // namespace
+
+double rounded(double value) {
+  return std::round(value * 1e6) / 1e6 + 0.0;
+}
 
 WebAnswer json_answer(unsigned status, const Json& json) {
   return {.status = status,
@@ -230,6 +229,7 @@ Json as_json(const StoredProgram& program, bool with_findings) {
                {"lines", program.lines},
                {"state", name_of(program.state)},
                {"seconds", rounded(program.check.nominal_time.value())},
+               {"planned", program.planned_time ? Json(rounded(program.planned_time->value())) : Json()},
                {"moves", program.check.moves},
                {"height_map", program.height_map.has_value()}};
   if (with_findings) json["findings"] = as_json(program.findings);

@@ -74,7 +74,9 @@ void Refiller::watch(const MotionItem& motion) {
   motion_played_.note_given(motion);
   given_ = stages_.path.behind(given_, motion);
   const auto* move = std::get_if<PlannedMove>(&motion);
-  given_time_ += move != nullptr ? move->duration() : std::get<Action>(motion).dwell;
+  const Seconds time = move != nullptr ? move->duration() : std::get<Action>(motion).dwell;
+  given_time_ += time;
+  given_in_all_ += time;
   if (move == nullptr || move->phase_count == 0) return;
   speed_.note_speed(move->exit_velocity());
 }
@@ -90,6 +92,7 @@ Refiller::Turn Refiller::advance() {
     if (pulled_.empty()) {
       rested_ = tail_of_nothing().rest;
       motion_played_.show(motion_played_.given());
+      passed_ += sent_time_;
       given_time_ = sent_time_ = Seconds(0);
       began_.reset();
       told_ahead_.reset();
@@ -214,12 +217,19 @@ Seconds Refiller::ahead_of(const Turned& turned, Seconds time) {
   return given_time_ - (time - *began_);
 }
 
+Seconds Refiller::executed_time() const {
+  const Seconds whole_items = passed_ + sent_time_ - ahead_;
+  if (motion_.empty()) return whole_items;
+  return whole_items + std::min(motion_.front().time, stages_.link.now() - item_begins_);
+}
+
 // Takes note of how far the board has told that it is.
 void Refiller::note_executed() {
   const ItemNumber executed = stages_.link.executed();
   played_.show_executed(executed);
   for (; !motion_.empty() && later_by(motion_.front().number, executed) <= 0; motion_.pop_front()) {
     ahead_ -= motion_.front().time;
+    item_begins_ = stages_.link.now();
   }
   auto& under_way = refills_under_way_;
   for (; under_way.size() > 1 && later_by(executed, under_way[1].first) >= 0; under_way.pop_front()) {
@@ -256,6 +266,8 @@ void Refiller::take_up() {
   motion_played_.forget();
   motion_.clear();
   pulled_.clear();
+  given_time_ = sent_time_ = sent_time_ - ahead_;
+  given_in_all_ = passed_ + sent_time_;
   ahead_ = pulled_time_ = Seconds(0);
   on_tail_ = holds_ = ended_ = false;
   speed_.rest();
@@ -402,6 +414,7 @@ void Refiller::send(std::size_t items) {
     rest_watcher_({.executed = last, .place = tail.rest.place, .done = done_});
   }
   refill.first = stages_.link.replace(behind_, items_);
+  if (motion_.empty()) item_begins_ = stages_.link.now();
   for (std::size_t i = 0; i < items; ++i) {
     sent_time_ += pulled_[i].time;
     motion_.push_back({.number = static_cast<ItemNumber>(refill.first + i),

@@ -179,12 +179,8 @@ void GrblController::restore(const std::string& text) {
   if (!settings && text != "$RST=#") return answer(GrblError::bad_statement);
   if (settings) memory_.choices = GrblChoices();
   if (all) memory_ = GrblMemory();
-  for (int system = 1; system <= 6 && text != "$RST=$"; ++system) {
-    std::string line = fmt::format("G10L2P{}", system);
-    for (const Axis axis : grbl_axes_of(machine_)) line += fmt::format("{}0", letter_of(axis));
-    if (program_.take(line, session_.now())) return answer(GrblError::bad_statement);
-  }
   if (text != "$RST=$") {
+    take_offsets({});
     static_cast<void>(program_.take("G92.1", session_.now()));
     offsets_changed_ = true;
   }

@@ -461,11 +461,12 @@ MachineStatus MachineSession::status() const {
   status.activity = work_->activity->kind();
   status.progress = work_->activity->progress();
   if (work_->whole > Seconds(0)) {
-    status.progress = std::min((work_->path->time() + work_->progress_ahead.at(now())) / work_->whole, 1.0);
+    const Seconds done = std::max(work_->progress_ahead.at(clock_of(*work_)), Seconds(0));
+    status.progress = std::min((work_->path->time() + done) / work_->whole, 1.0);
   }
   status.committed = drive.committed();
   status.outputs = drive.outputs();
-  status.executes = work_->lines_ahead.at(now());
+  status.executes = work_->lines_ahead.at(clock_of(*work_));
   if (const auto& wait = drive.waits_for()) {
     status.waits_for = OperatorWait{.kind = wait->kind, .tool = wait->tool, .line = wait->source.line};
   }

@@ -2,26 +2,36 @@
 // program as a whole: so each planned part is noted with the time at which the board makes it. Private to session/.
 #pragma once
 
+#include <algorithm>
+#include <cstdint>
 #include <deque>
+#include <variant>
+#include <vector>
 
 #include "passo/activity/nominal_time.hpp"
 #include "passo/base/source.hpp"
+#include "passo/drive/rewindable_path.hpp"
 #include "passo/trajectory/phase.hpp"
 
 namespace passo {
 
-// Passes a path on. Of the items that are left out at its beginning, it adds up the nominal time.
+// Passes a path on. Of all that is left out before the place where the motion begins, it adds up the nominal time.
 class LeftOutTime final : public Source<PathItem> {
  public:
-  LeftOutTime(Source<PathItem>& path, const MotionLimits& limits, std::uint64_t items)
-      : path_(path), limits_(limits), items_(items) {}
+  LeftOutTime(Source<PathItem>& path, const MotionLimits& limits, const PathPlace& begin)
+      : path_(path), limits_(limits), items_(begin.item), left_out_(begin.s) {}
   [[nodiscard]] bool next(PathItem& item) override {
     if (!path_.next(item)) return false;
     const auto* segment = std::get_if<Segment>(&item);
     const bool counts = segment == nullptr || segment->curve.has_length();
-    if (items_ == 0 || !counts) return true;
-    --items_;
-    time_ += nominal_time_of(item, limits_);
+    if (!counts) return true;
+    if (items_ > 0) {
+      --items_;
+      time_ += nominal_time_of(item, limits_);
+    } else if (segment != nullptr && left_out_ > Mm(0)) {
+      time_ += nominal_time_of(item, limits_) * std::min(left_out_ / segment->curve.length(), 1.0);
+      left_out_ = Mm(0);
+    }
     return true;
   }
   Seconds time() const { return time_; }
@@ -29,12 +39,17 @@ class LeftOutTime final : public Source<PathItem> {
  private:
   Source<PathItem>& path_;
   MotionLimits limits_;
-  std::uint64_t items_;
+  std::uint64_t items_;  // that are still left out
+  Mm left_out_;          // of the item behind them
   Seconds time_{0};
 };
 
 class ProgressAhead {
  public:
+  // What leads to the program's path is no part of the program.
+  void begin_with(const std::vector<PathItem>& lead_in, const MotionLimits& limits) {
+    for (const PathItem& item : lead_in) done_ = done_ - nominal_time_of(item, limits);
+  }
   // What was planned to begin then or later is planned anew.
   void plan(Seconds nominal, Seconds begins, Seconds ends, Seconds now) {
     static_cast<void>(at(now));
@@ -43,7 +58,7 @@ class ProgressAhead {
     const Seconds before = ahead_.empty() ? done_ : ahead_.back().to;
     ahead_.push_back({.begins = begins, .ends = ends, .from = before, .to = before + nominal});
   }
-  // The nominal time of all that is executed then.
+  // The nominal time of all that is executed then; negative in a lead-in.
   Seconds at(Seconds time) {
     for (; !ahead_.empty() && ahead_.front().ends <= time; ahead_.pop_front()) done_ = ahead_.front().to;
     return ahead_.empty() || ahead_.front().begins > time ? done_ : ahead_.front().at(time);

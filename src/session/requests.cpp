@@ -204,29 +204,35 @@ MachineSession::Answer MachineSession::take(request::DropLines&) {
   return ticket;
 }
 
+Seconds MachineSession::clock_of(const Work& work) const {
+  const Refiller* const refiller = work.drive->refiller();
+  return refiller != nullptr ? refiller->executed_time() : now();
+}
+
 // Puts the work's activity on a drive, and connects all watchers.
 void MachineSession::put_on_drive(Work& work, const DriveOptions& options, bool knows_ahead) {
   AnswerBook& answers = work.lines != nullptr ? work.lines->answers() : work.answers;
   const MotionLimits limits = motion_limits(machine_);
-  work.path = std::make_unique<LeftOutTime>(*work.activity, limits, options.begin_at.value_or(PathPlace()).item);
+  work.path = std::make_unique<LeftOutTime>(*work.activity, limits, options.begin_at.value_or(PathPlace()));
+  work.progress_ahead.begin_with(options.lead_in, limits);
   work.drive = std::make_unique<MotionDrive>(*work.path, limits, step_options(), board_, answers, options);
   MotionDrive& drive = *work.drive;
   Watchers& watchers = work.watchers;
   work.ahead = position_.place;
   if (knows_ahead) {
     drive.motion().watch([this, &work, limits](const MotionItem& item) {
-      const Seconds end = now() + work.drive->committed();
       const auto* move = std::get_if<PlannedMove>(&item);
+      const Seconds time = move != nullptr ? move->duration() : std::get<Action>(item).dwell;
+      const Refiller* const refiller = work.drive->refiller();
+      const Seconds ends = refiller != nullptr ? refiller->given_time() : now() + work.drive->committed();
+      const Seconds begins = ends - time;
       if (move == nullptr) {
-        const Seconds dwell = std::get<Action>(item).dwell;
-        if (dwell > Seconds(0)) work.progress_ahead.plan(dwell, end, end + dwell, now());
+        if (time > Seconds(0)) work.progress_ahead.plan(time, begins, ends, clock_of(work));
         return;
       }
-      const Seconds begins = end - move->duration();
       work.ahead = move->segment.tool_at(move->to);
-      work.lines_ahead.plan(move->segment.source, begins, now());
-      const double share = (move->to - move->from()) / move->segment.curve.length();
-      work.progress_ahead.plan(nominal_time_of(move->segment, limits) * share, begins, end, now());
+      work.lines_ahead.plan(move->segment.source, begins, clock_of(work));
+      work.progress_ahead.plan(nominal_time_of(*move, limits), begins, ends, clock_of(work));
     });
   }
   if (work.program != nullptr && watchers.operations) work.program->operations().watch(watchers.operations);

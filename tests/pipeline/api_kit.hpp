@@ -5,6 +5,7 @@
 #include <functional>
 #include <set>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "grbl_kit.hpp"
@@ -16,6 +17,20 @@
 namespace passo::test {
 
 using Json = nlohmann::ordered_json;
+
+// Times programs at once.
+class PromptTimer final : public MotionTimer {
+ public:
+  explicit PromptTimer(const MachineDescription& machine) : machine_(machine) {}
+  void begin(MotionTiming wanted) override {
+    found_ = time_motion(wanted, machine_, [] { return true; });
+  }
+  std::optional<MotionTimes> take() override { return std::exchange(found_, std::nullopt); }
+
+ private:
+  const MachineDescription& machine_;
+  std::optional<MotionTimes> found_;
+};
 
 // A machine with a sender's door and a client's door.
 class ApiRun {
@@ -34,7 +49,8 @@ class ApiRun {
                  [this](const SavedParameters& parameters, const ToolTable& tools) {
                    if (keep) keep(parameters, tools);
                  },
-             .studies = studies}) {}
+             .studies = studies,
+             .timer = &timer_}) {}
 
   Json ask(const std::string& method, const std::string& path, const std::string& body = "",
            const std::string& by = "") {
@@ -91,6 +107,7 @@ class ApiRun {
   unsigned status = 0;
 
  private:
+  PromptTimer timer_{run.description()};
   int keys_ = 0;
 };
 

@@ -527,6 +527,22 @@ TEST(GrblMemoryOf, offsets_are_shared_with_others_at_rest) {
   EXPECT_EQ(run.reply(), "[G55:5.000,0.000,0.000]");
 }
 
+TEST(GrblMemoryOf, all_offsets_and_homes_are_given_back) {
+  GrblRun run;
+  run.send("G0 X5\n");
+  ASSERT_TRUE(run.turn_until([&] { return run.is("Idle") && run.session().status().now_at[Axis::x] == 5; }));
+  run.send("G28.1\nG30.1\nG10 L2 P1 X2\nG10 L2 P3 Y2\nG92 X1\n");
+  run.pass(Seconds(0.5));
+  run.replies.clear();
+  run.send("$RST=#\n");
+  run.pass(Seconds(0.5));
+  run.replies.clear();
+  run.send("$#\n");
+  for (const char* const name : {"G54", "G55", "G56", "G57", "G58", "G59", "G28", "G30", "G92"}) {
+    EXPECT_EQ(run.reply(), fmt::format("[{}:0.000,0.000,0.000]", name));
+  }
+}
+
 TEST(GrblLock, is_not_opened_while_the_door_is) {
   GrblRun run(example_machine("router"), {.place = Point(), .trust = Trust::unknown});
   run.board().set_switch(input_door, true);

@@ -10,7 +10,7 @@ import { connection, status } from './connection';
 import { interrupted } from './interrupted';
 import { beOwner, ownership } from './owner';
 import { pathBox } from './path_index';
-import { shown } from './programs';
+import { shown, timeOf } from './programs';
 import { placeWords, workPlace } from './place';
 
 const stateWhy = (): string => {
@@ -67,7 +67,7 @@ export async function start(): Promise<void> {
   const yes = await confirm({
     title: say('do.start.ask', { name: program.name }),
     facts: [
-      say('do.start.facts', { time: durationText(program.seconds) }),
+      say('do.start.facts', { time: durationText(timeOf(program)) }),
       say('do.start.from', { place: placeWords(workPlace.value) }),
     ],
     rows,

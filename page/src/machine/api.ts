@@ -28,6 +28,7 @@ export interface Status {
   speed: number;
   line: number;
   progress: number | null;
+  left: number | null; // s, of the job
   outputs: { spindle: 'off' | 'clockwise' | 'counterclockwise'; spindle_speed: number; mist: boolean; flood: boolean };
   overrides: { feed: number; rapids: number; spindle: number };
   inputs: { probe: boolean; door: boolean; hold: boolean; start: boolean; emergency_stop: boolean; limits: number[] };
@@ -80,7 +81,8 @@ export interface Program {
   bytes: number;
   lines: number;
   state: 'unchecked' | 'checking' | 'good' | 'bad';
-  seconds: number;
+  seconds: number; // at the programmed speeds
+  planned: number | null; // with all ramps; null: not known yet
   moves: number;
   height_map: boolean;
   findings?: Finding[];

@@ -17,6 +17,9 @@ export const isListed = (program: Program): boolean => program.name !== consoleN
 // What a probing cycle runs. An uploaded name has no space. A height map without a program stays with its own cycle.
 export const isProbing = (program: Program): boolean => /^probe [a-z]+$/.test(program.name);
 
+// s; until the motion is planned, at the programmed speeds.
+export const timeOf = (program: Program): number => program.planned ?? program.seconds;
+
 const jobProgram = computed(() => {
   const job = status.value?.job ?? null;
   return isUnderWay(job) ? (job?.program ?? null) : null;
@@ -86,6 +89,7 @@ export async function deleteProgram(id: number): Promise<void> {
 }
 
 const whileChecking = 150; // ms
+const whileTiming = 500;
 const otherwise = 4000;
 
 export function followPrograms(): void {
@@ -94,14 +98,17 @@ export function followPrograms(): void {
   effect(() => {
     if (affects.value !== '') void refreshPrograms();
   });
-  // While a check goes on, its end is seen at once.
-  const checks = computed(() => programs.value.some((one) => one.state === 'checking'));
+  // While a check goes on, its end is seen at once; and soon, how long the motion takes.
+  const pause = computed(() => {
+    if (programs.value.some((one) => one.state === 'checking')) return whileChecking;
+    return shown.value?.state === 'good' && shown.value.planned === null ? whileTiming : otherwise;
+  });
   effect(() => {
     const timer = setInterval(
       () => {
         if (isLive.peek() && !document.hidden) void refreshPrograms();
       },
-      checks.value ? whileChecking : otherwise,
+      pause.value,
     );
     return () => clearInterval(timer);
   });

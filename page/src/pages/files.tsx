@@ -14,7 +14,7 @@ import { isLive, status } from '../machine/connection';
 import { alarms, ended, keeps, queue, refreshHistory } from '../machine/history';
 import { beOwner } from '../machine/owner';
 import { pathIndex } from '../machine/path_index';
-import { checkProgram, chosen, deleteProgram, isListed, programs, sending, sendProgram, shown, shownId } from '../machine/programs';
+import { checkProgram, chosen, deleteProgram, isListed, programs, sending, sendProgram, shown, shownId, timeOf } from '../machine/programs';
 import { isUnderWay } from '../machine/words';
 import { Button } from '../parts/button';
 import { DropZone } from '../parts/drop_zone';
@@ -51,7 +51,7 @@ function ProgramRow({ program }: { program: Program }) {
         </span>
         <span class="file-name">{program.name}</span>
         <span class="dim">{say(`files.state.${program.state}`)}</span>
-        <span class="dim">{program.state === 'good' ? durationText(program.seconds) : ''}</span>
+        <span class="dim">{program.state === 'good' ? durationText(timeOf(program)) : ''}</span>
       </button>
     </li>
   );
@@ -72,7 +72,7 @@ function ShownProgram() {
       <dl class="figures">
         <div>
           <dt>{say('run.whole')}</dt>
-          <dd class="figure">{durationText(program.seconds)}</dd>
+          <dd class="figure">{durationText(timeOf(program))}</dd>
         </div>
         <div>
           <dt>{say('run.program')}</dt>

@@ -3,6 +3,7 @@ import { say, type Key } from '../core/language';
 import { isRotary, lengthText, lengthUnit, perLength, placeText, smallUnit, speedText, speedUnit } from '../core/units';
 import type { MachineAxis } from '../machine/api';
 import { machine, status } from '../machine/connection';
+import { RowHead } from '../parts/row_head';
 import { Tuning } from '../parts/tuning';
 import { MachineEditor } from './machine_editor';
 
@@ -42,17 +43,15 @@ export function MachinePage() {
                     {axis.axis.toUpperCase()}
                   </th>
                 ))}
-                <td />
               </tr>
             </thead>
             <tbody>
               {columns.map(([title, text, unit]) => (
                 <tr key={title}>
-                  <th scope="row">{say(title)}</th>
+                  <RowHead title={say(title)} unit={unit?.() ?? ''} />
                   {known.axes.map((axis) => (
                     <td key={axis.axis}>{text(axis)}</td>
                   ))}
-                  <td class="unit">{unit?.() ?? ''}</td>
                 </tr>
               ))}
             </tbody>

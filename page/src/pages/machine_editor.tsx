@@ -13,6 +13,7 @@ import {
 } from '../machine/machine_file';
 import { Button } from '../parts/button';
 import { Icon } from '../parts/icon';
+import { RowHead } from '../parts/row_head';
 import { Typed } from '../parts/typed';
 
 interface Row {
@@ -23,6 +24,10 @@ interface Row {
   kind: 'plain' | 'length' | 'per length' | 'flag' | 'choice';
   at?: number; // of a list
   choices?: readonly string[];
+}
+function unitOf({ kind, unit = '' }: Row): string {
+  if (kind === 'length') return lengthUnit() + unit;
+  return kind === 'per length' ? `1/${lengthUnit()}` : '';
 }
 const rows: readonly Row[] = [
   { title: 'file.turn', key: 'steps_per_turn', kind: 'plain' },
@@ -124,14 +129,13 @@ function AxesTable({ axes }: { axes: readonly string[] }) {
                 {axis}
               </th>
             ))}
-            <td />
           </tr>
         </thead>
         <tbody>
           {rows.map((row, i) => (
             <Fragment key={row.title}>
               <tr>
-                <th scope="row">{say(row.title)}</th>
+                <RowHead title={say(row.title)} unit={unitOf(row)} />
                 {axes.map((axis) => {
                   const rotary = isRotary(axis.toLowerCase());
                   return (
@@ -146,7 +150,6 @@ function AxesTable({ axes }: { axes: readonly string[] }) {
                     </td>
                   );
                 })}
-                <td class="unit">{row.kind === 'length' ? `${lengthUnit()}${row.unit ?? ''}` : row.kind === 'per length' ? `1/${lengthUnit()}` : ''}</td>
               </tr>
               {i === 3 && <ScaleRow axes={axes} />}
             </Fragment>
@@ -161,7 +164,7 @@ function AxesTable({ axes }: { axes: readonly string[] }) {
 function ScaleRow({ axes }: { axes: readonly string[] }) {
   return (
     <tr class="scale">
-      <th scope="row">{say('file.scale')}</th>
+      <RowHead title={say('file.scale')} unit={say('file.steps.unit', { unit: lengthUnit() })} />
       {axes.map((axis) => {
         const rotary = isRotary(axis.toLowerCase());
         const scale = scaleOf(values.value, axis, rotary, (mm) => digits(fromMm(mm)));
@@ -174,7 +177,6 @@ function ScaleRow({ axes }: { axes: readonly string[] }) {
           </td>
         );
       })}
-      <td class="unit">{say('file.steps.unit', { unit: lengthUnit() })}</td>
     </tr>
   );
 }

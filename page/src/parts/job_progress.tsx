@@ -4,20 +4,17 @@ import { language, say } from '../core/language';
 import { clockText, durationText } from '../core/time';
 import { goTo } from '../core/route';
 import { status } from '../machine/connection';
-import { shown } from '../machine/programs';
-import { RemainingTime } from '../machine/remaining';
+import { shown, timeOf } from '../machine/programs';
 import { isUnderWay } from '../machine/words';
 import { Button } from './button';
-
-const remaining = new RemainingTime();
 
 // The job of the shown program, if it runs.
 const run = computed(() => {
   const now = status.value;
   const program = shown.value;
   if (now === null || program === null || now.job === null || !isUnderWay(now.job) || now.job.program !== program.id) return null;
-  const left = remaining.tell(now.time, now.progress, program.seconds, now.state === 'Run');
-  return { progress: now.progress ?? 0, left, line: now.line };
+  const progress = now.progress ?? 0;
+  return { progress, left: now.left ?? timeOf(program) * (1 - progress), line: now.line };
 });
 
 export function JobProgress() {
@@ -61,13 +58,13 @@ export function JobProgress() {
         <div>
           <span class="dim">{say(now === null ? 'run.whole' : 'run.left')}</span>
           <b class="figure" data-testid="left">
-            {now === null ? durationText(program.seconds) : now.left === undefined ? '–' : durationText(now.left)}
+            {now === null ? durationText(timeOf(program)) : durationText(now.left)}
           </b>
         </div>
         <div>
           <span class="dim">{say('run.end')}</span>
           <b class="figure">
-            {now?.left === undefined ? '–' : clockText(new Date(Date.now() + now.left * 1000), language.value)}
+            {now === null ? '–' : clockText(new Date(Date.now() + now.left * 1000), language.value)}
           </b>
         </div>
       </div>

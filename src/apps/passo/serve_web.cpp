@@ -34,7 +34,7 @@ double seconds_since_1970() {
 }
 
 ApiOptions api_options(const PageFolder* page, JobHistory* history, ServedOffsets* offsets, const ServedJobs& jobs,
-                       Maker& maker, Studies& studies,
+                       Maker& maker, Studies& studies, MotionTimer& timer,
                        std::function<void(const SavedParameters&, const ToolTable&)> keep) {
   ApiOptions options{.version = PASSO_VERSION, .openapi = openapi_text, .make_key = new_key};
   options.history = history;
@@ -54,6 +54,7 @@ ApiOptions api_options(const PageFolder* page, JobHistory* history, ServedOffset
   options.machine_access = jobs.machine_access;
   options.maker = &maker;
   options.studies = &studies;
+  options.timer = &timer;
   if (jobs.journal != nullptr) options.broken_off = jobs.journal->found();
   return options;
 }
@@ -69,11 +70,12 @@ ServedWeb::ServedWeb(const ServeArguments& arguments, const MachineDescription& 
       has_page_(!arguments.page.empty()),
       history_(std::move(history)),
       offsets_(std::move(offsets)),
-      api_(
-          machine, session, owner,
-          api_options(arguments.page.empty() ? nullptr : &page_, history_.get(), offsets_.get(), jobs, maker_, studies_,
-                      [this](const SavedParameters& parameters, const ToolTable& tools) { keep(parameters, tools); })) {
-}
+      timer_(machine),
+      api_(machine, session, owner,
+           api_options(arguments.page.empty() ? nullptr : &page_, history_.get(), offsets_.get(), jobs, maker_,
+                       studies_, timer_, [this](const SavedParameters& parameters, const ToolTable& tools) {
+                         keep(parameters, tools);
+                       })) {}
 
 std::unique_ptr<ServedWeb> ServedWeb::open(const ServeArguments& arguments, const MachineDescription& machine,
                                            MachineSession& session, MotionOwner& owner, const ServedJobs& jobs,

@@ -13,6 +13,7 @@
 #include "served_maker.hpp"
 #include "served_offsets.hpp"
 #include "served_studies.hpp"
+#include "served_timer.hpp"
 
 #include "passo/api/machine_api.hpp"
 #include "passo/grbl/grbl_controller.hpp"
@@ -67,6 +68,7 @@ class ServedWeb {
   std::string host_;
   ServedMaker maker_;
   ServedStudies studies_;
+  ServedTimer timer_;
   MachineApi api_;
   std::unique_ptr<WebServer> server_;
   std::chrono::steady_clock::time_point published_;

@@ -158,7 +158,7 @@ export const en = {
   'make.pocket': 'Clear pockets',
   'make.engrave': 'Engrave',
   'make.side': 'Side of the line',
-  'make.side.part': 'outside of parts, inside of their holes',
+  'make.side.part': 'parts, and their holes',
   'make.side.outside': 'outside',
   'make.side.inside': 'inside',
   'make.side.on': 'on the line',

@@ -157,7 +157,7 @@ export const fr: MoreWords = {
   'make.pocket': 'Vider des poches',
   'make.engrave': 'Graver',
   'make.side': 'Côté de la ligne',
-  'make.side.part': 'hors des pièces, dans leurs trous',
+  'make.side.part': 'pièces et leurs trous',
   'make.side.outside': 'dehors',
   'make.side.inside': 'dedans',
   'make.side.on': 'sur la ligne',

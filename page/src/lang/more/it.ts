@@ -157,7 +157,7 @@ export const it: MoreWords = {
   'make.pocket': 'Svuotare tasche',
   'make.engrave': 'Incidere',
   'make.side': 'Lato della linea',
-  'make.side.part': 'fuori dai pezzi, dentro i loro fori',
+  'make.side.part': 'pezzi e i loro fori',
   'make.side.outside': 'fuori',
   'make.side.inside': 'dentro',
   'make.side.on': 'sulla linea',

@@ -25,6 +25,7 @@
 #include "passo/api/kept_job.hpp"
 #include "passo/api/maker.hpp"
 #include "passo/api/motion_owner.hpp"
+#include "passo/api/motion_times.hpp"
 #include "passo/api/program_store.hpp"
 #include "passo/api/program_uploads.hpp"
 #include "passo/api/studies.hpp"
@@ -79,6 +80,8 @@ struct ApiOptions {
   Maker* maker = nullptr;
   // Works out what takes longer; outlives this. Null: nobody does.
   Studies* studies = nullptr;
+  // Times the motion of programs; outlives this. Null: nobody does, and the time left is not known.
+  MotionTimer* timer = nullptr;
 };
 
 // What a job has said by (PRINT,…), (MSG,…) and (LOG,…).
@@ -179,6 +182,9 @@ class MachineApi final : public WebHandler {
   void end_job(JobState state, std::string why = {});
   std::string metrics() const;
   bool may_pass_on() const;
+  bool runs(const StoredProgram& program) const;
+  void mind_times();
+  std::optional<Seconds> time_left(const MachineStatus& status) const;
 
   const MachineDescription& machine_;
   MachineSession& session_;
@@ -205,7 +211,14 @@ class MachineApi final : public WebHandler {
   std::optional<Ticket> ticket_;
   Diagnostics findings_;  // of the run
   std::vector<JobWords> words_;
-  std::uint64_t map_for_ = 0;  // the program that gets the height map which the job probes; 0: it probes none
+  // The program that is timed or was timed last, and its times, as far as they are known.
+  std::uint64_t timed_ = 0;
+  std::uint64_t timed_path_ = 0;
+  MotionFactors timed_factors_;  // of the order
+  bool is_timing_ = false;
+  std::optional<MotionTimes> times_;  // of that program
+  MotionFactors times_factors_;       // those that they were planned with
+  std::uint64_t map_for_ = 0;         // the program that gets the height map which the job probes; 0: it probes none
   HomingRepeats repeats_;
   std::vector<HomedAxis> homed_;     // by the last homing
   std::optional<Point> homes_from_;  // where the machine stood, if that was known when a homing began

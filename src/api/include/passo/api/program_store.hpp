@@ -37,7 +37,8 @@ struct StoredProgram {
   UploadState state = UploadState::unchecked;
   Point checked_from = {};  // where the machine stood at the last check
   ProgramCheck check;
-  std::uint64_t path = 0;  // the fingerprint of its path, after a good check
+  std::optional<Seconds> planned_time;  // of its motion, with all ramps, at overrides of 100 %
+  std::uint64_t path = 0;               // the fingerprint of its path, after a good check
   Diagnostics findings;
   ProgramPath path_points;                 // of the last check; for viewers
   std::optional<HeightMap> height_map{};   // of the surface that it is to be levelled on
@@ -71,6 +72,7 @@ class ProgramStore {
   InterpreterOptions options_of(const StoredProgram& program) const;
   InterpreterOptions options_of(Dialect dialect) const;
   void set_height_map(std::uint64_t id, HeightMap map);
+  void set_planned_time(std::uint64_t id, Seconds time);
 
   // Where the work's zero (G54) lies in machine coordinates, for all programs.
   void set_work_zero(const Point& zero);

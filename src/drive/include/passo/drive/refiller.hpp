@@ -84,6 +84,11 @@ class Refiller final : public Feed {
 
   // The time of the motion ahead, without the tail.
   Seconds ahead() const override { return ahead_ + pulled_time_; }
+  // On a clock of motion alone, which stands while nothing moves: to where the planner has given motion, and how far
+  // the board has executed it. What is given again after a rest that came too early takes the place of what was not
+  // executed.
+  Seconds given_time() const { return given_in_all_; }
+  Seconds executed_time() const;
   // Before the next advance().
   Seconds ahead_of(const Turned& turned, Seconds time) override;
   std::optional<Seconds> began() const override { return began_; }
@@ -197,6 +202,9 @@ class Refiller final : public Feed {
   Seconds ahead_{0};
   Seconds given_time_{0};  // all motion since the last rest that the planner gave
   Seconds sent_time_{0};   // the part of given_time_ that was sent
+  Seconds given_in_all_{0};
+  Seconds passed_{0};       // all motion that was executed before the last rest
+  Seconds item_begins_{0};  // when the board began its present item, as far as is known
   std::optional<Seconds> told_ahead_;
   std::optional<Seconds> began_;  // by the board's clock
   PathPlace given_;               // up to here the planner has given motion

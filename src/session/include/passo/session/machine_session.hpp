@@ -132,6 +132,8 @@ class MachineSession {
   StepOptions step_options() const;
 
   void put_on_drive(Work& work, const DriveOptions& options, bool knows_ahead);
+  // The clock by which it is told what the board executes.
+  Seconds clock_of(const Work& work) const;
 
   void go_online(Seconds most);
   void doubt_place();
