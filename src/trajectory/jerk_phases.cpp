@@ -105,7 +105,9 @@ JerkProfile::Excess JerkProfile::excess(std::size_t i) const {
     look_at_half(i, near, pair.middle, pair.second, pair.half, way, parts, worst);
   };
   look(1);
-  if (worst.jolt > looked_at_closely && worst.jolt <= 1) look(close_parts);
+  // Where a limit falls, a demand may be highest where one line of the curve meets the next.
+  const double most = any_falls_ ? std::max(worst.jolt, worst.force) : worst.jolt;
+  if (most > looked_at_closely && most <= 1) look(close_parts);
   return worst;
 }
 

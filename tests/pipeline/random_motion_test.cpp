@@ -194,6 +194,16 @@ TEST(RandomMotion, is_nearly_the_fastest_where_jerk_in_bends_decides) {
   }
 }
 
+// X has a torque that falls to a ninth within 3 mm/s. Where that steep line meets the next one, X took 1.0026 times what
+// its torque gives: the peak lay between the places looked at.
+TEST(RandomMotion, keeps_to_the_torque_where_its_curve_bends) {
+  constexpr std::uint64_t number = 904647;
+  test::Random random = test::Random::of(number);
+  const test::RandomJob job = test::RandomJob::of(test::Machines::mixed, number, random);
+  const test::Ending ending = test::run(job.program, job.machine, {.live = {}});
+  for (const std::string& fault : ending.proof.faults()) ADD_FAILURE() << fault;
+}
+
 // An override may make it faster than the program says, and nothing else.
 void expect_right_in_spite_of_acts(const test::RandomJob& job, test::Random& random, test::Acts& acts) {
   test::Meddling meddling{.random = random, .acts = acts, .highest_override = 2};
