@@ -194,8 +194,8 @@ TEST(RandomMotion, is_nearly_the_fastest_where_jerk_in_bends_decides) {
   }
 }
 
-// X has a torque that falls to a ninth within 3 mm/s. Where that steep line meets the next one, X took 1.0026 times what
-// its torque gives: the peak lay between the places looked at.
+// X has a torque that falls to a ninth within 3 mm/s. Where that steep line meets the next one, X took 1.0026 times
+// what its torque gives: the peak lay between the places looked at.
 TEST(RandomMotion, keeps_to_the_torque_where_its_curve_bends) {
   constexpr std::uint64_t number = 904647;
   test::Random random = test::Random::of(number);
