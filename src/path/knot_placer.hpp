@@ -121,6 +121,7 @@ class KnotPlacer {
   void add_knot(double s, double rate = 1, double change_weight = 1);
 
   const Spacing& spacing_of(const Cluster& cluster) const;
+  static bool has_room_to_swing(const Piece& piece, const Point& bend, double width);
   static double reversal(const Piece& before, const Piece& after);
   double weight_fall_of(const Cluster& cluster) const;
   double weight_at(double s) const;
