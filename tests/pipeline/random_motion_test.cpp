@@ -144,6 +144,26 @@ TEST(RotaryCorners, are_passed_nearly_as_fast_as_can_be) {
   }
 }
 
+// Stairs whose second legs are arcs of 50 mm, nearly lines, take no longer than stairs of lines. Corners beside arcs
+// were rounded inside alone: 1.02 and 1.06 times that time.
+TEST(ArcCorners, are_passed_as_fast_as_corners_between_lines) {
+  for (const MmPerSecond3 jerk : {MmPerSecond3(0), MmPerSecond3(25'000)}) {
+    MachineDescription machine = even_machine({Axis::x, Axis::y}, 400, MmPerSecond(100), MmPerSecond2(500));
+    machine.path_tolerance = Mm(0.01);
+    for (AxisDescription& axis : machine.axes) axis.jerk = jerk;
+    const auto time_of_stairs = [&](const char* leg) {
+      std::string program = "G21 G90 G17 F60000\n";
+      for (int i = 1; i <= 6; ++i)
+        program +=
+            fmt::format("G1 X{}\n{} X{} Y{}{}\n", 5 * i, leg, 5 * i, 5 * i, leg == std::string("G2") ? " R50" : "");
+      const test::Ending ending = test::run(program + "M2\n", machine, {.live = {}});
+      for (const std::string& fault : ending.proof.faults()) ADD_FAILURE() << fault;
+      return ending.proof.time.value();
+    };
+    EXPECT_LT(time_of_stairs("G2"), 1.003 * time_of_stairs("G1"));
+  }
+}
+
 // On a short arc from rest to rest the slow axis alone decides, and its slope halves on the way.
 TEST(UnevenAxes, play_a_short_arc_nearly_as_fast_as_can_be) {
   MachineDescription machine = even_machine({Axis::x, Axis::y}, 50, MmPerSecond(200), MmPerSecond2(130));
