@@ -36,6 +36,8 @@ constexpr double answers_ahead = 2.5;
 constexpr Seconds spare{0.003};  // a tail may have many more items than the tail before
 constexpr double patience_following = 0.95;
 constexpr Seconds made_ahead{0.002};
+// The next refill may be slower than the last ones by this factor.
+constexpr double spare_of_frames = 1.25;
 
 // Hands out the planner's braking plan as motion.
 class Braking final : public Source<MotionItem> {
@@ -326,7 +328,8 @@ bool Refiller::is_far_from_last_tail() const {
 
 // Finds how the machine would come to rest after the pulled items.
 Refiller::Tail Refiller::find_tail() {
-  stages_.planner.braking_plan(plan_);
+  const bool is_gentle = places_ >= options_.places_for_gentle_tails;
+  stages_.planner.braking_plan(plan_, is_gentle ? Planner::Braking::gentle : Planner::Braking::hard);
   Tail tail{.from = given_, .rest = {.place = given_, .outputs = stages_.outputs}};
   for (const PlannedMove& move : plan_) tail.rest.place = stages_.path.behind(tail.rest.place, move);
   tail.motion.from = motion_played_.given();
@@ -368,6 +371,7 @@ std::size_t Refiller::size_of_refill() {
   const bool at_once = in_haste();
   const std::size_t places = free_places();
   const std::size_t room = static_cast<std::size_t>(std::max(stages_.link.room() - 1, 0));
+  const Seconds time_an_item = std::max(options_.time_an_item, stages_.link.time_a_frame() * spare_of_frames);
   std::size_t fits = 0;
   std::size_t fits_well = 0;
   Seconds line_time{0};
@@ -376,12 +380,13 @@ std::size_t Refiller::size_of_refill() {
     const std::size_t tail = pulled_[i - 1].tail->items.size();
     if (i + tail > room) continue;
     fits = i;
-    line_time = options_.time_an_item * static_cast<double>(i + tail + worth_sending);
+    line_time = made_ahead + time_an_item * static_cast<double>(i + tail + worth_sending);
     if (i + 2 * tail + (tail > 0 ? worth_sending : 0) <= places) fits_well = i;
   }
   if (refills_under_way_.empty() || at_once) return fits_well > 0 ? fits_well : fits;
   if (fits_well >= std::min(worth_sending, pulled_.size())) return fits_well;
-  if (ahead_ >= std::max(refill_at() / 2, line_time)) return 0;
+  const Seconds present = motion_.empty() ? Seconds(0) : motion_.front().time;  // the board may be at its end
+  if (ahead_ - present >= std::max(refill_at() / 2, line_time)) return 0;
   return fits;
 }
 

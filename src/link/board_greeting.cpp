@@ -23,7 +23,7 @@ void BoardSession::greet(const Greeting& greeting) {
   set_up_ = {};
   twins_.set(greeting.pairs);
   greeting_ = greeting.number;
-  sent_ = taken_ = executed_ = asked_behind_ = greeting_;
+  sent_ = on_wire_ = taken_ = executed_ = asked_behind_ = greeting_;
   decoder_.set_motors(motors_);
   sent_segments_.begin(motors_);
   progressed_ = heard_ = port_.elapsed();
@@ -42,17 +42,19 @@ void BoardSession::forget_what_was() {
   turned_.reset();
   rehearsed_.reset();
   kept_.clear();
+  burst_ = 0;
+  time_a_frame_ = Seconds(0);
   probe_ = {};
   usual_question_ = last_question_ = Question::status;
   answered_ = true;
-  rests_ = repeating_ = outputs_timed_out_ = false;
+  rests_ = repeating_ = question_waits_ = outputs_timed_out_ = false;
   refusals_ = doubts_ = free_ = 0;
   pressed_ = 0;
 }
 
 void BoardSession::hang_up() {
   forget_what_was();
-  sent_ = taken_ = asked_behind_ = executed_;  // nothing is under way any more
+  sent_ = on_wire_ = taken_ = asked_behind_ = executed_;  // nothing is under way any more
   phase_ = Phase::before_hello;
   decoder_.set_motors(max_motors);
 }

@@ -12,9 +12,6 @@
 namespace passo {
 namespace {
 
-// How many frames are repeated before the board is asked what it has of them.
-constexpr std::size_t repeated_at_once = 16;
-
 // Because of damage, the board may hear what was never sent, and so may the host. Both are believed only when they come
 // again.
 constexpr int most_refusals = 8;  // of one frame
@@ -25,6 +22,10 @@ constexpr int sure_of_status = 2;
 constexpr double most_patiences = 2;
 
 constexpr std::size_t most_gibberish = 256;
+
+// So many frames tell how fast the board takes frames. The rate at which a slow burst is forgotten.
+constexpr std::size_t long_burst = 8;
+constexpr double patience_with_bursts = 0.95;
 
 }  // namespace
 
@@ -198,10 +199,16 @@ void BoardSession::read(std::uint8_t byte) {
   take(decoder_.frame());
 }
 
+// The question goes behind all that was sent.
+void BoardSession::ask() {
+  question_waits_ = on_wire_ != sent_;
+  if (!question_waits_) ask(usual_question_);
+}
+
 void BoardSession::ask(Question question) {
   begin_to_expect();
   moved_on_ = port_.elapsed();
-  asked_behind_ = sent_;
+  asked_behind_ = on_wire_;
   last_question_ = question;
   if (std::exchange(answered_, false)) unanswered_since_ = moved_on_;
   const std::uint8_t limit = question == Question::watch ? probe_.limit() : std::uint8_t{0};
@@ -322,7 +329,9 @@ void BoardSession::note_progress(const Credit& credit, std::uint8_t answers) {
   take(credit);
   if (answers != question_ && !(repeating_ && answers == repeated_before_)) return;
   // A frame that was sent before the question and has not arrived before it is lost.
-  if (std::exchange(repeating_, false) || later_by(asked_behind_, taken_) > 0) return repeat();
+  repeating_ = false;
+  if (later_by(asked_behind_, taken_) > 0) return repeat();
+  put_frames_on_wire();
   // The answer that tells where the spindle is was lost, or the question was.
   if (!answered_ && usual_question_ == Question::spindle) ask();
 }
@@ -423,17 +432,29 @@ void BoardSession::note_taken(std::uint8_t sequence) {
   progressed_ = moved_on_ = port_.elapsed();
   news_ = true;
   while (!kept_.empty() && later_by(kept_.front().number, taken_) <= 0) kept_.pop_front();
+  if (kept_.empty()) note_end_of_burst();
+  if (later_by(taken_, on_wire_) > 0) on_wire_ = taken_;
+  put_frames_on_wire();
 }
 
-// Repeats the first of the frames that the board does not have, in order. A question after them tells what to repeat
-// next. Nothing else is sent meanwhile. Repeating all frames at each complaint would be worse: on a bad line, each of
+void BoardSession::note_end_of_burst() {
+  const Seconds each = (port_.elapsed() - burst_began_) / static_cast<double>(burst_);
+  if (burst_ >= long_burst) time_a_frame_ = std::max(each, time_a_frame_ * patience_with_bursts);
+  burst_ = 0;
+}
+
+// Repeats the first of the frames that the board does not have, in order. A question after them tells whether they have
+// arrived. Nothing else is sent meanwhile. Repeating all frames at each complaint would be worse: on a bad line, each of
 // many frames would bring many more.
 void BoardSession::repeat() {
   if (error_ || kept_.empty()) return;
-  const std::size_t count = std::min(kept_.size(), repeated_at_once);
-  for (std::size_t i = 0; i < count; ++i) put_on_wire(kept_[i].bytes, kept_[i].size);
-  frames_repeated_ += count;
-  ask();
+  const ItemNumber behind = std::exchange(on_wire_, taken_);
+  const bool question_waits = std::exchange(question_waits_, false);
+  repeating_ = false;
+  put_frames_on_wire();
+  question_waits_ = question_waits && on_wire_ != sent_;
+  frames_repeated_ += static_cast<std::uint64_t>(std::min(later_by(on_wire_, taken_), later_by(behind, taken_)));
+  ask(usual_question_);
   repeating_ = session_ != 0;  // without a session no answer tells the progress
   repeated_before_ = question_;
 }
@@ -452,11 +473,32 @@ void BoardSession::send_frame(const Frame& frame) {
   begin_to_expect();
   sent_ = frame.number;
   rests_ = false;
-  if (may_lose()) kept_.push_back(frame);
+  if (may_lose()) {
+    if (kept_.empty()) burst_began_ = port_.elapsed();
+    kept_.push_back(frame);
+    ++burst_;
+  }
   answered_ = false;
   unanswered_since_ = port_.elapsed();
   moved_on_ = port_.elapsed();
-  if (!repeating_) put_on_wire(frame.bytes, frame.size);
+  if (may_lose()) return put_frames_on_wire();
+  on_wire_ = sent_;
+  put_on_wire(frame.bytes, frame.size);
+}
+
+// Puts frames on the wire as long as the board can keep all that is under way. A board that plays dense motion takes
+// frames more slowly than the line brings them.
+void BoardSession::put_frames_on_wire() {
+  if (error_ || repeating_) return;
+  std::size_t under_way = 0;
+  for (const Frame& frame : kept_) {
+    under_way += frame.size;
+    if (later_by(frame.number, on_wire_) <= 0) continue;
+    if (under_way > most_under_way) return;
+    on_wire_ = frame.number;
+    put_on_wire(frame.bytes, frame.size);
+  }
+  if (std::exchange(question_waits_, false)) ask(usual_question_);
 }
 
 void BoardSession::put_on_wire(const std::uint8_t* frame, std::uint8_t size) {

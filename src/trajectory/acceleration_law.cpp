@@ -23,8 +23,6 @@ constexpr double least_change = 0.04;
 // In mm. A shorter rest of a cell is rounding: places of up to ten metres are 1e-12 apart, and no machine steps so
 // finely.
 constexpr double smallest_rest = 1e-9;
-// In mm. A hold leaves at least this much of a cell, so that the rest can be halved down to the smallest rest.
-constexpr double smallest_cell = 1e-6;
 // In cells. Any size from 32 to 256 costs the same instructions within 0.1 % on chords; it doubles where that is too
 // short for braking. A smaller window lets the first move come sooner.
 constexpr std::size_t first_window = 64;
@@ -92,7 +90,7 @@ class AccelerationLaw final : public SpeedLaw {
     return true;
   }
 
-  void braking_plan(std::vector<PlannedMove>& plan) override {
+  void braking_plan(Planner::Braking /*how*/, std::vector<PlannedMove>& plan) override {
     double speed_squared = speed_squared_;
     std::uint64_t segment = path_.first();
     for (std::size_t i = 0; speed_squared > 0 && i < cells_.size() && !(i > 0 && cells_[i].begins_at_rest()); ++i) {
@@ -265,12 +263,6 @@ class AccelerationLaw final : public SpeedLaw {
     stands_ = true;
   }
 
-  // The way into the first cell that the path goes now, and the square of the speed after it.
-  struct Ride {
-    double way = 0;
-    double exit = 0;
-  };
-
   void give_move(PlannedMove& move) {
     move.begin_on(*path_.front());
     bool complete = false;
@@ -315,16 +307,8 @@ class AccelerationLaw final : public SpeedLaw {
   // To rest within cell i if possible, else through it as slowly as possible. Never faster than without the hold: where
   // the path rests anyway, rounding leaves no speed.
   Ride shortest_ride(std::size_t i, double entry) const {
-    const Cell& cell = cells_[i].cell;
-    const double deceleration =
-        cell.straight ? cell.acceleration : sure_deceleration(cells_.demands(i), cells_.falling(i), cell.length, entry);
-    if (deceleration > 0 && entry < 2 * deceleration * cell.length) {
-      const double way = entry / (2 * deceleration);
-      return {way + smallest_cell < cell.length ? way : cell.length, 0};
-    }
-    const double least = cell.straight ? std::max(0.0, entry - 2 * cell.acceleration * cell.length)
-                                       : least_exit(cells_.demands(i), cells_.falling(i), entry);
-    return {cell.length, std::min(least, planned_exit(i, entry))};
+    const Ride ride = hardest_braking(cells_[i].cell, cells_.demands(i), cells_.falling(i), entry);
+    return ride.exit > 0 ? Ride{ride.way, std::min(ride.exit, planned_exit(i, entry))} : ride;
   }
 
   // Removes the move's way from the queue. Returns whether the move is complete: at the end of its segment or time.

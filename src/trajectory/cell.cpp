@@ -104,7 +104,7 @@ std::size_t CellCutter::most_falling() const {
       std::ranges::count_if(limited_, [](const AxisLimits& axis) { return !axis.falling->empty(); }));
 }
 
-void CellCutter::begin(const Segment& segment, double entry_squared) {
+void CellCutter::begin(const Segment& segment, double entry_squared, double from) {
   segment_ = &segment;
   const Curve& curve = segment.curve;
   const double length = curve.length().value();
@@ -115,12 +115,12 @@ void CellCutter::begin(const Segment& segment, double entry_squared) {
   for (const AxisLimits& axis : limited_) {
     if (steepest.values[axis.axis] > 0) moving_.push_back(axis);
   }
-  at_ = place_at(curve, moving_, 0);
+  at_ = place_at(curve, moving_, from);
   const double top = std::min(segment.speed.value(), top_speed(moving_, steepest));
   const double strongest_here = top_acceleration(moving_, steepest);
   const double braking = top * top / (2 * strongest_here);
   // On a short line all limits may be constant up to the highest speed that the motion can reach there.
-  const double reached = std::sqrt(entry_squared + 2 * strongest_here * length);
+  const double reached = std::sqrt(entry_squared + 2 * strongest_here * (length - from));
   const bool line = curve.shape() == Curve::Shape::line;
   straight_ = line;
   if (flat_top(moving_, steepest) < std::min(room_for_override * top, line ? reached : infinity)) {

@@ -23,6 +23,10 @@
 
 namespace passo {
 
+// In mm. A stop within a cell leaves at least this much of the cell, so that the rest can be halved down to what is
+// rounding.
+inline constexpr double smallest_cell = 1e-6;
+
 // The demand of one axis on the squares of the speeds at the cell's ends:
 // |entry_x x + entry_y y| <= limit and |exit_x x + exit_y y| <= limit.
 struct AxisDemand {
@@ -84,9 +88,9 @@ class CellCutter {
   std::size_t most_demands() const;
   std::size_t most_falling() const;
 
-  // Begins a segment, which must stay where it is. `entry_squared` is the greatest square of the speed with which the
-  // path enters it. next() then gives the segment's cells in order, up to its end.
-  void begin(const Segment& segment, double entry_squared);
+  // Begins a segment, which must stay where it is, at its start or later. `entry_squared` is the greatest square of the
+  // speed there. next() then gives the cells in order, up to the segment's end.
+  void begin(const Segment& segment, double entry_squared, double from = 0);
   bool at_end() const { return !(at_.s < segment_->curve.length().value()); }
   void next(const CellPlace& to);
   // Cuts one cell of another segment: the rest of a cell that was given in part, straight or not.

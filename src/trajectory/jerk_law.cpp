@@ -7,6 +7,7 @@
 #include <optional>
 #include <utility>
 
+#include "emergency_brake.hpp"
 #include "jerk_window.hpp"
 #include "shorten.hpp"
 #include "speed_change.hpp"
@@ -37,6 +38,7 @@ class JerkLaw final : public SpeedLaw {
         path_(inputs.path),
         wishes_(inputs.wishes),
         most_queued_(inputs.most_queued),
+        emergency_brake_(inputs.limits),
         window_(new_window()) {}
 
   void begin() override { begin_at({.segment = path_.first()}); }
@@ -61,9 +63,10 @@ class JerkLaw final : public SpeedLaw {
     return produce(move);
   }
 
-  // The shortest way to rest is a SpeedChange. If none is possible, the motion goes on as planned to a place where one
-  // is, or to rest.
-  void braking_plan(std::vector<PlannedMove>& plan) override {
+  // The shortest gentle way to rest is a SpeedChange. If none is possible, the motion goes on as planned to a place where
+  // one is, or to rest.
+  void braking_plan(Planner::Braking how, std::vector<PlannedMove>& plan) override {
+    if (how == Planner::Braking::hard && emergency_brake_.plan(path_, now_, plan)) return;
     Outlook outlook{.pieces = given_pieces_};
     PathState state = now_;
     double since_trial = between_trials;
@@ -230,6 +233,7 @@ class JerkLaw final : public SpeedLaw {
   PathAhead& path_;
   const MidRunWishes& wishes_;
   std::size_t most_queued_;
+  EmergencyBrake emergency_brake_;
   std::unique_ptr<JerkWindow> window_;
 
   PathState now_;                      // at the end of the last move given

@@ -90,9 +90,9 @@ void Planner::resume() {
   implementation_->wishes.hold = implementation_->wishes.stop = false;
 }
 
-void Planner::braking_plan(std::vector<PlannedMove>& plan) const {
+void Planner::braking_plan(std::vector<PlannedMove>& plan, Braking how) const {
   plan.clear();
-  implementation_->law->braking_plan(plan);
+  implementation_->law->braking_plan(how, plan);
 }
 bool Planner::go_on(PathMode last) {
   if (!implementation_->path.go_on(last)) return false;

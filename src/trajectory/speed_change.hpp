@@ -16,19 +16,12 @@
 #include "feed_factors.hpp"
 #include "jerk_cell.hpp"
 #include "path_ahead.hpp"
+#include "path_state.hpp"
 #include "phase_chain.hpp"
 
 #include "passo/trajectory/phase.hpp"
 
 namespace passo {
-
-// The state of the motion at a place on a segment of the path.
-struct PathState {
-  std::uint64_t segment = 0;
-  double s = 0;
-  double speed = 0;
-  double acceleration = 0;
-};
 
 class SpeedChange {
  public:

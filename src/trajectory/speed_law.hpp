@@ -11,6 +11,7 @@
 
 #include "passo/trajectory/motion_limits.hpp"
 #include "passo/trajectory/phase.hpp"
+#include "passo/trajectory/planner.hpp"
 
 namespace passo {
 
@@ -30,8 +31,8 @@ class SpeedLaw {
   [[nodiscard]] virtual bool go_on(PlannedMove& move) = 0;
   // Gives the next move on the shortest way to rest. Returns false at rest.
   [[nodiscard]] virtual bool brake(PlannedMove& move) = 0;
-  // All moves that brake() would give, without giving them.
-  virtual void braking_plan(std::vector<PlannedMove>& plan) = 0;
+  // A way to rest from here, without giving any move of it: gentle, all moves that brake() would give.
+  virtual void braking_plan(Planner::Braking how, std::vector<PlannedMove>& plan) = 0;
 };
 
 // What a law plans by. All of it must outlive the law.

@@ -357,6 +357,19 @@ double sure_deceleration(std::span<const AxisDemand> demands, std::span<const Fa
   return most;
 }
 
+Ride hardest_braking(const Cell& cell, std::span<const AxisDemand> demands, std::span<const FallingDemand> falling,
+                     double entry) {
+  const double deceleration =
+      cell.straight ? cell.acceleration : sure_deceleration(demands, falling, cell.length, entry);
+  if (deceleration > 0 && entry < 2 * deceleration * cell.length) {
+    const double way = entry / (2 * deceleration);
+    return {way + smallest_cell < cell.length ? way : cell.length, 0};
+  }
+  const double least =
+      cell.straight ? std::max(0.0, entry - 2 * cell.acceleration * cell.length) : least_exit(demands, falling, entry);
+  return {cell.length, least};
+}
+
 bool is_too_long(std::span<const AxisDemand> demands, std::span<const FallingDemand> falling, const CellRide& ride) {
   const double mean = (ride.entry + ride.exit) / 2;
   const double higher = std::max(ride.entry, ride.exit);

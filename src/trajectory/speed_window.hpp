@@ -45,6 +45,15 @@ double least_exit(std::span<const AxisDemand> demands, std::span<const FallingDe
 double sure_deceleration(std::span<const AxisDemand> demands, std::span<const FallingDemand> falling, double length,
                          double entry);
 
+// The way into a cell that the motion goes, and the square of the speed after it.
+struct Ride {
+  double way = 0;
+  double exit = 0;
+};
+// To rest within the cell if possible, else through the cell as slowly as possible.
+Ride hardest_braking(const Cell& cell, std::span<const AxisDemand> demands, std::span<const FallingDemand> falling,
+                     double entry);
+
 // What is known of a cell when it is played: its length, and the squares of the speeds at both ends and of its top.
 struct CellRide {
   double length = 0;

@@ -62,6 +62,7 @@ class ListedBoard final : public Link {
   std::optional<Turned> take_turned() override { return {}; }
   bool answered() const override { return true; }
   Seconds answer_time() const override { return Seconds(0); }
+  Seconds time_a_frame() const override { return Seconds(0); }
   Seconds now() const override { return Seconds(0); }
   std::optional<LinkError> error() const override { return error_; }
   void fail(LinkError error) override { error_ = error; }

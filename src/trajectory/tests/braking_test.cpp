@@ -11,13 +11,15 @@ class BrakingPlan : public testing::TestWithParam<int> {
   BrakingPlan() : random_(seed() + static_cast<std::uint64_t>(GetParam())) {}
 
   // Asks one planner after every move, and another planner never.
-  void brake_everywhere(const std::vector<PathItem>& path, const MotionLimits& limits) {
+  void brake_everywhere(const std::vector<PathItem>& path, const MotionLimits& limits, Planner::Braking how) {
     ListSource<PathItem> source(path);
     ListSource<PathItem> same(path);
     Planner asked(source, limits);
     Planner other(same, limits);
     for (Planner* planner : {&asked, &other}) planner->limit_moves_to(Seconds(0.005));
     std::vector<MotionItem> motion;
+    MotionLimits limits_of_brakes = limits;
+    if (how == Planner::Braking::hard) limits_of_brakes.jerk = {};
     MotionItem item;
     MotionItem undisturbed;
     std::vector<PlannedMove> plan;
@@ -26,14 +28,14 @@ class BrakingPlan : public testing::TestWithParam<int> {
       ASSERT_EQ(passo::to_text(item), passo::to_text(undisturbed));
       motion.push_back(item);
       if (!std::holds_alternative<PlannedMove>(item)) continue;
-      asked.braking_plan(plan);
+      asked.braking_plan(plan, how);
       ++plans_;
       for (const PlannedMove& move : plan) longest_move_ = std::max(longest_move_, move.duration().value());
       if (plans_ % 11 != 0) continue;
       std::vector<MotionItem> braked = motion;
       braked.insert(braked.end(), plan.begin(), plan.end());
       SCOPED_TRACE("braking behind move " + std::to_string(motion.size()));
-      expect_within_limits(braked, limits);
+      expect_within_limits(braked, limits_of_brakes);
       if (HasFatalFailure()) return;
     }
     ASSERT_FALSE(other.next(undisturbed));
@@ -47,26 +49,45 @@ class BrakingPlan : public testing::TestWithParam<int> {
 TEST_P(BrakingPlan, keeps_every_axis_within_its_limits_on_smooth_chains) {
   SCOPED_TRACE("PASSO_SEED=" + std::to_string(random_.seed()));
   const std::vector<PathItem> path = smooth_chain(random_, 40);
-  brake_everywhere(path, draw_jerk_limits(random_));
+  brake_everywhere(path, draw_jerk_limits(random_), Planner::Braking::gentle);
+  EXPECT_GT(plans_, 20);
+}
+
+TEST_P(BrakingPlan, that_is_hard_keeps_velocities_and_accelerations) {
+  SCOPED_TRACE("PASSO_SEED=" + std::to_string(random_.seed()));
+  const std::vector<PathItem> path = smooth_chain(random_, 40);
+  brake_everywhere(path, draw_jerk_limits(random_), Planner::Braking::hard);
   EXPECT_GT(plans_, 20);
 }
 
 // Paths with blends, and with corners where the motion rests or crawls.
-TEST_P(BrakingPlan, keeps_every_axis_within_its_limits_on_lines_and_blends) {
-  SCOPED_TRACE("PASSO_SEED=" + std::to_string(random_.seed()));
+std::vector<PathItem> lines_and_blends(Random& random) {
   std::vector<PathItem> path;
   Point at;
   for (int i = 0; i < 12; ++i) {
-    const double speed = std::exp(random_.between(2, 4.5));
-    const double along = random_.between(-5, 5);
-    const double across = random_.between(-5, 5);
-    const Point to = at + xyz(along, across, random_.chance(0.3) ? random_.between(-1, 1) : 0);
+    const double speed = std::exp(random.between(2, 4.5));
+    const double along = random.between(-5, 5);
+    const double across = random.between(-5, 5);
+    const Point to = at + xyz(along, across, random.chance(0.3) ? random.between(-1, 1) : 0);
     path.emplace_back(line(at, to, speed));
     at = to;
   }
-  brake_everywhere(smoothed(path), draw_jerk_limits(random_));
+  return smoothed(path);
+}
+
+TEST_P(BrakingPlan, keeps_every_axis_within_its_limits_on_lines_and_blends) {
+  SCOPED_TRACE("PASSO_SEED=" + std::to_string(random_.seed()));
+  const std::vector<PathItem> path = lines_and_blends(random_);
+  brake_everywhere(path, draw_jerk_limits(random_), Planner::Braking::gentle);
   EXPECT_GT(plans_, 20);
   EXPECT_LE(longest_move_, 0.0055);
+}
+
+TEST_P(BrakingPlan, that_is_hard_keeps_velocities_and_accelerations_on_lines_and_blends) {
+  SCOPED_TRACE("PASSO_SEED=" + std::to_string(random_.seed()));
+  const std::vector<PathItem> path = lines_and_blends(random_);
+  brake_everywhere(path, draw_jerk_limits(random_), Planner::Braking::hard);
+  EXPECT_GT(plans_, 20);
 }
 
 TEST_P(BrakingPlan, without_limits_of_jerk_takes_as_long_as_a_hold) {
@@ -89,6 +110,21 @@ TEST_P(BrakingPlan, without_limits_of_jerk_takes_as_long_as_a_hold) {
   while (planner.next(item) && std::holds_alternative<PlannedMove>(item))
     held += std::get<PlannedMove>(item).duration();
   EXPECT_NEAR(planned.value(), held.value(), 0.01 * held.value());  // a hold looks at each part of a cell anew
+}
+
+TEST(HardBraking, comes_to_rest_as_soon_as_without_limits_of_jerk) {
+  const std::vector<PathItem> path{line(xyz(0, 0), xyz(200, 0), 50)};
+  ListSource<PathItem> source(path);
+  Planner planner(source, jerk_limits(100, 500, 2'000));  // a hold would take 0.35 s
+  planner.limit_moves_to(Seconds(0.005));
+  MotionItem item;
+  double time = 0;
+  std::vector<PlannedMove> plan;
+  while (time < 2 && planner.next(item)) time += std::get<PlannedMove>(item).duration().value();
+  planner.braking_plan(plan, Planner::Braking::hard);
+  ASSERT_EQ(plan.size(), 1U);
+  EXPECT_NEAR(plan.front().duration().value(), 0.1, 1e-9);
+  EXPECT_TRUE(plan.front().ends_at_rest());
 }
 
 TEST_P(BrakingPlan, knows_a_limit_of_the_speed_for_feeds_and_rapids) {

@@ -47,6 +47,9 @@ struct TailOptions {
   // second more than a line can carry. They would also be more than a board with few places can hold. Boards with fewer
   // places than `few_places`, and motion in haste, get the kind "in few places".
   std::size_t few_places = 100;
+  // On a board with fewer places tails have no limits of jerk: with them a tail has two or three times as many items,
+  // which a small board also takes slowly (decision 0108).
+  std::size_t places_for_gentle_tails = 200;
   Exactness motion{.one_in = 64, .longest_segment = longest_segment_of_all};
   Exactness motion_in_few_places{.one_in = 2, .least_rate = Hertz(1'000), .longest_segment = longest_segment_of_all};
   // A segment that is off by a whole interval may brake twice as hard where it begins as where it ends.

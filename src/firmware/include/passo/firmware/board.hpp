@@ -371,7 +371,10 @@ class Board : private BoardVoice<Hardware> {
       if (!list_.gathering()) silence_.forget_off();
     }
     accept();
-    if (list_.gathering()) add_to_sums(frame);
+    if (list_.gathering()) {
+      add_to_sums(frame);
+      owed_ = static_cast<uint8_t>(owed_ + (expected_ & 1));  // the host waits for places in the receiver's buffer
+    }
     list_.append();
     breathe();
     if (list_.gathering()) return;

@@ -106,11 +106,12 @@ class BoardSession final : public Link {
   bool settled() const override { return !awaited_ || error_; }
 
   const ProbeReport& probe_report() const override { return probe_.report(); }
-  void ask() override { ask(usual_question_); }
+  void ask() override;
   void ask_for_spindle(bool wanted) override { usual_question_ = wanted ? Question::spindle : Question::status; }
   std::optional<Turned> take_turned() override { return std::exchange(turned_, std::nullopt); }
   bool answered() const override { return answered_; }
   Seconds answer_time() const override { return answer_time_; }
+  Seconds time_a_frame() const override { return time_a_frame_; }
   // The inputs that were switched on since the last call, as the board told or its status shows. Bits of BoardInput.
   std::uint16_t take_pressed() { return std::exchange(pressed_, std::uint16_t{0}); }
   // The inputs that are on now, as far as the board has told.
@@ -150,6 +151,9 @@ class BoardSession final : public Link {
 
   // A sequence number is a byte. Half of the numbers are reserved for frames that come again.
   static constexpr int most_untaken = 127;
+  // In bytes, of the frames on the wire that the board has not taken. The smallest board keeps 256 received bytes; the
+  // rest is for questions.
+  static constexpr std::size_t most_under_way = 224;
 
   bool may_lose() const { return care_.answer_within < Seconds(std::numeric_limits<double>::infinity()); }
   void forget_what_was();
@@ -182,7 +186,9 @@ class BoardSession final : public Link {
   void note_timeout(const BoardStatus& status);
   void note_probe(ProbeWatch::News news);
   void note_taken(std::uint8_t sequence);
+  void note_end_of_burst();
   void repeat();
+  void put_frames_on_wire();
   template <class Message, class... More>
   void say(const Message& message, More... more) {
     std::uint8_t frame[largest_frame];
@@ -212,9 +218,11 @@ class BoardSession final : public Link {
   Seconds status_time_{0};
   std::optional<LinkError> error_;
   ItemNumber sent_ = 0;              // number of the last frame sent
+  ItemNumber on_wire_ = 0;           // number of the last frame put on the wire; the later ones wait
   ItemNumber taken_ = 0;             // number of the last frame that the board has, as it told
   ItemNumber executed_ = 0;          // number of the last item that is done, as the board told
-  ItemNumber asked_behind_ = 0;      // the last frame sent when the board was last asked
+  ItemNumber asked_behind_ = 0;      // the last frame on the wire when the board was last asked
+  bool question_waits_ = false;      // for the frames that wait
   std::optional<Question> awaited_;  // the host goes on when this is answered
   std::uint8_t question_ = 0;        // the number of the last question
   Question last_question_ = Question::status;
@@ -239,6 +247,9 @@ class BoardSession final : public Link {
   bool news_ = false;          // since poll() began
   std::vector<Frame> frames_;  // the frames of a replacement while it is put together
   std::deque<Frame> kept_;     // frames sent and, as far as the host knows, not taken
+  std::size_t burst_ = 0;      // frames sent since nothing was kept
+  Seconds burst_began_{0};
+  Seconds time_a_frame_{0};
   Seconds heard_{0};           // when the board last said anything
   Seconds progressed_{0};      // when the board last answered, took or executed something
   Seconds quiet_since_{0};     // when the board did, or was asked again

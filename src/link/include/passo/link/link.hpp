@@ -108,6 +108,8 @@ class Link {
   // How long the last such answer took.
   virtual Seconds answer_time() const = 0;
   // The time on the board's side, from any start.
+  // How long the board took lately to take a frame of many that were sent at once, the line's time included; 0: unknown.
+  virtual Seconds time_a_frame() const = 0;
   virtual Seconds now() const = 0;
   virtual std::optional<LinkError> error() const = 0;
   // Sets the error because a user of the link has found that the work cannot go on. The first error is kept.

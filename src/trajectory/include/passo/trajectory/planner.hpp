@@ -65,8 +65,11 @@ class Planner final : public Source<MotionItem> {
   // At rest in a hold: drops the rest of the path up to the next action. That action comes next after resume().
   void drop_to_action();
 
-  // The motion by which the path would come to rest if it were held after the last move given. Changes nothing.
-  void braking_plan(std::vector<PlannedMove>& plan) const;
+  // How to come to rest: as in a hold, or without limits of jerk, as soon as velocities and accelerations allow.
+  enum class Braking { gentle, hard };
+  // The motion by which the path would come to rest if it ended after the last move given. Changes nothing. Where there
+  // is no hard way to rest, the way is gentle.
+  void braking_plan(std::vector<PlannedMove>& plan, Braking how = Braking::gentle) const;
   // Forgets the path pulled so far and begins again, from rest, with the path's next item. Settings stay.
   void restart();
 
