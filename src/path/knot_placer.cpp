@@ -36,6 +36,10 @@ constexpr double too_sharp = 1.8;
 constexpr double most_change_of_feed = 1.5;
 constexpr MmPerSecond slow_feed{10};
 constexpr double sharp_from = 1;
+// An arc beside a corner leaves room for a swing if it turns by less (radians) in the width of the swing, and is longer
+// than so many widths. Where it bends more, the arc itself is slow. By trial.
+constexpr double straight_enough = 0.1;
+constexpr double arc_to_swing_on = 8;
 // Knots for swinging are too far apart if none has room and the nodes are this share of a width apart.
 constexpr double too_far = 0.7;
 // How soon the weight of the bend falls, for no reversal; how it depends on the reversal; and the most. By trial.
@@ -121,6 +125,13 @@ bool KnotPlacer::follows_spindle(const Piece& before, const Piece& after) {
   return before.segment.lock != SpindleLock::none || after.segment.lock != SpindleLock::none;
 }
 
+// `bend`: of the piece beside the corner.
+bool KnotPlacer::has_room_to_swing(const Piece& piece, const Point& bend, double width) {
+  if (piece.is_line()) return true;
+  const bool is_arc = piece.segment.curve.shape() == Curve::Shape::arc;
+  return is_arc && width * length_of(bend) < straight_enough && piece.length > arc_to_swing_on * width;
+}
+
 const KnotPlacer::Spacing& KnotPlacer::spacing_of(const Cluster& cluster) const {
   const Piece& before = piece(cluster.first);
   const Piece& after = piece(cluster.last + 1);
@@ -128,8 +139,10 @@ const KnotPlacer::Spacing& KnotPlacer::spacing_of(const Cluster& cluster) const 
   const bool goes_to_and_fro = reversal(before, after) >= most_reversal && (!bends_slowly_ || turn >= too_sharp);
   const auto [slower, faster] = std::minmax(before.segment.speed, after.segment.speed);
   const bool meets_slow_feed = turn >= sharp_from && slower <= slow_feed && faster > slower * most_change_of_feed;
-  const bool swings =
-      before.is_line() && after.is_line() && !follows_spindle(before, after) && !goes_to_and_fro && !meets_slow_feed;
+  const double width = swinging.corner_width * cluster.tube / turn;
+  const bool have_room =
+      has_room_to_swing(before, before.last_bend, width) && has_room_to_swing(after, after.first_bend, width);
+  const bool swings = have_room && !follows_spindle(before, after) && !goes_to_and_fro && !meets_slow_feed;
   if (bends_slowly_ && swings) return turn < gentle_below ? swinging_gently : swinging_slowly;
   if (bends_slowly_) return slow_bending;
   return swings ? swinging : inside;

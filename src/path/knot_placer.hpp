@@ -8,10 +8,10 @@
 // rounded. A corner that is rounded on its inner side within the tolerance e needs w = 4 e / |change of the tangent|. A
 // change of curvature needs w = sqrt(10 e / |change|). A corner that may swing to its outer side too has a larger width
 // and knots farther out; it may not where the axis that limits the speed goes back (for slow bending: in a sharp corner
-// only). Knots that are at most 0.4 radii apart follow an arc well. Where the knots of two nodes would meet, the nodes
-// share the room. If the rest between two nodes is long compared with the knots' distance, it stays as programmed: an
-// exact piece. (A curve that was fitted to chords never does; knots at most 0.08 radii apart follow it.) The knots
-// between two exact pieces make one smoothed stretch.
+// only), nor beside an arc that leaves no room. Knots that are at most 0.4 radii apart follow an arc well. Where the
+// knots of two nodes would meet, the nodes share the room. If the rest between two nodes is long compared with the
+// knots' distance, it stays as programmed: an exact piece. (A curve that was fitted to chords never does; knots at most
+// 0.08 radii apart follow it.) The knots between two exact pieces make one smoothed stretch.
 //
 // For slow bending, s advances more slowly than the spline's parameter around a corner (Pace). The sharper the corner,
 // the slower s advances.
@@ -121,6 +121,7 @@ class KnotPlacer {
   void add_knot(double s, double rate = 1, double change_weight = 1);
 
   const Spacing& spacing_of(const Cluster& cluster) const;
+  static bool has_room_to_swing(const Piece& piece, const Point& bend, double width);
   static double reversal(const Piece& before, const Piece& after);
   double weight_fall_of(const Cluster& cluster) const;
   double weight_at(double s) const;

@@ -26,6 +26,8 @@ constexpr double slow_turning = 2;
 // path. So cells turn less as the limits differ by more than this factor, down to a part.
 constexpr double even_enough = 1.5;
 constexpr double least_part_of_turn = 1.0 / 4;
+// An axis that moves by less than this share of the way neither drives the path nor holds it back.
+constexpr double hardly_moves = 0.01;
 // The greatest share of an axis's limit that is taken off for what happens between the ends of a cell.
 constexpr double most_slack = 0.5;
 constexpr double cheap_slack = 0.02;  // for accelerations along the path that few cells need
@@ -130,7 +132,7 @@ void CellCutter::begin(const Segment& segment, double entry_squared, double from
   if (line) return;
   const double turning = curve.turning(steepest);
   const bool is_slow = top * top * turning > slow_turning * strongest_here * length;
-  const double part = is_slow ? part_of_turn(moving_) : 1;
+  const double part = is_slow ? part_of_turn(moving_, steepest) : 1;
   const double share = is_slow ? share_of_slow_turn * part : 1;
   if (curve.shape() == Curve::Shape::arc) {
     const double turn = top < segment.speed.value() ? part * turn_a_cell_of_fast_arc : share * turn_a_cell_of_arc;
@@ -197,11 +199,12 @@ double CellCutter::top_acceleration(const Axes& axes, const Point& slope) {
   return top;
 }
 // Limits of rotary axes are in degrees and cannot be compared with the others.
-double CellCutter::part_of_turn(const Axes& axes) {
+double CellCutter::part_of_turn(const Axes& axes, const Point& steepest) {
   double weakest = strongest;
   double most = 0;
   for (const AxisLimits& axis : axes) {
     if (!(axis.acceleration > 0) || is_rotary(static_cast<Axis>(axis.axis))) continue;
+    if (steepest.values[axis.axis] < hardly_moves) continue;
     weakest = std::min(weakest, axis.acceleration);
     most = std::max(most, axis.acceleration);
   }

@@ -131,7 +131,7 @@ class CellCutter {
                               double slope_strength);
   static double top_speed(const Axes& axes, const Point& slope);
   static double top_acceleration(const Axes& axes, const Point& slope);
-  static double part_of_turn(const Axes& axes);
+  static double part_of_turn(const Axes& axes, const Point& steepest);
   static double flat_top(const Axes& axes, const Point& slope);
   static double top_of_turning(const Axes& axes, const Point& slope, const Point& bend);
   static Place place_at(const Curve& curve, const Axes& axes, double s);

@@ -12,6 +12,9 @@ constexpr double infinity = std::numeric_limits<double>::infinity();
 constexpr double cells_a_ramp = 10;      // while the acceleration rises from 0 to its limit
 constexpr double usual_rise = 0.02;      // seconds
 constexpr double cells_a_braking = 128;  // cells in the time that braking takes, at least
+// In seconds. A ramp of some microseconds, to a creeping feed where only an axis that stands has a limit of jerk, needs
+// no cells: it is over in one step of a motor.
+constexpr double shortest_tick = 20e-6;
 constexpr double turn_a_cell = 0.1;      // radians
 constexpr double most_cells = 20'000;    // in one segment
 constexpr double cells_of_cruise = 4;    // about the cells on each side of the middle where the speed is steady
@@ -81,7 +84,7 @@ void JerkCutter::begin(const Segment& segment, const Cut& cut) {
   const double rise = acceleration_ / jerk_;
   // A slow feed is reached before the acceleration is at its limit. Cells need not be finer than the usual ones.
   const double rise_to_top = std::max(std::min(rise, std::sqrt(top_ / jerk_)), std::min(rise, usual_rise));
-  tick_ = std::max(rise_to_top / cells_a_ramp, top_ / acceleration_ / cells_a_braking);
+  tick_ = std::max({rise_to_top / cells_a_ramp, top_ / acceleration_ / cells_a_braking, shortest_tick});
   const double left = length_ - from_;
   longest_ = left;
   const double turn = curve.turning(steepest);

@@ -12,13 +12,16 @@ namespace passo {
 namespace {
 
 constexpr double most_above_cap = 4;
-// Shares of a limit, less the demand that may lie between the places looked at in a bend. Five places of a cell are
-// looked at. If a demand is near the limit, more places are, with a parabola through each three.
-constexpr double looked_at = 0.99;
+// In a bend a demand may be higher between the places looked at, so that only a share of a limit may be seen. Five
+// places of a cell are looked at, with a parabola through each three. Where the most that is seen is near that share,
+// four times as many places are looked at, and nearly all of the limit may be seen.
+constexpr double share_seen = 0.99;
+constexpr double share_seen_closely = 0.999;
 constexpr double looked_at_closely = 0.96;
+constexpr double not_worth_a_look = 1.02;
 constexpr double looked_at_velocity = 0.99995;
 constexpr int close_parts = 4;
-constexpr double far_below = 0.95;  // a share of a limit, less than `looked_at` times `looked_at_closely`
+constexpr double far_below = 0.95;  // a share of a limit, less than `share_seen` times `looked_at_closely`
 constexpr double unseen_change = 1e-6;
 constexpr double weak = 100;       // mm/s², where axes have no limit
 constexpr double no_speed = 1e-9;  // times the speed beside it: rounding
@@ -104,8 +107,13 @@ JerkProfile::Excess JerkProfile::excess(std::size_t i) const {
     const double way = inside(from, pair.first, pair.half).way;
     look_at_half(i, near, pair.middle, pair.second, pair.half, way, parts, worst);
   };
+  const double pace = worst.pace;
   look(1);
-  if (worst.jolt > looked_at_closely && worst.jolt <= 1) look(close_parts);
+  const double most = std::max(worst.force, worst.jolt);
+  if (most > looked_at_closely && most < not_worth_a_look) {
+    worst = {.pace = pace};
+    look(close_parts);
+  }
   return worst;
 }
 
@@ -134,6 +142,7 @@ std::uint32_t JerkProfile::axes_near_limits(std::size_t i, const NodeState& most
 void JerkProfile::look_at_half(std::size_t i, std::uint32_t axes, const NodeState& start, double jerk, double time,
                                double way, int parts, Excess& worst) const {
   const double length = cells_[i].length;
+  const double seen = parts > 1 ? share_seen_closely : share_seen;
   const AxisShape* shape = shapes(i);
   for (int part = 0; part < parts; ++part) {
     std::array<Inside, 3> places;
@@ -166,8 +175,8 @@ void JerkProfile::look_at_half(std::size_t i, std::uint32_t axes, const NodeStat
       const double fastest_here = highest_through(pace);
       const double velocity = axes_[k].velocity * looked_at_velocity;
       raise_to(worst.pace, fastest_here * fastest_here, velocity * velocity);
-      raise_to(worst.force, highest_through(force), axes_[k].acceleration * looked_at);
-      raise_to(worst.jolt, highest_through(jolt), axes_[k].jerk * looked_at);
+      raise_to(worst.force, highest_through(force), axes_[k].acceleration * seen);
+      raise_to(worst.jolt, highest_through(jolt), axes_[k].jerk * seen);
     }
   }
 }

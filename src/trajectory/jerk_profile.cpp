@@ -8,10 +8,10 @@ namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
-// Shares of the limits. In bends, demands are larger between the places that JerkLift looks at.
+// Shares of the limits. Demands are larger between the places that JerkLift looks at. Of 400 random programs those with
+// limits of jerk take up to 0.8 % less time than with 0.985 in bends, for 5 % more instructions.
 constexpr double planned_velocity = 0.9999;
-constexpr double share_in_bends = 0.985;
-constexpr double share_of_straights = 0.998;
+constexpr double planned_share = 0.998;
 // A guess needs room on all sides, or the lift begins with steps that are hardly any.
 constexpr double guessed_speed_squared = 0.7;
 constexpr double guessed_acceleration = 0.5;
@@ -68,8 +68,8 @@ double JerkProfile::constant_speed_cap(std::size_t node) const {
   for (std::size_t k = 0; k < axes_.size(); ++k, ++shape) {
     const double bend = std::abs(shape->bend_in);
     const double third = std::abs(shape->third_in);
-    if (bend > 0) cap = std::min(cap, axes_[k].turning_cap(std::abs(shape->slope_in), bend, share_in_bends));
-    if (third > 0) cap = std::min(cap, std::pow(share_in_bends * axes_[k].jerk / third, 2.0 / 3));
+    if (bend > 0) cap = std::min(cap, axes_[k].turning_cap(std::abs(shape->slope_in), bend, planned_share));
+    if (third > 0) cap = std::min(cap, std::pow(planned_share * axes_[k].jerk / third, 2.0 / 3));
   }
   return cap;
 }
@@ -114,9 +114,8 @@ void JerkProfile::prepare() {
   for (std::size_t k = 0; k <= n; ++k) passing_cap_[k] = passing_cap(k);
   node_cap_ = passing_cap_;
   cell_cap_.clear();
-  share_.clear();
+  share_.assign(n, planned_share);
   for (std::size_t i = 0; i < n; ++i) {
-    share_.push_back(cells_[i].straight ? share_of_straights : share_in_bends);
     const double cap =
         velocity_cap(i, [](const AxisShape& shape, double length) { return shape.slope_middle(length); });
     cell_cap_.push_back(cap * planned_velocity * planned_velocity);

@@ -316,6 +316,26 @@ TEST(HardPrograms, go_on_through_many_slow_corners) {
   }
 }
 
+// X has four times the acceleration of Y, and hardly moves. Cells were so fine as if X drove the path: 2,530 phases a
+// line.
+TEST(HardPrograms, need_no_finer_cells_for_a_strong_axis_that_hardly_moves) {
+  test::Random random = test::Random::of(4329);
+  const MachineDescription machine = mixed_machine(random);
+  const Planned planned = plan(mixed_program(random), machine, smoothness(machine));
+  EXPECT_LE(planned.phases, 1000 * static_cast<std::size_t>(line_count()));
+}
+
+// A creeping feed, and a limit of jerk on an axis that stands: the ramps take microseconds, and each had 128 cells.
+// That took 2,900 phases a line, and a little more time.
+TEST(HardPrograms, need_few_cells_for_ramps_of_microseconds) {
+  for (const std::uint64_t number : {5047U, 5139U}) {
+    test::Random random = test::Random::of(number);
+    const MachineDescription machine = mixed_machine(random);
+    const Planned planned = plan(mixed_program(random), machine, smoothness(machine));
+    EXPECT_LE(planned.phases, 500 * static_cast<std::size_t>(line_count())) << number;
+  }
+}
+
 // What keeps limits of jerk is allowed without them, too. So on the same path no machine is slower without them. On the
 // path that is smoothed for it, none of 685 machines took more than 1.0121 times as long (numbers 50000 to 50799).
 TEST(LawsOfSpeed, are_never_slower_without_limits_of_jerk) {

@@ -144,6 +144,26 @@ TEST(RotaryCorners, are_passed_nearly_as_fast_as_can_be) {
   }
 }
 
+// Stairs whose second legs are arcs of 50 mm, nearly lines, take no longer than stairs of lines. Corners beside arcs
+// were rounded inside alone: 1.02 and 1.06 times that time.
+TEST(ArcCorners, are_passed_as_fast_as_corners_between_lines) {
+  for (const MmPerSecond3 jerk : {MmPerSecond3(0), MmPerSecond3(25'000)}) {
+    MachineDescription machine = even_machine({Axis::x, Axis::y}, 400, MmPerSecond(100), MmPerSecond2(500));
+    machine.path_tolerance = Mm(0.01);
+    for (AxisDescription& axis : machine.axes) axis.jerk = jerk;
+    const auto time_of_stairs = [&](const char* leg) {
+      std::string program = "G21 G90 G17 F60000\n";
+      for (int i = 1; i <= 6; ++i)
+        program +=
+            fmt::format("G1 X{}\n{} X{} Y{}{}\n", 5 * i, leg, 5 * i, 5 * i, leg == std::string("G2") ? " R50" : "");
+      const test::Ending ending = test::run(program + "M2\n", machine, {.live = {}});
+      for (const std::string& fault : ending.proof.faults()) ADD_FAILURE() << fault;
+      return ending.proof.time.value();
+    };
+    EXPECT_LT(time_of_stairs("G2"), 1.003 * time_of_stairs("G1"));
+  }
+}
+
 // On a short arc from rest to rest the slow axis alone decides, and its slope halves on the way.
 TEST(UnevenAxes, play_a_short_arc_nearly_as_fast_as_can_be) {
   MachineDescription machine = even_machine({Axis::x, Axis::y}, 50, MmPerSecond(200), MmPerSecond2(130));
@@ -192,6 +212,16 @@ TEST(RandomMotion, is_nearly_the_fastest_where_jerk_in_bends_decides) {
     EXPECT_LT(ending.proof.times_bound(), 1.2);
     EXPECT_GE(ending.proof.times_bound(), 1 - rounding);
   }
+}
+
+// X has a torque that falls to a ninth within 3 mm/s. Where that steep line meets the next one, X took 1.0026 times
+// what its torque gives: the peak lay between the places looked at.
+TEST(RandomMotion, keeps_to_the_torque_where_its_curve_bends) {
+  constexpr std::uint64_t number = 904647;
+  test::Random random = test::Random::of(number);
+  const test::RandomJob job = test::RandomJob::of(test::Machines::mixed, number, random);
+  const test::Ending ending = test::run(job.program, job.machine, {.live = {}});
+  for (const std::string& fault : ending.proof.faults()) ADD_FAILURE() << fault;
 }
 
 // An override may make it faster than the program says, and nothing else.
