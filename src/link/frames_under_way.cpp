@@ -40,7 +40,7 @@ void BoardSession::put_frames_on_wire() {
   for (const Frame& frame : kept_) {
     under_way += frame.size;
     if (later_by(frame.number, on_wire_) <= 0) continue;
-    if (under_way > most_under_way) return;
+    if (under_way > most_under_way && is_small()) return;
     on_wire_ = frame.number;
     put_on_wire(frame.bytes, frame.size);
   }

@@ -80,10 +80,10 @@ class Board : private BoardVoice<Hardware> {
     send(fault);
   }
 
-  // Call ten times a second: counts the host's silence (HostSilence). What is late is switched off at rest.
+  // Call ten times a second: counts the host's silence (HostSilence). What is late goes off at rest, amid a refill too.
   void count_silence() {
     silence_.count();
-    if (manual_ != Manual::off || !rests()) return;
+    if (manual_ != Manual::off || !idle() || !list_.empty()) return;
     if (switch_off(hardware_, silence_.late())) silence_.note_off();
     if (trusted_ && lets_go(hardware_, silence_)) trusted_ = false;
   }

@@ -151,9 +151,10 @@ class BoardSession final : public Link {
 
   // A sequence number is a byte. Half of the numbers are reserved for frames that come again.
   static constexpr int most_untaken = 127;
-  // In bytes, of the frames on the wire that the board has not taken. The smallest board keeps 256 received bytes; the
-  // rest is for questions.
+  // In bytes, of the frames on the wire that a small board has not taken. It keeps 256 received bytes; the rest is for
+  // questions. A board with many places takes frames as fast as they come.
   static constexpr std::size_t most_under_way = 224;
+  static constexpr int many_places = 200;
 
   bool may_lose() const { return care_.answer_within < Seconds(std::numeric_limits<double>::infinity()); }
   void forget_what_was();
@@ -189,6 +190,7 @@ class BoardSession final : public Link {
   void note_end_of_burst();
   void repeat();
   void put_frames_on_wire();
+  bool is_small() const { return board_ && board_->capacity < many_places; }
   template <class Message, class... More>
   void say(const Message& message, More... more) {
     std::uint8_t frame[largest_frame];
