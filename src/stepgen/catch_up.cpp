@@ -1,13 +1,13 @@
 #include <cmath>
 #include <cstdlib>
 
+#include "fitted_place.hpp"
 #include "segment_fitter.hpp"
 
 namespace passo {
 namespace {
 
 // In 1/65536 step. On a diagonal two motors are due at one event, and rounding decides which event that is.
-constexpr double still = 1e-4;
 constexpr double rounding = 1;
 
 }  // namespace

@@ -6,6 +6,8 @@
 #include <cmath>
 #include <limits>
 
+#include "fitted_place.hpp"
+
 #include "passo/wire/segment_parts.hpp"
 
 namespace passo {
@@ -17,17 +19,13 @@ constexpr std::int64_t longest_interval = 65535 * whole_tick;
 // polynomial T3, moved so that the first zero is at the start.
 constexpr double first_node = 0.464;
 constexpr double second_node = 0.928;
-// What a part and an event cost a chip, in the board's shortest intervals: board_test.cpp plays just such parts. The
-// longest part has two to the power of this many events. At least so many parts are left to the rest, because the board
-// takes a series for the root.
+// What a part and an event cost a chip, in the board's shortest intervals: board_test.cpp plays just such parts. At
+// least so many parts are left to the rest, because the board takes a series for the root.
 constexpr double cost_of_part = 50;
 constexpr double cost_of_event = 0.7;
-constexpr unsigned longest_root_part = 7;
 constexpr double parts_to_rest = 3;
 // So much a motor that has caught up may be ahead, in 1/65536 step: rounding.
 constexpr std::int64_t hair = 2;
-// A motor that moves less than this in one event stands still. In 1/65536 step.
-constexpr double still = 1e-4;
 
 std::int64_t floor_to_int(double x) {
   const auto truncated = static_cast<std::int64_t>(x);
@@ -39,15 +37,6 @@ std::int32_t floor_to_int_32(double x) {
   constexpr std::int32_t shift = 1 << 30;
   return static_cast<std::int32_t>(x + shift) - shift;
 }
-// A place within one segment, in 1/65536 step from the start of the step in which the motor is. The steps of a segment
-// fit 32 bits, and the processor computes twice as many of these at once.
-std::int32_t step_of(std::int32_t place) {
-  return place >> 16;
-}
-// Halves away from zero.
-std::int64_t nearest(double x) {
-  return static_cast<std::int64_t>(x + (x < 0 ? -0.5 : 0.5));
-}
 template <typename Int>
 Int ceil_divide(Int a, Int b) {
   return a >= 0 ? (a + b - 1) / b : -(-a / b);
@@ -55,12 +44,6 @@ Int ceil_divide(Int a, Int b) {
 template <typename Int>
 Int floor_divide(Int a, Int b) {
   return a >= 0 ? a / b : -((-a + b - 1) / b);
-}
-
-// The place in the direction of travel. For a motor that goes down, the complement mirrors the place: what is left of a
-// step becomes what is done of the step.
-std::int64_t along(int sign, std::int64_t position) {
-  return sign > 0 ? position : ~position;
 }
 
 }  // namespace
@@ -316,6 +299,7 @@ void SegmentFitter::find_due(const EventBuffer& events, unsigned motor, int sign
   };
   std::int32_t* const due = ideal_.data();
   for (std::size_t k = 1; k <= count; ++k) due[k] = ideal(k);
+  due[0] = due[1];
   const bool goes_on = events.size() > count && sign * (places[count + 1] - places[count]) > 0;
   due[count + 1] = goes_on ? ideal(count + 1) : due[count];
 }
@@ -338,105 +322,16 @@ SegmentFitter::Advance SegmentFitter::advance_other(const EventBuffer& events, u
   // Rounded up, so that a step exactly at an event is not missed by a few 65536ths.
   const auto last = static_cast<std::int32_t>(count);
   const std::int32_t straight = std::clamp<std::int32_t>(ceil_divide(due[count] - place, last), 0, whole_step);
+  const std::int32_t late = events_late();
   std::int32_t spare = 0;  // negative where a step comes too late, or more than one event too early
   for (std::int32_t k = 1; k <= last; ++k) {
     const std::int32_t steps = step_of(place + k * straight);
-    spare |= (steps - step_of(due[k])) | (step_of(due[k + 1]) - steps);
+    spare |= (steps - step_of(due[k - late])) | (step_of(due[k + 1]) - steps);
   }
+  if (step_of(place + last * straight) < step_of(due[count])) spare = -1;
   Advance advance = spare >= 0 ? Advance{.increment = straight, .events = count} : within_bounds(place, last);
   advance.sign = direction;
   return advance;
-}
-
-// The bend of one motor for just so many events, in parts of 2^k events. The increments make a parabola of chords,
-// which is aimed between the bounds: half an event early.
-std::optional<SegmentFitter::Bent> SegmentFitter::bend_of(const EventBuffer& events, unsigned motor,
-                                                          std::int64_t position, unsigned count, unsigned k) {
-  const double* const places = events.places(motor);
-  const auto part = static_cast<std::int64_t>(1) << k;
-  const std::int64_t parts = count >> k;
-  if (parts < 2) return {};
-  const int sign = places[count] > places[0] ? 1 : -1;
-  if (sign * (places[1] - places[0]) < -still || count_until_turn(events, motor, 1, sign, count) < count) return {};
-  const std::int64_t start = along(sign, position);
-  const std::int64_t this_step = start & ~(whole_step - 1);
-  find_due(events, motor, sign, this_step, count);
-  const std::int32_t* const due = ideal_.data();
-
-  const auto slope_to = [&](std::int64_t m) {
-    const auto event = static_cast<std::size_t>(m * part);
-    const double early = (static_cast<double>(due[event + 1]) - due[event]) / 2;
-    return (due[event] + early - static_cast<double>(start - this_step)) / static_cast<double>(event);
-  };
-  const std::int64_t node = std::max<std::int64_t>(1, parts / 2);
-  const double slope1 = slope_to(node);
-  const double slope2 = slope_to(parts);
-  const std::int64_t change = nearest(2 * (slope2 - slope1) / static_cast<double>(parts - node));
-  const std::int64_t first = nearest(slope2 - static_cast<double>(change * (parts - 1)) / 2);
-  const std::int64_t last = first + change * ((count - 1) >> k);
-  if (std::min(first, last) < 1 || std::max(first, last) >= whole_step || std::abs(change) > 0x7fff) return {};
-
-  auto place = static_cast<std::int32_t>(start - this_step);
-  auto increment = static_cast<std::int32_t>(first);
-  std::int32_t spare = 0;  // negative where a step comes too late, or more than one event too early
-  for (std::int64_t from = 1; from <= count; from += part, increment += static_cast<std::int32_t>(change)) {
-    const std::int64_t to = std::min<std::int64_t>(count, from + part - 1);
-    for (std::int64_t e = from; e <= to; ++e) {
-      place += increment;
-      spare |= (step_of(place) - step_of(due[e])) | (step_of(due[e + 1]) - step_of(place));
-    }
-    if (spare < 0) return {};
-  }
-  return Bent{.motor = motor,
-              .advance = {.sign = sign, .increment = first, .events = count},
-              .change = change,
-              .form = static_cast<std::uint8_t>(k)};
-}
-
-// Where one motor has to bend, and one stands still. Changes the other motors' `advances` to serve as many events.
-std::optional<SegmentFitter::Bent> SegmentFitter::fit_bend(const EventBuffer& events, const Stretch& stretch,
-                                                           const BoardModel& board, const Timing& timing,
-                                                           Advances& advances) {
-  Advances longer = advances;
-  unsigned most = timing.events;
-  std::optional<unsigned> bent;
-  std::optional<unsigned> lender;
-  for (unsigned m = 0; m < motors_; ++m) {
-    if (m == stretch.master) continue;
-    longer[m] = advance_other(events, m, board.position(m), most);
-    if (longer[m].sign == 0 && longer[m].events == most) lender = m;
-    if (!bent || longer[m].events < longer[*bent].events) bent = m;
-  }
-  if (!lender || bent == lender) return {};
-  const BoardSegment times{.events = static_cast<std::uint16_t>(timing.events),
-                           .form = timing.form,
-                           .interval = timing.interval,
-                           .change = timing.change};
-  const std::int64_t last = duration(times, most_events) - duration(times, times.events - 1);
-  const double least_part = least_events_of_part(static_cast<double>(std::min<std::int64_t>(timing.interval, last)));
-  const unsigned least = longer[*bent].events;
-  for (unsigned n = most; n > least + least / 4; n = n * 3 / 4) {
-    bool others_serve = true;
-    for (unsigned m = 0; m < motors_ && others_serve; ++m) {
-      if (m == stretch.master || m == *bent) continue;
-      longer[m] = advance_other(events, m, board.position(m), n);
-      others_serve = longer[m].events == n && (m != *lender || longer[m].sign == 0);
-    }
-    if (!others_serve) continue;
-    const unsigned longest = is_root(timing.form) ? timing.form & ~root_form : longest_root_part;
-    for (unsigned k = longest; k > 0 && (1U << k) >= least_part; --k) {
-      std::optional<Bent> bend = bend_of(events, *bent, board.position(*bent), n, k);
-      if (bend) {
-        bend->lender = *lender;
-        if (is_root(timing.form)) bend->form = timing.form;
-        advances = longer;
-        advances[*bent] = bend->advance;
-        return bend;
-      }
-      if (is_root(timing.form)) break;
-    }
-  }
-  return {};
 }
 
 // A motor that stands still keeps its direction line.

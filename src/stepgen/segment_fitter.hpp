@@ -7,7 +7,8 @@
 //
 // Place. The master moves by the grid at each event. Any other motor adds the same increment at each event. Its step is
 // due at the first event at or after the step's exact time, and may come one event early. That bounds the increment
-// from both sides. If no increment keeps the bounds, the segment is shortened.
+// from both sides. If no increment keeps the bounds, the segment is shortened. Where events may be off by a whole
+// interval, a step may also come one event late, except at the segment's end.
 //
 // About 10 ns for each event and motor.
 #pragma once
@@ -74,6 +75,8 @@ class SegmentFitter {
   };
   using Advances = std::array<Advance, max_motors>;
 
+  // By how many events a step may come late within a segment.
+  std::int32_t events_late() const { return share_ == 1 ? 1 : 0; }
   // Where a motor is behind by a part of a step: a segment of two events up to the first event of `events`.
   // `is_behind`: one is known to be.
   bool catch_up(const EventBuffer& events, const Stretch& stretch, const BoardModel& board, bool is_behind,
@@ -81,6 +84,7 @@ class SegmentFitter {
   void write(const Advances& advances, std::uint8_t kept_directions, BoardSegment& segment) const;
   std::optional<Bent> fit_bend(const EventBuffer& events, const Stretch& stretch, const BoardModel& board,
                                const Timing& timing, Advances& advances);
+  unsigned count_without_step(const EventBuffer& events, unsigned motor, std::int64_t position, unsigned count) const;
   std::optional<Bent> bend_of(const EventBuffer& events, unsigned motor, std::int64_t position, unsigned count,
                               unsigned k);
   Advance advance_master(const Stretch& stretch, std::int64_t position, double first_target, unsigned events) const;
@@ -91,6 +95,9 @@ class SegmentFitter {
   Advance settle(std::int64_t position, double place, unsigned count) const;
   Advance within_bounds(std::int32_t place, std::int32_t count) const;
 
+  // The longest part of a root has two to the power of this many events.
+  static constexpr unsigned longest_root_part = 7;
+
   std::uint8_t motors_;
   std::int64_t shortest_interval_;
   bool bends_;
@@ -98,7 +105,7 @@ class SegmentFitter {
   unsigned longest_ = 255;
   unsigned guess_ = 255;  // the number of events in the last segment; the next number will be similar
   // The present motor's exact places in whole units, in its direction of travel, from the start of the step in which
-  // the motor is. [0] is unused.
+  // the motor is. [0] is that of the first event once more.
   std::array<std::int32_t, longest_segment_of_all + 2> ideal_{};
 };
 

@@ -11,6 +11,7 @@
 
 #include "event_ring.hpp"
 #include "output_actions.hpp"
+#include "products.hpp"
 #include "registers.hpp"
 #include "serial_line.hpp"
 #include "step_interrupt.hpp"
@@ -173,29 +174,30 @@ class ChipPlayer {
     const int16_t left = left_of_oldest();
     return left <= 0 ? events : left > events ? uint8_t{0} : static_cast<uint8_t>(events - left);
   }
-  static int16_t steps(uint8_t motor) {
+  static int16_t steps(uint8_t motor) { return steps(items_[oldest_], played(), motor); }
+  // Adds them to the motors' positions, and is done with the item. Every part is counted so, and all motors in one go
+  // take half as long. With the Mega's interrupt there are too few registers for that.
+  [[gnu::noinline]] static void add_steps(int32_t* positions) {
+    if (step_port_count > 1) {
+      for (uint8_t m = 0; m < motors(); ++m) positions[m] += steps(m);
+      return;
+    }
     const Item& item = items_[oldest_];
-    return steps(item, over_ ? item.events : played(), motor);
-  }
-
-  // Adds `increment` to `accumulator` `events` times and returns the number of overflows. It is a 16 by 8 bit product,
-  // for which LLVM would call one of 32 bits.
-  static uint8_t carries(uint16_t& accumulator, uint16_t increment, uint8_t events) {
-    uint8_t count;
-    asm volatile(
-        "mul %A2, %3\n\t"
-        "add %A1, r0\n\t"
-        "adc %B1, r1\n\t"
-        "clr %0\n\t"
-        "adc %0, %0\n\t"
-        "mul %B2, %3\n\t"
-        "add %B1, r0\n\t"
-        "adc %0, r1\n\t"
-        "clr r1"
-        : "=&r"(count), "+r"(accumulator)
-        : "r"(increment), "r"(events)
-        : "r0");
-    return count;
+    const uint8_t events = played();
+    const uint16_t* increments = item.increments;
+    uint16_t* starts = at_start_;
+    uint8_t flips = item.flips;
+    uint8_t directions = item.directions;
+    for (uint8_t left = motors(); left != 0; --left) {
+      uint8_t steps = carries(*starts, *increments, events);
+      if ((flips & 1) != 0) steps = static_cast<uint8_t>(events - steps);
+      *positions += (directions & 1) != 0 ? -int32_t{steps} : int32_t{steps};
+      flips >>= 1;
+      directions >>= 1;
+      ++starts;
+      ++increments;
+      ++positions;
+    }
   }
 
   // Makes some events, and starts the timer if it stands still.
@@ -347,7 +349,7 @@ class ChipPlayer {
     const uint8_t ahead = waiting();
     if (ahead >= most_ahead_) return false;
     const uint8_t room = static_cast<uint8_t>(most_ahead_ - ahead);
-    return room >= least_room_ || room >= left_;
+    return room >= least_room_ || RingTimes::fit(left_, room);
   }
   // Call if there is room. Returns false if turns or actions must be made first.
   static bool make_events() {

@@ -49,6 +49,7 @@ class RingTimes {
   static uint8_t few() { return 8; }
   // Room in the ring for which it is worth making some events.
   static uint8_t least_room(uint8_t most_ahead) { return static_cast<uint8_t>(most_ahead / 8 * 3); }
+  static bool fit(uint8_t events, uint8_t room) { return room >= events; }
   // Whether an entry takes about as long to make as to play, at its shortest.
   static constexpr bool are_slow() { return false; }
   // How many of `count` entries to make at once.

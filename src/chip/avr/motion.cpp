@@ -188,12 +188,17 @@ bool take_tick() {
   if (!ChipPlayer::watches()) watch_input();
 }
 
-// Takes one byte, in a function of its own: a loop around this would keep addresses in the interrupt's registers.
-[[gnu::noinline]] void receive() {
-  board.receive(hardware.line.take());
-}
-
 constexpr uint8_t most_bytes_a_turn = 32;
+constexpr uint8_t most_bytes_at_once = 4;
+
+// Takes some bytes, in a function of its own: a loop around this would keep addresses in the interrupt's registers.
+[[gnu::noinline]] uint8_t receive() {
+  uint8_t count;
+  const uint8_t* const bytes = SerialLine::next(count, most_bytes_at_once);
+  const uint8_t taken = board.receive(bytes, count);
+  SerialLine::drop(taken);
+  return taken;
+}
 
 // Makes events, of the next item if need be.
 [[gnu::noinline]] void keep_up() {
@@ -217,10 +222,11 @@ constexpr uint8_t most_bytes_a_turn = 32;
   line.poll();
   keep_up();
   // Some bytes at a time: events must not wait for a flood of them.
-  for (uint8_t taken = 0; line.has_byte() && taken < most_bytes_a_turn; ++taken) {
-    receive();
-    SerialLine::breathe();
-    if ((taken & 3) != 3) continue;
+  for (uint8_t taken = 0, looked = 0; line.has_byte() && taken < most_bytes_a_turn;) {
+    taken = static_cast<uint8_t>(taken + receive());
+    line.poll();
+    if (static_cast<uint8_t>(taken - looked) < most_bytes_at_once) continue;
+    looked = taken;
     SpindleCounter::look();
     if (ChipPlayer::is_low()) keep_up();
   }

@@ -1,4 +1,5 @@
-// Products: what wire/segment_parts.hpp asks of a product, by the chip's own multiplier of 8 bits.
+// Products: what wire/segment_parts.hpp asks of a product, and the steps in many events, by the chip's own multiplier
+// of 8 bits.
 //
 // LLVM would call the library's product of 32 bits three times: some 500 cycles for a high_product(). This takes 110,
 // and a part that brakes needs four of them. The results are the same, bit by bit: board_test.cpp compares the events.
@@ -69,6 +70,26 @@ namespace passo::chip {
   const int32_t sides =
       int32_t{upper_half(b_high, static_cast<uint16_t>(a))} + upper_half(a_high, static_cast<uint16_t>(b));
   return sides + whole_product(a_high, b_high);
+}
+
+// Adds `increment` to `accumulator` `events` times and returns the number of overflows. It is a 16 by 8 bit product,
+// for which LLVM would call one of 32 bits.
+inline uint8_t carries(uint16_t& accumulator, uint16_t increment, uint8_t events) {
+  uint8_t count;
+  asm volatile(
+      "mul %A2, %3\n\t"
+      "add %A1, r0\n\t"
+      "adc %B1, r1\n\t"
+      "clr %0\n\t"
+      "adc %0, %0\n\t"
+      "mul %B2, %3\n\t"
+      "add %B1, r0\n\t"
+      "adc %0, r1\n\t"
+      "clr r1"
+      : "=&r"(count), "+r"(accumulator)
+      : "r"(increment), "r"(events)
+      : "r0");
+  return count;
 }
 
 }  // namespace passo::chip

@@ -35,11 +35,15 @@ class SerialLine {
   }
 
   static bool has_byte() { return taken_ != received_head; }
-  static uint8_t take() {
-    const uint8_t byte = *reinterpret_cast<volatile uint8_t*>(received_address + taken_);
-    ++taken_;
-    return byte;
+  // The next received bytes: `count` of them lie one after another, `most` at most.
+  static const uint8_t* next(uint8_t& count, uint8_t most) {
+    const uint8_t before_wrap = static_cast<uint8_t>(-taken_);
+    count = static_cast<uint8_t>(received_head - taken_);
+    if (count > most) count = most;
+    if (before_wrap != 0 && count > before_wrap) count = before_wrap;
+    return reinterpret_cast<const uint8_t*>(received_address + taken_);
   }
+  static void drop(uint8_t count) { taken_ = static_cast<uint8_t>(taken_ + count); }
 
   static uint8_t room() { return static_cast<uint8_t>((sent_ - to_send_ - 1) & out_mask); }
   // Whether there is room for any frame of the board.

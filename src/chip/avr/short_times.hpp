@@ -62,8 +62,10 @@ class RingTimes {
   static uint8_t few() { return reach_ == Reach::near ? few_events : most_waits_at_once; }
   // Room in the ring for which it is worth making some. Slow events leave time, and the loop may be away for long.
   static uint8_t least_room(uint8_t most_ahead) {
-    return static_cast<uint8_t>(reach_ == Reach::near ? most_ahead / 8 * 3 : most_ahead / 6);
+    return static_cast<uint8_t>(reach_ != Reach::far ? most_ahead / 2 : most_ahead / 6);
   }
+  // Whether that many events have that much room.
+  static bool fit(uint8_t events, uint8_t room) { return room >> (reach_ == Reach::near ? 0 : 1) >= events; }
   // The line cannot wait for many slow events.
   static uint8_t at_once(uint8_t count) {
     return line_is_watched != 0 || count <= most_waits_at_once || reach_ == Reach::near ? count : most_waits_at_once;

@@ -150,6 +150,9 @@ class PicoPlayer {
     const int32_t steps = (item.flips & bit) != 0 ? static_cast<int32_t>(events) - carries : carries;
     return static_cast<int16_t>((item.directions & bit) != 0 ? -steps : steps);
   }
+  static void add_steps(int32_t* positions) {
+    for (uint8_t m = 0; m < motors_; ++m) positions[m] += steps(m);
+  }
 
   static bool slipped() { return slipped_; }
 

@@ -41,14 +41,16 @@ class Board : private BoardVoice<Hardware> {
     list_.clear(places());
   }
 
-  // The main loop's side. Takes one byte off the wire.
-  void receive(uint8_t byte) {
-    switch (decoder_.feed(byte)) {
-      case Decoded::pending: break;
-      case Decoded::frame: take(decoder_.frame()); break;
-      case Decoded::refused: complain(WireError::bad_frame); break;
-    }
+  // The main loop's side. Takes the first of `count` bytes off the wire, and those that follow it within a payload.
+  // Returns how many.
+  [[gnu::always_inline]] uint8_t receive(const uint8_t* bytes, uint8_t count) {
+    if (const uint8_t taken = decoder_.feed_payload(bytes, count); taken != 0) return taken;
+    const Decoded decoded = decoder_.feed_other(*bytes);
+    if (decoded == Decoded::frame) take(decoder_.frame());
+    if (decoded == Decoded::refused) complain(WireError::bad_frame);
+    return 1;
   }
+  void receive(uint8_t byte) { receive(&byte, 1); }
   // Whether the host has not been told of some items that were executed or replaced; owed() is about how many.
   bool owes_report() const { return owed_ != 0; }
   uint8_t owed() const { return owed_; }
@@ -73,7 +75,7 @@ class Board : private BoardVoice<Hardware> {
   // Stops without braking and drops all items. Steps may be lost, so nothing is played until a host says hello again.
   void stop_at_once(FaultReason reason) {
     const Fault fault{.reason = reason, .event = played(), .executed = executed_};
-    if (begun_ != 0) count_steps();
+    if (begun_ != 0) player_.add_steps(positions_);
     player_.restart(motors_);
     drop_all();
     trusted_ = false;
@@ -431,7 +433,7 @@ class Board : private BoardVoice<Hardware> {
   [[gnu::noinline]] void retire() {
     const auto& item = list_.front();
     if (item.is_segment()) {
-      count_steps();
+      player_.add_steps(positions_);
       const uint16_t left = static_cast<uint16_t>(item.segment.events - done_of_front_);
       const uint8_t length = part_length(item.segment.form);
       done_of_front_ = static_cast<uint16_t>(done_of_front_ + length);
@@ -458,10 +460,6 @@ class Board : private BoardVoice<Hardware> {
   }
   uint8_t places() const { return identity_.places < queue_capacity ? identity_.places : uint8_t{queue_capacity}; }
 
-  // Counts the steps of the part that has just ended or was broken off.
-  void count_steps() {
-    for (uint8_t motor = 0; motor < motors_; ++motor) positions_[motor] += player_.steps(motor);
-  }
   [[gnu::noinline]] int32_t position(uint8_t motor) const {
     if (motor >= most_motors) return 0;
     return positions_[motor] + (begun_ == 0 || motor >= motors_ ? int16_t{0} : player_.steps(motor));

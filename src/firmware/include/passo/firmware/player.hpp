@@ -73,6 +73,11 @@ class Player {
     return (segment_.directions & bit) != 0 ? static_cast<int16_t>(-steps) : steps;
   }
 
+  // Adds the steps of all motors to their positions. Once for each segment, when it has ended or is broken off.
+  void add_steps(int32_t* positions) const {
+    for (uint8_t motor = 0; motor < motors_; ++motor) positions[motor] += steps(motor);
+  }
+
   uint16_t accumulator(uint8_t motor) const { return accumulators_[motor]; }
   uint16_t tick_fraction() const { return tick_fraction_; }
 
