@@ -192,6 +192,7 @@ class ChipPlayer {
       uint8_t steps = carries(*starts, *increments, events);
       if ((flips & 1) != 0) steps = static_cast<uint8_t>(events - steps);
       *positions += (directions & 1) != 0 ? -int32_t{steps} : int32_t{steps};
+      SerialLine::breathe();
       flips >>= 1;
       directions >>= 1;
       ++starts;

@@ -191,13 +191,23 @@ bool take_tick() {
 constexpr uint8_t most_bytes_a_turn = 32;
 constexpr uint8_t most_bytes_at_once = 4;
 
-// Takes some bytes, in a function of its own: a loop around this would keep addresses in the interrupt's registers.
-[[gnu::noinline]] uint8_t receive() {
+// Takes some bytes of a payload, or one that is something else. In functions of their own: a loop around this would
+// keep addresses in the interrupt's registers, and what takes a frame needs the stack.
+[[gnu::noinline]] uint8_t receive_payload() {
   uint8_t count;
   const uint8_t* const bytes = SerialLine::next(count, most_bytes_at_once);
-  const uint8_t taken = board.receive(bytes, count);
+  const uint8_t taken = board.receive_payload(bytes, count);
   SerialLine::drop(taken);
   return taken;
+}
+[[gnu::noinline]] void receive() {
+  board.receive(SerialLine::take());
+}
+uint8_t receive_some() {
+  if (const uint8_t taken = receive_payload(); taken != 0) return taken;
+  SerialLine::breathe();
+  receive();
+  return 1;
 }
 
 // Makes events, of the next item if need be.
@@ -214,7 +224,6 @@ constexpr uint8_t most_bytes_at_once = 4;
 
 // One turn of the loop. Events come first: nothing else here may take longer than the events ahead of the interrupt.
 [[gnu::noinline]] void turn() {
-  static uint8_t patience = 0;
   static uint8_t turns = 0;
   asm volatile("wdr");
   SerialLine& line = hardware.line;
@@ -223,7 +232,7 @@ constexpr uint8_t most_bytes_at_once = 4;
   keep_up();
   // Some bytes at a time: events must not wait for a flood of them.
   for (uint8_t taken = 0, looked = 0; line.has_byte() && taken < most_bytes_a_turn;) {
-    taken = static_cast<uint8_t>(taken + receive());
+    taken = static_cast<uint8_t>(taken + receive_some());
     line.poll();
     if (static_cast<uint8_t>(taken - looked) < most_bytes_at_once) continue;
     looked = taken;
@@ -244,7 +253,7 @@ constexpr uint8_t most_bytes_at_once = 4;
   // A credit repeats what earlier ones told, so it can wait while there is more urgent work.
   if (!board.owes_report() || !line.can_send()) return;
   const bool can_wait = board.owed() < 3;
-  if (can_wait && (line.has_byte() || ChipPlayer::is_short()) && (++patience & 7) != 0) return;
+  if (can_wait && (line.has_byte() || ChipPlayer::is_short()) && (turns & 7) != 4) return;
   board.report();
 }
 

@@ -43,6 +43,12 @@ class SerialLine {
     if (before_wrap != 0 && count > before_wrap) count = before_wrap;
     return reinterpret_cast<const uint8_t*>(received_address + taken_);
   }
+  static uint8_t take() {
+    uint8_t count;
+    const uint8_t byte = *next(count, 1);
+    drop(1);
+    return byte;
+  }
   static void drop(uint8_t count) { taken_ = static_cast<uint8_t>(taken_ + count); }
 
   static uint8_t room() { return static_cast<uint8_t>((sent_ - to_send_ - 1) & out_mask); }

@@ -41,16 +41,16 @@ class Board : private BoardVoice<Hardware> {
     list_.clear(places());
   }
 
-  // The main loop's side. Takes the first of `count` bytes off the wire, and those that follow it within a payload.
-  // Returns how many.
-  [[gnu::always_inline]] uint8_t receive(const uint8_t* bytes, uint8_t count) {
-    if (const uint8_t taken = decoder_.feed_payload(bytes, count); taken != 0) return taken;
-    const Decoded decoded = decoder_.feed_other(*bytes);
+  // The main loop's side. Takes a byte off the wire.
+  void receive(uint8_t byte) {
+    const Decoded decoded = decoder_.feed(byte);
     if (decoded == Decoded::frame) take(decoder_.frame());
     if (decoded == Decoded::refused) complain(WireError::bad_frame);
-    return 1;
   }
-  void receive(uint8_t byte) { receive(&byte, 1); }
+  // Takes several at once within a payload: Decoder::feed_payload().
+  [[gnu::always_inline]] uint8_t receive_payload(const uint8_t* bytes, uint8_t count) {
+    return decoder_.feed_payload(bytes, count);
+  }
   // Whether the host has not been told of some items that were executed or replaced; owed() is about how many.
   bool owes_report() const { return owed_ != 0; }
   uint8_t owed() const { return owed_; }
