@@ -158,7 +158,7 @@ TEST(Mega, makes_one_step_in_ten_seconds) {
   expect_one_step_in_ten_seconds(mega_under_test(PASSO_MOTION_MEGA, 4), unavoidable_on_mega);
 }
 
-// 30 events a segment at its highest rate: more segments than the line has room for.
+// 10 events a segment at its highest rate: more segments than the line has room for.
 TEST(Uno, loses_no_step_and_tells_it_where_its_events_come_too_late) {
   std::mt19937_64 random(test::seed());
   BoardBench bench(uno_under_test(PASSO_MOTION_UNO));
@@ -176,8 +176,8 @@ TEST(Uno, loses_no_step_and_tells_it_where_its_events_come_too_late) {
   const StreamKind slow{.shortest_interval = 400, .longest_interval = 500, .shortest_segment = 60, .segments = 20};
   EXPECT_TRUE(slipped_after({.shortest_interval = 107,
                              .longest_interval = 112,
-                             .shortest_segment = 30,
-                             .longest_segment = 30,
+                             .shortest_segment = 10,
+                             .longest_segment = 10,
                              .segments = 60}));
   EXPECT_FALSE(slipped_after(slow)) << "a hello begins anew";
 }

@@ -237,7 +237,11 @@ uint8_t receive_some() {
     if (static_cast<uint8_t>(taken - looked) < most_bytes_at_once) continue;
     looked = taken;
     SpindleCounter::look();
-    if (ChipPlayer::is_low()) keep_up();
+    // A question's answer takes as long as several short parts.
+    for (uint8_t parts = ChipPlayer::begins_many() ? 3 : 1; parts != 0 && ChipPlayer::is_low(); --parts) {
+      keep_up();
+      if (ChipPlayer::begins_many()) line.poll();
+    }
   }
   manual.feed();
   keep_up();
