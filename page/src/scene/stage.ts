@@ -81,6 +81,7 @@ export class Stage {
     for (const one of this.ends) one();
     cancelAnimationFrame(this.frame);
     clearTimeout(this.closerTimer);
+    this.renderer.end();
   }
 
   look(which: keyof typeof views): void {
