@@ -135,6 +135,30 @@ describe('a program on its way', () => {
   });
 });
 
+describe('a dialog that is open while the machine moves', () => {
+  it('has hold and stop, and the space bar holds', async () => {
+    const { page, context, errors } = await visit(browser, daemon, 'files');
+    await takeOver(page);
+    await send(page, 'slow.ngc', 'G21 G91 G1 F600 X20\nX-20\nM2\n');
+    await expect.poll(() => page.getByTestId('verdict').innerText()).toContain('Good');
+    await startProgram(page);
+    await daemon.until((status) => status.state === 'Run');
+    await page.keyboard.press('?');
+    await page.keyboard.press('Space');
+    await daemon.until((status) => status.state === 'Hold' && status.rests);
+    await page.getByRole('dialog').getByRole('button', { name: 'Hold' }).waitFor({ state: 'detached' });
+    await page.getByRole('dialog').getByRole('button', { name: 'Close' }).click();
+    await click(page, 'Resume');
+    await daemon.until((status) => status.state === 'Run');
+    await click(page, 'View');
+    expect(await violations(page)).toEqual([]);
+    await page.getByRole('dialog').getByRole('button', { name: 'Stop' }).click();
+    await daemon.until((status) => status.state === 'Idle' && status.job?.state === 'stopped');
+    expect(errors).toEqual([]);
+    await context.close();
+  });
+});
+
 describe('a program line by line', () => {
   it('rests after each line, passes M1, waits at M0 for Done, and leaves out lines with /', async () => {
     const { page, context, errors } = await visit(browser, daemon, 'files');

@@ -431,6 +431,18 @@ TEST(GrblProbe, what_is_touched_is_told_before_the_ok) {
   EXPECT_TRUE(run.is("Alarm"));
 }
 
+TEST(GrblProbe, that_meets_nothing_locks_and_questions_are_answered) {
+  GrblRun run;
+  run.send("G38.2 Z-1 F600\n");
+  ASSERT_TRUE(run.turn_until([&] { return run.is("Alarm"); }));
+  while (run.reply() != "ok") continue;
+  run.send("$#\n");
+  EXPECT_EQ(run.reply(), "[G54:0.000,0.000,0.000]") << "as grbl, which asks for rest alone";
+  while (run.reply() != "ok") continue;
+  run.send("G0 X1\n");
+  EXPECT_EQ(run.reply(), "error:9");
+}
+
 TEST(GrblReplies, each_write_is_whole_lines_of_ascii) {
   GrblRun run;
   run.send("?$$\n$#\n$I\n$G\n$\n$N\nG1 X1 F100\n?");
