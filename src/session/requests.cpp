@@ -196,13 +196,13 @@ MachineSession::Answer MachineSession::take(request::Stream& stream) {
   return begin(MachineEvent::begin_run, std::move(work));
 }
 
+// Asked again before the machine rests, it brakes no second time: it would never get to where the lines go on.
 MachineSession::Answer MachineSession::take(request::DropLines&) {
   if (!busy() || work_->lines == nullptr) return refusal(RefusalCode::nothing_runs, "no lines are queued");
   const Ticket ticket = ++last_ticket_;
   waiting_holds_.push_back(ticket);
   work_->lines->drop(position_.place);
-  work_->drops = true;
-  work_->drive->drop();
+  if (!std::exchange(work_->drops, true)) work_->drive->drop();
   return ticket;
 }
 

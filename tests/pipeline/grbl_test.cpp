@@ -187,6 +187,18 @@ TEST(GrblJog, of_a_sender_that_asks_no_more_ends_by_its_lease) {
   EXPECT_LT(reached, 110);
 }
 
+// Found by the fuzzer: the cancel was asked for again and again at the same instant, for ever.
+TEST(GrblJog, that_ends_by_its_lease_is_cancelled_once) {
+  GrblRun run;
+  run.send("?");
+  run.pass(Seconds(0.08));
+  run.send("?$J=X15F500\n$J=G91X1000F100\n");
+  int turns = 0;
+  ASSERT_TRUE(run.turn_until([&] { return ++turns > 5000 || run.session().now() > Seconds(2); }, Seconds(5)));
+  EXPECT_LT(turns, 5000);
+  EXPECT_TRUE(run.is("Idle")) << run.status();
+}
+
 TEST(GrblJog, of_a_sender_that_never_asks_goes_on) {
   GrblRun run;
   run.send("$J=G91 X100 F3000\n");
