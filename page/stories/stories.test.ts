@@ -139,7 +139,7 @@ describe('a dialog that is open while the machine moves', () => {
   it('has hold and stop, and the space bar holds', async () => {
     const { page, context, errors } = await visit(browser, daemon, 'files');
     await takeOver(page);
-    await send(page, 'slow.ngc', 'G21 G91 G1 F600 X20\nX-20\nM2\n');
+    await send(page, 'slow.ngc', 'G21 G91 G1 F100 X20\nX-20\nM2\n');
     await expect.poll(() => page.getByTestId('verdict').innerText()).toContain('Good');
     await startProgram(page);
     await daemon.until((status) => status.state === 'Run');
