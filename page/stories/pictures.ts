@@ -144,6 +144,8 @@ for (const theme of ['dark', 'light'] as const) {
       await daemon.until((status) => status.state === 'Idle');
       await sleep(1500);
     }
+    await page.goto('about:blank'); // a page that is left gives the motion back
+    await sleep(300);
     await context.close();
   }
   if (theme === 'light' && pages.includes('make')) await board(browser, daemon);

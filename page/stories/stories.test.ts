@@ -135,6 +135,62 @@ describe('a program on its way', () => {
   });
 });
 
+describe('a dialog that is open while the machine moves', () => {
+  it('has hold and stop, and the space bar holds', async () => {
+    const { page, context, errors } = await visit(browser, daemon, 'files');
+    await takeOver(page);
+    await send(page, 'slow.ngc', 'G21 G91 G1 F100 X20\nX-20\nM2\n');
+    await expect.poll(() => page.getByTestId('verdict').innerText()).toContain('Good');
+    await startProgram(page);
+    await daemon.until((status) => status.state === 'Run');
+    await page.keyboard.press('?');
+    await page.keyboard.press('Space');
+    await daemon.until((status) => status.state === 'Hold' && status.rests);
+    await page.getByRole('dialog').getByRole('button', { name: 'Hold' }).waitFor({ state: 'detached' });
+    await page.getByRole('dialog').getByRole('button', { name: 'Close' }).click();
+    await click(page, 'Resume');
+    await daemon.until((status) => status.state === 'Run');
+    await click(page, 'View');
+    expect(await violations(page)).toEqual([]);
+    await page.getByRole('dialog').getByRole('button', { name: 'Stop' }).click();
+    await daemon.until((status) => status.state === 'Idle' && status.job?.state === 'stopped');
+    expect(errors).toEqual([]);
+    await context.close();
+  });
+});
+
+describe('a program line by line', () => {
+  it('rests after each line, passes M1, waits at M0 for Done, and leaves out lines with /', async () => {
+    const { page, context, errors } = await visit(browser, daemon, 'files');
+    await takeOver(page);
+    await send(page, 'lines.ngc', 'G21 G91\nG1 F3000 X5\n/X50\nM1\nX5\nM0\nX-10\nM2\n');
+    await expect.poll(() => page.getByTestId('verdict').innerText()).toContain('Good');
+    await click(page, 'Leave out lines with / (1)');
+    await page.getByRole('button', { name: 'Leave out lines with / (1)', pressed: true }).waitFor();
+    await expect.poll(() => page.getByTestId('verdict').innerText()).toContain('Good');
+    await page.goto(`${daemon.address}#/run`);
+    await click(page, 'Single block');
+    await click(page, 'Stop at M1');
+    await daemon.until((status) => status.stops.single_block && !status.stops.optional_stop);
+    const at = (await daemon.status()).place.x ?? 0;
+    await startProgram(page);
+    for (const way of [5, 10]) {
+      await daemon.until((status) => status.rests && status.holds.includes('line-end') && Math.abs((status.place.x ?? 0) - at - way) < 0.01);
+      await page.getByText('A line has ended.').waitFor();
+      await click(page, 'Resume');
+    }
+    await page.getByText('Waits for you').waitFor();
+    await click(page, 'Single block');
+    await daemon.until((status) => !status.stops.single_block);
+    await click(page, 'Done');
+    await daemon.until((status) => status.job?.state === 'done' && Math.abs((status.place.x ?? 0) - at) < 0.01);
+    await click(page, 'Stop at M1');
+    await daemon.until((status) => status.stops.optional_stop);
+    expect(errors).toEqual([]);
+    await context.close();
+  });
+});
+
 describe('a jog by the keyboard', () => {
   let page: Page;
   let close: () => Promise<void>;

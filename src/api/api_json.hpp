@@ -46,6 +46,8 @@ WebAnswer path_answer(const StoredProgram& program, const ToolTable& tools, std:
 WebAnswer text_answer(const StoredProgram& program, std::string_view query);
 WebAnswer height_map_answer(const StoredProgram& program, std::string_view query);
 
+// The only member of a body. Empty, with a reason: it is not there, or something else is.
+std::optional<bool> read_flag(const Json& body, const std::string& key, std::string& reason);
 // {"place": {…}}: some of the axes, the others as in `start`. Empty, with the reason: the body is none.
 std::optional<Point> read_place(const Json& body, const MachineDescription& machine, const Point& start,
                                 std::string& reason);

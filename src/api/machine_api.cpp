@@ -8,6 +8,8 @@
 #include "api_json.hpp"
 #include <fmt/format.h>
 
+#include "passo/api/deleted_lines.hpp"
+
 namespace passo {
 namespace {
 
@@ -305,9 +307,23 @@ WebAnswer MachineApi::change_programs(const FoundRoute& found, const WebRequest&
     return json_answer(200, Json::object());
   }
   if (is_checked_for_job) return error_answer(409, "machine.busy", "a job is about to begin");
+  if (found.route->path.ends_with("/block-delete")) return choose_lines(*program, request.body);
   if (found.route->path.ends_with("/run")) return run_program(*program, request.query);
   programs_.check(found.id, machine_, session_.status().position.place);
   return json_answer(202, as_json(*program, false));
+}
+
+// Only of a program that does not run: what runs was read with the choice of before.
+WebAnswer MachineApi::choose_lines(const StoredProgram& program, std::string_view text) {
+  std::string reason;
+  const Json body = Json::parse(text, nullptr, false);
+  const auto leaves_out = read_flag(body, "on", reason);
+  if (!leaves_out) return bad_body(reason);
+  if (*leaves_out && program.dialect == Dialect::grbl)
+    return bad_body("grbl knows no block delete: it runs such lines");
+  if (runs(program)) return error_answer(409, "programs.in-use", "the program runs");
+  programs_.set_block_delete(program.id, *leaves_out);
+  return json_answer(200, as_json(program, false));
 }
 
 WebAnswer MachineApi::look_at_history(const FoundRoute& found, const WebRequest& request) {
@@ -336,8 +352,10 @@ WebAnswer MachineApi::change_queue(const FoundRoute& found, const WebRequest& re
   if (found.route->path == queue_path) {
     const auto dialect = dialect_from(request.query);
     if (!dialect) return bad_body("the dialect is linuxcnc or grbl");
+    const bool leaves_out = *dialect != Dialect::grbl && query_value(request.query, "block_delete") == "true";
     const auto id = history->add(name_from(query_value(request.query, "name"), "program"),
-                                 *dialect == Dialect::grbl ? "grbl" : "linuxcnc", request.body, wall_time());
+                                 *dialect == Dialect::grbl ? "grbl" : "linuxcnc",
+                                 leaves_out ? with_deleted_lines_as_comments(request.body) : request.body, wall_time());
     return id ? json_answer(201, as_json(*history->find(*id))) : no_room();
   }
   const auto id = static_cast<std::int64_t>(std::min<std::uint64_t>(found.id, INT64_MAX));

@@ -100,7 +100,7 @@ WebAnswer MachineApi::begin_job(const StoredProgram& program, std::int64_t histo
   }
   if (options_.history != nullptr && history == 0) {
     const char* const dialect = program.dialect == Dialect::grbl ? "grbl" : "linuxcnc";
-    history = options_.history->add(program.name, dialect, program.text, wall_time()).value_or(0);
+    history = options_.history->add(program.name, dialect, program.text_to_keep(), wall_time()).value_or(0);
     if (history == 0) return no_room();
   }
   resumes_ = reenters_ = named_ = false;
@@ -183,10 +183,10 @@ void MachineApi::name_job() {
   }
   if (!kept_) return start_job();
   if (session_.state() != MachineState::idle) return end_job(JobState::failed, "the machine is not idle any more");
-  const bool begun = reenters_ ? kept_->reenter(program.path)
-                     : resumes_
-                         ? kept_->resume(program.path)
-                         : kept_->begin(job_.history, program.text, program.path, way_ ? way_->at.place : PathPlace());
+  const bool begun = reenters_  ? kept_->reenter(program.path)
+                     : resumes_ ? kept_->resume(program.path)
+                                : kept_->begin(job_.history, program.text_to_keep(), program.path,
+                                               way_ ? way_->at.place : PathPlace());
   if (begun) {
     named_ = true;
   } else if (const InterruptedJob* const broken = kept_->interrupted(); resumes_ && broken != nullptr) {

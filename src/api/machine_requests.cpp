@@ -97,6 +97,14 @@ std::optional<Point> read_place(const Json& body, const MachineDescription& mach
   return members.good() ? std::optional<Point>(place) : std::nullopt;
 }
 
+std::optional<bool> read_flag(const Json& body, const std::string& key, std::string& reason) {
+  Members members(body, reason);
+  const auto flag = members.flag(key);
+  if (!flag) members.fail(key, "true or false");
+  members.end();
+  return members.good() ? flag : std::nullopt;
+}
+
 std::optional<Request> read_request(std::string_view path, const Json& body, const MachineDescription& machine,
                                     std::string& reason) {
   Members members(body, reason);
@@ -116,6 +124,10 @@ std::optional<Request> read_request(std::string_view path, const Json& body, con
                                 .adaptive_feed = {},
                                 .spindle = members.number("spindle"),
                                 .rapids = members.number("rapids")};
+  }
+  if (path == "/api/v1/stops") {
+    request = request::ChooseStops{.single_block = members.flag("single_block"),
+                                   .optional_stop = members.flag("optional_stop")};
   }
   if (path == "/api/v1/outputs") {
     request = request::SwitchOutputs{

@@ -79,7 +79,7 @@ WebAnswer MachineApi::begin_study(std::string_view body) {
     id = wanted.get<std::uint64_t>();
     const StoredProgram* const program = programs_.find(id);
     if (program == nullptr) return refusal(404);
-    order.program = program->text;
+    order.program = program->text_to_keep();
     order.dialect = program->dialect == Dialect::grbl ? "grbl" : "linuxcnc";
     order.parameters = parameter_file_text(programs_.parameters());
   }

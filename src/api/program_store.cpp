@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <utility>
 
+#include "passo/api/deleted_lines.hpp"
+
 namespace passo {
 namespace {
 
@@ -48,6 +50,10 @@ std::string_view StoredProgram::lines_from(std::uint64_t from, std::uint64_t cou
   return all.substr(at, end - at);
 }
 
+std::string StoredProgram::text_to_keep() const {
+  return block_delete ? with_deleted_lines_as_comments(text) : text;
+}
+
 const StoredProgram* ProgramStore::add(std::string name, Dialect dialect, std::string text) {
   if (programs_.size() >= most_programs || text.size() > longest_program || bytes_ + text.size() > most_bytes) {
     return nullptr;
@@ -61,6 +67,7 @@ const StoredProgram* ProgramStore::add(std::string name, Dialect dialect, std::s
   for (std::size_t at = 0; at < text.size(); at = std::min(text.find('\n', at), text.size() - 1) + 1) {
     if (program.lines++ % lines_a_mark == 0) program.line_starts.push_back(at);
   }
+  program.deleted_lines = dialect == Dialect::grbl ? 0 : count_deleted_lines(text);
   program.text = std::move(text);
   return &program;
 }
@@ -80,7 +87,9 @@ bool ProgramStore::remove(std::uint64_t id) {
 }
 
 InterpreterOptions ProgramStore::options_of(const StoredProgram& program) const {
-  return options_of(program.dialect);
+  InterpreterOptions options = options_of(program.dialect);
+  options.block_delete = program.block_delete;
+  return options;
 }
 
 InterpreterOptions ProgramStore::options_of(Dialect dialect) const {
@@ -90,6 +99,14 @@ InterpreterOptions ProgramStore::options_of(Dialect dialect) const {
   options.parameters[selected_system] = 1;
   options.tools = tools_;
   return options;
+}
+
+void ProgramStore::set_block_delete(std::uint64_t id, bool leaves_out) {
+  const auto found = programs_.find(id);
+  if (found == programs_.end() || found->second.block_delete == leaves_out) return;
+  if (checked_ == id) checker_.reset();
+  found->second.block_delete = leaves_out;
+  forget_check(found->second);
 }
 
 void ProgramStore::set_height_map(std::uint64_t id, HeightMap map) {
@@ -164,11 +181,13 @@ void ProgramStore::set_offsets(const SavedParameters& parameters, const ToolTabl
 
 void ProgramStore::forget_checks() {
   checker_.reset();
-  for (auto& [id, program] : programs_) {
-    program.state = UploadState::unchecked;
-    program.planned_time.reset();
-    program.path_points = ProgramPath();
-  }
+  for (auto& [id, program] : programs_) forget_check(program);
+}
+
+void ProgramStore::forget_check(StoredProgram& program) {
+  program.state = UploadState::unchecked;
+  program.planned_time.reset();
+  program.path_points = ProgramPath();
 }
 
 void ProgramStore::turn() {

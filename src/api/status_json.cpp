@@ -14,7 +14,7 @@ Json names_of(const HoldReasons& holds) {
       {HoldReason::operator_hold, "operator"}, {HoldReason::door, "door"},       {HoldReason::program_stop, "program"},
       {HoldReason::tool_change, "tool"},       {HoldReason::await_line, "line"}, {HoldReason::zero_feed, "zero-feed"},
       {HoldReason::probe_contact, "probe"},    {HoldReason::tap, "tap"},         {HoldReason::drop, "drop"},
-      {HoldReason::line_lost, "line-lost"},    {HoldReason::stop, "stop"}};
+      {HoldReason::line_lost, "line-lost"},    {HoldReason::stop, "stop"},       {HoldReason::line_end, "line-end"}};
   Json list = Json::array();
   for (const auto& [reason, name] : names) {
     if (holds.has(reason)) list.push_back(name);
@@ -123,6 +123,7 @@ Json as_json(const MachineDescription& machine, const MachineStatus& status) {
         {"flood", status.outputs.flood}}},
       {"overrides",
        {{"feed", status.overrides.feed}, {"rapids", status.overrides.rapids}, {"spindle", status.overrides.spindle}}},
+      {"stops", {{"single_block", status.stops.single_block}, {"optional_stop", status.stops.optional_stop}}},
       {"inputs",
        {{"probe", (status.inputs & input_probe) != 0},
         {"door", (status.inputs & input_door) != 0},
@@ -231,6 +232,8 @@ Json as_json(const StoredProgram& program, bool with_findings) {
                {"seconds", rounded(program.check.nominal_time.value())},
                {"planned", program.planned_time ? Json(rounded(program.planned_time->value())) : Json()},
                {"moves", program.check.moves},
+               {"block_delete", program.block_delete},
+               {"deleted_lines", program.deleted_lines},
                {"height_map", program.height_map.has_value()}};
   if (with_findings) json["findings"] = as_json(program.findings);
   return json;

@@ -40,7 +40,12 @@ Seconds time_of(const MotionItem& item) {
 }  // namespace
 
 DirectFeed::DirectFeed(const Stages& stages, const Options& options)
-    : stages_(stages), options_(options), live_(options.live), ahead_(endless_commitment), rested_(stages.link.now()) {
+    : stages_(stages),
+      options_(options),
+      live_(options.live),
+      ahead_(endless_commitment),
+      given_(stages.path.place()),
+      rested_(stages.link.now()) {
   apply(live_);
 }
 
@@ -75,6 +80,10 @@ void DirectFeed::expect_thread() {
 
 void DirectFeed::watch(const MotionItem& motion) {
   planned_ += time_of(motion);
+  if (options_.reads_again) {
+    given_ = stages_.path.behind(given_, motion);
+    stages_.path.forget_before(given_.item);
+  }
   if (!options_.follows_spindle) return;
   // Committed motion cannot react to the spindle, so little is committed.
   if (const auto* move = std::get_if<PlannedMove>(&motion)) {
@@ -119,6 +128,17 @@ bool DirectFeed::send_waiting() {
 
 bool DirectFeed::settled() {
   return stages_.link.error() || (send_waiting() && !stages_.link.busy());
+}
+
+std::optional<Point> DirectFeed::drop() {
+  if (options_.reads_again) given_ = stages_.path.last();
+  return {};
+}
+
+void DirectFeed::read_again() {
+  if (!options_.reads_again) return;
+  stages_.path.rewind(given_);
+  stages_.planner.restart();
 }
 
 void DirectFeed::cut_dwell() {

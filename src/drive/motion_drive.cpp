@@ -17,7 +17,8 @@ constexpr double no_feed = 0.01;
 
 // The holds that somebody has to take back. A hold for a feed of zero ends by itself when the feed rises.
 constexpr HoldReasons asked_holds{HoldReason::operator_hold, HoldReason::door,       HoldReason::program_stop,
-                                  HoldReason::tool_change,   HoldReason::await_line, HoldReason::stop};
+                                  HoldReason::tool_change,   HoldReason::await_line, HoldReason::line_end,
+                                  HoldReason::stop};
 
 BacklashOptions backlash_of(StepOptions steps, const DriveOptions& options) {
   if (options.begin_at) steps.downs = AxisSet();
@@ -33,7 +34,8 @@ MotionDrive::MotionDrive(Source<PathItem>& path, const MotionLimits& limits, con
       watched_path_(path),
       backlash_taker_(watched_path_, backlash_of(steps, options)),
       path_(backlash_taker_),
-      planner_(path_, limits),
+      line_stops_(path_),
+      planner_(line_stops_, limits),
       watched_motion_(planner_),
       step_generator_(watched_motion_, steps),
       watched_items_(step_generator_),
@@ -41,7 +43,9 @@ MotionDrive::MotionDrive(Source<PathItem>& path, const MotionLimits& limits, con
       probe_(board_, answers, steps),
       spindle_({.planner = planner_, .feed = *feed_, .link = board_}, limits, options.counts_per_turn,
                steps.clock.tick_rate),
-      spindle_wait_(options.spindle_wait) {
+      spindle_wait_(options.spindle_wait),
+      waits_at_optional_(options.waits_at_optional) {
+  line_stops_.stop_at_lines(options.stops_at_lines);
   backlash_taker_.ask_after_probe([this, motors = steps] { return backlash_at_rest(motors); });
   watched_path_.watch([this](const PathItem& item) { watch(item); });
   watched_motion_.watch([this](const MotionItem& item) { watch(item); });
@@ -66,20 +70,20 @@ BacklashAtRest MotionDrive::backlash_at_rest(const StepOptions& steps) const {
 }
 
 std::unique_ptr<Feed> MotionDrive::make_feed(const DriveOptions& options, const StepOptions& steps) {
-  if (options.begin_at) {
-    path_.keep();
-    path_.begin_at(*options.begin_at, options.lead_in);
-    if (!options.tails) path_.forget_passed();
-  }
+  if (options.begin_at || options.may_stop_at_lines) path_.keep();
+  if (options.begin_at) path_.begin_at(*options.begin_at, options.lead_in);
+  if (!options.tails && !options.may_stop_at_lines) path_.forget_passed();
   if (!options.tails) {
-    auto direct = std::make_unique<DirectFeed>(DirectFeed::Stages{.planner = planner_,
+    auto direct = std::make_unique<DirectFeed>(DirectFeed::Stages{.path = path_,
+                                                                  .planner = planner_,
                                                                   .generator = step_generator_,
                                                                   .items = watched_items_,
                                                                   .link = board_,
                                                                   .outputs = outputs_},
                                                DirectFeed::Options{.live = options.live,
                                                                    .follows_spindle = options.counts_per_turn > 0,
-                                                                   .waits_for_operator = options.waits_for_operator});
+                                                                   .waits_for_operator = options.waits_for_operator,
+                                                                   .reads_again = options.may_stop_at_lines});
     direct_ = direct.get();
     return direct;
   }
@@ -255,17 +259,6 @@ void MotionDrive::turn_tap(const Action& action) {
   });
 }
 
-void MotionDrive::wait_for_operator(const Action& action) {
-  outputs_.take_over(action);
-  script_.then([this] { feed_->switch_outputs(outputs_.tell()); });
-  script_.until([this] { return feed_->settled(); });
-  script_.then([this, action] {
-    waits_for_ = action;
-    holds_.add(action.kind == Action::Kind::tool_change ? HoldReason::tool_change : HoldReason::program_stop);
-    rest_in_hold();
-  });
-}
-
 // Pulled only when all before is executed, so the machine rests.
 void MotionDrive::await_line() {
   holds_.add(HoldReason::await_line);
@@ -282,13 +275,6 @@ void MotionDrive::drop() {
   dropped_to_.reset();
   feed_->brake();
   change_holds(HoldReason::drop, true);
-}
-
-void MotionDrive::done() {
-  if (!waits_for_) return;
-  const bool was_tool = waits_for_->kind == Action::Kind::tool_change;
-  waits_for_.reset();
-  resume(was_tool ? HoldReason::tool_change : HoldReason::program_stop);
 }
 
 void MotionDrive::look_at_probe() {
@@ -334,6 +320,8 @@ void MotionDrive::come_to_rest() {
     holds_.remove(HoldReason::tap);
     holds_.remove(HoldReason::drop);
     tell_planner();
+  } else {
+    rest_at_line();
   }
   if (holds_.any_of(lasting_holds)) rest_in_hold();
 }

@@ -199,6 +199,11 @@ std::optional<Point> Refiller::drop() {
   return stages_.path.point_at(rest);
 }
 
+void Refiller::read_again() {
+  stages_.path.rewind(given_);
+  stages_.planner.restart();
+}
+
 // The answer tells the event at which the board is in the current item. All answers of one motion together give a
 // better time.
 Seconds Refiller::ahead_of(const Turned& turned, Seconds time) {

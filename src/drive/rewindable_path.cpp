@@ -61,6 +61,7 @@ void RewindablePath::rewind(const PathPlace& place) {
   assert(keeps_ && place.item >= first_ && place.item <= first_ + kept_.size());
   next_ = place.item;
   rewound_ = place;
+  ++rewinds_;
 }
 
 Point RewindablePath::point_at(const PathPlace& place) const {

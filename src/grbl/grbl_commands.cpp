@@ -42,7 +42,8 @@ void GrblController::take_command(const std::string& text) {
   if (text == "$C") return toggle_check();
   if (text.starts_with("$J=")) return take_jog(text.substr(jog_words_from));
   // All others only at rest, as in grbl. Settings are shown in check mode and asleep too.
-  const bool at_rest = is_idle() || (alarm_ && !session_.busy());
+  const bool stands = !session_.busy() || session_.state() == MachineState::await_line;
+  const bool at_rest = is_idle() || (alarm_ && stands);
   const bool shows = text == "$$" && (checks_ || session_.state() == MachineState::sleep) && waits_ == Waits::none;
   if (!at_rest && !shows) return answer(GrblError::not_idle);
   if (text == "$$") {

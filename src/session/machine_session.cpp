@@ -241,7 +241,7 @@ void MachineSession::mind_holds() {
   note_tails();
   if (holds.has(HoldReason::door)) {
     if (state_ != MachineState::door) move_to(MachineEvent::open_door);
-  } else if (holds.any_of({HoldReason::operator_hold, HoldReason::program_stop}) ||
+  } else if (holds.any_of({HoldReason::operator_hold, HoldReason::program_stop, HoldReason::line_end}) ||
              (held && holds.has(HoldReason::zero_feed) &&
               !holds.any_of({HoldReason::tool_change, HoldReason::await_line}))) {
     if (state_ != MachineState::hold) move_to(MachineEvent::hold);
@@ -403,6 +403,7 @@ void MachineSession::look_at_panel() {
   if (pressed.start) {
     work_->drive->resume(HoldReason::operator_hold);
     work_->drive->resume(HoldReason::door);
+    work_->drive->resume(HoldReason::line_end);
   }
   mind_holds();
 }
@@ -451,6 +452,7 @@ MachineStatus MachineSession::status() const {
   status.ahead = position_.place;
   status.inputs = board_.inputs();
   status.overrides = overrides_;
+  status.stops = stops_;
   status.trouble = trouble_;
   status.trouble_words = trouble_words_;
   if (!busy() || !work_->drive) return status;

@@ -133,7 +133,7 @@ StepOptions MachineSession::step_options() const {
 }
 
 DriveOptions MachineSession::drive_options() const {
-  DriveOptions options{.live = live_commitment};
+  DriveOptions options{.live = live_commitment, .waits_at_optional = stops_.optional_stop};
   if (options_.over_a_line) options.tails.emplace();
   return options;
 }
@@ -165,6 +165,8 @@ MachineSession::Answer MachineSession::take(request::Start& start) {
   options.counts_per_turn = counts;
   options.guards_by_probe = machine_.probe.guards && start.answers_probes;
   options.waits_for_operator = start.waits_for_operator;
+  options.stops_at_lines = start.live && stops_.single_block;
+  options.may_stop_at_lines = start.live;
   if (!start.live && !options.guards_by_probe) options.live = endless_commitment;
   if (start.from) options.begin_at = start.from->place;
   options.lead_in = std::move(start.lead_in);
@@ -194,13 +196,13 @@ MachineSession::Answer MachineSession::take(request::Stream& stream) {
   return begin(MachineEvent::begin_run, std::move(work));
 }
 
+// Asked again before the machine rests, it brakes no second time: it would never get to where the lines go on.
 MachineSession::Answer MachineSession::take(request::DropLines&) {
   if (!busy() || work_->lines == nullptr) return refusal(RefusalCode::nothing_runs, "no lines are queued");
   const Ticket ticket = ++last_ticket_;
   waiting_holds_.push_back(ticket);
   work_->lines->drop(position_.place);
-  work_->drops = true;
-  work_->drive->drop();
+  if (!std::exchange(work_->drops, true)) work_->drive->drop();
   return ticket;
 }
 
@@ -345,13 +347,14 @@ MachineSession::Answer MachineSession::take(request::Resume&) {
   if (!busy() || !work_->is_program()) return refusal(RefusalCode::nothing_runs, "no program is held");
   MotionDrive& drive = *work_->drive;
   const HoldReasons holds = drive.holds();
-  if (drive.stopped() || !holds.any_of({HoldReason::operator_hold, HoldReason::door})) {
+  if (drive.stopped() || !holds.any_of({HoldReason::operator_hold, HoldReason::door, HoldReason::line_end})) {
     return refusal(RefusalCode::nothing_runs, "no program is held");
   }
   if (panel_->door_is_open()) return refusal(RefusalCode::door_open, "the door is open");
   work_->stops_outputs = false;
   drive.resume(HoldReason::operator_hold);
   drive.resume(HoldReason::door);
+  drive.resume(HoldReason::line_end);
   answer_holds(Outcome::stopped);  // those that were called off before the machine came to rest
   mind_holds();
   return at_once();
@@ -402,6 +405,19 @@ MachineSession::Answer MachineSession::take(request::SwitchOutputs& wanted) {
   if (wanted.mist) drive.switch_mist(*wanted.mist);
   if (wanted.flood) drive.switch_flood(*wanted.flood);
   if (wanted.spindle_stands) drive.stop_spindle(*wanted.spindle_stands);
+  ++version_;
+  return at_once();
+}
+
+// Of single block, a stream knows nothing: whoever sends its lines may wait between them.
+MachineSession::Answer MachineSession::take(request::ChooseStops& chosen) {
+  stops_.single_block = chosen.single_block.value_or(stops_.single_block);
+  stops_.optional_stop = chosen.optional_stop.value_or(stops_.optional_stop);
+  if (busy() && work_->is_program()) {
+    work_->drive->wait_at_optional(stops_.optional_stop);
+    if (work_->program != nullptr) work_->drive->stop_at_lines(stops_.single_block);
+    mind_holds();
+  }
   ++version_;
   return at_once();
 }

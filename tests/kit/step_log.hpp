@@ -111,7 +111,7 @@ void expect_small_differences(const std::vector<StepLog::Step>& steps, unsigned 
 // `slack`, in steps, allows for two errors. Steps are whole, which makes less than 2. Events are not exact, which makes
 // 4 times the share of an interval by which an event may be off: at most 4, in a tail (decision 0031). A slack below
 // the sum has been enough in most cases. In tails of boards with fewer than 100 places a step may come an event late,
-// too (decision 0127), which makes 4 more.
+// too (decision 0129), which makes 4 more.
 inline void expect_within_limits(const MachineDescription& machine, const StepLog::Steps& run, double slack = 4) {
   constexpr double apart = 0.008;  // seconds
   // The time between two places for the jerk. With a shorter time, a jump of the acceleration by its limit shows

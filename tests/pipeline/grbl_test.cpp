@@ -187,6 +187,18 @@ TEST(GrblJog, of_a_sender_that_asks_no_more_ends_by_its_lease) {
   EXPECT_LT(reached, 110);
 }
 
+// Found by the fuzzer: the cancel was asked for again and again at the same instant, for ever.
+TEST(GrblJog, that_ends_by_its_lease_is_cancelled_once) {
+  GrblRun run;
+  run.send("?");
+  run.pass(Seconds(0.08));
+  run.send("?$J=X15F500\n$J=G91X1000F100\n");
+  int turns = 0;
+  ASSERT_TRUE(run.turn_until([&] { return ++turns > 5000 || run.session().now() > Seconds(2); }, Seconds(5)));
+  EXPECT_LT(turns, 5000);
+  EXPECT_TRUE(run.is("Idle")) << run.status();
+}
+
 TEST(GrblJog, of_a_sender_that_never_asks_goes_on) {
   GrblRun run;
   run.send("$J=G91 X100 F3000\n");
@@ -429,6 +441,18 @@ TEST(GrblProbe, what_is_touched_is_told_before_the_ok) {
   EXPECT_EQ(run.reply(), "[PRB:0.000,0.000,0.000:0]");
   EXPECT_EQ(run.reply(), "ok");
   EXPECT_TRUE(run.is("Alarm"));
+}
+
+TEST(GrblProbe, that_meets_nothing_locks_and_questions_are_answered) {
+  GrblRun run;
+  run.send("G38.2 Z-1 F600\n");
+  ASSERT_TRUE(run.turn_until([&] { return run.is("Alarm"); }));
+  while (run.reply() != "ok") continue;
+  run.send("$#\n");
+  EXPECT_EQ(run.reply(), "[G54:0.000,0.000,0.000]") << "as grbl, which asks for rest alone";
+  while (run.reply() != "ok") continue;
+  run.send("G0 X1\n");
+  EXPECT_EQ(run.reply(), "error:9");
 }
 
 TEST(GrblReplies, each_write_is_whole_lines_of_ascii) {

@@ -146,6 +146,17 @@ TEST(Policies, a_program_that_waits_keeps_what_it_has_switched) {
   job.expect_done();
 }
 
+TEST(Policies, a_line_that_has_ended_in_single_block_keeps_the_outputs) {
+  Happening job;
+  job.server->post("/stops", R"({"single_block": true})");
+  job.look();
+  expect_on_page(
+      job.row("single block: a line of the program has ended", "resume: `POST /resume`, the button of the panel"));
+  job.server->post("/stops", R"({"single_block": false})");
+  job.server->post("/resume");
+  job.expect_done();
+}
+
 TEST(Policies, a_stop_and_the_end_switch_off) {
   Happening stopped;
   stopped.server->post("/stop");

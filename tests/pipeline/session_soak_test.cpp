@@ -24,9 +24,9 @@
 namespace passo::test {
 namespace {
 
-constexpr std::array names = {"start",  "stream", "drop lines",   "jog",    "renew", "home",
-                              "probe",  "check",  "hold",         "resume", "stop",  "override",
-                              "switch", "done",   "set position", "reset",  "sleep", "wake"};
+constexpr std::array names = {"start", "stream",       "drop lines", "jog",   "renew",    "home",   "probe",
+                              "check", "hold",         "resume",     "stop",  "override", "switch", "stops",
+                              "done",  "set position", "reset",      "sleep", "wake"};
 static_assert(names.size() == std::variant_size_v<Request>);
 
 constexpr LineCare care{.answer_within = Seconds(0.05), .patience = Seconds(3)};
@@ -100,11 +100,13 @@ class SessionSoak : public testing::Test {
       bool operator()(const request::Hold&) const { return !busy || status.state == MachineState::check; }
       bool operator()(const request::Resume&) const {
         return !runs || status.holds.has(HoldReason::stop) ||
-               !status.holds.any_of({HoldReason::operator_hold, HoldReason::door}) || (status.inputs & input_door) != 0;
+               !status.holds.any_of({HoldReason::operator_hold, HoldReason::door, HoldReason::line_end}) ||
+               (status.inputs & input_door) != 0;
       }
       bool operator()(const request::Stop&) const { return !busy; }
       bool operator()(const request::Override&) const { return false; }
       bool operator()(const request::SwitchOutputs&) const { return !runs; }  // nobody here asks for that
+      bool operator()(const request::ChooseStops&) const { return false; }
       bool operator()(const request::OperatorDone&) const { return !status.waits_for; }
       bool operator()(const request::SetPosition&) const { return status.state != MachineState::idle; }
       bool operator()(const request::ResetMachine&) const { return lacks(MachineEvent::reset); }

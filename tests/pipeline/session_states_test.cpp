@@ -115,6 +115,8 @@ const std::vector<Asked> requests = {
      [](const Situation& at) { return at.held && at.state != MachineState::door; }},
     {"stop", [] { return Request(request::Stop{}); }, is_active},
     {"override", [] { return Request(request::Override{.feed = 0.5}); }, [](const Situation&) { return true; }},
+    {"choose_stops", [] { return Request(request::ChooseStops{.optional_stop = false}); },
+     [](const Situation&) { return true; }},
     {"coolant", [] { return Request(request::SwitchOutputs{.flood = true}); },
      [](const Situation& at) { return *at.program != '\0' || at.state == MachineState::await_line; }},
     {"stop_spindle", [] { return Request(request::SwitchOutputs{.spindle_stands = true}); },

@@ -68,7 +68,7 @@ class SoakClient {
     return request::Stop{};
   }
   Request anything(const MachineStatus& status) {
-    switch (static_cast<int>(random_.between(0, 15.999))) {
+    switch (static_cast<int>(random_.between(0, 16.999))) {
       case 0: return start(status);
       case 1: return jog(status);
       case 2: return request::RenewLease{};
@@ -84,6 +84,7 @@ class SoakClient {
       case 12: return request::ResetMachine{};
       case 13: return request::Sleep{};
       case 14: return request::Wake{};
+      case 15: return request::ChooseStops{.single_block = random_.chance(0.3), .optional_stop = random_.chance(0.5)};
       default: return nonsense();
     }
   }

@@ -31,6 +31,7 @@ export interface Status {
   left: number | null; // s, of the job
   outputs: { spindle: 'off' | 'clockwise' | 'counterclockwise'; spindle_speed: number; mist: boolean; flood: boolean };
   overrides: { feed: number; rapids: number; spindle: number };
+  stops: { single_block: boolean; optional_stop: boolean };
   inputs: { probe: boolean; door: boolean; hold: boolean; start: boolean; emergency_stop: boolean; limits: number[] };
   waits_for_tool: number | null;
   waits_for_operator: boolean;
@@ -84,6 +85,8 @@ export interface Program {
   seconds: number; // at the programmed speeds
   planned: number | null; // with all ramps; null: not known yet
   moves: number;
+  block_delete: boolean; // lines that begin with / are left out
+  deleted_lines: number; // how many begin with /
   height_map: boolean;
   findings?: Finding[];
 }
@@ -153,8 +156,8 @@ export const post = async <T>(path: string, body?: object): Promise<T> =>
   (await (await ask('POST', path, body === undefined ? undefined : JSON.stringify(body))).json()) as T;
 export const remove = async (path: string): Promise<unknown> => (await ask('DELETE', path)).json();
 
-export const upload = async <T>(path: string, name: string, text: BodyInit): Promise<T> =>
-  (await (await ask('POST', `${path}?name=${encodeName(name)}`, text, 120_000)).json()) as T;
+export const upload = async <T>(path: string, name: string, text: BodyInit, more = ''): Promise<T> =>
+  (await (await ask('POST', `${path}?name=${encodeName(name)}${more}`, text, 120_000)).json()) as T;
 
 // Names reach the server as they are: it decodes nothing.
 export const encodeName = (name: string): string => name.replace(/[^A-Za-z0-9._-]+/g, '_').slice(0, 200);

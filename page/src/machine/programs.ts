@@ -83,6 +83,12 @@ export async function checkProgram(id: number): Promise<void> {
   await refreshPrograms();
 }
 
+// Lines that begin with /.
+export async function leaveOut(program: Program, on: boolean): Promise<void> {
+  await post(`/programs/${program.id}/block-delete`, { on });
+  await checkProgram(program.id);
+}
+
 export async function deleteProgram(id: number): Promise<void> {
   await remove(`/programs/${id}`);
   await refreshPrograms();

@@ -42,6 +42,8 @@ function nextOf({ status, program, canHome }: Facts): string {
     return say(program === 'none' ? 'state.Idle.open' : program === 'bad' ? 'state.Idle.bad' : 'state.Idle.next');
   }
   if (state === 'Run') return say('state.Run.next', { line: status.line });
+  if (state === 'Hold' && waitsForPerson(status)) return say('state.Tool.next');
+  if (state === 'Hold' && status.rests && status.holds.includes('line-end')) return say('state.Hold.line');
   if (state === 'Tool') {
     return status.waits_for_tool === null ? say('state.Tool.next') : say('state.Tool.tool', { tool: status.waits_for_tool });
   }
@@ -50,8 +52,13 @@ function nextOf({ status, program, canHome }: Facts): string {
   return trouble === '' || (state !== 'Alarm' && state !== 'Fault') ? next : `${trouble}. ${next}`;
 }
 
+// At M0 and M1, where nobody holds the program besides.
+export const waitsForPerson = ({ holds }: Status): boolean =>
+  holds.includes('program') && !['operator', 'door', 'line-end'].some((reason) => holds.includes(reason));
+
 export function stateWords(facts: Facts): StateWords {
   const { state, rests } = facts.status;
+  if (state === 'Hold' && waitsForPerson(facts.status)) return { title: say('state.Tool'), next: nextOf(facts), tone: tones.Tool };
   const title = state === 'Hold' && !rests ? say('state.Hold.braking') : say(`state.${state}`);
   return { title, next: nextOf(facts), tone: tones[state] };
 }

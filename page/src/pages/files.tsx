@@ -14,7 +14,7 @@ import { isLive, status } from '../machine/connection';
 import { alarms, ended, keeps, queue, refreshHistory } from '../machine/history';
 import { beOwner } from '../machine/owner';
 import { pathIndex } from '../machine/path_index';
-import { checkProgram, chosen, deleteProgram, isListed, programs, sending, sendProgram, shown, shownId, timeOf } from '../machine/programs';
+import { checkProgram, chosen, deleteProgram, isListed, leaveOut, programs, sending, sendProgram, shown, shownId, timeOf } from '../machine/programs';
 import { isUnderWay } from '../machine/words';
 import { Button } from '../parts/button';
 import { DropZone } from '../parts/drop_zone';
@@ -106,6 +106,11 @@ function ShownProgram() {
             {say('files.queue')}
           </Button>
         )}
+        {program.deleted_lines > 0 && (
+          <Button pressed={program.block_delete} why={whyDelete} onClick={() => attempt(() => leaveOut(program, !program.block_delete))}>
+            {say('files.leave.out', { lines: program.deleted_lines.toLocaleString(language.value) })}
+          </Button>
+        )}
         <Button icon="trash" why={whyDelete} onClick={() => deleteAsked(program)}>
           {say('files.delete')}
         </Button>
@@ -168,7 +173,7 @@ async function enqueue(program: Program): Promise<void> {
   for (let from = 1; from <= program.lines; from += lines) {
     parts.push(await (await ask('GET', `/programs/${program.id}/text?from=${from}&lines=${lines}`)).text());
   }
-  await upload('/queue', program.name, new Blob(parts));
+  await upload('/queue', program.name, new Blob(parts), `&dialect=${program.dialect}&block_delete=${program.block_delete}`);
   await refreshHistory();
 }
 

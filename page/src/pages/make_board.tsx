@@ -174,7 +174,7 @@ export function BoardSteps() {
   const { report } = now;
   let programs = 0;
   return (
-    <section aria-label={say('make.board.do')}>
+    <section class="board-do" aria-label={say('make.board.do')}>
       <div class="position-head">
         <h2>{say('make.board.do')}</h2>
         {now.page && (

@@ -3,12 +3,17 @@ import { say } from '../core/language';
 import { done, hold, reset, resume, start, stop, wake, whyNoHold, whyNoResume, whyNoStart, whyNoStop, whyNot } from '../machine/actions';
 import { isLive, status } from '../machine/connection';
 import { axes, workPlace } from '../machine/place';
+import { waitsForPerson } from '../machine/words';
 import { path } from '../core/route';
 import { placeText } from '../core/units';
 import { Button } from './button';
 
 function GoButton() {
-  switch (status.value?.state) {
+  const now = status.value;
+  if (now?.state === 'Hold' && waitsForPerson(now)) {
+    return <Button class="act" kind="go" icon="done" why={whyNot('Hold')} onClick={done} children={say('do.done')} />;
+  }
+  switch (now?.state) {
     case 'Hold':
     case 'Door':
       return <Button class="act" kind="go" icon="resume" why={whyNoResume.value} onClick={resume} children={say('do.resume')} />;

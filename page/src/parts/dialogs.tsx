@@ -4,10 +4,12 @@ import { useEffect, useRef } from 'preact/hooks';
 import { say } from '../core/language';
 import { dismiss, notices } from '../core/notices';
 import { asked } from '../core/question';
+import { hold, stop, whyNoHold } from '../machine/actions';
 import { Button } from './button';
 import { Icon } from './icon';
 import { ToldSteps } from './told';
 
+// A dialog covers the page. While something moves, hold and stop are within reach here, too.
 export function Dialog({ title, onClose, children }: { title: string; onClose: () => void; children: ComponentChildren }) {
   const box = useRef<HTMLDialogElement>(null);
   useEffect(() => {
@@ -17,6 +19,12 @@ export function Dialog({ title, onClose, children }: { title: string; onClose: (
     <dialog ref={box} class="dialog" aria-label={title} onClose={onClose} onCancel={onClose}>
       <h2>{title}</h2>
       {children}
+      {whyNoHold.value === '' && (
+        <div class="dialog-actions moving">
+          <Button kind="hold" icon="hold" onClick={hold} children={say('do.hold')} />
+          <Button kind="stop" icon="stop" onClick={stop} children={say('do.stop')} />
+        </div>
+      )}
     </dialog>
   );
 }

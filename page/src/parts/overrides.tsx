@@ -56,10 +56,19 @@ function Override({ factor }: { factor: Factor }) {
   );
 }
 
+// Where programs wait for a person.
+function Stop({ name, on }: { name: keyof Status['stops']; on: boolean }) {
+  return (
+    <Button pressed={on} why={whyNot(...anyState)} onClick={() => moveAs('/stops', { [name]: !on })}>
+      {say(`run.stops.${name}`)}
+    </Button>
+  );
+}
+
 export function Overrides() {
   const now = status.value;
   if (now === null) return null;
-  const { outputs } = now;
+  const { outputs, stops } = now;
   const whyOutputs = whyNot('Run', 'Hold', 'Tool', 'Line', 'Door');
   return (
     <section class="panel overrides" aria-label={say('run.overrides')}>
@@ -83,6 +92,10 @@ export function Overrides() {
         <Button pressed={outputs.mist} why={whyOutputs} onClick={() => moveAs('/outputs', { mist: !outputs.mist })}>
           {say('run.mist')}
         </Button>
+      </div>
+      <div class="stops">
+        <Stop name="single_block" on={stops.single_block} />
+        <Stop name="optional_stop" on={stops.optional_stop} />
       </div>
     </section>
   );

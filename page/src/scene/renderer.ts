@@ -232,6 +232,11 @@ export class Renderer {
     gl.drawArrays(gl.TRIANGLES, 0, this.coneCount);
   }
 
+  // Else the graphics of a page that was left would stay until the browser next tidies up its memory.
+  end(): void {
+    this.gl.getExtension('WEBGL_lose_context')?.loseContext();
+  }
+
   bytes(): number {
     let all = 0;
     for (const one of this.chunks.values()) all += one.points.places.byteLength;

@@ -81,6 +81,7 @@ export class Stage {
     for (const one of this.ends) one();
     cancelAnimationFrame(this.frame);
     clearTimeout(this.closerTimer);
+    this.renderer.end();
   }
 
   look(which: keyof typeof views): void {
@@ -153,7 +154,8 @@ export class Stage {
     this.canvas.width = Math.max(1, Math.round(this.canvas.clientWidth * density));
     this.canvas.height = Math.max(1, Math.round(this.canvas.clientHeight * density));
     if (!this.touched || first) this.fitAll();
-    this.soon();
+    // A canvas of another size is black until it is drawn, and nobody should see that.
+    this.paint();
   }
 
   private soon(): void {
@@ -167,6 +169,11 @@ export class Stage {
       this.frame = requestAnimationFrame(() => this.draw());
       return;
     }
+    this.paint();
+  }
+
+  private paint(): void {
+    cancelAnimationFrame(this.frame);
     this.frame = 0;
     this.dirty = false;
     ++this.drawn;

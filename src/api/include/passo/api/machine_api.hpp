@@ -141,6 +141,7 @@ class MachineApi final : public WebHandler {
   WebAnswer look(const FoundRoute& found, const WebRequest& request);
   WebAnswer change(const FoundRoute& found, const WebRequest& request);
   WebAnswer change_programs(const FoundRoute& found, const WebRequest& request);
+  WebAnswer choose_lines(const StoredProgram& program, std::string_view text);
   WebAnswer look_at_uploads(const FoundRoute& found) const;
   WebAnswer begin_upload(const WebRequest& request);
   WebAnswer change_uploads(const FoundRoute& found, const WebRequest& request);

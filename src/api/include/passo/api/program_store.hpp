@@ -34,6 +34,8 @@ struct StoredProgram {
   Dialect dialect = Dialect::linuxcnc;
   std::string text;
   std::uint64_t lines = 0;
+  std::uint64_t deleted_lines = 0;  // those that begin with /
+  bool block_delete = false;        // these lines are left out
   UploadState state = UploadState::unchecked;
   Point checked_from = {};  // where the machine stood at the last check
   ProgramCheck check;
@@ -46,6 +48,8 @@ struct StoredProgram {
 
   // A window of the text: `count` lines from line `from` on (1 is the first), fewer at the end.
   std::string_view lines_from(std::uint64_t from, std::uint64_t count) const;
+  // What the history and a journal keep of the program: a text that means the same without any choice.
+  std::string text_to_keep() const;
 };
 
 class ProgramStore {
@@ -71,6 +75,8 @@ class ProgramStore {
   void turn();
   InterpreterOptions options_of(const StoredProgram& program) const;
   InterpreterOptions options_of(Dialect dialect) const;
+  // Whether lines that begin with / are left out. The check of before does not count any more.
+  void set_block_delete(std::uint64_t id, bool leaves_out);
   void set_height_map(std::uint64_t id, HeightMap map);
   void set_planned_time(std::uint64_t id, Seconds time);
 
@@ -85,6 +91,7 @@ class ProgramStore {
  private:
   void make_room_for_path(std::uint64_t id);
   void forget_checks();
+  static void forget_check(StoredProgram& program);
 
   std::map<std::uint64_t, StoredProgram> programs_;
   std::size_t bytes_ = 0;

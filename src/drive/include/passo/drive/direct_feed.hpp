@@ -1,5 +1,5 @@
 // DirectFeed: sends board items to a board in this process, in order, as far ahead as the commitment says. Nothing is
-// lost on the way, so the feed keeps nothing for later.
+// lost on the way, so the feed keeps nothing for later but what was planned ahead.
 #pragma once
 
 #include <deque>
@@ -16,6 +16,7 @@ namespace passo {
 class DirectFeed final : public Feed {
  public:
   struct Stages {
+    RewindablePath& path;
     Planner& planner;
     StepGenerator& generator;
     Source<BoardItem>& items;  // the generator's, seen by those who watch
@@ -26,6 +27,7 @@ class DirectFeed final : public Feed {
     Commitment live;
     bool follows_spindle = false;     // in the parts of the path that say so
     bool waits_for_operator = false;  // the drive carries out the program's stops
+    bool reads_again = false;         // read_again() may be called: the path keeps what is planned ahead
   };
   // All stages outlive the feed.
   DirectFeed(const Stages& stages, const Options& options);
@@ -48,7 +50,8 @@ class DirectFeed final : public Feed {
   void note_rest(Seconds time) override { rested_ += time; }
   void brake() override {}
   bool plays_tail() const override { return false; }
-  std::optional<Point> drop() override { return {}; }
+  std::optional<Point> drop() override;
+  void read_again() override;
   void cut_dwell() override;
 
   // The path comes to a part that follows the spindle. From here on the feed does not read far ahead.
@@ -69,6 +72,7 @@ class DirectFeed final : public Feed {
       waiting_;  // for room on the board: an item, and outputs that were changed while the item was made
   std::optional<Action> action_;
   bool ended_ = false;
+  PathPlace given_;     // behind the motion given; only for read_again()
   Seconds planned_{0};  // time of all motion given by the planner
   Seconds rested_;      // the board's time in which this drive moved nothing
 };

@@ -95,6 +95,8 @@ class Feed {
   // At rest, after the planner has dropped the path up to the next action. Returns where the machine stands; empty:
   // where the given motion ends.
   virtual std::optional<Point> drop() = 0;
+  // At rest in a hold: what was planned ahead is forgotten, and the path is read anew from where the machine stands.
+  virtual void read_again() = 0;
   // Skips the rest of a dwell.
   virtual void cut_dwell() = 0;
 };

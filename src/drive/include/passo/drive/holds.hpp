@@ -16,6 +16,7 @@ enum class HoldReason : std::uint8_t {
   program_stop,   // the program waits for the operator: M0, M1
   tool_change,    // the program waits for another tool: M6
   await_line,     // the next line of the program has not come yet
+  line_end,       // single block: the motion of a line has ended
   zero_feed,      // the overrides leave less than a hundredth of the feed
   probe_contact,  // the probe move has found its contact; the rest of the move is dropped
   tap,            // the spindle reverses at the end of a tap
@@ -23,7 +24,7 @@ enum class HoldReason : std::uint8_t {
   line_lost,      // the board brakes by itself, because no refill reached it in time
   stop,           // the activity is to end here
 };
-inline constexpr int hold_reason_count = 11;
+inline constexpr int hold_reason_count = 12;
 
 class HoldReasons {
  public:
@@ -46,11 +47,11 @@ class HoldReasons {
 };
 
 // The planner brakes for `heeded_holds` only where the program heeds holds (M53), and for `sure_holds` everywhere.
-inline constexpr HoldReasons heeded_holds{HoldReason::operator_hold, HoldReason::door};
+inline constexpr HoldReasons heeded_holds{HoldReason::operator_hold, HoldReason::door, HoldReason::line_end};
 inline constexpr HoldReasons sure_holds{HoldReason::probe_contact, HoldReason::tap, HoldReason::drop, HoldReason::stop};
 // A machine that has come to rest stays at rest for these reasons. The other reasons end when it rests.
 inline constexpr HoldReasons lasting_holds{HoldReason::operator_hold, HoldReason::door,       HoldReason::program_stop,
-                                           HoldReason::tool_change,   HoldReason::await_line, HoldReason::zero_feed,
-                                           HoldReason::stop};
+                                           HoldReason::tool_change,   HoldReason::await_line, HoldReason::line_end,
+                                           HoldReason::zero_feed,     HoldReason::stop};
 
 }  // namespace passo

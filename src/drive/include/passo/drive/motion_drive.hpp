@@ -21,6 +21,7 @@
 #include "passo/base/tap.hpp"
 #include "passo/drive/feed.hpp"
 #include "passo/drive/holds.hpp"
+#include "passo/drive/line_stops.hpp"
 #include "passo/drive/outputs_order.hpp"
 #include "passo/drive/probe_move.hpp"
 #include "passo/drive/refiller.hpp"
@@ -50,6 +51,9 @@ struct DriveOptions {
   int counts_per_turn = 0;          // counts of the spindle's encoder; 0: nothing follows the spindle
   bool guards_by_probe = false;     // a touch outside a probe move stops the drive
   bool waits_for_operator = false;  // at stops (M0, M1) and tool changes (M6)
+  bool waits_at_optional = true;    // at M1 too, if it waits for the operator at all
+  bool stops_at_lines = false;      // rests in a hold after each line of the program
+  bool may_stop_at_lines = false;   // stop_at_lines() may be called later
 };
 
 class MotionDrive {
@@ -94,6 +98,11 @@ class MotionDrive {
   // The stop or tool change that the program waits at, if any. done() lets the program go on.
   const std::optional<Action>& waits_for() const { return waits_for_; }
   void done();
+  // From now on the program waits at M1, or rests there for a moment only.
+  void wait_at_optional(bool waits) { waits_at_optional_ = waits; }
+  // The machine rests in a hold after each line of the program (single block). Amid motion it also rests now, because
+  // lines are planned ahead.
+  void stop_at_lines(bool wanted);
   // Brakes to rest, and drops the rest of the path up to its next action. The source of the path is to have an action
   // next.
   void drop();
@@ -166,6 +175,7 @@ class MotionDrive {
   void tell_planner();
   void mind_feed();
   void come_to_rest();
+  void rest_at_line();
   void rest_in_hold();
   void lose_thread();
   void switch_on_again();
@@ -180,6 +190,7 @@ class MotionDrive {
   Tap<PathItem> watched_path_;
   BacklashTaker backlash_taker_;  // rests where an axis with backlash turns back
   RewindablePath path_;
+  LineStops line_stops_;
   Planner planner_;  // segments -> phases
   Tap<MotionItem> watched_motion_;
   StepGenerator step_generator_;  // phases -> board segments
@@ -201,6 +212,8 @@ class MotionDrive {
   bool planner_holds_ = false;  // what the planner was told last
   bool planner_stops_ = false;
   std::optional<Action> waits_for_;
+  bool waits_at_optional_;
+  bool reads_again_ = false;  // at the next rest, because lines were planned ahead
   double feed_override_ = 1;
   double adaptive_feed_ = 1;
   bool contact_seen_ = false;  // the contact that the board watches for now

@@ -100,6 +100,7 @@ class Refiller final : public Feed {
   void brake() override { brakes_ = true; }
   bool plays_tail() const override { return on_tail_ && !brakes_; }
   std::optional<Point> drop() override;
+  void read_again() override;
   void cut_dwell() override { stages_.generator.cut_dwell(); }
 
   // A tail that is played in a part that follows the spindle by place ends the whole path.

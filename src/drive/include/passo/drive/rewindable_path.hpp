@@ -44,6 +44,7 @@ class RewindablePath final : public Source<PathItem> {
   PathPlace behind(const PathPlace& place, const MotionItem& motion) const;
   // From now on next() hands out the path from `place` again.
   void rewind(const PathPlace& place);
+  std::uint64_t rewinds() const { return rewinds_; }
   // The point at `place`. The item must have been handed out and be kept.
   Point point_at(const PathPlace& place) const;
   // True: the item that next() gives next is known, and follows the spindle by place.
@@ -64,8 +65,9 @@ class RewindablePath final : public Source<PathItem> {
   std::uint64_t left_out_ = 0;  // items to leave out before the first one
   std::deque<PathItem> kept_;
   std::uint64_t first_ = 0;  // number of the first item kept
-  std::uint64_t next_ = 0;   // number of the next item to hand out
-  PathPlace rewound_;        // the item of which only the rest was handed out
+  std::uint64_t rewinds_ = 0;
+  std::uint64_t next_ = 0;  // number of the next item to hand out
+  PathPlace rewound_;       // the item of which only the rest was handed out
 };
 
 }  // namespace passo

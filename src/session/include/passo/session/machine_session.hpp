@@ -118,6 +118,7 @@ class MachineSession {
   Answer take(request::Stop& stop);
   Answer take(request::Override& change);
   Answer take(request::SwitchOutputs& wanted);
+  Answer take(request::ChooseStops& chosen);
   Answer take(request::OperatorDone& done);
   Answer take(request::SetPosition& set);
   Answer take(request::ResetMachine& reset);
@@ -186,6 +187,7 @@ class MachineSession {
   std::unique_ptr<Work> work_;  // what is going on, or what ended last
   std::unique_ptr<Panel> panel_;
   Overrides overrides_;
+  ChosenStops stops_;
   Point now_at_;  // as the board has told last, for tells_place
   MmPerSecond speed_now_{0};
   Seconds place_heard_{0};

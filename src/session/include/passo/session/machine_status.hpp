@@ -24,6 +24,13 @@ struct Overrides {
   friend bool operator==(const Overrides&, const Overrides&) = default;
 };
 
+// Where programs wait for a person.
+struct ChosenStops {
+  bool single_block = false;
+  bool optional_stop = true;
+  friend bool operator==(const ChosenStops&, const ChosenStops&) = default;
+};
+
 // What the program waits for.
 struct OperatorWait {
   Action::Kind kind = Action::Kind::program_stop;
@@ -49,6 +56,7 @@ struct MachineStatus {
   OutputState outputs;             // the outputs as the program and the operator have ordered them
   OperationSource executes;        // in a program: the line that is being executed, as far as is known
   Overrides overrides;
+  ChosenStops stops;
   std::optional<OperatorWait> waits_for;
   std::optional<HomingStage> homing;  // the stage of homing; the next member is its axis
   std::optional<Axis> homing_axis;

@@ -109,6 +109,11 @@ struct SwitchOutputs {
   std::optional<bool> flood = {};
   std::optional<bool> spindle_stands = {};
 };
+// Where programs wait for a person. What is empty stays as it is.
+struct ChooseStops {
+  std::optional<bool> single_block = {};   // a program that runs rests in a hold after each of its lines
+  std::optional<bool> optional_stop = {};  // programs wait at M1
+};
 // The operator has done what the program waits for: M0, M1, M6.
 struct OperatorDone {};
 // Says where the machine stands, as a person knows.
@@ -123,10 +128,11 @@ struct Wake {};
 
 }  // namespace request
 
-using Request = std::variant<request::Start, request::Stream, request::DropLines, request::Jog, request::RenewLease,
-                             request::Home, request::Probe, request::Check, request::Hold, request::Resume,
-                             request::Stop, request::Override, request::SwitchOutputs, request::OperatorDone,
-                             request::SetPosition, request::ResetMachine, request::Sleep, request::Wake>;
+using Request =
+    std::variant<request::Start, request::Stream, request::DropLines, request::Jog, request::RenewLease, request::Home,
+                 request::Probe, request::Check, request::Hold, request::Resume, request::Stop, request::Override,
+                 request::SwitchOutputs, request::ChooseStops, request::OperatorDone, request::SetPosition,
+                 request::ResetMachine, request::Sleep, request::Wake>;
 
 using Ticket = std::uint64_t;
 
