@@ -288,6 +288,11 @@ std::vector<std::uint32_t> shorten_route(const std::vector<DrawnPoint>& places, 
   return tour.order();
 }
 
+std::uint64_t enough_steps(std::size_t places, std::uint64_t a_place) {
+  constexpr std::uint64_t for_each_other = 200;
+  return places * std::min(a_place, for_each_other * places);
+}
+
 double route_length(const std::vector<DrawnPoint>& places, const std::vector<std::uint32_t>& order, DrawnPoint start,
                     DrawnPoint end) {
   double length = 0;

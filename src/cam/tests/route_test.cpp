@@ -50,8 +50,20 @@ TEST(Route, is_the_shortest_of_all_for_few_places) {
     double best = 1e300;
     do best = std::min(best, route_length(places, order, start, end));
     while (std::ranges::next_permutation(order).found);
-    const double found = route_length(places, shorten_route(places, start, end, 200'000), start, end);
+    const double found =
+        route_length(places, shorten_route(places, start, end, enough_steps(count, 20'000)), start, end);
     EXPECT_LE(found, best * 1.0000001 + 1) << "seed " << seed << ", " << count << " places";
+  }
+}
+
+TEST(Route, of_few_places_gets_no_shorter_by_more_steps) {
+  for (unsigned seed = 0; seed < 10; ++seed) {
+    const std::size_t count = 10 + 5 * seed;
+    const std::vector<DrawnPoint> places = scattered(count, 2000 + seed);
+    const auto found = [&](std::uint64_t steps) {
+      return route_length(places, shorten_route(places, {}, {}, steps), {}, {});
+    };
+    EXPECT_LE(found(enough_steps(count, 20'000)), found(20'000 * count) * 1.001) << count << " places";
   }
 }
 
