@@ -25,8 +25,8 @@ Region left_around(const Region& milled) {
 }  // namespace
 
 IsolationProof prove_isolation(const Region& copper, const MillPlan& plan, const Region& board) {
-  constexpr Nanometres of_arcs{200};   // chords of the ways
-  constexpr Nanometres of_discs{500};  // chords of the discs
+  constexpr Nanometres of_arcs{500};    // chords of the ways
+  constexpr Nanometres of_discs{1000};  // chords of the discs
   std::vector<Region> by_tool;
   for (const MillTool& tool : plan.tools) {
     std::vector<DrawnRing> ways;
