@@ -179,7 +179,13 @@ Region grown(const Region& region, Nanometres distance, Nanometres tolerance) {
 
 Region swept(const std::vector<DrawnRing>& ways, Nanometres radius, Nanometres tolerance) {
   if (radius.count <= 0) return {};
-  return offset(paths_of(ways), clipper::etOpenRound, static_cast<double>(bounded(radius)), tolerance);
+  // Each way on its own: where it turns, its rims cross themselves, and a sweep over all ways would pass all crossings.
+  clipper::Paths milled;
+  for (const DrawnRing& way : ways) {
+    const Region one = offset({path_of(way)}, clipper::etOpenRound, static_cast<double>(bounded(radius)), tolerance);
+    for (const DrawnRing& ring : one.rings) milled.push_back(path_of(ring));
+  }
+  return ways.size() == 1 ? Region{rings_of(milled)} : combined(clipper::ctUnion, std::move(milled), {});
 }
 
 std::vector<DrawnRing> ways_within(const std::vector<DrawnRing>& ways, const Region& region) {
