@@ -95,6 +95,8 @@ void add_isolate_command(CLI::App& cam, const std::vector<std::string>& words, C
                   "copper layers, which are united: Gerber, a KiCad board, or DXF with filled areas")
       ->required();
   isolate.add_option("--edge", arguments.edge, "the board's edge: nothing beyond it is milled (Gerber, KiCad or DXF)");
+  isolate.add_option("--join", arguments.join, "ends of the edge's lines that are no farther apart are joined")
+      ->capture_default_str();
   isolate.add_option("--tool", arguments.tools, "widths of the cutters at hand, as 1,0.2: the widest goes first");
   isolate.add_option("--v", arguments.v, "a V-shaped cutter: ANGLE,TIP in degrees and width of the tip");
   isolate.add_option("--depth", arguments.depth, "into the board, below 0")->capture_default_str();
@@ -179,6 +181,9 @@ void add_cam_board_command(CLI::App& cam, const std::vector<std::string>& words,
   board.add_flag("--probe-holes", arguments.probe_holes,
                  "no pins: after turning over a program finds the two holes with the probe");
   board.add_option("--heights", arguments.heights, "9x6: a program for each side probes its heights at a grid");
+  board.add_option("--join", arguments.join,
+                   "ends of the edge's lines that are no farther apart are joined; without it as\n[outline] says, "
+                   "or 0.1mm");
   board
       .add_option(
           "--as", arguments.told,
@@ -190,6 +195,7 @@ void add_cam_board_command(CLI::App& cam, const std::vector<std::string>& words,
   board.callback([&all] {
     all.chosen = [&all] {
       if (const int code = read_profile(all); code != exit_done) return code;
+      if (!all.board.join.empty()) all.outline.join = all.board.join;
       return cam_board(all.board, all.drill, all.isolate, all.outline);
     };
   });
