@@ -289,8 +289,8 @@ std::vector<std::uint32_t> shorten_route(const std::vector<DrawnPoint>& places, 
 }
 
 std::uint64_t enough_steps(std::size_t places, std::uint64_t a_place) {
-  constexpr std::uint64_t for_each_other = 200;
-  return places * std::min(a_place, for_each_other * places);
+  const std::uint64_t for_few = std::max<std::uint64_t>(4'000, 8 * std::uint64_t{places} * places);
+  return places * std::min(a_place, for_few);
 }
 
 double route_length(const std::vector<DrawnPoint>& places, const std::vector<std::uint32_t>& order, DrawnPoint start,

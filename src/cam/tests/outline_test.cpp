@@ -72,6 +72,22 @@ TEST(EdgeLoops, lines_drawn_twice_count_once) {
   EXPECT_FALSE(outlined(drawing, {}).findings.any_error());
 }
 
+// Nine lines of a demonstration board of KiCad: two ends at one place, and a tree of places that did not see it.
+TEST(EdgeLoops, ends_at_one_place_meet_wherever_it_lies) {
+  Drawing drawing{.file = "edge.dxf", .layers = {"Edge"}, .holes = {}, .paths = {}, .notes = {}};
+  for (const auto& [from, to] :
+       {std::pair(xy(172.085, 133.35), xy(194.945, 133.35)), std::pair(xy(90.805, 140.97), xy(90.805, 142.494)),
+        std::pair(xy(79.375, 133.35), xy(79.375, 34.29)), std::pair(xy(79.375, 34.29), xy(194.945, 34.29)),
+        std::pair(xy(194.945, 133.35), xy(194.945, 34.29)), std::pair(xy(90.805, 142.494), xy(172.085, 142.494)),
+        std::pair(xy(90.805, 133.35), xy(90.805, 140.97)), std::pair(xy(172.085, 142.494), xy(172.085, 133.35)),
+        std::pair(xy(90.805, 133.35), xy(79.375, 133.35))}) {
+    drawing.paths.push_back(open_line({{from}, {to}}));
+  }
+  const Outlined result = outlined(drawing, {});
+  EXPECT_FALSE(result.findings.any_error()) << render(result.findings, false);
+  EXPECT_EQ(result.loops.loops.size(), 1U);
+}
+
 // As EAGLE draws a rounded corner: part of another path again, and forth and back.
 TEST(EdgeLoops, parts_drawn_twice_or_forth_and_back_count_once) {
   const double quarter = std::tan(M_PI / 8);

@@ -5,6 +5,7 @@
 #include <numeric>
 #include <random>
 
+#include "../place_tree.hpp"
 #include <gtest/gtest.h>
 
 namespace passo {
@@ -27,6 +28,30 @@ bool holds_each_once(std::vector<std::uint32_t> order, std::size_t count) {
   std::vector<std::uint32_t> all(count);
   std::iota(all.begin(), all.end(), 0U);
   return order == all;
+}
+
+// Places on a coarse grid: many lie as far as a split of the tree, and many are equal.
+TEST(PlaceTree, finds_the_nearest_places_wherever_they_lie) {
+  std::mt19937_64 random(11);
+  for (std::size_t count = 2; count < 200; count += 7) {
+    std::vector<DrawnPoint> places;
+    for (std::size_t i = 0; i < count; ++i) {
+      places.push_back(at_mm(static_cast<int>(random() % 12), static_cast<int>(random() % 5)));
+    }
+    PlaceTree tree(places);
+    std::vector<std::uint32_t> found;
+    for (std::uint32_t index = 0; index < count; ++index) {
+      const std::size_t wanted = std::min<std::size_t>(8, count - 1);
+      tree.nearest(index, wanted, found);
+      ASSERT_EQ(found.size(), wanted);
+      std::vector<double> distances;
+      for (std::uint32_t other = 0; other < count; ++other) {
+        if (other != index) distances.push_back(distance_nm(places[index], places[other]));
+      }
+      std::ranges::sort(distances);
+      for (std::size_t i = 0; i < wanted; ++i) EXPECT_EQ(distance_nm(places[index], places[found[i]]), distances[i]);
+    }
+  }
 }
 
 TEST(Route, holds_each_place_once) {
