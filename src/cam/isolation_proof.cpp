@@ -1,7 +1,10 @@
 #include "passo/cam/isolation_proof.hpp"
 
 #include <algorithm>
+#include <optional>
 #include <vector>
+
+#include "edge_grid.hpp"
 
 #include "passo/cam/mill_program.hpp"
 
@@ -20,6 +23,25 @@ Region left_around(const Region& milled) {
     std::ranges::reverse(left.rings.back());
   }
   return left;
+}
+
+// Whether any place is in both. Where no rims meet, a part of one lies in the other as a whole, or not at all.
+bool have_common(const Region& a, const Region& b, const std::vector<Region>& parts_of_a) {
+  const std::optional<DrawnBox> box = bounds(a);
+  if (!box) return false;
+  EdgeGrid rims(*box, {200'000});
+  for (const DrawnRing& ring : a.rings) rims.add(ring, 0);
+  rims.finish();
+  for (const DrawnRing& ring : b.rings) {
+    for (std::size_t i = 0, last = ring.size() - 1; i < ring.size(); last = i++) {
+      if (rims.is_crossed(ring[last], ring[i])) return true;
+    }
+  }
+  const std::vector<Region> parts_of_b = parts_of(b);
+  const auto lie_in = [](const std::vector<Region>& parts, const std::vector<Region>& others) {
+    return std::ranges::any_of(parts_with(parts, others), [&](std::size_t i) { return i < others.size(); });
+  };
+  return lie_in(parts_of_a, parts_of_b) || lie_in(parts_of_b, parts_of_a);
 }
 
 }  // namespace
@@ -41,7 +63,7 @@ IsolationProof prove_isolation(const Region& copper, const MillPlan& plan, const
   IsolationProof proof;
   proof.copper_mm2 = area_mm2(copper);
   proof.milled_mm2 = area_mm2(milled);
-  proof.lost_mm2 = area_mm2(common(copper, milled));
+  if (have_common(copper, milled, islands)) proof.lost_mm2 = area_mm2(common(copper, milled));
   proof.islands = islands.size();
   std::vector<std::size_t> islands_in(left.size() + 1);
   for (const std::size_t part : parts_with(islands, left)) ++islands_in[part];

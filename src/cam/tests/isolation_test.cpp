@@ -280,6 +280,14 @@ TEST(IsolationProof, counts_copper_that_a_plan_takes) {
   EXPECT_EQ(proof.copper_mm2, 4);
 }
 
+TEST(IsolationProof, counts_what_is_taken_within_copper_and_copper_that_is_taken_whole) {
+  MillPlan plan;
+  plan.tools.push_back({wide(0.2), "cutter", {{{spot(-0.2, 0), 0, {}}, {spot(0.2, 0), 0, {}}}}});
+  EXPECT_NEAR(prove_isolation(pad(0, 0, 2), plan).lost_mm2, 0.4 * 0.2 + M_PI * 0.01, 0.0025);
+  EXPECT_NEAR(prove_isolation(pad(0, 0, 0.1), plan).lost_mm2, 0.01, 1e-6);
+  EXPECT_EQ(prove_isolation(pad(0, 0.2, 0.19), plan).lost_mm2, 0);
+}
+
 TEST(MillProgram, goes_down_along_and_up_and_ends_at_rest) {
   MillPlan plan;
   plan.tools.push_back({wide(0.2),
