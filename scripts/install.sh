@@ -22,7 +22,6 @@ build_packages=(
   libexpat1-dev              # SVG drawings in passo cam
   libminizip-dev             # zip archives of board files
   fonts-dejavu-core          # letters in pictures
-  pkg-config                 # finds cairo
   clang gcc-avr avr-libc binutils-avr  # the firmware for the Uno and the Mega: compiler; libgcc, start-up code, linker
   lld libc++-16-dev-wasm32 libc++abi-16-dev-wasm32 wasi-libc libclang-rt-14-dev-wasm32  # the lab of the page, as WebAssembly
   libsimavr-dev libelf-dev   # passo-emulate-avr runs it on emulated chips: sim:uno, sim:mega

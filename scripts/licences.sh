@@ -9,7 +9,8 @@ set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
 
 compiled_in=(libcli11-dev nlohmann-json3-dev libboost1.74-dev)  # headers only
-loaded_late=(libmosquitto.so.1)  # by an option, not at the start: docs/decisions/0120
+# By what needs them, not at the start: docs/decisions/0128
+loaded_late=(libmosquitto.so.1 libcairo.so.2 libfreetype.so.6 libharfbuzz.so.0 libsqlite3.so.0)
 programs=("$@")
 if (($# == 0)); then programs=(build/release/passo build/release/passo-emulate-avr); fi
 

@@ -11,13 +11,32 @@ namespace passo {
 namespace {
 
 struct FoundArc {
-  double sweep;
+  std::size_t last;  // index of the point where it ends
+  double sweep;      // 0: a line
 };
 
 class ArcFinder {
  public:
   ArcFinder(const std::vector<DrawnPoint>& points, const ArcFit& fit) : points_(points), fit_(fit) {}
 
+  // The arc that begins here and has the most chords, or the line to the next point. Each arc is proved of all its
+  // points, so their number is found by leaps: twice as far each time, then half as far.
+  FoundArc longest(std::size_t first) const {
+    constexpr std::size_t fewest_chords = 3;
+    FoundArc found{first + 1, 0};
+    std::size_t next = first + fewest_chords;
+    std::size_t leap = 1;
+    for (bool grows = true; leap > 0; next = found.last + leap) {
+      const std::optional<FoundArc> longer = next < points_.size() ? arc(first, next) : std::nullopt;
+      if (longer) found = *longer;
+      if (found.sweep == 0) return found;
+      grows = grows && longer;
+      leap = grows ? 2 * leap : leap / 2;
+    }
+    return found;
+  }
+
+ private:
   // The arc from one point to the other, if all points between are on it.
   std::optional<FoundArc> arc(std::size_t first, std::size_t last) const {
     const DrawnPoint a = points_[first];
@@ -49,10 +68,8 @@ class ArcFinder {
       before = now;
     }
     constexpr double most = std::numbers::pi * 1.01;
-    return std::abs(sweep) <= most ? std::optional(FoundArc{sweep}) : std::nullopt;
+    return std::abs(sweep) <= most ? std::optional(FoundArc{last, sweep}) : std::nullopt;
   }
-
- private:
   // Whether the chord that ends at this index is as long as that in the middle.
   bool is_even(std::size_t first, std::size_t index, std::size_t last) const {
     const std::size_t middle = (first + last) / 2;
@@ -69,21 +86,13 @@ class ArcFinder {
 }  // namespace
 
 std::vector<PathPoint> with_arcs(const std::vector<DrawnPoint>& points, const ArcFit& fit) {
-  constexpr std::size_t fewest_chords = 3;
   const ArcFinder finder(points, fit);
   std::vector<PathPoint> path;
   std::size_t at = 0;
   while (at + 1 < points.size()) {
-    std::size_t last = at + 1;
-    double bulge = 0;
-    for (std::size_t next = at + fewest_chords; next < points.size(); ++next) {
-      const std::optional<FoundArc> arc = finder.arc(at, next);
-      if (!arc) break;
-      last = next;
-      bulge = std::tan(arc->sweep / 4);
-    }
-    path.push_back({points[at], bulge});
-    at = last;
+    const FoundArc arc = finder.longest(at);
+    path.push_back({points[at], std::tan(arc.sweep / 4)});
+    at = arc.last;
   }
   if (!points.empty()) path.push_back({points.back(), 0});
   return path;

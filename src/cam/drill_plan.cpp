@@ -277,8 +277,8 @@ void DrillPlanner::order(DrillTool& tool) const {
   std::vector<std::uint32_t> given(places.size());
   for (std::uint32_t i = 0; i < given.size(); ++i) given[i] = i;
   tool.rapids_before_nm = route_length(places, given, options_.park, options_.park);
-  constexpr std::uint64_t enough_a_place = 20'000;  // more steps hardly shorten the route of few places
-  const std::uint64_t steps = std::min<std::uint64_t>(options_.route_steps, enough_a_place * places.size());
+  constexpr std::uint64_t enough_a_place = 20'000;
+  const std::uint64_t steps = std::min(options_.route_steps, enough_steps(places.size(), enough_a_place));
   std::vector<std::uint32_t> best = shorten_route(places, options_.park, options_.park, steps);
   tool.rapids_after_nm = route_length(places, best, options_.park, options_.park);
   if (tool.rapids_after_nm > tool.rapids_before_nm) {  // the file's own order is better

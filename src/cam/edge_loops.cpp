@@ -22,6 +22,14 @@ std::vector<PathPoint> turned_around(const std::vector<PathPoint>& points) {
   return turned;
 }
 
+// Whether the second half of the path is the first one backwards.
+bool goes_back(const std::vector<PathPoint>& points) {
+  for (std::size_t i = 0, k = points.size() - 1; i < k; ++i, --k) {
+    if (points[i].at != points[k].at || points[i].bulge != -points[k - 1].bulge) return false;
+  }
+  return true;
+}
+
 // Ends are numbered: 2 k is the start of the open path k, 2 k + 1 its end.
 class EdgeJoiner {
  public:
@@ -40,10 +48,11 @@ class EdgeJoiner {
 
  private:
   DrawnPoint place(std::size_t end) const {
-    const std::vector<PathPoint>& points = open_[end / 2]->points;
+    const std::vector<PathPoint>& points = open_[end / 2].points;
     return end % 2 == 0 ? points.front().at : points.back().at;
   }
   void collect();
+  void collect_open(const DrawnPath& path);
   void join_ends();
   void follow(std::size_t path, std::vector<bool>& is_used);
   void refuse(std::size_t end);
@@ -54,8 +63,9 @@ class EdgeJoiner {
   OpenRows open_rows_;
   Diagnostics& diagnostics_;
   EdgeLoops found_;
-  std::vector<const DrawnPath*> open_;
-  std::vector<std::optional<std::size_t>> partners_;  // of each end
+  std::vector<DrawnPath> open_;
+  std::set<std::tuple<DrawnPoint, DrawnPoint, DrawnPoint>> known_;  // ends and middles of their pieces
+  std::vector<std::optional<std::size_t>> partners_;                // of each end
 };
 
 void EdgeJoiner::collect() {
@@ -69,16 +79,44 @@ void EdgeJoiner::collect() {
   for (const DrawnPath& path : drawing_.paths) {
     if (path.points.size() < 2) continue;
     const DrawnPoint first = path.points.front().at;
-    const DrawnPoint last = path.points.back().at;
-    const bool closes = path.is_closed || (first == last && path.points.size() > 2);
-    const DrawnPoint middle = point_along(path.points[0].at, path.points[1].at, path.points[0].bulge, 0.5);
-    if (!known.emplace(std::min(first, last), std::max(first, last), middle, path.points.size()).second) continue;
-    if (!closes) {
-      if (first != last) open_.push_back(&path);
+    DrawnPath whole = path;
+    if (path.is_closed && path.points.back().at != first) whole.points.push_back({first, 0});
+    if (whole.points.back().at != first || goes_back(whole.points)) {
+      collect_open(whole);
       continue;
     }
-    found_.loops.push_back(path.points);
-    if (first == last) found_.loops.back().pop_back();
+    const DrawnPoint middle = point_along(first, path.points[1].at, path.points[0].bulge, 0.5);
+    if (!known.emplace(first, first, middle, path.points.size()).second) continue;
+    whole.points.pop_back();
+    found_.loops.push_back(std::move(whole.points));
+  }
+}
+
+// Layout programs draw an edge twice, part of it twice, or forth and back: each piece of an open path counts once.
+void EdgeJoiner::collect_open(const DrawnPath& path) {
+  std::vector<DrawnPath> parts(1, path);
+  parts.back().points.resize(1);
+  for (std::size_t i = 1; i < path.points.size(); ++i) {
+    const PathPoint& from = path.points[i - 1];
+    const PathPoint& to = path.points[i];
+    const DrawnPoint middle =
+        from.at < to.at ? point_along(from.at, to.at, from.bulge, 0.5) : point_along(to.at, from.at, -from.bulge, 0.5);
+    const bool is_new = from.at != to.at || from.bulge != 0;
+    if (is_new && known_.emplace(std::min(from.at, to.at), std::max(from.at, to.at), middle).second) {
+      parts.back().points.push_back(to);
+    } else if (from.at != to.at) {
+      parts.push_back(path);
+      parts.back().points.assign(1, to);
+    }
+  }
+  for (DrawnPath& part : parts) {
+    if (part.points.size() < 2) continue;
+    if (part.points.size() > 2 && part.points.front().at == part.points.back().at) {
+      part.points.pop_back();
+      found_.loops.push_back(std::move(part.points));
+    } else {
+      open_.push_back(std::move(part));
+    }
   }
 }
 
@@ -117,7 +155,7 @@ void EdgeJoiner::join_ends() {
 
 // The path from this end of it on.
 void EdgeJoiner::append(std::vector<PathPoint>& loop, std::size_t first_end) {
-  const std::vector<PathPoint>& drawn = open_[first_end / 2]->points;
+  const std::vector<PathPoint>& drawn = open_[first_end / 2].points;
   std::vector<PathPoint> points = first_end % 2 == 0 ? drawn : turned_around(drawn);
   points.back().bulge = 0;
   if (!loop.empty() && loop.back().at == points.front().at) loop.pop_back();
@@ -160,7 +198,7 @@ void EdgeJoiner::refuse(std::size_t end) {
   for (std::size_t other = 0; other < partners_.size(); ++other) {
     if (other != end && !partners_[other]) nearest = std::min(nearest, distance_nm(at, place(other)));
   }
-  const std::uint32_t line = open_[end / 2]->line;
+  const std::uint32_t line = open_[end / 2].line;
   std::string expected = "a closed line";
   if (nearest < 1e300) {
     expected += fmt::format("; the next open end is {:.4g} mm away: --join {:.4g}mm", nearest / nanometres_per_mm,

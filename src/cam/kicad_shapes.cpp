@@ -47,10 +47,17 @@ void append_arc_points(DrawnPoint from, DrawnPoint middle, DrawnPoint to, std::v
     points.push_back({from, bulge});
     return;
   }
-  // Of a whole turn, the middle lies across.
+  // Of a whole turn, the middle lies across. Where the middle lies on the line beside both ends, nothing that can be
+  // drawn is across.
+  constexpr double most_bulge = 1e6;
   const double whole = 4 * std::atan(bulge);
   const double first = from == to ? 1 : std::tan(whole / 8);
-  const DrawnPoint across = from == to ? middle : point_along(from, to, bulge, 0.5);
+  const bool is_flat = from != to && std::abs(bulge) > most_bulge;
+  const DrawnPoint across = from == to || is_flat ? middle : point_along(from, to, bulge, 0.5);
+  if (is_flat || std::max(std::abs(across.x.count), std::abs(across.y.count)) > farthest_drawn.count) {
+    points.push_back({from, 0});
+    return;
+  }
   points.push_back({from, first});
   points.push_back({across, first});
 }

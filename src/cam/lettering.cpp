@@ -9,34 +9,43 @@
 #include "curve_chords.hpp"
 #include "drawing_builder.hpp"
 #include "letter_line.hpp"
+#include "lettering_libraries.hpp"
 #include <fmt/format.h>
-#include <ft2build.h>
-#include FT_FREETYPE_H
-#include FT_OUTLINE_H
-#include FT_TRUETYPE_TABLES_H
-#include <harfbuzz/hb.h>
 
 #include "passo/diagnostics/file_bytes.hpp"
 
 namespace passo {
 namespace {
 
-template <class T, void (*destroy)(T*)>
 struct HarfBuzzEnd {
-  void operator()(T* thing) const { destroy(thing); }
+  const HarfBuzzLibrary* harfbuzz;
+  void operator()(hb_blob_t* blob) const { harfbuzz->hb_blob_destroy(blob); }
+  void operator()(hb_face_t* face) const { harfbuzz->hb_face_destroy(face); }
+  void operator()(hb_font_t* font) const { harfbuzz->hb_font_destroy(font); }
+  void operator()(hb_buffer_t* buffer) const { harfbuzz->hb_buffer_destroy(buffer); }
 };
-template <class T, void (*destroy)(T*)>
-using HarfBuzzThing = std::unique_ptr<T, HarfBuzzEnd<T, destroy>>;
+template <class T>
+using HarfBuzzThing = std::unique_ptr<T, HarfBuzzEnd>;
 
 struct FreeTypeEnd {
-  void operator()(FT_Library library) const { FT_Done_FreeType(library); }
-  void operator()(FT_Face face) const { FT_Done_Face(face); }
+  const FreeTypeLibrary* freetype;
+  void operator()(FT_Library library) const { freetype->FT_Done_FreeType(library); }
+  void operator()(FT_Face face) const { freetype->FT_Done_Face(face); }
 };
 
 class Letterer {
  public:
-  Letterer(const Lettering& lettering, const std::string& name, Diagnostics& diagnostics)
-      : lettering_(lettering), name_(name), diagnostics_(diagnostics), builder_(name, diagnostics) {
+  Letterer(const FreeTypeLibrary& freetype, const HarfBuzzLibrary& harfbuzz, const Lettering& lettering,
+           const std::string& name, Diagnostics& diagnostics)
+      : freetype_(freetype),
+        harfbuzz_(harfbuzz),
+        lettering_(lettering),
+        name_(name),
+        diagnostics_(diagnostics),
+        builder_(name, diagnostics),
+        library_(nullptr, FreeTypeEnd{&freetype}),
+        face_(nullptr, FreeTypeEnd{&freetype}),
+        shaper_(nullptr, HarfBuzzEnd{&harfbuzz}) {
     builder_.layer("");
   }
 
@@ -61,13 +70,15 @@ class Letterer {
   static int cubic_to(const FT_Vector* first, const FT_Vector* second, const FT_Vector* to, void* self);
   int curve_to(std::span<const FT_Vector> points);
 
+  const FreeTypeLibrary& freetype_;
+  const HarfBuzzLibrary& harfbuzz_;
   const Lettering& lettering_;
   const std::string& name_;
   Diagnostics& diagnostics_;
   DrawingBuilder builder_;
   std::unique_ptr<FT_LibraryRec_, FreeTypeEnd> library_;
   std::unique_ptr<FT_FaceRec_, FreeTypeEnd> face_;
-  HarfBuzzThing<hb_font_t, hb_font_destroy> shaper_;
+  HarfBuzzThing<hb_font_t> shaper_;
   double scale_ = 1;  // mm of a unit of the font
   // Of the letter that is drawn: its line, its place in the line, and its middle, mm.
   LetterLine line_;
@@ -86,10 +97,10 @@ bool Letterer::refuse(std::string code, std::string message, std::string expecte
 bool Letterer::open(std::string_view font) {
   FT_Library library = nullptr;
   FT_Face face = nullptr;
-  const bool has_library = FT_Init_FreeType(&library) == 0;
+  const bool has_library = freetype_.FT_Init_FreeType(&library) == 0;
   library_.reset(library);
   const auto* const bytes = reinterpret_cast<const FT_Byte*>(font.data());
-  if (!has_library || FT_New_Memory_Face(library, bytes, static_cast<FT_Long>(font.size()), 0, &face) != 0) {
+  if (!has_library || freetype_.FT_New_Memory_Face(library, bytes, static_cast<FT_Long>(font.size()), 0, &face) != 0) {
     return refuse("engrave.no-font", "this is no font that is read",
                   "a TrueType or OpenType font, or one of single lines: .ttf, .otf, .lff or .jhf");
   }
@@ -98,20 +109,22 @@ bool Letterer::open(std::string_view font) {
     return refuse("engrave.no-font", "the letters of this font are pictures, no outlines",
                   "a TrueType or OpenType font");
   }
-  const HarfBuzzThing<hb_blob_t, hb_blob_destroy> blob(
-      hb_blob_create(font.data(), static_cast<unsigned>(font.size()), HB_MEMORY_MODE_READONLY, nullptr, nullptr));
-  const HarfBuzzThing<hb_face_t, hb_face_destroy> shapes(hb_face_create(blob.get(), 0));
-  shaper_.reset(hb_font_create(shapes.get()));
-  hb_font_set_scale(shaper_.get(), face->units_per_EM, face->units_per_EM);
+  const HarfBuzzEnd end{&harfbuzz_};
+  const HarfBuzzThing<hb_blob_t> blob(harfbuzz_.hb_blob_create(font.data(), static_cast<unsigned>(font.size()),
+                                                               HB_MEMORY_MODE_READONLY, nullptr, nullptr),
+                                      end);
+  const HarfBuzzThing<hb_face_t> shapes(harfbuzz_.hb_face_create(blob.get(), 0), end);
+  shaper_.reset(harfbuzz_.hb_font_create(shapes.get()));
+  harfbuzz_.hb_font_set_scale(shaper_.get(), face->units_per_EM, face->units_per_EM);
   scale_ = lettering_.height.value() / capital_height();
   return true;
 }
 
 double Letterer::capital_height() const {
-  const auto* const os2 = static_cast<const TT_OS2*>(FT_Get_Sfnt_Table(face_.get(), FT_SFNT_OS2));
+  const auto* const os2 = static_cast<const TT_OS2*>(freetype_.FT_Get_Sfnt_Table(face_.get(), FT_SFNT_OS2));
   if (os2 != nullptr && os2->version >= 2 && os2->sCapHeight > 0) return os2->sCapHeight;
-  const FT_UInt capital = FT_Get_Char_Index(face_.get(), 'H');
-  if (capital != 0 && FT_Load_Glyph(face_.get(), capital, FT_LOAD_NO_SCALE) == 0 &&
+  const FT_UInt capital = freetype_.FT_Get_Char_Index(face_.get(), 'H');
+  if (capital != 0 && freetype_.FT_Load_Glyph(face_.get(), capital, FT_LOAD_NO_SCALE) == 0 &&
       face_->glyph->metrics.horiBearingY > 0) {
     return static_cast<double>(face_->glyph->metrics.horiBearingY);
   }
@@ -120,13 +133,14 @@ double Letterer::capital_height() const {
 }
 
 void Letterer::write(std::string_view words, double base_line) {
-  const HarfBuzzThing<hb_buffer_t, hb_buffer_destroy> buffer(hb_buffer_create());
-  hb_buffer_add_utf8(buffer.get(), words.data(), static_cast<int>(words.size()), 0, static_cast<int>(words.size()));
-  hb_buffer_guess_segment_properties(buffer.get());
-  hb_shape(shaper_.get(), buffer.get(), nullptr, 0);
+  const HarfBuzzThing<hb_buffer_t> buffer(harfbuzz_.hb_buffer_create(), HarfBuzzEnd{&harfbuzz_});
+  harfbuzz_.hb_buffer_add_utf8(buffer.get(), words.data(), static_cast<int>(words.size()), 0,
+                               static_cast<int>(words.size()));
+  harfbuzz_.hb_buffer_guess_segment_properties(buffer.get());
+  harfbuzz_.hb_shape(shaper_.get(), buffer.get(), nullptr, 0);
   unsigned count = 0;
-  const hb_glyph_info_t* const glyphs = hb_buffer_get_glyph_infos(buffer.get(), &count);
-  const hb_glyph_position_t* const places = hb_buffer_get_glyph_positions(buffer.get(), &count);
+  const hb_glyph_info_t* const glyphs = harfbuzz_.hb_buffer_get_glyph_infos(buffer.get(), &count);
+  const hb_glyph_position_t* const places = harfbuzz_.hb_buffer_get_glyph_positions(buffer.get(), &count);
   double length = 0;
   std::size_t letters = 0;  // marks on letters have no room of their own
   for (unsigned i = 0; i < count; ++i) {
@@ -152,7 +166,7 @@ void Letterer::write(std::string_view words, double base_line) {
 }
 
 void Letterer::draw(std::uint32_t glyph, double x, double y, double middle) {
-  if (FT_Load_Glyph(face_.get(), glyph, FT_LOAD_NO_SCALE | FT_LOAD_NO_BITMAP) != 0) {
+  if (freetype_.FT_Load_Glyph(face_.get(), glyph, FT_LOAD_NO_SCALE | FT_LOAD_NO_BITMAP) != 0) {
     refuse("engrave.no-font", fmt::format("letter {} of this font is broken", glyph), "another font");
     return;
   }
@@ -161,7 +175,7 @@ void Letterer::draw(std::uint32_t glyph, double x, double y, double middle) {
   at_y_ = y;
   middle_ = middle;
   const FT_Outline_Funcs to = {&Letterer::move_to, &Letterer::line_to, &Letterer::conic_to, &Letterer::cubic_to, 0, 0};
-  FT_Outline_Decompose(&face_->glyph->outline, &to, this);
+  freetype_.FT_Outline_Decompose(&face_->glyph->outline, &to, this);
   end_contour();
 }
 
@@ -217,7 +231,16 @@ Drawing letter(const Lettering& lettering, const std::string& name, std::string_
   if (looks_like_stroke_font(font)) {
     return letter_strokes(lettering, name, read_stroke_font(name, font, diagnostics), diagnostics);
   }
-  return Letterer(lettering, name, diagnostics).letter(font);
+  const FreeTypeLibrary* const freetype = late_library<FreeTypeLibrary>();
+  const HarfBuzzLibrary* const harfbuzz = late_library<HarfBuzzLibrary>();
+  if (freetype == nullptr || harfbuzz == nullptr) {
+    diagnostics.add(of_file("engrave.no-library", name,
+                            fmt::format("outline fonts need {}, which is not installed",
+                                        freetype == nullptr ? PASSO_FREETYPE_NAME : PASSO_HARFBUZZ_NAME),
+                            "a font of single lines (.lff, .jhf), or the library"));
+    return {};
+  }
+  return Letterer(*freetype, *harfbuzz, lettering, name, diagnostics).letter(font);
 }
 
 Drawing letter_simplex(const Lettering& lettering, Diagnostics& diagnostics) {

@@ -93,7 +93,7 @@ void WayOrderer::shorten() {
   std::vector<DrawnPoint> places;
   for (const Chain& chain : chains_) places.push_back(start(chain));
   constexpr std::uint64_t enough_a_place = 5'000;
-  const std::uint64_t steps = std::min<std::uint64_t>(order_.route_steps, enough_a_place * places.size());
+  const std::uint64_t steps = std::min(order_.route_steps, enough_steps(places.size(), enough_a_place));
   std::vector<Chain> shorter;
   for (const std::uint32_t index : shorten_route(places, order_.park, order_.park, steps)) {
     shorter.push_back(chains_[index]);

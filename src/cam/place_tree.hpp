@@ -66,6 +66,7 @@ class PlaceTree {
     if (alive_.size() <= node) {
       alive_.resize(2 * node + 2, 0);
       is_y_.resize(2 * node + 2, false);
+      split_.resize(2 * node + 2, 0);
     }
     alive_[node] = high - low;
     if (high - low <= leaf) return;
@@ -84,6 +85,7 @@ class PlaceTree {
     std::nth_element(at(low), at(middle), at(high), [&](std::uint32_t a, std::uint32_t b) {
       return std::pair(coordinate(a, is_y), a) < std::pair(coordinate(b, is_y), b);
     });
+    split_[node] = coordinate(order_[middle], is_y);  // now: the upper half is put into another order
     build(2 * node, low, middle);
     build(2 * node + 1, middle, high);
   }
@@ -97,8 +99,7 @@ class PlaceTree {
       return;
     }
     const std::size_t middle = low + (high - low) / 2;
-    const double split = coordinate(order_[middle], is_y_[node]);
-    const double off = static_cast<double>(is_y_[node] ? point.y.count : point.x.count) - split;
+    const double off = static_cast<double>(is_y_[node] ? point.y.count : point.x.count) - split_[node];
     for (const bool upper : {off >= 0, off < 0}) {
       const bool is_far = upper != (off >= 0);
       if (is_far && best_.size() == wanted_ && off * off > best_.back().first) return;
@@ -118,10 +119,11 @@ class PlaceTree {
   }
 
   const std::vector<DrawnPoint>& points_;
-  std::vector<std::uint32_t> order_;  // places; the left half of a node's range is below its split
+  std::vector<std::uint32_t> order_;  // places; the lower half of a node's range is at most as far as its split
   std::vector<std::uint32_t> where_;  // of each place in order_
   std::vector<std::size_t> alive_;    // of each node: places that are left
   std::vector<bool> is_y_;
+  std::vector<double> split_;  // of each node: the least coordinate of its upper half
   std::vector<bool> is_there_;
   std::size_t wanted_ = 0;
   std::vector<std::pair<double, std::uint32_t>> best_;  // square of the distance, place; nearest first

@@ -2,8 +2,10 @@
 #include "passo/cam/region.hpp"
 
 #include <algorithm>
+#include <iterator>
 #include <limits>
 
+#include "ring_groups.hpp"
 #include <polyclipping/clipper.hpp>
 
 namespace passo {
@@ -54,13 +56,36 @@ Wide doubled_area(const DrawnRing& ring) {
   return sum;
 }
 
-Region combined(clipper::ClipType how, const clipper::Paths& a, const clipper::Paths& b) {
-  clipper::Clipper clip;
-  clip.AddPaths(a, clipper::ptSubject, true);
-  clip.AddPaths(b, clipper::ptClip, true);
-  clipper::Paths found;
-  clip.Execute(how, found, clipper::pftNonZero, clipper::pftNonZero);
-  return {rings_of(found)};
+DrawnBox box_of(const clipper::Path& path) {
+  if (path.empty()) return {};
+  const auto [left, right] = std::ranges::minmax(path, {}, &clipper::IntPoint::X);
+  const auto [low, high] = std::ranges::minmax(path, {}, &clipper::IntPoint::Y);
+  return {{{left.X}, {low.Y}}, {{right.X}, {high.Y}}};
+}
+
+// What `work` makes of each group of paths that are farther than `reach` from all others.
+template <class Work>
+Region by_groups(const clipper::Paths& paths, Nanometres reach, const Work& work) {
+  Region all;
+  std::vector<DrawnBox> boxes;
+  for (const clipper::Path& path : paths) boxes.push_back(box_of(path));
+  for (const std::vector<std::size_t>& group : groups_apart(boxes, reach)) {
+    std::vector<DrawnRing> rings = rings_of(work(group));
+    std::ranges::move(rings, std::back_inserter(all.rings));
+  }
+  return all;
+}
+
+Region combined(clipper::ClipType how, clipper::Paths a, clipper::Paths b) {
+  const std::size_t of_a = a.size();
+  std::ranges::move(b, std::back_inserter(a));
+  return by_groups(a, {1}, [&](const std::vector<std::size_t>& group) {
+    clipper::Clipper clip;
+    for (const std::size_t i : group) clip.AddPath(a[i], i < of_a ? clipper::ptSubject : clipper::ptClip, true);
+    clipper::Paths found;
+    clip.Execute(how, found, clipper::pftNonZero, clipper::pftNonZero);
+    return found;
+  });
 }
 
 Region offset(const clipper::Paths& paths, clipper::EndType end, double distance, Nanometres tolerance) {
@@ -68,12 +93,15 @@ Region offset(const clipper::Paths& paths, clipper::EndType end, double distance
   // for, and then lies 2.25 times as far from the arc.
   constexpr double chords_left_out = 2.25;
   constexpr double least_tolerance = 10;  // nm
-  clipper::ClipperOffset growth;
-  growth.ArcTolerance = std::max(least_tolerance, static_cast<double>(tolerance.count)) / chords_left_out;
-  growth.AddPaths(paths, clipper::jtRound, end);
-  clipper::Paths found;
-  growth.Execute(found, distance);
-  return {rings_of(found)};
+  const Nanometres reach{static_cast<std::int64_t>(2 * std::max(distance, 0.0)) + 2};
+  return by_groups(paths, reach, [&](const std::vector<std::size_t>& group) {
+    clipper::ClipperOffset growth;
+    growth.ArcTolerance = std::max(least_tolerance, static_cast<double>(tolerance.count)) / chords_left_out;
+    for (const std::size_t i : group) growth.AddPath(paths[i], clipper::jtRound, end);
+    clipper::Paths found;
+    growth.Execute(found, distance);
+    return found;
+  });
 }
 
 // Whether the point is inside the ring (1), outside (0) or on its rim (-1).
@@ -151,7 +179,13 @@ Region grown(const Region& region, Nanometres distance, Nanometres tolerance) {
 
 Region swept(const std::vector<DrawnRing>& ways, Nanometres radius, Nanometres tolerance) {
   if (radius.count <= 0) return {};
-  return offset(paths_of(ways), clipper::etOpenRound, static_cast<double>(bounded(radius)), tolerance);
+  // Each way on its own: where it turns, its rims cross themselves, and a sweep over all ways would pass all crossings.
+  clipper::Paths milled;
+  for (const DrawnRing& way : ways) {
+    const Region one = offset({path_of(way)}, clipper::etOpenRound, static_cast<double>(bounded(radius)), tolerance);
+    for (const DrawnRing& ring : one.rings) milled.push_back(path_of(ring));
+  }
+  return ways.size() == 1 ? Region{rings_of(milled)} : combined(clipper::ctUnion, std::move(milled), {});
 }
 
 std::vector<DrawnRing> ways_within(const std::vector<DrawnRing>& ways, const Region& region) {

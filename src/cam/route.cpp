@@ -288,6 +288,11 @@ std::vector<std::uint32_t> shorten_route(const std::vector<DrawnPoint>& places, 
   return tour.order();
 }
 
+std::uint64_t enough_steps(std::size_t places, std::uint64_t a_place) {
+  const std::uint64_t for_few = std::max<std::uint64_t>(4'000, 8 * std::uint64_t{places} * places);
+  return places * std::min(a_place, for_few);
+}
+
 double route_length(const std::vector<DrawnPoint>& places, const std::vector<std::uint32_t>& order, DrawnPoint start,
                     DrawnPoint end) {
   double length = 0;

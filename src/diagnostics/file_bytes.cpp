@@ -1,6 +1,8 @@
 #include "passo/diagnostics/file_bytes.hpp"
 
+#include <algorithm>
 #include <cerrno>
+#include <cstdint>
 #include <cstdio>
 #include <cstring>
 #include <filesystem>
@@ -35,9 +37,12 @@ std::optional<std::string> read_bytes(const std::string& path, const FileKind& k
   }
   std::string bytes;
   constexpr std::size_t at_once = 1 << 20;
-  for (std::size_t filled = 0;;) {
-    bytes.resize(filled + at_once);
-    const std::size_t count = std::fread(bytes.data() + filled, 1, at_once, file.get());
+  // A file tells its size; with one byte more its end is seen at once. What a pipe will hold nobody knows.
+  const std::uintmax_t size = std::filesystem::file_size(path, none);
+  std::size_t next = none ? at_once : static_cast<std::size_t>(std::min<std::uintmax_t>(size, kind.most)) + 1;
+  for (std::size_t filled = 0;; next = at_once) {
+    bytes.resize(filled + next);
+    const std::size_t count = std::fread(bytes.data() + filled, 1, next, file.get());
     filled += count;
     bytes.resize(filled);
     if (std::ferror(file.get()) != 0) {
@@ -48,7 +53,7 @@ std::optional<std::string> read_bytes(const std::string& path, const FileKind& k
       refuse("too-large", "the file is larger than what is read", fmt::format("at most {} MiB", kind.most >> 20U));
       return std::nullopt;
     }
-    if (count == 0) return bytes;
+    if (count < next) return bytes;
   }
 }
 

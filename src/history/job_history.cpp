@@ -2,8 +2,8 @@
 
 #include <utility>
 
+#include "sqlite_library.hpp"
 #include <fmt/format.h>
-#include <sqlite3.h>
 
 namespace passo {
 namespace {
@@ -18,6 +18,11 @@ constexpr const char* tables = R"(
   CREATE TABLE alarms (id INTEGER PRIMARY KEY AUTOINCREMENT, at REAL NOT NULL, words TEXT NOT NULL);
   PRAGMA user_version = 1;)";
 
+// Only after open() has found it: whoever has a JobHistory has the library.
+const SqliteLibrary& sqlite() {
+  return *late_library<SqliteLibrary>();
+}
+
 constexpr std::int64_t number_of(HistoryState state) {
   return static_cast<std::int64_t>(state);
 }
@@ -25,41 +30,43 @@ constexpr std::int64_t number_of(HistoryState state) {
 // One statement. Values are bound in order, and columns read in order.
 class Statement {
  public:
-  Statement(sqlite3* database, const char* sql) { sqlite3_prepare_v2(database, sql, -1, &statement_, nullptr); }
+  Statement(sqlite3* database, const char* sql) {
+    sqlite().sqlite3_prepare_v2(database, sql, -1, &statement_, nullptr);
+  }
   Statement(const Statement&) = delete;
   Statement& operator=(const Statement&) = delete;
-  ~Statement() { sqlite3_finalize(statement_); }
+  ~Statement() { sqlite().sqlite3_finalize(statement_); }
 
   Statement& with(std::int64_t value) {
-    sqlite3_bind_int64(statement_, ++bound_, value);
+    sqlite().sqlite3_bind_int64(statement_, ++bound_, value);
     return *this;
   }
   Statement& with(double value) {
-    sqlite3_bind_double(statement_, ++bound_, value);
+    sqlite().sqlite3_bind_double(statement_, ++bound_, value);
     return *this;
   }
   // The text outlives the statement.
   Statement& with(std::string_view value) {
-    sqlite3_bind_text64(statement_, ++bound_, value.data(), value.size(), SQLITE_STATIC, SQLITE_UTF8);
+    sqlite().sqlite3_bind_text64(statement_, ++bound_, value.data(), value.size(), SQLITE_STATIC, SQLITE_UTF8);
     return *this;
   }
   Statement& with_bytes(std::string_view value) {
-    sqlite3_bind_blob64(statement_, ++bound_, value.data(), value.size(), SQLITE_STATIC);
+    sqlite().sqlite3_bind_blob64(statement_, ++bound_, value.data(), value.size(), SQLITE_STATIC);
     return *this;
   }
 
   // True: there is a row.
   bool step() {
     read_ = -1;
-    return statement_ != nullptr && sqlite3_step(statement_) == SQLITE_ROW;
+    return statement_ != nullptr && sqlite().sqlite3_step(statement_) == SQLITE_ROW;
   }
-  bool run() { return statement_ != nullptr && sqlite3_step(statement_) == SQLITE_DONE; }
+  bool run() { return statement_ != nullptr && sqlite().sqlite3_step(statement_) == SQLITE_DONE; }
 
-  std::int64_t number() { return sqlite3_column_int64(statement_, ++read_); }
-  double real() { return sqlite3_column_double(statement_, ++read_); }
+  std::int64_t number() { return sqlite().sqlite3_column_int64(statement_, ++read_); }
+  double real() { return sqlite().sqlite3_column_double(statement_, ++read_); }
   std::string text() {
-    const void* const bytes = sqlite3_column_blob(statement_, ++read_);
-    const auto size = static_cast<std::size_t>(sqlite3_column_bytes(statement_, read_));
+    const void* const bytes = sqlite().sqlite3_column_blob(statement_, ++read_);
+    const auto size = static_cast<std::size_t>(sqlite().sqlite3_column_bytes(statement_, read_));
     return bytes == nullptr ? std::string() : std::string(static_cast<const char*>(bytes), size);
   }
 
@@ -77,14 +84,19 @@ std::string_view name_of(HistoryState state) {
 }
 
 Result<std::unique_ptr<JobHistory>, std::string> JobHistory::open(const std::string& file) {
+  if (late_library<SqliteLibrary>() == nullptr) {
+    return Failure{file + ": " PASSO_SQLITE_NAME " is not installed, which keeps jobs"};
+  }
   sqlite3* database = nullptr;
   const int flags = SQLITE_OPEN_READWRITE | SQLITE_OPEN_CREATE | SQLITE_OPEN_NOMUTEX | SQLITE_OPEN_NOFOLLOW;
-  const int opened = sqlite3_open_v2(file.c_str(), &database, flags, nullptr);
+  const int opened = sqlite().sqlite3_open_v2(file.c_str(), &database, flags, nullptr);
   std::unique_ptr<JobHistory> history(new JobHistory(database));
   const auto failed = [&](const std::string& reason) { return Failure{file + ": " + reason}; };
-  const auto reason = [&] { return std::string(database != nullptr ? sqlite3_errmsg(database) : "no memory"); };
+  const auto reason = [&] {
+    return std::string(database != nullptr ? sqlite().sqlite3_errmsg(database) : "no memory");
+  };
   if (opened != SQLITE_OK) return failed(reason());
-  sqlite3_db_config(database, SQLITE_DBCONFIG_DEFENSIVE, 1, nullptr);
+  sqlite().sqlite3_db_config(database, SQLITE_DBCONFIG_DEFENSIVE, 1, nullptr);
   // Another program that writes would be at the same machine. The lock lasts until the end.
   if (!history->run("PRAGMA locking_mode = EXCLUSIVE; PRAGMA journal_mode = WAL; PRAGMA synchronous = NORMAL;"
                     "PRAGMA wal_autocheckpoint = 0; BEGIN IMMEDIATE; COMMIT;")) {
@@ -112,11 +124,11 @@ Result<std::unique_ptr<JobHistory>, std::string> JobHistory::open(const std::str
 
 JobHistory::~JobHistory() {
   keep();
-  sqlite3_close_v2(database_);
+  sqlite().sqlite3_close_v2(database_);
 }
 
 bool JobHistory::run(const char* sql) const {
-  return sqlite3_exec(database_, sql, nullptr, nullptr, nullptr) == SQLITE_OK;
+  return sqlite().sqlite3_exec(database_, sql, nullptr, nullptr, nullptr) == SQLITE_OK;
 }
 
 std::optional<std::int64_t> JobHistory::add(std::string_view name, std::string_view dialect, std::string_view program,
@@ -130,7 +142,7 @@ std::optional<std::int64_t> JobHistory::add(std::string_view name, std::string_v
   insert.with(number_of(HistoryState::queued)).with(now).with_bytes(program);
   if (!insert.run()) return {};
   is_kept_ = false;
-  return sqlite3_last_insert_rowid(database_);
+  return sqlite().sqlite3_last_insert_rowid(database_);
 }
 
 std::vector<HistoryJob> JobHistory::jobs(const char* where, std::int64_t value) const {
@@ -171,7 +183,7 @@ bool JobHistory::begin(std::int64_t id, double now) {
   is_kept_ = false;
   Statement update(database_, "UPDATE jobs SET state = ?, begun_at = ?, why = '', ended_at = 0 WHERE id = ?");
   update.with(number_of(HistoryState::running)).with(now).with(id);
-  return update.run() && sqlite3_changes(database_) == 1;
+  return update.run() && sqlite().sqlite3_changes(database_) == 1;
 }
 
 bool JobHistory::end(std::int64_t id, HistoryState state, std::string_view why, double now) {
@@ -180,7 +192,7 @@ bool JobHistory::end(std::int64_t id, HistoryState state, std::string_view why, 
                    "UPDATE jobs SET state = ?1, why = ?2, ended_at = ?3,"
                    " program = CASE WHEN ?1 = ?4 THEN NULL ELSE program END WHERE id = ?5");
   update.with(number_of(state)).with(why).with(now).with(number_of(HistoryState::done)).with(id);
-  const bool good = update.run() && sqlite3_changes(database_) == 1;
+  const bool good = update.run() && sqlite().sqlite3_changes(database_) == 1;
   Statement forget(database_, "DELETE FROM jobs WHERE state > 1 AND id <= (SELECT max(id) FROM jobs) - ?");
   return forget.with(most_ended).run() && good;
 }
@@ -188,7 +200,7 @@ bool JobHistory::end(std::int64_t id, HistoryState state, std::string_view why, 
 bool JobHistory::remove(std::int64_t id) {
   is_kept_ = false;
   Statement gone(database_, "DELETE FROM jobs WHERE id = ? AND state = ?");
-  return gone.with(id).with(number_of(HistoryState::queued)).run() && sqlite3_changes(database_) == 1;
+  return gone.with(id).with(number_of(HistoryState::queued)).run() && sqlite().sqlite3_changes(database_) == 1;
 }
 
 bool JobHistory::note_alarm(std::string_view words, double now) {
@@ -221,7 +233,7 @@ std::vector<HistoryAlarm> JobHistory::alarms(std::int64_t most) const {
 
 void JobHistory::keep() {
   if (std::exchange(is_kept_, true)) return;
-  sqlite3_wal_checkpoint_v2(database_, nullptr, SQLITE_CHECKPOINT_TRUNCATE, nullptr, nullptr);
+  sqlite().sqlite3_wal_checkpoint_v2(database_, nullptr, SQLITE_CHECKPOINT_TRUNCATE, nullptr, nullptr);
 }
 
 }  // namespace passo

@@ -4,26 +4,25 @@
 
 #include <mosquitto.h>
 
+#include "passo/base/late_library.hpp"
+
 namespace passo {
 
-// The functions of the library that are used, with the types of its header.
 struct MosquittoLibrary {
-  decltype(&mosquitto_lib_init) lib_init = nullptr;
-  decltype(&mosquitto_lib_cleanup) lib_cleanup = nullptr;
-  decltype(&mosquitto_new) create = nullptr;
-  decltype(&mosquitto_destroy) destroy = nullptr;
-  decltype(&mosquitto_threaded_set) threaded_set = nullptr;
-  decltype(&mosquitto_will_set) will_set = nullptr;
-  decltype(&mosquitto_username_pw_set) username_pw_set = nullptr;
-  decltype(&mosquitto_connect_callback_set) connect_callback_set = nullptr;
-  decltype(&mosquitto_connect_async) connect_async = nullptr;
-  decltype(&mosquitto_loop) loop = nullptr;
-  decltype(&mosquitto_publish) publish = nullptr;
-  decltype(&mosquitto_disconnect) disconnect = nullptr;
-  decltype(&mosquitto_strerror) strerror = nullptr;
+  LateLibrary library{PASSO_MOSQUITTO_NAME};
+  PASSO_FUNCTION(mosquitto_lib_init);
+  PASSO_FUNCTION(mosquitto_lib_cleanup);
+  PASSO_FUNCTION(mosquitto_new);
+  PASSO_FUNCTION(mosquitto_destroy);
+  PASSO_FUNCTION(mosquitto_threaded_set);
+  PASSO_FUNCTION(mosquitto_will_set);
+  PASSO_FUNCTION(mosquitto_username_pw_set);
+  PASSO_FUNCTION(mosquitto_connect_callback_set);
+  PASSO_FUNCTION(mosquitto_connect_async);
+  PASSO_FUNCTION(mosquitto_loop);
+  PASSO_FUNCTION(mosquitto_publish);
+  PASSO_FUNCTION(mosquitto_disconnect);
+  PASSO_FUNCTION(mosquitto_strerror);
 };
-
-// Loaded by the first call, and kept. Null: this computer has no such library.
-const MosquittoLibrary* mosquitto_library();
 
 }  // namespace passo

@@ -20,14 +20,14 @@ constexpr int looks_between_attempts = 20;
 struct MqttPublisher::Client {
   Client(const MqttPlace& its_place, const MosquittoLibrary& its_library)
       : library(its_library), place(its_place), online(place.topic + "/online") {
-    library.lib_init();
-    line = library.create(nullptr, true, this);
+    library.mosquitto_lib_init();
+    line = library.mosquitto_new(nullptr, true, this);
   }
   ~Client() {
     ends = true;
     if (thread.joinable()) thread.join();
-    if (line != nullptr) library.destroy(line);
-    library.lib_cleanup();
+    if (line != nullptr) library.mosquitto_destroy(line);
+    library.mosquitto_lib_cleanup();
   }
   Client(const Client&) = delete;
   Client& operator=(const Client&) = delete;
@@ -36,21 +36,22 @@ struct MqttPublisher::Client {
   static void connected(mosquitto* line, void* self, int result) {
     if (result != 0) return;
     auto& client = *static_cast<Client*>(self);
-    client.library.publish(line, nullptr, client.online.c_str(), 1, "1", at_least_once, true);
+    client.library.mosquitto_publish(line, nullptr, client.online.c_str(), 1, "1", at_least_once, true);
     ++client.connections;
   }
   // The library's own thread gives up a broker that refuses the first attempt; this one does not.
   void run() {
     while (!ends) {
-      const int begun = library.connect_async(line, place.host.c_str(), static_cast<int>(place.port), keep_alive);
-      while (begun == MOSQ_ERR_SUCCESS && !ends && library.loop(line, look, 1) == MOSQ_ERR_SUCCESS) continue;
+      const int begun =
+          library.mosquitto_connect_async(line, place.host.c_str(), static_cast<int>(place.port), keep_alive);
+      while (begun == MOSQ_ERR_SUCCESS && !ends && library.mosquitto_loop(line, look, 1) == MOSQ_ERR_SUCCESS) continue;
       for (int i = 0; i < looks_between_attempts && !ends; ++i) {
         std::this_thread::sleep_for(std::chrono::milliseconds(look));
       }
     }
-    library.publish(line, nullptr, online.c_str(), 1, "0", at_least_once, true);
-    library.disconnect(line);
-    for (int i = 0; i < 5 && library.loop(line, look, 1) == MOSQ_ERR_SUCCESS; ++i) continue;
+    library.mosquitto_publish(line, nullptr, online.c_str(), 1, "0", at_least_once, true);
+    library.mosquitto_disconnect(line);
+    for (int i = 0; i < 5 && library.mosquitto_loop(line, look, 1) == MOSQ_ERR_SUCCESS; ++i) continue;
   }
 
   const MosquittoLibrary& library;
@@ -66,19 +67,19 @@ MqttPublisher::MqttPublisher(std::unique_ptr<Client> client) : client_(std::move
 MqttPublisher::~MqttPublisher() = default;
 
 Result<std::unique_ptr<MqttPublisher>, std::string> MqttPublisher::open(const MqttPlace& place) {
-  const MosquittoLibrary* const library = mosquitto_library();
+  const MosquittoLibrary* const library = late_library<MosquittoLibrary>();
   if (library == nullptr)
     return Failure{std::string("libmosquitto is not installed: scripts/install.sh --build gets it")};
   auto client = std::make_unique<Client>(place, *library);
   mosquitto* const line = client->line;
   if (line == nullptr) return Failure{std::string("no memory for MQTT")};
-  library->threaded_set(line, true);
-  int error = library->will_set(line, client->online.c_str(), 1, "0", at_least_once, true);
+  library->mosquitto_threaded_set(line, true);
+  int error = library->mosquitto_will_set(line, client->online.c_str(), 1, "0", at_least_once, true);
   if (error == MOSQ_ERR_SUCCESS && !place.user.empty()) {
-    error = library->username_pw_set(line, place.user.c_str(), place.password.c_str());
+    error = library->mosquitto_username_pw_set(line, place.user.c_str(), place.password.c_str());
   }
-  if (error != MOSQ_ERR_SUCCESS) return Failure{std::string(library->strerror(error))};
-  library->connect_callback_set(line, Client::connected);
+  if (error != MOSQ_ERR_SUCCESS) return Failure{std::string(library->mosquitto_strerror(error))};
+  library->mosquitto_connect_callback_set(line, Client::connected);
   client->thread = std::thread([all = client.get()] { all->run(); });
   return std::unique_ptr<MqttPublisher>(new MqttPublisher(std::move(client)));
 }
@@ -90,8 +91,8 @@ unsigned MqttPublisher::connections() const {
 void MqttPublisher::tell(std::string_view name, std::string_view text) {
   const std::string topic = client_->place.topic + "/" + std::string(name);
   // At most once: without a broker nothing is kept.
-  static_cast<void>(client_->library.publish(client_->line, nullptr, topic.c_str(), static_cast<int>(text.size()),
-                                             text.data(), 0, true));
+  static_cast<void>(client_->library.mosquitto_publish(client_->line, nullptr, topic.c_str(),
+                                                       static_cast<int>(text.size()), text.data(), 0, true));
 }
 
 }  // namespace passo

@@ -4,7 +4,7 @@
 #include <string>
 
 #include "axis_ticks.hpp"
-#include "cairo_canvas.hpp"
+#include "canvas.hpp"
 #include "chart.hpp"
 #include "sheet.hpp"
 #include <fmt/format.h>

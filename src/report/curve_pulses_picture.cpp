@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <bit>
 
-#include "cairo_canvas.hpp"
+#include "canvas.hpp"
 #include "chart.hpp"
 #include "step_view.hpp"
 #include <fmt/format.h>

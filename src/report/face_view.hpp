@@ -1,7 +1,7 @@
 // A face seen straight on: its place on the paper, and scales in millimetres beside it. Private to report/.
 #pragma once
 
-#include "cairo_canvas.hpp"
+#include "canvas.hpp"
 
 namespace passo {
 

@@ -4,7 +4,7 @@
 #include <bit>
 #include <cmath>
 
-#include "cairo_canvas.hpp"
+#include "canvas.hpp"
 #include "chart.hpp"
 #include "step_view.hpp"
 #include <fmt/format.h>

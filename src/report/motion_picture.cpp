@@ -5,7 +5,7 @@
 #include <cmath>
 #include <string>
 
-#include "cairo_canvas.hpp"
+#include "canvas.hpp"
 #include "chart.hpp"
 #include "sheet.hpp"
 

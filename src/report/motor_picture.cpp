@@ -5,7 +5,7 @@
 #include <optional>
 
 #include "axis_ticks.hpp"
-#include "cairo_canvas.hpp"
+#include "canvas.hpp"
 #include "chart.hpp"
 #include "sheet.hpp"
 #include <fmt/format.h>

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "axis_ticks.hpp"
-#include "cairo_canvas.hpp"
+#include "canvas.hpp"
 #include "path_drawing.hpp"
 #include "picture_views.hpp"
 #include "sheet.hpp"

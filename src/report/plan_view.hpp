@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <array>
 
-#include "cairo_canvas.hpp"
+#include "canvas.hpp"
 
 #include "passo/cam/region.hpp"
 

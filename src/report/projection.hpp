@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-#include "cairo_canvas.hpp"
+#include "canvas.hpp"
 
 #include "passo/geometry/axes.hpp"
 #include "passo/geometry/curve.hpp"

@@ -4,7 +4,7 @@
 #include <array>
 #include <cmath>
 
-#include "cairo_canvas.hpp"
+#include "canvas.hpp"
 #include "chart.hpp"
 #include "sheet.hpp"
 #include <fmt/format.h>

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "cairo_canvas.hpp"
+#include "canvas.hpp"
 
 namespace passo {
 

@@ -5,7 +5,7 @@
 #include <map>
 
 #include "axis_ticks.hpp"
-#include "cairo_canvas.hpp"
+#include "canvas.hpp"
 #include "sheet.hpp"
 #include <fmt/format.h>
 

@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "cairo_canvas.hpp"
+#include "canvas.hpp"
 
 #include "passo/study/step_move.hpp"
 

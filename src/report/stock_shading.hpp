@@ -1,7 +1,7 @@
 // The pixels of a piece of stock under light: from above, and as a body. Private to report/.
 #pragma once
 
-#include "cairo_canvas.hpp"
+#include "canvas.hpp"
 #include "projection.hpp"
 
 #include "passo/report/stock_picture.hpp"

@@ -1,7 +1,7 @@
 #include <algorithm>
 #include <array>
 
-#include "cairo_canvas.hpp"
+#include "canvas.hpp"
 #include "chart.hpp"
 #include "sheet.hpp"
 #include <fmt/format.h>

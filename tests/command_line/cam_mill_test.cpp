@@ -138,6 +138,24 @@ TEST_F(CamMill, a_whole_board_gets_numbered_programs_and_a_page) {
   EXPECT_THAT(read(path("job/3-isolate-back.ngc")), HasSubstr("about X10 mm"));
 }
 
+TEST_F(CamMill, an_edge_with_gaps_is_joined_where_that_is_asked_for) {
+  const std::string open =
+      write("open-Edge_Cuts.gbr", "%TF.FileFunction,Profile,NP*%\n" + std::string(begin) +
+                                      "%ADD10C,0.1*%\nD10*\nX0Y0D02*\nX20000000Y0D01*\nX20000000Y15000000D01*\n"
+                                      "X0Y15000000D01*\nX0Y300000D01*\nM02*\n");
+  const std::string board = "board " + copper() + " " + open + " -o " + path("job");
+  const Outcome refused = cam(board);
+  EXPECT_EQ(refused.code, 2);
+  EXPECT_THAT(refused.err, HasSubstr("0.3 mm away: --join 0.3mm"));
+  const Outcome made = cam(board + " --join 0.3mm");
+  EXPECT_EQ(made.code, 0) << made.err;
+  EXPECT_TRUE(std::filesystem::exists(path("job/2-outline.ngc")));
+  EXPECT_EQ(cam(board + " --join near").code, 2);
+  const std::string isolate = "isolate " + copper() + " --tool 0.2 -o " + path("i.ngc") + " --edge " + open;
+  EXPECT_EQ(cam(isolate).code, 2);
+  EXPECT_EQ(cam(isolate + " --join 0.3mm").code, 0);
+}
+
 TEST_F(CamMill, what_a_file_is_can_be_said_and_the_steps_are_told_as_json) {
   copper();
   copper("odd.gbr", "Soldermask,Bot");

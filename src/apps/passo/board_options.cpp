@@ -1,5 +1,6 @@
 #include "board_options.hpp"
 
+#include "command_words.hpp"
 #include "number_range.hpp"
 #include <CLI/CLI.hpp>
 
@@ -24,8 +25,9 @@ Wiring, and a first start without motors: docs/boards.md.)";
 
 }  // namespace
 
-CLI::App& add_board_command(CLI::App& app, BoardArguments& arguments) {
+CLI::App& add_board_command(CLI::App& app, const std::vector<std::string>& words, BoardArguments& arguments) {
   CLI::App& board = *app.add_subcommand("board", "find, flash, ask and watch boards");
+  if (!is_named(board, words)) return board;
   board.require_subcommand(1);
   board.footer(examples);
 

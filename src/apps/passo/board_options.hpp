@@ -20,6 +20,6 @@ struct BoardArguments {
   std::function<int()> chosen;  // the chosen command, after parsing
 };
 
-CLI::App& add_board_command(CLI::App& app, BoardArguments& arguments);
+CLI::App& add_board_command(CLI::App& app, const std::vector<std::string>& words, BoardArguments& arguments);
 
 }  // namespace passo

@@ -84,7 +84,8 @@ struct CamMillArguments {
 };
 
 struct CamIsolateArguments : CamMillArguments {
-  std::string edge;   // file of the board's edge; empty: none
+  std::string edge;  // file of the board's edge; empty: none
+  std::string join = "0.1mm";
   std::string tools;  // widths of cutters with commas between
   std::string v;      // ANGLE,TIP of a V-shaped cutter
   std::string depth = "-0.05mm";
@@ -185,6 +186,7 @@ struct CamBoardArguments {
   std::string pin_distance = "5mm";  // of the alignment holes from the board's edge; 0: none
   bool probe_holes = false;          // the holes are for the probe, which finds the board that was turned over
   std::string heights;               // COLUMNSxROWS places of a height map of each side; empty: none
+  std::string join;                  // of the edge's ends; empty: as the outline's options say
   std::vector<std::string> told;     // FILE=LAYER: what the user says of files
   bool json = false;                 // what was made, on standard output
 };

@@ -365,7 +365,9 @@ int cam_board(const CamBoardArguments& arguments, CamDrillArguments drill, CamIs
     if (const std::string why = heed_words(job, arguments.told); !why.empty()) return fail(exit_bad_program, why);
   }
   LengthArguments lengths(*mm_of_unit(outline.units));
-  const BoardPlan plan = plan_of(job, lengths.any("--join", outline.join), findings);
+  const Nanometres join = lengths.any("--join", outline.join);
+  if (!lengths.message().empty()) return fail(exit_bad_program, lengths.message());
+  const BoardPlan plan = plan_of(job, join, findings);
   BoardMaker maker(arguments, plan, machine ? &*machine : nullptr);
   maker.page.name = std::filesystem::path(arguments.paths.front()).filename().string();
   if (maker.page.name.empty()) maker.page.name = arguments.paths.front();  // "gerbers/"

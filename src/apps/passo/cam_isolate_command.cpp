@@ -122,26 +122,25 @@ void note_gaps(const IsolationPlan& plan) {
 }
 
 // The board inside the edge drawing; its findings are shown.
-std::optional<Region> board_of(const std::string& edge, MillJob job) {
+std::optional<Region> board_of(const std::string& edge, Nanometres join, MillJob job) {
   job.reading.is_edge = true;
   job.reading.dxf.layers.clear();  // they are of the copper
   const std::optional<BoardLayer> layer = read_layers({edge}, job);
   if (!layer) return std::nullopt;
   Diagnostics findings;
-  constexpr Nanometres join{100'000};
   Region board = board_edge(*layer, join, findings).board;
   show(findings);
   if (findings.any_error()) return std::nullopt;
   return board;
 }
 
-std::optional<CamSources> read(const CamIsolateArguments& arguments, const MillJob& job) {
+std::optional<CamSources> read(const CamIsolateArguments& arguments, Nanometres join, const MillJob& job) {
   CamSources sources;
   std::optional<BoardLayer> layer = read_layers(arguments.files, job);
   if (!layer) return std::nullopt;
   sources.layer = std::move(*layer);
   if (arguments.edge.empty()) return sources;
-  std::optional<Region> board = board_of(arguments.edge, job);
+  std::optional<Region> board = board_of(arguments.edge, join, job);
   if (!board) return std::nullopt;
   sources.board = std::move(*board);
   return sources;
@@ -154,9 +153,10 @@ int cam_isolate(const CamIsolateArguments& arguments, const CamSources* given, C
   LengthArguments lengths(*mm_of_unit(arguments.units));
   MillJob job = mill_job_of(arguments, "passo cam isolate", lengths);
   IsolationOptions options = options_of(arguments, job, lengths);
+  const Nanometres join = lengths.any("--join", arguments.join);
   if (!lengths.message().empty()) return fail(exit_bad_program, lengths.message());
 
-  const std::optional<CamSources> sources = given != nullptr ? *given : read(arguments, job);
+  const std::optional<CamSources> sources = given != nullptr ? *given : read(arguments, join, job);
   if (!sources) return exit_bad_program;
   Diagnostics findings;
   Region copper = mirrored(covered_by(sources->layer, sources->board, findings), job.mirror);

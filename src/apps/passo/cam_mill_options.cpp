@@ -1,5 +1,6 @@
 // The options of `passo cam isolate`, `passo cam outline` and `passo cam board`.
 #include "cam_options.hpp"
+#include "command_words.hpp"
 #include "number_range.hpp"
 #include "program_input.hpp"
 #include <CLI/CLI.hpp>
@@ -85,14 +86,17 @@ void add_mill_options(CLI::App& command, CamMillArguments& arguments) {
       ->capture_default_str();
 }
 
-void add_isolate_command(CLI::App& cam, CamArguments& all) {
+void add_isolate_command(CLI::App& cam, const std::vector<std::string>& words, CamArguments& all) {
   CamIsolateArguments& arguments = all.isolate;
   CLI::App& isolate = *cam.add_subcommand("isolate", "mill the copper of a layer free of the copper around it");
+  if (!is_named(isolate, words)) return;
   isolate
       .add_option("COPPER", arguments.files,
                   "copper layers, which are united: Gerber, a KiCad board, or DXF with filled areas")
       ->required();
   isolate.add_option("--edge", arguments.edge, "the board's edge: nothing beyond it is milled (Gerber, KiCad or DXF)");
+  isolate.add_option("--join", arguments.join, "ends of the edge's lines that are no farther apart are joined")
+      ->capture_default_str();
   isolate.add_option("--tool", arguments.tools, "widths of the cutters at hand, as 1,0.2: the widest goes first");
   isolate.add_option("--v", arguments.v, "a V-shaped cutter: ANGLE,TIP in degrees and width of the tip");
   isolate.add_option("--depth", arguments.depth, "into the board, below 0")->capture_default_str();
@@ -137,9 +141,10 @@ void add_edge_options(CLI::App& command, CamOutlineArguments& arguments) {
   command.add_flag("--dog-bones", arguments.dog_bones, "cut inner corners so that a sharp corner fits in");
 }
 
-void add_outline_command(CLI::App& cam, CamArguments& all) {
+void add_outline_command(CLI::App& cam, const std::vector<std::string>& words, CamArguments& all) {
   CamOutlineArguments& arguments = all.outline;
   CLI::App& outline = *cam.add_subcommand("outline", "cut boards out along their edge, and the openings in them");
+  if (!is_named(outline, words)) return;
   outline.add_option("EDGE", arguments.files, "drawings of the edge: Gerber, a KiCad board, DXF or SVG")->required();
   add_edge_options(outline, arguments);
   add_mill_options(outline, arguments);
@@ -153,10 +158,11 @@ void add_outline_command(CLI::App& cam, CamArguments& all) {
   });
 }
 
-void add_cam_board_command(CLI::App& cam, CamArguments& all) {
+void add_cam_board_command(CLI::App& cam, const std::vector<std::string>& words, CamArguments& all) {
   CamBoardArguments& arguments = all.board;
   CLI::App& board =
       *cam.add_subcommand("board", "everything for a board: drill, isolate and cut out, and what to do when");
+  if (!is_named(board, words)) return;
   board.add_option("JOB", arguments.paths, "Gerber and drill files, folders of them, a zip archive, or a KiCad board")
       ->required();
   board.add_option("-o,--output", arguments.output, "folder for programs, pictures and board.html")
@@ -175,6 +181,9 @@ void add_cam_board_command(CLI::App& cam, CamArguments& all) {
   board.add_flag("--probe-holes", arguments.probe_holes,
                  "no pins: after turning over a program finds the two holes with the probe");
   board.add_option("--heights", arguments.heights, "9x6: a program for each side probes its heights at a grid");
+  board.add_option("--join", arguments.join,
+                   "ends of the edge's lines that are no farther apart are joined; without it as\n[outline] says, "
+                   "or 0.1mm");
   board
       .add_option(
           "--as", arguments.told,
@@ -186,6 +195,7 @@ void add_cam_board_command(CLI::App& cam, CamArguments& all) {
   board.callback([&all] {
     all.chosen = [&all] {
       if (const int code = read_profile(all); code != exit_done) return code;
+      if (!all.board.join.empty()) all.outline.join = all.board.join;
       return cam_board(all.board, all.drill, all.isolate, all.outline);
     };
   });

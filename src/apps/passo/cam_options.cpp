@@ -1,5 +1,6 @@
 #include "cam_options.hpp"
 
+#include "command_words.hpp"
 #include <CLI/CLI.hpp>
 
 namespace passo {
@@ -29,9 +30,10 @@ constexpr const char* show_examples =
 
 Layers are known by their attributes or by their names: docs/manual/cam.md.)";
 
-void add_show_command(CLI::App& cam, CamArguments& all) {
+void add_show_command(CLI::App& cam, const std::vector<std::string>& words, CamArguments& all) {
   CamShowArguments& arguments = all.show;
   CLI::App& show = *cam.add_subcommand("show", "say and draw which layers a circuit board's files have");
+  if (!is_named(show, words)) return;
   show.add_option("FILE", arguments.files, "Gerber and drill files, KiCad boards, folders and zip archives of them")
       ->required();
   show.add_option("-p,--picture", arguments.picture, "draw the board from above and from below (FILE.svg or FILE.png)");
@@ -41,10 +43,11 @@ void add_show_command(CLI::App& cam, CamArguments& all) {
 }
 }  // namespace
 
-void add_drill_command(CLI::App& cam, CamArguments& all) {
+void add_drill_command(CLI::App& cam, const std::vector<std::string>& words, CamArguments& all) {
   CamDrillArguments& arguments = all.drill;
   CLI::App& drill =
       *cam.add_subcommand("drill", "drill the holes of DXF drawings, Excellon drill files and KiCad boards");
+  if (!is_named(drill, words)) return;
   drill
       .add_option("FILE", arguments.files,
                   "DXF drawings, drill files, KiCad boards; the kind is seen from what is in them")
@@ -97,20 +100,21 @@ void add_drill_command(CLI::App& cam, CamArguments& all) {
   });
 }
 
-CLI::App& add_cam_command(CLI::App& app, CamArguments& arguments) {
+CLI::App& add_cam_command(CLI::App& app, const std::vector<std::string>& words, CamArguments& arguments) {
   CLI::App& cam =
       *app.add_subcommand("cam", "make programs of drawings and pictures: parts, pockets, circuit boards, reliefs");
+  if (!is_named(cam, words)) return cam;
   cam.require_subcommand(1);
-  add_show_command(cam, arguments);
-  add_drill_command(cam, arguments);
-  add_isolate_command(cam, arguments);
-  add_outline_command(cam, arguments);
-  add_cam_board_command(cam, arguments);
-  add_profile_command(cam, arguments);
-  add_pocket_command(cam, arguments);
-  add_engrave_command(cam, arguments);
-  add_wire_command(cam, arguments);
-  add_relief_command(cam, arguments);
+  add_show_command(cam, words, arguments);
+  add_drill_command(cam, words, arguments);
+  add_isolate_command(cam, words, arguments);
+  add_outline_command(cam, words, arguments);
+  add_cam_board_command(cam, words, arguments);
+  add_profile_command(cam, words, arguments);
+  add_pocket_command(cam, words, arguments);
+  add_engrave_command(cam, words, arguments);
+  add_wire_command(cam, words, arguments);
+  add_relief_command(cam, words, arguments);
   return cam;
 }
 

@@ -27,18 +27,18 @@ struct CamArguments {
   std::function<int()> chosen;  // the chosen command, after parsing
 };
 
-CLI::App& add_cam_command(CLI::App& app, CamArguments& arguments);
+CLI::App& add_cam_command(CLI::App& app, const std::vector<std::string>& words, CamArguments& arguments);
 
 // Add the commands to `cam`.
-void add_drill_command(CLI::App& cam, CamArguments& arguments);
-void add_isolate_command(CLI::App& cam, CamArguments& arguments);
-void add_outline_command(CLI::App& cam, CamArguments& arguments);
-void add_cam_board_command(CLI::App& cam, CamArguments& arguments);
-void add_relief_command(CLI::App& cam, CamArguments& arguments);
-void add_profile_command(CLI::App& cam, CamArguments& arguments);
-void add_pocket_command(CLI::App& cam, CamArguments& arguments);
-void add_engrave_command(CLI::App& cam, CamArguments& arguments);
-void add_wire_command(CLI::App& cam, CamArguments& arguments);
+void add_drill_command(CLI::App& cam, const std::vector<std::string>& words, CamArguments& arguments);
+void add_isolate_command(CLI::App& cam, const std::vector<std::string>& words, CamArguments& arguments);
+void add_outline_command(CLI::App& cam, const std::vector<std::string>& words, CamArguments& arguments);
+void add_cam_board_command(CLI::App& cam, const std::vector<std::string>& words, CamArguments& arguments);
+void add_relief_command(CLI::App& cam, const std::vector<std::string>& words, CamArguments& arguments);
+void add_profile_command(CLI::App& cam, const std::vector<std::string>& words, CamArguments& arguments);
+void add_pocket_command(CLI::App& cam, const std::vector<std::string>& words, CamArguments& arguments);
+void add_engrave_command(CLI::App& cam, const std::vector<std::string>& words, CamArguments& arguments);
+void add_wire_command(CLI::App& cam, const std::vector<std::string>& words, CamArguments& arguments);
 
 // Options that are kept for a machine: how they are asked for, and how what was not given is filled in with them.
 void add_remember_options(CLI::App& command, CamArguments& arguments);

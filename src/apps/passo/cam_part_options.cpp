@@ -1,5 +1,6 @@
 // The options of `passo cam profile`, `passo cam pocket` and `passo cam engrave`.
 #include "cam_options.hpp"
+#include "command_words.hpp"
 #include "number_range.hpp"
 #include <CLI/CLI.hpp>
 
@@ -52,9 +53,10 @@ void add_sheet_option(CLI::App& command, CamMillArguments& arguments) {
 
 }  // namespace
 
-void add_profile_command(CLI::App& cam, CamArguments& all) {
+void add_profile_command(CLI::App& cam, const std::vector<std::string>& words, CamArguments& all) {
   CamProfileArguments& arguments = all.profile;
   CLI::App& profile = *cam.add_subcommand("profile", "cut along the lines of a drawing: around parts, or on the line");
+  if (!is_named(profile, words)) return;
   profile.add_option("FILE", arguments.files, "drawings: SVG, DXF or HPGL")->required();
   profile
       .add_option("--side", arguments.side,
@@ -68,9 +70,10 @@ void add_profile_command(CLI::App& cam, CamArguments& all) {
   profile.callback([&all] { all.chosen = [&all] { return cam_profile(all.profile); }; });
 }
 
-void add_pocket_command(CLI::App& cam, CamArguments& all) {
+void add_pocket_command(CLI::App& cam, const std::vector<std::string>& words, CamArguments& all) {
   CamPocketArguments& arguments = all.pocket;
   CLI::App& pocket = *cam.add_subcommand("pocket", "clear what the closed lines of a drawing enclose");
+  if (!is_named(pocket, words)) return;
   pocket.add_option("FILE", arguments.files, "drawings: SVG, DXF or HPGL")->required();
   pocket.add_option("--tool", arguments.tool, "diameter of the cutter")->capture_default_str();
   pocket.add_option("--depth", arguments.depth, "of the pocket, below 0")->capture_default_str();
@@ -94,9 +97,10 @@ void add_pocket_command(CLI::App& cam, CamArguments& all) {
   pocket.callback([&all] { all.chosen = [&all] { return cam_pocket(all.pocket); }; });
 }
 
-void add_engrave_command(CLI::App& cam, CamArguments& all) {
+void add_engrave_command(CLI::App& cam, const std::vector<std::string>& words, CamArguments& all) {
   CamEngraveArguments& arguments = all.engrave;
   CLI::App& engrave = *cam.add_subcommand("engrave", "carve texts and drawings with a V-shaped cutter");
+  if (!is_named(engrave, words)) return;
   engrave.add_option("FILE", arguments.files, "drawings: SVG, DXF or HPGL; what closed lines enclose is carved");
   engrave.add_option("--text", arguments.text, "letters instead of a drawing");
   engrave

@@ -1,4 +1,5 @@
 #include "cam_options.hpp"
+#include "command_words.hpp"
 #include "number_range.hpp"
 #include <CLI/CLI.hpp>
 
@@ -84,9 +85,10 @@ void add_finishing(CLI::App& relief, CamReliefArguments& arguments) {
 
 }  // namespace
 
-void add_relief_command(CLI::App& cam, CamArguments& all) {
+void add_relief_command(CLI::App& cam, const std::vector<std::string>& words, CamArguments& all) {
   CamReliefArguments& arguments = all.relief;
   CLI::App& relief = *cam.add_subcommand("relief", "carve a picture, or a body seen from above");
+  if (!is_named(relief, words)) return;
   relief
       .add_option("FILE", arguments.file, "a PNG or TIFF picture (bright is high), an STL file or a height map x,y,z")
       ->required();

@@ -70,15 +70,15 @@ GivenWords words_given(const CLI::App& command) {
 
 // The words as a command line of `section`. Returns an exit code.
 int parse_words(CamArguments& all, const std::string& file, const OptionSection& section, const GivenWords& given) {
-  CLI::App cam;
-  CamArguments read;
-  if (section.name == "drill") add_drill_command(cam, read);
-  if (section.name == "isolate") add_isolate_command(cam, read);
-  if (section.name == "outline") add_outline_command(cam, read);
   Words words = {section.name};
   words.insert(words.end(), section.words.begin(), section.words.end());
   words.insert(words.end(), given.options.begin(), given.options.end());
   words.insert(words.end(), given.files.begin(), given.files.end());
+  CLI::App cam;
+  CamArguments read;
+  if (section.name == "drill") add_drill_command(cam, words, read);
+  if (section.name == "isolate") add_isolate_command(cam, words, read);
+  if (section.name == "outline") add_outline_command(cam, words, read);
   std::ranges::reverse(words);  // CLI11 wants the last word first
   try {
     cam.parse(std::move(words));

@@ -1,5 +1,6 @@
 // The options of `passo cam wire`.
 #include "cam_options.hpp"
+#include "command_words.hpp"
 #include "number_range.hpp"
 #include <CLI/CLI.hpp>
 
@@ -22,10 +23,11 @@ Every option: docs/manual/hot-wire.md.)";
 
 }  // namespace
 
-void add_wire_command(CLI::App& cam, CamArguments& all) {
+void add_wire_command(CLI::App& cam, const std::vector<std::string>& words, CamArguments& all) {
   CamWireArguments& arguments = all.wire;
   CLI::App& wire =
       *cam.add_subcommand("wire", "cut foam with a hot wire: one profile, or one for each end of the wire");
+  if (!is_named(wire, words)) return;
   wire.add_option("PROFILE", arguments.files, "of the left side, and of the right: SVG, DXF, HPGL, airfoil (.dat)")
       ->required()
       ->expected(1, 2);

@@ -104,8 +104,9 @@ void add_board(CLI::App& command, std::string& board) {
                      "run and home; without it the virtual machine");
 }
 
-CLI::App& add_jog(CLI::App& app, JogArguments& arguments) {
+CLI::App& add_jog(CLI::App& app, const std::vector<std::string>& words, JogArguments& arguments) {
   CLI::App& command = *app.add_subcommand("jog", "move axes by hand, and say where they rest");
+  if (!is_named(command, words)) return command;
   command.add_option("MOVES", arguments.moves,
                      "X+10 Y-3: by so much; X+: as far as the travel goes; none, on a terminal: by keys");
   add_machine(command, arguments.machine);
@@ -124,8 +125,9 @@ CLI::App& add_jog(CLI::App& app, JogArguments& arguments) {
   return command;
 }
 
-CLI::App& add_home(CLI::App& app, HomeArguments& arguments) {
+CLI::App& add_home(CLI::App& app, const std::vector<std::string>& words, HomeArguments& arguments) {
   CLI::App& command = *app.add_subcommand("home", "find where a machine stands, by its limit switches");
+  if (!is_named(command, words)) return command;
   add_machine(command, arguments.machine);
   add_board(command, arguments.board);
   command
@@ -145,8 +147,9 @@ CLI::App& add_home(CLI::App& app, HomeArguments& arguments) {
   return command;
 }
 
-CLI::App& add_serve(CLI::App& app, ServeArguments& arguments) {
+CLI::App& add_serve(CLI::App& app, const std::vector<std::string>& words, ServeArguments& arguments) {
   CLI::App& command = *app.add_subcommand("serve", "let senders of G-code drive a machine, as a Grbl controller");
+  if (!is_named(command, words)) return command;
   command.add_option("-m,--machine", arguments.machine, "machine file (TOML); without it an example");
   add_board(command, arguments.board);
   command.add_option("--grbl-tcp", arguments.grbl_tcp,
@@ -184,106 +187,91 @@ CLI::App& add_serve(CLI::App& app, ServeArguments& arguments) {
   return command;
 }
 
-int parse_and_run(int argc, char** argv) {
-  CLI::App app(description, "passo");
-  app.footer(examples);
-  app.set_version_flag("--version", "passo " PASSO_VERSION);
-  app.require_subcommand(1);
-  app.get_formatter()->column_width(34);
-
-  RunArguments run_arguments;
-  CLI::App& run_command = *app.add_subcommand("run", "run a program on the virtual machine");
-  add_program(run_command, run_arguments.program);
-  add_machine(run_command, run_arguments.machine);
-  add_files(run_command, run_arguments.program, false);
-  run_arguments.program.parameters_may_lack = true;
-  run_command.add_option("-p,--picture", run_arguments.pictures, "draw the path (FILE.svg or FILE.png)");
-  run_command.add_option("--colour-by", run_arguments.colour_by, "of the feeds in pictures: speed, depth or tool")
+CLI::App& add_run(CLI::App& app, const std::vector<std::string>& words, RunArguments& arguments) {
+  CLI::App& command = *app.add_subcommand("run", "run a program on the virtual machine");
+  if (!is_named(command, words)) return command;
+  add_program(command, arguments.program);
+  add_machine(command, arguments.machine);
+  add_files(command, arguments.program, false);
+  arguments.program.parameters_may_lack = true;
+  command.add_option("-p,--picture", arguments.pictures, "draw the path (FILE.svg or FILE.png)");
+  command.add_option("--colour-by", arguments.colour_by, "of the feeds in pictures: speed, depth or tool")
       ->check(CLI::IsMember({"speed", "depth", "tool"}))
       ->capture_default_str();
-  run_command.add_option("--view", run_arguments.view, "the flat view of pictures: auto, top, front, side or lathe")
+  command.add_option("--view", arguments.view, "the flat view of pictures: auto, top, front, side or lathe")
       ->check(CLI::IsMember({"auto", "top", "front", "side", "lathe"}))
       ->capture_default_str();
-  run_command.add_flag("--no-rapids", run_arguments.no_rapids, "pictures show the feeds alone");
-  run_command.add_option("-t,--trace", run_arguments.traces, "write every step (FILE.vcd or FILE.csv)");
-  run_command.add_option("-r,--report", run_arguments.report, "write the summary (FILE.json, else text)");
-  run_command.add_option("--log", run_arguments.log, "write what the program logs by (LOG,…): a probed height map");
-  run_command.add_option("--passes", run_arguments.passes, "how often a program that ends with M99 runs")
+  command.add_flag("--no-rapids", arguments.no_rapids, "pictures show the feeds alone");
+  command.add_option("-t,--trace", arguments.traces, "write every step (FILE.vcd or FILE.csv)");
+  command.add_option("-r,--report", arguments.report, "write the summary (FILE.json, else text)");
+  command.add_option("--log", arguments.log, "write what the program logs by (LOG,…): a probed height map");
+  command.add_option("--passes", arguments.passes, "how often a program that ends with M99 runs")
       ->check(refuse_count)
       ->capture_default_str();
-  run_command.add_option("--hold-at", run_arguments.holds, "hold at SECONDS and end; SECONDS:PAUSE goes on again");
-  run_command.add_option("--override", run_arguments.overrides, "PERCENT@SECONDS: feed override from then on");
-  run_command.add_option("--touch", run_arguments.touches,
-                         "what the probe touches, as Z:-1.5, X10:60,Y10:50,Z:-2 or part.stl@X100,Y80,Z-20 (a block, an "
-                         "STL file, a height map)");
-  add_board(run_command, run_arguments.board);
-  run_command.add_flag("--home", run_arguments.home,
-                       "the machine is homed first, and the program begins where it then stands");
-  run_command.add_flag("--from-here", run_arguments.from_here,
-                       "over a line: the machine stands at machine zero, as you see to; else its place must be known");
-  run_command.add_flag("--resume", run_arguments.resume,
-                       "over a line: goes on where this program was broken off on that board");
-  run_command
-      .add_option("--from-line", run_arguments.from_line,
+  command.add_option("--hold-at", arguments.holds, "hold at SECONDS and end; SECONDS:PAUSE goes on again");
+  command.add_option("--override", arguments.overrides, "PERCENT@SECONDS: feed override from then on");
+  command.add_option("--touch", arguments.touches,
+                     "what the probe touches, as Z:-1.5, X10:60,Y10:50,Z:-2 or part.stl@X100,Y80,Z-20 (a block, an "
+                     "STL file, a height map)");
+  add_board(command, arguments.board);
+  command.add_flag("--home", arguments.home, "the machine is homed first, and the program begins where it then stands");
+  command.add_flag("--from-here", arguments.from_here,
+                   "over a line: the machine stands at machine zero, as you see to; else its place must be known");
+  command.add_flag("--resume", arguments.resume,
+                   "over a line: goes on where this program was broken off on that board");
+  command
+      .add_option("--from-line", arguments.from_line,
                   "N: begins at the first motion of line N, with all that the lines before have set: up, spindle on, "
                   "over, down; shows these steps and asks")
       ->check(CLI::PositiveNumber);
-  run_command
-      .add_option("--pass", run_arguments.pass,
+  command
+      .add_option("--pass", arguments.pass,
                   "K: with --from-line, the K-th time that the path comes to that line, in a loop or a subprogram")
       ->check(CLI::PositiveNumber);
-  run_command
-      .add_option("--after", run_arguments.after,
+  command
+      .add_option("--after", arguments.after,
                   "MM: with --from-line, so far along the path after that line's motion has begun")
       ->check(CLI::NonNegativeNumber);
-  run_command.add_option("--journal", run_arguments.journal,
-                         "FILE: where a run over a line notes what --resume needs; without it "
-                         "$XDG_STATE_HOME/passo/BOARD.journal or ~/.local/state/passo/BOARD.journal");
-  run_command.add_option("--cut-cable-at", run_arguments.cable_cut,
-                         "SECONDS:MISSING: over a serial line, which is cut then and back after MISSING seconds");
-  run_command.add_flag("--physics", run_arguments.physics,
-                       "the motors obey physics, from the machine file's [axis.X.torque], and may lose steps");
-  run_command.add_option("--disturb", run_arguments.disturbances,
-                         "AXIS:NM@FROM:SECONDS: with --physics, what holds an axis for a time, as X:0.8@1.5:0.2");
-  run_command.add_flag("-y,--yes", run_arguments.yes, "go on at M0, M1 and M6 without asking");
-  run_command.add_flag("--json", run_arguments.json, "print the summary as JSON");
-  run_command.add_flag("-q,--quiet", run_arguments.quiet, "no progress and no summary");
-  run_command.footer(
+  command.add_option("--journal", arguments.journal,
+                     "FILE: where a run over a line notes what --resume needs; without it "
+                     "$XDG_STATE_HOME/passo/BOARD.journal or ~/.local/state/passo/BOARD.journal");
+  command.add_option("--cut-cable-at", arguments.cable_cut,
+                     "SECONDS:MISSING: over a serial line, which is cut then and back after MISSING seconds");
+  command.add_flag("--physics", arguments.physics,
+                   "the motors obey physics, from the machine file's [axis.X.torque], and may lose steps");
+  command.add_option("--disturb", arguments.disturbances,
+                     "AXIS:NM@FROM:SECONDS: with --physics, what holds an axis for a time, as X:0.8@1.5:0.2");
+  command.add_flag("-y,--yes", arguments.yes, "go on at M0, M1 and M6 without asking");
+  command.add_flag("--json", arguments.json, "print the summary as JSON");
+  command.add_flag("-q,--quiet", arguments.quiet, "no progress and no summary");
+  command.footer(
       "Examples:\n  passo run examples/engrave.ngc -m examples/machines/pantograph.toml --picture engrave.png\n"
       "  passo run examples/drill-board.ngc -m examples/machines/forty-eight.toml -p board.svg --colour-by tool "
       "--no-rapids\n"
       "  passo run examples/pocket.ngc -m examples/machines/router.toml --hold-at 10:1 --override 50@20\n"
       "  passo run examples/probe-corner.ngc -m examples/machines/router.toml --touch X42.3:90,Y31.75:70,Z-50:-11.2");
+  return command;
+}
 
-  JogArguments jog_arguments;
-  CLI::App& jog_command = add_jog(app, jog_arguments);
-
-  HomeArguments home_arguments;
-  CLI::App& home_command = add_home(app, home_arguments);
-
-  ServeArguments serve_arguments;
-  CLI::App& serve_command = add_serve(app, serve_arguments);
-
-  CheckArguments check_arguments;
-  CLI::App& check_command = *app.add_subcommand("check", "find what is wrong with a program, without running it");
-  add_program(check_command, check_arguments.program);
-  add_machine(check_command, check_arguments.machine);
-  add_files(check_command, check_arguments.program, false);
-  check_command.add_flag("--motion", check_arguments.motion,
-                         "plan it too, and prove that the motion keeps every limit; how fast it could be at best");
-  check_command.add_option(
-      "-p,--picture", check_arguments.picture,
-      "draw the motion: path and tolerance, speed over the way, acceleration and jerk (.svg or .png)");
-  check_command.add_option("--colour-by", check_arguments.colour_by,
-                           "margin: the picture shows the path instead, dark where the motors have little torque left");
-  check_command.add_option("-r,--report", check_arguments.report,
-                           "all of it as one page to read and to print, with pictures (FILE.html)");
-  check_command.add_option(
-      "--loads", check_arguments.loads,
-      "write what each line needs of the motors' torque: line,load; 1 is all that is surely there");
-  add_cut(check_command, check_arguments);
-  check_command.add_flag("--json", check_arguments.json, "print the findings as JSON");
-  check_command.footer(
+CLI::App& add_check(CLI::App& app, const std::vector<std::string>& words, CheckArguments& arguments) {
+  CLI::App& command = *app.add_subcommand("check", "find what is wrong with a program, without running it");
+  if (!is_named(command, words)) return command;
+  add_program(command, arguments.program);
+  add_machine(command, arguments.machine);
+  add_files(command, arguments.program, false);
+  command.add_flag("--motion", arguments.motion,
+                   "plan it too, and prove that the motion keeps every limit; how fast it could be at best");
+  command.add_option("-p,--picture", arguments.picture,
+                     "draw the motion: path and tolerance, speed over the way, acceleration and jerk (.svg or .png)");
+  command.add_option("--colour-by", arguments.colour_by,
+                     "margin: the picture shows the path instead, dark where the motors have little torque left");
+  command.add_option("-r,--report", arguments.report,
+                     "all of it as one page to read and to print, with pictures (FILE.html)");
+  command.add_option("--loads", arguments.loads,
+                     "write what each line needs of the motors' torque: line,load; 1 is all that is surely there");
+  add_cut(command, arguments);
+  command.add_flag("--json", arguments.json, "print the findings as JSON");
+  command.footer(
       "Examples:\n  passo check part.ngc -m router.toml             what is wrong with it\n"
       "  passo check part.ngc -m router.toml --motion    peaks, deviation, time and the least time there can be;\n"
       "                                                  exit code 1 if a limit is broken\n"
@@ -294,73 +282,116 @@ int parse_and_run(int argc, char** argv) {
       "aluminium\n"
       "  passo check corner.ngc -m router.toml --picture corner.svg    its speeds, accelerations and jerks; plans, "
       "too");
+  return command;
+}
 
-  TuneArguments tune_arguments;
-  CLI::App& tune_command = add_tune_command(app, tune_arguments);
-
-  SimulateArguments simulate_arguments;
-  CLI::App& simulate_command = add_simulate_command(app, simulate_arguments);
-  add_program(simulate_command, simulate_arguments.program);
-  add_files(simulate_command, simulate_arguments.program, false);
-
-  CanonArguments canon_arguments;
-  CLI::App& canon_command = *app.add_subcommand("canon", "print what a program means, as canonical calls");
-  add_program(canon_command, canon_arguments.program);
-  canon_arguments.program.default_units = "inch";
-  canon_arguments.program.files_of_settings = false;
-  add_files(canon_command, canon_arguments.program, true);
-  canon_command.add_option("-o,--output", canon_arguments.output, "write to a file");
-  canon_command.footer(
+CLI::App& add_canon(CLI::App& app, const std::vector<std::string>& words, CanonArguments& arguments) {
+  CLI::App& command = *app.add_subcommand("canon", "print what a program means, as canonical calls");
+  if (!is_named(command, words)) return command;
+  add_program(command, arguments.program);
+  arguments.program.default_units = "inch";
+  arguments.program.files_of_settings = false;
+  add_files(command, arguments.program, true);
+  command.add_option("-o,--output", arguments.output, "write to a file");
+  command.footer(
       "Examples:\n  passo canon part.ngc                                 the calls, as rs274 -g prints them\n"
       "  passo canon part.ngc -t tool.tbl -v rs274ngc.var     with the machine's tools and offsets\n"
       "  passo canon part.ngc --dialect grbl -o part.canon    a program for grbl, into a file\n"
       "  passo canon - < part.ngc                             from standard input");
+  return command;
+}
 
-  ExplainArguments explain_arguments;
-  CLI::App& explain_command = *app.add_subcommand("explain", "say in words what lines of a program do");
-  add_program(explain_command, explain_arguments.program, "FILE:LINE, FILE:FROM-TO or FILE; - is standard input");
-  add_files(explain_command, explain_arguments.program, true);
-  explain_command.add_flag("--json", explain_arguments.json, "print it as JSON");
-  explain_command.footer(
+CLI::App& add_explain(CLI::App& app, const std::vector<std::string>& words, ExplainArguments& arguments) {
+  CLI::App& command = *app.add_subcommand("explain", "say in words what lines of a program do");
+  if (!is_named(command, words)) return command;
+  add_program(command, arguments.program, "FILE:LINE, FILE:FROM-TO or FILE; - is standard input");
+  add_files(command, arguments.program, true);
+  command.add_flag("--json", arguments.json, "print it as JSON");
+  command.footer(
       "Examples:\n  passo explain part.ngc:12             what it does, with positions and modes as they are there\n"
       "  passo explain part.ngc:10-20 --json   for scripts\n"
       "  passo explain part.ngc:12 -t tool.tbl -v rs274ngc.var --subs macros     with the machine's files\n"
       "  passo explain -:3 < part.ngc          from standard input");
+  return command;
+}
 
-  MachineArguments machine_arguments;
-  CLI::App& machine_command = *app.add_subcommand("machine", "check a machine file and say what it describes");
-  machine_command.add_option("MACHINE", machine_arguments.machine, "machine file (TOML)")->required();
-  machine_command.footer(
+void add_machine_command(CLI::App& app, const std::vector<std::string>& words, MachineArguments& arguments) {
+  CLI::App& command = *app.add_subcommand("machine", "check a machine file and say what it describes");
+  if (!is_named(command, words)) return;
+  command.add_option("MACHINE", arguments.machine, "machine file (TOML)")->required();
+  command.footer(
       "Examples:\n  passo machine examples/machines/router.toml     its axes, board and tool, in numbers\n"
       "  passo machine mine.toml                         what is wrong with a file of your own, and where\n"
       "Every key is explained in docs/manual/machine-file.md");
+}
+
+int parse_and_run(int argc, char** argv) {
+  std::vector<std::string> words = command_words(argc, argv);
+  CLI::App app(description, "passo");
+  app.footer(examples);
+  app.set_version_flag("--version", "passo " PASSO_VERSION);
+  app.require_subcommand(1);
+  app.get_formatter()->column_width(34);
+
+  RunArguments run_arguments;
+  CLI::App& run_command = add_run(app, words, run_arguments);
+
+  JogArguments jog_arguments;
+  CLI::App& jog_command = add_jog(app, words, jog_arguments);
+
+  HomeArguments home_arguments;
+  CLI::App& home_command = add_home(app, words, home_arguments);
+
+  ServeArguments serve_arguments;
+  CLI::App& serve_command = add_serve(app, words, serve_arguments);
+
+  CheckArguments check_arguments;
+  CLI::App& check_command = add_check(app, words, check_arguments);
+
+  TuneArguments tune_arguments;
+  CLI::App& tune_command = add_tune_command(app, words, tune_arguments);
+
+  SimulateArguments simulate_arguments;
+  CLI::App& simulate_command = add_simulate_command(app, words, simulate_arguments);
+  if (is_named(simulate_command, words)) {
+    add_program(simulate_command, simulate_arguments.program);
+    add_files(simulate_command, simulate_arguments.program, false);
+  }
+
+  CanonArguments canon_arguments;
+  CLI::App& canon_command = add_canon(app, words, canon_arguments);
+
+  ExplainArguments explain_arguments;
+  CLI::App& explain_command = add_explain(app, words, explain_arguments);
+
+  MachineArguments machine_arguments;
+  add_machine_command(app, words, machine_arguments);
 
   BoardArguments board_arguments;
-  CLI::App& board_command = add_board_command(app, board_arguments);
+  CLI::App& board_command = add_board_command(app, words, board_arguments);
 
   ProbeArguments probe_arguments;
-  CLI::App& probe_command = add_probe_command(app, probe_arguments);
+  CLI::App& probe_command = add_probe_command(app, words, probe_arguments);
   LevelArguments level_arguments;
-  CLI::App& level_command = add_level_command(app, level_arguments);
+  CLI::App& level_command = add_level_command(app, words, level_arguments);
   CamArguments cam_arguments;
-  CLI::App& cam_command = add_cam_command(app, cam_arguments);
+  CLI::App& cam_command = add_cam_command(app, words, cam_arguments);
 
   InterpolateArguments interpolate_arguments;
-  CLI::App& interpolate_command = add_interpolate_command(app, interpolate_arguments);
+  CLI::App& interpolate_command = add_interpolate_command(app, words, interpolate_arguments);
   RampArguments ramp_arguments;
-  CLI::App& ramp_command = add_ramp_command(app, ramp_arguments);
+  CLI::App& ramp_command = add_ramp_command(app, words, ramp_arguments);
   MotorArguments motor_arguments;
-  CLI::App& motor_command = add_motor_command(app, motor_arguments);
+  CLI::App& motor_command = add_motor_command(app, words, motor_arguments);
   LoopArguments loop_arguments;
-  CLI::App& loop_command = add_loop_command(app, loop_arguments);
+  CLI::App& loop_command = add_loop_command(app, words, loop_arguments);
   WindingsArguments windings_arguments;
-  CLI::App& windings_command = add_windings_command(app, windings_arguments);
+  CLI::App& windings_command = add_windings_command(app, words, windings_arguments);
   FollowerArguments follower_arguments;
-  CLI::App& follower_command = add_follower_command(app, follower_arguments);
+  CLI::App& follower_command = add_follower_command(app, words, follower_arguments);
   ChordsArguments chords_arguments;
-  CLI::App& chords_command = add_chords_command(app, chords_arguments);
+  CLI::App& chords_command = add_chords_command(app, words, chords_arguments);
 
-  std::vector<std::string> words = command_words(argc, argv);
   if (const std::string refusal = refuse_words(app, words); !refusal.empty()) return fail(exit_bad_program, refusal);
   try {
     std::ranges::reverse(words);  // CLI11 wants the last word first

@@ -31,8 +31,8 @@ struct LevelArguments {
 };
 int level(const LevelArguments& arguments);
 
-CLI::App& add_probe_command(CLI::App& app, ProbeArguments& arguments);
+CLI::App& add_probe_command(CLI::App& app, const std::vector<std::string>& words, ProbeArguments& arguments);
 // `program`: adds the options of programs.
-CLI::App& add_level_command(CLI::App& app, LevelArguments& arguments);
+CLI::App& add_level_command(CLI::App& app, const std::vector<std::string>& words, LevelArguments& arguments);
 
 }  // namespace passo

@@ -1,3 +1,4 @@
+#include "command_words.hpp"
 #include "probing_commands.hpp"
 #include <CLI/CLI.hpp>
 
@@ -40,8 +41,9 @@ std::string option_of(std::string_view name) {
 
 }  // namespace
 
-CLI::App& add_probe_command(CLI::App& app, ProbeArguments& arguments) {
+CLI::App& add_probe_command(CLI::App& app, const std::vector<std::string>& words, ProbeArguments& arguments) {
   CLI::App& command = *app.add_subcommand("probe", "write a program that finds a place with the probe");
+  if (!is_named(command, words)) return command;
   command.require_subcommand(1);
   command.footer(probe_examples);
   for (const ProbingKind kind : all_probing_kinds()) {
@@ -63,9 +65,10 @@ CLI::App& add_probe_command(CLI::App& app, ProbeArguments& arguments) {
   return command;
 }
 
-CLI::App& add_level_command(CLI::App& app, LevelArguments& arguments) {
+CLI::App& add_level_command(CLI::App& app, const std::vector<std::string>& words, LevelArguments& arguments) {
   CLI::App& command =
       *app.add_subcommand("level", "write a program as it is on a surface that is not flat, or show a height map");
+  if (!is_named(command, words)) return command;
   command.add_option("PROGRAM", arguments.program.program, "G-code file; without it the map is shown");
   command.add_option("--map", arguments.map, "the height map: lines x,y,z")->required();
   command.add_option("--tolerance", arguments.tolerance, "of the height, everywhere on each move, mm")

@@ -1,5 +1,6 @@
 #include "simulate_options.hpp"
 
+#include "command_words.hpp"
 #include "number_range.hpp"
 #include <CLI/CLI.hpp>
 
@@ -48,9 +49,10 @@ void add_cut(CLI::App& command, CheckArguments& arguments) {
   add_stock(command, arguments.stock);
 }
 
-CLI::App& add_simulate_command(CLI::App& app, SimulateArguments& arguments) {
+CLI::App& add_simulate_command(CLI::App& app, const std::vector<std::string>& words, SimulateArguments& arguments) {
   CLI::App& command =
       *app.add_subcommand("simulate", "cut a piece of stock before it is cut: rapids, depths, what is left");
+  if (!is_named(command, words)) return command;
   add_stock(command, arguments.stock);
   command.add_option("-m,--machine", arguments.machine,
                      "machine file (TOML): cut along its path, corners rounded within the tolerance");

@@ -37,6 +37,6 @@ int simulate_wire(const SimulateArguments& arguments);
 // The options of `passo check` that cut a piece of stock.
 void add_cut(CLI::App& command, CheckArguments& arguments);
 // Adds the command, without the options that every command with a program has.
-CLI::App& add_simulate_command(CLI::App& app, SimulateArguments& arguments);
+CLI::App& add_simulate_command(CLI::App& app, const std::vector<std::string>& words, SimulateArguments& arguments);
 
 }  // namespace passo

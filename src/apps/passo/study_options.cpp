@@ -1,6 +1,7 @@
 // The options of the commands that study one thing at a time: pulses, chords, ramps, motors.
 #include "study_options.hpp"
 
+#include "command_words.hpp"
 #include "number_range.hpp"
 #include <CLI/CLI.hpp>
 
@@ -29,8 +30,10 @@ The model and its limits: docs/ramps/torque.md.)";
 
 }  // namespace
 
-CLI::App& add_interpolate_command(CLI::App& app, InterpolateArguments& arguments) {
+CLI::App& add_interpolate_command(CLI::App& app, const std::vector<std::string>& words,
+                                  InterpolateArguments& arguments) {
   CLI::App& command = *app.add_subcommand("interpolate", "which axes step, pulse by pulse, by any method");
+  if (!is_named(command, words)) return command;
   command.add_option(
       "--method", arguments.method,
       "master-slave, lean, dda, slope-recalculated, slope-blocks, point-comparison or midpoint; bresenham is "
@@ -73,8 +76,9 @@ Examples:
   return command;
 }
 
-CLI::App& add_chords_command(CLI::App& app, ChordsArguments& arguments) {
+CLI::App& add_chords_command(CLI::App& app, const std::vector<std::string>& words, ChordsArguments& arguments) {
   CLI::App& command = *app.add_subcommand("chords", "cut a curve into straight pieces within a tolerance");
+  if (!is_named(command, words)) return command;
   command.add_option("--curve", arguments.curve, "line, arc, helix, ellipse, parabola, bezier or nurbs")->required();
   command.add_option("--from", arguments.from, "its start in mm, X,Y or X,Y,Z");
   command.add_option("--to", arguments.to, "its end; as high as the start unless told otherwise");
@@ -126,8 +130,9 @@ Examples:
   return command;
 }
 
-CLI::App& add_ramp_command(CLI::App& app, RampArguments& arguments) {
+CLI::App& add_ramp_command(CLI::App& app, const std::vector<std::string>& words, RampArguments& arguments) {
   CLI::App& command = *app.add_subcommand("ramp", "when a motor steps: ramps and whole moves, by any method");
+  if (!is_named(command, words)) return command;
   command
       .add_option("--method", arguments.method, "exact, table, recursive, or midpoint (the recursion that is exact)")
       ->check(CLI::IsMember({"exact", "recursive", "table", "midpoint"}));
@@ -172,11 +177,12 @@ Examples:
   return command;
 }
 
-CLI::App& add_motor_command(CLI::App& app, MotorArguments& arguments) {
+CLI::App& add_motor_command(CLI::App& app, const std::vector<std::string>& words, MotorArguments& arguments) {
   CLI::App& command = *app.add_subcommand("motor", motor_description);
+  if (!is_named(command, words)) return command;
   command.footer(motor_examples);
-  const auto option = [&](const char* name, auto& value, const char* unit, const char* words) {
-    return command.add_option(name, value, words)->type_name(unit);
+  const auto option = [&](const char* name, auto& value, const char* unit, const char* what) {
+    return command.add_option(name, value, what)->type_name(unit);
   };
 
   option("--steps-per-rev", arguments.steps_per_revolution, "N", "full steps a revolution, a multiple of 4")
@@ -251,8 +257,9 @@ CLI::App& add_motor_command(CLI::App& app, MotorArguments& arguments) {
   return command;
 }
 
-CLI::App& add_loop_command(CLI::App& app, LoopArguments& arguments) {
+CLI::App& add_loop_command(CLI::App& app, const std::vector<std::string>& words, LoopArguments& arguments) {
   CLI::App& command = *app.add_subcommand("loop", "a motor with an encoder and PID: its response to a step");
+  if (!is_named(command, words)) return command;
   command.add_option("--of", arguments.of, "what is controlled: speed, or position (a loop around that of the speed)")
       ->check(CLI::IsMember({"speed", "position"}))
       ->capture_default_str();
@@ -304,9 +311,10 @@ The chapter: docs/ramps/loop.md.)");
   return command;
 }
 
-CLI::App& add_windings_command(CLI::App& app, WindingsArguments& arguments) {
+CLI::App& add_windings_command(CLI::App& app, const std::vector<std::string>& words, WindingsArguments& arguments) {
   CLI::App& command =
       *app.add_subcommand("windings", "which windings carry current in a move, and where the rotors are");
+  if (!is_named(command, words)) return command;
   command.add_option("--drive", arguments.drive, "two-on, wave, half-step or microsteps:N (2 to 256)")->required();
   command.add_option("--full-steps", arguments.full_steps, "of the motors, a revolution")
       ->check(CLI::Range(4, 100'000))
@@ -343,8 +351,9 @@ Examples:
   return command;
 }
 
-CLI::App& add_follower_command(CLI::App& app, FollowerArguments& arguments) {
+CLI::App& add_follower_command(CLI::App& app, const std::vector<std::string>& words, FollowerArguments& arguments) {
   CLI::App& follower = *app.add_subcommand("follower", "the follower: step and direction in, windings out");
+  if (!is_named(follower, words)) return follower;
   follower.require_subcommand(1);
   CLI::App& command = *follower.add_subcommand("sim", "runs a follower's image on its emulated chip");
   const std::vector<std::string> names = emulated_followers();

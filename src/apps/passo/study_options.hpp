@@ -9,12 +9,13 @@ class App;
 
 namespace passo {
 
-CLI::App& add_interpolate_command(CLI::App& app, InterpolateArguments& arguments);
-CLI::App& add_chords_command(CLI::App& app, ChordsArguments& arguments);
-CLI::App& add_ramp_command(CLI::App& app, RampArguments& arguments);
-CLI::App& add_motor_command(CLI::App& app, MotorArguments& arguments);
-CLI::App& add_loop_command(CLI::App& app, LoopArguments& arguments);
-CLI::App& add_follower_command(CLI::App& app, FollowerArguments& arguments);
-CLI::App& add_windings_command(CLI::App& app, WindingsArguments& arguments);
+CLI::App& add_interpolate_command(CLI::App& app, const std::vector<std::string>& words,
+                                  InterpolateArguments& arguments);
+CLI::App& add_chords_command(CLI::App& app, const std::vector<std::string>& words, ChordsArguments& arguments);
+CLI::App& add_ramp_command(CLI::App& app, const std::vector<std::string>& words, RampArguments& arguments);
+CLI::App& add_motor_command(CLI::App& app, const std::vector<std::string>& words, MotorArguments& arguments);
+CLI::App& add_loop_command(CLI::App& app, const std::vector<std::string>& words, LoopArguments& arguments);
+CLI::App& add_follower_command(CLI::App& app, const std::vector<std::string>& words, FollowerArguments& arguments);
+CLI::App& add_windings_command(CLI::App& app, const std::vector<std::string>& words, WindingsArguments& arguments);
 
 }  // namespace passo

@@ -1,12 +1,14 @@
 #include "tuning_options.hpp"
 
+#include "command_words.hpp"
 #include "number_range.hpp"
 #include <CLI/CLI.hpp>
 
 namespace passo {
 
-CLI::App& add_tune_command(CLI::App& app, TuneArguments& arguments) {
+CLI::App& add_tune_command(CLI::App& app, const std::vector<std::string>& words, TuneArguments& arguments) {
   CLI::App& command = *app.add_subcommand("tune", "propose velocity, acceleration and jerk for a machine's motors");
+  if (!is_named(command, words)) return command;
   command.add_option("-m,--machine", arguments.machine, "machine file (TOML) with tables [axis.X.torque]")->required();
   command
       .add_option("--margin", arguments.margin,

@@ -122,7 +122,8 @@ TEST(Isolation, width_says_how_many_loops_and_the_cutter_stays_down_between) {
   // 0.6 mm and the margin of 0.007 mm are free around the pad.
   const double outside = area_mm2(grown(pad(0, 0, 2), wide(0.607)));
   const double inside = area_mm2(grown(pad(0, 0, 2), wide(0.007)));
-  EXPECT_NEAR(proof.milled_mm2, outside - inside, 0.02);
+  // The proof's disc is 0.0017 mm wider than the cutter, along rims of 20 mm.
+  EXPECT_NEAR(proof.milled_mm2, outside - inside, 0.0017 * 20);
 }
 
 TEST(Isolation, clearing_leaves_nothing_but_the_copper) {
@@ -275,8 +276,16 @@ TEST(IsolationProof, counts_copper_that_a_plan_takes) {
   MillPlan plan;
   plan.tools.push_back({wide(0.2), "cutter", {{{spot(-2, 0), 0, {}}, {spot(2, 0), 0, {}}}}});
   const IsolationProof proof = prove_isolation(pad(0, 0, 2), plan);
-  EXPECT_NEAR(proof.lost_mm2, 0.4, 0.005);
+  EXPECT_NEAR(proof.lost_mm2, 0.4, 2 * 0.0017 * 2);  // the proof's disc is 0.0017 mm wider than the cutter
   EXPECT_EQ(proof.copper_mm2, 4);
+}
+
+TEST(IsolationProof, counts_what_is_taken_within_copper_and_copper_that_is_taken_whole) {
+  MillPlan plan;
+  plan.tools.push_back({wide(0.2), "cutter", {{{spot(-0.2, 0), 0, {}}, {spot(0.2, 0), 0, {}}}}});
+  EXPECT_NEAR(prove_isolation(pad(0, 0, 2), plan).lost_mm2, 0.4 * 0.2 + M_PI * 0.01, 0.0025);
+  EXPECT_NEAR(prove_isolation(pad(0, 0, 0.1), plan).lost_mm2, 0.01, 1e-6);
+  EXPECT_EQ(prove_isolation(pad(0, 0.2, 0.19), plan).lost_mm2, 0);
 }
 
 TEST(MillProgram, goes_down_along_and_up_and_ends_at_rest) {

@@ -168,6 +168,17 @@ TEST(KicadBoard, a_pad_may_have_another_shape_on_another_layer) {
   EXPECT_NEAR(area_mm2(board.copper[1].layer.dark), 3, 1e-6);
 }
 
+TEST(KicadBoard, an_arc_whose_three_points_lie_on_a_line_is_a_line) {
+  const KicadBoard board =
+      good_board(board_with("(gr_arc (start 1 1) (mid 5 1) (end 3 1) (layer \"Edge.Cuts\") (width 0.1))"
+                            "(gr_arc (start 1 2) (mid 5 2.0000001) (end 3 2) (layer \"Edge.Cuts\") (width 0.1))"));
+  ASSERT_EQ(board.edge.strokes.paths.size(), 2U);
+  for (const DrawnPath& path : board.edge.strokes.paths) {
+    EXPECT_EQ(path.points.size(), 2U);
+    EXPECT_EQ(path.points.front().bulge, 0);
+  }
+}
+
 TEST(KicadBoard, wrong_files_are_refused_with_their_place) {
   EXPECT_EQ(refusal_of("(kicad_sch (version 1))"), "kicad.no-board 1:1");
   EXPECT_EQ(refusal_of("(kicad_pcb (version 1)"), "kicad.cut-off 1:23");

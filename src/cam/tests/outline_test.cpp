@@ -72,6 +72,37 @@ TEST(EdgeLoops, lines_drawn_twice_count_once) {
   EXPECT_FALSE(outlined(drawing, {}).findings.any_error());
 }
 
+// Nine lines of a demonstration board of KiCad: two ends at one place, and a tree of places that did not see it.
+TEST(EdgeLoops, ends_at_one_place_meet_wherever_it_lies) {
+  Drawing drawing{.file = "edge.dxf", .layers = {"Edge"}, .holes = {}, .paths = {}, .notes = {}};
+  for (const auto& [from, to] :
+       {std::pair(xy(172.085, 133.35), xy(194.945, 133.35)), std::pair(xy(90.805, 140.97), xy(90.805, 142.494)),
+        std::pair(xy(79.375, 133.35), xy(79.375, 34.29)), std::pair(xy(79.375, 34.29), xy(194.945, 34.29)),
+        std::pair(xy(194.945, 133.35), xy(194.945, 34.29)), std::pair(xy(90.805, 142.494), xy(172.085, 142.494)),
+        std::pair(xy(90.805, 133.35), xy(90.805, 140.97)), std::pair(xy(172.085, 142.494), xy(172.085, 133.35)),
+        std::pair(xy(90.805, 133.35), xy(79.375, 133.35))}) {
+    drawing.paths.push_back(open_line({{from}, {to}}));
+  }
+  const Outlined result = outlined(drawing, {});
+  EXPECT_FALSE(result.findings.any_error()) << render(result.findings, false);
+  EXPECT_EQ(result.loops.loops.size(), 1U);
+}
+
+// As EAGLE draws a rounded corner: part of another path again, and forth and back.
+TEST(EdgeLoops, parts_drawn_twice_or_forth_and_back_count_once) {
+  const double quarter = std::tan(M_PI / 8);
+  Drawing drawing{.file = "edge.dxf", .layers = {"Edge"}, .holes = {}, .paths = {}, .notes = {}};
+  drawing.paths.push_back(open_line({{xy(0, 0)}, {xy(36, 0), quarter}, {xy(40, 4)}, {xy(40, 30)}}));
+  drawing.paths.push_back(open_line({{xy(40, 4), -quarter}, {xy(36, 0)}}));
+  drawing.paths.push_back(open_line({{xy(40, 30)}, {xy(4, 30), quarter}, {xy(0, 26), -quarter}, {xy(4, 30)}}));
+  drawing.paths.push_back(open_line({{xy(0, 26)}, {xy(0, 13)}, {xy(0, 26)}}));
+  drawing.paths.push_back(open_line({{xy(0, 0)}, {xy(0, 13)}}));
+  const Outlined result = outlined(drawing, {});
+  EXPECT_FALSE(result.findings.any_error()) << render(result.findings, false);
+  EXPECT_EQ(result.loops.loops.size(), 1U);
+  EXPECT_NEAR(area_mm2(result.board), 1200 - 2 * (16 - 4 * M_PI), 0.01);
+}
+
 TEST(EdgeLoops, a_loop_in_an_opening_is_board_again) {
   Drawing drawing = board_drawing();
   drawing.holes.push_back({xy(20, 15), lengthy(2), 0, 10});

@@ -5,6 +5,7 @@
 #include <numeric>
 #include <random>
 
+#include "../place_tree.hpp"
 #include <gtest/gtest.h>
 
 namespace passo {
@@ -29,6 +30,30 @@ bool holds_each_once(std::vector<std::uint32_t> order, std::size_t count) {
   return order == all;
 }
 
+// Places on a coarse grid: many lie as far as a split of the tree, and many are equal.
+TEST(PlaceTree, finds_the_nearest_places_wherever_they_lie) {
+  std::mt19937_64 random(11);
+  for (std::size_t count = 2; count < 200; count += 7) {
+    std::vector<DrawnPoint> places;
+    for (std::size_t i = 0; i < count; ++i) {
+      places.push_back(at_mm(static_cast<int>(random() % 12), static_cast<int>(random() % 5)));
+    }
+    PlaceTree tree(places);
+    std::vector<std::uint32_t> found;
+    for (std::uint32_t index = 0; index < count; ++index) {
+      const std::size_t wanted = std::min<std::size_t>(8, count - 1);
+      tree.nearest(index, wanted, found);
+      ASSERT_EQ(found.size(), wanted);
+      std::vector<double> distances;
+      for (std::uint32_t other = 0; other < count; ++other) {
+        if (other != index) distances.push_back(distance_nm(places[index], places[other]));
+      }
+      std::ranges::sort(distances);
+      for (std::size_t i = 0; i < wanted; ++i) EXPECT_EQ(distance_nm(places[index], places[found[i]]), distances[i]);
+    }
+  }
+}
+
 TEST(Route, holds_each_place_once) {
   for (std::size_t count = 0; count < 40; ++count) {
     const std::vector<DrawnPoint> places = scattered(count, static_cast<unsigned>(count));
@@ -50,8 +75,20 @@ TEST(Route, is_the_shortest_of_all_for_few_places) {
     double best = 1e300;
     do best = std::min(best, route_length(places, order, start, end));
     while (std::ranges::next_permutation(order).found);
-    const double found = route_length(places, shorten_route(places, start, end, 200'000), start, end);
+    const double found =
+        route_length(places, shorten_route(places, start, end, enough_steps(count, 20'000)), start, end);
     EXPECT_LE(found, best * 1.0000001 + 1) << "seed " << seed << ", " << count << " places";
+  }
+}
+
+TEST(Route, of_few_places_gets_no_shorter_by_more_steps) {
+  for (unsigned seed = 0; seed < 10; ++seed) {
+    const std::size_t count = 10 + 5 * seed;
+    const std::vector<DrawnPoint> places = scattered(count, 2000 + seed);
+    const auto found = [&](std::uint64_t steps) {
+      return route_length(places, shorten_route(places, {}, {}, steps), {}, {});
+    };
+    EXPECT_LE(found(enough_steps(count, 20'000)), found(20'000 * count) * 1.001) << count << " places";
   }
 }
 

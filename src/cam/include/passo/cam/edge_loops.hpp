@@ -1,7 +1,7 @@
 // edge_loops: the closed lines of a board's edge drawing, whatever pieces they are drawn in.
 //
 // Closed paths and circles are loops. Open paths are joined end to end: the two nearest free ends first, no two that
-// are farther apart than `join`. Paths that are drawn twice count once.
+// are farther apart than `join`. What is drawn twice, or forth and back, counts once.
 #pragma once
 
 #include <cstdint>

@@ -1,7 +1,8 @@
 // prove_isolation: what the cutters of a plan do to a layer, found without the plan's own geometry.
 //
-// Every run is swept by a disc of the cutter's width, and by as much more as the written program may be off. What the
-// discs reach is milled, the rest of the board's face is copper. The proof compares that with the layer.
+// Every run is swept by a disc of the cutter's width, and by as much more as the written program and the chords of the
+// sweep may be off: 1.7 um to each side, where a plan leaves 3. What the discs reach is milled, the rest of the board's
+// face is copper. The proof compares that with the layer.
 #pragma once
 
 #include <cstddef>

@@ -21,6 +21,9 @@ namespace passo {
 std::vector<std::uint32_t> shorten_route(const std::vector<DrawnPoint>& places, DrawnPoint start, DrawnPoint end,
                                          std::uint64_t steps);
 
+// More steps hardly shorten the route of so many places: `a_place` for each, and fewer where there are few.
+std::uint64_t enough_steps(std::size_t places, std::uint64_t a_place);
+
 // The way from the start through all places in this order to the end, in nanometres.
 double route_length(const std::vector<DrawnPoint>& places, const std::vector<std::uint32_t>& order, DrawnPoint start,
                     DrawnPoint end);

@@ -16,4 +16,7 @@ std::string inline_svg(std::string_view svg, std::string_view name, std::string_
 // The same for a PNG: an element <img> with the bytes inside.
 std::string inline_png(std::string_view png, std::string_view label);
 
+// Any bytes as letters and digits.
+std::string base64(std::string_view bytes);
+
 }  // namespace passo

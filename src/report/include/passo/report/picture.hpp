@@ -1,7 +1,7 @@
 // A picture of the path: an isometric view and a flat view side by side. Feeds are coloured by their real speed, by
 // depth, by tool, or by how much of their torque the motors need.
 //
-// cairo makes both formats from the same drawing. An SVG stays under 10 MB for any recording.
+// Both formats show the same drawing. An SVG stays under 10 MB for any recording.
 #pragma once
 
 #include <cstdint>

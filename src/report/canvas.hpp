@@ -1,7 +1,7 @@
-// Canvas: a few drawing operations over cairo's C interface. Private to report/.
+// Canvas: a few drawing operations, the same for an SVG and a PNG. Private to report/.
 //
-// Coordinates are in units of the picture: x to the right and y down, from the upper left corner. A Canvas owns its
-// surface and context. cairo keeps the first error, and finish() returns it.
+// Coordinates are in units of the picture: x to the right and y down, from the upper left corner. The Ink of the format
+// makes the picture; it keeps its first error, and finish() returns that.
 #pragma once
 
 #include <cstdint>
@@ -13,9 +13,6 @@
 
 #include "passo/report/output_file.hpp"
 #include "passo/report/picture.hpp"
-
-typedef struct _cairo cairo_t;                  // NOLINT: cairo's own names
-typedef struct _cairo_surface cairo_surface_t;  // NOLINT
 
 namespace passo {
 
@@ -55,6 +52,28 @@ struct Font {
   bool bold = false;
 };
 
+// What draws a picture of one format. A path may have several pieces, and is used up by stroke() or fill().
+class Ink {
+ public:
+  virtual ~Ink() = default;
+  virtual void move_to(Spot spot) = 0;
+  virtual void line_to(Spot spot) = 0;
+  virtual void close() = 0;
+  virtual void stroke(const Pen& pen) = 0;
+  // even_odd: a piece in another is a hole.
+  enum class Rule : std::uint8_t { winding, even_odd };
+  virtual void fill(const Colour& colour, double opacity, Rule rule) = 0;
+  virtual void fill_with_speeds(const Area& area) = 0;
+  virtual void disc(Spot centre, double radius, const Colour& colour) = 0;
+  virtual void image(const Area& area, PixelMap map) = 0;
+  // The y of `place` is that of the base line.
+  virtual void text(Spot place, const std::string& text, const Font& font, Align align) = 0;
+  virtual double text_width(const std::string& text, const Font& font) = 0;
+  virtual void clip(const Area& area) = 0;
+  virtual void end_clip() = 0;
+  virtual Status<OutputError> finish() = 0;
+};
+
 class Canvas {
  public:
   Canvas(const PictureOptions& options, OutputFile& file);
@@ -86,21 +105,13 @@ class Canvas {
   void clip(const Area& area);
   void end_clip();
 
-  // Writes what is left. Returns cairo's error, if there was one.
+  // Writes what is left. Returns the first error, if there was one.
   Status<OutputError> finish();
 
  private:
-  struct Free {
-    void operator()(cairo_t* context) const;
-    void operator()(cairo_surface_t* surface) const;
-  };
+  void outline(const Area& area);
 
-  void use(const Font& font);
-
-  PictureFormat format_;
-  OutputFile& file_;
-  std::unique_ptr<cairo_surface_t, Free> surface_;
-  std::unique_ptr<cairo_t, Free> context_;  // must be destroyed before its surface, so it is declared after it
+  std::unique_ptr<Ink> ink_;
 };
 
 }  // namespace passo

@@ -1,0 +1,208 @@
+#include "cairo_ink.hpp"
+
+#include <algorithm>
+#include <string_view>
+#include <utility>
+
+#include "cairo_library.hpp"
+#include "characters.hpp"
+
+namespace passo {
+namespace {
+
+struct CairoEnd {
+  const CairoLibrary* cairo;
+  void operator()(cairo_t* context) const { cairo->cairo_destroy(context); }
+  void operator()(cairo_surface_t* surface) const { cairo->cairo_surface_destroy(surface); }
+  void operator()(cairo_pattern_t* pattern) const { cairo->cairo_pattern_destroy(pattern); }
+  void operator()(cairo_font_options_t* options) const { cairo->cairo_font_options_destroy(options); }
+};
+template <class T>
+using CairoThing = std::unique_ptr<T, CairoEnd>;
+
+cairo_status_t write_to_file(void* file, const unsigned char* bytes, unsigned int count) {
+  auto& output = *static_cast<OutputFile*>(file);
+  output.write({reinterpret_cast<const char*>(bytes), count});
+  return output.failed() ? CAIRO_STATUS_WRITE_ERROR : CAIRO_STATUS_SUCCESS;
+}
+
+cairo_status_t append_to_text(void* text, const unsigned char* bytes, unsigned int count) {
+  static_cast<std::string*>(text)->append(reinterpret_cast<const char*>(bytes), count);
+  return CAIRO_STATUS_SUCCESS;
+}
+
+CairoThing<cairo_surface_t> paper_of(const CairoLibrary& cairo, const PictureOptions& options) {
+  const int scale = options.pixels_per_unit;
+  CairoThing<cairo_surface_t> paper(
+      cairo.cairo_image_surface_create(CAIRO_FORMAT_RGB24, options.width * scale, options.height * scale),
+      CairoEnd{&cairo});
+  cairo.cairo_surface_set_device_scale(paper.get(), scale, scale);
+  return paper;
+}
+
+// Of the pixels in `map`, which outlives the surface.
+CairoThing<cairo_surface_t> surface_of(const CairoLibrary& cairo, PixelMap& map) {
+  auto* const bytes = reinterpret_cast<unsigned char*>(map.pixels.data());
+  const int stride = map.width * static_cast<int>(sizeof(std::uint32_t));
+  return {cairo.cairo_image_surface_create_for_data(bytes, CAIRO_FORMAT_ARGB32, map.width, map.height, stride),
+          CairoEnd{&cairo}};
+}
+
+// File names may hold any bytes. cairo would stop drawing at the first byte that is no character.
+std::string drawable(std::string_view text) {
+  std::string result;
+  while (!text.empty()) {
+    const std::size_t length = character_length(text);
+    result += length > 0 ? text.substr(0, length) : "?";
+    text.remove_prefix(std::max<std::size_t>(length, 1));
+  }
+  return result;
+}
+
+OutputError no_cairo() {
+  return {"cannot draw a PNG: " PASSO_CAIRO_NAME " is not installed; an SVG of lines needs no library"};
+}
+
+class CairoInk final : public Ink {
+ public:
+  CairoInk(const CairoLibrary& cairo, const PictureOptions& options, OutputFile& file)
+      : cairo_(cairo),
+        file_(file),
+        surface_(paper_of(cairo, options)),
+        owned_(cairo.cairo_create(surface_.get()), CairoEnd{&cairo}),
+        context_(owned_.get()) {
+    cairo_.cairo_set_line_cap(context_, CAIRO_LINE_CAP_ROUND);
+    cairo_.cairo_set_line_join(context_, CAIRO_LINE_JOIN_ROUND);
+    // With this, letters keep their shape and distance at any scale.
+    const CairoThing<cairo_font_options_t> letters(cairo_.cairo_font_options_create(), CairoEnd{&cairo});
+    cairo_.cairo_font_options_set_antialias(letters.get(), CAIRO_ANTIALIAS_GRAY);
+    cairo_.cairo_font_options_set_hint_style(letters.get(), CAIRO_HINT_STYLE_NONE);
+    cairo_.cairo_font_options_set_hint_metrics(letters.get(), CAIRO_HINT_METRICS_OFF);
+    cairo_.cairo_set_font_options(context_, letters.get());
+  }
+
+  void move_to(Spot spot) override { cairo_.cairo_move_to(context_, spot.x, spot.y); }
+  void line_to(Spot spot) override { cairo_.cairo_line_to(context_, spot.x, spot.y); }
+  void close() override { cairo_.cairo_close_path(context_); }
+  void stroke(const Pen& pen) override {
+    cairo_.cairo_set_source_rgba(context_, pen.colour.red, pen.colour.green, pen.colour.blue, pen.opacity);
+    cairo_.cairo_set_line_width(context_, pen.width);
+    cairo_.cairo_set_dash(context_, pen.dashes.data(), static_cast<int>(pen.dashes.size()), 0);
+    cairo_.cairo_stroke(context_);
+  }
+  void fill(const Colour& colour, double opacity, Rule rule) override {
+    cairo_.cairo_set_source_rgba(context_, colour.red, colour.green, colour.blue, opacity);
+    cairo_.cairo_set_fill_rule(context_, rule == Rule::even_odd ? CAIRO_FILL_RULE_EVEN_ODD : CAIRO_FILL_RULE_WINDING);
+    cairo_.cairo_fill(context_);
+  }
+
+  void fill_with_speeds(const Area& area) override {
+    const CairoThing<cairo_pattern_t> pattern(cairo_.cairo_pattern_create_linear(area.x, 0, area.right(), 0),
+                                              CairoEnd{&cairo_});
+    for (std::size_t i = 0; i <= SpeedColours::classes; ++i) {
+      const double share = static_cast<double>(i) / SpeedColours::classes;
+      const Colour colour = SpeedColours::at(share);
+      cairo_.cairo_pattern_add_color_stop_rgb(pattern.get(), share, colour.red, colour.green, colour.blue);
+    }
+    cairo_.cairo_set_source(context_, pattern.get());
+    cairo_.cairo_rectangle(context_, area.x, area.y, area.width, area.height);
+    cairo_.cairo_fill(context_);
+  }
+  void disc(Spot centre, double radius, const Colour& colour) override {
+    constexpr double full_turn = 6.283185307179586;
+    cairo_.cairo_set_source_rgb(context_, colour.red, colour.green, colour.blue);
+    cairo_.cairo_new_sub_path(context_);
+    cairo_.cairo_arc(context_, centre.x, centre.y, radius, 0, full_turn);
+    cairo_.cairo_fill(context_);
+  }
+  void image(const Area& area, PixelMap map) override {
+    const CairoThing<cairo_surface_t> image = surface_of(cairo_, map);
+    cairo_.cairo_save(context_);
+    cairo_.cairo_translate(context_, area.x, area.y);
+    cairo_.cairo_scale(context_, area.width / map.width, area.height / map.height);
+    cairo_.cairo_set_source_surface(context_, image.get(), 0, 0);
+    cairo_.cairo_pattern_set_filter(cairo_.cairo_get_source(context_), CAIRO_FILTER_FAST);
+    cairo_.cairo_paint(context_);
+    cairo_.cairo_restore(context_);
+    cairo_.cairo_surface_finish(image.get());
+  }
+
+  void text(Spot place, const std::string& text, const Font& font, Align align) override {
+    const double width = text_width(text, font);
+    const double x = align == Align::left ? place.x : align == Align::centre ? place.x - width / 2 : place.x - width;
+    cairo_.cairo_set_source_rgb(context_, font.colour.red, font.colour.green, font.colour.blue);
+    cairo_.cairo_move_to(context_, x, place.y);
+    cairo_.cairo_show_text(context_, drawable(text).c_str());
+    cairo_.cairo_new_path(context_);
+  }
+  double text_width(const std::string& text, const Font& font) override {
+    cairo_.cairo_select_font_face(context_, "sans-serif", CAIRO_FONT_SLANT_NORMAL,
+                                  font.bold ? CAIRO_FONT_WEIGHT_BOLD : CAIRO_FONT_WEIGHT_NORMAL);
+    cairo_.cairo_set_font_size(context_, font.size);
+    cairo_text_extents_t extents;
+    cairo_.cairo_text_extents(context_, drawable(text).c_str(), &extents);
+    return extents.x_advance;
+  }
+
+  void clip(const Area& area) override {
+    cairo_.cairo_save(context_);
+    cairo_.cairo_rectangle(context_, area.x, area.y, area.width, area.height);
+    cairo_.cairo_clip(context_);
+  }
+  void end_clip() override { cairo_.cairo_restore(context_); }
+
+  Status<OutputError> finish() override {
+    cairo_status_t status = cairo_.cairo_status(context_);
+    if (status == CAIRO_STATUS_SUCCESS) {
+      status = cairo_.cairo_surface_write_to_png_stream(surface_.get(), write_to_file, &file_);
+    }
+    // If the file failed, its commit() explains that better.
+    if (status == CAIRO_STATUS_SUCCESS || file_.failed()) return Unit{};
+    return Failure{OutputError{std::string("cannot draw the picture: ") + cairo_.cairo_status_to_string(status)}};
+  }
+
+ private:
+  const CairoLibrary& cairo_;
+  OutputFile& file_;
+  CairoThing<cairo_surface_t> surface_;
+  CairoThing<cairo_t> owned_;  // must be destroyed before its surface, so it is declared after it
+  cairo_t* context_;
+};
+
+// Where there is no cairo: nothing is drawn, and finish() says so.
+class NoInk final : public Ink {
+ public:
+  void move_to(Spot) override {}
+  void line_to(Spot) override {}
+  void close() override {}
+  void stroke(const Pen&) override {}
+  void fill(const Colour&, double, Rule) override {}
+  void fill_with_speeds(const Area&) override {}
+  void disc(Spot, double, const Colour&) override {}
+  void image(const Area&, PixelMap) override {}
+  void text(Spot, const std::string&, const Font&, Align) override {}
+  double text_width(const std::string&, const Font&) override { return 0; }
+  void clip(const Area&) override {}
+  void end_clip() override {}
+  Status<OutputError> finish() override { return Failure{no_cairo()}; }
+};
+
+}  // namespace
+
+std::unique_ptr<Ink> cairo_ink(const PictureOptions& options, OutputFile& file) {
+  const CairoLibrary* const cairo = late_library<CairoLibrary>();
+  if (cairo == nullptr) return std::make_unique<NoInk>();
+  return std::make_unique<CairoInk>(*cairo, options, file);
+}
+
+Result<std::string, OutputError> png_of(PixelMap map) {
+  const CairoLibrary* const cairo = late_library<CairoLibrary>();
+  if (cairo == nullptr) return Failure{no_cairo()};
+  const CairoThing<cairo_surface_t> image = surface_of(*cairo, map);
+  std::string bytes;
+  const cairo_status_t status = cairo->cairo_surface_write_to_png_stream(image.get(), append_to_text, &bytes);
+  if (status == CAIRO_STATUS_SUCCESS) return bytes;
+  return Failure{OutputError{std::string("cannot draw the picture: ") + cairo->cairo_status_to_string(status)}};
+}
+
+}  // namespace passo
