@@ -200,13 +200,13 @@ constexpr uint8_t most_bytes_at_once = 4;
   SerialLine::drop(taken);
   return taken;
 }
-[[gnu::noinline]] void receive() {
-  board.receive(SerialLine::take());
+[[gnu::noinline]] void receive_other() {
+  board.receive_other(SerialLine::take());
 }
 uint8_t receive_some() {
   if (const uint8_t taken = receive_payload(); taken != 0) return taken;
   SerialLine::breathe();
-  receive();
+  receive_other();
   return 1;
 }
 

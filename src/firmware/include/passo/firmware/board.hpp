@@ -41,15 +41,17 @@ class Board : private BoardVoice<Hardware> {
     list_.clear(places());
   }
 
-  // The main loop's side. Takes a byte off the wire.
+  // The main loop's side. Takes a byte off the wire: by two halves, of which the first also takes several (Decoder).
   void receive(uint8_t byte) {
-    const Decoded decoded = decoder_.feed(byte);
-    if (decoded == Decoded::frame) take(decoder_.frame());
-    if (decoded == Decoded::refused) complain(WireError::bad_frame);
+    if (receive_payload(&byte, 1) == 0) receive_other(byte);
   }
-  // Takes several at once within a payload: Decoder::feed_payload().
   [[gnu::always_inline]] uint8_t receive_payload(const uint8_t* bytes, uint8_t count) {
     return decoder_.feed_payload(bytes, count);
+  }
+  void receive_other(uint8_t byte) {
+    const Decoded decoded = decoder_.feed_other(byte);
+    if (decoded == Decoded::frame) take(decoder_.frame());
+    if (decoded == Decoded::refused) complain(WireError::bad_frame);
   }
   // Whether the host has not been told of some items that were executed or replaced; owed() is about how many.
   bool owes_report() const { return owed_ != 0; }

@@ -2,7 +2,7 @@
 //
 // Invariant: a frame that arrives whole is reported with its last byte, whatever came before it. Every byte costs the
 // same small work, so that a board may read its line between two steps. The bytes inside a payload take a short way
-// (some 45 cycles each on an AVR, and 60 for several), all other bytes another.
+// (on an AVR some 60 cycles for a run of them and 48 for each), all other bytes another.
 //
 // Portable.
 #pragma once
