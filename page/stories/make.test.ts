@@ -25,7 +25,7 @@ describe('a drill file', () => {
     await expect.poll(() => page.getByTestId('make-state').innerText()).toBe('Made');
     const picture = page.getByRole('img', { name: 'What is cut' });
     await picture.waitFor();
-    expect(await picture.evaluate((one) => (one as HTMLImageElement).naturalWidth)).toBeGreaterThan(0);
+    await expect.poll(() => picture.evaluate((one) => (one as HTMLImageElement).naturalWidth)).toBeGreaterThan(0);
     const before = await picture.getAttribute('src');
     await page.getByRole('textbox', { name: 'Depth' }).fill('-3.25');
     await page.getByRole('checkbox', { name: 'Plain moves, no cycles' }).check();

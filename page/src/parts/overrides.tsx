@@ -15,6 +15,8 @@ const bounds: Record<Factor, { least: number; most: number; step: number }> = {
 // What was asked for, until the daemon tells it: fast presses count one upon the other.
 const wanted = signal<Partial<Record<Factor, number>>>({});
 let settle: ReturnType<typeof setTimeout> | undefined;
+// One request after the other: two that are under way together may arrive in the other order.
+let sent: Promise<unknown> = Promise.resolve();
 
 const percentOf = (now: Status, factor: Factor): number => wanted.value[factor] ?? Math.round(now.overrides[factor] * 100);
 
@@ -23,8 +25,11 @@ function set(factor: Factor, percent: number): void {
   const bounded = Math.min(most, Math.max(least, percent));
   wanted.value = { ...wanted.value, [factor]: bounded };
   clearTimeout(settle);
-  settle = setTimeout(() => (wanted.value = {}), 800);
-  void moveAs('/override', { [factor]: bounded / 100 });
+  const last = sent.then(() => moveAs('/override', { [factor]: bounded / 100 }));
+  sent = last;
+  void last.then(() => {
+    if (sent === last) settle = setTimeout(() => (wanted.value = {}), 800);
+  });
 }
 
 const anyState = ['Offline', 'Idle', 'Run', 'Hold', 'Jog', 'Home', 'Probe', 'Tool', 'Line', 'Check', 'Door', 'Sleep'];
