@@ -305,10 +305,13 @@ class AccelerationLaw final : public SpeedLaw {
   }
 
   // To rest within cell i if possible, else through it as slowly as possible. Never faster than without the hold: where
-  // the path rests anyway, rounding leaves no speed.
+  // the path rests anyway, rounding leaves no speed. And where a narrow bend leaves one speed only, a hair more of it, as
+  // the rest of a cell may ask for, is soon too much for any braking.
   Ride shortest_ride(std::size_t i, double entry) const {
     const Ride ride = hardest_braking(cells_[i].cell, cells_.demands(i), cells_.falling(i), entry);
-    return ride.exit > 0 ? Ride{ride.way, std::min(ride.exit, planned_exit(i, entry))} : ride;
+    if (!(ride.exit > 0)) return ride;
+    const double decided = i < decided_ ? cells_[i].decided_exit : ride.exit;
+    return {ride.way, std::min({ride.exit, planned_exit(i, entry), decided})};
   }
 
   // Removes the move's way from the queue. Returns whether the move is complete: at the end of its segment or time.

@@ -30,7 +30,7 @@ constexpr double rounding = 1e-6;  // share of a limit: far above that of double
 // On curves a parabola through each three looks tells what lies between them. Over this turn, in radians, its error is
 // about turn³, a thousandth of the share of the limits that is left for it.
 constexpr double turn_a_look = 0.02;
-constexpr double looked_at = 0.99;
+constexpr double looked_at = 0.999;
 // A piece that turns little still speeds up and slows down: its demands change with the cube of the time at most, which
 // these looks follow. A limit that falls has kinks besides. The last bounds the time: a piece of more turns is rare.
 constexpr int fewest_looks = 12;
@@ -68,13 +68,21 @@ double time_at(const Phase& phase, double s) {
 }  // namespace
 
 std::optional<SpeedChange> SpeedChange::plan(PathAhead& path, const PathState& state, const Request& request) {
+  std::optional<SpeedChange> change = plan(path, state, request, Way::of_one_strength);
+  return change ? change : plan(path, state, request, Way::in_steps);
+}
+
+std::optional<SpeedChange> SpeedChange::plan(PathAhead& path, const PathState& state, const Request& request, Way way) {
   const Segment* first = path.at(state.segment);
   if (first == nullptr) return std::nullopt;
   const Strength most = strength_at(*first, state, request.axes);
   Strength strength = most;
   SpeedChange change;
   for (int trial = 0; trial < most_trials; ++trial) {
-    if (!change.shape(state, request.exit, strength)) return std::nullopt;
+    const Strength share{.acceleration = strength.acceleration / most.acceleration, .jerk = strength.jerk / most.jerk};
+    const bool shaped = way == Way::in_steps ? change.shape_in_steps(path, state, request, strength, share)
+                                             : change.shape(state, request.exit, strength);
+    if (!shaped) return std::nullopt;
     const Laid laid = change.lay(path, state);
     if (laid == Laid::blocked) return std::nullopt;
     Demand worst{.force = laid_badly, .jolt = laid_badly};  // with another strength it ends at another place

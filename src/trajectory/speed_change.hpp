@@ -6,7 +6,8 @@
 //                    \______/
 //
 // The limits along the path change from place to place. So the strength and jerk of the change are lowered until no
-// place asks for too much. A change may not pass a rest of the path.
+// place asks for too much. Where the motion already uses a limit to the full, no such change is possible: then it goes
+// down step by step, in each as far as the places ahead allow. A change may not pass a rest of the path.
 #pragma once
 
 #include <cstdint>
@@ -54,6 +55,7 @@ class SpeedChange {
     double acceleration = 0;
     double jerk = 0;
   };
+  struct Rooms;    // what the axes leave at a place
   struct Demand {  // as multiples of the limits
     double speed = 0;
     double force = 0;
@@ -70,6 +72,11 @@ class SpeedChange {
   };
   static Strength strength_at(const Segment& segment, const PathState& state, const std::vector<LimitedAxis>& axes);
   [[nodiscard]] bool shape(const PathState& state, double exit, const Strength& strength);
+  // `share`: the strength as shares of the limits.
+  [[nodiscard]] bool shape_in_steps(PathAhead& path, const PathState& state, const Request& request,
+                                    const Strength& strength, const Strength& share);
+  enum class Way : std::uint8_t { of_one_strength, in_steps };
+  static std::optional<SpeedChange> plan(PathAhead& path, const PathState& state, const Request& request, Way way);
   void add(double duration, double jerk);
   enum class Laid : std::uint8_t {
     whole,

@@ -251,10 +251,10 @@ TEST(RandomMotion, keeps_limits_and_path_in_spite_of_holds_with_start_stop_veloc
   acts.print();
 }
 
-// A very slow feed with limits of jerk; dust of a rotary axis; an override lowered where the torque leaves no choice; a
-// stop taken back in its last instant, where 1e-16 mm/s were left.
+// A very slow feed with limits of jerk; dust of a rotary axis; an override lowered, and a hold, where the torque leaves
+// no choice; a stop taken back in its last instant, where 1e-16 mm/s were left.
 TEST(RandomMotion, keeps_them_in_programs_that_once_failed) {
-  for (const std::uint64_t number : {1544U, 1673U, 900310U, 811500132U}) {
+  for (const std::uint64_t number : {1544U, 1673U, 900310U, 1500025U, 811500132U}) {
     SCOPED_TRACE("PASSO_SEED=" + std::to_string(number));
     test::Random random = test::Random::of(number);
     const test::RandomJob job(random);

@@ -127,6 +127,46 @@ TEST(HardBraking, comes_to_rest_as_soon_as_without_limits_of_jerk) {
   EXPECT_TRUE(plan.front().ends_at_rest());
 }
 
+// On a circle that is passed as fast as the limits allow, some axis has nothing left for braking in most places. But a
+// moment later another place, or a little less speed, leaves room. Changes of one strength went round to the end.
+TEST(GentleBraking, comes_to_rest_within_half_a_turn_of_a_circle_at_the_limits) {
+  struct Case {
+    double radius, velocity, acceleration, jerk;
+  };
+  for (const Case& one : {Case{8, 500, 800, 10'000}, Case{20, 500, 800, 10'000}, Case{8, 500, 800, 500'000}}) {
+    const double sweep = 8 * std::numbers::pi;
+    const std::vector<PathItem> path{
+        segment_of(Curve::arc(xyz(one.radius, 0), xyz(one.radius, 0), Axis::x, Axis::y, 0, 0, sweep), one.velocity)};
+    const MotionLimits limits = jerk_limits(one.velocity, one.acceleration, one.jerk);
+    ListSource<PathItem> source(path);
+    Planner planner(source, limits);
+    planner.limit_moves_to(Seconds(0.005));
+    std::vector<MotionItem> motion;
+    std::vector<PlannedMove> plan;
+    double worst = 0;
+    MotionItem item;
+    while (planner.next(item)) {
+      motion.push_back(item);
+      if (motion.size() % 5 != 0) continue;
+      const double speed = exit_speed(std::get<PlannedMove>(item));
+      planner.braking_plan(plan);
+      double time = 0;
+      for (const PlannedMove& move : plan) time += move.duration().value();
+      // On a straight line along an axis; and a quarter of a turn.
+      const double straight = speed / one.acceleration + one.acceleration / one.jerk;
+      const double quarter = std::numbers::pi / 2 * one.radius / std::max(speed, 1.0);
+      if (speed > one.velocity / 20) worst = std::max(worst, time / (straight + quarter));
+      if (motion.size() % 25 != 0) continue;
+      std::vector<MotionItem> braked = motion;
+      braked.insert(braked.end(), plan.begin(), plan.end());
+      expect_within_limits(braked, limits);
+      if (testing::Test::HasFatalFailure()) return;
+    }
+    std::printf("R %g: %.3f times a straight line and a quarter of a turn\n", one.radius, worst);
+    EXPECT_LT(worst, 2.2) << "radius " << one.radius << ", jerk " << one.jerk;
+  }
+}
+
 TEST_P(BrakingPlan, knows_a_limit_of_the_speed_for_feeds_and_rapids) {
   SCOPED_TRACE("PASSO_SEED=" + std::to_string(random_.seed()));
   std::vector<PathItem> path{line(xyz(0, 0), xyz(40, 0), 50), line(xyz(40, 0), xyz(40, 40), 50)};
