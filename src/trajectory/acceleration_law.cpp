@@ -305,8 +305,8 @@ class AccelerationLaw final : public SpeedLaw {
   }
 
   // To rest within cell i if possible, else through it as slowly as possible. Never faster than without the hold: where
-  // the path rests anyway, rounding leaves no speed. And where a narrow bend leaves one speed only, a hair more of it, as
-  // the rest of a cell may ask for, is soon too much for any braking.
+  // the path rests anyway, rounding leaves no speed. And where a narrow bend leaves one speed only, a hair more of it,
+  // as the rest of a cell may ask for, is soon too much for any braking.
   Ride shortest_ride(std::size_t i, double entry) const {
     const Ride ride = hardest_braking(cells_[i].cell, cells_.demands(i), cells_.falling(i), entry);
     if (!(ride.exit > 0)) return ride;
