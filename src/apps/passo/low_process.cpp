@@ -38,7 +38,8 @@ void limit(decltype(RLIMIT_CPU) what, rlim_t most) {
   limit(RLIMIT_CPU, LowProcess::most_time);
   limit(RLIMIT_AS, LowProcess::most_memory);
   limit(RLIMIT_FSIZE, LowProcess::longest_file);
-  // A tenth of what others get on a busy computer. At 19 it would be a hundredth: an answer of a second took two minutes.
+  // A tenth of what others get on a busy computer. At 19 it would be a hundredth: an answer of a second took two
+  // minutes.
   setpriority(PRIO_PROCESS, 0, 10);
   execv("/proc/self/exe", pointers.data());
   _exit(127);
