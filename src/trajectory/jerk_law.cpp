@@ -10,6 +10,7 @@
 #include "emergency_brake.hpp"
 #include "jerk_window.hpp"
 #include "shorten.hpp"
+#include "slowed_plan.hpp"
 #include "speed_change.hpp"
 #include "speed_law.hpp"
 
@@ -18,6 +19,10 @@ namespace {
 
 // In seconds, between two places from which braking is tried. A braking plan begins so much too late at most.
 constexpr double between_trials = 0.003;
+
+// After each trial the next one waits for so many times the way so far, until the plan is slower than this share.
+constexpr double later = 1.1;
+constexpr double least_factor = 0.1;
 
 // A share of the time to rest. Another stop must be sooner by this factor, or stops of rounding would replace each
 // other at every move.
@@ -64,7 +69,7 @@ class JerkLaw final : public SpeedLaw {
   }
 
   // The shortest gentle way to rest is a SpeedChange. If none is possible, the motion goes on as planned to a place
-  // where one is, or to rest.
+  // where one is, or to rest. A late stop would take too long to find, because each refill of a board asks for a plan.
   void braking_plan(Planner::Braking how, std::vector<PlannedMove>& plan) override {
     if (how == Planner::Braking::hard && emergency_brake_.plan(path_, now_, plan)) return;
     Outlook outlook{.pieces = given_pieces_};
@@ -196,8 +201,29 @@ class JerkLaw final : public SpeedLaw {
     return SpeedChange::plan(path_, state, {.axes = axes_, .feeds = fastest_, .exit = 0});
   }
 
+  // Where no stop is possible at once: along a plan that gets ever slower, until one is.
+  std::optional<SpeedChange> plan_late_stop() {
+    Outlook outlook{.pieces = given_pieces_};
+    SlowedPlan slowed(axes_, now_);
+    PathState planned = now_;
+    Seconds next_trial(between_trials);
+    PlannedMove move;
+    while (slowed.factor() > least_factor && look_ahead(outlook, planned.segment, move)) {
+      if (move.ends_at_rest() || !slowed.add(move, planned.segment)) break;
+      planned = behind(move, planned.segment);
+      if (slowed.duration() < next_trial) continue;
+      next_trial = Seconds(slowed.duration().value() * later + between_trials);
+      std::optional<SpeedChange> stop = plan_stop(slowed.state());
+      if (!stop) continue;
+      if (stop->lead_by(slowed.pieces(), path_, {.axes = axes_, .feeds = fastest_, .exit = 0})) return stop;
+      break;
+    }
+    return std::nullopt;
+  }
+
   void stop_sooner() {
     std::optional<SpeedChange> stop = plan_stop(now_);
+    if (!stop && !(change_ && change_->exit() == 0)) stop = plan_late_stop();
     if (!stop) return;
     if (change_ && change_->exit() == 0) {
       const Seconds left = (rest_ ? rest_->duration() : Seconds(0)) + change_->duration_from(given_pieces_);

@@ -22,6 +22,10 @@ constexpr double laid_badly = 1.03;
 // The plan before goes on instead. The hardest lowering gets there in 11 trials, so a change has more than twice that.
 constexpr double weakest = 0.02;
 constexpr int most_trials = 30;
+constexpr int most_trials_in_steps = 10;
+// In that trial a change of one strength that still asks for so much too much is hopeless.
+constexpr int hopeless_in = 8;
+constexpr double hopeless = 1.05;
 // A change that leaves less than this share of the speed is a stop in all but name: near the end of a stop, what is
 // left when the acceleration has gone is rounding. From there a plan would creep for ages; from rest it starts at once.
 constexpr double least_left = 1e-3;
@@ -31,11 +35,18 @@ constexpr double rounding = 1e-6;  // share of a limit: far above that of double
 // about turn³, a thousandth of the share of the limits that is left for it.
 constexpr double turn_a_look = 0.02;
 constexpr double looked_at = 0.999;
+// Where the torque falls with the speed, the limit has kinks between the looks.
+constexpr double looked_at_of_falling = 0.99;
+// The profile itself uses up to 0.999 of a limit (share_seen_closely), and so does what is led by pieces of it.
+constexpr double accepted = 1.0005;
 // A piece that turns little still speeds up and slows down: its demands change with the cube of the time at most, which
 // these looks follow. A limit that falls has kinks besides. The last bounds the time: a piece of more turns is rare.
 constexpr int fewest_looks = 12;
 constexpr int fewest_of_falling = 24;
 constexpr int most_looks = 200;
+// A piece shorter than a third of the change has fewer, in proportion.
+constexpr int fewest_of_short = 3;
+constexpr double whole_pieces = 3;
 
 // In mm. What a phase goes beyond a segment's end by rounding: places of up to a metre are 1e-13 apart.
 constexpr double smallest_way = 1e-11;
@@ -78,7 +89,8 @@ std::optional<SpeedChange> SpeedChange::plan(PathAhead& path, const PathState& s
   const Strength most = strength_at(*first, state, request.axes);
   Strength strength = most;
   SpeedChange change;
-  for (int trial = 0; trial < most_trials; ++trial) {
+  const int most_of_way = way == Way::in_steps ? most_trials_in_steps : most_trials;
+  for (int trial = 0; trial < most_of_way; ++trial) {
     const Strength share{.acceleration = strength.acceleration / most.acceleration, .jerk = strength.jerk / most.jerk};
     const bool shaped = way == Way::in_steps ? change.shape_in_steps(path, state, request, strength, share)
                                              : change.shape(state, request.exit, strength);
@@ -94,11 +106,18 @@ std::optional<SpeedChange> SpeedChange::plan(PathAhead& path, const PathState& s
         return change;
       }
     }
+    if (trial >= hopeless_in && worst.jolt > hopeless) break;
     if (worst.force > 1) strength.acceleration *= std::clamp(1 / worst.force, most_lowering, least_lowering);
     if (worst.jolt > 1) strength.jerk *= std::clamp(1 / worst.jolt, most_lowering, least_lowering);
     if (strength.acceleration < weakest * most.acceleration || strength.jerk < weakest * most.jerk) break;
   }
   return std::nullopt;
+}
+
+bool SpeedChange::lead_by(const std::vector<Piece>& pieces, PathAhead& path, const Request& request) {
+  pieces_.insert(pieces_.begin(), pieces.begin(), pieces.end());
+  const Demand worst = excess(path, request);
+  return worst.speed <= 1 && worst.force <= accepted && worst.jolt <= accepted;
 }
 
 SpeedChange::Strength SpeedChange::strength_at(const Segment& segment, const PathState& state,
@@ -188,9 +207,10 @@ SpeedChange::Laid SpeedChange::lay(PathAhead& path, const PathState& state) {
 
 SpeedChange::Demand SpeedChange::excess(PathAhead& path, const Request& request) const {
   Excess worst;
+  const Seconds whole = duration_from(0);
   for (const Piece& piece : pieces_) {
     const Segment& segment = *path.at(piece.segment);
-    look_over(piece, segment, request, worst);
+    look_over(piece, piece.phase.duration / whole, segment, request, worst);
     if (!piece.ends_segment) continue;
     // The profile passes a place slowly where the path's bend jumps. So does the change.
     const Segment& after = *path.at(piece.segment + 1);
@@ -204,7 +224,8 @@ SpeedChange::Demand SpeedChange::excess(PathAhead& path, const Request& request)
   return worst.most;
 }
 
-void SpeedChange::look_over(const Piece& piece, const Segment& segment, const Request& request, Excess& worst) {
+void SpeedChange::look_over(const Piece& piece, double part, const Segment& segment, const Request& request,
+                            Excess& worst) {
   const Phase& phase = piece.phase;
   const double time = phase.duration.value();
   const double way = phase.position_at(phase.duration).value() - phase.start.value();
@@ -212,7 +233,9 @@ void SpeedChange::look_over(const Piece& piece, const Segment& segment, const Re
   int count = 1;  // on a line the demand is greatest at an end or where the phase turns
   if (falls || segment.curve.shape() != Curve::Shape::line) {
     const double by_turn = std::ceil(way * segment.curve.curvature() / turn_a_look);
-    count = static_cast<int>(std::clamp<double>(by_turn, falls ? fewest_of_falling : fewest_looks, most_looks));
+    const int fewest = falls ? fewest_of_falling : fewest_looks;
+    const double of_part = std::clamp<double>(whole_pieces * part * fewest, fewest_of_short, fewest);
+    count = static_cast<int>(std::clamp<double>(by_turn, std::ceil(of_part), most_looks));
   }
   std::array<Look, 3> looks;
   for (std::size_t k = 0; k <= static_cast<std::size_t>(count); ++k) {
@@ -260,7 +283,7 @@ SpeedChange::Look SpeedChange::look_at(const Piece& piece, const Segment& segmen
   const Point first = segment.curve.tangent(s);
   const Point second = segment.curve.second_derivative(s);
   const Point third = segment.curve.third_derivative(s);
-  const double share = segment.curve.shape() == Curve::Shape::line ? 1 + rounding : looked_at;
+  const bool is_line = segment.curve.shape() == Curve::Shape::line;
   Look look;
   look.count = axes.size();
   for (std::size_t k = 0; k < axes.size(); ++k) {
@@ -268,6 +291,8 @@ SpeedChange::Look SpeedChange::look_at(const Piece& piece, const Segment& segmen
     const double q1 = first.values[axis.index];
     const double q2 = second.values[axis.index];
     const double q3 = third.values[axis.index];
+    const double seen = axis.falling != nullptr ? looked_at_of_falling : looked_at;
+    const double share = is_line ? 1 + rounding : seen;
     look.axes[k] = {.speed = q1 * v / axis.velocity * (1 - rounding),
                     .force = (q1 * a + q2 * v * v) / (axis.acceleration_at(q1 * q1 * v * v) * share),
                     .jolt = (q1 * j + 3 * q2 * v * a + q3 * v * v * v) / (axis.jerk * share)};

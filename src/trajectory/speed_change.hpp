@@ -40,6 +40,9 @@ class SpeedChange {
   // Plans the change from `state` on. Returns nothing where the limits do not allow one.
   static std::optional<SpeedChange> plan(PathAhead& path, const PathState& state, const Request& request);
 
+  // Lets these pieces go before. Returns whether all of it keeps the limits.
+  [[nodiscard]] bool lead_by(const std::vector<Piece>& pieces, PathAhead& path, const Request& request);
+
   const std::vector<Piece>& pieces() const { return pieces_; }
   double exit() const { return exit_; }
   // The time of the pieces from that one on.
@@ -85,7 +88,8 @@ class SpeedChange {
   };
   Laid lay(PathAhead& path, const PathState& state);
   Demand excess(PathAhead& path, const Request& request) const;
-  static void look_over(const Piece& piece, const Segment& segment, const Request& request, Excess& worst);
+  // `part`: of the time of the whole change.
+  static void look_over(const Piece& piece, double part, const Segment& segment, const Request& request, Excess& worst);
   static Look look_at(const Piece& piece, const Segment& segment, const std::vector<LimitedAxis>& axes, double time);
 
   std::vector<Phase> phases_;  // starts count from the start of the change
