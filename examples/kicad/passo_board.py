@@ -7,6 +7,7 @@ PASSO         the program, if it is not in the path
 PASSO_OPTIONS further options, as "-m /home/me/router.toml --profile /home/me/board.toml"
 """
 import os
+import pathlib
 import shlex
 import subprocess
 import webbrowser
@@ -14,10 +15,12 @@ import webbrowser
 
 def make(board_file, run=subprocess.run):
     """Makes the programs beside the board. Returns the page that says what to do when, and what the command said."""
+    if not board_file:
+        raise RuntimeError("The board has no file yet: save it first.")
     folder = os.path.splitext(board_file)[0] + "-passo"
     command = [os.environ.get("PASSO", "passo"), "cam", "board", board_file, "-o", folder]
     done = run(command + shlex.split(os.environ.get("PASSO_OPTIONS", "")), stdout=subprocess.PIPE,
-               stderr=subprocess.STDOUT, universal_newlines=True)
+               stderr=subprocess.STDOUT, encoding="utf-8", errors="replace")
     if done.returncode != 0:
         raise RuntimeError(done.stdout)
     return os.path.join(folder, "board.html"), done.stdout
@@ -43,8 +46,8 @@ else:
             try:
                 page, _ = make(board_file)
             except (OSError, RuntimeError) as problem:
-                wx.MessageBox(str(problem), "Passo", wx.ICON_ERROR)
+                wx.MessageBox(str(problem), "Passo", wx.OK | wx.ICON_ERROR)
                 return
-            webbrowser.open("file://" + os.path.abspath(page))
+            webbrowser.open(pathlib.Path(page).resolve().as_uri())
 
     PassoBoard().register()

@@ -24,7 +24,8 @@ class JobReader {
   explicit JobReader(Diagnostics& diagnostics) : diagnostics_(diagnostics) {}
 
   void read(const std::string& path);
-  BoardJob take();
+  // `path`: what the job is called where nothing is in it.
+  BoardJob take(const std::string& path);
 
  private:
   void read_folder(const std::string& path);
@@ -114,7 +115,7 @@ void JobReader::add_kicad(const std::string& name, const std::string& bytes) {
   KicadBoard board = read_kicad_board(name, bytes, diagnostics_);
   const auto add_layer = [&](const std::string& layer, BoardFileKind kind, GerberLayer content) {
     kind.told_by = "content";
-    job_.files.push_back({name + ": " + layer, kind, std::move(content), {}});
+    job_.files.push_back({name + ": " + layer, kind, std::move(content), {}, name});
   };
   std::uint32_t number = 0;  // as in the attributes of Gerber files
   for (KicadLayer& one : board.copper) {
@@ -128,10 +129,10 @@ void JobReader::add_kicad(const std::string& name, const std::string& bytes) {
   if (!board.edge.strokes.paths.empty()) add_layer("Edge.Cuts", {BoardRole::outline}, std::move(board.edge));
   if (board.drills.holes.empty() && board.drills.paths.empty()) return;
   job_.files.push_back(
-      {name + ": holes", {BoardRole::drill, BoardSide::both, 0, "content"}, {}, std::move(board.drills)});
+      {name + ": holes", {BoardRole::drill, BoardSide::both, 0, "content"}, {}, std::move(board.drills), name});
 }
 
-BoardJob JobReader::take() {
+BoardJob JobReader::take(const std::string& path) {
   // Copper from the top down, then what lies on it, then what is unknown.
   const auto rank = [](const BoardFile& file) {
     constexpr int sides[] = {3, 0, 2, 1};
@@ -142,7 +143,7 @@ BoardJob JobReader::take() {
   std::stable_sort(job_.files.begin(), job_.files.end(),
                    [&](const BoardFile& a, const BoardFile& b) { return rank(a) < rank(b); });
   if (job_.files.empty() && !diagnostics_.any_error()) {
-    diagnostics_.add(of_file("board.no-layers", job_.left_out.empty() ? "" : job_.left_out.front(),
+    diagnostics_.add(of_file("board.no-layers", job_.left_out.empty() ? path : job_.left_out.front(),
                              "there is neither a Gerber file, nor a drill file, nor a board of KiCad",
                              "what the layout program exports"));
   }
@@ -154,7 +155,23 @@ BoardJob JobReader::take() {
 BoardJob read_board_job(const std::vector<std::string>& paths, Diagnostics& diagnostics) {
   JobReader reader(diagnostics);
   for (const std::string& path : paths) reader.read(path);
-  return reader.take();
+  return reader.take(paths.empty() ? "" : paths.front());
+}
+
+void refuse_two_boards(const BoardJob& job, Diagnostics& diagnostics) {
+  const auto is_used = [](const BoardFile& file) {
+    return file.kind.role == BoardRole::drill || file.kind.role == BoardRole::outline ||
+           (file.kind.role == BoardRole::copper && file.kind.side != BoardSide::inner);
+  };
+  const auto whole =
+      std::ranges::find_if(job.files, [&](const BoardFile& file) { return is_used(file) && !file.board.empty(); });
+  if (whole == job.files.end()) return;
+  const auto other = std::ranges::find_if(
+      job.files, [&](const BoardFile& file) { return is_used(file) && file.board != whole->board; });
+  if (other == job.files.end()) return;
+  diagnostics.add(of_file("board.two-boards", other->name,
+                          fmt::format("this is not of '{}', which is a whole board", whole->board),
+                          "one board: the file of KiCad, or the folder with its layers"));
 }
 
 Region board_face(const BoardJob& job) {

@@ -2,6 +2,7 @@
 #include "passo/cam/region.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <iterator>
 #include <limits>
 
@@ -30,6 +31,13 @@ clipper::Paths paths_of(const std::vector<DrawnRing>& rings) {
   clipper::Paths paths;
   paths.reserve(rings.size());
   for (const DrawnRing& ring : rings) paths.push_back(path_of(ring));
+  return paths;
+}
+
+clipper::Paths paths_of(const std::vector<DrawnRing>& rings, const std::vector<std::size_t>& chosen) {
+  clipper::Paths paths;
+  paths.reserve(chosen.size());
+  for (const std::size_t i : chosen) paths.push_back(path_of(rings[i]));
   return paths;
 }
 
@@ -88,21 +96,77 @@ Region combined(clipper::ClipType how, clipper::Paths a, clipper::Paths b) {
   });
 }
 
-Region offset(const clipper::Paths& paths, clipper::EndType end, double distance, Nanometres tolerance) {
-  // Clipper rounds the number of an arc's chords down by up to a half: a chord may be up to 1.5 times as long as asked
-  // for, and then lies 2.25 times as far from the arc.
-  constexpr double chords_left_out = 2.25;
-  constexpr double least_tolerance = 10;  // nm
-  const Nanometres reach{static_cast<std::int64_t>(2 * std::max(distance, 0.0)) + 2};
-  return by_groups(paths, reach, [&](const std::vector<std::size_t>& group) {
+// Moves the edges of paths outwards by a distance, all with one arc tolerance.
+class Growth {
+ public:
+  Growth(double distance, Nanometres tolerance) : distance_(distance) {
+    // Clipper rounds the number of an arc's chords down by up to a half: a chord may be up to 1.5 times as long as
+    // asked for, and then lies 2.25 times as far from the arc.
+    constexpr double chords_left_out = 2.25;
+    constexpr double least_tolerance = 10;  // nm
+    arc_tolerance_ = std::max(least_tolerance, static_cast<double>(tolerance.count)) / chords_left_out;
+  }
+
+  clipper::Paths of_way(const DrawnRing& way) const { return grown({path_of(way)}, clipper::etOpenRound); }
+
+  Region of(const std::vector<DrawnRing>& rings) const {
+    const Nanometres reach{static_cast<std::int64_t>(2 * std::max(distance_, 0.0)) + 2};
+    return by_groups(paths_of(rings), reach, [&](const std::vector<std::size_t>& group) {
+      std::size_t corners = 0;
+      for (const std::size_t i : group) corners += rings[i].size();
+      constexpr std::size_t many = 20'000;
+      return corners < many ? grown(paths_of(rings, group), clipper::etClosedPolygon) : of_many(rings, group);
+    });
+  }
+
+ private:
+  clipper::Paths grown(const clipper::Paths& paths, clipper::EndType end) const {
     clipper::ClipperOffset growth;
-    growth.ArcTolerance = std::max(least_tolerance, static_cast<double>(tolerance.count)) / chords_left_out;
-    for (const std::size_t i : group) growth.AddPath(paths[i], clipper::jtRound, end);
+    growth.ArcTolerance = arc_tolerance_;
+    growth.AddPaths(paths, clipper::jtRound, end);
     clipper::Paths found;
-    growth.Execute(found, distance);
+    growth.Execute(found, distance_);
     return found;
-  });
-}
+  }
+
+  // A sweep takes as long as its corners times the edges beside them. So rings whose edges are apart are grown on their
+  // own, even if one is around the other. What shrinks does not meet other parts.
+  clipper::Paths of_many(const std::vector<DrawnRing>& rings, const std::vector<std::size_t>& group) const {
+    std::vector<Region> parts(1);
+    for (const std::size_t i : group) parts.front().rings.push_back(rings[i]);
+    if (distance_ < 0) parts = parts_of(parts.front());
+    clipper::Paths all;
+    const Nanometres reach{static_cast<std::int64_t>(2 * std::abs(distance_)) + 4};
+    for (const Region& part : parts) {
+      for (const std::vector<std::size_t>& near : groups_of_edges_apart(part, reach)) {
+        clipper::Paths found = of_part(paths_of(part.rings, near), 2 * reach.count);
+        std::ranges::move(found, std::back_inserter(all));
+      }
+    }
+    return all;
+  }
+
+  // If these rings lie in another ring, a hole is leftmost of them: a frame stands for the other ring.
+  clipper::Paths of_part(clipper::Paths paths, clipper::cInt away) const {
+    const auto left = [](const clipper::Path& path) { return std::ranges::min(path, {}, &clipper::IntPoint::X).X; };
+    if (clipper::Orientation(*std::ranges::min_element(paths, {}, left))) return grown(paths, clipper::etClosedPolygon);
+    clipper::IntRect box = {paths[0][0].X, paths[0][0].Y, paths[0][0].X, paths[0][0].Y};
+    for (const clipper::Path& path : paths) {
+      for (const clipper::IntPoint& point : path) {
+        box = {std::min(box.left, point.X), std::min(box.top, point.Y), std::max(box.right, point.X),
+               std::max(box.bottom, point.Y)};
+      }
+    }
+    box = {box.left - away, box.top - away, box.right + away, box.bottom + away};
+    paths.push_back({{box.left, box.top}, {box.right, box.top}, {box.right, box.bottom}, {box.left, box.bottom}});
+    clipper::Paths found = grown(paths, clipper::etClosedPolygon);
+    found.erase(std::ranges::min_element(found, {}, left));
+    return found;
+  }
+
+  double distance_;
+  double arc_tolerance_;
+};
 
 // Whether the point is inside the ring (1), outside (0) or on its rim (-1).
 int place_of(DrawnPoint point, const DrawnRing& ring) {
@@ -174,17 +238,15 @@ Region common(const Region& a, const Region& b) {
 
 Region grown(const Region& region, Nanometres distance, Nanometres tolerance) {
   if (region.empty() || distance.count == 0) return region;
-  return offset(paths_of(region.rings), clipper::etClosedPolygon, static_cast<double>(bounded(distance)), tolerance);
+  return Growth(static_cast<double>(bounded(distance)), tolerance).of(region.rings);
 }
 
 Region swept(const std::vector<DrawnRing>& ways, Nanometres radius, Nanometres tolerance) {
   if (radius.count <= 0) return {};
   // Each way on its own: where it turns, its rims cross themselves, and a sweep over all ways would pass all crossings.
+  const Growth growth(static_cast<double>(bounded(radius)), tolerance);
   clipper::Paths milled;
-  for (const DrawnRing& way : ways) {
-    const Region one = offset({path_of(way)}, clipper::etOpenRound, static_cast<double>(bounded(radius)), tolerance);
-    for (const DrawnRing& ring : one.rings) milled.push_back(path_of(ring));
-  }
+  for (const DrawnRing& way : ways) std::ranges::move(growth.of_way(way), std::back_inserter(milled));
   return ways.size() == 1 ? Region{rings_of(milled)} : combined(clipper::ctUnion, std::move(milled), {});
 }
 

@@ -1,32 +1,32 @@
 #include "ring_groups.hpp"
 
 #include <algorithm>
+#include <cstdint>
 #include <numeric>
 
+#include "edge_grid.hpp"
+
 namespace passo {
+
+IndexGroups::IndexGroups(std::size_t count) : up_(count) {
+  std::iota(up_.begin(), up_.end(), std::size_t{0});
+}
+
+std::size_t IndexGroups::of(std::size_t index) {
+  while (up_[index] != index) index = up_[index] = up_[up_[index]];
+  return index;
+}
+
+void IndexGroups::join(std::size_t a, std::size_t b) {
+  a = of(a);
+  b = of(b);
+  up_[std::max(a, b)] = std::min(a, b);
+}
+
 namespace {
 
-// Which group each box is of, as a forest: a group is named after its least index.
-class Groups {
- public:
-  explicit Groups(std::size_t count) : up_(count) { std::iota(up_.begin(), up_.end(), std::size_t{0}); }
-
-  std::size_t of(std::size_t index) {
-    while (up_[index] != index) index = up_[index] = up_[up_[index]];
-    return index;
-  }
-  void join(std::size_t a, std::size_t b) {
-    a = of(a);
-    b = of(b);
-    up_[std::max(a, b)] = std::min(a, b);
-  }
-
- private:
-  std::vector<std::size_t> up_;
-};
-
 // Joins boxes that are within reach. False: given up, as too many lie side by side.
-bool join_near(const std::vector<DrawnBox>& boxes, Nanometres reach, Groups& groups) {
+bool join_near(const std::vector<DrawnBox>& boxes, Nanometres reach, IndexGroups& groups) {
   constexpr std::size_t most_looks = 200;  // for each box
   std::vector<std::size_t> by_left(boxes.size());
   std::iota(by_left.begin(), by_left.end(), std::size_t{0});
@@ -48,14 +48,39 @@ bool join_near(const std::vector<DrawnBox>& boxes, Nanometres reach, Groups& gro
   return true;
 }
 
-}  // namespace
+// Joins rings whose edges are within reach. Where edges do not cross, one of them is nearest at its end, which is a
+// corner. False: given up, as before.
+bool join_near_edges(const Region& region, Nanometres reach, IndexGroups& groups) {
+  constexpr Nanometres least_cell{200'000};
+  constexpr std::uint64_t most_looks = 2'000;  // for each corner
+  const std::vector<DrawnRing>& rings = region.rings;
+  const DrawnBox all = bounds(region).value_or(DrawnBox{});
+  EdgeGrid grid(all, std::max(reach, least_cell));
+  for (std::size_t k = 0; k < rings.size(); ++k) grid.add(rings[k], static_cast<std::uint32_t>(k));
+  grid.finish();
+  const auto near = static_cast<double>(reach.count);
+  std::uint64_t looks = 0;
+  std::uint64_t allowed = 0;
+  for (std::size_t k = 0; k < rings.size(); ++k) {
+    for (const DrawnPoint& point : rings[k]) {
+      grid.for_near(point, point, near, [&](std::uint32_t index) {
+        ++looks;
+        const EdgeGrid::Edge& edge = grid.edge(index);
+        if (edge.owner == k || groups.of(edge.owner) == groups.of(k)) return;
+        if (EdgeGrid::to_edge(point, edge).distance_nm <= near) groups.join(k, edge.owner);
+      });
+      allowed += most_looks;
+      if (looks > allowed) return false;
+    }
+  }
+  return true;
+}
 
-std::vector<std::vector<std::size_t>> groups_apart(const std::vector<DrawnBox>& boxes, Nanometres reach) {
+// The groups as lists of indices, in the order of their first.
+std::vector<std::vector<std::size_t>> listed(IndexGroups& groups, std::size_t count, bool are_told) {
   std::vector<std::vector<std::size_t>> found;
-  Groups groups(boxes.size());
-  const bool are_told = join_near(boxes, reach, groups);
-  std::vector<std::size_t> place(boxes.size());  // in `found`, of each group's first
-  for (std::size_t i = 0; i < boxes.size(); ++i) {
+  std::vector<std::size_t> place(count);  // in `found`, of each group's first
+  for (std::size_t i = 0; i < count; ++i) {
     const std::size_t first = are_told ? groups.of(i) : 0;
     if (first == i) {
       place[i] = found.size();
@@ -64,6 +89,21 @@ std::vector<std::vector<std::size_t>> groups_apart(const std::vector<DrawnBox>& 
     found[place[first]].push_back(i);
   }
   return found;
+}
+
+}  // namespace
+
+std::vector<std::vector<std::size_t>> groups_apart(const std::vector<DrawnBox>& boxes, Nanometres reach) {
+  IndexGroups groups(boxes.size());
+  const bool are_told = join_near(boxes, reach, groups);
+  return listed(groups, boxes.size(), are_told);
+}
+
+std::vector<std::vector<std::size_t>> groups_of_edges_apart(const Region& region, Nanometres reach) {
+  if (region.empty()) return {};
+  IndexGroups groups(region.rings.size());
+  const bool are_told = join_near_edges(region, reach, groups);
+  return listed(groups, region.rings.size(), are_told);
 }
 
 }  // namespace passo

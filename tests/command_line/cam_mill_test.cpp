@@ -211,6 +211,76 @@ TEST_F(CamMill, the_probe_finds_a_board_that_was_turned_over_and_its_heights) {
   EXPECT_EQ(cam("board " + path("board-F_Cu.gbr") + " --heights 1x900 -o " + path("job")).code, 2);
 }
 
+TEST_F(CamMill, a_job_takes_the_place_of_the_one_before_it_and_only_as_a_whole) {
+  const std::string job = copper() + " " + edge() + " " + drills();
+  const auto names = [&] {
+    std::vector<std::string> found;
+    for (const auto& entry : std::filesystem::directory_iterator(path("job"))) found.push_back(entry.path().filename());
+    return found;
+  };
+  EXPECT_EQ(cam("board " + job + " --heights 4 -o " + path("job")).code, 2);
+  EXPECT_FALSE(std::filesystem::exists(path("job")));
+  EXPECT_EQ(cam("board " + job + " --heights 3x3 -o " + path("job")).code, 0);
+  write("job/heights-front.csv", "0,0,0\n");
+  const auto before = names();
+  EXPECT_THAT(before, testing::Contains("4-outline.ngc"));
+  EXPECT_EQ(cam("board " + job + " --heights 4 -o " + path("job")).code, 2);
+  EXPECT_THAT(names(), testing::UnorderedElementsAreArray(before));
+  EXPECT_EQ(cam("board " + job + " -o " + path("job")).code, 0);
+  EXPECT_THAT(names(), testing::UnorderedElementsAre("1-drill.ngc", "1-drill.svg", "2-isolate-front.ngc",
+                                                     "2-isolate-front.svg", "3-outline.ngc", "3-outline.svg",
+                                                     "board.html", "board.svg", "heights-front.csv"));
+}
+
+TEST_F(CamMill, layers_of_two_boards_are_told) {
+  const std::string twice = copper() + " " + copper("other-F_Cu.gbr");
+  const Outcome both = cam("board " + twice + " -o " + path("job"));
+  EXPECT_EQ(both.code, 0);
+  EXPECT_THAT(both.err, HasSubstr("are both top copper"));
+  const Outcome one = cam("board " + twice + " --as other-F_Cu.gbr=nothing -o " + path("job"));
+  EXPECT_THAT(one.err, Not(HasSubstr("are both")));
+  const std::string kicad = write("a.kicad_pcb",
+                                  "(kicad_pcb (layers (0 \"F.Cu\" signal))\n(segment (start 1 1) (end 9 1) "
+                                  "(width 0.5) (layer \"F.Cu\") (net 1)))\n");
+  const Outcome mixed = cam("board " + kicad + " " + copper() + " -o " + path("mixed"));
+  EXPECT_EQ(mixed.code, 2);
+  EXPECT_THAT(mixed.err, HasSubstr("[board.two-boards]"));
+  EXPECT_FALSE(std::filesystem::exists(path("mixed")));
+}
+
+// With a KiCad of a few lines: the button makes the programs and opens their page, or shows why not.
+TEST_F(CamMill, the_plugin_of_kicad_makes_the_programs_of_the_open_board) {
+  if (std::system("python3 -c 1") != 0) GTEST_SKIP() << "no python3";
+  write("my board.kicad_pcb",
+        "(kicad_pcb (layers (0 \"F.Cu\" signal))\n(segment (start 1 1) (end 9 1) (width 0.5) (layer "
+        "\"F.Cu\") (net 1)))\n");
+  const std::string kicad = write("kicad.py", R"(
+import runpy, sys, types, webbrowser
+plugins = []
+class ActionPlugin:
+    def register(self):
+        self.defaults()
+        plugins.append(self)
+board = types.SimpleNamespace(GetFileName=lambda: name)
+sys.modules["pcbnew"] = types.SimpleNamespace(ActionPlugin=ActionPlugin, GetBoard=lambda: board)
+sys.modules["wx"] = types.SimpleNamespace(OK=4, ICON_ERROR=512, MessageBox=lambda words, title, style: print("box:", words))
+webbrowser.open = lambda address: print("opened:", address)
+runpy.run_path(sys.argv[1], run_name="passo_board")
+for name in sys.argv[2:]:
+    plugins[0].Run()
+)");
+  const std::string command = "PASSO=" PASSO_PROGRAM " python3 " + kicad + " " + std::string(PASSO_SOURCE_DIR) +
+                              "/examples/kicad/passo_board.py '" + path("my board.kicad_pcb") + "' '" +
+                              path("none.kicad_pcb") + "' '' >" + path("said") + " 2>&1";
+  EXPECT_EQ(std::system(command.c_str()), 0);
+  const std::string said = read(path("said"));
+  EXPECT_THAT(said, HasSubstr("opened: file://"));
+  EXPECT_THAT(said, HasSubstr("my%20board-passo/board.html\n"));
+  EXPECT_THAT(said, HasSubstr("none.kicad_pcb: error: cannot be read"));
+  EXPECT_THAT(said, HasSubstr("box: The board has no file yet"));
+  EXPECT_TRUE(std::filesystem::exists(path("my board-passo/1-isolate-front.ngc")));
+}
+
 TEST_F(CamMill, a_board_without_an_edge_is_not_cut_out) {
   copper();
   write("board-Edge_Cuts.gbr", "%TF.FileFunction,Profile,NP*%\n" + std::string(begin) + "M02*\n");

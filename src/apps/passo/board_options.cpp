@@ -1,6 +1,8 @@
 #include "board_options.hpp"
 
-#include "command_words.hpp"
+#include <array>
+
+#include "commands.hpp"
 #include "number_range.hpp"
 #include <CLI/CLI.hpp>
 
@@ -23,68 +25,77 @@ constexpr const char* examples = R"(Examples:
 
 Wiring, and a first start without motors: docs/boards.md.)";
 
-}  // namespace
-
-CLI::App& add_board_command(CLI::App& app, const std::vector<std::string>& words, BoardArguments& arguments) {
-  CLI::App& board = *app.add_subcommand("board", "find, flash, ask and watch boards");
-  if (!is_named(board, words)) return board;
-  board.require_subcommand(1);
-  board.footer(examples);
-
-  CLI::App& list = *board.add_subcommand("list", "what is on the serial lines");
-  list.add_option("DEVICE", arguments.list.devices, "these only, as /dev/ttyUSB0");
-  list.add_option("--wait", arguments.list.wait, "seconds for each: an Arduino that is opened starts anew")
+void add_board_list_options(CLI::App& command, BoardListArguments& arguments) {
+  command.add_option("DEVICE", arguments.devices, "these only, as /dev/ttyUSB0");
+  command.add_option("--wait", arguments.wait, "seconds for each: an Arduino that is opened starts anew")
       ->check(number_range(0.05, 60.0))
       ->capture_default_str();
-  list.add_flag("--json", arguments.list.json, "print it as JSON");
-  list.callback([&arguments] { arguments.chosen = [&arguments] { return board_list(arguments.list); }; });
+  command.add_flag("--json", arguments.json, "print it as JSON");
+}
 
-  CLI::App& info = *board.add_subcommand("info", "what a board is, and how it is");
-  info.add_option("BOARD", arguments.info.board, address)->required();
-  info.add_option("--wait", arguments.info.wait, "seconds for an answer")
+void add_board_info_options(CLI::App& command, BoardInfoArguments& arguments) {
+  command.add_option("BOARD", arguments.board, address)->required();
+  command.add_option("--wait", arguments.wait, "seconds for an answer")
       ->check(number_range(0.05, 60.0))
       ->capture_default_str();
-  info.add_flag("--json", arguments.info.json, "print it as JSON");
-  info.callback([&arguments] { arguments.chosen = [&arguments] { return board_info(arguments.info); }; });
+  command.add_flag("--json", arguments.json, "print it as JSON");
+}
 
-  CLI::App& monitor = *board.add_subcommand("monitor", "a board's inputs, state and step counters, live");
-  monitor.add_option("BOARD", arguments.monitor.board, address)->required();
-  monitor.add_option("--every", arguments.monitor.every, "seconds between two looks")
+void add_board_monitor_options(CLI::App& command, BoardMonitorArguments& arguments) {
+  command.add_option("BOARD", arguments.board, address)->required();
+  command.add_option("--every", arguments.every, "seconds between two looks")
       ->check(number_range(0.01, 3600.0))
       ->capture_default_str();
-  monitor.add_option("--count", arguments.monitor.count, "so many looks; 0: until Ctrl-C")->capture_default_str();
-  monitor.add_flag("--json", arguments.monitor.json, "a JSON object a line");
-  monitor.callback([&arguments] { arguments.chosen = [&arguments] { return board_monitor(arguments.monitor); }; });
+  command.add_option("--count", arguments.count, "so many looks; 0: until Ctrl-C")->capture_default_str();
+  command.add_flag("--json", arguments.json, "a JSON object a line");
+}
 
+void add_board_flash_options(CLI::App& command, BoardFlashArguments& arguments) {
   const std::vector<std::string> names(emulated_boards.begin(), emulated_boards.end());
-  CLI::App& flash = *board.add_subcommand("flash", "put Passo's firmware on a board: by avrdude, on a Pico by copying");
-  flash.add_option("BOARD", arguments.flash.board, "what it is")->required()->check(CLI::IsMember(names));
-  flash.add_option("-d,--device", arguments.flash.device,
-                   "its serial line, as /dev/ttyACM0; a Pico's drive, if there are several");
-  flash.add_option("--image", arguments.flash.image,
-                   "Intel hex, or of a Pico UF2; without it what was built with this program");
-  flash.add_option("--backup", arguments.flash.backup,
-                   "where what it holds now is kept; without it passo-backup-BOARD.hex");
-  flash.add_option("--programmer", arguments.flash.programmer, "avrdude's -c; without it the board's boot loader");
-  flash.add_option("--baud", arguments.flash.baud, "of the boot loader")->capture_default_str();
-  flash.add_flag("--dry-run", arguments.flash.dry_run, "only say what would be done");
-  flash.callback([&arguments] { arguments.chosen = [&arguments] { return board_flash(arguments.flash); }; });
+  command.add_option("BOARD", arguments.board, "what it is")->required()->check(CLI::IsMember(names));
+  command.add_option("-d,--device", arguments.device,
+                     "its serial line, as /dev/ttyACM0; a Pico's drive, if there are several");
+  command.add_option("--image", arguments.image,
+                     "Intel hex, or of a Pico UF2; without it what was built with this program");
+  command.add_option("--backup", arguments.backup,
+                     "where what it holds now is kept; without it passo-backup-BOARD.hex");
+  command.add_option("--programmer", arguments.programmer, "avrdude's -c; without it the board's boot loader");
+  command.add_option("--baud", arguments.baud, "of the boot loader")->capture_default_str();
+  command.add_flag("--dry-run", arguments.dry_run, "only say what would be done");
+}
 
-  CLI::App& serve =
-      *board.add_subcommand("serve", "be a virtual board, in real time, on 127.0.0.1; SIGUSR1 is its reset button");
-  serve.add_option("--port", arguments.serve.port, "TCP; 0: any that is free")
+void add_board_serve_options(CLI::App& command, BoardServeArguments& arguments) {
+  command.add_option("--port", arguments.port, "TCP; 0: any that is free")
       ->check(CLI::Range(0, 65535))
       ->capture_default_str();
-  serve
-      .add_option("--motors", arguments.serve.motors, "the most it can turn; without it the machine's, and 4 at least")
+  command.add_option("--motors", arguments.motors, "the most it can turn; without it the machine's, and 4 at least")
       ->check(CLI::Range(1, 8));
-  serve.add_option("--clock", arguments.serve.clock, "ticks a second; without it the machine's, or 16 MHz")
+  command.add_option("--clock", arguments.clock, "ticks a second; without it the machine's, or 16 MHz")
       ->check(number_range(1e5, 1e9));
-  serve.add_option("-m,--machine", arguments.serve.machine,
-                   "machine file: it is that machine's board, with its clock and switches, and stands at machine zero");
-  serve.add_flag("--once", arguments.serve.once, "end when everybody who has called has left");
-  serve.callback([&arguments] { arguments.chosen = [&arguments] { return board_serve(arguments.serve); }; });
-  return board;
+  command.add_option(
+      "-m,--machine", arguments.machine,
+      "machine file: it is that machine's board, with its clock and switches, and stands at machine zero");
+  command.add_flag("--once", arguments.once, "end when everybody who has called has left");
+}
+
+}  // namespace
+
+std::function<int()> add_board_help(CLI::App& board) {
+  board.footer(examples);
+  return {};
+}
+
+std::span<const Command> board_commands() {
+  static constexpr std::array<Command, 5> commands{
+      {{"list", "what is on the serial lines", options_of<BoardListArguments, add_board_list_options, board_list>},
+       {"info", "what a board is, and how it is", options_of<BoardInfoArguments, add_board_info_options, board_info>},
+       {"monitor", "a board's inputs, state and step counters, live",
+        options_of<BoardMonitorArguments, add_board_monitor_options, board_monitor>},
+       {"flash", "put Passo's firmware on a board: by avrdude, on a Pico by copying",
+        options_of<BoardFlashArguments, add_board_flash_options, board_flash>},
+       {"serve", "be a virtual board, in real time, on 127.0.0.1; SIGUSR1 is its reset button",
+        options_of<BoardServeArguments, add_board_serve_options, board_serve>}}};
+  return commands;
 }
 
 }  // namespace passo

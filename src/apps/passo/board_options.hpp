@@ -1,25 +1,15 @@
-// The options of `passo board`, which has commands of its own.
+// `passo board` and its commands.
 #pragma once
 
 #include <functional>
+#include <span>
 
-#include "commands.hpp"
-
-namespace CLI {
-class App;
-}
+#include "command_table.hpp"
 
 namespace passo {
 
-struct BoardArguments {
-  BoardListArguments list;
-  BoardInfoArguments info;
-  BoardMonitorArguments monitor;
-  BoardFlashArguments flash;
-  BoardServeArguments serve;
-  std::function<int()> chosen;  // the chosen command, after parsing
-};
-
-CLI::App& add_board_command(CLI::App& app, const std::vector<std::string>& words, BoardArguments& arguments);
+// The examples of its help. Its commands have the options.
+std::function<int()> add_board_help(CLI::App& board);
+std::span<const Command> board_commands();
 
 }  // namespace passo

@@ -8,6 +8,7 @@
 #include "cam_job.hpp"
 #include "check_page.hpp"
 #include "low_process.hpp"
+#include "unfinished_job.hpp"
 
 #include "passo/cam/board_job.hpp"
 #include "passo/machine_file/machine_description.hpp"
@@ -31,9 +32,13 @@ std::string exact(Nanometres length) {
   return fmt::format("{:.6f}mm", to_mm(length).value());
 }
 
-// Several files may be one side.
-void add_copper(const BoardFile& file, std::optional<BoardLayer>& side) {
+// Several files may be one side, which is told.
+void add_copper(const BoardFile& file, std::optional<BoardLayer>& side, bool is_told) {
   const GerberLayer& layer = *file.layer;
+  if (side && is_told) {
+    note(fmt::format("'{}' and '{}' are both {}: the program mills them as one; --as FILE=nothing leaves a file out",
+                     side->lines.file, file.name, words_for(file.kind)));
+  }
   if (!side) side = BoardLayer{};
   side->lines.file = file.name;
   if (layer.is_negative) {
@@ -44,6 +49,7 @@ void add_copper(const BoardFile& file, std::optional<BoardLayer>& side) {
 }
 
 BoardPlan plan_of(const BoardJob& job, Nanometres join, Diagnostics& findings) {
+  refuse_two_boards(job, findings);
   BoardPlan plan;
   std::string edge_name;
   for (const BoardFile& file : job.files) {
@@ -54,8 +60,9 @@ BoardPlan plan_of(const BoardJob& job, Nanometres join, Diagnostics& findings) {
       edge_name = file.name;
     }
     if (file.kind.role != BoardRole::copper) continue;
-    if (file.kind.side == BoardSide::top) add_copper(file, plan.front);
-    if (file.kind.side == BoardSide::bottom) add_copper(file, plan.back);
+    const bool is_told = !findings.any_error();
+    if (file.kind.side == BoardSide::top) add_copper(file, plan.front, is_told);
+    if (file.kind.side == BoardSide::bottom) add_copper(file, plan.back, is_told);
   }
   if (plan.edge) {
     plan.edge->lines.file = edge_name;
@@ -94,11 +101,13 @@ std::optional<Seconds> time_of(const std::string& program, const MachineDescript
 
 class BoardMaker {
  public:
-  BoardMaker(const CamBoardArguments& arguments, const BoardPlan& plan, const MachineDescription* machine)
-      : arguments_(arguments), plan_(plan), machine_(machine) {}
+  // Writes into `folder`.
+  BoardMaker(const CamBoardArguments& arguments, std::filesystem::path folder, const BoardPlan& plan,
+             const MachineDescription* machine)
+      : arguments_(arguments), folder_(std::move(folder)), plan_(plan), machine_(machine) {}
 
   int make(CamDrillArguments drill, CamIsolateArguments isolate, CamOutlineArguments outline);
-  const std::string& folder() const { return arguments_.output; }
+  const std::filesystem::path& folder() const { return folder_; }
   void tell_files() const;
   BoardPage page;
 
@@ -120,9 +129,8 @@ class BoardMaker {
   template <class Arguments>
   void name(Arguments& arguments, const char* what) {
     const std::string stem = fmt::format("{}-{}", ++programs_, what);
-    const std::filesystem::path folder = arguments_.output;
-    arguments.output = (folder / (stem + ".ngc")).string();
-    arguments.picture = (folder / (stem + ".svg")).string();
+    arguments.output = (folder_ / (stem + ".ngc")).string();
+    arguments.picture = (folder_ / (stem + ".svg")).string();
   }
   template <class Arguments>
   int add(Arguments arguments, int (*command)(const Arguments&, const CamSources*, CamMade*), const CamSources& sources,
@@ -139,6 +147,7 @@ class BoardMaker {
   int add_probing(const ProbingCycle& cycle, const char* what, BoardStep step);
 
   const CamBoardArguments& arguments_;
+  std::filesystem::path folder_;
   const BoardPlan& plan_;
   const MachineDescription* machine_;
   Nanometres margin_;
@@ -187,7 +196,7 @@ int BoardMaker::add_probing(const ProbingCycle& cycle, const char* what, BoardSt
   const auto program = probing_program(cycle);
   if (!program) return fail(exit_bad_program, program.error());
   step.program = fmt::format("{}-{}.ngc", ++programs_, what);
-  const int code = write_text((std::filesystem::path(arguments_.output) / step.program).string(), *program);
+  const int code = write_text((folder_ / step.program).string(), *program);
   if (code == exit_done) tell(step);
   page.steps.push_back(std::move(step));
   return code;
@@ -319,6 +328,24 @@ int BoardMaker::make(CamDrillArguments drill, CamIsolateArguments isolate, CamOu
               .words = {"Put the cutter in, and set Z0.", "Run the program.", "Cut the tabs, if there are some."}});
 }
 
+// "gerbers" of "gerbers/", and of "." where that is the folder.
+std::string name_of(const std::string& job) {
+  std::filesystem::path path = std::filesystem::absolute(job).lexically_normal();
+  if (!path.has_filename()) path = path.parent_path();
+  return path.filename().string();
+}
+
+std::string nothing_to_make(const BoardJob& job) {
+  constexpr std::size_t most_told = 10;
+  std::string files;
+  for (std::size_t i = 0; i < std::min(most_told, job.files.size()); ++i)
+    files += fmt::format("{}{} ({})", i == 0 ? "" : ", ", short_name(job.files[i]), words_for(job.files[i].kind));
+  if (job.files.size() > most_told) files += ", ...";
+  return fmt::format(
+      "there is no copper, no edge and no drill file among these files: {}; --as FILE=LAYER says what a file is",
+      files);
+}
+
 // What --as says. Returns why it cannot be; empty: done.
 std::string heed_words(BoardJob& job, const std::vector<std::string>& told) {
   for (const std::string& one : told) {
@@ -333,10 +360,7 @@ std::string heed_words(BoardJob& job, const std::vector<std::string>& told) {
 // The programs, their pictures, and the page.
 int make_all(BoardMaker& maker, const BoardJob& job, CamDrillArguments drill, CamIsolateArguments isolate,
              CamOutlineArguments outline) {
-  const std::filesystem::path folder = maker.folder();
-  std::error_code error;
-  std::filesystem::create_directories(folder, error);
-  if (error) return fail(exit_failed, folder.string() + ": " + error.message());
+  const std::filesystem::path& folder = maker.folder();
   if (isolate.tools.empty() && isolate.v.empty()) isolate.tools = "0.2mm";
   maker.tell_files();
   int code = maker.make(std::move(drill), std::move(isolate), std::move(outline));
@@ -368,9 +392,9 @@ int cam_board(const CamBoardArguments& arguments, CamDrillArguments drill, CamIs
   const Nanometres join = lengths.any("--join", outline.join);
   if (!lengths.message().empty()) return fail(exit_bad_program, lengths.message());
   const BoardPlan plan = plan_of(job, join, findings);
-  BoardMaker maker(arguments, plan, machine ? &*machine : nullptr);
-  maker.page.name = std::filesystem::path(arguments.paths.front()).filename().string();
-  if (maker.page.name.empty()) maker.page.name = arguments.paths.front();  // "gerbers/"
+  UnfinishedJob unfinished(arguments.output);
+  BoardMaker maker(arguments, unfinished.made(), plan, machine ? &*machine : nullptr);
+  maker.page.name = name_of(arguments.paths.front());
   if (machine) maker.page.machine = machine->name;
   for (const BoardFile& file : job.files) {
     maker.page.files.push_back(
@@ -382,9 +406,11 @@ int cam_board(const CamBoardArguments& arguments, CamDrillArguments drill, CamIs
   show(findings);
   if (findings.any_error()) code = exit_bad_program;
   if (code == exit_done && plan.drills.empty() && !plan.front && !plan.back && !plan.edge) {
-    code = fail(exit_bad_program, "there is no copper, no edge and no drill file among these files");
+    code = fail(exit_bad_program, nothing_to_make(job));
   }
+  if (code == exit_done) code = unfinished.begin();
   if (code == exit_done) code = make_all(maker, job, std::move(drill), std::move(isolate), std::move(outline));
+  if (code == exit_done) code = unfinished.finish();
   // What was read helps to mend what was refused.
   if (code != exit_done) maker.page.steps.clear();
   if (arguments.json) fmt::print("{}", to_json(maker.page));

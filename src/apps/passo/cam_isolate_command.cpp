@@ -1,6 +1,7 @@
 // passo cam isolate: a program that mills free the copper of a layer.
 #include <algorithm>
 #include <cmath>
+#include <filesystem>
 #include <iterator>
 
 #include "cam_job.hpp"
@@ -100,22 +101,24 @@ std::string proof_words(const IsolationProof& proof) {
                      : fmt::format(", {} of them still joined in {}\n", proof.joined, counted(proof.groups, "piece")));
 }
 
-void note_gaps(const IsolationPlan& plan) {
+// `of`: the copper.
+void note_gaps(const IsolationPlan& plan, const std::string& of) {
   constexpr std::size_t most_told = 5;
   for (std::size_t i = 0; i < std::min(most_told, plan.gaps.size()); ++i) {
     const CopperGap& gap = plan.gaps[i];
-    note(fmt::format("the cutter does not fit between two islands at X{:.4f} Y{:.4f} mm: they are {} apart",
+    note(fmt::format("{}: the cutter does not fit between two islands at X{:.4f} Y{:.4f} mm: they are {} apart", of,
                      to_mm(gap.at.x).value(), to_mm(gap.at.y).value(), mm_words(gap.width)));
   }
   if (plan.gaps.size() > most_told) {
-    note(fmt::format("and {} more such: --json lists them, --picture marks them",
+    note(fmt::format("{}: and {} more such: --json lists them, --picture marks them", of,
                      counted(plan.gaps.size() - most_told, "gap")));
   }
   if (!plan.narrow_openings.empty()) {
     const DrawnPoint& at = plan.narrow_openings.front();
     note(fmt::format(
-        "{} in copper, as of a thermal relief, too narrow for the cutter: copper stays in them, the first"
+        "{}: {} in copper, as of a thermal relief, too narrow for the cutter: copper stays in them, the first"
         " at X{:.4f} Y{:.4f} mm",
+        of,
         plan.narrow_openings.size() == 1 ? "1 opening is" : counted(plan.narrow_openings.size(), "opening") + " are",
         to_mm(at.x).value(), to_mm(at.y).value()));
   }
@@ -182,7 +185,7 @@ int cam_isolate(const CamIsolateArguments& arguments, const CamSources* given, C
         fmt::format("the program would take {:g} mm² of copper that is wanted: no program is written", proof.lost_mm2));
   }
   for (const std::string& words : plan.mill.notes) note(words);
-  note_gaps(plan);
+  note_gaps(plan, std::filesystem::path(sources->layer.lines.file).filename().string());
   if (const int code = write_text(arguments.output, write_mill_program(plan.mill, job.program)); code != exit_done) {
     return code;
   }

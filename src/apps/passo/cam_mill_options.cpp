@@ -1,6 +1,5 @@
 // The options of `passo cam isolate`, `passo cam outline` and `passo cam board`.
 #include "cam_options.hpp"
-#include "command_words.hpp"
 #include "number_range.hpp"
 #include "program_input.hpp"
 #include <CLI/CLI.hpp>
@@ -86,10 +85,8 @@ void add_mill_options(CLI::App& command, CamMillArguments& arguments) {
       ->capture_default_str();
 }
 
-void add_isolate_command(CLI::App& cam, const std::vector<std::string>& words, CamArguments& all) {
+void add_isolate_options(CLI::App& isolate, CamArguments& all) {
   CamIsolateArguments& arguments = all.isolate;
-  CLI::App& isolate = *cam.add_subcommand("isolate", "mill the copper of a layer free of the copper around it");
-  if (!is_named(isolate, words)) return;
   isolate
       .add_option("COPPER", arguments.files,
                   "copper layers, which are united: Gerber, a KiCad board, or DXF with filled areas")
@@ -114,12 +111,6 @@ void add_isolate_command(CLI::App& cam, const std::vector<std::string>& words, C
   add_mill_options(isolate, arguments);
   add_remember_options(isolate, all);
   isolate.footer(isolate_examples);
-  isolate.callback([&all, &isolate] {
-    all.chosen = [&all, &isolate] {
-      const int code = use_remembered(isolate, all);
-      return code == exit_done ? cam_isolate(all.isolate) : code;
-    };
-  });
 }
 
 void add_edge_options(CLI::App& command, CamOutlineArguments& arguments) {
@@ -141,28 +132,17 @@ void add_edge_options(CLI::App& command, CamOutlineArguments& arguments) {
   command.add_flag("--dog-bones", arguments.dog_bones, "cut inner corners so that a sharp corner fits in");
 }
 
-void add_outline_command(CLI::App& cam, const std::vector<std::string>& words, CamArguments& all) {
+void add_outline_options(CLI::App& outline, CamArguments& all) {
   CamOutlineArguments& arguments = all.outline;
-  CLI::App& outline = *cam.add_subcommand("outline", "cut boards out along their edge, and the openings in them");
-  if (!is_named(outline, words)) return;
   outline.add_option("EDGE", arguments.files, "drawings of the edge: Gerber, a KiCad board, DXF or SVG")->required();
   add_edge_options(outline, arguments);
   add_mill_options(outline, arguments);
   add_remember_options(outline, all);
   outline.footer(outline_examples);
-  outline.callback([&all, &outline] {
-    all.chosen = [&all, &outline] {
-      const int code = use_remembered(outline, all);
-      return code == exit_done ? cam_outline(all.outline) : code;
-    };
-  });
 }
 
-void add_cam_board_command(CLI::App& cam, const std::vector<std::string>& words, CamArguments& all) {
+void add_board_job_options(CLI::App& board, CamArguments& all) {
   CamBoardArguments& arguments = all.board;
-  CLI::App& board =
-      *cam.add_subcommand("board", "everything for a board: drill, isolate and cut out, and what to do when");
-  if (!is_named(board, words)) return;
   board.add_option("JOB", arguments.paths, "Gerber and drill files, folders of them, a zip archive, or a KiCad board")
       ->required();
   board.add_option("-o,--output", arguments.output, "folder for programs, pictures and board.html")
@@ -192,13 +172,6 @@ void add_cam_board_command(CLI::App& cam, const std::vector<std::string>& words,
       ->take_all();
   board.add_flag("--json", arguments.json, "what was read, and the steps, for scripts");
   board.footer(board_examples);
-  board.callback([&all] {
-    all.chosen = [&all] {
-      if (const int code = read_profile(all); code != exit_done) return code;
-      if (!all.board.join.empty()) all.outline.join = all.board.join;
-      return cam_board(all.board, all.drill, all.isolate, all.outline);
-    };
-  });
 }
 
 }  // namespace passo

@@ -1,6 +1,8 @@
 #include "cam_options.hpp"
 
-#include "command_words.hpp"
+#include <array>
+
+#include "command_table.hpp"
 #include <CLI/CLI.hpp>
 
 namespace passo {
@@ -30,24 +32,36 @@ constexpr const char* show_examples =
 
 Layers are known by their attributes or by their names: docs/manual/cam.md.)";
 
-void add_show_command(CLI::App& cam, const std::vector<std::string>& words, CamArguments& all) {
-  CamShowArguments& arguments = all.show;
-  CLI::App& show = *cam.add_subcommand("show", "say and draw which layers a circuit board's files have");
-  if (!is_named(show, words)) return;
+void add_show_options(CLI::App& show, CamShowArguments& arguments) {
   show.add_option("FILE", arguments.files, "Gerber and drill files, KiCad boards, folders and zip archives of them")
       ->required();
   show.add_option("-p,--picture", arguments.picture, "draw the board from above and from below (FILE.svg or FILE.png)");
   show.add_flag("--json", arguments.json, "the same for scripts");
   show.footer(show_examples);
-  show.callback([&all] { all.chosen = [&all] { return cam_show(all.show); }; });
 }
+
+// The options of a command whose options can be remembered for a machine. `part` is where they are filled in.
+template <auto part, void (*add)(CLI::App&, CamArguments&), auto run>
+std::function<int()> remembered_options_of(CLI::App& command) {
+  const auto all = std::make_shared<CamArguments>();
+  add(command, *all);
+  return [all, &command] {
+    const int code = use_remembered(command, *all);
+    return code == exit_done ? run((*all).*part, nullptr, nullptr) : code;
+  };
+}
+
+int make_board_job(const CamArguments& given) {
+  CamArguments all = given;
+  if (const int code = read_profile(all); code != exit_done) return code;
+  if (!all.board.join.empty()) all.outline.join = all.board.join;
+  return cam_board(all.board, all.drill, all.isolate, all.outline);
+}
+
 }  // namespace
 
-void add_drill_command(CLI::App& cam, const std::vector<std::string>& words, CamArguments& all) {
+void add_drill_options(CLI::App& drill, CamArguments& all) {
   CamDrillArguments& arguments = all.drill;
-  CLI::App& drill =
-      *cam.add_subcommand("drill", "drill the holes of DXF drawings, Excellon drill files and KiCad boards");
-  if (!is_named(drill, words)) return;
   drill
       .add_option("FILE", arguments.files,
                   "DXF drawings, drill files, KiCad boards; the kind is seen from what is in them")
@@ -92,30 +106,31 @@ void add_drill_command(CLI::App& cam, const std::vector<std::string>& words, Cam
       ->capture_default_str();
   add_remember_options(drill, all);
   drill.footer(drill_examples);
-  drill.callback([&all, &drill] {
-    all.chosen = [&all, &drill] {
-      const int code = use_remembered(drill, all);
-      return code == exit_done ? cam_drill(all.drill) : code;
-    };
-  });
 }
 
-CLI::App& add_cam_command(CLI::App& app, const std::vector<std::string>& words, CamArguments& arguments) {
-  CLI::App& cam =
-      *app.add_subcommand("cam", "make programs of drawings and pictures: parts, pockets, circuit boards, reliefs");
-  if (!is_named(cam, words)) return cam;
-  cam.require_subcommand(1);
-  add_show_command(cam, words, arguments);
-  add_drill_command(cam, words, arguments);
-  add_isolate_command(cam, words, arguments);
-  add_outline_command(cam, words, arguments);
-  add_cam_board_command(cam, words, arguments);
-  add_profile_command(cam, words, arguments);
-  add_pocket_command(cam, words, arguments);
-  add_engrave_command(cam, words, arguments);
-  add_wire_command(cam, words, arguments);
-  add_relief_command(cam, words, arguments);
-  return cam;
+std::span<const Command> cam_commands() {
+  static constexpr std::array<Command, 10> commands{
+      {{"show", "say and draw which layers a circuit board's files have",
+        options_of<CamShowArguments, add_show_options, cam_show>},
+       {"drill", "drill the holes of DXF drawings, Excellon drill files and KiCad boards",
+        remembered_options_of<&CamArguments::drill, add_drill_options, cam_drill>},
+       {"isolate", "mill the copper of a layer free of the copper around it",
+        remembered_options_of<&CamArguments::isolate, add_isolate_options, cam_isolate>},
+       {"outline", "cut boards out along their edge, and the openings in them",
+        remembered_options_of<&CamArguments::outline, add_outline_options, cam_outline>},
+       {"board", "everything for a board: drill, isolate and cut out, and what to do when",
+        options_of<CamArguments, add_board_job_options, make_board_job>},
+       {"profile", "cut along the lines of a drawing: around parts, or on the line",
+        options_of<CamProfileArguments, add_profile_options, cam_profile>},
+       {"pocket", "clear what the closed lines of a drawing enclose",
+        options_of<CamPocketArguments, add_pocket_options, cam_pocket>},
+       {"engrave", "carve texts and drawings with a V-shaped cutter",
+        options_of<CamEngraveArguments, add_engrave_options, cam_engrave>},
+       {"wire", "cut foam with a hot wire: one profile, or one for each end of the wire",
+        options_of<CamWireArguments, add_wire_options, cam_wire>},
+       {"relief", "carve a picture, or a body seen from above",
+        options_of<CamReliefArguments, add_relief_options, cam_relief>}}};
+  return commands;
 }
 
 }  // namespace passo

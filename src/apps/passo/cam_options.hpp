@@ -1,44 +1,35 @@
 // The options of `passo cam`, which makes programs of drawings.
 #pragma once
 
-#include <functional>
+#include <span>
 
 #include "cam_arguments.hpp"
-
-namespace CLI {
-class App;
-}
+#include "command_table.hpp"
 
 namespace passo {
 
+// Of the commands for circuit boards, whose options can be kept in a profile or remembered for a machine.
 struct CamArguments {
-  CamShowArguments show;
   CamDrillArguments drill;
   CamIsolateArguments isolate;
   CamOutlineArguments outline;
   CamBoardArguments board;
-  CamReliefArguments relief;
-  CamProfileArguments profile;
-  CamPocketArguments pocket;
-  CamEngraveArguments engrave;
-  CamWireArguments wire;
-  std::string machine;          // whose remembered options are used; empty: none are
-  bool remember = false;        // the options that are given
-  std::function<int()> chosen;  // the chosen command, after parsing
+  std::string machine;    // whose remembered options are used; empty: none are
+  bool remember = false;  // the options that are given
 };
 
-CLI::App& add_cam_command(CLI::App& app, const std::vector<std::string>& words, CamArguments& arguments);
+// The commands of `passo cam`.
+std::span<const Command> cam_commands();
 
-// Add the commands to `cam`.
-void add_drill_command(CLI::App& cam, const std::vector<std::string>& words, CamArguments& arguments);
-void add_isolate_command(CLI::App& cam, const std::vector<std::string>& words, CamArguments& arguments);
-void add_outline_command(CLI::App& cam, const std::vector<std::string>& words, CamArguments& arguments);
-void add_cam_board_command(CLI::App& cam, const std::vector<std::string>& words, CamArguments& arguments);
-void add_relief_command(CLI::App& cam, const std::vector<std::string>& words, CamArguments& arguments);
-void add_profile_command(CLI::App& cam, const std::vector<std::string>& words, CamArguments& arguments);
-void add_pocket_command(CLI::App& cam, const std::vector<std::string>& words, CamArguments& arguments);
-void add_engrave_command(CLI::App& cam, const std::vector<std::string>& words, CamArguments& arguments);
-void add_wire_command(CLI::App& cam, const std::vector<std::string>& words, CamArguments& arguments);
+void add_drill_options(CLI::App& drill, CamArguments& all);
+void add_isolate_options(CLI::App& isolate, CamArguments& all);
+void add_outline_options(CLI::App& outline, CamArguments& all);
+void add_board_job_options(CLI::App& board, CamArguments& all);
+void add_profile_options(CLI::App& profile, CamProfileArguments& arguments);
+void add_pocket_options(CLI::App& pocket, CamPocketArguments& arguments);
+void add_engrave_options(CLI::App& engrave, CamEngraveArguments& arguments);
+void add_wire_options(CLI::App& wire, CamWireArguments& arguments);
+void add_relief_options(CLI::App& relief, CamReliefArguments& arguments);
 
 // Options that are kept for a machine: how they are asked for, and how what was not given is filled in with them.
 void add_remember_options(CLI::App& command, CamArguments& arguments);

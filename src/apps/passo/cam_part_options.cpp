@@ -1,6 +1,5 @@
 // The options of `passo cam profile`, `passo cam pocket` and `passo cam engrave`.
 #include "cam_options.hpp"
-#include "command_words.hpp"
 #include "number_range.hpp"
 #include <CLI/CLI.hpp>
 
@@ -53,10 +52,7 @@ void add_sheet_option(CLI::App& command, CamMillArguments& arguments) {
 
 }  // namespace
 
-void add_profile_command(CLI::App& cam, const std::vector<std::string>& words, CamArguments& all) {
-  CamProfileArguments& arguments = all.profile;
-  CLI::App& profile = *cam.add_subcommand("profile", "cut along the lines of a drawing: around parts, or on the line");
-  if (!is_named(profile, words)) return;
+void add_profile_options(CLI::App& profile, CamProfileArguments& arguments) {
   profile.add_option("FILE", arguments.files, "drawings: SVG, DXF or HPGL")->required();
   profile
       .add_option("--side", arguments.side,
@@ -67,13 +63,9 @@ void add_profile_command(CLI::App& cam, const std::vector<std::string>& words, C
   add_mill_options(profile, arguments);
   add_sheet_option(profile, arguments);
   profile.footer(profile_examples);
-  profile.callback([&all] { all.chosen = [&all] { return cam_profile(all.profile); }; });
 }
 
-void add_pocket_command(CLI::App& cam, const std::vector<std::string>& words, CamArguments& all) {
-  CamPocketArguments& arguments = all.pocket;
-  CLI::App& pocket = *cam.add_subcommand("pocket", "clear what the closed lines of a drawing enclose");
-  if (!is_named(pocket, words)) return;
+void add_pocket_options(CLI::App& pocket, CamPocketArguments& arguments) {
   pocket.add_option("FILE", arguments.files, "drawings: SVG, DXF or HPGL")->required();
   pocket.add_option("--tool", arguments.tool, "diameter of the cutter")->capture_default_str();
   pocket.add_option("--depth", arguments.depth, "of the pocket, below 0")->capture_default_str();
@@ -94,13 +86,9 @@ void add_pocket_command(CLI::App& cam, const std::vector<std::string>& words, Ca
   add_mill_options(pocket, arguments);
   add_sheet_option(pocket, arguments);
   pocket.footer(pocket_examples);
-  pocket.callback([&all] { all.chosen = [&all] { return cam_pocket(all.pocket); }; });
 }
 
-void add_engrave_command(CLI::App& cam, const std::vector<std::string>& words, CamArguments& all) {
-  CamEngraveArguments& arguments = all.engrave;
-  CLI::App& engrave = *cam.add_subcommand("engrave", "carve texts and drawings with a V-shaped cutter");
-  if (!is_named(engrave, words)) return;
+void add_engrave_options(CLI::App& engrave, CamEngraveArguments& arguments) {
   engrave.add_option("FILE", arguments.files, "drawings: SVG, DXF or HPGL; what closed lines enclose is carved");
   engrave.add_option("--text", arguments.text, "letters instead of a drawing");
   engrave
@@ -146,7 +134,6 @@ void add_engrave_command(CLI::App& cam, const std::vector<std::string>& words, C
   add_mill_options(engrave, arguments);
   add_sheet_option(engrave, arguments);
   engrave.footer(engrave_examples);
-  engrave.callback([&all] { all.chosen = [&all] { return cam_engrave(all.engrave); }; });
 }
 
 }  // namespace passo

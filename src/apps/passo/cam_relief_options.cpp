@@ -1,5 +1,4 @@
 #include "cam_options.hpp"
-#include "command_words.hpp"
 #include "number_range.hpp"
 #include <CLI/CLI.hpp>
 
@@ -85,10 +84,7 @@ void add_finishing(CLI::App& relief, CamReliefArguments& arguments) {
 
 }  // namespace
 
-void add_relief_command(CLI::App& cam, const std::vector<std::string>& words, CamArguments& all) {
-  CamReliefArguments& arguments = all.relief;
-  CLI::App& relief = *cam.add_subcommand("relief", "carve a picture, or a body seen from above");
-  if (!is_named(relief, words)) return;
+void add_relief_options(CLI::App& relief, CamReliefArguments& arguments) {
   relief
       .add_option("FILE", arguments.file, "a PNG or TIFF picture (bright is high), an STL file or a height map x,y,z")
       ->required();
@@ -113,7 +109,6 @@ void add_relief_command(CLI::App& cam, const std::vector<std::string>& words, Ca
   relief.add_option("--rest-removal", arguments.rest_removal, "hold what it cuts, mm3 a minute")
       ->check(number_range(0.0, 1e7));
   relief.footer(relief_examples);
-  relief.callback([&all] { all.chosen = [&all] { return cam_relief(all.relief); }; });
 }
 
 }  // namespace passo

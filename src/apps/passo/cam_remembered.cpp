@@ -76,9 +76,10 @@ int parse_words(CamArguments& all, const std::string& file, const OptionSection&
   words.insert(words.end(), given.files.begin(), given.files.end());
   CLI::App cam;
   CamArguments read;
-  if (section.name == "drill") add_drill_command(cam, words, read);
-  if (section.name == "isolate") add_isolate_command(cam, words, read);
-  if (section.name == "outline") add_outline_command(cam, words, read);
+  CLI::App& command = *cam.add_subcommand(section.name);
+  if (section.name == "drill") add_drill_options(command, read);
+  if (section.name == "isolate") add_isolate_options(command, read);
+  if (section.name == "outline") add_outline_options(command, read);
   std::ranges::reverse(words);  // CLI11 wants the last word first
   try {
     cam.parse(std::move(words));

@@ -1,6 +1,5 @@
 // The options of `passo cam wire`.
 #include "cam_options.hpp"
-#include "command_words.hpp"
 #include "number_range.hpp"
 #include <CLI/CLI.hpp>
 
@@ -23,11 +22,7 @@ Every option: docs/manual/hot-wire.md.)";
 
 }  // namespace
 
-void add_wire_command(CLI::App& cam, const std::vector<std::string>& words, CamArguments& all) {
-  CamWireArguments& arguments = all.wire;
-  CLI::App& wire =
-      *cam.add_subcommand("wire", "cut foam with a hot wire: one profile, or one for each end of the wire");
-  if (!is_named(wire, words)) return;
+void add_wire_options(CLI::App& wire, CamWireArguments& arguments) {
   wire.add_option("PROFILE", arguments.files, "of the left side, and of the right: SVG, DXF, HPGL, airfoil (.dat)")
       ->required()
       ->expected(1, 2);
@@ -71,7 +66,6 @@ void add_wire_command(CLI::App& cam, const std::vector<std::string>& words, CamA
   wire.add_option("--zero", arguments.zero, "where X0 Y0 is: file, lower-left of the left profile, or X,Y")
       ->capture_default_str();
   wire.footer(wire_examples);
-  wire.callback([&all] { all.chosen = [&all] { return cam_wire(all.wire); }; });
 }
 
 }  // namespace passo

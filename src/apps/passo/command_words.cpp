@@ -60,20 +60,6 @@ std::vector<std::string> command_words(int argc, const char* const* argv) {
   return words;
 }
 
-bool is_named(const CLI::App& command, const std::vector<std::string>& words) {
-  std::vector<std::string> path;
-  for (const CLI::App* part = &command; part->get_parent() != nullptr; part = part->get_parent()) {
-    path.push_back(part->get_name());
-  }
-  for (const std::string& word : words) {
-    if (path.empty()) break;
-    if (word.starts_with('-')) continue;
-    if (word != path.back()) return false;
-    path.pop_back();
-  }
-  return path.empty();
-}
-
 std::string refuse_words(CLI::App& app, const std::vector<std::string>& words) {
   CLI::App* command = &app;
   for (const std::string& word : words) {

@@ -14,10 +14,6 @@ namespace passo {
 // The words after the program's name. "help" in the first place becomes "--help" in the last place.
 std::vector<std::string> command_words(int argc, const char* const* argv);
 
-// Whether the words name this command, or one of its own. Other commands get no options: a start would take half as
-// long again.
-bool is_named(const CLI::App& command, const std::vector<std::string>& words);
-
 // Why the words cannot be a command line of `app`: an unknown command, or an unknown option that begins with "--".
 // Empty: nothing is wrong so far, and CLI11 looks at the rest.
 std::string refuse_words(CLI::App& app, const std::vector<std::string>& words);

@@ -1,4 +1,4 @@
-// The commands of `passo`, one function each. main.cpp, board_options.cpp and study_options.cpp fill in the arguments.
+// The commands of `passo`, one function each. The options of the command line fill in the arguments.
 // Each command returns an exit code.
 #pragma once
 

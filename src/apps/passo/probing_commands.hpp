@@ -31,8 +31,7 @@ struct LevelArguments {
 };
 int level(const LevelArguments& arguments);
 
-CLI::App& add_probe_command(CLI::App& app, const std::vector<std::string>& words, ProbeArguments& arguments);
-// `program`: adds the options of programs.
-CLI::App& add_level_command(CLI::App& app, const std::vector<std::string>& words, LevelArguments& arguments);
+void add_probe_options(CLI::App& command, ProbeArguments& arguments);
+void add_level_options(CLI::App& command, LevelArguments& arguments);
 
 }  // namespace passo

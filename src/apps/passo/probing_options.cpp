@@ -1,4 +1,3 @@
-#include "command_words.hpp"
 #include "probing_commands.hpp"
 #include <CLI/CLI.hpp>
 
@@ -41,9 +40,7 @@ std::string option_of(std::string_view name) {
 
 }  // namespace
 
-CLI::App& add_probe_command(CLI::App& app, const std::vector<std::string>& words, ProbeArguments& arguments) {
-  CLI::App& command = *app.add_subcommand("probe", "write a program that finds a place with the probe");
-  if (!is_named(command, words)) return command;
+void add_probe_options(CLI::App& command, ProbeArguments& arguments) {
   command.require_subcommand(1);
   command.footer(probe_examples);
   for (const ProbingKind kind : all_probing_kinds()) {
@@ -62,13 +59,9 @@ CLI::App& add_probe_command(CLI::App& app, const std::vector<std::string>& words
     }
     one.add_option("-o,--output", arguments.output, "the program; without it standard output");
   }
-  return command;
 }
 
-CLI::App& add_level_command(CLI::App& app, const std::vector<std::string>& words, LevelArguments& arguments) {
-  CLI::App& command =
-      *app.add_subcommand("level", "write a program as it is on a surface that is not flat, or show a height map");
-  if (!is_named(command, words)) return command;
+void add_level_options(CLI::App& command, LevelArguments& arguments) {
   command.add_option("PROGRAM", arguments.program.program, "G-code file; without it the map is shown");
   command.add_option("--map", arguments.map, "the height map: lines x,y,z")->required();
   command.add_option("--tolerance", arguments.tolerance, "of the height, everywhere on each move, mm")
@@ -86,7 +79,6 @@ CLI::App& add_level_command(CLI::App& app, const std::vector<std::string>& words
   command.add_flag("--inches", arguments.program.inches, "lengths are inches until the program says G20 or G21");
   command.add_option("-o,--output", arguments.output, "the program; without it standard output");
   command.footer(level_examples);
-  return command;
 }
 
 }  // namespace passo

@@ -1,7 +1,7 @@
 #include "simulate_options.hpp"
 
-#include "command_words.hpp"
 #include "number_range.hpp"
+#include "program_options.hpp"
 #include <CLI/CLI.hpp>
 
 namespace passo {
@@ -49,10 +49,7 @@ void add_cut(CLI::App& command, CheckArguments& arguments) {
   add_stock(command, arguments.stock);
 }
 
-CLI::App& add_simulate_command(CLI::App& app, const std::vector<std::string>& words, SimulateArguments& arguments) {
-  CLI::App& command =
-      *app.add_subcommand("simulate", "cut a piece of stock before it is cut: rapids, depths, what is left");
-  if (!is_named(command, words)) return command;
+void add_simulate_options(CLI::App& command, SimulateArguments& arguments) {
   add_stock(command, arguments.stock);
   command.add_option("-m,--machine", arguments.machine,
                      "machine file (TOML): cut along its path, corners rounded within the tolerance");
@@ -83,7 +80,8 @@ CLI::App& add_simulate_command(CLI::App& app, const std::vector<std::string>& wo
   for (const char* const option : {"--tool", "--tool-table", "--clamp"}) wire->excludes(command.get_option(option));
   command.add_flag("--json", arguments.json, "print it as JSON");
   command.footer(simulate_examples);
-  return command;
+  add_program(command, arguments.program);
+  add_files(command, arguments.program, false);
 }
 
 }  // namespace passo

@@ -36,7 +36,6 @@ int simulate_wire(const SimulateArguments& arguments);
 
 // The options of `passo check` that cut a piece of stock.
 void add_cut(CLI::App& command, CheckArguments& arguments);
-// Adds the command, without the options that every command with a program has.
-CLI::App& add_simulate_command(CLI::App& app, const std::vector<std::string>& words, SimulateArguments& arguments);
+void add_simulate_options(CLI::App& command, SimulateArguments& arguments);
 
 }  // namespace passo

@@ -1,7 +1,8 @@
 // The options of the commands that study one thing at a time: pulses, chords, ramps, motors.
 #include "study_options.hpp"
 
-#include "command_words.hpp"
+#include <array>
+
 #include "number_range.hpp"
 #include <CLI/CLI.hpp>
 
@@ -9,10 +10,6 @@
 
 namespace passo {
 namespace {
-
-constexpr const char* motor_description =
-    "Torque over speed of a stepping motor: pull-out, pull-in, and what is left to accelerate a load. Prints a table "
-    "(CSV), or a picture or a summary instead. Rates are full steps a second.";
 
 constexpr const char* motor_examples = R"(Give the motor's data and its supply, or points of its data sheet's curve.
 
@@ -28,12 +25,45 @@ Examples:
 
 The model and its limits: docs/ramps/torque.md.)";
 
+void add_follower_options(CLI::App& command, FollowerArguments& arguments) {
+  const std::vector<std::string> names = emulated_followers();
+  command
+      .add_option("FOLLOWER", arguments.follower,
+                  "first_board, or board and drive: pic_, uno_, mega_ with two_on, wave, half_step")
+      ->required()
+      ->check(CLI::IsMember(names));
+  command.add_option("--clock", arguments.clock, "pulses a second on the clock lines; without it none")
+      ->check(number_range(0.0, 1e6));
+  command.add_option("--axes", arguments.axes, "whose clock lines, as XZ")->capture_default_str();
+  command.add_option("--down", arguments.down, "axes whose direction line is high from the start");
+  command.add_option("--from", arguments.from, "SECONDS: the first pulse")
+      ->check(number_range(0.0, 600.0))
+      ->capture_default_str();
+  command.add_option("--time", arguments.time, "SECONDS: how long it runs")
+      ->check(number_range(0.001, 600.0))
+      ->capture_default_str();
+  command.add_option("-k,--key", arguments.keys, "KEY@FROM[:TO]: a key is held, else for 0.1 s; as 6@0.5:0.9 or #@0.1");
+  command.add_option("--line", arguments.lines, "LINE@FROM[:TO]: a line is high, as relay@0.3:0.6 or direction.x@0.5");
+  command.add_option("--image", arguments.image,
+                     "another file than the one that the build made: .elf, .cod, or .hex, which is flashed");
+  command.add_option("-t,--trace", arguments.traces, "write lines and outputs (FILE.vcd or FILE.csv), no table");
+  command.add_option("-p,--picture", arguments.picture, "draw them (FILE.svg or FILE.png), no table");
+  command.footer(
+      R"(Prints a row at each change: the windings of each motor, the relay, the LEDs, and the keys and lines that are down.
+Times are from the end of the reset. Lines are clock.x and direction.x (also y and z), relay, button and reset, which is
+the emergency button. The first board waits for a key: without --key somebody presses * at 0.05 s.
+
+Examples:
+  passo follower sim first_board --clock 20                         as in its day: 20 Hz, and the windings on LEDs
+  passo follower sim first_board --clock 20 --line reset@0.5        an emergency: the pulses go on, the motor does not
+  passo follower sim first_board --key '#@0.1' --key 6@0.3:0.7      by hand
+  passo follower sim uno_half_step --clock 200 --axes XY --down Y --time 0.3 --picture xy.svg
+  passo follower sim pic_wave --clock 1000 --trace wave.vcd         for GTKWave)");
+}
+
 }  // namespace
 
-CLI::App& add_interpolate_command(CLI::App& app, const std::vector<std::string>& words,
-                                  InterpolateArguments& arguments) {
-  CLI::App& command = *app.add_subcommand("interpolate", "which axes step, pulse by pulse, by any method");
-  if (!is_named(command, words)) return command;
+void add_interpolate_options(CLI::App& command, InterpolateArguments& arguments) {
   command.add_option(
       "--method", arguments.method,
       "master-slave, lean, dda, slope-recalculated, slope-blocks, point-comparison or midpoint; bresenham is "
@@ -73,12 +103,9 @@ Examples:
   passo interpolate --method bresenham --to 10,4 --time 1               how long each pulse lasts for an even speed
   passo interpolate --compare --to 27,10 --picture lines.svg            all methods for lines, as figures and drawn
   passo interpolate --compare --from 20,0 --to 20,0 --center 0,0 --cw   a full circle, by all methods for arcs)");
-  return command;
 }
 
-CLI::App& add_chords_command(CLI::App& app, const std::vector<std::string>& words, ChordsArguments& arguments) {
-  CLI::App& command = *app.add_subcommand("chords", "cut a curve into straight pieces within a tolerance");
-  if (!is_named(command, words)) return command;
+void add_chords_options(CLI::App& command, ChordsArguments& arguments) {
   command.add_option("--curve", arguments.curve, "line, arc, helix, ellipse, parabola, bezier or nurbs")->required();
   command.add_option("--from", arguments.from, "its start in mm, X,Y or X,Y,Z");
   command.add_option("--to", arguments.to, "its end; as high as the start unless told otherwise");
@@ -127,12 +154,9 @@ Examples:
   passo chords --curve nurbs --degree 2 --control 10,0 10,10 0,10 --weights 1 0.70710678 1   a quarter of a circle
   passo chords --curve arc --from 10,0 --to 0,10 --center 0,0 --feed 600 --period 0.1      equal chords of 1 mm
   passo chords --curve ellipse --center 0,0 --radii 8,4 --tolerance 0.1 --steps-per-mm 5 --fine lean --picture e.svg)");
-  return command;
 }
 
-CLI::App& add_ramp_command(CLI::App& app, const std::vector<std::string>& words, RampArguments& arguments) {
-  CLI::App& command = *app.add_subcommand("ramp", "when a motor steps: ramps and whole moves, by any method");
-  if (!is_named(command, words)) return command;
+void add_ramp_options(CLI::App& command, RampArguments& arguments) {
   command
       .add_option("--method", arguments.method, "exact, table, recursive, or midpoint (the recursion that is exact)")
       ->check(CLI::IsMember({"exact", "recursive", "table", "midpoint"}));
@@ -174,12 +198,9 @@ Examples:
   passo ramp --limit --table-size 256 --steps-per-rev 100 --max-rate 280      the acceleration that it takes
   passo ramp --limit --table-size 256 --steps-per-rev 100 --accel 20          the rate that is reached
   passo ramp --limit --max-rate 280 --picture limits.svg                      both, for all motors and two tables)");
-  return command;
 }
 
-CLI::App& add_motor_command(CLI::App& app, const std::vector<std::string>& words, MotorArguments& arguments) {
-  CLI::App& command = *app.add_subcommand("motor", motor_description);
-  if (!is_named(command, words)) return command;
+void add_motor_options(CLI::App& command, MotorArguments& arguments) {
   command.footer(motor_examples);
   const auto option = [&](const char* name, auto& value, const char* unit, const char* what) {
     return command.add_option(name, value, what)->type_name(unit);
@@ -254,12 +275,9 @@ CLI::App& add_motor_command(CLI::App& app, const std::vector<std::string>& words
   option("-p,--picture", arguments.pictures, "FILE", "draw the curves (FILE.svg or FILE.png), print no table")
       ->group("Output");
   command.add_flag("--json", arguments.json, "print a summary as JSON, no table")->group("Output");
-  return command;
 }
 
-CLI::App& add_loop_command(CLI::App& app, const std::vector<std::string>& words, LoopArguments& arguments) {
-  CLI::App& command = *app.add_subcommand("loop", "a motor with an encoder and PID: its response to a step");
-  if (!is_named(command, words)) return command;
+void add_loop_options(CLI::App& command, LoopArguments& arguments) {
   command.add_option("--of", arguments.of, "what is controlled: speed, or position (a loop around that of the speed)")
       ->check(CLI::IsMember({"speed", "position"}))
       ->capture_default_str();
@@ -308,13 +326,9 @@ Examples:
   passo loop --of position --period 1000 --counts 400 --rule p -o place.csv
 
 The chapter: docs/ramps/loop.md.)");
-  return command;
 }
 
-CLI::App& add_windings_command(CLI::App& app, const std::vector<std::string>& words, WindingsArguments& arguments) {
-  CLI::App& command =
-      *app.add_subcommand("windings", "which windings carry current in a move, and where the rotors are");
-  if (!is_named(command, words)) return command;
+void add_windings_options(CLI::App& command, WindingsArguments& arguments) {
   command.add_option("--drive", arguments.drive, "two-on, wave, half-step or microsteps:N (2 to 256)")->required();
   command.add_option("--full-steps", arguments.full_steps, "of the motors, a revolution")
       ->check(CLI::Range(4, 100'000))
@@ -348,48 +362,13 @@ Examples:
   passo windings --drive half-step --to 10,4,7 --time 0.1 --trace windings.vcd     for GTKWave
   passo windings --drive microsteps:16 --from 40,0 --to 0,40 --center 0,0 --time 0.5 --picture windings.svg
   passo windings --drive wave --move 40 --clock 250000 --accel 50 --reverse-after 12 --picture turn.svg)");
-  return command;
 }
 
-CLI::App& add_follower_command(CLI::App& app, const std::vector<std::string>& words, FollowerArguments& arguments) {
-  CLI::App& follower = *app.add_subcommand("follower", "the follower: step and direction in, windings out");
-  if (!is_named(follower, words)) return follower;
-  follower.require_subcommand(1);
-  CLI::App& command = *follower.add_subcommand("sim", "runs a follower's image on its emulated chip");
-  const std::vector<std::string> names = emulated_followers();
-  command
-      .add_option("FOLLOWER", arguments.follower,
-                  "first_board, or board and drive: pic_, uno_, mega_ with two_on, wave, half_step")
-      ->required()
-      ->check(CLI::IsMember(names));
-  command.add_option("--clock", arguments.clock, "pulses a second on the clock lines; without it none")
-      ->check(number_range(0.0, 1e6));
-  command.add_option("--axes", arguments.axes, "whose clock lines, as XZ")->capture_default_str();
-  command.add_option("--down", arguments.down, "axes whose direction line is high from the start");
-  command.add_option("--from", arguments.from, "SECONDS: the first pulse")
-      ->check(number_range(0.0, 600.0))
-      ->capture_default_str();
-  command.add_option("--time", arguments.time, "SECONDS: how long it runs")
-      ->check(number_range(0.001, 600.0))
-      ->capture_default_str();
-  command.add_option("-k,--key", arguments.keys, "KEY@FROM[:TO]: a key is held, else for 0.1 s; as 6@0.5:0.9 or #@0.1");
-  command.add_option("--line", arguments.lines, "LINE@FROM[:TO]: a line is high, as relay@0.3:0.6 or direction.x@0.5");
-  command.add_option("--image", arguments.image,
-                     "another file than the one that the build made: .elf, .cod, or .hex, which is flashed");
-  command.add_option("-t,--trace", arguments.traces, "write lines and outputs (FILE.vcd or FILE.csv), no table");
-  command.add_option("-p,--picture", arguments.picture, "draw them (FILE.svg or FILE.png), no table");
-  command.footer(
-      R"(Prints a row at each change: the windings of each motor, the relay, the LEDs, and the keys and lines that are down.
-Times are from the end of the reset. Lines are clock.x and direction.x (also y and z), relay, button and reset, which is
-the emergency button. The first board waits for a key: without --key somebody presses * at 0.05 s.
-
-Examples:
-  passo follower sim first_board --clock 20                         as in its day: 20 Hz, and the windings on LEDs
-  passo follower sim first_board --clock 20 --line reset@0.5        an emergency: the pulses go on, the motor does not
-  passo follower sim first_board --key '#@0.1' --key 6@0.3:0.7      by hand
-  passo follower sim uno_half_step --clock 200 --axes XY --down Y --time 0.3 --picture xy.svg
-  passo follower sim pic_wave --clock 1000 --trace wave.vcd         for GTKWave)");
-  return command;
+std::span<const Command> follower_commands() {
+  static constexpr std::array<Command, 1> commands{
+      {{"sim", "runs a follower's image on its emulated chip",
+        options_of<FollowerArguments, add_follower_options, follower_sim>}}};
+  return commands;
 }
 
 }  // namespace passo

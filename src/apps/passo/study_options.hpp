@@ -1,21 +1,20 @@
 // The options of the commands that study one thing at a time: pulses, chords, ramps, motors.
 #pragma once
 
-#include "commands.hpp"
+#include <span>
 
-namespace CLI {
-class App;
-}
+#include "command_table.hpp"
+#include "commands.hpp"
 
 namespace passo {
 
-CLI::App& add_interpolate_command(CLI::App& app, const std::vector<std::string>& words,
-                                  InterpolateArguments& arguments);
-CLI::App& add_chords_command(CLI::App& app, const std::vector<std::string>& words, ChordsArguments& arguments);
-CLI::App& add_ramp_command(CLI::App& app, const std::vector<std::string>& words, RampArguments& arguments);
-CLI::App& add_motor_command(CLI::App& app, const std::vector<std::string>& words, MotorArguments& arguments);
-CLI::App& add_loop_command(CLI::App& app, const std::vector<std::string>& words, LoopArguments& arguments);
-CLI::App& add_follower_command(CLI::App& app, const std::vector<std::string>& words, FollowerArguments& arguments);
-CLI::App& add_windings_command(CLI::App& app, const std::vector<std::string>& words, WindingsArguments& arguments);
+void add_interpolate_options(CLI::App& command, InterpolateArguments& arguments);
+void add_chords_options(CLI::App& command, ChordsArguments& arguments);
+void add_ramp_options(CLI::App& command, RampArguments& arguments);
+void add_motor_options(CLI::App& command, MotorArguments& arguments);
+void add_loop_options(CLI::App& command, LoopArguments& arguments);
+void add_windings_options(CLI::App& command, WindingsArguments& arguments);
+// The commands of `passo follower`.
+std::span<const Command> follower_commands();
 
 }  // namespace passo

@@ -1,14 +1,11 @@
 #include "tuning_options.hpp"
 
-#include "command_words.hpp"
 #include "number_range.hpp"
 #include <CLI/CLI.hpp>
 
 namespace passo {
 
-CLI::App& add_tune_command(CLI::App& app, const std::vector<std::string>& words, TuneArguments& arguments) {
-  CLI::App& command = *app.add_subcommand("tune", "propose velocity, acceleration and jerk for a machine's motors");
-  if (!is_named(command, words)) return command;
+void add_tune_options(CLI::App& command, TuneArguments& arguments) {
   command.add_option("-m,--machine", arguments.machine, "machine file (TOML) with tables [axis.X.torque]")->required();
   command
       .add_option("--margin", arguments.margin,
@@ -36,7 +33,6 @@ Examples:
   passo tune -m router.toml --picture curves.svg            torque over speed, there and needed
 
 The criterion and the curves: docs/manual/tuning.md.)");
-  return command;
 }
 
 }  // namespace passo

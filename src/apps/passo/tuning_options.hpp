@@ -9,6 +9,6 @@ class App;
 
 namespace passo {
 
-CLI::App& add_tune_command(CLI::App& app, const std::vector<std::string>& words, TuneArguments& arguments);
+void add_tune_options(CLI::App& command, TuneArguments& arguments);
 
 }  // namespace passo

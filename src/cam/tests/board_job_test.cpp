@@ -171,6 +171,47 @@ TEST_F(BoardJobFiles, what_cannot_be_read_is_told) {
   EXPECT_EQ(code_of(write("many.zip", zip_of(many))), "board.too-large");
 }
 
+TEST_F(BoardJobFiles, a_folder_without_layers_is_named) {
+  Diagnostics found;
+  read_board_job({folder_}, found);
+  ASSERT_EQ(found.all().size(), 1U);
+  EXPECT_EQ(found.all().front().file, folder_);
+}
+
+TEST_F(BoardJobFiles, an_archive_whose_list_of_files_is_cut_off_is_broken) {
+  const std::string zip = zip_of({{"b.drl", small_drills}});
+  for (const std::size_t left_out : {10U, 21U, 23U, 40U}) {
+    Diagnostics found;
+    read_board_job({write("cut.zip", zip.substr(0, zip.size() - left_out))}, found);
+    ASSERT_EQ(found.all().size(), 1U) << left_out;
+    EXPECT_EQ(found.all().front().code, "board.bad-zip") << left_out;
+  }
+}
+
+TEST_F(BoardJobFiles, a_board_of_kicad_and_layers_of_another_board_are_not_one) {
+  const std::string kicad =
+      "(kicad_pcb (version 20211014) (layers (0 \"F.Cu\" signal) (31 \"B.Cu\" signal))\n"
+      "(segment (start 1 1) (end 9 1) (width 0.5) (layer \"F.Cu\") (net 1)))\n";
+  const auto code_of = [](const std::vector<std::string>& paths, const std::string& nothing) {
+    Diagnostics found;
+    BoardJob job = read_board_job(paths, found);
+    if (!nothing.empty()) {
+      EXPECT_EQ(tell_kind(job, nothing, "nothing"), "");
+    }
+    refuse_two_boards(job, found);
+    return found.all().empty() ? "" : found.all().front().code;
+  };
+  const std::string board = write("a.kicad_pcb", kicad);
+  const std::string other = write("b.kicad_pcb", kicad);
+  const std::string layer = write("b-F_Cu.gbr", small_gerber);
+  const std::string back = write("b-B_Cu.gbr", small_gerber);
+  EXPECT_EQ(code_of({board}, ""), "");
+  EXPECT_EQ(code_of({layer, back}, ""), "");
+  EXPECT_EQ(code_of({board, other}, ""), "board.two-boards");
+  EXPECT_EQ(code_of({board, layer}, ""), "board.two-boards");
+  EXPECT_EQ(code_of({board, layer}, "b-F_Cu.gbr"), "");
+}
+
 TEST_F(BoardJobFiles, the_outline_surrounds_the_board) {
   write("b.gko",
         "%FSLAX33Y33*%\n%MOMM*%\n%ADD10C,0.1*%\nD10*\nX0Y0D02*X20000D01*Y10000D01*X0D01*Y0D01*\n"

@@ -288,6 +288,43 @@ TEST(IsolationProof, counts_what_is_taken_within_copper_and_copper_that_is_taken
   EXPECT_EQ(prove_isolation(pad(0, 0.2, 0.19), plan).lost_mm2, 0);
 }
 
+// So many corners are proved strip by strip. No strip reaches from the pads on the left to those on the right, and yet
+// they hang together, until a way across the board parts the upper ones from the lower ones.
+TEST(IsolationProof, joins_the_strips_of_a_large_board) {
+  constexpr int columns = 60;
+  constexpr int corners = 500;
+  Region copper = united({pad(-4, 0, 2), pad(4 * columns + 4, 0, 2), pad(-4, -20, 2), pad(4 * columns + 4, -20, 2)});
+  MillPlan plan;
+  plan.tools.push_back({wide(0.2), "cutter", {}});
+  std::vector<MillRun>& runs = plan.tools.front().runs;
+  for (int i = 0; i < columns; ++i) {
+    copper = united(copper, pad(4 * i, 0, 1));
+    MillRun around;
+    for (int k = 0; k <= corners; ++k) {
+      const double angle = 2 * M_PI * k / corners;
+      around.push_back({spot(4 * i + 1.5 * std::cos(angle), 1.5 * std::sin(angle)), 0, {}});
+    }
+    runs.push_back(std::move(around));
+  }
+  IsolationProof proof = prove_isolation(copper, plan);
+  EXPECT_EQ(proof.islands, columns + 4U);
+  EXPECT_EQ(proof.joined, 4U);
+  EXPECT_EQ(proof.groups, 1U);
+  EXPECT_EQ(proof.lost_mm2, 0);
+  EXPECT_NEAR(proof.milled_mm2, columns * 2 * M_PI * 1.5 * 0.2, columns * 2 * M_PI * 1.5 * 0.0045);
+
+  runs.push_back({{{spot(-100, -10), 0, {}}, {spot(400, -10), 0, {}}}});
+  proof = prove_isolation(copper, plan);
+  EXPECT_EQ(proof.joined, 4U);  // around the ends, where the copper goes on
+  const Region board = filled({rectangle({spot(-10, -30), spot(4 * columns + 10, 10)})});
+  proof = prove_isolation(copper, plan, board);
+  EXPECT_EQ(proof.joined, 4U);
+  EXPECT_EQ(proof.groups, 2U);
+
+  runs.push_back({{{spot(-100, 0), 0, {}}, {spot(-3.5, 0), 0, {}}}});
+  EXPECT_NEAR(prove_isolation(copper, plan).lost_mm2, 1.5 * 0.2 + M_PI * 0.005, 0.01);
+}
+
 TEST(MillProgram, goes_down_along_and_up_and_ends_at_rest) {
   MillPlan plan;
   plan.tools.push_back({wide(0.2),

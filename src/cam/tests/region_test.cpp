@@ -1,5 +1,6 @@
 #include "passo/cam/region.hpp"
 
+#include <cmath>
 #include <limits>
 #include <numbers>
 
@@ -54,6 +55,42 @@ TEST(Region, grows_by_round_corners_within_the_tolerance_and_never_too_far) {
   EXPECT_EQ(area_mm2(grown(square, {-1'000'000})), 64);
   EXPECT_TRUE(grown(square, {-5'000'001}).empty());
   EXPECT_EQ(area_mm2(grown(square, {})), 100);
+}
+
+// Rings in a board of so many corners are grown apart. Here each hole of a plate, with an island in it, is grown alone
+// for comparison: some islands grow onto the plate, some holes close, some break through to the plate's edge.
+TEST(Region, grows_rings_in_rings_as_if_each_were_alone) {
+  const DrawnRing plate = box_mm(0, 0, 100, 100);
+  const auto disc = [](double x, double y, double radius, bool is_hole) {
+    DrawnRing ring;
+    constexpr int corners = 90;
+    for (int i = 0; i < corners; ++i) {
+      const double angle = 2 * std::numbers::pi * i / corners * (is_hole ? -1 : 1);
+      ring.push_back(at_mm(x + radius * std::cos(angle), y + radius * std::sin(angle)));
+    }
+    return ring;
+  };
+  for (const std::int64_t distance : {150'000, -150'000, -400'000}) {
+    Region all{{plate}};
+    const double whole = area_mm2(grown({{plate}}, {distance}, {1'000}));
+    double expected = whole;
+    for (int row = 0; row < 12; ++row) {
+      for (int column = 0; column < 12; ++column) {
+        const double x = 3.2 + 8 * column;
+        const double y = 3.3 + 8 * row;
+        const double radius = 0.1 + 0.02 * (12 * row + column);
+        std::vector<DrawnRing> one = {disc(x, y, radius, true)};
+        if (column % 3 != 0) one.push_back(disc(x + 0.3 * radius, y, 0.4 * radius, false));
+        Region alone{{plate}};
+        for (const DrawnRing& ring : one) {
+          alone.rings.push_back(ring);
+          all.rings.push_back(ring);
+        }
+        expected += area_mm2(grown(alone, {distance}, {1'000})) - whole;
+      }
+    }
+    EXPECT_NEAR(area_mm2(grown(all, {distance}, {1'000})), expected, 1e-3);
+  }
 }
 
 TEST(Region, grows_holes_inwards) {

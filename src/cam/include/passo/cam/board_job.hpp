@@ -40,6 +40,7 @@ struct BoardFile {
   BoardFileKind kind = {};
   std::optional<GerberLayer> layer = {};
   std::optional<Drawing> drills = {};  // of a drill file
+  std::string board = {};              // of KiCad, of which this is a layer; empty: the file is a layer of its own
 };
 
 // By the name within its folder or archive.
@@ -56,6 +57,9 @@ BoardJob read_board_job(const std::vector<std::string>& paths, Diagnostics& diag
 // What the user says of a file, by its name or its short one: this kind counts, and no guess. Returns why not; empty:
 // done.
 std::string tell_kind(BoardJob& job, std::string_view name, std::string_view words);
+
+// An error if what is used of the job is of several boards: two of KiCad, or one and files of layers beside it.
+void refuse_two_boards(const BoardJob& job, Diagnostics& diagnostics);
 
 // The face of the board: what its outline surrounds, without what is cut out inside. Empty: there is no outline, or it
 // is not closed within 0.1 mm.
