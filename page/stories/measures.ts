@@ -139,6 +139,8 @@ async function large(page: Page, daemon: Daemon, folder: string): Promise<void> 
   tell(`${moves} moves: shown`, time(), '3 s on two cores');
   await sleep(1500);
   tellMemory('with it', '500 MB');
+  await sleep(10_000);
+  tellMemory('10 s later', '500 MB');
 }
 
 const folder = mkdtempSync(join(tmpdir(), 'passo-measures-'));
