@@ -147,7 +147,7 @@ const folder = mkdtempSync(join(tmpdir(), 'passo-measures-'));
 const browser = await openBrowser();
 const daemon = await Daemon.start({ machine: example('machines/router.toml') });
 const empty = await browser.newPage();
-await sleep(1000);
+await sleep(5000); // Chromium then has begun all that it keeps in hand
 tellMemory('with an empty page', '');
 await empty.close();
 const { page } = await visit(browser, daemon, 'run');

@@ -40,6 +40,7 @@ export class Stage {
   private dirty = true;
   private frame = 0;
   private restsUntil = 0;
+  private cost = 0; // of the last picture, ms
   private touched = false; // the person has chosen a view: it is not changed by itself
   private readonly pointers = new Map<number, { x: number; y: number }>();
   private slipped = 0;
@@ -181,7 +182,8 @@ export class Stage {
     const begun = performance.now();
     requestAnimationFrame(() => {
       const now = performance.now();
-      this.restsUntil = now + restOf(now - begun);
+      this.cost = now - begun;
+      this.restsUntil = now + restOf(this.cost);
     });
     cancelAnimationFrame(this.frame);
     this.frame = 0;
@@ -191,7 +193,7 @@ export class Stage {
     const tool: Vector | null = now === null ? null : [now.place.x ?? 0, now.place.y ?? 0, now.place.z ?? 0];
     if (tool !== null && followsTool.peek()) this.view = { ...this.view, centre: tool };
     const runs = now !== null && isUnderWay(now.job) && now.line > 0;
-    const cutsMore = this.stock.advance(runs ? now.line : null, tool);
+    const cutsMore = this.stock.advance(runs ? now.line : null, tool, this.cost);
     const done = runs && tool !== null ? doneOf(finestChunks(), now.line, tool) : null;
     this.renderer.draw(
       { view: this.view, tool, showsRapids: showsRapids.peek(), done, colouring: colouring.peek(), section: section.peek() },
