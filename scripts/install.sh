@@ -36,6 +36,7 @@ test_packages=(
   git ccache                 # checks of the tracked files; builds again in seconds
   gerbv                      # draws circuit boards beside passo's reader
   mosquitto                  # a broker for the tests of passo serve --mqtt
+  bcnc xvfb xdotool imagemagick  # a sender, its screen, its keys and its pictures, for the tests of passo serve
   python3-ezdxf librecad-data openscad-testing-data  # reads DXF drawings beside passo's reader; 1,368 drawings
   jq                         # the table of scripts/motion_table.sh
   chromium                   # the stories of the page of passo serve

@@ -35,6 +35,16 @@ async function saying(child: ChildProcess, ready: (said: string) => boolean): Pr
   });
 }
 
+// A story that fails leaves nobody behind.
+const begun = new Set<ChildProcess>();
+process.once('exit', () => begun.forEach((one) => one.kill('SIGKILL')));
+function begin(words: readonly string[]): ChildProcess {
+  const child = spawn(passo, words, { stdio: ['ignore', 'pipe', 'inherit'] });
+  begun.add(child);
+  child.once('exit', () => begun.delete(child));
+  return child;
+}
+
 const kill = async (child: ChildProcess, signal: 'SIGTERM' | 'SIGKILL'): Promise<void> => {
   if (child.exitCode !== null || child.signalCode !== null) return;
   const ended = new Promise((done) => child.once('exit', done));
@@ -49,8 +59,7 @@ export class Board {
     readonly port: string,
   ) {}
   static async start(machine: string): Promise<Board> {
-    const child = spawn(passo, ['board', 'serve', '--port', '0', '--machine', machine], { stdio: ['ignore', 'pipe', 'inherit'] });
-    process.once('exit', () => child.kill('SIGKILL')); // as with the daemon
+    const child = begin(['board', 'serve', '--port', '0', '--machine', machine]);
     const said = await saying(child, (all) => /tcp:[\d.]+:\d+/.test(all));
     return new Board(child, /tcp:[\d.]+:(\d+)/.exec(said)?.[1] ?? '');
   }
@@ -82,8 +91,7 @@ export class Daemon {
     words.push('--machine', machine ?? smallMachine(folder));
     for (const one of touch) words.push('--touch', one);
     if (board !== undefined) words.push('--board', `tcp:127.0.0.1:${board.port}`);
-    const child = spawn(passo, words, { stdio: ['ignore', 'pipe', 'inherit'] });
-    process.once('exit', () => child.kill('SIGKILL')); // a story that fails leaves nobody behind
+    const child = begin(words);
     const found = /http:\/\/127\.0\.0\.1:\d+\//;
     const said = await saying(child, (all) => found.test(all) && all.includes('Ctrl-C'));
     return new Daemon(child, found.exec(said)?.[0] ?? '', folder);
@@ -117,12 +125,13 @@ export class Daemon {
 
 export const sleep = (ms: number): Promise<void> => new Promise((done) => setTimeout(done, ms));
 
+// As on a computer without a graphics card: Chromium chooses what draws the page, and WebGL is drawn by SwiftShader.
 export async function openBrowser(): Promise<Browser> {
   const executablePath = browserPaths.find((one) => one !== undefined && existsSync(one));
   if (executablePath === undefined) throw new Error('there is no Chromium: apt-get install chromium');
   return chromium.launch({
     executablePath,
-    args: ['--no-sandbox', '--disable-dev-shm-usage', '--enable-unsafe-swiftshader', '--use-angle=swiftshader', '--force-color-profile=srgb'],
+    args: ['--no-sandbox', '--disable-dev-shm-usage', '--enable-unsafe-swiftshader', '--force-color-profile=srgb'],
   });
 }
 
@@ -149,7 +158,7 @@ export async function visit(browser: Browser, daemon: Daemon, path: string, how:
   page.on('pageerror', (error) => errors.push(String(error)));
   page.on('console', (message) => {
     // What Make has made may be gone before it is fetched: the next letter of a field has begun another order.
-    const isOfEarlierOrder = /\/api\/v1\/(make\/(picture|page)|programs\/\d+)\b/.test(message.location().url) && message.text().includes('404');
+    const isOfEarlierOrder = /\/api\/v1\/(make\/(picture|page)|study|programs\/\d+)\b/.test(message.location().url) && message.text().includes('404');
     const isOfLine = message.text().includes('ERR_') || message.text().includes('WebSocket');
     if (message.type() === 'error' && !isOfLine && !isOfEarlierOrder) errors.push(`${message.text()} ${message.location().url}`);
   });

@@ -139,13 +139,15 @@ async function large(page: Page, daemon: Daemon, folder: string): Promise<void> 
   tell(`${moves} moves: shown`, time(), '3 s on two cores');
   await sleep(1500);
   tellMemory('with it', '500 MB');
+  await sleep(10_000);
+  tellMemory('10 s later', '500 MB');
 }
 
 const folder = mkdtempSync(join(tmpdir(), 'passo-measures-'));
 const browser = await openBrowser();
 const daemon = await Daemon.start({ machine: example('machines/router.toml') });
 const empty = await browser.newPage();
-await sleep(1000);
+await sleep(5000); // Chromium then has begun all that it keeps in hand
 tellMemory('with an empty page', '');
 await empty.close();
 const { page } = await visit(browser, daemon, 'run');

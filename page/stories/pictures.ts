@@ -131,6 +131,7 @@ for (const theme of ['dark', 'light'] as const) {
         await page.locator('.text-line code span').first().waitFor({ state: 'attached', timeout: patience });
         await sleep(500);
       }
+      await page.locator('.frame:not(.not-live)').waitFor({ timeout: patience });
       await page.screenshot({ path: join(folder, `${path}-${theme}-${size.name}.png`), timeout: patience });
     }
     if (size.name === 'wide' && pages.includes('run')) {

@@ -124,12 +124,18 @@ describe('a program on its way', () => {
     // Everybody may stop.
     await one.page.getByRole('radio', { name: 'Continuous' }).check();
     await one.page.getByRole('button', { name: 'Jog X−', exact: true }).hover();
-    await one.page.mouse.down();
-    await daemon.until((status) => status.state === 'Jog');
-    await expect.poll(() => other.page.getByRole('button', { name: 'Stop', exact: true }).getAttribute('aria-disabled')).toBe('false');
-    await click(other.page, 'Stop');
-    await daemon.until((status) => status.state === 'Idle');
-    await one.page.mouse.up();
+    // On a busy computer the lease may end before the other page can stop: then again.
+    let stopped = false;
+    for (let tries = 0; tries < 20 && !stopped; ++tries) {
+      await one.page.mouse.down();
+      const jogs = await daemon.until((status) => status.state === 'Jog', 3000).catch(() => null);
+      const stop = other.page.getByRole('button', { name: 'Stop', exact: true }).first();
+      stopped = jogs !== null && (await stop.click({ timeout: 2000 }).then(() => true, () => false));
+      await daemon.until((status) => status.state === 'Idle');
+      await one.page.mouse.up();
+      await sleep(300);
+    }
+    expect(stopped).toBe(true);
     await one.context.close();
     await other.context.close();
   });

@@ -41,6 +41,9 @@ describe('a sentence of the daemon', () => {
     );
     language.value = 'fr';
     expect(told('the machine is not idle: Run')).toBe('la machine n’est pas au repos : Usinage en cours');
+    expect(told('line 9: the program gives up: the bores are 69.1 mm apart; they should be 70.0000 mm apart [gcode.abort]')).toBe(
+      'ligne 9 : le programme abandonne : les trous sont à 69.1 mm l’un de l’autre au lieu de 70.0000 mm [gcode.abort]',
+    );
     expect(told('line 3: no feed rate is set [gcode.missing-feed]')).toBe('ligne 3 : aucune avance n’est donnée [gcode.missing-feed]');
     language.value = 'zh';
     expect(told('X.microsteps is 0')).toBe('X.microsteps 为 0');

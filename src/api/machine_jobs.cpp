@@ -10,11 +10,11 @@
 namespace passo {
 namespace {
 
-// The first error of a program, for the history, which outlives the findings.
-std::string words_of_error(const StoredProgram& program) {
-  const auto& all = program.findings.all();
+// The first error, for the history, which outlives the findings.
+std::string words_of_error(const Diagnostics& findings, std::string else_words) {
+  const auto& all = findings.all();
   const auto first = std::ranges::find(all, Severity::error, &Diagnostic::severity);
-  if (first == all.end()) return "the program has errors: see its findings";
+  if (first == all.end()) return else_words;
   return fmt::format("line {}: {} [{}]", first->place.line, first->message, first->code);
 }
 
@@ -174,7 +174,9 @@ void MachineApi::begin_checked_job() {
 void MachineApi::name_job() {
   const StoredProgram& program = *programs_.find(job_.program);
   if (owner_.changes() != job_owner_) return end_job(JobState::stopped, "the ownership of motion was passed on");
-  if (program.state != UploadState::good) return end_job(JobState::failed, words_of_error(program));
+  if (program.state != UploadState::good) {
+    return end_job(JobState::failed, words_of_error(program.findings, "the program has errors: see its findings"));
+  }
   way_.reset();
   if (from_) {
     auto way = way_to(program, *from_);
@@ -264,10 +266,14 @@ void MachineApi::heed(const std::vector<MachineChange>& changes) {
                 : stopped_by_.empty() ? "it was stopped"
                                       : "stopped by " + stopped_by_);
         break;
-      case Outcome::failed:
+      case Outcome::failed: {
+        // What came true only in the run: a probe that touched nothing, a way that leads out of the travel.
+        const std::string words = change.fault ? change.fault->message : "";
+        const bool is_of_program = change.fault && change.fault->code == "program.wrong";
         end_job(named_ && is_broken_off ? JobState::interrupted : JobState::failed,
-                change.fault ? change.fault->message : "");
+                is_of_program ? words_of_error(findings_, words) : words);
         break;
+      }
     }
   }
 }

@@ -182,7 +182,7 @@ void CycleText::bores() {
   const double way_y = cycle_.second_y - cycle_.y;
   line("#<apart> = SQRT[#<way_x>*#<way_x>+#<way_y>*#<way_y>]");
   line("o<fit> if [ABS[#<apart>-{:.6f}] GT {:.4f}]", std::hypot(way_x, way_y), cycle_.fit);
-  line("  (ABORT,the bores are #<apart> mm apart; they should be {:.4f} mm apart)", std::hypot(way_x, way_y));
+  line("  (ABORT, the bores are #<apart> mm apart; they should be {:.4f} mm apart)", std::hypot(way_x, way_y));
   line("o<fit> endif");
   line("#<angle> = [ATAN[#<way_y>]/[#<way_x>]-{:.9f}]", std::atan2(way_y, way_x) / std::numbers::pi * 180);
   line("o<half> if [#<angle> GT 180]\n  #<angle> = [#<angle>-360]\no<half> endif");

@@ -44,6 +44,17 @@ TEST(ApiProbing, a_tool_is_measured_and_used) {
   EXPECT_NEAR(run.get("/status")["place"]["z"].get<double>(), -15, 0.01);
 }
 
+TEST(ApiProbing, a_touch_that_finds_nothing_is_told) {
+  ApiRun run(GrblRun::at_zero(), nullptr, plate(-30));
+  run.own();
+  run.post("/probe", R"({"cycle": "surface", "reach": 3})");
+  ASSERT_TRUE(run.turn_until([&] { return run.api.job().state == JobState::failed; })) << run.get("/status");
+  const Json job = run.get("/status")["job"];
+  EXPECT_THAT(
+      job["why"].get<std::string>(),
+      testing::MatchesRegex("line [0-9]+: G38.2 came to its end, and the probe is still free .gcode.probe-untouched."));
+}
+
 TEST(ApiProbing, a_height_map_is_stored_with_its_program_and_levels_it) {
   ApiRun run(GrblRun::at_zero(), nullptr, plate(-2.25));
   run.own();

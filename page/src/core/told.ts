@@ -31,7 +31,7 @@ function shownSpeed(words: string): string {
   return found === null ? words : `${speedText(Number(found[1]))} ${speedUnit()}`;
 }
 const values: Record<string, (words: string) => string> = {
-  saying: (words) => toldOr(words),
+  saying: (words) => words.replace(/\S.*/s, toldOr),
   state: (words) => say(`state.${words}` as Key),
   z: (words) => placeText('z', Number(words)),
   place: shownPlace,

@@ -55,10 +55,13 @@ export function triad(zero: Vector, length: number, colours: readonly [Colour, C
   });
 }
 
-// Ten numbers a line: from, to, colour, width.
+// Ten numbers a line, for each of its six vertices: from, to, colour, width.
 export function asNumbers(lines: readonly Line[]): Float32Array {
-  const numbers = new Float32Array(lines.length * 10);
-  lines.forEach((one, i) => numbers.set([...one.from, ...one.to, ...one.colour, one.width], i * 10));
+  const numbers = new Float32Array(lines.length * 60);
+  lines.forEach((one, i) => {
+    const ten = [...one.from, ...one.to, ...one.colour, one.width];
+    for (let vertex = 0; vertex < 6; ++vertex) numbers.set(ten, i * 60 + vertex * 10);
+  });
   return numbers;
 }
 

@@ -1,4 +1,4 @@
-// A thin layer over WebGL2: programs, buffers, and lines as instances of one quad.
+// A thin layer over WebGL2: programs, buffers, and what draws.
 
 export class Program {
   private readonly places = new Map<string, WebGLUniformLocation | null>();
@@ -50,8 +50,15 @@ export function bufferOf(gl: WebGL2RenderingContext, data: AllowSharedBufferSour
   return buffer;
 }
 
-// Two triangles: along the line 0 to 1, across it -1 to 1.
-export const quadCorners = new Float32Array([0, -1, 1, -1, 0, 1, 1, 1]);
+// Whether there is no graphics card, as far as the browser tells. Then four samples a pixel cost 34 MB and time: the
+// shaders soften the edges of lines instead. A context shows its samples only when it is too late to choose them.
+export function isDrawnByProcessor(): boolean {
+  const gl = new OffscreenCanvas(1, 1).getContext('webgl2', { depth: false, antialias: false, powerPreference: 'low-power' });
+  const asked = gl?.getExtension('WEBGL_debug_renderer_info');
+  const name = gl == null || asked == null ? '' : String(gl.getParameter(asked.UNMASKED_RENDERER_WEBGL));
+  gl?.getExtension('WEBGL_lose_context')?.loseContext();
+  return /swiftshader|llvmpipe|softpipe|software|basic render/i.test(name);
+}
 
 // "#35d0ba" or "rgb(…)" as numbers from 0 to 1.
 export function colourOf(text: string): [number, number, number] {

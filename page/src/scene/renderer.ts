@@ -1,11 +1,11 @@
 // Draws the scene. It knows neither the daemon nor the page: it is given chunks, lines, a view and a tool's place.
 import { axesOf, matrixOf, project, type View } from './camera';
 import { asNumbers, cone, type Line } from './furniture';
-import { bufferOf, Program, quadCorners } from './gl';
+import { bufferOf, isDrawnByProcessor, Program } from './gl';
 import type { PathPoints, Vector } from './path_data';
 import { boxOf } from './path_data';
 import { StockDrawing } from './stock_drawing';
-import { lineFragment, lineVertex, pathFragment, pathVertex, toolFragment, toolVertex } from './shaders';
+import { lineFragment, lineVertex, pathFragment, pathVertex, pointsARow, toolFragment, toolVertex } from './shaders';
 
 const mostBusy = 1000; // ms
 
@@ -24,8 +24,7 @@ export interface Colours {
 
 interface DrawnChunk {
   points: PathPoints;
-  array: WebGLVertexArrayObject;
-  buffer: WebGLBuffer;
+  texture: WebGLTexture;
 }
 
 export interface Picture {
@@ -51,9 +50,10 @@ export class Renderer {
   private readonly line: Program;
   private readonly tool: Program;
   readonly stock: StockDrawing;
-  private readonly corners: WebGLBuffer;
+  private readonly nothing: WebGLVertexArrayObject; // the path's vertices read a texture
   private readonly cone: WebGLVertexArrayObject;
   private readonly coneCount: number;
+  private readonly soft: number; // device pixels over which the edge of a line fades
   private readonly chunks = new Map<string, DrawnChunk>();
   private furniture: { array: WebGLVertexArrayObject; count: number } | null = null;
   private fence: WebGLSync | null = null; // of the last picture
@@ -63,75 +63,78 @@ export class Renderer {
 
   // Throws where there is no WebGL2.
   constructor(readonly canvas: HTMLCanvasElement) {
-    const gl = canvas.getContext('webgl2', { antialias: true, alpha: false, powerPreference: 'low-power' });
+    const gl = canvas.getContext('webgl2', { antialias: !isDrawnByProcessor(), alpha: false, powerPreference: 'low-power' });
     if (gl === null) throw new Error('there is no WebGL2');
     this.gl = gl;
     this.path = new Program(gl, pathVertex, pathFragment);
     this.line = new Program(gl, lineVertex, lineFragment);
     this.tool = new Program(gl, toolVertex, toolFragment);
     this.stock = new StockDrawing(gl);
-    this.corners = bufferOf(gl, quadCorners);
+    this.nothing = gl.createVertexArray();
     const numbers = cone();
     this.coneCount = numbers.length / 6;
     this.cone = gl.createVertexArray();
     gl.bindVertexArray(this.cone);
     bufferOf(gl, numbers);
-    this.attribute(0, 3, gl.FLOAT, 24, 0, 0);
-    this.attribute(1, 3, gl.FLOAT, 24, 12, 0);
+    this.attribute(0, 3, 24, 0);
+    this.attribute(1, 3, 24, 12);
     gl.enable(gl.DEPTH_TEST);
     gl.depthFunc(gl.LEQUAL);
+    this.soft = gl.getParameter(gl.SAMPLES) > 0 ? 0 : 1;
+    gl.blendFunc(gl.SRC_ALPHA, gl.ONE_MINUS_SRC_ALPHA);
+    if (this.soft > 0) gl.enable(gl.BLEND);
   }
 
-  private attribute(index: number, size: number, type: number, stride: number, offset: number, divisor: number): void {
+  private attribute(index: number, size: number, stride: number, offset: number): void {
     this.gl.enableVertexAttribArray(index);
-    this.gl.vertexAttribPointer(index, size, type, false, stride, offset);
-    this.gl.vertexAttribDivisor(index, divisor);
+    this.gl.vertexAttribPointer(index, size, this.gl.FLOAT, false, stride, offset);
   }
 
-  private startArray(): WebGLVertexArrayObject {
-    const array = this.gl.createVertexArray();
-    this.gl.bindVertexArray(array);
-    this.gl.bindBuffer(this.gl.ARRAY_BUFFER, this.corners);
-    this.attribute(0, 2, this.gl.FLOAT, 8, 0, 0);
-    return array;
-  }
-
-  // Neighbouring motions share their points: an instance reads two of them.
+  // Neighbouring motions share their points: a motion reads two of them.
   addChunk(points: PathPoints): void {
     if (points.count < 2) return;
     const gl = this.gl;
-    const array = this.startArray();
-    const buffer = bufferOf(gl, points.places);
-    this.attribute(1, 4, gl.UNSIGNED_SHORT, 8, 0, 1);
-    this.attribute(2, 4, gl.UNSIGNED_SHORT, 8, 8, 1);
-    gl.bindVertexArray(null);
-    this.chunks.set(`${points.chunk}/${points.level}`, { points, array, buffer });
+    const texture = gl.createTexture();
+    gl.bindTexture(gl.TEXTURE_2D, texture);
+    const rows = Math.ceil(points.count / pointsARow);
+    gl.texStorage2D(gl.TEXTURE_2D, 1, gl.RGBA16UI, pointsARow, rows);
+    for (const name of [gl.TEXTURE_MIN_FILTER, gl.TEXTURE_MAG_FILTER]) gl.texParameteri(gl.TEXTURE_2D, name, gl.NEAREST);
+    this.write(points);
+    this.chunks.set(`${points.chunk}/${points.level}`, { points, texture });
+  }
+
+  // Full rows at once, then the rest.
+  private write({ count, places }: PathPoints): void {
+    const gl = this.gl;
+    const full = Math.floor(count / pointsARow);
+    for (const [row, width, rows] of [[0, pointsARow, full], [full, count % pointsARow, 1]] as const) {
+      const from = row * pointsARow * 4;
+      if (width * rows > 0) gl.texSubImage2D(gl.TEXTURE_2D, 0, 0, row, width, rows, gl.RGBA_INTEGER, gl.UNSIGNED_SHORT, places.subarray(from, from + width * rows * 4));
+    }
   }
 
   // The flags of all points have changed.
   renewChunks(): void {
     for (const one of this.chunks.values()) {
-      this.gl.bindBuffer(this.gl.ARRAY_BUFFER, one.buffer);
-      this.gl.bufferSubData(this.gl.ARRAY_BUFFER, 0, one.points.places);
+      this.gl.bindTexture(this.gl.TEXTURE_2D, one.texture);
+      this.write(one.points);
     }
   }
 
   clearChunks(): void {
-    for (const one of this.chunks.values()) {
-      this.gl.deleteVertexArray(one.array);
-      this.gl.deleteBuffer(one.buffer);
-    }
+    for (const one of this.chunks.values()) this.gl.deleteTexture(one.texture);
     this.chunks.clear();
   }
 
   setFurniture(lines: readonly Line[], reach: number): void {
     if (this.furniture !== null) this.gl.deleteVertexArray(this.furniture.array);
     this.reach = reach;
-    const array = this.startArray();
+    const array = this.gl.createVertexArray();
+    this.gl.bindVertexArray(array);
     bufferOf(this.gl, asNumbers(lines));
-    this.attribute(1, 3, this.gl.FLOAT, 40, 0, 1);
-    this.attribute(2, 3, this.gl.FLOAT, 40, 12, 1);
-    this.attribute(3, 4, this.gl.FLOAT, 40, 24, 1);
+    this.attribute(0, 3, 40, 0);
+    this.attribute(1, 3, 40, 12);
+    this.attribute(2, 4, 40, 24);
     this.gl.bindVertexArray(null);
     this.furniture = { array, count: lines.length };
   }
@@ -171,17 +174,19 @@ export class Renderer {
     gl.clear(gl.COLOR_BUFFER_BIT | gl.DEPTH_BUFFER_BIT);
     const camera = matrixOf(picture.view, width, height, this.reach * 2);
     const window = [canvas.width, canvas.height];
+    const { right, up, back } = axesOf(picture.view);
+    const light = [0, 1, 2].map((k) => right[k]! * 0.35 + up[k]! * 0.45 + back[k]! * 0.82);
+    // Before the lines, whose soft edges let through what is drawn already.
+    this.stock.draw(camera, light, { stock: this.colours.stock, cut: this.colours.floor }, picture.section);
     if (this.furniture !== null && this.furniture.count > 0) {
       this.line.use();
       this.line.vector('camera', camera);
       this.line.vector('window', window);
       this.line.number('density', density);
+      this.line.number('soft', this.soft);
       gl.bindVertexArray(this.furniture.array);
-      gl.drawArraysInstanced(gl.TRIANGLE_STRIP, 0, 4, this.furniture.count);
+      gl.drawArrays(gl.TRIANGLES, 0, 6 * this.furniture.count);
     }
-    const { right, up, back } = axesOf(picture.view);
-    const light = [0, 1, 2].map((k) => right[k]! * 0.35 + up[k]! * 0.45 + back[k]! * 0.82);
-    this.stock.draw(camera, light, { stock: this.colours.stock, cut: this.colours.floor }, picture.section);
     this.drawPath(picture, level, camera, density);
     if (picture.tool !== null) this.drawTool(picture.tool, camera, picture.view, light);
     gl.bindVertexArray(null);
@@ -200,6 +205,7 @@ export class Renderer {
     path.vector('rapidColour', this.colours.rapid);
     path.vector('pastColour', this.colours.past);
     path.number('thickness', 1.7 * density);
+    path.number('soft', this.soft);
     path.number('showsRapids', picture.showsRapids ? 1 : 0);
     path.number('dash', 9 * density);
     path.integer('tells', ['nothing', 'speed', 'depth', 'torque'].indexOf(picture.colouring.tells));
@@ -207,6 +213,9 @@ export class Renderer {
     path.vector('lowColour', this.colours.low);
     path.vector('highColour', this.colours.high);
     path.number('section', picture.section);
+    path.integer('points', 0);
+    gl.activeTexture(gl.TEXTURE0);
+    gl.bindVertexArray(this.nothing);
     for (const one of this.seen(level, picture.view, canvas.clientWidth, canvas.clientHeight)) {
       const { points } = one;
       const { done } = picture;
@@ -215,8 +224,8 @@ export class Renderer {
       path.vector('origin', points.origin);
       path.vector('stepLength', points.step);
       path.integer('done', before ? points.count : within);
-      gl.bindVertexArray(one.array);
-      gl.drawArraysInstanced(gl.TRIANGLE_STRIP, 0, 4, points.count - 1);
+      gl.bindTexture(gl.TEXTURE_2D, one.texture);
+      gl.drawArrays(gl.TRIANGLES, 0, 6 * (points.count - 1));
     }
   }
 

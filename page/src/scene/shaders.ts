@@ -1,12 +1,16 @@
 // The scene's shaders. A line is a quad of as many pixels as it is wide: WebGL's own lines have one pixel, which nobody
-// sees on a 4K screen.
+// sees on a 4K screen. All lines are one draw of six vertices each, and no instances: a processor that draws takes as
+// long for an instance as for thousand vertices.
 
 // What both kinds of lines share: from the two ends to a corner of the quad. `corner.x` is 0 or 1 along the line,
 // `corner.y` -1 or 1 across it.
 const quad = `
+const vec2 corners[6] = vec2[6](vec2(0, -1), vec2(1, -1), vec2(0, 1), vec2(0, 1), vec2(1, -1), vec2(1, 1));
 uniform mat4 camera;
 uniform vec2 window; // device pixels
+uniform float soft;  // over so many device pixels a line's edge fades; 0: the samples of each pixel do that
 out float along;     // device pixels from the line's start
+out vec2 across;     // device pixels: from its middle, and from its middle to its edge
 vec4 cornerOf(vec3 from, vec3 to, vec2 corner, float width) {
   vec4 a = camera * vec4(from, 1.0);
   vec4 b = camera * vec4(to, 1.0);
@@ -15,17 +19,24 @@ vec4 cornerOf(vec3 from, vec3 to, vec2 corner, float width) {
   vec2 ahead = far > 1e-4 ? way / far : vec2(1.0, 0.0);
   vec2 aside = vec2(-ahead.y, ahead.x) * corner.y + ahead * (corner.x * 2.0 - 1.0) * 0.5;
   vec4 place = corner.x < 0.5 ? a : b;
-  place.xy += aside * width / window;
+  place.xy += aside * (width + soft) / window;
   along = corner.x * far;
+  across = vec2(corner.y, 1.0) * (width + soft) * 0.5;
   return place;
 }`;
+
+const edge = `
+uniform float soft;
+in vec2 across;
+float shareOfLine() { return clamp((across.y - abs(across.x)) / max(soft, 1e-3), 0.0, 1.0); }`;
+
+export const pointsARow = 1024; // of the texture
 
 export const pathVertex = `#version 300 es
 precision highp float;
 precision highp int;
-layout(location = 0) in vec2 corner;
-layout(location = 1) in vec4 start;  // three coordinates and flags, 0 to 65535
-layout(location = 2) in vec4 end;
+precision highp usampler2D;
+uniform usampler2D points;  // three coordinates and flags, 0 to 65535
 uniform vec3 origin;
 uniform vec3 stepLength;
 uniform int done;     // so many motions of this chunk are done
@@ -42,9 +53,14 @@ out vec3 colour;
 out float isRapid;
 out float height;         // mm
 ${quad}
+vec4 pointAt(int i) { return vec4(texelFetch(points, ivec2(i % ${pointsARow}, i / ${pointsARow}), 0)); }
 void main() {
+  int motion = gl_VertexID / 6;
+  vec2 corner = corners[gl_VertexID % 6];
+  vec4 start = pointAt(motion);
+  vec4 end = pointAt(motion + 1);
   isRapid = mod(end.w, 2.0);
-  bool past = gl_InstanceID < done;
+  bool past = motion < done;
   height = origin.z + stepLength.z * (corner.x < 0.5 ? start.z : end.z);
   float told = tells == 1 ? floor(end.w / 256.0) : tells == 3 ? floor(mod(end.w, 256.0) / 2.0) - 1.0 : height;
   float share = clamp((told - range.x) / max(range.y - range.x, 1e-6), 0.0, 1.0);
@@ -65,34 +81,35 @@ in float along;
 uniform float dash;
 uniform float section;  // mm: nothing above it is drawn
 out vec4 result;
+${edge}
 void main() {
   if (height > section) discard;
   if (isRapid > 0.5 && mod(along, dash) > dash * 0.55) discard;
-  result = vec4(colour, 1.0);
+  result = vec4(colour, shareOfLine());
 }`;
 
 // Lines of the scene's furniture: the grid, the travel, the zero, a line that was picked.
 export const lineVertex = `#version 300 es
 precision highp float;
-layout(location = 0) in vec2 corner;
-layout(location = 1) in vec3 start;
-layout(location = 2) in vec3 end;
-layout(location = 3) in vec4 tint;  // colour, thickness
+precision highp int;
+layout(location = 0) in vec3 start;
+layout(location = 1) in vec3 end;
+layout(location = 2) in vec4 tint;  // colour, thickness
 uniform float density;
 out vec3 colour;
 ${quad}
 void main() {
   colour = tint.rgb;
-  gl_Position = cornerOf(start, end, corner, tint.a * density);
+  gl_Position = cornerOf(start, end, corners[gl_VertexID % 6], tint.a * density);
 }`;
 
 export const lineFragment = `#version 300 es
 precision highp float;
 in vec3 colour;
-in float along;
 out vec4 result;
+${edge}
 void main() {
-  result = vec4(colour, along < -1.0 ? 0.0 : 1.0);
+  result = vec4(colour, shareOfLine());
 }`;
 
 // The tool: a cone that stands on its tip.
@@ -120,8 +137,8 @@ void main() {
   result = vec4(toolColour * shade, 1.0);
 }`;
 
-// The stock: the strip `gl_InstanceID` has the rows before and after it, and two vertices a column. The first and the
-// last column and row stand at the bottom: they make the walls.
+// The stock: each strip has the rows before and after it, and two vertices a column; its first and last vertex stand
+// there twice, so that all strips are one. The first and the last column and row stand at the bottom: they make the walls.
 export const stockVertex = `#version 300 es
 precision highp float;
 precision highp int;
@@ -135,7 +152,9 @@ uniform int rows;
 uniform sampler2D heights;  // below the top, mm
 out vec3 place;
 void main() {
-  ivec2 at = ivec2(gl_VertexID / 2 - 1, gl_InstanceID + (gl_VertexID & 1) - 1);
+  int strip = 2 * (columns + 2);
+  int corner = clamp(gl_VertexID % (strip + 2) - 1, 0, strip - 1);
+  ivec2 at = ivec2(corner / 2 - 1, gl_VertexID / (strip + 2) + (corner & 1) - 1);
   ivec2 inside = clamp(at, ivec2(0), ivec2(columns - 1, rows - 1));
   float height = at == inside ? high.z + texelFetch(heights, inside, 0).r : low.z;
   place = vec3(min(low.xy + (vec2(inside) + 0.5) * cell, high.xy), height);

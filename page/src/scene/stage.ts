@@ -30,12 +30,17 @@ const seen = stable(() => [status.value?.place, status.value?.line, status.value
 const reachOfPick = 12; // CSS pixels
 const clickMoves = 5; // pixels that a click may slip
 const closerAfter = 120; // ms at rest
+const aPicture = 20; // ms: what takes no longer is drawn as often as the screen shows it
+// While the path is loaded, slow pictures get a quarter of the time, afterwards two thirds.
+const restOf = (cost: number): number => Math.max(0, cost - aPicture) * (pathLoaded.peek() < 1 ? 3 : 0.5);
 
 export class Stage {
   private readonly renderer: Renderer;
   private view: View = { centre: [0, 0, 0], ...views.iso, scale: 1 };
   private dirty = true;
   private frame = 0;
+  private restsUntil = 0;
+  private cost = 0; // of the last picture, ms
   private touched = false; // the person has chosen a view: it is not changed by itself
   private readonly pointers = new Map<number, { x: number; y: number }>();
   private slipped = 0;
@@ -165,14 +170,21 @@ export class Stage {
   }
 
   private draw(): void {
-    if (this.renderer.isBusy()) {
+    if (this.renderer.isBusy() || performance.now() < this.restsUntil) {
       this.frame = requestAnimationFrame(() => this.draw());
       return;
     }
     this.paint();
   }
 
+  // Where the processor draws, the page stands still until the picture is done: the next frame tells how long it took.
   private paint(): void {
+    const begun = performance.now();
+    requestAnimationFrame(() => {
+      const now = performance.now();
+      this.cost = now - begun;
+      this.restsUntil = now + restOf(this.cost);
+    });
     cancelAnimationFrame(this.frame);
     this.frame = 0;
     this.dirty = false;
@@ -181,7 +193,7 @@ export class Stage {
     const tool: Vector | null = now === null ? null : [now.place.x ?? 0, now.place.y ?? 0, now.place.z ?? 0];
     if (tool !== null && followsTool.peek()) this.view = { ...this.view, centre: tool };
     const runs = now !== null && isUnderWay(now.job) && now.line > 0;
-    const cutsMore = this.stock.advance(runs ? now.line : null, tool);
+    const cutsMore = this.stock.advance(runs ? now.line : null, tool, this.cost);
     const done = runs && tool !== null ? doneOf(finestChunks(), now.line, tool) : null;
     this.renderer.draw(
       { view: this.view, tool, showsRapids: showsRapids.peek(), done, colouring: colouring.peek(), section: section.peek() },

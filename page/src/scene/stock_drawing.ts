@@ -58,6 +58,6 @@ export class StockDrawing {
     gl.bindTexture(gl.TEXTURE_2D, this.texture);
     gl.bindVertexArray(this.array);
     // A cell more on each side: the walls.
-    gl.drawArraysInstanced(gl.TRIANGLE_STRIP, 0, 2 * (shape.columns + 2), shape.rows + 1);
+    gl.drawArrays(gl.TRIANGLE_STRIP, 0, (2 * (shape.columns + 2) + 2) * (shape.rows + 1));
   }
 }

@@ -8,7 +8,8 @@ import type { Renderer } from './renderer';
 import { blockOf } from './stock_cutter';
 import { cutters, stockCutter } from './stock_view';
 
-const aFrame = 12; // ms of each picture
+// So long the stock is cut before each picture, ms: as long as a slow picture takes, or nothing would be cut in time.
+const cuttingFor = (cost: number): number => Math.min(Math.max(12, cost), 100);
 
 export class StockScene {
   private begun = ''; // what is cut, in words
@@ -16,8 +17,8 @@ export class StockScene {
 
   constructor(private readonly renderer: Renderer) {}
 
-  // `line`: the executed one; null: no job runs, and the whole program is cut. True: there is more to cut.
-  advance(line: number | null, tool: Vector | null): boolean {
+  // `cost`: how long the last picture took, ms. `line`: the executed one; null: no job runs, and the whole program is cut. True: there is more to cut.
+  advance(line: number | null, tool: Vector | null, cost: number): boolean {
     const cutter = stockCutter.peek();
     const index = pathIndex.peek();
     if (cutter === null || index?.cuts == null || index.work === null || pathLoaded.peek() < 1) {
@@ -41,7 +42,7 @@ export class StockScene {
       if (cutter.begin(blockOf(cuts, zero, widest), tools) && cutter.shape !== null) this.renderer.stock.begin(cutter.shape);
     }
     this.reached = done ?? 'all';
-    const more = cutter.cut(chunks, done === null || tool === null ? null : { ...done, tool }, aFrame);
+    const more = cutter.cut(chunks, done === null || tool === null ? null : { ...done, tool }, cuttingFor(cost));
     const changed = cutter.changed();
     if (changed !== null) this.renderer.stock.write(changed.first, changed.heights);
     return more;

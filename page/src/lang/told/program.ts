@@ -51,7 +51,7 @@ export const program: readonly Saying[] = [
   saying('P, the seconds to wait', 'P, les secondes d’attente', 'P, i secondi di attesa', 'P，等待的秒数'),
   saying('M6 and no tool was selected', 'M6 sans outil choisi', 'M6 senza utensile scelto', 'M6 而未选择刀具'),
   saying('T before, or in this block', 'T avant, ou dans ce bloc', 'T prima, o in questo blocco', '之前或本段写 T'),
-  saying('the program gives up:{words}', 'le programme abandonne :{words}', 'il programma rinuncia:{words}', '程序放弃：{words}'),
+  saying('the program gives up:{saying}', 'le programme abandonne :{saying}', 'il programma rinuncia:{saying}', '程序放弃：{saying}'),
   saying('the feed rate is {value}', 'l’avance est {value}', 'l’avanzamento è {value}', '进给速度为 {value}'),
   saying('F of 0 or more', 'F de 0 ou plus', 'F di 0 o più', 'F 应为 0 或更大'),
   saying('the spindle speed is {value}', 'la vitesse de broche est {value}', 'la velocità del mandrino è {value}', '主轴转速为 {value}'),
