@@ -14,5 +14,5 @@ esac
 # Other versions format in other ways.
 clang_format=$(command -v clang-format-14 || command -v clang-format)
 
-find src tests bench \( -name '*.hpp' -o -name '*.cpp' \) -print0 | sort -z |
+find src tests bench -name node_modules -prune -o \( -name '*.hpp' -o -name '*.cpp' \) -print0 | sort -z |
   xargs -0 -r -n 50 "$clang_format" --style=file "${action[@]}"
