@@ -23,16 +23,11 @@
 #include <vector>
 
 #include "jerk_cell.hpp"
+#include "phase_pair.hpp"
 
 #include "passo/base/lanes.hpp"
 
 namespace passo {
-
-// The state of the motion at a node.
-struct NodeState {
-  double speed = 0;
-  double acceleration = 0;
-};
 
 class JerkLift {
  public:

@@ -33,24 +33,8 @@ void raise_to(double& worst, double value, double limit) {
 
 }  // namespace
 
-// The two phases from one state to the other over the cell's length: h = (v0 + v1) t - (a1 - a0) t²/3 with t half the
-// time.
-JerkProfile::Pair JerkProfile::pair_of(std::size_t i) const {
-  const NodeState from = states_[i];
-  const NodeState to = states_[i + 1];
-  const double h = cells_[i].length;
-  const double sum = from.speed + to.speed;
-  const double change = to.acceleration - from.acceleration;
-  const double root = sum * sum - 4.0 / 3 * change * h;
-  Pair pair;
-  if (!(root > 0)) return pair;
-  const double t = 2 * h / (sum + std::sqrt(root));
-  pair.half = t;
-  pair.first = ((to.speed - from.speed) / t - 2 * from.acceleration - change / 2) / t;
-  pair.second = change / t - pair.first;
-  pair.middle = {.speed = from.speed + t * (from.acceleration + t * pair.first / 2),
-                 .acceleration = from.acceleration + t * pair.first};
-  return pair;
+PhasePair JerkProfile::pair_of(std::size_t i) const {
+  return PhasePair::over(cells_[i].length, states_[i], states_[i + 1]);
 }
 
 double JerkProfile::highest(const NodeState& from, double jerk, double time) {
@@ -59,7 +43,7 @@ double JerkProfile::highest(const NodeState& from, double jerk, double time) {
 }
 
 // Whether the phases exist and never run backwards, at any speed.
-bool JerkProfile::is_possible(const Pair& pair, const NodeState& from) {
+bool JerkProfile::is_possible(const PhasePair& pair, const NodeState& from) {
   const auto lowest = [](const NodeState& at, double jerk, double time) {
     const bool turns = at.acceleration < 0 && at.acceleration + jerk * time > 0;
     return turns ? at.speed - at.acceleration * at.acceleration / (2 * jerk) : at.speed;
@@ -77,7 +61,7 @@ JerkProfile::Inside JerkProfile::inside(const NodeState& from, double jerk, doub
 
 // The largest demands in a cell, as multiples of the limits.
 JerkProfile::Excess JerkProfile::excess(std::size_t i) const {
-  const Pair pair = pair_of(i);
+  const PhasePair pair = pair_of(i);
   const NodeState from = states_[i];
   if (!is_possible(pair, from)) return {.force = 2, .jolt = 2};
   const NodeState to = states_[i + 1];
@@ -182,7 +166,7 @@ void JerkProfile::look_at_half(std::size_t i, std::uint32_t axes, const NodeStat
 }
 
 void JerkProfile::add_phases(std::size_t i, PlannedMove& move) const {
-  const Pair pair = pair_of(i);
+  const PhasePair pair = pair_of(i);
   const NodeState from = states_[i];
   const JerkCell& cell = cells_[i];
   const double change = std::max(std::abs(pair.first), std::abs(pair.second)) * pair.half;

@@ -64,12 +64,6 @@ class JerkProfile {
  private:
   static constexpr std::size_t fewest_cells = 4;
 
-  struct Pair {  // the two phases of a cell, each of half the time
-    double half = 0;
-    double first = 0;  // the jerk of the first phase
-    double second = 0;
-    NodeState middle;
-  };
   struct Excess {  // as multiples of the limits
     double force = 0;
     double jolt = 0;
@@ -118,14 +112,14 @@ class JerkProfile {
   std::size_t go_on_as_planned(bool again);
   std::size_t decided_of_open() const;
 
-  Pair pair_of(std::size_t i) const;
+  PhasePair pair_of(std::size_t i) const;
   void add_steady(const JerkCell& cell, const NodeState& from, double exit, PlannedMove& move) const;
   Excess excess(std::size_t i) const;
   std::uint32_t axes_near_limits(std::size_t i, const NodeState& most, double jerk) const;
   void look_at_half(std::size_t i, std::uint32_t axes, const NodeState& start, double jerk, double time, double way,
                     int parts, Excess& worst) const;
   static Inside inside(const NodeState& from, double jerk, double time);
-  static bool is_possible(const Pair& pair, const NodeState& from);
+  static bool is_possible(const PhasePair& pair, const NodeState& from);
   static double highest(const NodeState& from, double jerk, double time);  // speed within a phase, without its end
 
   std::vector<LimitedAxis> axes_;

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <limits>
 
+#include "phase_pair.hpp"
+
 namespace passo {
 namespace {
 
@@ -46,7 +48,7 @@ bool SlowedPlan::add(const PlannedMove& move, std::uint64_t segment) {
   return true;
 }
 
-// The phase's way in two phases of equal time, as a cell is played (JerkProfile::pair_of).
+// The phase's way in two phases, as a cell is played.
 bool SlowedPlan::add(const Phase& planned, std::uint64_t segment) {
   const double time = planned.duration.value();
   const double speed = planned.velocity_at(planned.duration).value();
@@ -58,23 +60,20 @@ bool SlowedPlan::add(const Phase& planned, std::uint64_t segment) {
   lacks_ = rising + falling;
   lacking_ = g * (rising - falling);
   if (!(factor() > 0)) return false;
-  const double to_speed = factor() * speed;
-  const double to_acceleration =
-      factor() * factor() * planned.acceleration_at(planned.duration).value() - lacking_ * speed;
+  const NodeState from{.speed = state_.speed, .acceleration = state_.acceleration};
+  const NodeState to{
+      .speed = factor() * speed,
+      .acceleration = factor() * factor() * planned.acceleration_at(planned.duration).value() - lacking_ * speed};
   const double way = planned.position_at(planned.duration).value() - planned.start.value();
-  const double sum = state_.speed + to_speed;
-  const double change = to_acceleration - state_.acceleration;
-  const double root = sum * sum - 4.0 / 3 * change * way;
-  if (!(root > 0)) return false;
-  const double half = 2 * way / (sum + std::sqrt(root));
-  const double jerk = ((to_speed - state_.speed) / half - 2 * state_.acceleration - change / 2) / half;
-  PhaseChain chain{.at = planned.start.value(), .speed = state_.speed, .acceleration = state_.acceleration};
-  for (const double one : {jerk, change / half - jerk}) {
-    if (const auto phase = chain.next(half, one)) pieces_.push_back({.segment = segment, .phase = *phase});
+  const PhasePair pair = PhasePair::over(way, from, to);
+  if (!(pair.half > 0)) return false;
+  PhaseChain chain{.at = planned.start.value(), .speed = from.speed, .acceleration = from.acceleration};
+  for (const double jerk : {pair.first, pair.second}) {
+    if (const auto phase = chain.next(pair.half, jerk)) pieces_.push_back({.segment = segment, .phase = *phase});
   }
-  state_.speed = to_speed;
-  state_.acceleration = to_acceleration;
-  duration_ += 2 * half;
+  state_.speed = to.speed;
+  state_.acceleration = to.acceleration;
+  duration_ += 2 * pair.half;
   return !pieces_.empty();
 }
 

@@ -1,7 +1,6 @@
 // The way of a SpeedChange in steps: where the motion already uses a limit of an axis to the full, no strength that
 // stays the same is possible. But a moment later the path has turned, or a little speed is gone, and there is room.
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <limits>
 
