@@ -9,19 +9,31 @@
 
 namespace passo {
 
-// The bend of one motor for just so many events, in parts of 2^k events. The increments make a parabola of chords,
-// which is aimed between the bounds: half an event early, or at the exact place where a step may be late too.
-std::optional<SegmentFitter::Bent> SegmentFitter::bend_of(const EventBuffer& events, unsigned motor,
-                                                          std::int64_t position, unsigned count, unsigned k) {
+namespace {
+
+// The changes of two motors have a byte each, and a scale.
+constexpr std::int64_t most_of_byte = 127;
+// So often the number of events is looked for between what bends and what does not.
+constexpr int rounds_between = 2;
+
+}  // namespace
+
+// The bend of one motor. The increments make a parabola of chords, which is aimed between the bounds: half an event
+// early, or at the exact place where a step may be late too.
+std::optional<SegmentFitter::Bent> SegmentFitter::bend_of(const BendSpan& span, unsigned motor, BendRange range) {
+  const EventBuffer& events = span.events;
+  const std::int64_t count = span.count;
   const double* const places = events.places(motor);
-  const auto part = static_cast<std::int64_t>(1) << k;
-  const std::int64_t parts = count >> k;
+  const auto part = static_cast<std::int64_t>(1) << span.k;
+  const std::int64_t parts = count >> span.k;
   if (parts < 2) return {};
   const int sign = places[count] > places[0] ? 1 : -1;
-  if (sign * (places[1] - places[0]) < -still || count_until_turn(events, motor, 1, sign, count) < count) return {};
-  const std::int64_t start = along(sign, position);
+  if (sign * (places[1] - places[0]) < -still || count_until_turn(events, motor, 1, sign, span.count) < span.count) {
+    return {};
+  }
+  const std::int64_t start = along(sign, span.board.position(motor));
   const std::int64_t this_step = start & ~(whole_step - 1);
-  find_due(events, motor, sign, this_step, count);
+  find_due(events, motor, sign, this_step, span.count);
   const std::int32_t* const due = ideal_.data();
   const std::int64_t late = events_late();
 
@@ -33,10 +45,11 @@ std::optional<SegmentFitter::Bent> SegmentFitter::bend_of(const EventBuffer& eve
   const std::int64_t node = std::max<std::int64_t>(1, parts / 2);
   const double slope1 = slope_to(node);
   const double slope2 = slope_to(parts);
-  const std::int64_t change = nearest(2 * (slope2 - slope1) / static_cast<double>(parts - node));
+  const auto wanted = 2 * (slope2 - slope1) / static_cast<double>(parts - node);
+  const std::int64_t change = range.unit * nearest(wanted / static_cast<double>(range.unit));
   const std::int64_t first = nearest(slope2 - static_cast<double>(change * (parts - 1)) / 2);
-  const std::int64_t last = first + change * ((count - 1) >> k);
-  if (std::min(first, last) < 1 || std::max(first, last) >= whole_step || std::abs(change) > 0x7fff) return {};
+  const std::int64_t last = first + change * ((count - 1) >> span.k);
+  if (std::min(first, last) < 1 || std::max(first, last) >= whole_step || std::abs(change) > range.most) return {};
 
   auto place = static_cast<std::int32_t>(start - this_step);
   auto increment = static_cast<std::int32_t>(first);
@@ -50,10 +63,7 @@ std::optional<SegmentFitter::Bent> SegmentFitter::bend_of(const EventBuffer& eve
     if (spare < 0) return {};
   }
   if (step_of(place) < step_of(due[count])) return {};
-  return Bent{.motor = motor,
-              .advance = {.sign = sign, .increment = first, .events = count},
-              .change = change,
-              .form = static_cast<std::uint8_t>(k)};
+  return Bent{.advance = {.sign = sign, .increment = first, .events = span.count}, .change = sign * change};
 }
 
 // The number of events up to `count` at which no step of the motor is due, either way.
@@ -66,56 +76,129 @@ unsigned SegmentFitter::count_without_step(const EventBuffer& events, unsigned m
   return k - 1;
 }
 
-// Where one motor has to bend, and one makes no step. Changes the other motors' `advances` to serve as many events.
-std::optional<SegmentFitter::Bent> SegmentFitter::fit_bend(const EventBuffer& events, const Stretch& stretch,
-                                                           const BoardModel& board, const Timing& timing,
-                                                           Advances& advances) {
-  Advances longer = advances;
-  std::optional<unsigned> bent;
-  for (unsigned m = 0; m < motors_; ++m) {
-    if (m == stretch.master) continue;
-    longer[m] = advance_other(events, m, board.position(m), timing.events);
-    if (!bent || longer[m].events < longer[*bent].events) bent = m;
-  }
-  unsigned most = 0;
-  unsigned lender = 0;
+// A motor that makes no step lends its place to one that bends. A master that steps at every event needs no place for
+// its increment, and two motors share it. It goes before a motor that will step: that motor would then be behind by
+// most of a step, and need a segment of its own to catch up.
+std::optional<SegmentFitter::Lending> SegmentFitter::find_lender(const EventBuffer& events, const Stretch& stretch,
+                                                                 const BoardModel& board, const Advances& advances,
+                                                                 unsigned bent, unsigned count) const {
+  Lending lending{.first = bent, .second = bent};
   for (unsigned m = 0; m < motors_; ++m) {
     if (m == stretch.master || m == bent) continue;
-    const unsigned still_for = count_without_step(events, m, board.position(m), timing.events);
-    if (still_for > most) lender = m;
-    most = std::max(most, still_for);
+    const unsigned still_for = count_without_step(events, m, board.position(m), count);
+    if (still_for > lending.most) lending.lender = m;
+    lending.most = std::max(lending.most, still_for);
   }
-  if (most == 0) return {};
-  longer[lender] = {};
+  if (lending.most < count && motors_ >= least_motors_to_bend_two &&
+      advances[stretch.master].increment == whole_step) {
+    const auto lender = static_cast<std::uint8_t>(stretch.master);
+    lending = {.lender = lender, .first = first_beside(lender), .second = second_beside(lender), .most = count};
+  }
+  if (lending.most == 0) return {};
+  // A bend ends where a motor turns.
+  for (const unsigned m : {lending.first, lending.second}) {
+    const std::size_t first = first_move(events, m, lending.most);
+    if (first > lending.most) continue;
+    const int sign = events.places(m)[first] > events.places(m)[first - 1] ? 1 : -1;
+    lending.most = count_until_turn(events, m, first, sign, lending.most);
+  }
+  return lending;
+}
+
+std::optional<SegmentFitter::Bending> SegmentFitter::bend_one(const BendSpan& span, const Lending& lending,
+                                                              Advances& advances) {
+  const std::optional<Bent> bent = bend_of(span, lending.first, {});
+  if (!bent) return {};
+  advances[lending.first] = bent->advance;
+  advances[lending.lender] = {};
+  return Bending{.code = static_cast<std::uint8_t>(lending.first | lending.lender << bend_shift<max_motors>),
+                 .lent = static_cast<std::uint16_t>(bent->change),
+                 .lender = lending.lender,
+                 .events = span.count};
+}
+
+// A motor that one increment serves has no change.
+std::optional<SegmentFitter::Bending> SegmentFitter::bend_two(const BendSpan& span, const Lending& lending,
+                                                              Advances& advances) {
+  for (std::uint8_t scale = 1; scale <= largest_scale; ++scale) {
+    const std::int64_t unit = 1 << 2 * scale;
+    const auto bent = [&](unsigned motor) -> std::optional<Bent> {
+      const Advance even = advance_other(span.events, motor, span.board.position(motor), span.count);
+      if (even.events == span.count) return Bent{.advance = even};
+      return bend_of(span, motor, {.unit = unit, .most = most_of_byte * unit});
+    };
+    const std::optional<Bent> first = bent(lending.first);
+    if (!first) continue;
+    const std::optional<Bent> second = bent(lending.second);
+    if (!second) continue;
+    advances[lending.first] = first->advance;
+    advances[lending.second] = second->advance;
+    const auto byte = [unit](std::int64_t change) { return static_cast<std::uint8_t>(change / unit); };
+    return Bending{.code = static_cast<std::uint8_t>(scale | lending.lender << bend_shift<max_motors>),
+                   .lent = static_cast<std::uint16_t>(byte(first->change) | byte(second->change) << 8),
+                   .lender = lending.lender,
+                   .events = span.count};
+  }
+  return {};
+}
+
+// Finds the longest parts in which just so many events bend.
+std::optional<SegmentFitter::Bending> SegmentFitter::bend_by(const Lending& lending, BendSpan span,
+                                                             const Timing& timing, unsigned master,
+                                                             Advances& advances) {
+  for (unsigned m = 0; m < motors_; ++m) {
+    if (m == master || lending.serves(m)) continue;
+    advances[m] = advance_other(span.events, m, span.board.position(m), span.count);
+    if (advances[m].events != span.count) return {};
+  }
   const BoardSegment times{.events = static_cast<std::uint16_t>(timing.events),
                            .form = timing.form,
                            .interval = timing.interval,
                            .change = timing.change};
   const std::int64_t last = duration(times, most_events) - duration(times, times.events - 1);
   const double least_part = least_events_of_part(static_cast<double>(std::min<std::int64_t>(timing.interval, last)));
-  const unsigned least = longer[*bent].events;
-  for (unsigned n = most; n > least + least / 4; n = n * 3 / 4) {
-    bool others_serve = true;
-    for (unsigned m = 0; m < motors_ && others_serve; ++m) {
-      if (m == stretch.master || m == *bent || m == lender) continue;
-      longer[m] = advance_other(events, m, board.position(m), n);
-      others_serve = longer[m].events == n;
-    }
-    if (!others_serve) continue;
-    const unsigned longest = is_root(timing.form) ? timing.form & ~root_form : longest_root_part;
-    for (unsigned k = longest; k > 0 && (1U << k) >= least_part; --k) {
-      std::optional<Bent> bend = bend_of(events, *bent, board.position(*bent), n, k);
-      if (bend) {
-        bend->lender = lender;
-        if (is_root(timing.form)) bend->form = timing.form;
-        advances = longer;
-        advances[*bent] = bend->advance;
-        return bend;
-      }
-      if (is_root(timing.form)) break;
-    }
+  const unsigned longest = is_root(timing.form) ? timing.form & ~root_form : longest_root_part;
+  const unsigned shortest = is_root(timing.form) ? longest : 1;
+  for (span.k = longest; span.k >= std::max(shortest, 1U) && (1U << span.k) >= least_part; --span.k) {
+    const bool one = lending.first == lending.second;
+    std::optional<Bending> bending = one ? bend_one(span, lending, advances) : bend_two(span, lending, advances);
+    if (!bending) continue;
+    bending->form = is_root(timing.form) ? timing.form : static_cast<std::uint8_t>(span.k);
+    return bending;
   }
   return {};
+}
+
+// Where motors have to bend, and one has a place to lend. Changes the other motors' `advances` to serve as many events.
+std::optional<SegmentFitter::Bending> SegmentFitter::fit_bend(const EventBuffer& events, const Stretch& stretch,
+                                                              const BoardModel& board, const Timing& timing,
+                                                              Advances& advances) {
+  Advances tried = advances;
+  std::optional<unsigned> worst;
+  for (unsigned m = 0; m < motors_; ++m) {
+    if (m == stretch.master) continue;
+    tried[m] = advance_other(events, m, board.position(m), timing.events);
+    if (!worst || tried[m].events < tried[*worst].events) worst = m;
+  }
+  const std::optional<Lending> lending = find_lender(events, stretch, board, tried, *worst, timing.events);
+  if (!lending) return {};
+  const unsigned without = tried[*worst].events;
+  const unsigned worth_it = without + without / 4;
+  std::optional<Bending> longest;
+  unsigned too_many = lending->most + 1;
+  const auto bends = [&](unsigned n) {
+    const BendSpan span{.events = events, .board = board, .count = n};
+    const std::optional<Bending> bending = bend_by(*lending, span, timing, stretch.master, tried);
+    if (!bending) {
+      too_many = n;
+      return;
+    }
+    longest = bending;
+    advances = tried;
+  };
+  for (unsigned n = lending->most; !longest && n > worth_it; n = n * 3 / 4) bends(n);
+  for (int round = 0; longest && round < rounds_between; ++round) bends((longest->events + too_many) / 2);
+  return longest;
 }
 
 }  // namespace passo

@@ -23,7 +23,7 @@ constexpr double second_node = 0.928;
 // least so many parts are left to the rest, because the board takes a series for the root.
 constexpr double cost_of_part = 50;
 constexpr double cost_of_event = 0.7;
-constexpr double parts_to_rest = 3;
+constexpr double parts_to_rest = 2;
 // So much a motor that has caught up may be ahead, in 1/65536 step: rounding.
 constexpr std::int64_t hair = 2;
 
@@ -225,8 +225,9 @@ SegmentFitter::Advance SegmentFitter::advance_master(const Stretch& stretch, std
   const std::int64_t increment = std::clamp<std::int64_t>(step, 0, whole_step);
   // If a stretch begins between two lines of its grid, a first segment of one event brings the master onto the grid.
   // Over a line, a master of whole steps that was ahead by rounding, or had no time to catch up, makes them all the
-  // same.
-  const bool steps_at_events = share_ != 0 && stretch.grid == whole_step && step >= whole_step - hair;
+  // same. Where a step may be an event off, it does so between any two lines: each event still brings one step.
+  const std::int64_t least = events_late() != 0 ? 1 : whole_step - hair;
+  const bool steps_at_events = share_ != 0 && stretch.grid == whole_step && step >= least;
   const bool is_on_grid = steps_at_events || step == stretch.grid;
   return {.sign = stretch.sign, .increment = is_on_grid ? stretch.grid : increment, .events = is_on_grid ? events : 1};
 }
@@ -280,6 +281,13 @@ SegmentFitter::Advance SegmentFitter::within_bounds(std::int32_t place, std::int
   return {.increment = ceil_divide(ideal[straight] - place, straight), .events = static_cast<unsigned>(straight)};
 }
 
+// The first event up to `count` at which the motor has moved. count + 1: it stands still.
+std::size_t SegmentFitter::first_move(const EventBuffer& events, unsigned motor, unsigned count) {
+  const double* const places = events.places(motor);
+  if (std::fabs(places[1] - places[0]) >= still) return 1;
+  return first_below(2, count, [places](std::size_t k) { return still - std::fabs(places[k] - places[k - 1]); });
+}
+
 // What is behind a turn is left to the next segment. From event `first` on the motor moves in direction `sign`.
 unsigned SegmentFitter::count_until_turn(const EventBuffer& events, unsigned motor, std::size_t first, int sign,
                                          unsigned count) const {
@@ -307,10 +315,7 @@ void SegmentFitter::find_due(const EventBuffer& events, unsigned motor, int sign
 SegmentFitter::Advance SegmentFitter::advance_other(const EventBuffer& events, unsigned motor, std::int64_t position,
                                                     unsigned count) {
   const double* places = events.places(motor);
-  std::size_t first = 1;
-  if (std::fabs(places[1] - places[0]) < still) {
-    first = first_below(2, count, [places](std::size_t k) { return still - std::fabs(places[k] - places[k - 1]); });
-  }
+  const std::size_t first = first_move(events, motor, count);
   if (first > count) return settle(position, places[count], count);
   const int direction = places[first] > places[first - 1] ? 1 : -1;
   count = count_until_turn(events, motor, first, direction, count);
@@ -373,21 +378,20 @@ unsigned SegmentFitter::fit(const EventBuffer& events, const Stretch& stretch, c
   const bool any_lags = share_ != 0 && count == 1 && timing.events > 1 && std::ranges::any_of(advances, lags);
   if (any_lags && catch_up(events, stretch, board, true, segment)) return 1;
 
-  std::optional<Bent> bent;
+  std::optional<Bending> bending;
   if (bends_ && share_ != 0 && count < timing.events && advances[stretch.master].events == timing.events) {
-    bent = fit_bend(events, stretch, board, timing, advances);
-    if (bent) count = bent->advance.events;
+    bending = fit_bend(events, stretch, board, timing, advances);
+    if (bending) count = bending->events;
   }
-  const std::uint8_t form = bent ? bent->form : timing.form;
+  const std::uint8_t form = bending ? bending->form : timing.form;
   segment = BoardSegment{.events = static_cast<std::uint16_t>(count),
                          .form = count > 1 ? form : std::uint8_t{0},
                          .interval = timing.interval,
                          .change = count > 1 ? timing.change : 0};
   write(advances, kept_directions, segment);
-  if (bent) {
-    segment.bend = static_cast<std::uint8_t>(bent->motor | bent->lender << bend_shift<max_motors>);
-    const std::int64_t change = bent->advance.sign > 0 ? bent->change : -bent->change;
-    segment.increments[bent->lender] = static_cast<std::uint16_t>(change);
+  if (bending) {
+    segment.bend = bending->code;
+    segment.increments[bending->lender] = bending->lent;
   }
   return count;
 }

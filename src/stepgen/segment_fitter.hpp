@@ -67,11 +67,36 @@ class SegmentFitter {
   bool part_holds(const EventBuffer& events, std::int64_t now, const Timing& timing, unsigned first) const;
   // A motor that moves in a bend: its first increment, and what each part adds to it.
   struct Bent {
-    unsigned motor = 0;
-    unsigned lender = 0;
     Advance advance;
     std::int64_t change = 0;
+  };
+  // What a bend's changes are multiples of, and the largest of them.
+  struct BendRange {
+    std::int64_t unit = 1;
+    std::int64_t most = 0x7fff;
+  };
+  // Which motors bend, and which one lends its place.
+  struct Lending {
+    unsigned lender = 0;
+    unsigned first = 0;
+    unsigned second = 0;  // the first once more: one motor bends
+    unsigned most = 0;    // the number of events for which the place is free
+    bool serves(unsigned motor) const { return motor == lender || motor == first || motor == second; }
+  };
+  // A segment's bend as the wire says it.
+  struct Bending {
+    std::uint8_t code = 0;  // BoardSegment::bend
+    std::uint16_t lent = 0;
     std::uint8_t form = 0;
+    unsigned lender = 0;
+    unsigned events = 0;
+  };
+  // The first `count` of the events, in parts of two to the power `k`.
+  struct BendSpan {
+    const EventBuffer& events;
+    const BoardModel& board;
+    unsigned count = 0;
+    unsigned k = 0;
   };
   using Advances = std::array<Advance, max_motors>;
 
@@ -82,13 +107,19 @@ class SegmentFitter {
   bool catch_up(const EventBuffer& events, const Stretch& stretch, const BoardModel& board, bool is_behind,
                 BoardSegment& segment) const;
   void write(const Advances& advances, std::uint8_t kept_directions, BoardSegment& segment) const;
-  std::optional<Bent> fit_bend(const EventBuffer& events, const Stretch& stretch, const BoardModel& board,
-                               const Timing& timing, Advances& advances);
+  std::optional<Bending> fit_bend(const EventBuffer& events, const Stretch& stretch, const BoardModel& board,
+                                  const Timing& timing, Advances& advances);
+  std::optional<Lending> find_lender(const EventBuffer& events, const Stretch& stretch, const BoardModel& board,
+                                     const Advances& advances, unsigned bent, unsigned count) const;
+  std::optional<Bending> bend_by(const Lending& lending, BendSpan span, const Timing& timing, unsigned master,
+                                 Advances& advances);
+  std::optional<Bending> bend_one(const BendSpan& span, const Lending& lending, Advances& advances);
+  std::optional<Bending> bend_two(const BendSpan& span, const Lending& lending, Advances& advances);
   unsigned count_without_step(const EventBuffer& events, unsigned motor, std::int64_t position, unsigned count) const;
-  std::optional<Bent> bend_of(const EventBuffer& events, unsigned motor, std::int64_t position, unsigned count,
-                              unsigned k);
+  std::optional<Bent> bend_of(const BendSpan& span, unsigned motor, BendRange range);
   Advance advance_master(const Stretch& stretch, std::int64_t position, double first_target, unsigned events) const;
   Advance advance_other(const EventBuffer& events, unsigned motor, std::int64_t position, unsigned count);
+  static std::size_t first_move(const EventBuffer& events, unsigned motor, unsigned count);
   unsigned count_until_turn(const EventBuffer& events, unsigned motor, std::size_t first, int sign,
                             unsigned count) const;
   void find_due(const EventBuffer& events, unsigned motor, int sign, std::int64_t this_step, unsigned count);

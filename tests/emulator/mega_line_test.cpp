@@ -27,7 +27,7 @@ TEST_F(MegaOnABadLineInFull, a_thousand_faults_of_each_kind) {
 }
 
 TEST_F(MegaOnABadLineInFull, cut_before_every_frame) {
-  const test::EmulatedLineRun::Cuts cuts = on_mega().cut_at_every(2 * test::in_full());
+  const test::EmulatedLineRun::Cuts cuts = on_mega().cut_at_every(test::in_full());
   EXPECT_EQ(cuts.recoveries_without_need, 0) << "there are places in plenty";
   EXPECT_GT(cuts.recoveries, 0);
 }

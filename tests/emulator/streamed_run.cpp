@@ -342,8 +342,8 @@ EdgeCheck BoardBench::check(const std::vector<BoardSegment>& segments) {
   return result;
 }
 
-// Makes eight times as many events of the segment, in parts of 2^part events, at the same rates. A motor is bent, or
-// the intervals are a root's.
+// Makes eight times as many events of the segment, in parts of 2^part events, at the same rates. One or two motors are
+// bent, or the intervals are a root's.
 static void bend(std::mt19937_64& random, BoardSegment& segment, std::uint8_t motors, std::uint8_t part) {
   segment.events = static_cast<std::uint16_t>(std::min(8 * segment.events, int{most_events}));
   segment.change /= 8;
@@ -354,6 +354,12 @@ static void bend(std::mt19937_64& random, BoardSegment& segment, std::uint8_t mo
     segment.change = 0x7f'ffff;
   }
   const auto lender = static_cast<unsigned>(random() % motors);
+  if (random() % 4 == 0 && motors >= least_motors_to_bend_two) {
+    segment.flips = static_cast<std::uint8_t>(segment.flips | 1U << lender);
+    segment.increments[lender] = static_cast<std::uint16_t>(random());
+    segment.bend = static_cast<std::uint8_t>((1 + random() % largest_scale) | lender << bend_shift<max_motors>);
+    return;
+  }
   const unsigned bent = (lender + 1U) % motors;
   const unsigned master = segment.flips & ~(1U << lender) & ~(1U << bent);
   if (random() % 4 == 0 || master == 0) return;

@@ -16,7 +16,7 @@ inline constexpr uint8_t flag_stop = pins.flag_stop;
 // The interrupt makes a pulse of so many cycles, or of more if the pin map wants a longer one.
 inline constexpr uint8_t pulse_without_padding = 16;
 inline constexpr About about = {
-    .firmware = 102,
+    .firmware = 103,
     .highest_event_rate = 110'000,
     .baud = 500'000,
     .name = "mega ramps 1.4",

@@ -29,7 +29,7 @@ class Segments {
     }
     return segment;
   }
-  // In parts, the change of the interval a root, or a motor bent.
+  // In parts, the change of the interval a root, or motors bent.
   BoardSegment draw_in_parts(unsigned motors) {
     BoardSegment segment = draw(motors);
     segment.events = static_cast<std::uint16_t>(between(1, most_events));
@@ -43,11 +43,12 @@ class Segments {
       if (!is_fine(segment.change)) segment.change -= segment.change % coarse_change;
     }
     if (between(0, 2) == 0) return segment;
-    const auto bent = static_cast<unsigned>(between(0, motors - 1));
     const auto lender = static_cast<unsigned>(between(0, motors - 1));
-    if (bent == lender) return segment;
+    const bool two = motors >= least_motors_to_bend_two && between(0, 1) == 0;
+    const auto bent = static_cast<unsigned>(two ? between(1, largest_scale) : between(0, motors - 1));
+    if (!two && bent == lender) return segment;
     segment.bend = static_cast<std::uint8_t>(bent | lender << bend_shift<max_motors>);
-    segment.flips = static_cast<std::uint8_t>(segment.flips & ~(1U << lender));
+    segment.flips = static_cast<std::uint8_t>((segment.flips & ~(1U << lender)) | (two ? 1U << lender : 0U));
     return segment;
   }
 

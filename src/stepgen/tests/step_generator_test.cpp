@@ -189,8 +189,8 @@ TEST(StepGenerator, loose_times_take_few_segments_and_lose_no_step) {
         const bool stepped = (carry != 0) != flipped;
         place[m] = (place[m] >> 16 << 16) + (stepped ? whole_step : 0) + ((place[m] + segment.increments[m]) & 0xffff);
       }
-      // s = v t - a t^2 / 2, and at its end the speed is 0.
-      const double along = static_cast<double>(place[0] - whole_step / 2) / whole_step;
+      // s = v t - a t^2 / 2, and at its end the speed is 0. A step is due half a step before its place.
+      const double along = static_cast<double>(place[0] >> 16) - 0.5;
       const double left = 3840 - along;
       if (left < 1) continue;
       const double due = (1 - std::sqrt(left / 3840)) * 0.125 * 16e6;

@@ -45,13 +45,14 @@ class PartTaker {
 
  private:
   [[gnu::noinline]] void pass() { part_.interval += static_cast<uint32_t>(part_.change) * part_.events; }
-  // Gives the part the increment that a bent motor has there.
+  // Gives the part the increments that bent motors have there.
   [[gnu::noinline]] void bend(const Segment& segment, bool begins) {
     Breath{}();
-    const Bend bend = bend_of(segment);
-    part_.increments[bend.lender] = 0;
-    if (begins) return;
-    part_.increments[bend.bent] = static_cast<uint16_t>(part_.increments[bend.bent] + segment.increments[bend.lender]);
+    if (begins) {
+      part_.increments[bend_of(segment).lender] = 0;
+    } else {
+      bend_on(segment, part_.increments);
+    }
   }
   // Gives the part the change that a root has there.
   [[gnu::noinline]] void grow(Segment& segment, bool begins) {

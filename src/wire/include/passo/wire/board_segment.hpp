@@ -51,8 +51,13 @@ inline constexpr uint16_t coarse_bit = 0x8000;
 inline constexpr uint8_t form_place = 11;
 inline constexpr uint8_t root_form = 8;
 
-// A bend: the motor `bent` has another increment in each part, and the motor `lender`, which stands still, lends its
-// place: its increment is what is added. 0 bends none.
+// A bend: motors have another increment in each part, and the motor `lender` lends its place for what is added.
+//
+//   The lender stands still (it is not flipped).     Its place is what the increment of the motor `bent` grows by.
+//   The lender steps at every event (it is flipped,  Its place has two signed bytes, the low one first. The increments
+//   so its own increment is 0).                      of the first two other motors grow by them, times 4^bent.
+//
+// 0 bends none.
 struct Bend {
   uint8_t bent = 0;
   uint8_t lender = 0;
@@ -65,6 +70,19 @@ constexpr Bend bend_of(const SegmentFor<motors>& segment) {
   return {.bent = static_cast<uint8_t>(code & ((1U << bend_shift<motors>)-1)),
           .lender = static_cast<uint8_t>(code >> bend_shift<motors>)};
 }
+template <uint8_t motors>
+constexpr bool bends_two(const SegmentFor<motors>& segment, uint8_t lender) {
+  return (segment.flips >> lender & 1) != 0;
+}
+// The two motors that bend where a motor that steps at every event lends its place.
+constexpr uint8_t first_beside(uint8_t lender) {
+  return lender == 0 ? 1 : 0;
+}
+constexpr uint8_t second_beside(uint8_t lender) {
+  return lender <= 1 ? 2 : 1;
+}
+inline constexpr uint8_t least_motors_to_bend_two = 3;
+inline constexpr uint8_t largest_scale = 3;  // of a bend of two motors: `bent`
 inline constexpr int32_t largest_change = fine_change * coarse_change;
 constexpr bool is_fine(int32_t change) {
   return change <= fine_change && change >= -fine_change;

@@ -14,11 +14,9 @@ template <class Each>
 void for_each_plain_part(const BoardSegment& segment, const Each& each) {
   BoardSegment plain = segment;
   plain.form = plain.bend = 0;
-  const Bend bend = bend_of(segment);
-  if (segment.bend != 0) plain.increments[bend.lender] = 0;
+  if (segment.bend != 0) plain.increments[bend_of(segment).lender] = 0;
   for_each_part(segment, [&](const PartTimes& times, uint16_t events, uint16_t before) {
-    uint16_t& bent = plain.increments[bend.bent];
-    if (segment.bend != 0 && before != 0) bent = static_cast<uint16_t>(bent + segment.increments[bend.lender]);
+    if (segment.bend != 0 && before != 0) bend_on(segment, plain.increments);
     plain.events = events;
     plain.interval = times.interval;
     plain.change = times.change;

@@ -58,8 +58,12 @@ template <uint8_t room>
 [[gnu::noinline]] void load_bend(uint8_t bent, uint8_t lender, uint8_t motors, SegmentFor<room>& segment) {
   constexpr uint8_t known = static_cast<uint8_t>((1U << SegmentFor<room>::half) - 1);
   segment.bend = static_cast<uint8_t>(bent | lender << bend_shift<room>) & known;
-  // A segment without events is refused.
-  if (bent >= motors || lender >= motors) segment.events = 0;
+  if (lender < motors && bends_two(segment, lender)) {
+    if (motors >= least_motors_to_bend_two && bent <= largest_scale) return;
+  } else if (lender < motors && bent < motors) {
+    return;
+  }
+  segment.events = 0;  // so it is refused
 }
 
 // `motors` is at most `room`.

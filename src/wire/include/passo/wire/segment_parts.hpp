@@ -102,6 +102,20 @@ struct PartTimes {
   }
 };
 
+// Bends `increments`: from those of a part to those of the part after it. Only if the segment has a bend.
+template <uint8_t motors>
+[[gnu::noinline]] constexpr void bend_on(const SegmentFor<motors>& segment, uint16_t* increments) {
+  const auto grow = [increments](uint8_t motor, uint16_t by) {
+    increments[motor] = static_cast<uint16_t>(increments[motor] + by);
+  };
+  const Bend bend = bend_of(segment);
+  const uint16_t lent = segment.increments[bend.lender];
+  if (!bends_two(segment, bend.lender)) return grow(bend.bent, lent);
+  const uint8_t unit = static_cast<uint8_t>(1U << 2 * bend.bent);
+  grow(first_beside(bend.lender), static_cast<uint16_t>(static_cast<int8_t>(lent & 0xFF) * unit));
+  grow(second_beside(bend.lender), static_cast<uint16_t>(static_cast<int8_t>(lent >> 8) * unit));
+}
+
 // Calls `each` with the times of each part, its number of events, and the number of events before it.
 template <uint8_t motors, class Each>
 constexpr void for_each_part(const SegmentFor<motors>& segment, const Each& each) {

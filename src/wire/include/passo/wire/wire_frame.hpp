@@ -16,7 +16,7 @@
 namespace passo {
 
 inline constexpr uint8_t sync_byte = 0xA5;
-inline constexpr uint8_t protocol_version = 8;
+inline constexpr uint8_t protocol_version = 9;
 
 // Words of the extended Hamming code (8,4): three bits must be wrong before one type passes for another.
 enum class MessageType : uint8_t {
