@@ -9,6 +9,14 @@
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
 
+case ${1-} in
+  --pico | --chips) ;;
+  -*)
+    sed -n '2,8s/^# \{0,1\}//p' scripts/board_table.sh
+    exit 2
+    ;;
+esac
+
 build=build/release
 passo=$PWD/$build/passo
 cmake --build "$build" --parallel "$(nproc)" --target passo >/dev/null
