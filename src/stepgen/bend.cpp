@@ -89,8 +89,7 @@ std::optional<SegmentFitter::Lending> SegmentFitter::find_lender(const EventBuff
     if (still_for > lending.most) lending.lender = m;
     lending.most = std::max(lending.most, still_for);
   }
-  if (lending.most < count && motors_ >= least_motors_to_bend_two &&
-      advances[stretch.master].increment == whole_step) {
+  if (lending.most < count && motors_ >= least_motors_to_bend_two && advances[stretch.master].increment == whole_step) {
     const auto lender = static_cast<std::uint8_t>(stretch.master);
     lending = {.lender = lender, .first = first_beside(lender), .second = second_beside(lender), .most = count};
   }
@@ -158,8 +157,8 @@ std::optional<SegmentFitter::Bending> SegmentFitter::bend_by(const Lending& lend
   const std::int64_t last = duration(times, most_events) - duration(times, times.events - 1);
   const double least_part = least_events_of_part(static_cast<double>(std::min<std::int64_t>(timing.interval, last)));
   const unsigned longest = is_root(timing.form) ? timing.form & ~root_form : longest_root_part;
-  const unsigned shortest = is_root(timing.form) ? longest : 1;
-  for (span.k = longest; span.k >= std::max(shortest, 1U) && (1U << span.k) >= least_part; --span.k) {
+  const unsigned shortest = is_root(timing.form) ? std::max(longest, 1U) : 1;
+  for (span.k = longest; span.k >= shortest && (1U << span.k) >= least_part; --span.k) {
     const bool one = lending.first == lending.second;
     std::optional<Bending> bending = one ? bend_one(span, lending, advances) : bend_two(span, lending, advances);
     if (!bending) continue;

@@ -56,7 +56,7 @@ struct StepOptions {
   std::uint8_t motor_count = 0;
   BoardClock clock;
   Point start;        // machine position at the start; the motors' step counts begin at its whole steps
-  bool bends = true;  // whether segments may bend. A bend serves one motor only, and not the second one of its axis
+  bool bends = true;  // whether segments may bend. A bend does not serve the second motor of an axis
   std::optional<BoardPlace> place = {};  // where the board stands; empty: the board has just heard a hello at `start`
   AxisSet downs = {};                    // the axes whose backlash is taken up for motion down
 };
