@@ -53,6 +53,8 @@ WebAnswer path_answer(const StoredProgram& program, const ToolTable& tools, std:
   const ProgramPath& path = program.path_points;
   if (query_value(query, "chunk").empty()) {
     return json_answer(200, {{"program", program.id},
+                             {"checks", program.checks},
+                             {"growing", program.state == UploadState::checking},
                              {"complete", path.complete()},
                              {"cut_off", path.cut_off()},
                              {"points", path.points()},

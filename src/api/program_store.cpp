@@ -129,7 +129,9 @@ void ProgramStore::check(std::uint64_t id, const MachineDescription& machine, co
     checker_.reset();
   }
   StoredProgram& program = found->second;
-  if (program.state == UploadState::good && program.checked_from == start) return;
+  const bool is_known = program.state == UploadState::good && program.checked_from == start;
+  if (is_known && program.path_points.complete()) return;
+  ++program.checks;
   program.checked_from = start;
   program.findings.clear();
   program.planned_time.reset();

@@ -82,6 +82,7 @@ export interface Program {
   bytes: number;
   lines: number;
   state: 'unchecked' | 'checking' | 'good' | 'bad';
+  checks: number; // how many have begun
   seconds: number; // at the programmed speeds
   planned: number | null; // with all ramps; null: not known yet
   moves: number;

@@ -23,6 +23,8 @@ import { cutters, stockCutter } from './stock_view';
 export const picked = signal<number | null>(null);
 export const showsRapids = signal(true);
 export const followsTool = signal(false);
+// The program whose path stands whole in the picture.
+export const drawnProgram = signal<number | null>(null);
 
 // What the picture shows of the status: the daemon tells the rest each second, and a still picture costs nothing.
 const seen = stable(() => [status.value?.place, status.value?.line, status.value?.job?.state]);
@@ -71,6 +73,9 @@ export class Stage {
         this.soon();
       }),
       effect(() => {
+        if (pathLoaded.value === 1) this.restsUntil = 0;
+      }),
+      effect(() => {
         // What changes the picture.
         void [seen.value, showsRapids.value, followsTool.value, picked.value, colouring.value, section.value, stockCutter.value, cutters.value, pathLoaded.value];
         this.soon();
@@ -86,6 +91,7 @@ export class Stage {
     for (const one of this.ends) one();
     cancelAnimationFrame(this.frame);
     clearTimeout(this.closerTimer);
+    drawnProgram.value = null;
     this.renderer.end();
   }
 
@@ -180,8 +186,10 @@ export class Stage {
   // Where the processor draws, the page stands still until the picture is done: the next frame tells how long it took.
   private paint(): void {
     const begun = performance.now();
+    const whole = pathLoaded.peek() === 1 ? (pathIndex.peek()?.program ?? null) : null;
     requestAnimationFrame(() => {
       const now = performance.now();
+      drawnProgram.value = whole;
       this.cost = now - begun;
       this.restsUntil = now + restOf(this.cost);
     });

@@ -37,7 +37,8 @@ struct StoredProgram {
   std::uint64_t deleted_lines = 0;  // those that begin with /
   bool block_delete = false;        // these lines are left out
   UploadState state = UploadState::unchecked;
-  Point checked_from = {};  // where the machine stood at the last check
+  std::uint64_t checks = 0;  // how many have begun
+  Point checked_from = {};   // where the machine stood at the last check
   ProgramCheck check;
   std::optional<Seconds> planned_time;  // of its motion, with all ramps, at overrides of 100 %
   std::uint64_t path = 0;               // the fingerprint of its path, after a good check
@@ -68,7 +69,7 @@ class ProgramStore {
   const std::map<std::uint64_t, StoredProgram>& all() const { return programs_; }
 
   // Begins the check of a program from this place on. One is checked at a time; the last one counts. A program that was
-  // found good from this place is not checked again.
+  // found good from this place is not checked again, unless its path had to make room.
   void check(std::uint64_t id, const MachineDescription& machine, const Point& start);
   bool checks() const { return checker_ != nullptr; }
   // Checks a bounded piece.
