@@ -3,14 +3,15 @@ import { batch, effect } from '@preact/signals';
 import { ask, get, post, type Program } from '../machine/api';
 import { isLive, status } from '../machine/connection';
 import { pathIndex, pathLoaded, type PathIndex } from '../machine/path_index';
-import { shown } from '../machine/programs';
-import { readChunk, type PathPoints } from './path_data';
+import { refreshPrograms, shown } from '../machine/programs';
+import { readChunks, type PathPoints } from './path_data';
 
 const fewPoints = 80_000; // so many are shown without a coarse level
 const atOnce = 4; // requests
+const anAnswer = 4; // chunks; more would keep the daemon too long
 const finest = 0;
 const coarse = 1;
-const whileGrowing = 50; // ms
+const whileGrowing = 100; // ms
 const mostUnfinished = 0.99;
 // How far a level may be from the path, as a share of the box's diagonal; as the daemon has it.
 const farOff = [0, 1 / 4000, 1 / 800];
@@ -54,33 +55,47 @@ export function levelFor(index: PathIndex, mmAPixel: number): number {
   return diagonal * farOff[coarse]! <= mmAPixel * 0.6 ? coarse : finest;
 }
 
-async function fetchChunk(index: PathIndex, chunk: number, level: number, mine: number): Promise<void> {
-  const key = `${chunk}/${level}`;
-  if (wanted.has(key)) return;
-  wanted.add(key);
+// Neighbouring chunks that nobody has asked for yet, a few at a time.
+function runsOf(all: readonly number[], level: number): number[][] {
+  const runs: number[][] = [];
+  for (const chunk of all) {
+    const last = runs.at(-1);
+    if (wanted.has(`${chunk}/${level}`)) continue;
+    if (last !== undefined && last.length < anAnswer && last.at(-1) === chunk - 1) last.push(chunk);
+    else runs.push([chunk]);
+  }
+  return runs;
+}
+
+async function fetchRun(index: PathIndex, run: readonly number[], level: number, mine: number): Promise<void> {
+  for (const chunk of run) wanted.add(`${chunk}/${level}`);
   try {
-    const answer = await ask('GET', `/programs/${index.program}/path?chunk=${chunk}&level=${level}`, undefined, 20_000);
-    const points = readChunk(await answer.arrayBuffer());
+    const path = `/programs/${index.program}/path?chunk=${run[0]!}&count=${run.length}&level=${level}`;
+    const answer = readChunks(await (await ask('GET', path, undefined, 20_000)).arrayBuffer());
     if (mine !== round) return;
-    chunks.set(key, points);
-    for (const one of listeners) one.added(points);
+    for (const points of answer) {
+      chunks.set(`${points.chunk}/${points.level}`, points);
+      for (const one of listeners) one.added(points);
+    }
   } catch {
-    wanted.delete(key);
+    for (const chunk of run) wanted.delete(`${chunk}/${level}`);
   }
 }
 
 async function fetchAll(index: PathIndex, all: readonly number[], level: number, tell: boolean): Promise<void> {
   const mine = round;
+  const runs = runsOf(all, level);
   let next = 0;
   let done = 0;
   const work = async (): Promise<void> => {
-    while (next < all.length && mine === round) {
-      await fetchChunk(index, all[next++]!, level, mine);
+    while (next < runs.length && mine === round) {
+      await fetchRun(index, runs[next++]!, level, mine);
       ++done;
-      if (tell && mine === round) pathLoaded.value = done / all.length;
+      if (tell && mine === round) pathLoaded.value = done / runs.length;
     }
   };
   await Promise.all(Array.from({ length: atOnce }, work));
+  if (tell && mine === round) pathLoaded.value = 1;
 }
 
 // Somebody looks closer at these chunks.
@@ -103,7 +118,8 @@ export async function loadPath(program: Program): Promise<void> {
       checks = index.checks;
       await take(index, program.lines);
     }
-    if (index.complete || mine !== round) return;
+    if (mine !== round) return;
+    if (index.complete) return program.state === 'checking' ? refreshPrograms() : undefined;
     await new Promise((done) => setTimeout(done, whileGrowing));
   }
 }
