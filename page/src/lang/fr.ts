@@ -99,6 +99,8 @@ export const fr: Words = {
   'why.still': 'Rien ne bouge',
   'run.work': 'Pièce',
   'run.machine': 'Machine',
+  'run.turned': 'Tourné de {degrees}°',
+  'run.turned.help': 'X et Y de la pièce sont tournés autour de Z, d’après un angle ou deux alésages palpés. Les grands chiffres suivent les axes tournés.',
   'run.position': 'Position',
   'run.trust.unknown': 'Position inconnue',
   'run.trust.commanded': 'Origine non prise',

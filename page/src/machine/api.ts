@@ -25,6 +25,7 @@ export interface Status {
   trust: 'unknown' | 'commanded' | 'counted' | 'homed';
   place: Place;
   work_offset?: Place;
+  work_rotation?: number; // degrees about Z
   speed: number;
   line: number;
   progress: number | null;

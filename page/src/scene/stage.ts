@@ -4,12 +4,12 @@ import { stable } from '../core/stable';
 import { theme, themeColour } from '../core/theme';
 import { machine, status } from '../machine/connection';
 import { pathIndex, pathLoaded } from '../machine/path_index';
-import { workOffset } from '../machine/place';
+import { workOffset, workRotation } from '../machine/place';
 import { loadsOfShown } from '../machine/studies';
 import { isUnderWay } from '../machine/words';
 import { colouring, section, tells } from './colouring';
 import { axesOf, fit, orbit, pan, project, views, zoom, type View } from './camera';
-import { box, grid, gridStep, triad } from './furniture';
+import { box, grid, gridStep, triad, triadEnds } from './furniture';
 import { colourOf } from './gl';
 import { noteLoads, spotOfLine, type PathPoints, type Vector } from './path_data';
 import { finestChunks, levelFor, loadedChunks, listenToPath, wantFine } from './path_loader';
@@ -141,7 +141,7 @@ export class Stage {
     const lines = [
       ...grid(travel.low, travel.high, zero, gridStep(Math.max(size, 20) * 1.5), of('--grid')),
       ...box(travel.low, travel.high, of('--line')),
-      ...triad(zero, Math.max(size * 0.12, 2), [of('--x'), of('--y'), of('--z')]),
+      ...triad(zero, Math.max(size * 0.12, 2), workRotation.value, [of('--x'), of('--y'), of('--z')]),
     ];
     this.renderer.setFurniture(lines, reach);
     this.soon();
@@ -222,14 +222,13 @@ export class Stage {
     const zero = this.zero();
     const index = pathIndex.peek();
     const size = index?.all == null ? 200 : Math.max(index.all.high[0] - index.all.low[0], index.all.high[1] - index.all.low[1], 1);
-    const far = Math.max(size * 0.12, 2) * 1.12;
+    const ends = triadEnds(zero, Math.max(size * 0.12, 2) * 1.12, workRotation.peek());
     const line = picked.peek();
     const spot = line === null ? null : spotOfLine(finestChunks(), line);
     for (const one of this.labels.children) {
       if (!(one instanceof HTMLElement)) continue;
       const axis = 'xyz'.indexOf(one.dataset.axis ?? '-');
-      const place: Vector = axis >= 0 ? [...zero] : (spot?.place ?? [0, 0, 0]);
-      if (axis >= 0) place[axis as 0 | 1 | 2] += far;
+      const place: Vector = ends[axis] ?? spot?.place ?? [0, 0, 0];
       const [x, y] = project(this.view, axes, place);
       one.hidden = axis < 0 && spot === null;
       one.style.transform = `translate(${x + this.canvas.clientWidth / 2}px, ${y + this.canvas.clientHeight / 2}px)`;

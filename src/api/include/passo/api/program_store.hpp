@@ -18,6 +18,7 @@
 #include "passo/activity/program.hpp"
 #include "passo/api/program_path.hpp"
 #include "passo/diagnostics/diagnostic.hpp"
+#include "passo/interpreter/frame.hpp"
 #include "passo/interpreter/interpreter.hpp"
 #include "passo/journal/path_fingerprint.hpp"
 #include "passo/levelling/height_map.hpp"
@@ -83,7 +84,9 @@ class ProgramStore {
 
   // Where the work's zero (G54) lies in machine coordinates, for all programs.
   void set_work_zero(const Point& zero);
-  Point work_zero() const;
+  Point work_zero() const { return work_frame().work_offset(); }
+  // The same with its rotation about Z, which an angle of the work has been probed for.
+  Frame work_frame() const;
   // The offsets and tools for the programs from now on. Checks that were made before count no longer, if they differ.
   void set_offsets(const SavedParameters& parameters, const ToolTable& tools);
   const SavedParameters& parameters() const { return parameters_; }
