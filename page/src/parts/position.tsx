@@ -19,7 +19,7 @@ export function Position() {
         </h2>
         {workRotation.value !== 0 && (
           <span class="turned" data-testid="work-rotation" title={say('run.turned.help')}>
-            <Icon name="turned" /> {say('run.turned', { degrees: placeText('a', workRotation.value) })}
+            <Icon name="turned" /> {say('run.turned', { degrees: String(Number(workRotation.value.toFixed(2))) })}
           </span>
         )}
         <span class="unit">{say('run.machine')}</span>

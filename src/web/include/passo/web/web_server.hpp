@@ -17,9 +17,10 @@
 #include <string_view>
 #include <vector>
 
+#include <poll.h>
+
 #include "passo/base/result.hpp"
 #include "passo/web/web_access.hpp"
-#include <poll.h>
 
 namespace passo {
 
