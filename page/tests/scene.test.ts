@@ -2,7 +2,7 @@ import { describe, expect, it } from 'vitest';
 import { axesOf, fit, pan, project, views, zoom, type View } from '../src/scene/camera';
 import { gridStep } from '../src/scene/furniture';
 import { colourOf } from '../src/scene/gl';
-import { placeAt, readChunk, speedCode, spotOfLine } from '../src/scene/path_data';
+import { placeAt, readChunks, speedCode, spotOfLine } from '../src/scene/path_data';
 import { pick } from '../src/scene/pick';
 import { doneOf } from '../src/scene/progress';
 
@@ -19,7 +19,8 @@ function chunk(xs: number[], lines: number[]): ArrayBuffer {
   });
   return bytes;
 }
-const points = () => readChunk(chunk([0, 1000, 2000, 65535], [4, 4, 5, 9]));
+const bytesOf = () => chunk([0, 1000, 2000, 65535], [4, 4, 5, 9]);
+const points = () => readChunks(bytesOf())[0]!;
 
 describe('a chunk of the path', () => {
   it('has the speed as the daemon codes it', () => {
@@ -36,9 +37,17 @@ describe('a chunk of the path', () => {
     expect([...read.lines]).toEqual([4, 4, 5, 9]);
   });
 
+  it('may follow another one', () => {
+    const one = new Uint8Array(bytesOf());
+    const all = readChunks(new Uint8Array([...one, ...one]).buffer);
+    expect(all.map((each) => [each.count, placeAt(each, 1)[0], each.lines[3]])).toEqual([0, 1].map(() => [4, expect.closeTo(11, 5), 9]));
+  });
+
   it('is refused when it is cut off or something else', () => {
-    expect(() => readChunk(chunk([0, 1], [1, 1]).slice(0, 50))).toThrow();
-    expect(() => readChunk(new ArrayBuffer(64))).toThrow();
+    expect(() => readChunks(chunk([0, 1], [1, 1]).slice(0, 50))).toThrow();
+    expect(() => readChunks(new ArrayBuffer(64))).toThrow();
+    const one = new Uint8Array(bytesOf());
+    expect(() => readChunks(new Uint8Array([...one, 1, 2]).buffer)).toThrow();
   });
 
   it('tells the place of a line, and of the nearest one that is there', () => {

@@ -3,7 +3,7 @@ import { describe, expect, it } from 'vitest';
 import { mapTarget } from '../src/machine/programs';
 import type { Program } from '../src/machine/api';
 import { formFor, forms, isDrawing } from '../src/pages/make_forms';
-import { readChunk } from '../src/scene/path_data';
+import { readChunks } from '../src/scene/path_data';
 import { isGoodTool, readToolFile } from '../src/scene/tool_file';
 
 describe('a file of tools', () => {
@@ -34,7 +34,7 @@ describe('a chunk of the path', () => {
     const view = new DataView(bytes);
     [0x50534150, 4, 0, 0].forEach((value, i) => view.setUint32(4 * i, value, true));
     [0, 1 | (3 << 1), 96 << 8, (96 << 8) | (3 << 1)].forEach((flags, i) => view.setUint16(40 + 8 * i + 6, flags, true));
-    const read = readChunk(bytes);
+    const read = readChunks(bytes)[0]!;
     expect(read.tools).toEqual([
       { from: 0, tool: 0 },
       { from: 1, tool: 3 },

@@ -1,6 +1,7 @@
 import { describe, expect, it } from 'vitest';
 import { durationText } from '../src/core/time';
 import { placeText, readLength, speedText, units } from '../src/core/units';
+import { inWork, turned } from '../src/machine/place';
 
 describe('units', () => {
   it('shows a place in mm and in inches, never a negative zero', () => {
@@ -29,5 +30,16 @@ describe('units', () => {
     expect(durationText(0)).toBe('0:00');
     expect(durationText(59.6)).toBe('1:00');
     expect(durationText(3725)).toBe('1:02:05');
+  });
+});
+
+describe('the place in the work', () => {
+  it('is along the axes of the work, which may be turned', () => {
+    const close = (place: Record<string, number>) => Object.values(place).map((value) => Math.round(value * 1e6) / 1e6 + 0);
+    expect(close(inWork({ x: 5, y: 7, z: 1 }, { x: 5, y: 5, z: 3 }, 0))).toEqual([0, 2, -2]);
+    expect(close(inWork({ x: 5, y: 7, z: 1 }, { x: 5, y: 5, z: 3 }, 90))).toEqual([2, 0, -2]);
+    expect(close(inWork({ x: 10, a: 4 }, { x: 1 }, 30))).toEqual([9, 4]);
+    const [x, y] = turned(...turned(3, 4, 12.5), -12.5);
+    expect([x, y]).toEqual([expect.closeTo(3, 9), expect.closeTo(4, 9)]);
   });
 });

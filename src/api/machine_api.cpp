@@ -234,13 +234,14 @@ WebAnswer MachineApi::set_work_zero(std::string_view body) {
     return error_answer(409, "jobs.interrupted",
                         "a job was broken off, and needs its zero: resume it or drop it first");
   }
-  const Point zero = programs_.work_zero();
+  const Frame frame = programs_.work_frame();
+  const Point& at = status.position.place;
   std::string reason;
-  const auto place = read_place(Json::parse(body, nullptr, false), machine_, status.position.place - zero, reason);
+  const auto place = read_place(Json::parse(body, nullptr, false), machine_, frame.work_from_machine(at), reason);
   if (!place) return bad_body(reason);
   const auto is_far = [](double value) { return std::abs(value) > farthest_zero; };
   if (std::ranges::any_of(place->values, is_far)) return bad_body("the place is too far away");
-  programs_.set_work_zero(status.position.place - *place);
+  programs_.set_work_zero(at - (frame.machine_from_work(*place) - frame.work_offset()));
   if (options_.keep_offsets) options_.keep_offsets(programs_.parameters(), programs_.tools());
   return json_answer(200, {{"work_offset", as_json(machine_, programs_.work_zero())}});
 }
@@ -397,7 +398,9 @@ std::string MachineApi::status_text() const {
   Json json = as_json(machine_, status);
   const std::optional<Seconds> left = time_left(status);
   json["left"] = left ? Json(rounded(left->value())) : Json();
-  json["work_offset"] = as_json(machine_, programs_.work_zero());
+  const Frame frame = programs_.work_frame();
+  json["work_offset"] = as_json(machine_, frame.work_offset());
+  json["work_rotation"] = frame.rotation_degrees();
   json["owner"] = as_json(owner_);
   json["job"] = as_json(job_);
   return json.dump() + "\n";

@@ -10,6 +10,7 @@ namespace passo {
 namespace {
 
 constexpr std::uint64_t most_lines = 2000;  // of one answer
+constexpr std::uint64_t most_chunks = 4;    // of one answer: a coarse level takes 2 ms, and the machine waits
 
 std::optional<std::uint64_t> number_of(std::string_view query, std::string_view key) {
   const std::string_view digits = query_value(query, key);
@@ -53,6 +54,8 @@ WebAnswer path_answer(const StoredProgram& program, const ToolTable& tools, std:
   const ProgramPath& path = program.path_points;
   if (query_value(query, "chunk").empty()) {
     return json_answer(200, {{"program", program.id},
+                             {"checks", program.checks},
+                             {"growing", program.state == UploadState::checking},
                              {"complete", path.complete()},
                              {"cut_off", path.cut_off()},
                              {"points", path.points()},
@@ -69,8 +72,12 @@ WebAnswer path_answer(const StoredProgram& program, const ToolTable& tools, std:
   if (!chunk || !level || *chunk >= path.chunks() || *level >= ProgramPath::levels) {
     return bad_number("there is no such chunk, or no such level");
   }
-  return {.type = "application/octet-stream",
-          .body = path.chunk(static_cast<std::size_t>(*chunk), static_cast<unsigned>(*level))};
+  const std::uint64_t count = std::clamp<std::uint64_t>(number_of(query, "count").value_or(1), 1, most_chunks);
+  WebAnswer answer{.type = "application/octet-stream"};
+  for (std::uint64_t i = *chunk; i < std::min<std::uint64_t>(*chunk + count, path.chunks()); ++i) {
+    answer.body += path.chunk(static_cast<std::size_t>(i), static_cast<unsigned>(*level));
+  }
+  return answer;
 }
 
 WebAnswer text_answer(const StoredProgram& program, std::string_view query) {

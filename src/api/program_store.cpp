@@ -14,6 +14,7 @@ constexpr std::uint64_t lines_a_mark = 256;
 // The numbered parameters of G54 in RS274/NGC.
 constexpr int selected_system = 5220;
 constexpr int first_offset = 5221;
+constexpr int rotation_about_z = 5230;
 
 // A parameter that nobody has set counts like one that a program has left as it was.
 bool mean_the_same(const SavedParameters& one, const SavedParameters& other) {
@@ -129,7 +130,9 @@ void ProgramStore::check(std::uint64_t id, const MachineDescription& machine, co
     checker_.reset();
   }
   StoredProgram& program = found->second;
-  if (program.state == UploadState::good && program.checked_from == start) return;
+  const bool is_known = program.state == UploadState::good && program.checked_from == start;
+  if (is_known && program.path_points.complete()) return;
+  ++program.checks;
   program.checked_from = start;
   program.findings.clear();
   program.planned_time.reset();
@@ -158,13 +161,17 @@ void ProgramStore::make_room_for_path(std::uint64_t id) {
   }
 }
 
-Point ProgramStore::work_zero() const {
+Frame ProgramStore::work_frame() const {
+  const auto parameter = [this](int number) {
+    const auto found = parameters_.find(number);
+    return found != parameters_.end() ? found->second : 0;
+  };
   Point zero;
-  for (std::size_t i = 0; i < axis_count; ++i) {
-    const auto found = parameters_.find(first_offset + static_cast<int>(i));
-    if (found != parameters_.end()) zero.values[i] = found->second;
-  }
-  return zero;
+  for (std::size_t i = 0; i < axis_count; ++i) zero.values[i] = parameter(first_offset + static_cast<int>(i));
+  Frame frame;
+  frame.follow({operation::SetWorkOffset{.offset = zero}, {}});
+  frame.follow({operation::SetRotation{parameter(rotation_about_z)}, {}});
+  return frame;
 }
 
 void ProgramStore::set_work_zero(const Point& zero) {

@@ -229,6 +229,7 @@ Json as_json(const StoredProgram& program, bool with_findings) {
                {"bytes", program.text.size()},
                {"lines", program.lines},
                {"state", name_of(program.state)},
+               {"checks", program.checks},
                {"seconds", rounded(program.check.nominal_time.value())},
                {"planned", program.planned_time ? Json(rounded(program.planned_time->value())) : Json()},
                {"moves", program.check.moves},

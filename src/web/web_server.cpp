@@ -103,6 +103,11 @@ class WebServer::Implementation::Watcher : public std::enable_shared_from_this<W
     });
   }
   void close() { beast::get_lowest_layer(stream_).close(); }
+  // It always hears; what it says may wait for room.
+  pollfd awaited() {
+    const auto events = static_cast<short>(writing_ || !accepted_ ? POLLIN | POLLOUT : POLLIN);
+    return {.fd = beast::get_lowest_layer(stream_).socket().native_handle(), .events = events, .revents = 0};
+  }
 
   // There is a new message.
   void offer() {
@@ -176,11 +181,13 @@ class WebServer::Implementation::Connection : public std::enable_shared_from_thi
 
   void start() { read_header(); }
   void close() { stream_.close(); }
+  pollfd awaited() { return {.fd = stream_.socket().native_handle(), .events = awaits_, .revents = 0}; }
 
  private:
   using Parser = http::request_parser<http::string_body>;
 
   void read_header() {
+    awaits_ = POLLIN;
     parser_.emplace();
     parser_->header_limit(longest_header);
     parser_->body_limit(any_length);  // the limit is known once the path is
@@ -229,12 +236,14 @@ class WebServer::Implementation::Connection : public std::enable_shared_from_thi
   // The client waits for these words before it sends its body.
   void invite_body() {
     static constexpr std::string_view words = "HTTP/1.1 100 Continue\r\n\r\n";
+    awaits_ = POLLOUT;
     asio::async_write(stream_, asio::buffer(words), [self = shared_from_this()](Error error, std::size_t) {
       if (!error) self->read_body();
     });
   }
 
   void read_body() {
+    awaits_ = POLLIN;
     stream_.expires_after(large_body_ ? server_.limits.body_within : server_.limits.header_within);
     http::async_read(stream_, buffer_, *parser_, [self = shared_from_this()](Error error, std::size_t) {
       if (error == http::error::body_limit) return self->refuse(413);
@@ -265,6 +274,7 @@ class WebServer::Implementation::Connection : public std::enable_shared_from_thi
   }
 
   void send(WebAnswer answer, bool keeps_alive) {
+    awaits_ = POLLOUT;
     response_ = {};
     response_.version(11);
     response_.result(answer.status);
@@ -298,6 +308,7 @@ class WebServer::Implementation::Connection : public std::enable_shared_from_thi
   std::optional<Parser> parser_;
   http::response<http::string_body> response_;
   WebRequest request_;
+  short awaits_ = POLLIN;
   bool large_body_ = false;
 };
 
@@ -365,6 +376,15 @@ unsigned WebServer::port() const {
 void WebServer::turn(int steps) {
   for (int done = 0; done < steps && implementation_->context.poll_one() > 0; ++done) {
   }
+}
+
+void WebServer::add_to(std::vector<pollfd>& all) const {
+  const auto add = [&all](pollfd one) {
+    if (one.fd >= 0) all.push_back(one);
+  };
+  add({.fd = implementation_->acceptor.native_handle(), .events = POLLIN, .revents = 0});
+  for (Implementation::Connection* const one : implementation_->open) add(one->awaited());
+  for (Implementation::Watcher* const one : implementation_->watching) add(one->awaited());
 }
 
 void WebServer::publish(std::string message) {

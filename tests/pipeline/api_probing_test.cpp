@@ -44,6 +44,50 @@ TEST(ApiProbing, a_tool_is_measured_and_used) {
   EXPECT_NEAR(run.get("/status")["place"]["z"].get<double>(), -15, 0.01);
 }
 
+// What is shown of the work and what becomes its zero lies along its turned axes.
+TEST(ApiProbing, a_turned_work_is_told_and_its_zero_lies_along_its_axes) {
+  ApiRun run;
+  run.own();
+  EXPECT_EQ(run.get("/status")["work_rotation"], 0.0);
+  run.api.take_offsets({{5221, 10}, {5222, 20}, {5230, 90}});
+  EXPECT_EQ(run.get("/status")["work_rotation"], 90.0);
+  EXPECT_EQ(run.get("/status")["work_offset"]["x"], 10.0);
+  // The tool stands at X-20 Y10 of the work. Only its X becomes 0: the zero moves along the machine's Y.
+  const Json zero = run.post("/work", R"({"place": {"x": 0}})")["work_offset"];
+  EXPECT_EQ(zero["x"], 10.0);
+  EXPECT_EQ(zero["y"], 0.0);
+  const std::uint64_t id = run.upload("G0 X3\nM2\n");
+  run.post(fmt::format("/programs/{}/run", id));
+  ASSERT_TRUE(run.turn_until([&] { return run.api.job().state == JobState::done; })) << run.get("/status");
+  EXPECT_NEAR(run.get("/status")["place"]["y"].get<double>(), 3, 0.01);
+}
+
+TEST(ApiProbing, a_long_path_is_told_while_it_is_checked) {
+  ApiRun run;
+  std::string text = "G21 G90 F3000\n";
+  for (int i = 0; i < 40'000; ++i) text += i % 2 == 0 ? "G1 X1\n" : "G1 X2\n";
+  const std::string id = fmt::format("/programs/{}", run.upload(text + "M2\n"));
+  const auto bytes = [&](const std::string& query) {
+    return run.api.answer({.method = "GET", .path = "/api/v1" + id + "/path", .query = query}).body.size();
+  };
+  EXPECT_EQ(run.get(id + "/path")["growing"], false);
+  run.post(id + "/check");
+  EXPECT_EQ(run.get(id)["checks"], 1);
+  ASSERT_TRUE(run.turn_until([&] { return run.get(id + "/path")["chunks"] == 1; }));
+  const Json growing = run.get(id + "/path");
+  EXPECT_EQ(growing["growing"], true);
+  EXPECT_EQ(growing["complete"], false);
+  EXPECT_EQ(growing["checks"], 1);
+  const std::size_t first = bytes("chunk=0&level=0");
+  EXPECT_EQ(bytes("chunk=0&level=0&count=4"), first) << "only what is there";
+  ASSERT_TRUE(run.turn_until([&] { return run.get(id)["state"] == "good"; }));
+  const Json whole = run.get(id + "/path");
+  EXPECT_EQ(whole["growing"], false);
+  EXPECT_EQ(whole["complete"], true);
+  EXPECT_EQ(bytes("chunk=0&level=0"), first) << "what was told stays as it was";
+  EXPECT_EQ(bytes("chunk=0&level=0&count=9"), bytes("chunk=0") + bytes("chunk=1") + bytes("chunk=2"));
+}
+
 TEST(ApiProbing, a_touch_that_finds_nothing_is_told) {
   ApiRun run(GrblRun::at_zero(), nullptr, plate(-30));
   run.own();

@@ -103,6 +103,8 @@ export const en = {
   // Run
   'run.work': 'Work',
   'run.machine': 'Machine',
+  'run.turned': 'Turned {degrees}°',
+  'run.turned.help': 'The work’s X and Y are turned about Z, as an angle or two bores were probed. The big figures are along the turned axes; G10 L2 P1 R0 in the console turns them back.',
   'run.position': 'Position',
   'run.trust.unknown': 'Place not known',
   'run.trust.commanded': 'Not homed',

@@ -99,6 +99,8 @@ export const fr: Words = {
   'why.still': 'Rien ne bouge',
   'run.work': 'Pièce',
   'run.machine': 'Machine',
+  'run.turned': 'Tourné {degrees}°',
+  'run.turned.help': 'X et Y de la pièce sont tournés autour de Z, d’après un angle ou deux alésages palpés. Les grands chiffres suivent les axes tournés ; G10 L2 P1 R0 dans la console les redresse.',
   'run.position': 'Position',
   'run.trust.unknown': 'Position inconnue',
   'run.trust.commanded': 'Origine non prise',

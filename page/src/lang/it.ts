@@ -99,6 +99,8 @@ export const it: Words = {
   'why.still': 'Nulla si muove',
   'run.work': 'Pezzo',
   'run.machine': 'Macchina',
+  'run.turned': 'Ruotato {degrees}°',
+  'run.turned.help': 'X e Y del pezzo sono ruotati attorno a Z, come da angolo o da due fori tastati. Le cifre grandi seguono gli assi ruotati; G10 L2 P1 R0 nella console li riporta dritti.',
   'run.position': 'Posizione',
   'run.trust.unknown': 'Posizione non nota',
   'run.trust.commanded': 'Non azzerata',

@@ -99,6 +99,8 @@ export const zh: Words = {
   'why.still': '机床没有运动',
   'run.work': '工件',
   'run.machine': '机床',
+  'run.turned': '已旋转 {degrees}°',
+  'run.turned.help': '工件的 X 和 Y 绕 Z 旋转，依据测得的角度或两个孔。大号数字沿旋转后的轴；在控制台输入 G10 L2 P1 R0 可转回。',
   'run.position': '位置',
   'run.trust.unknown': '位置未知',
   'run.trust.commanded': '未回原点',

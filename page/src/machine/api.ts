@@ -25,6 +25,7 @@ export interface Status {
   trust: 'unknown' | 'commanded' | 'counted' | 'homed';
   place: Place;
   work_offset?: Place;
+  work_rotation?: number; // degrees about Z
   speed: number;
   line: number;
   progress: number | null;
@@ -82,6 +83,7 @@ export interface Program {
   bytes: number;
   lines: number;
   state: 'unchecked' | 'checking' | 'good' | 'bad';
+  checks: number; // how many have begun
   seconds: number; // at the programmed speeds
   planned: number | null; // with all ramps; null: not known yet
   moves: number;

@@ -15,6 +15,8 @@ export interface UsedTool {
 }
 export interface PathIndex {
   program: number;
+  checks: number; // which check of the program finds it
+  growing: boolean; // the check goes on
   complete: boolean;
   cut_off: boolean;
   points: number;
@@ -27,6 +29,7 @@ export interface PathIndex {
   tools: UsedTool[];
 }
 export const pathIndex = signal<PathIndex | null>(null);
-export const pathBox = computed<Box | null>(() => pathIndex.value?.work ?? null);
+// Of the whole program: nothing is told of a box that grows.
+export const pathBox = computed<Box | null>(() => (pathIndex.value?.complete === true ? pathIndex.value.work : null));
 // How much of the path has come: 0 to 1.
 export const pathLoaded = signal(1);

@@ -104,9 +104,11 @@ export function followPrograms(): void {
   effect(() => {
     if (affects.value !== '') void refreshPrograms();
   });
-  // While a check goes on, its end is seen at once; and soon, how long the motion takes.
+  // While a check goes on, its end is seen at once; and soon, how long the motion takes. Who loads the shown program's
+  // path sees the end of its check by itself (scene/path_loader.ts).
   const pause = computed(() => {
-    if (programs.value.some((one) => one.state === 'checking')) return whileChecking;
+    if (programs.value.some((one) => one.state === 'checking' && one.id !== shownId.value)) return whileChecking;
+    if (shown.value?.state === 'checking') return whileTiming;
     return shown.value?.state === 'good' && shown.value.planned === null ? whileTiming : otherwise;
   });
   effect(() => {

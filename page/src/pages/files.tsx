@@ -13,7 +13,7 @@ import { ask, post, remove, upload } from '../machine/api';
 import { isLive, status } from '../machine/connection';
 import { alarms, ended, keeps, queue, refreshHistory } from '../machine/history';
 import { beOwner } from '../machine/owner';
-import { pathIndex } from '../machine/path_index';
+import { pathBox, pathIndex } from '../machine/path_index';
 import { checkProgram, chosen, deleteProgram, isListed, leaveOut, programs, sending, sendProgram, shown, shownId, timeOf } from '../machine/programs';
 import { isUnderWay } from '../machine/words';
 import { Button } from '../parts/button';
@@ -60,7 +60,7 @@ function ProgramRow({ program }: { program: Program }) {
 function ShownProgram() {
   const program = shown.value;
   if (program === null) return null;
-  const index = pathIndex.value?.program === program.id ? pathIndex.value : null;
+  const work = pathIndex.value?.program === program.id ? pathBox.value : null;
   const runs = isUnderWay(status.value?.job ?? null) && status.value?.job?.program === program.id;
   const whyDelete = runs ? say('why.state', { state: say(`state.${status.value?.state ?? 'Run'}`) }) : isLive.value ? '' : say('why.lost');
   return (
@@ -81,13 +81,13 @@ function ShownProgram() {
             {say('files.moves', { moves: program.moves.toLocaleString(language.value) })}
           </dd>
         </div>
-        {index?.work != null && (
+        {work !== null && (
           <div>
             <dt>{say('files.extents')}</dt>
             <dd>
               {(['X', 'Y', 'Z'] as const).map((axis, i) => (
                 <div key={axis}>
-                  {axis} {lengthText(index.work?.low[i] ?? 0, 2)} … {lengthText(index.work?.high[i] ?? 0, 2)} {lengthUnit()}
+                  {axis} {lengthText(work.low[i] ?? 0, 2)} … {lengthText(work.high[i] ?? 0, 2)} {lengthUnit()}
                 </div>
               ))}
             </dd>

@@ -2,7 +2,7 @@
 import { say } from '../core/language';
 import { lengthUnit, placeText, speedText, speedUnit } from '../core/units';
 import { machine, status } from '../machine/connection';
-import { axes, machinePlace, workPlace } from '../machine/place';
+import { axes, machinePlace, workPlace, workRotation } from '../machine/place';
 import { Icon } from './icon';
 
 // The machine has switches, and has not been homed by them.
@@ -17,6 +17,11 @@ export function Position() {
         <h2>
           {say('run.work')} <span class="unit">{lengthUnit()}</span>
         </h2>
+        {workRotation.value !== 0 && (
+          <span class="turned" data-testid="work-rotation" title={say('run.turned.help')}>
+            <Icon name="turned" /> {say('run.turned', { degrees: String(Number(workRotation.value.toFixed(2))) })}
+          </span>
+        )}
         <span class="unit">{say('run.machine')}</span>
       </div>
       <div class="axes">

@@ -1,4 +1,5 @@
 // What stands around the path: the grid at the work's zero, the travel, and the axes.
+import { turned } from '../machine/place';
 import type { Vector } from './path_data';
 
 export interface Line {
@@ -47,12 +48,17 @@ export function box(low: Vector, high: Vector, colour: Colour): Line[] {
   return lines;
 }
 
-export function triad(zero: Vector, length: number, colours: readonly [Colour, Colour, Colour]): Line[] {
-  return colours.map((colour, k) => {
-    const to: Vector = [...zero];
-    to[k as 0 | 1 | 2] += length;
-    return { from: zero, to, colour, width: 3 };
-  });
+// The ends of the axes of the work, whose X and Y are turned.
+export function triadEnds([x, y, z]: Vector, length: number, degrees: number): [Vector, Vector, Vector] {
+  const [along, across] = turned(length, 0, degrees);
+  return [
+    [x + along, y + across, z],
+    [x - across, y + along, z],
+    [x, y, z + length],
+  ];
+}
+export function triad(zero: Vector, length: number, degrees: number, colours: readonly [Colour, Colour, Colour]): Line[] {
+  return triadEnds(zero, length, degrees).map((to, k) => ({ from: zero, to, colour: colours[k]!, width: 3 }));
 }
 
 // Ten numbers a line, for each of its six vertices: from, to, colour, width.

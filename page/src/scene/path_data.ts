@@ -32,13 +32,22 @@ export function noteLoads(points: PathPoints, loads: Uint16Array): void {
 const magic = 0x50534150;
 const header = 40; // bytes
 
-export function readChunk(bytes: ArrayBuffer): PathPoints {
-  const view = new DataView(bytes);
-  if (bytes.byteLength < header || view.getUint32(0, true) !== magic) throw new Error('this is no chunk of a path');
+const bytesAPoint = 12;
+
+// Chunks one after the other.
+export function readChunks(bytes: ArrayBuffer): PathPoints[] {
+  const all: PathPoints[] = [];
+  for (let from = 0; from < bytes.byteLength; from += header + all.at(-1)!.count * bytesAPoint) all.push(readChunk(bytes, from));
+  return all;
+}
+
+function readChunk(bytes: ArrayBuffer, from: number): PathPoints {
+  const view = new DataView(bytes, from);
+  if (view.byteLength < header || view.getUint32(0, true) !== magic) throw new Error('this is no chunk of a path');
   const count = view.getUint32(4, true);
-  if (bytes.byteLength !== header + count * 12) throw new Error('this chunk of a path is cut off');
+  if (view.byteLength < header + count * bytesAPoint) throw new Error('this chunk of a path is cut off');
   const vector = (at: number): Vector => [view.getFloat32(at, true), view.getFloat32(at + 4, true), view.getFloat32(at + 8, true)];
-  const places = new Uint16Array(bytes, header, count * 4);
+  const places = new Uint16Array(bytes, from + header, count * 4);
   return {
     count,
     tools: takeTools(places, count),
@@ -47,7 +56,7 @@ export function readChunk(bytes: ArrayBuffer): PathPoints {
     origin: vector(16),
     step: vector(28),
     places,
-    lines: new Uint32Array(bytes, header + count * 8, count),
+    lines: new Uint32Array(bytes, from + header + count * 8, count),
   };
 }
 

@@ -12,7 +12,7 @@ import { Slider } from '../parts/slider';
 import { colouring, section, sectionShare, tells } from './colouring';
 import { StockTools } from './stock_tools';
 import { showsStock, showStock } from './stock_view';
-import { followsTool, picked, showsRapids, Stage } from './stage';
+import { drawnProgram, followsTool, picked, showsRapids, Stage } from './stage';
 
 export function SceneView() {
   const canvas = useRef<HTMLCanvasElement>(null);
@@ -30,7 +30,7 @@ export function SceneView() {
   }, []);
   if (!works) return <p class="scene dim">{say('scene.none')}</p>;
   return (
-    <div class="scene" data-shown={pathLoaded.value === 1 ? (pathIndex.value?.program ?? '') : ''}>
+    <div class="scene" data-shown={drawnProgram.value ?? ''}>
       <canvas ref={canvas} role="img" aria-label={say('scene.title')} title={say('scene.help')} />
       <div class="scene-labels" ref={labels} aria-hidden="true">
         <span data-axis="x">X</span>

@@ -4,12 +4,12 @@ import { stable } from '../core/stable';
 import { theme, themeColour } from '../core/theme';
 import { machine, status } from '../machine/connection';
 import { pathIndex, pathLoaded } from '../machine/path_index';
-import { workOffset } from '../machine/place';
+import { workOffset, workRotation } from '../machine/place';
 import { loadsOfShown } from '../machine/studies';
 import { isUnderWay } from '../machine/words';
 import { colouring, section, tells } from './colouring';
 import { axesOf, fit, orbit, pan, project, views, zoom, type View } from './camera';
-import { box, grid, gridStep, triad } from './furniture';
+import { box, grid, gridStep, triad, triadEnds } from './furniture';
 import { colourOf } from './gl';
 import { noteLoads, spotOfLine, type PathPoints, type Vector } from './path_data';
 import { finestChunks, levelFor, loadedChunks, listenToPath, wantFine } from './path_loader';
@@ -23,6 +23,8 @@ import { cutters, stockCutter } from './stock_view';
 export const picked = signal<number | null>(null);
 export const showsRapids = signal(true);
 export const followsTool = signal(false);
+// The program whose path stands whole in the picture.
+export const drawnProgram = signal<number | null>(null);
 
 // What the picture shows of the status: the daemon tells the rest each second, and a still picture costs nothing.
 const seen = stable(() => [status.value?.place, status.value?.line, status.value?.job?.state]);
@@ -71,6 +73,9 @@ export class Stage {
         this.soon();
       }),
       effect(() => {
+        if (pathLoaded.value === 1) this.restsUntil = 0;
+      }),
+      effect(() => {
         // What changes the picture.
         void [seen.value, showsRapids.value, followsTool.value, picked.value, colouring.value, section.value, stockCutter.value, cutters.value, pathLoaded.value];
         this.soon();
@@ -86,6 +91,7 @@ export class Stage {
     for (const one of this.ends) one();
     cancelAnimationFrame(this.frame);
     clearTimeout(this.closerTimer);
+    drawnProgram.value = null;
     this.renderer.end();
   }
 
@@ -135,7 +141,7 @@ export class Stage {
     const lines = [
       ...grid(travel.low, travel.high, zero, gridStep(Math.max(size, 20) * 1.5), of('--grid')),
       ...box(travel.low, travel.high, of('--line')),
-      ...triad(zero, Math.max(size * 0.12, 2), [of('--x'), of('--y'), of('--z')]),
+      ...triad(zero, Math.max(size * 0.12, 2), workRotation.value, [of('--x'), of('--y'), of('--z')]),
     ];
     this.renderer.setFurniture(lines, reach);
     this.soon();
@@ -180,8 +186,10 @@ export class Stage {
   // Where the processor draws, the page stands still until the picture is done: the next frame tells how long it took.
   private paint(): void {
     const begun = performance.now();
+    const whole = pathLoaded.peek() === 1 ? (pathIndex.peek()?.program ?? null) : null;
     requestAnimationFrame(() => {
       const now = performance.now();
+      drawnProgram.value = whole;
       this.cost = now - begun;
       this.restsUntil = now + restOf(this.cost);
     });
@@ -214,14 +222,13 @@ export class Stage {
     const zero = this.zero();
     const index = pathIndex.peek();
     const size = index?.all == null ? 200 : Math.max(index.all.high[0] - index.all.low[0], index.all.high[1] - index.all.low[1], 1);
-    const far = Math.max(size * 0.12, 2) * 1.12;
+    const ends = triadEnds(zero, Math.max(size * 0.12, 2) * 1.12, workRotation.peek());
     const line = picked.peek();
     const spot = line === null ? null : spotOfLine(finestChunks(), line);
     for (const one of this.labels.children) {
       if (!(one instanceof HTMLElement)) continue;
       const axis = 'xyz'.indexOf(one.dataset.axis ?? '-');
-      const place: Vector = axis >= 0 ? [...zero] : (spot?.place ?? [0, 0, 0]);
-      if (axis >= 0) place[axis as 0 | 1 | 2] += far;
+      const place: Vector = ends[axis] ?? spot?.place ?? [0, 0, 0];
       const [x, y] = project(this.view, axes, place);
       one.hidden = axis < 0 && spot === null;
       one.style.transform = `translate(${x + this.canvas.clientWidth / 2}px, ${y + this.canvas.clientHeight / 2}px)`;

@@ -9,7 +9,7 @@
 namespace passo {
 namespace {
 
-// How long the loop waits for senders: while the machine is busy, and while nothing goes on.
+// How long the loop waits for senders and clients: while the machine is busy, and while nothing goes on.
 constexpr Seconds busy_look{0.002};
 constexpr Seconds idle_look{0.02};
 constexpr Seconds hardly_late{1e-4};
@@ -55,7 +55,10 @@ void ServeDaemon::wait() {
   for (const auto& line : lines_) line->add_to(all, may_read(*line));
   const bool busy = session_.busy() || session_.state() == MachineState::offline;
   Seconds most = busy ? busy_look : idle_look;
-  if (web_ != nullptr) most = web_->most_wait(most);
+  if (web_ != nullptr) {
+    web_->add_to(all);
+    most = web_->most_wait(most);
+  }
   const auto milliseconds = static_cast<int>(machine_.has_board() && busy ? 0 : most.value() * 1e3);
   static_cast<void>(poll(all.data(), all.size(), milliseconds));
 }

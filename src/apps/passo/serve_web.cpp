@@ -14,8 +14,6 @@ namespace {
 
 constexpr auto between_messages = std::chrono::microseconds(1'000'000 / 60);
 constexpr auto between_signs_of_life = std::chrono::seconds(1);
-// While somebody is connected, an answer does not wait for the loop for longer.
-constexpr Seconds web_look{0.004};
 
 constexpr const char* no_page =
     "There is no page here yet: scripts/page.sh builds it, and --page DIR names another folder.\n"
@@ -118,8 +116,7 @@ std::string ServedWeb::name() const {
 }
 
 Seconds ServedWeb::most_wait(Seconds most) const {
-  if (api_.is_checking()) return Seconds(0);
-  return server_->connections() > 0 ? std::min(most, web_look) : most;
+  return api_.is_checking() ? Seconds(0) : most;
 }
 
 void ServedWeb::turn() {

@@ -39,7 +39,8 @@ class ServedWeb {
                                          int& code);
 
   std::string name() const;
-  // How long the loop may wait for others.
+  // What the loop wakes up for, and how long it may sleep.
+  void add_to(std::vector<pollfd>& all) const { server_->add_to(all); }
   Seconds most_wait(Seconds most) const;
   void hear_changes(const std::vector<MachineChange>& changes) { api_.heed(changes); }
   // Where the motors of the job that was broken off were last, as far as that is sure.

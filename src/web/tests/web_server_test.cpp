@@ -236,6 +236,34 @@ TEST_F(WebServerTest, sends_a_watcher_away_that_asks_and_does_not_read_or_says_t
   EXPECT_TRUE(turn_until([&] { return server->watchers() == 0; }, {wordy.get()}));
 }
 
+// The owner turns the server only when what the server waits for is ready.
+TEST_F(WebServerTest, tells_its_owner_what_to_sleep_for) {
+  const auto is_ready = [&] {
+    std::vector<pollfd> all;
+    server->add_to(all);
+    return poll(all.data(), all.size(), 0) > 0;
+  };
+  const auto one = watcher("?hz=60");
+  Caller uploads(server->port());
+  Caller downloads(server->port());
+  uploads.send(
+      "POST /upload HTTP/1.1\r\nHost: localhost\r\nExpect: 100-continue\r\nContent-Length: 900000\r\nConnection: "
+      "close\r\n\r\n" +
+      std::string(900'000, 'x'));
+  downloads.send(get("/large"));
+  one->send(frame("hi"));
+  const auto is_done = [&] { return uploads.closed && downloads.closed && !one->heard.empty(); };
+  for (int i = 0; i < 200'000 && !is_done(); ++i) {
+    for (Caller* const each : {&uploads, &downloads, one.get()}) each->look();
+    if (is_ready()) server->turn();
+    if (i > 1000) usleep(100);
+  }
+  EXPECT_TRUE(is_done());
+  EXPECT_GT(downloads.heard.size(), 8'000'000U);
+  EXPECT_TRUE(turn_until([&] { return server->connections() == 0; }, {one.get()}));
+  EXPECT_FALSE(is_ready()) << "nobody wants anything: the owner would never sleep";
+}
+
 TEST_F(WebServerTest, outlives_clients_that_go_amid_everything) {
   for (int i = 0; i < 50; ++i) {
     Caller caller(server->port());

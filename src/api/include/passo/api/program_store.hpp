@@ -18,6 +18,7 @@
 #include "passo/activity/program.hpp"
 #include "passo/api/program_path.hpp"
 #include "passo/diagnostics/diagnostic.hpp"
+#include "passo/interpreter/frame.hpp"
 #include "passo/interpreter/interpreter.hpp"
 #include "passo/journal/path_fingerprint.hpp"
 #include "passo/levelling/height_map.hpp"
@@ -37,7 +38,8 @@ struct StoredProgram {
   std::uint64_t deleted_lines = 0;  // those that begin with /
   bool block_delete = false;        // these lines are left out
   UploadState state = UploadState::unchecked;
-  Point checked_from = {};  // where the machine stood at the last check
+  std::uint64_t checks = 0;  // how many have begun
+  Point checked_from = {};   // where the machine stood at the last check
   ProgramCheck check;
   std::optional<Seconds> planned_time;  // of its motion, with all ramps, at overrides of 100 %
   std::uint64_t path = 0;               // the fingerprint of its path, after a good check
@@ -68,7 +70,7 @@ class ProgramStore {
   const std::map<std::uint64_t, StoredProgram>& all() const { return programs_; }
 
   // Begins the check of a program from this place on. One is checked at a time; the last one counts. A program that was
-  // found good from this place is not checked again.
+  // found good from this place is not checked again, unless its path had to make room.
   void check(std::uint64_t id, const MachineDescription& machine, const Point& start);
   bool checks() const { return checker_ != nullptr; }
   // Checks a bounded piece.
@@ -82,7 +84,9 @@ class ProgramStore {
 
   // Where the work's zero (G54) lies in machine coordinates, for all programs.
   void set_work_zero(const Point& zero);
-  Point work_zero() const;
+  Point work_zero() const { return work_frame().work_offset(); }
+  // The same with its rotation about Z, which an angle of the work has been probed for.
+  Frame work_frame() const;
   // The offsets and tools for the programs from now on. Checks that were made before count no longer, if they differ.
   void set_offsets(const SavedParameters& parameters, const ToolTable& tools);
   const SavedParameters& parameters() const { return parameters_; }

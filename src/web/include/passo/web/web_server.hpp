@@ -15,6 +15,9 @@
 #include <memory>
 #include <string>
 #include <string_view>
+#include <vector>
+
+#include <poll.h>
 
 #include "passo/base/result.hpp"
 #include "passo/web/web_access.hpp"
@@ -81,6 +84,8 @@ class WebServer {
   WebServer& operator=(const WebServer&) = delete;
 
   unsigned port() const;
+  // Adds what the server waits for, so that the owner of the loop may sleep until there is something to do.
+  void add_to(std::vector<pollfd>& all) const;
   // Does what is ready, but no more than `steps` steps.
   void turn(int steps = 256);
   // Gives all clients of the stream a new message, each at most as often as it asked (?hz=1 to 60, else 10).
