@@ -14,20 +14,23 @@ namespace {
 // between their ends may therefore be missing here: some thousandths. A way that asks for more than this share above
 // the limits is none.
 constexpr double most_excess = 0.01;
+// The same for a feed that the path reaches while the speed cannot fall.
+constexpr double most_above_feed = 4e-4;
 
 }  // namespace
 
 EmergencyBrake::EmergencyBrake(const MotionLimits& limits)
     : cutter_(limits), demands_(cutter_.most_demands()), falling_(cutter_.most_falling()) {}
 
-bool EmergencyBrake::plan(PathAhead& path, const PathState& from, std::vector<PlannedMove>& plan) {
+bool EmergencyBrake::plan(PathAhead& path, const PathState& from, const FeedFactors& feeds,
+                          std::vector<PlannedMove>& plan) {
   plan.clear();
   double s = from.s;
   double speed_squared = from.speed * from.speed;
   for (std::uint64_t number = from.segment; speed_squared > 0; ++number, s = 0) {
     const Segment* segment = path.at(number);
     const bool ends = segment == nullptr || (number > from.segment && rests_between(*path.at(number - 1), *segment));
-    if (!ends) speed_squared = brake_on(*segment, s, speed_squared, plan);
+    if (!ends) speed_squared = brake_on(*segment, s, speed_squared, feeds.speed_on(*segment), plan);
     if (!ends && speed_squared >= 0) continue;
     plan.clear();
     return false;
@@ -35,13 +38,17 @@ bool EmergencyBrake::plan(PathAhead& path, const PathState& from, std::vector<Pl
   return true;
 }
 
-double EmergencyBrake::brake_on(const Segment& segment, double from, double speed_squared,
+double EmergencyBrake::brake_on(const Segment& segment, double from, double speed_squared, double feed,
                                 std::vector<PlannedMove>& plan) {
   bool begins = true;
   for (cutter_.begin(segment, speed_squared, from); speed_squared > 0 && !cutter_.at_end(); begins = false) {
     cutter_.next({cell_, demands_.data(), falling_.data()});
-    const Ride ride = hardest_braking(cell_, std::span(demands_).first(cell_.demand_count),
-                                      std::span(falling_).first(cell_.falling_count), speed_squared);
+    Ride ride = hardest_braking(cell_, std::span(demands_).first(cell_.demand_count),
+                                std::span(falling_).first(cell_.falling_count), speed_squared);
+    // What cells take off the limits may let the speed only rise. The motion before is not that careful, and keeps to
+    // the feed.
+    if (speed_squared > feed * feed * (1 + most_above_feed) * (1 + most_above_feed)) return -1;
+    ride.exit = std::min(ride.exit, std::max(speed_squared, feed * feed));
     if (!allows(speed_squared, ride)) return -1;
     if (begins || plan.back().phase_count == PlannedMove::most_phases) plan.emplace_back().begin_on(segment);
     add_phase(cell_.start, ride.way, speed_squared, ride.exit, plan.back());
