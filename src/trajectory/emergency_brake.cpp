@@ -14,7 +14,8 @@ namespace {
 // between their ends may therefore be missing here: some thousandths. A way that asks for more than this share above
 // the limits is none.
 constexpr double most_excess = 0.01;
-// The same for a feed that the path reaches while the speed cannot fall.
+// Nor is a way that goes faster than the feed: what cells take off the limits may let the speed only rise. The motion
+// before is not that careful.
 constexpr double most_above_feed = 4e-4;
 
 }  // namespace
@@ -40,16 +41,13 @@ bool EmergencyBrake::plan(PathAhead& path, const PathState& from, const FeedFact
 
 double EmergencyBrake::brake_on(const Segment& segment, double from, double speed_squared, double feed,
                                 std::vector<PlannedMove>& plan) {
+  const double most = std::pow(feed * (1 + most_above_feed), 2);
   bool begins = true;
   for (cutter_.begin(segment, speed_squared, from); speed_squared > 0 && !cutter_.at_end(); begins = false) {
     cutter_.next({cell_, demands_.data(), falling_.data()});
-    Ride ride = hardest_braking(cell_, std::span(demands_).first(cell_.demand_count),
-                                std::span(falling_).first(cell_.falling_count), speed_squared);
-    // What cells take off the limits may let the speed only rise. The motion before is not that careful, and keeps to
-    // the feed.
-    if (speed_squared > feed * feed * (1 + most_above_feed) * (1 + most_above_feed)) return -1;
-    ride.exit = std::min(ride.exit, std::max(speed_squared, feed * feed));
-    if (!allows(speed_squared, ride)) return -1;
+    const Ride ride = hardest_braking(cell_, std::span(demands_).first(cell_.demand_count),
+                                      std::span(falling_).first(cell_.falling_count), speed_squared);
+    if (!allows(speed_squared, ride) || std::max(speed_squared, ride.exit) > most) return -1;
     if (begins || plan.back().phase_count == PlannedMove::most_phases) plan.emplace_back().begin_on(segment);
     add_phase(cell_.start, ride.way, speed_squared, ride.exit, plan.back());
     plan.back().to = Mm(ride.way < cell_.length ? cell_.start + ride.way : cell_.end);
