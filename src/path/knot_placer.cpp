@@ -59,9 +59,9 @@ constexpr std::array change_weights_of_gentle = {1.75, 1.53, 0.95, 0.52, 0.46, 0
 constexpr double gentle_apart_from = 11;
 constexpr std::array knots_for_gentle_company = {1.02, 2.23, 4.14, 4.8, 7.15};
 constexpr std::array change_weights_of_company = {0.97, 0.87, 1.06, 1.01};
-// Where the room is a little too small for the second, third or fourth knot of such a corner, all its knots come closer,
-// at most to this share. With one knot less the bend could not change slowly: the time of a staircase jumped by 15 %
-// from one length of the stairs to the next. By trial; farther knots are no loss.
+// Where the room is a little too small for the second, third or fourth knot of such a corner, all its knots come
+// closer, at most to this share. With one knot less the bend could not change slowly: the time of a staircase jumped by
+// 15 % from one length of the stairs to the next. By trial; farther knots are no loss.
 constexpr double closest = 0.8;
 constexpr std::size_t knots_worth_it = 4;
 constexpr double last_knot_reaches = 1.25;  // room of a node, in distances of its last knot

@@ -24,9 +24,9 @@ class EmergencyBrake {
   // `limits` must outlive the brake.
   explicit EmergencyBrake(const MotionLimits& limits);
 
-  // Plans the way to rest from that state, which must be within the limits and these feeds. Returns false, and an empty plan, where the
-  // cells leave no way that is surely within the limits, or where the path rests before the motion could.
-  // Takes about 0.1 µs a cell; a stop on an arc passes some 30 cells.
+  // Plans the way to rest from that state, which must be within the limits and these feeds. Returns false, and an empty
+  // plan, where the cells leave no way that is surely within the limits, or where the path rests before the motion
+  // could. Takes about 0.1 µs a cell; a stop on an arc passes some 30 cells.
   [[nodiscard]] bool plan(PathAhead& path, const PathState& from, const FeedFactors& feeds,
                           std::vector<PlannedMove>& plan);
 

@@ -108,7 +108,8 @@ inline AxisMotion motion_at(const Curve& curve, Axis axis, const Phase& phase, d
   return {q.first * v, q.first * a + q.second * v * v, q.first * j + 3 * q.second * v * a + q.third * v * v * v};
 }
 
-// Looks at 40 places of each phase, and at the changes from each phase to the next. A copy may watch what comes instead.
+// Looks at 40 places of each phase, and at the changes from each phase to the next. A copy may watch another
+// continuation.
 class JerkOracle {
  public:
   explicit JerkOracle(const MotionLimits& limits) : limits_(limits) {}
