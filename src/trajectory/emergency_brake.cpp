@@ -14,9 +14,9 @@ namespace {
 // between their ends may therefore be missing here: some thousandths. A way that asks for more than this share above
 // the limits is none.
 constexpr double most_excess = 0.01;
-// Nor is a way that goes faster than the feed: what cells take off the limits may let the speed only rise. The motion
-// before is not that careful.
-constexpr double most_above_feed = 4e-4;
+// Nor is a way that goes faster than the feed, or rises above what the axes' velocities allow: what cells take off the
+// limits may let the speed only rise. The motion before is not that careful.
+constexpr double most_too_fast = 4e-4;
 
 }  // namespace
 
@@ -41,7 +41,7 @@ bool EmergencyBrake::plan(PathAhead& path, const PathState& from, const FeedFact
 
 double EmergencyBrake::brake_on(const Segment& segment, double from, double speed_squared, double feed,
                                 std::vector<PlannedMove>& plan) {
-  const double most = std::pow(feed * (1 + most_above_feed), 2);
+  const double most = std::pow(feed * (1 + most_too_fast), 2);
   bool begins = true;
   for (cutter_.begin(segment, speed_squared, from); speed_squared > 0 && !cutter_.at_end(); begins = false) {
     cutter_.next({cell_, demands_.data(), falling_.data()});
@@ -58,6 +58,8 @@ double EmergencyBrake::brake_on(const Segment& segment, double from, double spee
 
 bool EmergencyBrake::allows(double entry, const Ride& ride) const {
   constexpr double excess = 1 + most_excess;
+  constexpr double too_fast = 1 + most_too_fast;
+  if (ride.exit > entry && ride.exit > cell_.top_squared * too_fast * too_fast) return false;
   if (entry > cell_.top_squared * excess * excess) return false;
   if (ride.way < cell_.length) return true;
   return std::ranges::all_of(std::span(demands_).first(cell_.demand_count), [&](const AxisDemand& demand) {
