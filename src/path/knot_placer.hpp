@@ -71,6 +71,7 @@ class KnotPlacer {
     const Spacing* closer = nullptr;      // for nodes that have no room for the first knot
     double apart_from = 0;                // in widths: with a nearer node on either side, `in_company` places the knots
     const Spacing* in_company = nullptr;  // of the same width
+    bool comes_closer = false;            // all knots do, where the room is a little too small for one of the first
     // Of the change of the bend, span by span from the node on. Empty: 1.
     std::span<const double> change_weights = {};
   };

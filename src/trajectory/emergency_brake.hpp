@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "cell.hpp"
+#include "feed_factors.hpp"
 #include "path_ahead.hpp"
 #include "path_state.hpp"
 #include "speed_window.hpp"
@@ -23,14 +24,16 @@ class EmergencyBrake {
   // `limits` must outlive the brake.
   explicit EmergencyBrake(const MotionLimits& limits);
 
-  // Plans the way to rest from that state, which must be within the limits. Returns false, and an empty plan, where the
-  // cells leave no way that is surely within the limits, or where the path rests before the motion could.
-  // Takes about 0.1 µs a cell; a stop on an arc passes some 30 cells.
-  [[nodiscard]] bool plan(PathAhead& path, const PathState& from, std::vector<PlannedMove>& plan);
+  // Plans the way to rest from that state, which must be within the limits and these feeds. Returns false, and an empty
+  // plan, where the cells leave no way that is surely within the limits, or where the path rests before the motion
+  // could. Takes about 0.1 µs a cell; a stop on an arc passes some 30 cells.
+  [[nodiscard]] bool plan(PathAhead& path, const PathState& from, const FeedFactors& feeds,
+                          std::vector<PlannedMove>& plan);
 
  private:
   // The square of the speed at the end of the segment, or 0 and the rest. Below 0: there is no way.
-  double brake_on(const Segment& segment, double from, double speed_squared, std::vector<PlannedMove>& plan);
+  double brake_on(const Segment& segment, double from, double speed_squared, double feed,
+                  std::vector<PlannedMove>& plan);
   bool allows(double entry, const Ride& ride) const;
 
   CellCutter cutter_;

@@ -71,7 +71,7 @@ class JerkLaw final : public SpeedLaw {
   // The shortest gentle way to rest is a SpeedChange. If none is possible, the motion goes on as planned to a place
   // where one is, or to rest. A late stop would take too long to find, because each refill of a board asks for a plan.
   void braking_plan(Planner::Braking how, std::vector<PlannedMove>& plan) override {
-    if (how == Planner::Braking::hard && emergency_brake_.plan(path_, now_, plan)) return;
+    if (how == Planner::Braking::hard && emergency_brake_.plan(path_, now_, fastest_, plan)) return;
     Outlook outlook{.pieces = given_pieces_};
     PathState state = now_;
     double since_trial = between_trials;

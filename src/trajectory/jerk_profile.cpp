@@ -122,6 +122,19 @@ void JerkProfile::prepare() {
   }
 }
 
+// What the axes allow along the path at that square of the speed. Where the torque falls and the guess did not know it,
+// steady nodes were too near to corners, and most parts between them could not be lifted.
+double JerkProfile::acceleration_at(std::size_t cell, double x) const {
+  double most = cells_[cell].acceleration;
+  if (!any_falls_) return most;
+  const AxisShape* shape = shapes(cell);
+  for (std::size_t k = 0; k < axes_.size(); ++k, ++shape) {
+    const double slope = std::max(std::abs(shape->slope_in), std::abs(shape->slope_out));
+    if (slope > 0) most = std::min(most, axes_[k].acceleration_at(slope * slope * x) / slope);
+  }
+  return most;
+}
+
 // The highest x along the cells from a rest on, or from the state of a window that begins in motion.
 void JerkProfile::guess_from(std::size_t node, bool backwards, double growth) {
   std::vector<double>& x = guess_;
@@ -132,7 +145,8 @@ void JerkProfile::guess_from(std::size_t node, bool backwards, double growth) {
     const std::size_t next = backwards ? node - 1 : node + 1;
     const JerkCell& cell = cells_[std::min(node, next)];
     way += cell.length;
-    double most = x[node] + 2 * guessed_acceleration * cell.acceleration * cell.length;
+    const double acceleration = guessed_acceleration * acceleration_at(std::min(node, next), x[node]);
+    double most = x[node] + 2 * acceleration * cell.length;
     if (x[node] > 0) most = std::min(most, growth * x[node]);
     if (from_rest) {
       // With constant jerk from rest, x = (j² (6 s)⁴)^(1/3) / 4.
@@ -339,8 +353,8 @@ bool JerkProfile::lift_between_steady() {
   return true;
 }
 
-// Lifts a part between steady nodes. If that fails, steady nodes on both sides may be too near: where the acceleration
-// falls with the speed, the cap is reached later than the guess says. Then the part takes in some of them.
+// Lifts a part between steady nodes. If that fails, steady nodes on both sides may be too near: the cap is reached
+// later than the guess says. Then the part takes in some of them.
 bool JerkProfile::lift_wider(Stretch& part) {
   leave_caps(part);
   if (lift(part)) return true;

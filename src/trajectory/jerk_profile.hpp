@@ -83,6 +83,7 @@ class JerkProfile {
   const AxisShape* shapes(std::size_t i) const { return &shapes_[i * axes_.size()]; }
 
   double velocity_cap(std::size_t cell, double (*slope)(const AxisShape&, double length)) const;
+  double acceleration_at(std::size_t cell, double x) const;
   double passing_cap(std::size_t node) const;
   double constant_speed_cap(std::size_t node) const;
   void prepare();

@@ -108,31 +108,34 @@ inline AxisMotion motion_at(const Curve& curve, Axis axis, const Phase& phase, d
   return {q.first * v, q.first * a + q.second * v * v, q.first * j + 3 * q.second * v * a + q.third * v * v * v};
 }
 
-// Looks at 40 places of each phase, and at the changes from each phase to the next.
+// Looks at 40 places of each phase, and at the changes from each phase to the next. A copy may watch another
+// continuation.
 class JerkOracle {
  public:
   explicit JerkOracle(const MotionLimits& limits) : limits_(limits) {}
 
   void check(const std::vector<MotionItem>& motion) {
     for (const MotionItem& item : motion) {
-      const auto* move = std::get_if<PlannedMove>(&item);
-      if (move == nullptr) {
-        rest();
-        continue;
-      }
-      SCOPED_TRACE(passo::to_text(*move));
-      ASSERT_GE(move->phase_count, 1U);
-      double at = move->from().value();
-      for (const Phase& phase : *move) {
-        ASSERT_GT(phase.duration.value(), 0);
-        ASSERT_NEAR(phase.start.value(), at, 1e-10);
-        at = phase.position_at(phase.duration).value();
-        check_phase(move->segment, phase);
-        if (testing::Test::HasFatalFailure()) return;
-      }
-      ASSERT_NEAR(move->to.value(), at, 1e-10);
+      watch(item);
+      if (testing::Test::HasFatalFailure()) return;
     }
     rest();
+  }
+
+  void watch(const MotionItem& item) {
+    const auto* move = std::get_if<PlannedMove>(&item);
+    if (move == nullptr) return rest();
+    SCOPED_TRACE(passo::to_text(*move));
+    ASSERT_GE(move->phase_count, 1U);
+    double at = move->from().value();
+    for (const Phase& phase : *move) {
+      ASSERT_GT(phase.duration.value(), 0);
+      ASSERT_NEAR(phase.start.value(), at, 1e-10);
+      at = phase.position_at(phase.duration).value();
+      check_phase(move->segment, phase);
+      if (testing::Test::HasFatalFailure()) return;
+    }
+    ASSERT_NEAR(move->to.value(), at, 1e-10);
   }
 
  private:
@@ -182,7 +185,7 @@ class JerkOracle {
   }
 
   static constexpr double tolerated = 1.0005;
-  const MotionLimits limits_;
+  MotionLimits limits_;
   PerAxis<AxisMotion> before_;
 };
 
