@@ -42,8 +42,8 @@ class RandomMessages {
     if (below(4) == 0) segment.change *= coarse_change;
     for (unsigned m = 0; m < motors; ++m) segment.increments[m] = word();
     segment.form = static_cast<std::uint8_t>(below(16));
-    const auto lender = static_cast<std::uint8_t>(below(motors));
-    const bool two = bends_two(segment, lender);
+    const unsigned lender = below(motors);
+    const bool two = bends_two(segment, static_cast<std::uint8_t>(lender));
     if (two && motors < least_motors_to_bend_two) return segment;
     segment.bend = static_cast<std::uint8_t>(below(two ? largest_scale + 1U : motors) | lender << 4);
     return segment;
