@@ -30,7 +30,7 @@ void cut_at_every(std::uint64_t stride) {
 }
 
 TEST_F(PicoOnABadLine, goes_on_from_where_it_rests_when_the_line_was_cut) {
-  cut_at_every(199);
+  cut_at_every(97);
 }
 
 TEST_F(PicoOnABadLine, makes_no_wrong_step_of_random_faults) {
