@@ -116,14 +116,13 @@ std::optional<SegmentFitter::Bending> SegmentFitter::bend_one(const BendSpan& sp
                  .events = span.count};
 }
 
-// A motor that one increment serves has no change.
+// A motor that one increment serves, as `advances` says, has no change.
 std::optional<SegmentFitter::Bending> SegmentFitter::bend_two(const BendSpan& span, const Lending& lending,
                                                               Advances& advances) {
   for (std::uint8_t scale = 1; scale <= largest_scale; ++scale) {
     const std::int64_t unit = 1 << 2 * scale;
     const auto bent = [&](unsigned motor) -> std::optional<Bent> {
-      const Advance even = advance_other(span.events, motor, span.board.position(motor), span.count);
-      if (even.events == span.count) return Bent{.advance = even};
+      if (advances[motor].events == span.count) return Bent{.advance = advances[motor]};
       return bend_of(span, motor, {.unit = unit, .most = most_of_byte * unit});
     };
     const std::optional<Bent> first = bent(lending.first);
@@ -141,28 +140,34 @@ std::optional<SegmentFitter::Bending> SegmentFitter::bend_two(const BendSpan& sp
   return {};
 }
 
-// Finds the longest parts in which just so many events bend.
-std::optional<SegmentFitter::Bending> SegmentFitter::bend_by(const Lending& lending, BendSpan span,
-                                                             const Timing& timing, unsigned master,
-                                                             Advances& advances) {
-  for (unsigned m = 0; m < motors_; ++m) {
-    if (m == master || lending.serves(m)) continue;
-    advances[m] = advance_other(span.events, m, span.board.position(m), span.count);
-    if (advances[m].events != span.count) return {};
-  }
+// The parts that the chip has time for, of two to the power of these many events. A root has chosen its own.
+SegmentFitter::PartRange SegmentFitter::parts_of(const Timing& timing) const {
   const BoardSegment times{.events = static_cast<std::uint16_t>(timing.events),
                            .form = timing.form,
                            .interval = timing.interval,
                            .change = timing.change};
   const std::int64_t last = duration(times, most_events) - duration(times, times.events - 1);
   const double least_part = least_events_of_part(static_cast<double>(std::min<std::int64_t>(timing.interval, last)));
-  const unsigned longest = is_root(timing.form) ? timing.form & ~root_form : longest_root_part;
-  const unsigned shortest = is_root(timing.form) ? std::max(longest, 1U) : 1;
-  for (span.k = longest; span.k >= shortest && (1U << span.k) >= least_part; --span.k) {
-    const bool one = lending.first == lending.second;
+  PartRange parts{.longest = longest_root_part};
+  if (is_root(timing.form)) parts.shortest = parts.longest = timing.form & ~root_form;
+  parts.shortest = std::max(parts.shortest, 1U);
+  while (parts.shortest <= parts.longest && (1U << parts.shortest) < least_part) ++parts.shortest;
+  return parts;
+}
+
+// Finds the longest parts in which just so many events bend.
+std::optional<SegmentFitter::Bending> SegmentFitter::bend_by(const Lending& lending, BendSpan span, PartRange parts,
+                                                             unsigned master, Advances& advances) {
+  const bool one = lending.first == lending.second;
+  for (unsigned m = 0; m < motors_; ++m) {
+    if (m == master || (one && lending.serves(m))) continue;
+    advances[m] = advance_other(span.events, m, span.board.position(m), span.count);
+    if (!lending.serves(m) && advances[m].events != span.count) return {};
+  }
+  for (span.k = parts.longest; span.k >= parts.shortest; --span.k) {
     std::optional<Bending> bending = one ? bend_one(span, lending, advances) : bend_two(span, lending, advances);
     if (!bending) continue;
-    bending->form = is_root(timing.form) ? timing.form : static_cast<std::uint8_t>(span.k);
+    bending->k = span.k;
     return bending;
   }
   return {};
@@ -181,13 +186,14 @@ std::optional<SegmentFitter::Bending> SegmentFitter::fit_bend(const EventBuffer&
   }
   const std::optional<Lending> lending = find_lender(events, stretch, board, tried, *worst, timing.events);
   if (!lending) return {};
+  const PartRange parts = parts_of(timing);
   const unsigned without = tried[*worst].events;
   const unsigned worth_it = without + without / 4;
   std::optional<Bending> longest;
   unsigned too_many = lending->most + 1;
   const auto bends = [&](unsigned n) {
     const BendSpan span{.events = events, .board = board, .count = n};
-    const std::optional<Bending> bending = bend_by(*lending, span, timing, stretch.master, tried);
+    const std::optional<Bending> bending = bend_by(*lending, span, parts, stretch.master, tried);
     if (!bending) {
       too_many = n;
       return;

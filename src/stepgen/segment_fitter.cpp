@@ -383,7 +383,8 @@ unsigned SegmentFitter::fit(const EventBuffer& events, const Stretch& stretch, c
     bending = fit_bend(events, stretch, board, timing, advances);
     if (bending) count = bending->events;
   }
-  const std::uint8_t form = bending ? bending->form : timing.form;
+  // A root's parts are its own.
+  const std::uint8_t form = bending && !is_root(timing.form) ? static_cast<std::uint8_t>(bending->k) : timing.form;
   segment = BoardSegment{.events = static_cast<std::uint16_t>(count),
                          .form = count > 1 ? form : std::uint8_t{0},
                          .interval = timing.interval,

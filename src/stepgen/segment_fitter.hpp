@@ -87,7 +87,7 @@ class SegmentFitter {
   struct Bending {
     std::uint8_t code = 0;  // BoardSegment::bend
     std::uint16_t lent = 0;
-    std::uint8_t form = 0;
+    unsigned k = 0;  // parts have two to the power of this many events
     unsigned lender = 0;
     unsigned events = 0;
   };
@@ -97,6 +97,11 @@ class SegmentFitter {
     const BoardModel& board;
     unsigned count = 0;
     unsigned k = 0;
+  };
+  // From the shortest to the longest: two to the power of these many events. None if the shortest is longer.
+  struct PartRange {
+    unsigned shortest = 1;
+    unsigned longest = 0;
   };
   using Advances = std::array<Advance, max_motors>;
 
@@ -111,7 +116,8 @@ class SegmentFitter {
                                   const Timing& timing, Advances& advances);
   std::optional<Lending> find_lender(const EventBuffer& events, const Stretch& stretch, const BoardModel& board,
                                      const Advances& advances, unsigned bent, unsigned count) const;
-  std::optional<Bending> bend_by(const Lending& lending, BendSpan span, const Timing& timing, unsigned master,
+  PartRange parts_of(const Timing& timing) const;
+  std::optional<Bending> bend_by(const Lending& lending, BendSpan span, PartRange parts, unsigned master,
                                  Advances& advances);
   std::optional<Bending> bend_one(const BendSpan& span, const Lending& lending, Advances& advances);
   std::optional<Bending> bend_two(const BendSpan& span, const Lending& lending, Advances& advances);
