@@ -108,11 +108,11 @@ void expect_small_differences(const std::vector<StepLog::Step>& steps, unsigned 
   }
 }
 
-// `slack`, in steps, allows for three errors. Steps are whole, which makes less than 2. An event may be off by a
-// quarter of its interval in a tail, which makes 1. A motor that is not the master may step one event early, which
-// makes 2. In tails of boards with fewer than 100 places an event may be off by its interval (3 more), and a step may
-// be an event late (decision 0129, 2 more). A slack of 4 instead of these 5 more has been enough.
-inline void expect_within_limits(const MachineDescription& machine, const StepLog::Steps& run, double slack = 5) {
+// `slack`, in steps, allows for two errors. Steps are whole, which makes less than 2. Events are not exact, which makes
+// 4 times the share of an interval by which an event may be off: at most 4, in a tail (decision 0031). A slack below
+// the sum has been enough in most cases. In tails of boards with fewer than 100 places a step may come an event late,
+// too (decision 0129), which makes 4 more.
+inline void expect_within_limits(const MachineDescription& machine, const StepLog::Steps& run, double slack = 4) {
   constexpr double apart = 0.008;  // seconds
   // The time between two places for the jerk. With a shorter time, a jump of the acceleration by its limit shows
   // better, but whole steps disturb more. A longer time does the opposite.
