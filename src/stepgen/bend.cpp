@@ -37,15 +37,20 @@ std::optional<SegmentFitter::Bent> SegmentFitter::bend_of(const BendSpan& span, 
   const std::int32_t* const due = ideal_.data();
   const std::int64_t late = events_late();
 
-  const auto slope_to = [&](std::int64_t m) {
+  const auto slope_to = [&](std::int64_t m, double shift) {
     const auto event = static_cast<std::size_t>(m * part);
     const double early = late != 0 && m != parts ? 0 : (static_cast<double>(due[event + 1]) - due[event]) / 2;
-    return (due[event] + early - static_cast<double>(start - this_step)) / static_cast<double>(event);
+    return (due[event] + early + shift - static_cast<double>(start - this_step)) / static_cast<double>(event);
   };
   const std::int64_t node = std::max<std::int64_t>(1, parts / 2);
-  const double slope1 = slope_to(node);
-  const double slope2 = slope_to(parts);
-  const auto wanted = 2 * (slope2 - slope1) / static_cast<double>(parts - node);
+  const auto change_of = [&](double slope1, double slope2) {
+    return 2 * (slope2 - slope1) / static_cast<double>(parts - node);
+  };
+  // Amid a part the chord is an eighth of part times change beside the parabola, to one side. Half of that is aimed
+  // for at the nodes.
+  const double shift = -change_of(slope_to(node, 0), slope_to(parts, 0)) * static_cast<double>(part) / 16;
+  const double slope2 = slope_to(parts, shift);
+  const double wanted = change_of(slope_to(node, shift), slope2);
   const std::int64_t change = range.unit * nearest(wanted / static_cast<double>(range.unit));
   const std::int64_t first = nearest(slope2 - static_cast<double>(change * (parts - 1)) / 2);
   const std::int64_t last = first + change * ((count - 1) >> span.k);
