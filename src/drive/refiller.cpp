@@ -35,7 +35,7 @@ constexpr Seconds longest_following{0.01};
 constexpr double answers_ahead = 2.5;
 constexpr Seconds spare{0.003};  // a tail may have many more items than the tail before
 constexpr double patience_following = 0.95;
-constexpr Seconds made_ahead{0.002};
+constexpr Seconds made_ahead{0.003};
 // The next refill may be slower than the last ones by this factor.
 constexpr double spare_of_frames = 1.25;
 

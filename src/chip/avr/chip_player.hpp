@@ -1,7 +1,7 @@
 // ChipPlayer: does on the chip what Player does on the host. It makes events of segments ahead of time, for the step
 // timer's interrupt.
 //
-// The main loop calls refill() again and again. Events are made until the ring is full or two milliseconds ahead,
+// The main loop calls refill() again and again. Events are made until the ring is full or some milliseconds ahead,
 // whichever comes first. All that is in the ring will be played, so a slow motion must not have seconds in it. A
 // segment counts as begun when it is loaded.
 //
@@ -113,6 +113,7 @@ class ChipPlayer {
     }
     SerialLine::breathe();
     remember(segment);
+    if (step_port_count > 1) SerialLine::breathe();
   }
   // Finds how far ahead events may be made, and whether the interrupt will see every byte.
   static void plan_watch(const Segment& segment) {
@@ -235,7 +236,6 @@ class ChipPlayer {
  private:
   // An item that has begun cannot be replaced, so a few are enough, but for short ones: they may have one event.
   static constexpr uint8_t few_begun = 4;
-  static constexpr uint8_t most_begun = RingTimes::are_short ? 5 : 4;
   static constexpr uint8_t worth_more_begun = 80;
   // Events are made a few at a time, or most_at_once. Many save the way in and out, but the line is not read meanwhile.
   // So many are made only when the interrupt comes so often that it sees every byte.
@@ -331,12 +331,16 @@ class ChipPlayer {
     start();
   }
 
-  // The number of events in two milliseconds (32,768 ticks), as a power of two.
+  // The number of events in two to three milliseconds (32,768 to 49,152 ticks), without a division. In one to two where
+  // the ring is small: windings take long to make, and a switch would have to wait.
   static uint8_t most_ahead() {
-    uint8_t high = static_cast<uint8_t>(expansion.interval >> 24);
-    uint8_t most = most_events;
-    if (high >= 1 && most > 64) most = 64;
-    for (; high > 1; high >>= 1) most >>= 1;
+    constexpr bool is_large = ring_entries > 128;
+    uint16_t ticks = static_cast<uint16_t>(expansion.interval >> 16);
+    if (ticks < 256) return most_events;
+    uint8_t most = is_large ? 128 : 64;
+    for (; ticks >= 512; ticks >>= 1) most >>= 1;
+    if (is_large && ticks >= 384) most = static_cast<uint8_t>(most - most / 4);
+    if (most > most_events) return most_events;
     return most < 2 ? uint8_t{2} : most;
   }
 

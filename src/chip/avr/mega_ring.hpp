@@ -16,7 +16,7 @@ inline constexpr uint8_t flag_stop = pins.flag_stop;
 // The interrupt makes a pulse of so many cycles, or of more if the pin map wants a longer one.
 inline constexpr uint8_t pulse_without_padding = 16;
 inline constexpr About about = {
-    .firmware = 103,
+    .firmware = 104,
     .highest_event_rate = 110'000,
     .baud = 500'000,
     .name = "mega ramps 1.4",
@@ -29,6 +29,7 @@ inline constexpr uint16_t times_low_address = 0x300;
 inline constexpr uint16_t first_toggles_address = 0x400;
 inline constexpr uint16_t ring_entries = 256;
 inline constexpr uint8_t most_events = 220;   // two milliseconds at the highest rate; all of them will be played
+inline constexpr uint8_t most_begun = 8;      // items that were begun and are not finished
 inline constexpr uint8_t most_at_once = 100;  // made in one call
 inline constexpr uint8_t way_in_events = 8;   // about what is played while events are begun to be made
 using StepAlarm = Ocr1al;

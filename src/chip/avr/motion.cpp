@@ -37,6 +37,7 @@ struct Hardware {
   static constexpr bool has_encoder() { return SpindleCounter::exists(); }
   static SpindleCount spindle() { return SpindleCounter::count(); }
   static void breathe() { SerialLine::breathe(); }
+  static void keep_up();
   static int32_t high_product(int32_t a, int32_t b) { return chip::high_product(a, b); }
 
   SerialLine line;
@@ -220,6 +221,15 @@ uint8_t receive_some() {
     board.settle();
   }
   ChipPlayer::refill();
+}
+
+// An event of windings takes long to make, and so would the way to a switch. Their rings last longer than an answer takes.
+void Hardware::keep_up() {
+  SerialLine::breathe();
+#ifndef PASSO_WINDINGS
+  if (running != 0) chip::keep_up();
+  SerialLine::breathe();
+#endif
 }
 
 // One turn of the loop. Events come first: nothing else here may take longer than the events ahead of the interrupt.

@@ -60,9 +60,11 @@ class RingTimes {
   static bool are_slow() { return reach_ == Reach::far; }
   // What to make at once where hardly any wait.
   static uint8_t few() { return reach_ == Reach::near ? few_events : most_waits_at_once; }
-  // Room in the ring for which it is worth making some. Slow events leave time, and the loop may be away for long.
+  // Room in the ring for which it is worth making some. Slow events leave time, and the loop may be away for long: what
+  // is left must last while a status is answered.
   static uint8_t least_room(uint8_t most_ahead) {
-    return static_cast<uint8_t>(reach_ != Reach::far ? most_ahead / 2 : most_ahead / 6);
+    const uint8_t parts = reach_ == Reach::near ? 2 : reach_ == Reach::middle ? 3 : 6;
+    return static_cast<uint8_t>(most_ahead / parts);
   }
   // Whether that many events have that much room.
   static bool fit(uint8_t events, uint8_t room) { return room >> (reach_ == Reach::near ? 0 : 1) >= events; }

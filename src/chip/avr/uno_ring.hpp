@@ -16,7 +16,7 @@ inline constexpr uint8_t flag_stop = pins.flag_stop;
 // The interrupt makes a pulse of so many cycles, or of more if the pin map wants a longer one.
 inline constexpr uint8_t pulse_without_padding = 16;
 inline constexpr About about = {
-    .firmware = 105,
+    .firmware = 106,
     .highest_event_rate = 150'000,
     .baud = 500'000,
     .name = "uno cnc shield3",
@@ -35,6 +35,7 @@ inline constexpr uint16_t ring_address = 0x100;
 inline constexpr uint8_t ring_entries = 128;
 // In the ring; all of them will be played. Those just played must stay to be looked at when a capture is noted.
 inline constexpr uint8_t most_events = 120;
+inline constexpr uint8_t most_begun = 5;      // items that were begun and are not finished
 inline constexpr uint8_t most_at_once = 100;  // made in one call
 inline constexpr uint8_t way_in_events = 24;  // about what is played while events are begun to be made
 // The registers of the step timer whose low bytes tell how near its alarm is.

@@ -52,6 +52,7 @@ inline constexpr uint16_t turns_address = actions_address + 0x20;
 inline constexpr uint8_t turns_mask = 0x07;
 // The interrupt takes all received bytes.
 inline constexpr uint16_t often = 500;
+inline constexpr uint8_t most_begun = 4;     // items that were begun and are not finished
 inline constexpr uint8_t most_at_once = 8;   // the expander reads the line at every event
 inline constexpr uint8_t way_in_events = 8;  // about what is played while events are begun to be made
 inline constexpr uint16_t first_free_address = turns_address + turns_mask + 1;

@@ -272,6 +272,7 @@ class Board : private BoardVoice<Hardware> {
   }
 
   [[gnu::noinline]] void tell_status(uint8_t motors, uint8_t question) {
+    keep_playing();
     unsigned state = watch_.state();
     if (trusted_) state |= board_trusted;
     if (!idle()) state |= board_moves;
@@ -293,8 +294,13 @@ class Board : private BoardVoice<Hardware> {
       breathe();
       status.positions[motor] = position(motor);
     }
-    breathe();
+    keep_playing();
     send_for_motors(status, motors);
+    keep_playing();
+  }
+  // Amid long work a chip's player makes events. They may end items: what is told must be known already.
+  void keep_playing() {
+    if constexpr (requires { hardware_.keep_up(); }) hardware_.keep_up();
   }
 
   // The motion's place at the tick of the count: hardly any time passes between the two.
