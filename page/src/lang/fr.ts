@@ -22,6 +22,7 @@ export const fr: Words = {
   'view.units': 'Longueurs',
   'view.language': 'Langue',
   'connection.connecting': 'Connexion …',
+  'connection.lost.state': 'Dernier état connu : {state}',
   'connection.lost': 'Connexion perdue',
   'connection.lost.old': 'Aucun signe depuis {seconds} s. Toutes les valeurs sont anciennes.',
   'connection.lost.what': 'Un programme continue sans cette page. Un déplacement manuel s’est arrêté. La page se reconnecte d’elle-même.',
