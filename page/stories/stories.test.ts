@@ -141,6 +141,27 @@ describe('a program on its way', () => {
   });
 });
 
+describe('Run beside an owner elsewhere', () => {
+  it('is seen as a whole on a laptop, in each language', async () => {
+    const { key } = (await daemon.post('/owner', '{"name": "a tablet beside the mill"}')) as { key: string };
+    await daemon.post('/programs?name=wide.ngc', 'G21 G90\nG1 X10 F300\nM2\n');
+    for (const language of ['en', 'it', 'fr', 'zh']) {
+      const { page, context } = await visit(browser, daemon, 'run', { language, size: { width: 1366, height: 768 } });
+      await page.locator('.owner').waitFor();
+      await page.locator('.text-line code span').first().waitFor({ state: 'attached' });
+      const over = await page.evaluate(() => {
+        const content = document.querySelector('.content');
+        const foot = document.querySelector('.position-foot');
+        const lines = (foot?.getBoundingClientRect().height ?? 0) / parseFloat(getComputedStyle(document.documentElement).fontSize);
+        return [(content?.scrollHeight ?? 0) - (content?.clientHeight ?? 0), (content?.scrollWidth ?? 0) - (content?.clientWidth ?? 0), Math.floor(lines / 2.5)];
+      });
+      expect(over, language).toEqual([0, 0, 0]);
+      await context.close();
+    }
+    await fetch(`${daemon.address}api/v1/owner`, { method: 'DELETE', headers: { 'X-Passo-Key': key } });
+  });
+});
+
 describe('a dialog that is open while the machine moves', () => {
   it('has hold and stop, and the space bar holds', async () => {
     const { page, context, errors } = await visit(browser, daemon, 'files');

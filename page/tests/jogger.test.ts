@@ -60,6 +60,18 @@ describe('Jogger', () => {
     expect(m.said).toEqual(['begin x', 'stop']);
   });
 
+  it('renews the lease while the answer is on its way, as long as the same is held', async () => {
+    const said: string[] = [];
+    const line = { begin: () => new Promise<void>((done) => setTimeout(done, renewEvery * 9)), renew: () => said.push('renew') > 0, stop: () => void said.push('stop') };
+    const jogger = new Jogger(line, () => undefined, () => Date.now());
+    jogger.hold(right);
+    await vi.advanceTimersByTimeAsync(renewEvery * 3);
+    expect(said).toEqual(['renew', 'renew', 'renew']);
+    jogger.release();
+    await vi.advanceTimersByTimeAsync(renewEvery * 8);
+    expect(said).toEqual(['renew', 'renew', 'renew', 'stop']);
+  });
+
   it('brakes before it goes another way', async () => {
     const m = new Machine();
     m.jogger.hold(right);

@@ -36,6 +36,9 @@ describe('a sentence of the daemon', () => {
 
   it('is said in the language of the page, with its values', () => {
     language.value = 'it';
+    expect(told('line 7: X would reach 9.000 (work 9.000), 1.000 mm beyond its travel\'s end at 8.000 [travel.exceeded]')).toBe(
+      'riga 7: X arriverebbe a 9.000 (pezzo 9.000), 1.000 mm oltre la fine della corsa a 8.000 [travel.exceeded]',
+    );
     expect(told('Z would reach -12.000 (work -2.000), 2.000 mm below its travel\'s end at -10.000')).toBe(
       'Z arriverebbe a -12.000 (pezzo -2.000), 2.000 mm sotto la fine della corsa a -10.000',
     );

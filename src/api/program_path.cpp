@@ -116,7 +116,7 @@ std::uint16_t ProgramPath::speed_flags(MmPerSecond speed) {
   return static_cast<std::uint16_t>(static_cast<unsigned>(code) << 8U);
 }
 
-void ProgramPath::add(const PathItem& item) {
+void ProgramPath::add(const PathItem& item, const Frame& frame) {
   const auto* const action = std::get_if<Action>(&item);
   if (action != nullptr && action->kind == Action::Kind::tool_change) tool_ = action->tool;
   const auto* const segment = std::get_if<Segment>(&item);
@@ -134,20 +134,22 @@ void ProgramPath::add(const PathItem& item) {
     speeds_.low = std::min(speeds_.low, segment->speed);
     speeds_.high = std::max(speeds_.high, segment->speed);
   }
-  const auto note = [&](const Coordinates& place) {
+  const bool is_turned = frame.rotation_degrees() != 0;
+  const auto note = [&](const Point& point, const Coordinates& place) {
     all_.add(place);
     if (segment->rapid) return;
     cuts_.add(place);
-    work_.add({place[0] - zero[0], place[1] - zero[1], place[2] - zero[2]});
+    work_.add(is_turned ? place_of(frame.work_from_machine(point))
+                        : Coordinates{place[0] - zero[0], place[1] - zero[1], place[2] - zero[2]});
   };
-  const Coordinates start = place_of(segment->curve.start());
-  if (points_ == 0) add_point(start, line, flags);
-  note(start);
+  const Point& start = segment->curve.start();
+  if (points_ == 0) add_point(place_of(start), line, flags);
+  note(start, place_of(start));
   for (int i = 1; i <= chords; ++i) {
     const Point point =
         i == chords ? segment->curve.end() : segment->curve.at(segment->curve.length() * (double(i) / chords));
     const Coordinates place = place_of(point);
-    note(place);
+    note(point, place);
     add_point(place, line, flags);
   }
 }

@@ -146,7 +146,7 @@ void ProgramStore::check(std::uint64_t id, const MachineDescription& machine, co
                                               program.findings);
   path_ = PathFingerprint();
   checker_->watch([this, path = &program.path_points](const PathItem& item) {
-    path->add(item);
+    path->add(item, checker_->frame());
     path_.add(item);
   });
 }

@@ -77,6 +77,22 @@ TEST(ProgramPath, has_a_point_for_each_end_of_a_motion) {
   EXPECT_EQ(path.cuts().low[0], 10) << "the rapid is no cut";
 }
 
+// A square of 40 by 20 whose axes lie at 30 degrees on the machine.
+TEST(ProgramPath, tells_the_box_along_the_axes_of_a_turned_work) {
+  ProgramStore store;
+  store.set_offsets({{5220, 1}, {5221, 7}, {5230, 30}}, {});
+  const std::uint64_t id = store.add("turned", Dialect::linuxcnc, "G1 X0 Y0 F600\nX40\nY20\nX0\nY0\nM2\n")->id;
+  store.check(id, MachineDescription(), Point());
+  for (int i = 0; i < 100; ++i) store.turn();
+  const ProgramPath& path = store.find(id)->path_points;
+  ASSERT_TRUE(path.complete());
+  EXPECT_NEAR(path.work().high[0], 40, 1e-9);
+  EXPECT_NEAR(path.work().low[1], 0, 1e-9);
+  EXPECT_NEAR(path.work().high[1], 20, 1e-9);
+  EXPECT_NEAR(path.cuts().high[1], 40 * std::sin(std::numbers::pi / 6) + 20 * std::cos(std::numbers::pi / 6), 1e-9)
+      << "the box on the machine is larger";
+}
+
 TEST(ProgramPath, tells_the_programmed_speed_of_each_feed) {
   ProgramPath path;
   for (const double speed : {0.01, 1.0, 25.0, 5000.0}) {

@@ -21,9 +21,11 @@ function patternOf(saying: Saying): Pattern {
   const names = [...saying.en.matchAll(/\{(\w+)\}/g)].map((one) => one[1] ?? '');
   return { saying, names, words: new RegExp(`^${pieces(saying.en.replace(bars, '')).map(literal).join('(.+?)')}$`) };
 }
-// The most telling first: "{key} is {value}" fits many.
+const wraps = (saying: Saying): number => (saying.en.includes('{saying}') ? 1 : 0);
+// What stands around another sentence first, then the most telling: "{key} is {value}" fits many.
 let patterns: Pattern[] | undefined;
-const allPatterns = (): Pattern[] => (patterns ??= [...sayings].sort((a, b) => fixedLength(b.en) - fixedLength(a.en)).map(patternOf));
+const allPatterns = (): Pattern[] =>
+  (patterns ??= [...sayings].sort((a, b) => wraps(b) - wraps(a) || fixedLength(b.en) - fixedLength(a.en)).map(patternOf));
 
 const shownPlace = (words: string): string => words.replace(/([A-Z])(-?[\d.]+)/g, (_, axis: string, at: string) => axis + placeText(axis.toLowerCase(), Number(at)));
 function shownSpeed(words: string): string {

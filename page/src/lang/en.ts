@@ -23,6 +23,7 @@ export const en = {
   'view.language': 'Language',
   // The connection, and who has the motion
   'connection.connecting': 'Connecting …',
+  'connection.lost.state': 'Last heard: {state}',
   'connection.lost': 'Connection lost',
   'connection.lost.old': 'Nothing was heard for {seconds} s. All figures are old.',
   'connection.lost.what': 'A program goes on without this page. A jog has stopped. The page reconnects by itself.',

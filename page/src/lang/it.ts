@@ -22,6 +22,7 @@ export const it: Words = {
   'view.units': 'Lunghezze',
   'view.language': 'Lingua',
   'connection.connecting': 'Connessione …',
+  'connection.lost.state': 'Ultimo stato noto: {state}',
   'connection.lost': 'Connessione persa',
   'connection.lost.old': 'Nessun segnale da {seconds} s. Tutti i valori sono vecchi.',
   'connection.lost.what': 'Un programma continua senza questa pagina. Un movimento manuale si è fermato. La pagina si ricollega da sola.',

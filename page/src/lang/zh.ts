@@ -22,6 +22,7 @@ export const zh: Words = {
   'view.units': '长度单位',
   'view.language': '语言',
   'connection.connecting': '正在连接……',
+  'connection.lost.state': '最后已知状态：{state}',
   'connection.lost': '连接已断开',
   'connection.lost.old': '已有 {seconds} 秒没有收到数据。所有数值都是旧的。',
   'connection.lost.what': '程序不依赖本页面，会继续运行。点动已停止。页面会自动重新连接。',

@@ -6,8 +6,11 @@ import { get, post, remove, upload } from './api';
 import { status } from './connection';
 import { note } from './log';
 import { beOwner } from './owner';
-import { consoleName, refreshPrograms } from './programs';
+import { refreshPrograms } from './programs';
+import { consoleName } from './words';
 
+// What is asked of whole programs alone.
+const ofPrograms = ['gcode.no-end', 'path.no-units'];
 const lookEvery = 120; // ms
 const most = 50; // looks
 
@@ -29,7 +32,7 @@ async function tellFindings(id: number): Promise<void> {
     const program = await get<Program>(`/programs/${id}`);
     if (program.state !== 'checking' && status.value?.job?.state !== 'checking') {
       for (const one of program.findings ?? []) {
-        note(one.severity === 'error' ? 'refused' : 'warning', `${toldOr(one.message)}. ${toldOr(one.expected)} [${one.code}]`);
+        if (!ofPrograms.includes(one.code)) note(one.severity === 'error' ? 'refused' : 'warning', `${toldOr(one.message)}. ${toldOr(one.expected)} [${one.code}]`);
       }
       const first = program.findings?.find((one) => one.severity === 'error');
       if (first !== undefined) throw new Error(first.message);

@@ -117,8 +117,10 @@ export class Jogger {
     this.line.stop();
   }
 
+  // Also while the answer is on its way: the motion may have begun, and a busy browser may be slow to tell.
   private renew(): void {
-    if (this.phase === 'moving' && !this.line.renew()) this.release();
+    const begins = this.phase === 'asking' && !this.cancelled && (this.current === this.want || this.current?.distance !== 0);
+    if ((begins || this.phase === 'moving') && !this.line.renew()) this.release();
   }
 
   private rest(): void {

@@ -4,6 +4,7 @@ import { say } from '../core/language';
 import { notices } from '../core/notices';
 import { toldOr } from '../core/told';
 import { connection, status } from './connection';
+import { consoleName } from './words';
 
 export type LogKind = 'state' | 'asked' | 'done' | 'refused' | 'warning' | 'alarm';
 export interface LogLine {
@@ -39,7 +40,9 @@ export function followLog(): void {
       state = now.state;
     }
     const words = now.job === null ? '' : `${now.job.name}: ${say(`job.${now.job.state}`)}${now.job.why === '' ? '' : `, ${toldOr(now.job.why)}`}`;
-    if (words !== job && words !== '') note(now.job?.state === 'failed' ? 'refused' : 'done', words);
+    // Why a line of the console was refused is told by the console.
+    const isTold = now.job?.state === 'failed' && now.job.name === consoleName;
+    if (words !== job && words !== '' && !isTold) note(now.job?.state === 'failed' ? 'refused' : 'done', words);
     job = words;
   });
   effect(() => {

@@ -3,14 +3,13 @@ import { computed, effect, signal } from '@preact/signals';
 import type { Program } from './api';
 import { get, post, remove, upload } from './api';
 import { isLive, status } from './connection';
-import { isUnderWay } from './words';
+import { consoleName, isUnderWay } from './words';
 
 export const programs = signal<Program[]>([]);
 export const chosen = signal<number | null>(null);
 export const sending = signal<string | null>(null);
 // Lines that the console runs are programs too, and so is the set-up mode of the outputs; nobody wants to see them in a
 // list.
-export const consoleName = 'console.ngc';
 export const setUpName = 'set-up.ngc';
 export const isListed = (program: Program): boolean => program.name !== consoleName && program.name !== setUpName;
 

@@ -3,6 +3,9 @@ import { say } from '../core/language';
 import { toldOr } from '../core/told';
 import type { Job, Status } from './api';
 
+// What the console runs.
+export const consoleName = 'console.ngc';
+
 export type Tone = 'calm' | 'go' | 'wait' | 'bad';
 
 export interface StateWords {
@@ -37,7 +40,8 @@ export interface Facts {
 function nextOf({ status, program, canHome }: Facts): string {
   const { state } = status;
   if (state === 'Idle') {
-    if (status.job !== null && status.job.state === 'failed') return say('state.Idle.job.failed', { why: toldOr(status.job.why) });
+    // The console itself has told why a line was refused.
+    if (status.job?.state === 'failed' && status.job.name !== consoleName) return say('state.Idle.job.failed', { why: toldOr(status.job.why) });
     if (canHome && status.trust !== 'homed' && program === 'none') return say('state.Idle.home');
     return say(program === 'none' ? 'state.Idle.open' : program === 'bad' ? 'state.Idle.bad' : 'state.Idle.next');
   }

@@ -3,7 +3,7 @@ import { computed } from '@preact/signals';
 import { say } from '../core/language';
 import { attempt } from '../core/notices';
 import { confirm } from '../core/question';
-import { machine, status } from '../machine/connection';
+import { connection, machine, status } from '../machine/connection';
 import { ownership, takeOwnership } from '../machine/owner';
 import { shown } from '../machine/programs';
 import { stateWords, type Tone } from '../machine/words';
@@ -22,6 +22,16 @@ const words = computed(() => {
 export function StateBanner() {
   const now = words.value;
   if (now === null) return <div class="state calm">{say('connection.connecting')}</div>;
+  if (connection.value === 'lost') {
+    return (
+      <div class="state calm">
+        <Icon name="lost" />
+        <strong class="state-title dim" role="status" data-testid="state">
+          {say('connection.lost.state', { state: now.title })}
+        </strong>
+      </div>
+    );
+  }
   return (
     <div class={`state ${now.tone}`}>
       <Icon name={icons[now.tone]} />

@@ -5,6 +5,7 @@ import { themeChoice } from '../core/theme';
 import { units } from '../core/units';
 import { giveUpOwnership, ownership } from '../machine/owner';
 import { attempt } from '../core/notices';
+import { pages } from '../pages/pages';
 import { Button } from './button';
 import { Dialog } from './dialogs';
 
@@ -70,7 +71,7 @@ function ViewDialog() {
 
 const shortcuts: readonly [() => string, Key][] = [
   [() => say('keys.space'), 'keys.hold'],
-  [() => '1 … 9', 'keys.pages'],
+  [() => `1 … ${pages.length}`, 'keys.pages'],
   [() => say('keys.arrows'), 'keys.jog'],
   [() => say('keys.arrows'), 'keys.lines'],
   [() => 'Page Up, Page Down', 'keys.jog.z'],

@@ -8,6 +8,7 @@ import { StockDrawing } from './stock_drawing';
 import { lineFragment, lineVertex, pathFragment, pathVertex, pointsARow, toolFragment, toolVertex } from './shaders';
 
 const mostBusy = 1000; // ms
+const fewQuads = 32; // 64 triangles: half the memory, and a picture takes a quarter longer
 
 export type Colour = [number, number, number];
 export interface Colours {
@@ -185,7 +186,7 @@ export class Renderer {
       this.line.number('density', density);
       this.line.number('soft', this.soft);
       gl.bindVertexArray(this.furniture.array);
-      gl.drawArrays(gl.TRIANGLES, 0, 6 * this.furniture.count);
+      this.drawQuads(this.furniture.count);
     }
     this.drawPath(picture, level, camera, density);
     if (picture.tool !== null) this.drawTool(picture.tool, camera, picture.view, light);
@@ -225,7 +226,16 @@ export class Renderer {
       path.vector('stepLength', points.step);
       path.integer('done', before ? points.count : within);
       gl.bindTexture(gl.TEXTURE_2D, one.texture);
-      gl.drawArrays(gl.TRIANGLES, 0, 6 * (points.count - 1));
+      this.drawQuads(points.count - 1);
+    }
+  }
+
+  // Where the processor draws, in small draws: SwiftShader works at 16 at a time, and keeps up to 128 triangles of each,
+  // 10 kB a triangle.
+  private drawQuads(count: number): void {
+    const atOnce = this.soft > 0 ? fewQuads : count;
+    for (let from = 0; from < count; from += atOnce) {
+      this.gl.drawArrays(this.gl.TRIANGLES, 6 * from, 6 * Math.min(atOnce, count - from));
     }
   }
 

@@ -51,6 +51,8 @@ class ProgramChecker {
   // Checks up to `items` more path items. True: the check has ended, and result() is complete.
   [[nodiscard]] bool go_on(std::uint64_t items);
   const ProgramCheck& result() const { return check_; }
+  // Of the item that the watcher gets.
+  const Frame& frame() const { return builder_.frame(); }
 
  private:
   bool take_item();

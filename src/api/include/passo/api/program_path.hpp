@@ -14,6 +14,7 @@
 #include <string>
 #include <vector>
 
+#include "passo/interpreter/frame.hpp"
 #include "passo/path/segment.hpp"
 
 namespace passo {
@@ -39,8 +40,8 @@ class ProgramPath {
     double diagonal() const;
   };
 
-  // Arcs become chords that leave the arc by less than `chord_error`.
-  void add(const PathItem& item);
+  // Arcs become chords that leave the arc by less than `chord_error`. `frame` is the one in force, where it is turned.
+  void add(const PathItem& item, const Frame& frame = {});
   // No more items come.
   void finish();
 
