@@ -89,11 +89,12 @@ row() {
   fi
   local over=(--cut-cable-at 9999:1)
   [[ -z ${3-} ]] || over=(--yes --board "$3")
-  line=$("$passo" run "$1" -m "$work/$2.toml" "${over[@]}" 2>/dev/null)
+  line=$("$passo" run "$1" -m "$work/$2.toml" "${over[@]}" 2>"$work/said")
   local without with rests sent
   without=$(value end <<<"$alone" | seconds)
   with=$(value end <<<"$line" | seconds)
   rests=$(sed -n 's/.*and rested \([a-z0-9]*\).*/\1/p' <<<"$line")
+  ! grep -q 'board.slipped' "$work/said" || rests+=", and stood still"
   sent=$(awk '$1 == "sent" { print $2, $3; exit }' <<<"$line")
   echo "| $(basename "${1%.*}") | ${2/-/, } | $without | $with |" \
     "$(awk -v a="$without" -v b="$with" 'BEGIN { printf "%.3f", b / a }') | $rests | $sent |"
