@@ -1,4 +1,6 @@
 // MachineSession: where the machine is while it moves, as its board tells.
+#include <algorithm>
+
 #include "work.hpp"
 
 #include "passo/activity/stage_options.hpp"
@@ -41,7 +43,9 @@ void MachineSession::look_at_place() {
   if (board_.error() || !zero_counts_) return;
   if (!rests && board_.status() && board_.status_time() != place_heard_) hear_place();
   const Seconds between = options_.over_a_line ? between_places_over_a_line : between_places;
-  if (work_->finishing || !board_.settled() || now() - place_asked_ < between) return;
+  // Whoever asked last: a board has little time to answer amid dense motion.
+  const Seconds asked = board_.status() ? std::max(place_asked_, board_.status_time()) : place_asked_;
+  if (work_->finishing || !board_.settled() || now() - asked < between) return;
   place_asked_ = now();
   board_.ask();
 }

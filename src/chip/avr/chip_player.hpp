@@ -129,7 +129,7 @@ class ChipPlayer {
       line_is_watched = 0;
     }
     SerialLine::breathe();
-    most_ahead_ = most_ahead();
+    most_ahead_ = RingTimes::most_ahead(static_cast<uint16_t>(expansion.interval >> 16));
     least_room_ = RingTimes::least_room(most_ahead_);
   }
   // Takes an item that needs no time. It is finished with the event before it.
@@ -329,19 +329,6 @@ class ChipPlayer {
     expansion.time = static_cast<uint32_t>(time) << 16 | fraction;
     fresh_ = true;
     start();
-  }
-
-  // The number of events in two to three milliseconds (32,768 to 49,152 ticks), without a division. In one to two where
-  // the ring is small: windings take long to make, and a switch would have to wait.
-  static uint8_t most_ahead() {
-    constexpr bool is_large = ring_entries > 128;
-    uint16_t ticks = static_cast<uint16_t>(expansion.interval >> 16);
-    if (ticks < 256) return most_events;
-    uint8_t most = is_large ? 128 : 64;
-    for (; ticks >= 512; ticks >>= 1) most >>= 1;
-    if (is_large && ticks >= 384) most = static_cast<uint8_t>(most - most / 4);
-    if (most > most_events) return most_events;
-    return most < 2 ? uint8_t{2} : most;
   }
 
   // True if the interrupt comes so often that it sees every byte off the line.

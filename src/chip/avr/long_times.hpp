@@ -47,6 +47,17 @@ class RingTimes {
   static uint8_t way_in() { return way_in_events; }
   // What to make at once where hardly any wait.
   static uint8_t few() { return 8; }
+  // The number of events in two to three milliseconds (32,768 to 49,152 ticks), without a division. In one to two where
+  // the ring is small: windings take long to make, and a switch would have to wait.
+  static uint8_t most_ahead(uint16_t ticks) {
+    constexpr bool is_large = ring_entries > 128;
+    if (ticks < 256) return most_events;
+    uint8_t most = is_large ? 128 : 64;
+    for (; ticks >= 512; ticks >>= 1) most >>= 1;
+    if (is_large && ticks >= 384) most = static_cast<uint8_t>(most - most / 4);
+    if (most > most_events) return most_events;
+    return most < 2 ? uint8_t{2} : most;
+  }
   // Room in the ring for which it is worth making some events.
   static uint8_t least_room(uint8_t most_ahead) { return static_cast<uint8_t>(most_ahead / 8 * 3); }
   static bool fit(uint8_t events, uint8_t room) { return room >= events; }

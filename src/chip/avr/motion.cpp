@@ -223,7 +223,8 @@ uint8_t receive_some() {
   ChipPlayer::refill();
 }
 
-// An event of windings takes long to make, and so would the way to a switch. Their rings last longer than an answer takes.
+// An event of windings takes long to make, and so would the way to a switch. Their rings last longer than an answer
+// takes.
 void Hardware::keep_up() {
   SerialLine::breathe();
 #ifndef PASSO_WINDINGS

@@ -60,6 +60,8 @@ class RingTimes {
   static bool are_slow() { return reach_ == Reach::far; }
   // What to make at once where hardly any wait.
   static uint8_t few() { return reach_ == Reach::near ? few_events : most_waits_at_once; }
+  // The ring's size limits the time.
+  static uint8_t most_ahead(uint16_t /*ticks*/) { return most_events; }
   // Room in the ring for which it is worth making some. Slow events leave time, and the loop may be away for long: what
   // is left must last while a status is answered.
   static uint8_t least_room(uint8_t most_ahead) {

@@ -2,15 +2,14 @@
 //
 // It takes frames off the wire, keeps their items in a PlayList, and plays them in order through a player. Two sides
 // use it. The main loop calls receive(), settle() and report(). The timer calls idle(), ticks_to_next_event() and
-// on_event(). A chip's player runs ahead instead: it makes the events of several items before their time, and an
-// interrupt of its own plays them; then only the main loop's side is used. Every player has the interface of Player.
-// board_hardware.hpp describes Hardware.
+// on_event(). A chip's player runs ahead instead: it makes events before their time, and an interrupt plays them; then
+// only the main loop's side is used. Players have the interface of Player. board_hardware.hpp describes Hardware.
 //
 // Invariant: frames are taken in the order of their sequence numbers, each once; none is taken after a gap. Items are
 // executed in the order of the list. Time passes only between events: outputs are switched at the event before them,
-// and one segment follows another without delay. An empty list is no fault: the motion sent ends at rest, and the board
-// is then idle. Positions count from the time when the board was switched on. They are updated at the end of each
-// segment, so that an event does no work for them. Portable: integers, no heap, no virtual call.
+// and one segment follows another without delay. An empty list is no fault: the motion sent ends at rest. Positions
+// count from the time when the board was switched on. They are updated at the end of each segment, so that an event
+// does no work for them. Portable: integers, no heap, no virtual call.
 #pragma once
 
 #include <stddef.h>
@@ -272,7 +271,7 @@ class Board : private BoardVoice<Hardware> {
   }
 
   [[gnu::noinline]] void tell_status(uint8_t motors, uint8_t question) {
-    keep_playing();
+    keep_up(hardware_);
     unsigned state = watch_.state();
     if (trusted_) state |= board_trusted;
     if (!idle()) state |= board_moves;
@@ -294,13 +293,9 @@ class Board : private BoardVoice<Hardware> {
       breathe();
       status.positions[motor] = position(motor);
     }
-    keep_playing();
+    keep_up(hardware_);
     send_for_motors(status, motors);
-    keep_playing();
-  }
-  // Amid long work a chip's player makes events. They may end items: what is told must be known already.
-  void keep_playing() {
-    if constexpr (requires { hardware_.keep_up(); }) hardware_.keep_up();
+    keep_up(hardware_);
   }
 
   // The motion's place at the tick of the count: hardly any time passes between the two.

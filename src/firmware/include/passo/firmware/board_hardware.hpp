@@ -10,6 +10,7 @@
 //   uint8_t drivers_rest(); void release();           optional, both: that part of the setup; lets the motors go
 //   bool can_watch(uint8_t limits);                   optional: whether it can watch several limit switches at once
 //   static void breathe();                            optional: called between two pieces of work
+//   static void keep_up();                            optional: breathes, and makes events for the timer
 //   static int32_t high_product(int32_t, int32_t);    optional: that of wire/segment_parts.hpp, faster
 //   uint8_t room();                                   optional: the number of bytes that may be sent now
 //   bool has_encoder(); SpindleCount spindle();       optional, both: an encoder at the spindle
@@ -36,6 +37,16 @@ struct BreathOf {
     if constexpr (requires { Hardware::breathe(); }) Hardware::breathe();
   }
 };
+
+// Called amid long work, where a chip makes events ahead of time. Items may end: what is told must be known already.
+template <class Hardware>
+[[gnu::always_inline]] inline void keep_up(Hardware&) {
+  if constexpr (requires { Hardware::keep_up(); }) {
+    Hardware::keep_up();
+  } else {
+    BreathOf<Hardware>{}();
+  }
+}
 
 template <class Hardware>
 [[gnu::always_inline]] inline bool has_encoder(Hardware& hardware) {
