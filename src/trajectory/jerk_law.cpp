@@ -93,7 +93,7 @@ class JerkLaw final : public SpeedLaw {
       append(move, plan);
       if (move.ends_at_rest()) return;
       since_trial += move.duration().value();
-      state = behind(move, state.segment);
+      state = PathState::behind(move, state.segment);
     }
   }
 
@@ -115,7 +115,7 @@ class JerkLaw final : public SpeedLaw {
   bool produce(PlannedMove& move) {
     if (!take(move)) return false;
     rest_ = shorten(move, wishes_.longest_move);
-    now_ = behind(move, path_.first());
+    now_ = PathState::behind(move, path_.first());
     if (!rest_ && move.ends_at_rest()) now_.speed = now_.acceleration = 0;
     return true;
   }
@@ -175,18 +175,6 @@ class JerkLaw final : public SpeedLaw {
     }
   }
 
-  static bool ends_segment(const PlannedMove& move) { return move.to >= move.segment.curve.length(); }
-
-  // The state at the end of a move on that segment.
-  static PathState behind(const PlannedMove& move, std::uint64_t segment) {
-    const Phase& last = move.phases[move.phase_count - 1];
-    const bool ends = ends_segment(move);
-    return {.segment = ends ? segment + 1 : segment,
-            .s = ends ? 0 : move.to.value(),
-            .speed = move.exit_velocity().value(),
-            .acceleration = last.acceleration_at(last.duration).value()};
-  }
-
   // Adapts to the wishes. At rest the plan begins anew. In motion a change leads to the wanted speed, as soon as one is
   // possible.
   void adapt() {
@@ -210,7 +198,7 @@ class JerkLaw final : public SpeedLaw {
     PlannedMove move;
     while (slowed.factor() > least_factor && look_ahead(outlook, planned.segment, move)) {
       if (move.ends_at_rest() || !slowed.add(move, planned.segment)) break;
-      planned = behind(move, planned.segment);
+      planned = PathState::behind(move, planned.segment);
       if (slowed.duration() < next_trial) continue;
       next_trial = Seconds(slowed.duration().value() * later + between_trials);
       std::optional<SpeedChange> stop = plan_stop(slowed.state());
