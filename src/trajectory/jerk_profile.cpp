@@ -23,12 +23,8 @@ constexpr double at_cap = 1 - 1e-9;
 constexpr double rises_to_settle = 1;  // times the rise of the acceleration from 0 to its limit
 constexpr double room_to_lift = 0.5;   // for squares of speeds: with that all limits have room
 constexpr int most_lifts = 8;
-constexpr std::size_t wider = 32;       // nodes on each side, where a part between steady nodes cannot be lifted
 constexpr double gentle_leaving = 0.2;  // share of the acceleration
 constexpr int most_attempts = 6;
-// A window that begins in motion and is not lifted at once begins too fast for the path ahead, mostly because it must
-// brake harder than its jerk allows from the first cell on. Of 107 such windows further attempts lifted none.
-constexpr int most_attempts_in_motion = 1;
 constexpr double worth = 0.98;  // of the time: a further lift is worth it
 
 // Where a cell exceeds a limit, the share is lowered to what would have been right, in these bounds.
@@ -348,27 +344,11 @@ bool JerkProfile::lift_between_steady() {
   for (Stretch part; part.last < n;) {
     part.first = part.last++;
     while (part.last < n && !steady_[part.last]) ++part.last;
-    if (part.last > part.first + 1 && !lift_wider(part)) return false;
+    if (part.last == part.first + 1) continue;
+    leave_caps(part);
+    if (!lift(part)) return false;
   }
   return true;
-}
-
-// Lifts a part between steady nodes. If that fails, steady nodes on both sides may be too near: the cap is reached
-// later than the guess says. Then the part takes in some of them.
-bool JerkProfile::lift_wider(Stretch& part) {
-  leave_caps(part);
-  if (lift(part)) return true;
-  const auto loosen = [this](std::size_t node) {
-    steady_[node] = false;
-    states_[node] = {.speed = std::sqrt(guess_[node]), .acceleration = 0};
-  };
-  const std::size_t n = cells_.size();
-  const Stretch before = part;
-  while (part.first > 0 && before.first - part.first < wider && steady_[part.first - 1]) loosen(part.first--);
-  while (part.last < n && (part.last - before.last < wider || !steady_[part.last])) loosen(part.last++);
-  if (part.first == before.first && part.last == before.last) return false;
-  leave_caps(part);
-  return lift(part);
 }
 
 // The guess is at a share of all caps. Beside a steady node, which is at its cap, it goes down gently from there, but
@@ -393,8 +373,7 @@ void JerkProfile::leave_caps(const Stretch& part) {
 // Finds a motion over all cells that keeps the limits.
 bool JerkProfile::find_motion() {
   find_steady();
-  const int most = in_motion_ ? most_attempts_in_motion : most_attempts;
-  for (int attempt = 0; attempt < most; ++attempt) {
+  for (int attempt = 0; attempt < most_attempts; ++attempt) {
     begin_with_guess();
     const bool is_lifted = attempt == 0 ? lift_between_steady() : lift({.first = 0, .last = cells_.size()});
     if (is_lifted && mend()) return true;
