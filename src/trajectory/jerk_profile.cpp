@@ -23,7 +23,6 @@ constexpr double at_cap = 1 - 1e-9;
 constexpr double rises_to_settle = 1;  // times the rise of the acceleration from 0 to its limit
 constexpr double room_to_lift = 0.5;   // for squares of speeds: with that all limits have room
 constexpr int most_lifts = 8;
-constexpr double gentle_leaving = 0.2;  // share of the acceleration
 constexpr int most_attempts = 6;
 constexpr double worth = 0.98;  // of the time: a further lift is worth it
 
@@ -344,30 +343,9 @@ bool JerkProfile::lift_between_steady() {
   for (Stretch part; part.last < n;) {
     part.first = part.last++;
     while (part.last < n && !steady_[part.last]) ++part.last;
-    if (part.last == part.first + 1) continue;
-    leave_caps(part);
-    if (!lift(part)) return false;
+    if (part.last > part.first + 1 && !lift(part)) return false;
   }
   return true;
-}
-
-// The guess is at a share of all caps. Beside a steady node, which is at its cap, it goes down gently from there, but
-// not where the guess is lower because it only begins to speed up.
-void JerkProfile::leave_caps(const Stretch& part) {
-  const auto leave = [this, &part](std::size_t node, bool backwards) {
-    if (!steady_[node]) return;
-    double least = states_[node].speed * states_[node].speed;
-    for (std::size_t left = part.last - part.first - 1; left > 0; --left) {
-      const JerkCell& cell = cells_[backwards ? --node : node++];
-      const double acceleration = gentle_leaving * cell.acceleration;
-      least -= 2 * acceleration * cell.length;
-      const double x = states_[node].speed * states_[node].speed;
-      if (!(least > x) || x < at_cap * guessed_speed_squared * node_cap_[node]) return;
-      states_[node] = {.speed = std::sqrt(least), .acceleration = backwards ? acceleration : -acceleration};
-    }
-  };
-  leave(part.first, false);
-  leave(part.last, true);
 }
 
 // Finds a motion over all cells that keeps the limits.
