@@ -40,7 +40,6 @@ constexpr std::size_t nearby = 14;  // cells on both sides of one that are lifte
 constexpr int rounds_nearby = 4;    // later rounds take more cells
 constexpr double beyond = 0.9999;   // slowed a little more, against rounding
 constexpr int most_slowings = 40;
-constexpr double least_slowing = 0.98;  // of squares of speeds
 
 constexpr double strong_braking = 0.05;  // share of the limit
 constexpr double settling = 0.5;         // share of the time of the final braking
@@ -355,8 +354,6 @@ bool JerkProfile::find_motion() {
     begin_with_guess();
     const bool is_lifted = attempt == 0 ? lift_between_steady() : lift({.first = 0, .last = cells_.size()});
     if (is_lifted && mend()) return true;
-    // What is left may be so little that all of the motion can be slowed by it.
-    if (is_lifted && !in_motion_ && slowing() >= least_slowing && slow_down()) return true;
     if (!is_lifted) exceeded_.clear();
     for (std::size_t k = 0; k < states_.size(); ++k) guess_[k] = states_[k].speed * states_[k].speed;
     // The next attempt begins with the same guess. It is another one only if cells or stretches are.
