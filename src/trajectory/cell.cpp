@@ -285,15 +285,13 @@ CellCutter::Strength CellCutter::strength_on(const Axes& axes, const Place& in, 
   const double most = std::min(bounds.top_squared / (2 * h), strongest);
   double strength = std::min(2 * slope_strength, most);
   const auto demand_on = [&](const LimitedAxis& axis) {
-    return axis.acceleration +
-           bounds.fastest_squared * std::max(std::abs(in.bend.values[axis.index]), std::abs(out.bend.values[axis.index]));
+    return axis.acceleration + bounds.fastest_squared * std::max(std::abs(in.bend.values[axis.index]),
+                                                                 std::abs(out.bend.values[axis.index]));
   };
   const auto along = [&](const LimitedAxis& axis) {
     return std::min(std::abs(in.slope.values[axis.index]), std::abs(out.slope.values[axis.index]));
   };
-  const auto keeps = [&](const LimitedAxis& axis) {
-    return demand_on(axis) <= strength * along(axis);
-  };
+  const auto keeps = [&](const LimitedAxis& axis) { return demand_on(axis) <= strength * along(axis); };
   const auto is_kept = [&] { return !(strength < most) || std::ranges::any_of(axes, keeps); };
   if (is_kept()) return {.most = strength, .is_kept = true};
   double more = most;
