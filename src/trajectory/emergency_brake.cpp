@@ -4,7 +4,6 @@
 #include <cmath>
 #include <span>
 
-#include "rest.hpp"
 #include "speed_profile.hpp"
 
 namespace passo {
@@ -26,15 +25,14 @@ bool EmergencyBrake::plan(PathAhead& path, const PathState& from, const FeedFact
   plan.clear();
   double s = from.s;
   double speed_squared = from.speed * from.speed;
-  for (std::uint64_t number = from.segment; speed_squared > 0; ++number, s = 0) {
-    const Segment* segment = path.at(number);
-    const bool ends = segment == nullptr || (number > from.segment && rests_between(*path.at(number - 1), *segment));
-    if (!ends) speed_squared = brake_on(*segment, s, speed_squared, feeds.speed_on(*segment), plan);
-    if (!ends && speed_squared >= 0) continue;
-    plan.clear();
-    return false;
+  std::uint64_t number = from.segment;
+  for (const Segment* segment = path.at(number); segment != nullptr; segment = path.after(number++), s = 0) {
+    speed_squared = brake_on(*segment, s, speed_squared, feeds.speed_on(*segment), plan);
+    if (speed_squared == 0) return true;
+    if (speed_squared < 0) break;
   }
-  return true;
+  plan.clear();
+  return false;
 }
 
 double EmergencyBrake::brake_on(const Segment& segment, double from, double speed_squared, double feed,

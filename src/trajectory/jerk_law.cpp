@@ -107,7 +107,7 @@ class JerkLaw final : public SpeedLaw {
     now_ = state;
     rest_.reset();
     change_.reset();
-    window_->begin_at({.segment = state.segment, .s = state.s});
+    window_->begin_at(state);
     fastest_ = wishes_.feeds;
     unsuited_ = false;
   }
@@ -210,10 +210,11 @@ class JerkLaw final : public SpeedLaw {
   }
 
   void stop_sooner() {
+    const bool stops = change_ && change_->end().speed == 0;
     std::optional<SpeedChange> stop = plan_stop(now_);
-    if (!stop && !(change_ && change_->exit() == 0)) stop = plan_late_stop();
+    if (!stop && !stops) stop = plan_late_stop();
     if (!stop) return;
-    if (change_ && change_->exit() == 0) {
+    if (stops) {
       const Seconds left = (rest_ ? rest_->duration() : Seconds(0)) + change_->duration_from(given_pieces_);
       if (stop->duration_from(0) > left * worth) return;
     }
@@ -234,7 +235,7 @@ class JerkLaw final : public SpeedLaw {
       std::optional<SpeedChange> change =
           SpeedChange::plan(path_, now_, {.axes = axes_, .feeds = fastest_, .exit = part * wanted});
       if (!change) continue;
-      window->begin_at({.segment = change->segment(), .s = change->s(), .speed = change->exit()});
+      window->begin_at(change->end());
       if (!window->can_go_on(sight * change->braking_way())) continue;
       lead_off(std::move(change));
       window_ = std::move(window);
