@@ -14,58 +14,58 @@ namespace {
 constexpr double rounding = 1e-9;
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
-// The same between two ways to compute a place.
-constexpr double place_rounding = 1e-13;
 
-// The place with the largest x in what stripes about the origin leave of a rectangle. A stripe that takes it away has
-// the new one on its edge: as far along the edge as the stripes before allow (R. Seidel 1991).
-template <std::size_t most_stripes>
-class HighestX {
+// Has no initial values: most corners that there is room for are never used.
+struct Corner {
+  double x;
+  double y;
+};
+
+// A convex region: the rectangle, cut by one half plane after the other (Sutherland and Hodgman).
+template <std::size_t most_corners>
+class SpeedRegion {
  public:
-  HighestX(double width, double height) : x_(width), y_(height) {
-    keep(1, 0, width);
-    keep(0, 1, height);
+  SpeedRegion(double width, double height) {
+    corners_[0] = {0, 0};
+    corners_[1] = {width, 0};
+    corners_[2] = {width, height};
+    corners_[3] = {0, height};
   }
 
-  // Keeps |p x + q y| <= limit.
-  void keep(double p, double q, double limit) {
-    const double value = p * x_ + q * y_;
-    if (value > limit * (1 + place_rounding)) go_along({p, q, limit});
-    if (-value > limit * (1 + place_rounding)) go_along({-p, -q, limit});
-    stripes_[count_++] = {p, q, limit};
+  // Keeps p x + q y <= limit. Most cuts take nothing away.
+  void cut(double p, double q, double limit) {
+    const auto end = corners_.begin() + static_cast<std::ptrdiff_t>(count_);
+    const auto is_beyond = [&](const Corner& corner) { return p * corner.x + q * corner.y - limit > 0; };
+    if (std::none_of(corners_.begin(), end, is_beyond)) return;
+    std::array<Corner, most_corners> kept;
+    std::size_t count = 0;
+    Corner from = corners_[count_ - 1];
+    double excess_from = p * from.x + q * from.y - limit;
+    for (std::size_t i = 0; i < count_; ++i) {
+      const Corner to = corners_[i];
+      const double excess = p * to.x + q * to.y - limit;
+      if ((excess > 0) != (excess_from > 0)) {
+        const double share = excess_from / (excess_from - excess);
+        kept[count++] = {from.x + share * (to.x - from.x), from.y + share * (to.y - from.y)};
+      }
+      if (!(excess > 0)) kept[count++] = to;
+      from = to;
+      excess_from = excess;
+    }
+    // The origin meets every demand, so something is always left.
+    std::copy_n(kept.begin(), count, corners_.begin());
+    count_ = count;
   }
-  double x() const { return std::max(x_, 0.0); }
+
+  double largest_x() const {
+    double most = 0;
+    for (std::size_t i = 0; i < count_; ++i) most = std::max(most, corners_[i].x);
+    return most;
+  }
 
  private:
-  // Has no initial values: most of what there is room for is never used.
-  struct Stripe {
-    double p;
-    double q;
-    double limit;
-  };
-  // Along the edge p x + q y = limit.
-  void go_along(const Stripe& edge) {
-    const double along_x = std::abs(edge.q);
-    const double along_y = edge.q < 0 ? edge.p : -edge.p;
-    const double nearest = edge.limit / (edge.p * edge.p + edge.q * edge.q);
-    const double from_x = nearest * edge.p;
-    const double from_y = nearest * edge.q;
-    double way = along_y < 0 ? from_y / -along_y : infinity;  // y stays above 0
-    for (std::size_t i = 0; i < count_; ++i) {
-      const Stripe& other = stripes_[i];
-      const double toward = other.p * along_x + other.q * along_y;
-      const double value = other.p * from_x + other.q * from_y;
-      const double room = other.limit - std::copysign(value, value * toward);
-      if (room < way * std::abs(toward)) way = room / std::abs(toward);
-    }
-    x_ = from_x + way * along_x;
-    y_ = from_y + way * along_y;
-  }
-
-  std::array<Stripe, most_stripes> stripes_;
-  std::size_t count_ = 0;
-  double x_;
-  double y_;
+  std::array<Corner, most_corners> corners_;
+  std::size_t count_ = 4;
 };
 
 // The range of x that the demands allow for a given y, empty if low is above high. Most demands allow everything, which
@@ -73,7 +73,9 @@ class HighestX {
 struct Interval {
   double low = 0;
   double high = 0;
-  double fall = 0;  // by how much a larger y lowers the high end
+  // By how much a larger y lowers either end.
+  double low_fall = 0;
+  double fall = 0;
 
   bool is_empty() const { return low > high; }
   bool shrinks() const { return fall > 0; }
@@ -85,7 +87,10 @@ struct Interval {
     const double shift = toward * q;
     const double up = limit - shift * y;
     const double down = -limit - shift * y;
-    if (!(down < low * steep)) low = std::max(low, down / steep);
+    if (!(down < low * steep) && down / steep > low) {
+      low = down / steep;
+      low_fall = shift / steep;
+    }
     if (up > high * steep || !(up / steep < high)) return;
     high = up / steep;
     fall = shift / steep;
@@ -96,7 +101,10 @@ struct Interval {
     if (p == 0) {
       if (bound < 0) high = -1;
     } else if (p < 0) {
-      low = std::max(low, bound / p);
+      if (bound / p > low) {
+        low = bound / p;
+        low_fall = q / p;
+      }
     } else if (bound / p < high) {
       high = bound / p;
       fall = q / p;
@@ -104,14 +112,16 @@ struct Interval {
   }
 };
 
-// The rectangle is two of them, and a demand makes two.
-constexpr std::size_t most_stripes = 2 + 2 * most_demands_of_cell;
+// Each cut adds at most one corner, and a demand makes four cuts.
+constexpr std::size_t corners_of_stripes = 4 + 4 * most_demands_of_cell;
 
-template <class AnyPlace>
-void keep_demands(std::span<const AxisDemand> demands, AnyPlace& highest) {
+template <class AnyRegion>
+void cut_stripes(std::span<const AxisDemand> demands, AnyRegion& region) {
   for (const AxisDemand& demand : demands) {
-    highest.keep(demand.entry_x, demand.entry_y, demand.limit);
-    highest.keep(demand.exit_x, demand.exit_y, demand.limit);
+    region.cut(demand.entry_x, demand.entry_y, demand.limit);
+    region.cut(-demand.entry_x, -demand.entry_y, demand.limit);
+    region.cut(demand.exit_x, demand.exit_y, demand.limit);
+    region.cut(-demand.exit_x, -demand.exit_y, demand.limit);
   }
 }
 
@@ -184,11 +194,10 @@ double largest_entry_with(std::span<const AxisDemand> demands, std::span<const F
                   [&](double p, double q, double limit) { at_most.keep(p, q, limit, exit_most); });
   if (!at_most.is_empty() && !at_most.shrinks()) return at_most.high;
 
-  // x and y are positive and limits fall, so each of these demands is a stripe too.
-  HighestX<most_stripes + 4 * axis_count> highest(entry_most, exit_most);
-  keep_demands(demands, highest);
-  for_each_demand(demands, falling, lines, [&](double p, double q, double limit) { highest.keep(p, q, limit); });
-  return highest.x();
+  SpeedRegion<corners_of_stripes + 4 * axis_count> region(entry_most, exit_most);
+  cut_stripes(demands, region);
+  for_each_demand(demands, falling, lines, [&](double p, double q, double limit) { region.cut(p, q, limit); });
+  return region.largest_x();
 }
 
 // The range of the exit that the lines allow for a given entry.
@@ -201,6 +210,37 @@ Interval exits_with(std::span<const AxisDemand> demands, std::span<const Falling
 
 // Each step of the iteration is one of Newton's method. Two are nearly always enough.
 constexpr int most_rounds = 5;
+// Relative, between two ways to compute a corner.
+constexpr double corner_rounding = 1e-14;
+
+// The largest x, if it lies below `y`, where the range of x is `above`. Two searches from line to line. First down to
+// the largest y that leaves any x: where the binding lines of the two ends meet. If the upper end falls there, then to
+// the summit between there and y = 0: where the binding lines of the upper end on both sides meet. A result below 0
+// means that a search did not end: rounding may do that.
+double corner_below(std::span<const AxisDemand> demands, double entry_most, double y, Interval above) {
+  int rounds = most_rounds;
+  for (; rounds > 0 && above.low > above.high * (1 + corner_rounding); --rounds) {
+    const double closing = above.fall - above.low_fall;
+    if (!(closing > 0 && closing < infinity)) return -1;
+    y = std::max(0.0, y - (above.low - above.high) / closing);
+    above = entries(demands, y, entry_most);
+  }
+  if (!above.shrinks()) return rounds > 0 ? above.high : -1;
+
+  double below_y = 0;
+  Interval below = entries(demands, below_y, entry_most);
+  if (below.shrinks()) return below.high;
+  for (; rounds > 0; --rounds) {
+    const double rise = above.high + above.fall * (y - below_y) - below.high;
+    const double middle_y = std::clamp(below_y + rise / (above.fall - below.fall), below_y, y);
+    const double meeting = below.high - below.fall * (middle_y - below_y);
+    const Interval middle = entries(demands, middle_y, entry_most);
+    if (middle.high >= meeting * (1 - corner_rounding)) return middle.is_empty() ? -1 : middle.high;
+    (middle.shrinks() ? above : below) = middle;
+    (middle.shrinks() ? y : below_y) = middle_y;
+  }
+  return -1;
+}
 
 // A cell is halved for a gain of this share of its time.
 constexpr double least_gain = 0.01;
@@ -212,9 +252,12 @@ double largest_entry(std::span<const AxisDemand> demands, double entry_most, dou
   // maximum where it does not fall there.
   const Interval at_most = entries(demands, exit_most, entry_most);
   if (!at_most.is_empty() && !at_most.shrinks()) return at_most.high;
-  HighestX<most_stripes> highest(entry_most, exit_most);
-  keep_demands(demands, highest);
-  return highest.x();
+  const double corner = corner_below(demands, entry_most, exit_most, at_most);
+  if (corner >= 0) return corner;
+
+  SpeedRegion<corners_of_stripes> region(entry_most, exit_most);
+  cut_stripes(demands, region);
+  return region.largest_x();
 }
 
 double largest_exit(std::span<const AxisDemand> demands, double entry, double exit_most) {
