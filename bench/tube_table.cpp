@@ -1,11 +1,16 @@
-// What the tube gives, as two tables: circles in rounded chords against the same circle as an arc, with limits of
-// acceleration and with limits of jerk too; and corners against the fastest motion inside the tube (tube_optimum.hpp),
-// with the same two machines. Beside that optimum: the bound of `passo check --motion` for any path in the tube.
+// What the tube gives, as three tables, with limits of acceleration and with limits of jerk too: circles in rounded
+// chords against the same circle as an arc; corners between lines and arcs; and corners against the fastest motion
+// inside the tube (tube_optimum.hpp). Beside that optimum: the bound of `passo check --motion` for any path in the
+// tube.
+//
+// `tube_table circles` or `tube_table arcs` prints that table alone.
 //
 // Prints figures and decides nothing.
 #include <cmath>
 #include <cstdio>
+#include <functional>
 #include <numbers>
+#include <string_view>
 #include <vector>
 
 #include "kit/list_source.hpp"
@@ -92,6 +97,93 @@ void print_circles() {
   }
 }
 
+// A path that is drawn from the origin on.
+class Drawing {
+ public:
+  double x() const { return x_; }
+  double y() const { return y_; }
+  const std::vector<PathItem>& path() const { return path_; }
+
+  void line_to(double x, double y) { add(Curve::line(place(x_, y_), place(x, y)), x, y); }
+  // About that center, to the left for a positive sweep.
+  void arc_to(double x, double y, const Point& center, double sweep) {
+    add(Curve::arc(place(x_, y_), place(x, y), Axis::x, Axis::y, center[Axis::x], center[Axis::y], sweep), x, y);
+  }
+  // The shorter arc of that radius, to the right.
+  void arc_to(double x, double y, double arc_radius) {
+    const double chord = std::hypot(x - x_, y - y_);
+    const double beside = std::sqrt(arc_radius * arc_radius - chord * chord / 4) / chord;
+    const Point center = place((x_ + x) / 2 + (y - y_) * beside, (y_ + y) / 2 - (x - x_) * beside);
+    arc_to(x, y, center, -2 * std::asin(chord / 2 / arc_radius));
+  }
+
+ private:
+  void add(const Curve& curve, double x, double y) {
+    path_.emplace_back(segment_of(curve));
+    x_ = x;
+    y_ = y;
+  }
+  std::vector<PathItem> path_;
+  double x_ = 0;
+  double y_ = 0;
+};
+
+// Six steps of 5 mm. `arc_radius` of each second leg; 0: a line.
+void draw_stairs(Drawing& to, double arc_radius) {
+  for (int i = 1; i <= 6; ++i) {
+    to.line_to(5 * i, to.y());
+    arc_radius > 0 ? to.arc_to(5 * i, 5 * i, arc_radius) : to.line_to(5 * i, 5 * i);
+  }
+}
+
+// Lines of 5 mm in one direction, and between them arcs over that chord.
+void draw_bumps(Drawing& to, double arc_radius, double chord) {
+  for (int i = 0; i < 8; ++i) {
+    to.line_to(to.x() + 5, 0);
+    to.arc_to(to.x() + chord, 0, arc_radius);
+  }
+}
+
+void draw_half_circles(Drawing& to) {
+  for (int i = 0; i < 6; ++i) {
+    to.line_to(10, 0);
+    to.arc_to(0, 0, place(5, 0), std::numbers::pi);
+  }
+}
+
+void draw_gear(Drawing& to) {
+  constexpr int teeth = 8;
+  const auto go = [&](double r, int quarter, bool is_arc) {
+    const double turn = std::numbers::pi / teeth;
+    const double x = r * std::cos(turn * quarter);
+    const double y = r * std::sin(turn * quarter);
+    is_arc ? to.arc_to(x, y, place(0, 0), turn) : to.line_to(x, y);
+  };
+  go(20, 0, false);
+  for (int i = 0; i < teeth; ++i) {
+    go(20, 2 * i + 1, true);
+    go(22, 2 * i + 1, false);
+    go(22, 2 * i + 2, true);
+    go(20, 2 * i + 2, false);
+  }
+}
+
+void print_beside_arcs() {
+  std::printf("\n%-44s %12s %12s\n", "corners beside arcs", "acceleration", "jerk");
+  const auto print = [](const char* name, const std::function<void(Drawing&)>& draw) {
+    Drawing drawing;
+    draw(drawing);
+    std::printf("%-44s %12.3f %12.3f\n", name, time_of(drawing.path(), 0), time_of(drawing.path(), jerk));
+  };
+  print("stairs, each second leg an arc of 50 mm", [](Drawing& to) { draw_stairs(to, 50); });
+  print("all legs lines", [](Drawing& to) { draw_stairs(to, 0); });
+  print("arcs of 4 mm", [](Drawing& to) { draw_stairs(to, 4); });
+  print("half circles of 5 mm, closed by lines", draw_half_circles);
+  print("a gear: arcs of 20 and 22 mm, radial lines", draw_gear);
+  print("lines and arcs of 1.5 mm that meet at 42", [](Drawing& to) { draw_bumps(to, 1.5, 2); });
+  print("lines and arcs of 10 mm that meet at 12", [](Drawing& to) { draw_bumps(to, 10, 4); });
+}
+
 std::vector<PathItem> path_of(const std::vector<bench::Place>& corners) {
   std::vector<PathItem> path;
   for (std::size_t i = 0; i + 1 < corners.size(); ++i) {
@@ -165,8 +257,11 @@ void print_corners() {
 }  // namespace
 
 int main(int argc, char** argv) {
-  if (argc == 1 || argv[1][0] == 'c') print_circles();
-  if (argc == 1 || argv[1][0] != 'c') print_corners();
+  const std::string_view only = argc > 1 ? argv[1] : "";
+  if (only.empty() || only == "circles") print_circles();
+  if (only.empty() || only == "arcs") print_beside_arcs();
+  if (!only.empty()) return 0;
+  print_corners();
   print_bounds();
   return 0;
 }

@@ -94,16 +94,9 @@ class AccelerationLaw final : public SpeedLaw {
     double speed_squared = speed_squared_;
     std::uint64_t segment = path_.first();
     for (std::size_t i = 0; speed_squared > 0 && i < cells_.size() && !(i > 0 && cells_[i].begins_at_rest()); ++i) {
-      const Cell& cell = cells_[i].cell;
-      const bool begins = plan.empty() || plan.back().to >= plan.back().segment.curve.length();
-      if (begins && !plan.empty()) ++segment;
-      if (begins || plan.back().phase_count == PlannedMove::most_phases) {
-        plan.emplace_back().begin_on(*path_.at(segment));
-      }
-      PlannedMove& move = plan.back();
+      if (!plan.empty() && plan.back().to >= plan.back().segment.curve.length()) ++segment;
       const Ride ride = shortest_ride(i, speed_squared);
-      add_phase(cell.start, ride.way, speed_squared, ride.exit, move);
-      move.to = Mm(ride.way < cell.length ? cell.start + ride.way : cell.end);
+      add_ride(*path_.at(segment), cells_[i].cell, speed_squared, ride, plan);
       speed_squared = ride.exit;
     }
   }

@@ -60,10 +60,9 @@ double squared(double value) {
 }
 
 // Lowers `top`, a value along the path, to what an axis with that limit can follow where it moves by `part` of the way.
-// A limit of 0 or less does not limit. Where the product is below the limit, the quotient would not be below `top`; the
-// product is cheaper.
+// Where the product is below the limit, the quotient would not be below `top`; the product is cheaper.
 void lower(double& top, double limit, double part) {
-  if (limit > 0 && !(top * part < limit)) top = std::min(top, limit / part);
+  if (!(top * part < limit)) top = std::min(top, limit / part);
 }
 
 // Writes member by member. A cell built elsewhere and copied at once would have to wait until its bytes are written.
@@ -85,23 +84,15 @@ void CellPlace::allow(double entry, double exit) const {
   }
 }
 
-CellCutter::CellCutter(const MotionLimits& limits) {
-  for (std::size_t i = 0; i < axis_count; ++i) {
-    const AxisLimits axis{.axis = i,
-                          .velocity = limits.velocity.values[i].value(),
-                          .acceleration = limits.acceleration.values[i].value(),
-                          .falling = &limits.falling.values[i]};
-    if (axis.velocity > 0 || axis.acceleration > 0 || !axis.falling->empty()) limited_.push_back(axis);
-  }
-}
+CellCutter::CellCutter(const MotionLimits& limits) : limited_(axes_with_limits(limits)) {}
 
 std::size_t CellCutter::most_demands() const {
-  const auto axes = std::ranges::count_if(limited_, [](const AxisLimits& axis) { return axis.acceleration > 0; });
+  const auto axes = std::ranges::count_if(limited_, [](const LimitedAxis& axis) { return axis.limits_acceleration(); });
   return static_cast<std::size_t>(axes) + 1;
 }
 std::size_t CellCutter::most_falling() const {
   return static_cast<std::size_t>(
-      std::ranges::count_if(limited_, [](const AxisLimits& axis) { return !axis.falling->empty(); }));
+      std::ranges::count_if(limited_, [](const LimitedAxis& axis) { return axis.falling != nullptr; }));
 }
 
 void CellCutter::begin(const Segment& segment, double entry_squared, double from) {
@@ -112,8 +103,8 @@ void CellCutter::begin(const Segment& segment, double entry_squared, double from
   grade_ = 0;
   const Point steepest = curve.steepest();
   moving_.clear();
-  for (const AxisLimits& axis : limited_) {
-    if (steepest.values[axis.axis] > 0) moving_.push_back(axis);
+  for (const LimitedAxis& axis : limited_) {
+    if (steepest.values[axis.index] > 0) moving_.push_back(axis);
   }
   at_ = place_at(curve, moving_, from);
   const double top = std::min(segment.speed.value(), top_speed(moving_, steepest));
@@ -190,21 +181,21 @@ double CellCutter::graded(double size, double left) const {
 // The next two: the largest speed and the largest acceleration along a path of this slope that every axis can follow.
 double CellCutter::top_speed(const Axes& axes, const Point& slope) {
   double top = fastest;
-  for (const AxisLimits& axis : axes) lower(top, axis.velocity, std::abs(slope.values[axis.axis]));
+  for (const LimitedAxis& axis : axes) lower(top, axis.velocity, std::abs(slope.values[axis.index]));
   return top;
 }
 double CellCutter::top_acceleration(const Axes& axes, const Point& slope) {
   double top = strongest;
-  for (const AxisLimits& axis : axes) lower(top, axis.acceleration, std::abs(slope.values[axis.axis]));
+  for (const LimitedAxis& axis : axes) lower(top, axis.acceleration, std::abs(slope.values[axis.index]));
   return top;
 }
 // Limits of rotary axes are in degrees and cannot be compared with the others.
 double CellCutter::part_of_turn(const Axes& axes, const Point& steepest) {
   double weakest = strongest;
   double most = 0;
-  for (const AxisLimits& axis : axes) {
-    if (!(axis.acceleration > 0) || is_rotary(static_cast<Axis>(axis.axis))) continue;
-    if (steepest.values[axis.axis] < hardly_moves) continue;
+  for (const LimitedAxis& axis : axes) {
+    if (!axis.limits_acceleration() || is_rotary(static_cast<Axis>(axis.index))) continue;
+    if (steepest.values[axis.index] < hardly_moves) continue;
     weakest = std::min(weakest, axis.acceleration);
     most = std::max(most, axis.acceleration);
   }
@@ -213,9 +204,9 @@ double CellCutter::part_of_turn(const Axes& axes, const Point& steepest) {
 // The speed up to which every limit is constant.
 double CellCutter::flat_top(const Axes& axes, const Point& slope) {
   double top = infinity;
-  for (const AxisLimits& axis : axes) {
-    const double part = std::abs(slope.values[axis.axis]);
-    if (!axis.falling->empty() && part > 0) top = std::min(top, std::sqrt(axis.falling->shoulder()) / part);
+  for (const LimitedAxis& axis : axes) {
+    const double part = std::abs(slope.values[axis.index]);
+    if (axis.falling != nullptr && part > 0) top = std::min(top, std::sqrt(axis.falling->shoulder()) / part);
   }
   return top;
 }
@@ -225,17 +216,17 @@ double CellCutter::flat_top(const Axes& axes, const Point& slope) {
 double CellCutter::top_of_turning(const Axes& axes, const Point& slope, const Point& bend) {
   double slope_squared = 0;
   double common = 0;
-  for (const AxisLimits& axis : axes) {
-    if (!(axis.acceleration > 0)) continue;
-    slope_squared += squared(slope.values[axis.axis]);
-    common += slope.values[axis.axis] * bend.values[axis.axis];
+  for (const LimitedAxis& axis : axes) {
+    if (!axis.limits_acceleration()) continue;
+    slope_squared += squared(slope.values[axis.index]);
+    common += slope.values[axis.index] * bend.values[axis.index];
   }
   const double share = slope_squared > 0 ? common / slope_squared : 0;
   double normal_squared = 0;
   double strength = 0;
-  for (const AxisLimits& axis : axes) {
-    if (!(axis.acceleration > 0)) continue;
-    const double normal = bend.values[axis.axis] - share * slope.values[axis.axis];
+  for (const LimitedAxis& axis : axes) {
+    if (!axis.limits_acceleration()) continue;
+    const double normal = bend.values[axis.index] - share * slope.values[axis.index];
     normal_squared += squared(normal);
     strength += std::abs(normal) * axis.acceleration;
   }
@@ -293,22 +284,19 @@ CellCutter::Strength CellCutter::strength_on(const Axes& axes, const Place& in, 
   const double h = out.s - in.s;
   const double most = std::min(bounds.top_squared / (2 * h), strongest);
   double strength = std::min(2 * slope_strength, most);
-  const auto demand_on = [&](const AxisLimits& axis) {
-    return axis.acceleration +
-           bounds.fastest_squared * std::max(std::abs(in.bend.values[axis.axis]), std::abs(out.bend.values[axis.axis]));
+  const auto demand_on = [&](const LimitedAxis& axis) {
+    return axis.acceleration + bounds.fastest_squared * std::max(std::abs(in.bend.values[axis.index]),
+                                                                 std::abs(out.bend.values[axis.index]));
   };
-  const auto along = [&](const AxisLimits& axis) {
-    return std::min(std::abs(in.slope.values[axis.axis]), std::abs(out.slope.values[axis.axis]));
+  const auto along = [&](const LimitedAxis& axis) {
+    return std::min(std::abs(in.slope.values[axis.index]), std::abs(out.slope.values[axis.index]));
   };
-  const auto keeps = [&](const AxisLimits& axis) {
-    return axis.acceleration > 0 && demand_on(axis) <= strength * along(axis);
-  };
+  const auto keeps = [&](const LimitedAxis& axis) { return demand_on(axis) <= strength * along(axis); };
   const auto is_kept = [&] { return !(strength < most) || std::ranges::any_of(axes, keeps); };
   if (is_kept()) return {.most = strength, .is_kept = true};
   double more = most;
-  for (const AxisLimits& axis : axes) {
-    if (!(axis.acceleration > 0)) continue;
-    const Bend bend = bend_on(bounds.curve, bounds.of_arc, axis.axis);
+  for (const LimitedAxis& axis : axes) {
+    const Bend bend = bend_on(bounds.curve, bounds.of_arc, axis.index);
     const double left = cheap_slack * axis.acceleration * 8 / (h * h) - bend.fourth * bounds.top_squared;
     if (bend.third > 0) more = std::min(more, left / (5 * bend.third));
     if (along(axis) > 0) more = std::min(more, demand_on(axis) / along(axis));
@@ -332,8 +320,8 @@ void CellCutter::cut_curve(const Segment& segment, const Axes& axes, const Place
   };
   double top = fastest;
   double slope_strength = strongest;
-  for (const AxisLimits& axis : axes) {
-    const std::size_t i = axis.axis;
+  for (const LimitedAxis& axis : axes) {
+    const std::size_t i = axis.index;
     lower(top, axis.velocity, steepest(i, bend_on(curve, of_arc, i)));
     lower(slope_strength, axis.acceleration, std::min(std::abs(in.slope.values[i]), std::abs(out.slope.values[i])));
   }
@@ -348,9 +336,9 @@ void CellCutter::cut_curve(const Segment& segment, const Axes& axes, const Place
   const auto slack_of = [&](const Bend& bend) {
     return eighth * (bend.fourth * top_squared + 5 * strength * bend.third);
   };
-  for (const AxisLimits& axis : axes) {
-    const Bend bend = bend_on(curve, of_arc, axis.axis);
-    if (!(axis.acceleration > 0) || slack_of(bend) <= most_slack * axis.acceleration) continue;
+  for (const LimitedAxis& axis : axes) {
+    const Bend bend = bend_on(curve, of_arc, axis.index);
+    if (slack_of(bend) <= most_slack * axis.acceleration) continue;
     // The cell is too coarse for this speed: go slower.
     top_squared = most_slack * axis.acceleration / (eighth * (bend.fourth + 5 * bend.third / (2 * h)));
     strength = std::min(strength, top_squared / (2 * h));
@@ -358,11 +346,11 @@ void CellCutter::cut_curve(const Segment& segment, const Axes& axes, const Place
   }
   cell.acceleration = strength;
 
-  for (const AxisLimits& axis : axes) {
-    const std::size_t i = axis.axis;
+  for (const LimitedAxis& axis : axes) {
+    const std::size_t i = axis.index;
     const Bend bend = bend_on(curve, of_arc, i);
     const double steep = steepest(i, bend);
-    if (!(axis.acceleration > 0) || (steep == 0 && in.bend.values[i] == 0 && out.bend.values[i] == 0)) continue;
+    if (!axis.limits_acceleration() || (steep == 0 && in.bend.values[i] == 0 && out.bend.values[i] == 0)) continue;
     const double slack = slack_of(bend);
     const double slope_in = in.slope.values[i] / (2 * h);
     const double slope_out = out.slope.values[i] / (2 * h);
@@ -371,7 +359,7 @@ void CellCutter::cut_curve(const Segment& segment, const Axes& axes, const Place
                                           .exit_x = -slope_out,
                                           .exit_y = out.bend.values[i] + slope_out,
                                           .limit = axis.acceleration - slack};
-    if (axis.falling->empty() || !(squared(steep) * top_squared > axis.falling->shoulder())) continue;
+    if (axis.falling == nullptr || !(squared(steep) * top_squared > axis.falling->shoulder())) continue;
     // w = q'² v² bends by w'' = 2 (q''² + q' q''') v² + 8 q' q'' a.
     const double second = std::max(std::abs(in.bend.values[i]), std::abs(out.bend.values[i])) + h * bend.third;
     const double bending = 2 * (second * second + steep * bend.third) * top_squared + 8 * steep * second * strength;

@@ -18,8 +18,9 @@
 #include <cstdint>
 #include <vector>
 
+#include "limited_axis.hpp"
+
 #include "passo/path/segment.hpp"
-#include "passo/trajectory/motion_limits.hpp"
 
 namespace passo {
 
@@ -97,14 +98,7 @@ class CellCutter {
   void cut(const Segment& segment, double from, double to, bool straight, const CellPlace& place) const;
 
  private:
-  // The limits of one axis. A limit of 0 or less does not limit.
-  struct AxisLimits {
-    std::size_t axis = 0;
-    double velocity = 0;
-    double acceleration = 0;
-    const AccelerationCurve* falling = nullptr;
-  };
-  using Axes = std::vector<AxisLimits>;
+  using Axes = std::vector<LimitedAxis>;
   // A place on the curve. The end of one cell is the start of the next, so each place is computed once.
   struct Place {
     double s = 0;

@@ -4,19 +4,16 @@
 #include <cmath>
 #include <span>
 
-#include "rest.hpp"
 #include "speed_profile.hpp"
 
 namespace passo {
 namespace {
 
-// The motion before keeps its limits at the ends of other cells. What cells take off the limits for what happens
-// between their ends may therefore be missing here: some thousandths. A way that asks for more than this share above
-// the limits is none.
-constexpr double most_excess = 0.01;
-// Nor is a way that goes faster than the feed, or rises above what the axes' velocities allow: what cells take off the
-// limits may let the speed only rise. The motion before is not that careful.
-constexpr double most_too_fast = 4e-4;
+// The motion before uses more of the limits than a cell may: the cell takes something off for what happens between its
+// ends. In halves a cell takes off a quarter.
+constexpr int most_halvings = 5;
+// So much above the limits and the feed is what the motion before may use by its own rounding.
+constexpr double most_excess = 4e-4;
 
 }  // namespace
 
@@ -28,39 +25,48 @@ bool EmergencyBrake::plan(PathAhead& path, const PathState& from, const FeedFact
   plan.clear();
   double s = from.s;
   double speed_squared = from.speed * from.speed;
-  for (std::uint64_t number = from.segment; speed_squared > 0; ++number, s = 0) {
-    const Segment* segment = path.at(number);
-    const bool ends = segment == nullptr || (number > from.segment && rests_between(*path.at(number - 1), *segment));
-    if (!ends) speed_squared = brake_on(*segment, s, speed_squared, feeds.speed_on(*segment), plan);
-    if (!ends && speed_squared >= 0) continue;
-    plan.clear();
-    return false;
+  std::uint64_t number = from.segment;
+  for (const Segment* segment = path.at(number); segment != nullptr; segment = path.after(number++), s = 0) {
+    speed_squared = brake_on(*segment, s, speed_squared, feeds.speed_on(*segment), plan);
+    if (speed_squared == 0) return true;
+    if (speed_squared < 0) break;
   }
-  return true;
+  plan.clear();
+  return false;
 }
 
 double EmergencyBrake::brake_on(const Segment& segment, double from, double speed_squared, double feed,
                                 std::vector<PlannedMove>& plan) {
-  const double most = std::pow(feed * (1 + most_too_fast), 2);
-  bool begins = true;
-  for (cutter_.begin(segment, speed_squared, from); speed_squared > 0 && !cutter_.at_end(); begins = false) {
-    cutter_.next({cell_, demands_.data(), falling_.data()});
-    const Ride ride = hardest_braking(cell_, std::span(demands_).first(cell_.demand_count),
-                                      std::span(falling_).first(cell_.falling_count), speed_squared);
-    if (!allows(speed_squared, ride) || std::max(speed_squared, ride.exit) > most) return -1;
-    if (begins || plan.back().phase_count == PlannedMove::most_phases) plan.emplace_back().begin_on(segment);
-    add_phase(cell_.start, ride.way, speed_squared, ride.exit, plan.back());
-    plan.back().to = Mm(ride.way < cell_.length ? cell_.start + ride.way : cell_.end);
-    speed_squared = ride.exit;
+  most_squared_ = std::pow(feed * (1 + most_excess), 2);
+  for (cutter_.begin(segment, speed_squared, from); speed_squared > 0 && !cutter_.at_end();) {
+    cutter_.next(place());
+    speed_squared = brake_in_cell(segment, speed_squared, most_halvings, plan);
   }
   return speed_squared;
 }
 
+double EmergencyBrake::brake_in_cell(const Segment& segment, double entry, int halvings,
+                                     std::vector<PlannedMove>& plan) {
+  const Ride ride = hardest_braking(cell_, std::span(demands_).first(cell_.demand_count),
+                                    std::span(falling_).first(cell_.falling_count), entry);
+  if (allows(entry, ride)) {
+    add_ride(segment, cell_, entry, ride, plan);
+    return ride.exit;
+  }
+  if (cell_.straight || halvings == 0) return -1;
+  const double end = cell_.end;
+  const double middle = cell_.start + cell_.length / 2;
+  cutter_.cut(segment, cell_.start, middle, false, place());
+  const double halfway = brake_in_cell(segment, entry, halvings - 1, plan);
+  if (!(halfway > 0)) return halfway;
+  cutter_.cut(segment, middle, end, false, place());
+  return brake_in_cell(segment, halfway, halvings - 1, plan);
+}
+
 bool EmergencyBrake::allows(double entry, const Ride& ride) const {
   constexpr double excess = 1 + most_excess;
-  constexpr double too_fast = 1 + most_too_fast;
-  if (ride.exit > entry && ride.exit > cell_.top_squared * too_fast * too_fast) return false;
-  if (entry > cell_.top_squared * excess * excess) return false;
+  const double higher = std::max(entry, ride.exit);
+  if (higher > most_squared_ || higher > cell_.top_squared * excess * excess) return false;
   if (ride.way < cell_.length) return true;
   return std::ranges::all_of(std::span(demands_).first(cell_.demand_count), [&](const AxisDemand& demand) {
     const double most = demand.limit * excess;

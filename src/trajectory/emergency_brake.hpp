@@ -34,9 +34,13 @@ class EmergencyBrake {
   // The square of the speed at the end of the segment, or 0 and the rest. Below 0: there is no way.
   double brake_on(const Segment& segment, double from, double speed_squared, double feed,
                   std::vector<PlannedMove>& plan);
+  // The same at the end of the cell that was cut. A cell that leaves no way is cut in halves.
+  double brake_in_cell(const Segment& segment, double entry, int halvings, std::vector<PlannedMove>& plan);
   bool allows(double entry, const Ride& ride) const;
+  CellPlace place() { return {cell_, demands_.data(), falling_.data()}; }
 
   CellCutter cutter_;
+  double most_squared_ = 0;  // the square of the highest speed by the feed
   Cell cell_;
   std::vector<AxisDemand> demands_;
   std::vector<FallingDemand> falling_;

@@ -8,37 +8,14 @@
 // Cells are so short that about ten of them pass while the acceleration rises from 0 to its limit.
 #pragma once
 
-#include <algorithm>
 #include <vector>
 
+#include "limited_axis.hpp"
 #include "rest_to_rest.hpp"
 
 #include "passo/path/segment.hpp"
-#include "passo/trajectory/motion_limits.hpp"
 
 namespace passo {
-
-// An axis with at least one limit. A limit that it lacks is infinity.
-struct LimitedAxis {
-  std::size_t index = 0;
-  double velocity = 0;
-  double acceleration = 0;
-  double jerk = 0;
-  const AccelerationCurve* falling = nullptr;  // below `acceleration` from its shoulder on; null for most axes
-
-  // The limit at this square of the axis's speed.
-  double acceleration_at(double w) const {
-    return falls_at(w) ? std::min(acceleration, line_at(w).at(w)) : acceleration;
-  }
-  bool falls_at(double w) const { return falling != nullptr && w > falling->shoulder(); }
-  // The line of the curve that is the highest at w. A line keeps to the curve at any speed. Only for an axis that
-  // falls.
-  const AccelerationCurve::Line& line_at(double w) const { return falling->lines()[falling->line_at(w)]; }
-  // The square of the highest speed along the path at which bending alone takes no more than this share of the limit.
-  double turning_cap(double slope, double bend, double share) const;
-};
-// The result refers to `limits`, which must outlive it.
-std::vector<LimitedAxis> axes_with_limits(const MotionLimits& limits);
 
 // The derivatives of an axis's place by s, at the start and at the end of a cell. The third is straight in between.
 struct AxisShape {

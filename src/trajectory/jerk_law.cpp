@@ -93,7 +93,7 @@ class JerkLaw final : public SpeedLaw {
       append(move, plan);
       if (move.ends_at_rest()) return;
       since_trial += move.duration().value();
-      state = behind(move, state.segment);
+      state = PathState::behind(move, state.segment);
     }
   }
 
@@ -107,7 +107,7 @@ class JerkLaw final : public SpeedLaw {
     now_ = state;
     rest_.reset();
     change_.reset();
-    window_->begin_at({.segment = state.segment, .s = state.s});
+    window_->begin_at(state);
     fastest_ = wishes_.feeds;
     unsuited_ = false;
   }
@@ -115,7 +115,7 @@ class JerkLaw final : public SpeedLaw {
   bool produce(PlannedMove& move) {
     if (!take(move)) return false;
     rest_ = shorten(move, wishes_.longest_move);
-    now_ = behind(move, path_.first());
+    now_ = PathState::behind(move, path_.first());
     if (!rest_ && move.ends_at_rest()) now_.speed = now_.acceleration = 0;
     return true;
   }
@@ -175,18 +175,6 @@ class JerkLaw final : public SpeedLaw {
     }
   }
 
-  static bool ends_segment(const PlannedMove& move) { return move.to >= move.segment.curve.length(); }
-
-  // The state at the end of a move on that segment.
-  static PathState behind(const PlannedMove& move, std::uint64_t segment) {
-    const Phase& last = move.phases[move.phase_count - 1];
-    const bool ends = ends_segment(move);
-    return {.segment = ends ? segment + 1 : segment,
-            .s = ends ? 0 : move.to.value(),
-            .speed = move.exit_velocity().value(),
-            .acceleration = last.acceleration_at(last.duration).value()};
-  }
-
   // Adapts to the wishes. At rest the plan begins anew. In motion a change leads to the wanted speed, as soon as one is
   // possible.
   void adapt() {
@@ -210,7 +198,7 @@ class JerkLaw final : public SpeedLaw {
     PlannedMove move;
     while (slowed.factor() > least_factor && look_ahead(outlook, planned.segment, move)) {
       if (move.ends_at_rest() || !slowed.add(move, planned.segment)) break;
-      planned = behind(move, planned.segment);
+      planned = PathState::behind(move, planned.segment);
       if (slowed.duration() < next_trial) continue;
       next_trial = Seconds(slowed.duration().value() * later + between_trials);
       std::optional<SpeedChange> stop = plan_stop(slowed.state());
@@ -222,10 +210,11 @@ class JerkLaw final : public SpeedLaw {
   }
 
   void stop_sooner() {
+    const bool stops = change_ && change_->end().speed == 0;
     std::optional<SpeedChange> stop = plan_stop(now_);
-    if (!stop && !(change_ && change_->exit() == 0)) stop = plan_late_stop();
+    if (!stop && !stops) stop = plan_late_stop();
     if (!stop) return;
-    if (change_ && change_->exit() == 0) {
+    if (stops) {
       const Seconds left = (rest_ ? rest_->duration() : Seconds(0)) + change_->duration_from(given_pieces_);
       if (stop->duration_from(0) > left * worth) return;
     }
@@ -246,7 +235,7 @@ class JerkLaw final : public SpeedLaw {
       std::optional<SpeedChange> change =
           SpeedChange::plan(path_, now_, {.axes = axes_, .feeds = fastest_, .exit = part * wanted});
       if (!change) continue;
-      window->begin_at({.segment = change->segment(), .s = change->s(), .speed = change->exit()});
+      window->begin_at(change->end());
       if (!window->can_go_on(sight * change->braking_way())) continue;
       lead_off(std::move(change));
       window_ = std::move(window);

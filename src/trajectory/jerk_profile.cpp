@@ -23,12 +23,7 @@ constexpr double at_cap = 1 - 1e-9;
 constexpr double rises_to_settle = 1;  // times the rise of the acceleration from 0 to its limit
 constexpr double room_to_lift = 0.5;   // for squares of speeds: with that all limits have room
 constexpr int most_lifts = 8;
-constexpr std::size_t wider = 32;       // nodes on each side, where a part between steady nodes cannot be lifted
-constexpr double gentle_leaving = 0.2;  // share of the acceleration
 constexpr int most_attempts = 6;
-// A window that begins in motion and is not lifted at once begins too fast for the path ahead, mostly because it must
-// brake harder than its jerk allows from the first cell on. Of 107 such windows further attempts lifted none.
-constexpr int most_attempts_in_motion = 1;
 constexpr double worth = 0.98;  // of the time: a further lift is worth it
 
 // Where a cell exceeds a limit, the share is lowered to what would have been right, in these bounds.
@@ -45,7 +40,6 @@ constexpr std::size_t nearby = 14;  // cells on both sides of one that are lifte
 constexpr int rounds_nearby = 4;    // later rounds take more cells
 constexpr double beyond = 0.9999;   // slowed a little more, against rounding
 constexpr int most_slowings = 40;
-constexpr double least_slowing = 0.98;  // of squares of speeds
 
 constexpr double strong_braking = 0.05;  // share of the limit
 constexpr double settling = 0.5;         // share of the time of the final braking
@@ -348,58 +342,18 @@ bool JerkProfile::lift_between_steady() {
   for (Stretch part; part.last < n;) {
     part.first = part.last++;
     while (part.last < n && !steady_[part.last]) ++part.last;
-    if (part.last > part.first + 1 && !lift_wider(part)) return false;
+    if (part.last > part.first + 1 && !lift(part)) return false;
   }
   return true;
-}
-
-// Lifts a part between steady nodes. If that fails, steady nodes on both sides may be too near: the cap is reached
-// later than the guess says. Then the part takes in some of them.
-bool JerkProfile::lift_wider(Stretch& part) {
-  leave_caps(part);
-  if (lift(part)) return true;
-  const auto loosen = [this](std::size_t node) {
-    steady_[node] = false;
-    states_[node] = {.speed = std::sqrt(guess_[node]), .acceleration = 0};
-  };
-  const std::size_t n = cells_.size();
-  const Stretch before = part;
-  while (part.first > 0 && before.first - part.first < wider && steady_[part.first - 1]) loosen(part.first--);
-  while (part.last < n && (part.last - before.last < wider || !steady_[part.last])) loosen(part.last++);
-  if (part.first == before.first && part.last == before.last) return false;
-  leave_caps(part);
-  return lift(part);
-}
-
-// The guess is at a share of all caps. Beside a steady node, which is at its cap, it goes down gently from there, but
-// not where the guess is lower because it only begins to speed up.
-void JerkProfile::leave_caps(const Stretch& part) {
-  const auto leave = [this, &part](std::size_t node, bool backwards) {
-    if (!steady_[node]) return;
-    double least = states_[node].speed * states_[node].speed;
-    for (std::size_t left = part.last - part.first - 1; left > 0; --left) {
-      const JerkCell& cell = cells_[backwards ? --node : node++];
-      const double acceleration = gentle_leaving * cell.acceleration;
-      least -= 2 * acceleration * cell.length;
-      const double x = states_[node].speed * states_[node].speed;
-      if (!(least > x) || x < at_cap * guessed_speed_squared * node_cap_[node]) return;
-      states_[node] = {.speed = std::sqrt(least), .acceleration = backwards ? acceleration : -acceleration};
-    }
-  };
-  leave(part.first, false);
-  leave(part.last, true);
 }
 
 // Finds a motion over all cells that keeps the limits.
 bool JerkProfile::find_motion() {
   find_steady();
-  const int most = in_motion_ ? most_attempts_in_motion : most_attempts;
-  for (int attempt = 0; attempt < most; ++attempt) {
+  for (int attempt = 0; attempt < most_attempts; ++attempt) {
     begin_with_guess();
     const bool is_lifted = attempt == 0 ? lift_between_steady() : lift({.first = 0, .last = cells_.size()});
     if (is_lifted && mend()) return true;
-    // What is left may be so little that all of the motion can be slowed by it.
-    if (is_lifted && !in_motion_ && slowing() >= least_slowing && slow_down()) return true;
     if (!is_lifted) exceeded_.clear();
     for (std::size_t k = 0; k < states_.size(); ++k) guess_[k] = states_[k].speed * states_[k].speed;
     // The next attempt begins with the same guess. It is another one only if cells or stretches are.

@@ -2,8 +2,6 @@
 
 #include <algorithm>
 
-#include "rest.hpp"
-
 namespace passo {
 namespace {
 
@@ -28,7 +26,7 @@ JerkWindow::JerkWindow(const std::vector<LimitedAxis>& axes, PathAhead& path, co
       most_queued_(std::max(most_queued, fewest_queued)),
       shapes_(axes.size()) {}
 
-void JerkWindow::begin_at(const Start& start) {
+void JerkWindow::begin_at(const PathState& start) {
   profile_.drop(profile_.size());
   if (start.speed > 0) profile_.begin_in_motion(start.speed);
   start_ = start;
@@ -93,8 +91,7 @@ bool JerkWindow::goes_from_rest_to_rest(PlannedMove& move) {
   if (started_ || start_.speed > 0) return false;
   const Segment* segment = path_.at(start_.segment);
   if (segment == nullptr || segment->curve.shape() != Curve::Shape::line) return false;
-  const Segment* after = path_.at(start_.segment + 1);
-  if (after != nullptr && !rests_between(*segment, *after)) return false;
+  if (path_.after(start_.segment) != nullptr) return false;
   cutter_.begin(*segment, {.from = start_.s, .feed = feeds_.speed_on(*segment)});
   if (!cutter_.is_straight()) return false;
   move.begin_on(*segment);
@@ -115,14 +112,11 @@ void JerkWindow::pull() {
   }
   if (cutting_) ++cut_;
   cutting_ = false;
-  const Segment* segment = path_.at(cut_);
-  if (segment == nullptr || (started_ && rests_between(*path_.at(cut_ - 1), *segment))) {
-    closed_ = true;
-    return;
-  }
-  const Segment* after = path_.at(cut_ + 1);
-  const bool ends_at_rest = after == nullptr || rests_between(*segment, *after);
-  const double exit = ends_at_rest ? 0 : cutter_.joint_cap(*segment, *after);
+  const Segment* segment = started_ ? path_.after(cut_ - 1) : path_.at(cut_);
+  closed_ = segment == nullptr;
+  if (closed_) return;
+  const Segment* after = path_.after(cut_);
+  const double exit = after == nullptr ? 0 : cutter_.joint_cap(*segment, *after);
   if (!started_) {
     estimate_ = start_.speed * start_.speed;
   } else {

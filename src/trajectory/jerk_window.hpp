@@ -10,6 +10,7 @@
 #include "feed_factors.hpp"
 #include "jerk_profile.hpp"
 #include "path_ahead.hpp"
+#include "path_state.hpp"
 
 #include "passo/trajectory/phase.hpp"
 
@@ -20,13 +21,8 @@ class JerkWindow {
   // `axes`, `path` and `feeds` must outlive the window. Cells are cut for the feeds of that instant.
   JerkWindow(const std::vector<LimitedAxis>& axes, PathAhead& path, const FeedFactors& feeds, std::size_t most_queued);
 
-  // A place on a segment of the path.
-  struct Start {
-    std::uint64_t segment = 0;
-    double s = 0;
-    double speed = 0;
-  };
-  void begin_at(const Start& start);
+  // Begins there, without acceleration.
+  void begin_at(const PathState& start);
   // Whether a plan from a start in motion is found, with at least `way` of the path in sight (less where it rests
   // before).
   [[nodiscard]] bool can_go_on(double way);
@@ -49,7 +45,7 @@ class JerkWindow {
   JerkProfile profile_;
   std::size_t most_queued_;
 
-  Start start_;
+  PathState start_;
   std::uint64_t cut_ = 0;  // the first segment of which not all cells are in the profile
   bool started_ = false;
   bool cutting_ = false;

@@ -1,6 +1,14 @@
 #include "path_ahead.hpp"
 
+#include "rest.hpp"
+
 namespace passo {
+
+const Segment* PathAhead::after(std::uint64_t number) {
+  const Segment* const before = at(number);
+  const Segment* const next = at(number + 1);
+  return next != nullptr && !rests_between(*before, *next) ? next : nullptr;
+}
 
 // Writes the item where a segment is to stay, so that no segment is copied.
 void PathAhead::pull() {

@@ -27,6 +27,8 @@ class PathAhead {
     return number < segments_.end() ? std::get_if<Segment>(segments_[number].get()) : nullptr;
   }
   const Segment* front() { return at(first()); }
+  // The segment after that one. nullptr if the path rests before it.
+  const Segment* after(std::uint64_t number);
   // Removes the first segment after it was played.
   void pop() { segments_.drop_front(); }
 

@@ -3,6 +3,8 @@
 
 #include <cstdint>
 
+#include "passo/trajectory/phase.hpp"
+
 namespace passo {
 
 struct PathState {
@@ -10,6 +12,16 @@ struct PathState {
   double s = 0;               // mm along its curve
   double speed = 0;           // mm/s
   double acceleration = 0;    // mm/s²
+
+  // At the end of a move on that segment.
+  static PathState behind(const PlannedMove& move, std::uint64_t segment) {
+    const Phase& last = move.phases[move.phase_count - 1];
+    const bool ends = move.to >= move.segment.curve.length();
+    return {.segment = ends ? segment + 1 : segment,
+            .s = ends ? 0 : move.to.value(),
+            .speed = move.exit_velocity().value(),
+            .acceleration = last.acceleration_at(last.duration).value()};
+  }
 };
 
 }  // namespace passo

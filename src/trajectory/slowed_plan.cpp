@@ -37,14 +37,13 @@ double SlowedPlan::rate(double speed) const {
 }
 
 bool SlowedPlan::add(const PlannedMove& move, std::uint64_t segment) {
-  const double end = move.segment.curve.length().value();
   for (const Phase& phase : move) {
     if (!add(phase, segment)) return false;
   }
-  const bool ends = move.to.value() >= end;
-  pieces_.back().ends_segment = ends;
-  state_.segment = ends ? segment + 1 : segment;
-  state_.s = ends ? 0 : move.to.value();
+  const PathState planned = PathState::behind(move, segment);
+  pieces_.back().ends_segment = planned.segment > segment;
+  state_.segment = planned.segment;
+  state_.s = planned.s;
   return true;
 }
 

@@ -6,7 +6,6 @@
 
 #include "parabola.hpp"
 #include "phase_chain.hpp"
-#include "rest.hpp"
 
 namespace passo {
 namespace {
@@ -102,7 +101,8 @@ std::optional<SpeedChange> SpeedChange::plan(PathAhead& path, const PathState& s
       worst = change.excess(path, request);
       if (worst.speed > 1) return std::nullopt;
       if (worst.force <= 1 && worst.jolt <= 1) {
-        change.braking_way_ = change.exit_ * (change.exit_ / most.acceleration + most.acceleration / most.jerk) / 2;
+        const double exit = change.end_.speed;
+        change.braking_way_ = exit * (exit / most.acceleration + most.acceleration / most.jerk) / 2;
         return change;
       }
     }
@@ -154,12 +154,12 @@ bool SpeedChange::shape(const PathState& state, double exit, const Strength& str
   chain_ = {.speed = v, .acceleration = a};
   const double eased = v + a * std::abs(a) / (2 * j);
   if (eased <= exit || eased <= 0) {
-    exit_ = eased;
+    end_.speed = eased;
     if (!(eased > (exit > 0 ? least_left * v : 0))) return false;
     add(std::abs(a) / j, a > 0 ? -j : j);
     return true;
   }
-  exit_ = exit;
+  end_.speed = exit;
   const double sharpest_peak = std::sqrt(j * (v - exit) + a * a / 2);
   const double p = std::min(sharpest_peak, strength.acceleration);
   const bool too_strong = a < -p;  // braking is already too strong
@@ -175,9 +175,9 @@ bool SpeedChange::shape(const PathState& state, double exit, const Strength& str
 // Lays the phases on the path: cuts them where segments end.
 SpeedChange::Laid SpeedChange::lay(PathAhead& path, const PathState& state) {
   pieces_.clear();
-  segment_ = state.segment;
+  end_.segment = state.segment;
   double base = -state.s;  // the segment's start, counted as the phases are
-  const Segment* segment = path.at(segment_);
+  const Segment* segment = path.at(end_.segment);
   double end = base + segment->curve.length().value();
   for (Phase phase : phases_) {
     while (phase.position_at(phase.duration).value() > end + smallest_way) {
@@ -185,22 +185,21 @@ SpeedChange::Laid SpeedChange::lay(PathAhead& path, const PathState& state) {
       Phase before = phase;
       before.duration = Seconds(time);
       before.start = phase.start - Mm(base);
-      if (time > shortest_phase) pieces_.push_back({.segment = segment_, .phase = before});
-      if (pieces_.empty() || pieces_.back().segment != segment_) return Laid::blocked;
+      if (time > shortest_phase) pieces_.push_back({.segment = end_.segment, .phase = before});
+      if (pieces_.empty() || pieces_.back().segment != end_.segment) return Laid::blocked;
       pieces_.back().ends_segment = true;
       phase = phase.after(Seconds(time));
       phase.start = Mm(end);
-      const Segment* after = path.at(++segment_);
-      if (after == nullptr || rests_between(*segment, *after)) return Laid::blocked;
-      segment = after;
+      segment = path.after(end_.segment++);
+      if (segment == nullptr) return Laid::blocked;
       base = end;
       end = base + segment->curve.length().value();
     }
     if (!(phase.duration.value() > shortest_phase)) continue;
     phase.start = phase.start - Mm(base);
-    pieces_.push_back({.segment = segment_, .phase = phase});
+    pieces_.push_back({.segment = end_.segment, .phase = phase});
   }
-  s_ = chain_.at - base;
+  end_.s = chain_.at - base;
   const double least = std::min(smallest_rest, smallest_part * segment->curve.length().value());
   return end - chain_.at > least ? Laid::whole : Laid::near_an_end;
 }

@@ -44,14 +44,12 @@ class SpeedChange {
   [[nodiscard]] bool lead_by(const std::vector<Piece>& pieces, PathAhead& path, const Request& request);
 
   const std::vector<Piece>& pieces() const { return pieces_; }
-  double exit() const { return exit_; }
   // The time of the pieces from that one on.
   Seconds duration_from(std::size_t piece) const;
   // About the way to brake from the speed at its end.
   double braking_way() const { return braking_way_; }
-  // The place where it ends.
-  std::uint64_t segment() const { return segment_; }
-  double s() const { return s_; }
+  // Where it ends, without acceleration.
+  const PathState& end() const { return end_; }
 
  private:
   struct Strength {
@@ -95,10 +93,8 @@ class SpeedChange {
   std::vector<Phase> phases_;  // starts count from the start of the change
   std::vector<Piece> pieces_;  // the same phases, cut where segments end
   PhaseChain chain_;           // of the phases
-  double exit_ = 0;
+  PathState end_;
   double braking_way_ = 0;
-  std::uint64_t segment_ = 0;
-  double s_ = 0;
 };
 
 }  // namespace passo

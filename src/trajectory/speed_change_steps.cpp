@@ -4,7 +4,6 @@
 #include <cmath>
 #include <limits>
 
-#include "rest.hpp"
 #include "speed_change.hpp"
 
 namespace passo {
@@ -26,12 +25,9 @@ struct Walk {
   // The segment at that way. nullptr where the path ends or rests before.
   const Segment* at(PathAhead& path, double way) {
     const Segment* here = path.at(segment);
-    while (way > base + here->curve.length().value()) {
-      const Segment* after = path.at(segment + 1);
-      if (after == nullptr || rests_between(*here, *after)) return nullptr;
+    while (here != nullptr && way > base + here->curve.length().value()) {
       base += here->curve.length().value();
-      ++segment;
-      here = after;
+      here = path.after(segment++);
     }
     return here;
   }
@@ -91,15 +87,15 @@ bool SpeedChange::shape_in_steps(PathAhead& path, const PathState& state, const 
                                  const Strength& strength, const Strength& share) {
   phases_.clear();
   chain_ = {.speed = state.speed, .acceleration = state.acceleration};
-  exit_ = request.exit;
+  end_.speed = request.exit;
   const double rise = strength.acceleration / strength.jerk;
   const double step = rise / steps_a_rise;
   Walk walk{.segment = state.segment, .base = -state.s};
   for (int count = 0; count < most_steps; ++count) {
     const double v = chain_.speed;
     const double a = chain_.acceleration;
-    if (a < 0 && v + a * step - a * a / (2 * strength.jerk) <= exit_) {
-      const double left = v - exit_;
+    if (a < 0 && v + a * step - a * a / (2 * strength.jerk) <= end_.speed) {
+      const double left = v - end_.speed;
       if (!(left > 0)) return false;
       add(2 * left / -a, a * a / (2 * left));
       chain_.acceleration = 0;

@@ -61,4 +61,13 @@ void add_phase(double start, double length, double entry_squared, double exit_sq
   add_stretch(start, length, entry, std::sqrt(exit_squared), infinity, move);
 }
 
+void add_ride(const Segment& segment, const Cell& cell, double entry_squared, const Ride& ride,
+              std::vector<PlannedMove>& plan) {
+  const bool has_room = !plan.empty() && plan.back().phase_count < PlannedMove::most_phases &&
+                        plan.back().to < plan.back().segment.curve.length();
+  if (!has_room) plan.emplace_back().begin_on(segment);
+  add_phase(cell.start, ride.way, entry_squared, ride.exit, plan.back());
+  plan.back().to = Mm(ride.way < cell.length ? cell.start + ride.way : cell.end);
+}
+
 }  // namespace passo

@@ -1,6 +1,11 @@
 // Adds the phases of one cell to a move. The speeds at both ends of the cell are decided.
 #pragma once
 
+#include <vector>
+
+#include "cell.hpp"
+#include "speed_window.hpp"
+
 #include "passo/trajectory/phase.hpp"
 
 namespace passo {
@@ -19,6 +24,11 @@ void add_phases(const SpeedProfile& profile, PlannedMove& move);
 
 // A curved cell: one phase from one speed to the other. A cruise lengthens the phase before it instead.
 void add_phase(double start, double length, double entry_squared, double exit_squared, PlannedMove& move);
+
+// The same over the way that the motion goes in a cell of that segment. Makes another move where the last one is full,
+// or at the end of its segment.
+void add_ride(const Segment& segment, const Cell& cell, double entry_squared, const Ride& ride,
+              std::vector<PlannedMove>& plan);
 
 inline constexpr std::size_t most_phases_a_cell = 3;
 
