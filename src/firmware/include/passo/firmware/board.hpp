@@ -7,9 +7,8 @@
 //
 // Invariant: frames are taken in the order of their sequence numbers, each once; none is taken after a gap. Items are
 // executed in the order of the list. Time passes only between events: outputs are switched at the event before them,
-// and one segment follows another without delay. The motion sent ends at rest. Positions count from when the board was
-// switched on. They are updated at each segment's end, so that an event does no work for them. Portable: no heap, no
-// virtual call.
+// and one segment follows another without delay. The motion sent ends at rest. Positions count from the power-on, and
+// are updated at each segment's end, so that an event does no work for them. Portable: no heap, no virtual call.
 #pragma once
 
 #include <stddef.h>
