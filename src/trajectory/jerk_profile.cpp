@@ -23,6 +23,7 @@ constexpr double at_cap = 1 - 1e-9;
 constexpr double rises_to_settle = 1;  // times the rise of the acceleration from 0 to its limit
 constexpr double room_to_lift = 0.5;   // for squares of speeds: with that all limits have room
 constexpr int most_lifts = 8;
+constexpr std::size_t wider = 32;  // nodes on each side, where a part between steady nodes cannot be lifted
 constexpr int most_attempts = 6;
 constexpr double worth = 0.98;  // of the time: a further lift is worth it
 
@@ -342,9 +343,25 @@ bool JerkProfile::lift_between_steady() {
   for (Stretch part; part.last < n;) {
     part.first = part.last++;
     while (part.last < n && !steady_[part.last]) ++part.last;
-    if (part.last > part.first + 1 && !lift(part)) return false;
+    if (part.last > part.first + 1 && !lift_wider(part)) return false;
   }
   return true;
+}
+
+// Lifts a part between steady nodes. If that fails, steady nodes on both sides may be too near: the cap is reached
+// later than the guess says. Then the part takes in some of them.
+bool JerkProfile::lift_wider(Stretch& part) {
+  if (lift(part)) return true;
+  const auto loosen = [this](std::size_t node) {
+    steady_[node] = false;
+    states_[node] = {.speed = std::sqrt(guess_[node]), .acceleration = 0};
+  };
+  const std::size_t n = cells_.size();
+  const Stretch before = part;
+  while (part.first > 0 && before.first - part.first < wider && steady_[part.first - 1]) loosen(part.first--);
+  while (part.last < n && (part.last - before.last < wider || !steady_[part.last])) loosen(part.last++);
+  if (part.first == before.first && part.last == before.last) return false;
+  return lift(part);
 }
 
 // Finds a motion over all cells that keeps the limits.

@@ -99,6 +99,7 @@ class JerkProfile {
   void find_steady();
   double narrow_steady(std::size_t node, std::size_t cell, double left);
   bool lift_between_steady();
+  bool lift_wider(Stretch& part);
   bool find_motion();
   bool find_motion_from_slow();
   bool lift(const Stretch& stretch);
