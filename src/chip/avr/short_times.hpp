@@ -64,9 +64,9 @@ class RingTimes {
   static uint8_t most_ahead(uint16_t /*ticks*/) { return most_events; }
   // Room in the ring for which it is worth making some. Slow events leave time, and the loop may be away for long: what
   // is left must last while a status is answered.
-  static uint8_t least_room(uint8_t most_ahead) {
-    const uint8_t parts = reach_ == Reach::near ? 2 : reach_ == Reach::middle ? 3 : 6;
-    return static_cast<uint8_t>(most_ahead / parts);
+  static uint8_t least_room(uint8_t /*most_ahead*/) {
+    if (reach_ == Reach::near) return most_events / 2;
+    return reach_ == Reach::middle ? most_events / 3 : most_events / 6;
   }
   // Whether that many events have that much room.
   static bool fit(uint8_t events, uint8_t room) { return room >> (reach_ == Reach::near ? 0 : 1) >= events; }
