@@ -3,7 +3,7 @@
 // inside the tube (tube_optimum.hpp). Beside that optimum: the bound of `passo check --motion` for any path in the
 // tube.
 //
-// `tube_table circles` or `tube_table arcs` prints that table alone.
+// `tube_table circles`, `tube_table arcs` or `tube_table corners` prints that table alone.
 //
 // Prints figures and decides nothing.
 #include <cmath>
@@ -260,8 +260,9 @@ int main(int argc, char** argv) {
   const std::string_view only = argc > 1 ? argv[1] : "";
   if (only.empty() || only == "circles") print_circles();
   if (only.empty() || only == "arcs") print_beside_arcs();
-  if (!only.empty()) return 0;
-  print_corners();
-  print_bounds();
+  if (only.empty() || only == "corners") {
+    print_corners();
+    print_bounds();
+  }
   return 0;
 }
