@@ -80,6 +80,10 @@ std::size_t AccelerationCurve::line_at(double w) const {
   return static_cast<std::size_t>(std::upper_bound(ends_.begin(), ends_.end(), w) - ends_.begin());
 }
 
+std::span<const double> AccelerationCurve::bends_between(double low, double high) const {
+  return std::span(ends_).subspan(line_at(low), line_at(high) - line_at(low));
+}
+
 MmPerSecond2 AccelerationCurve::at(MmPerSecond speed) const {
   const double w = speed.value() * speed.value();
   return MmPerSecond2(lines_[line_at(w)].at(w));

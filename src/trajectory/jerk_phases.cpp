@@ -26,6 +26,22 @@ constexpr double unseen_change = 1e-6;
 constexpr double weak = 100;       // mm/s², where axes have no limit
 constexpr double no_speed = 1e-9;  // times the speed beside it: rounding
 
+// The largest share of a falling limit that is asked for where the limit goes on with its next line. There a demand may
+// have a peak, which no parabola through three places shows. `pace`, `force`: the axis's speed and acceleration there.
+double highest_at_bends(const LimitedAxis& axis, const std::array<double, 3>& pace,
+                        const std::array<double, 3>& force) {
+  double most = 0;
+  for (std::size_t at = 1; at < pace.size(); ++at) {
+    const double from = pace[at - 1] * pace[at - 1];
+    const double to = pace[at] * pace[at];
+    for (const double bend : axis.falling->bends_between(std::min(from, to), std::max(from, to))) {
+      const double asked = std::lerp(force[at - 1], force[at], (bend - from) / (to - from));
+      most = std::max(most, std::abs(asked) / axis.acceleration_at(bend));
+    }
+  }
+  return most;
+}
+
 // Raises `worst` to value / limit. The quotient is mostly below `worst`, and a product tells that sooner.
 void raise_to(double& worst, double value, double limit) {
   if (value > worst * limit) worst = value / limit;
@@ -152,9 +168,11 @@ void JerkProfile::look_at_half(std::size_t i, std::uint32_t axes, const NodeStat
         jolt[at] = slope * jerk + 3 * bend * v * a + third * v * v * v;
       }
       if (any_falls_ && axes_[k].falling != nullptr) {
+        const double at_bends = highest_at_bends(axes_[k], pace, force);
         for (std::size_t at = 0; at < places.size(); ++at) {
           force[at] *= axes_[k].acceleration / axes_[k].acceleration_at(pace[at] * pace[at]);
         }
+        raise_to(worst.force, at_bends, seen);
       }
       const double fastest_here = highest_through(pace);
       const double velocity = axes_[k].velocity * looked_at_velocity;

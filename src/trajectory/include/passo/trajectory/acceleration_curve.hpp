@@ -51,6 +51,8 @@ class AccelerationCurve {
   std::size_t line_at(double w) const;
   const std::vector<Line>& lines() const { return lines_; }
   MmPerSecond2 at(MmPerSecond speed) const;
+  // Those w from `low` to `high` at which the next line becomes the highest. lines() must not be empty.
+  std::span<const double> bends_between(double low, double high) const;
 
  private:
   void add(const Line& line, double w);
