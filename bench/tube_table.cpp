@@ -241,7 +241,7 @@ void print_corners() {
     for (int i = 0; i <= 8; ++i) corners.push_back({leg * ((i + 1) / 2), leg * (i / 2)});
     return corners;
   };
-  print("90 degrees, legs 1 mm", stairs(1), 150);
+  print("90 degrees, legs 1 mm", stairs(1), 600);
   print("90 degrees, legs 5 mm", stairs(5), 250);
   print("90 degrees, legs 20 mm", stairs(20), 400);
   const auto zigzag = [](double x, double y) {
@@ -251,7 +251,7 @@ void print_corners() {
   };
   print("zigzag 5 x 2 mm", zigzag(5, 2), 300);
   print("zigzag 5 x 0.5 mm", zigzag(5, 0.5), 300);
-  print("zigzag 0.5 x 0.1 mm", zigzag(0.5, 0.1), 150);
+  print("zigzag 0.5 x 0.1 mm", zigzag(0.5, 0.1), 600);
 }
 
 }  // namespace
