@@ -6,9 +6,10 @@ const right: JogWay = { direction: { x: 1 }, speed: 600, distance: 0 };
 const up: JogWay = { direction: { y: 1 }, speed: 600, distance: 0 };
 const step: JogWay = { direction: { x: 1 }, speed: 600, distance: 1 };
 
-// A daemon that does as it is told, at once.
+// A daemon that does as it is told, at once. Its status has a new version with each change.
 class Machine {
   said: string[] = [];
+  version = 7;
   hears = true;
   refuses = false;
   errors: unknown[] = [];
@@ -18,6 +19,7 @@ class Machine {
         this.said.push(`begin ${Object.keys(way.direction).join('')}${way.distance > 0 ? way.distance : ''}`);
         await Promise.resolve();
         if (this.refuses) throw new Error('no');
+        return ++this.version;
       },
       renew: () => {
         this.said.push('renew');
@@ -26,8 +28,11 @@ class Machine {
       stop: () => void this.said.push('stop'),
     },
     (error) => this.errors.push(error),
-    () => Date.now(),
   );
+  tells(state: string): void {
+    if (state !== 'Jog') ++this.version;
+    this.jogger.heard(state, this.version);
+  }
   async settle(): Promise<void> {
     await vi.advanceTimersByTimeAsync(0);
   }
@@ -41,14 +46,14 @@ describe('Jogger', () => {
     const m = new Machine();
     m.jogger.hold(right);
     await m.settle();
-    m.jogger.heard('Jog');
+    m.tells('Jog');
     await vi.advanceTimersByTimeAsync(renewEvery * 2);
     expect(m.said).toEqual(['begin x', 'renew', 'renew']);
     m.jogger.release();
     expect(m.said.at(-1)).toBe('stop');
     await vi.advanceTimersByTimeAsync(renewEvery * 5);
     expect(m.said.at(-1)).toBe('stop');
-    m.jogger.heard('Idle');
+    m.tells('Idle');
     expect(m.jogger.rests).toBe(true);
   });
 
@@ -62,8 +67,8 @@ describe('Jogger', () => {
 
   it('renews the lease while the answer is on its way, as long as the same is held', async () => {
     const said: string[] = [];
-    const line = { begin: () => new Promise<void>((done) => setTimeout(done, renewEvery * 9)), renew: () => said.push('renew') > 0, stop: () => void said.push('stop') };
-    const jogger = new Jogger(line, () => undefined, () => Date.now());
+    const line = { begin: () => new Promise<number>((done) => setTimeout(() => done(1), renewEvery * 9)), renew: () => said.push('renew') > 0, stop: () => void said.push('stop') };
+    const jogger = new Jogger(line, () => undefined);
     jogger.hold(right);
     await vi.advanceTimersByTimeAsync(renewEvery * 3);
     expect(said).toEqual(['renew', 'renew', 'renew']);
@@ -76,11 +81,11 @@ describe('Jogger', () => {
     const m = new Machine();
     m.jogger.hold(right);
     await m.settle();
-    m.jogger.heard('Jog');
+    m.tells('Jog');
     m.jogger.hold(up);
     expect(m.said).toEqual(['begin x', 'stop']);
-    m.jogger.heard('Jog');
-    m.jogger.heard('Idle');
+    m.tells('Jog');
+    m.tells('Idle');
     await m.settle();
     expect(m.said).toEqual(['begin x', 'stop', 'begin y']);
   });
@@ -89,8 +94,8 @@ describe('Jogger', () => {
     const m = new Machine();
     m.jogger.hold(right);
     await m.settle();
-    m.jogger.heard('Jog');
-    m.jogger.heard('Idle');
+    m.tells('Jog');
+    m.tells('Idle');
     await m.settle();
     expect(m.said).toEqual(['begin x']);
   });
@@ -111,13 +116,13 @@ describe('Jogger', () => {
     m.jogger.step(step);
     await m.settle();
     expect(m.said).toEqual(['begin x1']);
-    m.jogger.heard('Jog');
-    m.jogger.heard('Idle');
+    m.tells('Jog');
+    m.tells('Idle');
     await m.settle();
     expect(m.said).toEqual(['begin x1', 'begin x1']);
     m.jogger.release();
-    m.jogger.heard('Jog');
-    m.jogger.heard('Idle');
+    m.tells('Jog');
+    m.tells('Idle');
     await m.settle();
     expect(m.said).toEqual(['begin x1', 'begin x1', 'stop']);
   });
@@ -126,11 +131,43 @@ describe('Jogger', () => {
     const m = new Machine();
     m.jogger.step(step);
     await m.settle();
-    m.jogger.heard('Idle');
-    expect(m.jogger.rests).toBe(false);
-    await vi.advanceTimersByTimeAsync(300);
-    m.jogger.heard('Idle');
+    m.tells('Idle');
     expect(m.jogger.rests).toBe(true);
+  });
+
+  it('ends a short step whose end was told before its answer came', async () => {
+    const m = new Machine();
+    m.jogger.step(step);
+    m.jogger.heard('Idle', m.version + 2);
+    await m.settle();
+    expect(m.jogger.rests).toBe(true);
+  });
+
+  it('holds on while a busy computer tells what was before the motion', async () => {
+    const m = new Machine();
+    m.jogger.hold(right);
+    await m.settle();
+    for (let i = 0; i < 30; ++i) {
+      m.jogger.heard('Idle', m.version - 1);
+      await vi.advanceTimersByTimeAsync(renewEvery);
+    }
+    expect(m.said).toEqual(['begin x', ...Array<string>(30).fill('renew')]);
+    m.tells('Jog');
+    m.tells('Idle');
+    expect(m.jogger.rests).toBe(true);
+  });
+
+  it('brakes to the end before it goes another way, whatever is told late', async () => {
+    const m = new Machine();
+    m.jogger.hold(right);
+    await m.settle();
+    m.jogger.hold(up);
+    m.jogger.heard('Idle', m.version - 1);
+    await m.settle();
+    expect(m.said).toEqual(['begin x', 'stop']);
+    m.tells('Idle');
+    await m.settle();
+    expect(m.said).toEqual(['begin x', 'stop', 'begin y']);
   });
 
   it('tells a refusal once, and rests', async () => {

@@ -201,7 +201,7 @@ WebAnswer MachineApi::change(const FoundRoute& found, const WebRequest& request)
   const bool calls_off = path == "/api/v1/hold" || path == "/api/v1/stop";
   if (calls_off && job_.state == JobState::checking && !session_.busy()) {
     end_job(JobState::stopped, "it was called off before it began");
-    return json_answer(200, {{"ticket", 0}});
+    return ticket_answer(0);
   }
   if (path == "/api/v1/stop") {
     stopped_by_ = owner_.is_client(request.key) ? owner_.name() : "somebody who does not own the motion";
@@ -256,7 +256,12 @@ WebAnswer MachineApi::ask(Request wanted) {
   const auto ticket = session_.request(std::move(wanted));
   if (!ticket)
     return error_answer(status_of(ticket.error().code), code_of(ticket.error().code), ticket.error().message);
-  return json_answer(200, {{"ticket", *ticket}});
+  return ticket_answer(*ticket);
+}
+
+// A client tells by the version which statuses are older than its request.
+WebAnswer MachineApi::ticket_answer(Ticket ticket) const {
+  return json_answer(200, {{"ticket", ticket}, {"version", session_.status().version}});
 }
 
 // The machine rests, and nothing moves it without somebody's wish.

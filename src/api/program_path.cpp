@@ -126,30 +126,29 @@ void ProgramPath::add(const PathItem& item, const Frame& frame) {
     cut_off_ = true;
     return;
   }
-  const Coordinates zero = place_of(segment->work_zero);
   const std::uint32_t line = segment->source.line;
   const std::uint16_t speed = segment->rapid ? flag_rapid : speed_flags(segment->speed);
-  const auto flags = static_cast<std::uint16_t>(speed | tool_flags(zero[2], !segment->rapid));
+  const auto flags = static_cast<std::uint16_t>(speed | tool_flags(segment->work_zero[Axis::z], !segment->rapid));
   if (speed > flag_rapid) {
     speeds_.low = std::min(speeds_.low, segment->speed);
     speeds_.high = std::max(speeds_.high, segment->speed);
   }
-  const bool is_turned = frame.rotation_degrees() != 0;
-  const auto note = [&](const Point& point, const Coordinates& place) {
+  const auto note = [&](const Coordinates& place) {
     all_.add(place);
-    if (segment->rapid) return;
-    cuts_.add(place);
-    work_.add(is_turned ? place_of(frame.work_from_machine(point))
-                        : Coordinates{place[0] - zero[0], place[1] - zero[1], place[2] - zero[2]});
+    if (!segment->rapid) cuts_.add(place);
   };
-  const Point& start = segment->curve.start();
-  if (points_ == 0) add_point(place_of(start), line, flags);
-  note(start, place_of(start));
+  if (!segment->rapid) {
+    const Box box = frame.work_extents(segment->curve);
+    work_.add(place_of(box.low));
+    work_.add(place_of(box.high));
+  }
+  const Coordinates start = place_of(segment->curve.start());
+  if (points_ == 0) add_point(start, line, flags);
+  note(start);
   for (int i = 1; i <= chords; ++i) {
-    const Point point =
-        i == chords ? segment->curve.end() : segment->curve.at(segment->curve.length() * (double(i) / chords));
-    const Coordinates place = place_of(point);
-    note(point, place);
+    const Mm way = segment->curve.length() * (double(i) / chords);
+    const Coordinates place = place_of(i == chords ? segment->curve.end() : segment->curve.at(way));
+    note(place);
     add_point(place, line, flags);
   }
 }

@@ -339,6 +339,23 @@ void Curve::widen_by_turning_points(Box& box) const {
   }
 }
 
+Curve Curve::turned(double cosine, double sine) const {
+  const auto turn = [&](double& x, double& y) {
+    const double from = x;
+    x = from * cosine - y * sine;
+    y = from * sine + y * cosine;
+  };
+  Curve turned = *this;
+  for (Point* const of : {&turned.start_, &turned.end_, &turned.slope_, &turned.square_, &turned.cube_}) {
+    turn((*of)[Axis::x], (*of)[Axis::y]);
+  }
+  if (shape_ == Shape::arc && arc_.first == Axis::x && arc_.second == Axis::y) {
+    turn(turned.arc_.first_center, turned.arc_.second_center);
+    turned.arc_.start_angle += std::atan2(sine, cosine);
+  }
+  return turned;
+}
+
 Box Curve::extents_of_ends() const {
   Box box;
   for (std::size_t i = 0; i < axis_count; ++i) {

@@ -68,4 +68,16 @@ Point Frame::work_from_machine(const Point& machine) const {
   return point - g92_offset_;
 }
 
+Box Frame::work_extents(const Curve& curve) const {
+  Point zero = machine_from_work(Point());
+  Box box;
+  if (rotation_degrees_ == 0) {
+    box = curve.extents();
+  } else {
+    box = curve.turned(cosine_, -sine_).extents();
+    rotate(zero, cosine_, -sine_);
+  }
+  return {.low = box.low - zero, .high = box.high - zero};
+}
+
 }  // namespace passo

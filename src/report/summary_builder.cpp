@@ -5,6 +5,8 @@
 
 #include "axis_peaks.hpp"
 
+#include "passo/interpreter/frame.hpp"
+
 namespace passo {
 namespace {
 
@@ -57,8 +59,8 @@ class SummaryBuilder::Implementation {
       if (is_any_of<ArcFeed>(what)) ++sum_.arcs;
     } else if (const auto* units = std::get_if<SetLengthUnits>(&what)) {
       units_ = units->units;
-    } else if (const auto* offset = std::get_if<SetWorkOffset>(&what)) {
-      system_ = offset->system;
+    } else if (frame_.follow(operation)) {
+      return;
     } else if (const auto* tool = std::get_if<SetToolNumber>(&what)) {
       if (sum_.tools.empty()) first_tool_ = tool->tool;
     } else if (const auto* message = std::get_if<Message>(&what)) {
@@ -77,15 +79,15 @@ class SummaryBuilder::Implementation {
     }
     if (probes_) return;
     const auto& segment = std::get<Segment>(item);
-    const Box box = segment.curve.extents();
-    WorkExtents& work = work_[system_ < work_.size() ? system_ : 0];
-    work.all.add(box, segment.work_zero);
+    const Box box = frame_.work_extents(segment.curve);
+    const auto system = static_cast<std::size_t>(frame_.work_system());
+    WorkExtents& work = work_[system < work_.size() ? system : 0];
+    work.all.add(box.low, box.high);
     if (segment.rapid) return;
-    work.cutting.add(box, segment.work_zero);
+    work.cutting.add(box.low, box.high);
     ToolSummary& tool = tool_of(path_tool_);
     widen(tool.feed, segment.speed.value());
-    const double depth = box.low[Axis::z] - segment.work_zero[Axis::z];
-    tool.depth = std::min(tool.depth.value_or(depth), depth);
+    tool.depth = std::min(tool.depth.value_or(box.low[Axis::z]), box.low[Axis::z]);
   }
 
   void watch(const PlannedMove& move, const Point& machine_minus_work) {
@@ -177,7 +179,7 @@ class SummaryBuilder::Implementation {
 
   // As the program is read:
   LengthUnits units_ = LengthUnits::mm;
-  std::size_t system_ = 1;
+  Frame frame_;
   std::int32_t first_tool_ = 0;  // M61 before the first move
   // On the path, and in the motion, which comes later:
   bool probes_ = false;

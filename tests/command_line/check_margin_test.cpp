@@ -23,6 +23,12 @@ std::string with_motor(double acceleration, const std::string& more = "") {
          more;
 }
 
+std::string axis(const std::string& name) {
+  return "[axis." + name +
+         "]\nsteps_per_turn = 200\nmicrosteps = 8\nscrew_pitch_mm = 4\ntravel_mm = [-100, 100]\n"
+         "max_velocity_mm_s = 50\nmax_acceleration_mm_s2 = 500\n";
+}
+
 class CheckMargin : public passo::test::CommandLine {
  protected:
   Outcome check(double acceleration, const std::string& options = "", const std::string& more = "") const {
@@ -61,6 +67,19 @@ TEST_F(CheckMargin, is_doubtful_where_only_a_strong_motor_does_it_and_passes) {
   EXPECT_LT(worst["safe_acceleration"], 1'000);
   EXPECT_NEAR(json["dwell_s"], 2, 1e-9);
   EXPECT_EQ(json["axes"]["X"]["extents"][1], 30);
+}
+
+// The extents on the machine are wider than those of the work.
+TEST_F(CheckMargin, tells_a_turned_work_along_its_own_axes) {
+  const std::string machine = "name = \"turned\"\n[board]\nclock_hz = 16_000_000\nmax_event_rate_hz = 100_000\n" +
+                              axis("X") + axis("Y") + axis("Z");
+  const std::string program = write("p.ngc", "G21 G90 G61 G10 L2 P1 X7 R30\nG0 X0 Y0\nG1 X40 F600\nY20\nX0\nY0\nM2\n") +
+                              " -m " + write("m.toml", machine);
+  EXPECT_THAT(passo("check " + program).out,
+              HasSubstr("\nG54             X 0.000 to 40.000 mm, Y 0.000 to 20.000 mm, Z 0.000 to 0.000 mm at feed\n"));
+  const auto json = nlohmann::json::parse(passo("check --json " + program).out);
+  EXPECT_NEAR(json["work"]["G54"]["Y"][1], 20, 1e-9);
+  EXPECT_NEAR(json["axes"]["Y"]["extents"][1], 40 * 0.5 + 20 * std::sqrt(0.75), 1e-9);
 }
 
 TEST_F(CheckMargin, is_drawn_along_the_path) {

@@ -208,6 +208,19 @@ TEST(Api, a_job_that_is_about_to_begin_is_called_off_by_a_hold_and_by_a_stop) {
   }
 }
 
+// So a client that hears late never takes the rest before a motion for its end.
+TEST(Api, a_motion_begins_with_a_version_of_the_status) {
+  ApiRun run;
+  run.own();
+  const Json before = run.get("/status");
+  const Json taken = run.post("/jog", R"({"direction": {"x": 1}, "speed": 600, "distance": 1, "lease": 5})");
+  EXPECT_GT(taken["version"], before["version"]);
+  EXPECT_EQ(run.get("/status")["state"], "Jog");
+  EXPECT_EQ(run.get("/status")["version"], taken["version"]);
+  ASSERT_TRUE(run.turn_until_state("Idle"));
+  EXPECT_GT(run.get("/status")["version"], taken["version"]);
+}
+
 TEST(Api, a_jog_ends_with_its_lease) {
   ApiRun run;
   run.own();

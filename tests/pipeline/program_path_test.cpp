@@ -93,6 +93,15 @@ TEST(ProgramPath, tells_the_box_along_the_axes_of_a_turned_work) {
       << "the box on the machine is larger";
 }
 
+TEST(ProgramPath, tells_how_far_an_arc_bulges_along_the_axes_of_a_turned_work) {
+  ProgramStore store;
+  store.set_offsets({{5220, 1}, {5221, 7}, {5230, 30}}, {});
+  const std::uint64_t id = store.add("turned", Dialect::linuxcnc, "G1 X40 Y0 F600\nG3 X0 Y0 I-20\nM2\n")->id;
+  store.check(id, MachineDescription(), Point());
+  for (int i = 0; i < 100; ++i) store.turn();
+  EXPECT_NEAR(store.find(id)->path_points.work().high[1], 20, 1e-9) << "not the highest of its chords";
+}
+
 TEST(ProgramPath, tells_the_programmed_speed_of_each_feed) {
   ProgramPath path;
   for (const double speed : {0.01, 1.0, 25.0, 5000.0}) {

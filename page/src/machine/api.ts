@@ -16,6 +16,12 @@ export interface Job {
   history: number;
 }
 
+// What a request is answered that the machine has taken: statuses of a smaller version are from before it.
+export interface Taken {
+  ticket: number;
+  version: number;
+}
+
 export interface Status {
   version: number;
   time: number;

@@ -5,7 +5,7 @@ import { notify, wordsOfError } from '../core/notices';
 import { path } from '../core/route';
 import { isTyping } from '../core/typing';
 import { asked } from '../core/question';
-import { post } from './api';
+import { post, type Taken } from './api';
 import { connection, machine, status, tell } from './connection';
 import { Jogger, type JogWay } from './jogger';
 import { beOwner, mayMove } from './owner';
@@ -21,7 +21,7 @@ export const jogger = new Jogger(
   {
     begin: async (way, lease) => {
       await beOwner();
-      await post('/jog', { ...way, lease });
+      return (await post<Taken>('/jog', { ...way, lease })).version;
     },
     renew: () => tell('/jog/renew'),
     stop: () => {
@@ -145,7 +145,7 @@ export function followJog(): void {
   document.addEventListener('visibilitychange', focus);
   windowHasFocus.value = document.hasFocus();
   effect(() => {
-    if (status.value !== null) jogger.heard(status.value.state);
+    if (status.value !== null) jogger.heard(status.value.state, status.value.version);
   });
   effect(() => {
     if (path.value !== 'jog' || connection.value !== 'live') endAll();

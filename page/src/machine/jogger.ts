@@ -9,7 +9,7 @@ export interface JogWay {
 }
 
 export interface JogLine {
-  begin: (way: JogWay, lease: number) => Promise<void>;
+  begin: (way: JogWay, lease: number) => Promise<number>; // the version of the status with which the motion began
   renew: () => boolean; // false: nobody hears
   stop: () => void;
 }
@@ -17,8 +17,6 @@ export interface JogLine {
 export const lease = 0.25; // s
 export const renewEvery = 70; // ms
 const mostSteps = 5; // that wait
-// A short step may begin and end between two messages of the status.
-const unseenFor = 250; // ms
 
 type Phase = 'rest' | 'asking' | 'moving' | 'braking';
 
@@ -29,14 +27,13 @@ export class Jogger {
   private phase: Phase = 'rest';
   private current: JogWay | null = null;
   private cancelled = false;
-  private sawJog = false;
-  private begunAt = 0;
+  private begunWith = 0; // a status of a smaller version is from before the motion
+  private newest = { state: '', version: 0 };
   private timer: ReturnType<typeof setInterval> | undefined;
 
   constructor(
     private readonly line: JogLine,
     private readonly refused: (error: unknown) => void,
-    private readonly now: () => number = () => performance.now(),
   ) {}
 
   // What moves, or is about to.
@@ -69,14 +66,12 @@ export class Jogger {
     this.kick();
   }
 
-  // The daemon tells the machine's state.
-  heard(state: string): void {
+  // The daemon tells the machine's state. A busy computer may tell late what was before the motion, and a short step may
+  // begin and end between two messages.
+  heard(state: string, version: number): void {
+    this.newest = { state, version };
     if (this.phase !== 'moving' && this.phase !== 'braking') return;
-    if (state === 'Jog') {
-      this.sawJog = true;
-      return;
-    }
-    if (!this.sawJog && this.now() - this.begunAt < unseenFor) return;
+    if (state === 'Jog' || version < this.begunWith) return;
     // A hold that ended by itself, at the end of the travel, does not begin again.
     if (this.want === this.current) this.want = null;
     this.rest();
@@ -97,7 +92,7 @@ export class Jogger {
 
   private async begin(way: JogWay): Promise<void> {
     try {
-      await this.line.begin(way, lease);
+      this.begunWith = await this.line.begin(way, lease);
     } catch (error) {
       this.want = null;
       this.steps = [];
@@ -106,10 +101,9 @@ export class Jogger {
       return;
     }
     this.phase = 'moving';
-    this.sawJog = false;
-    this.begunAt = this.now();
     if (this.cancelled) this.brake();
     else this.kick();
+    this.heard(this.newest.state, this.newest.version); // the end may have been told before the answer came
   }
 
   private brake(): void {

@@ -34,6 +34,18 @@ std::string limit_words(const SpeedShare& share) {
   return words + fmt::format(", {:.4g} {}/s{}", share.limit, unit, velocity ? "" : jerk ? "\u00B3" : "\u00B2");
 }
 
+std::string feed_words(const WorkSummary& work, const RunSummary& summary) {
+  const auto rounded = [](double value) { return std::round(value * 1000) / 1000 + 0.0; };  // no -0
+  std::string words;
+  for (std::size_t i = 0; i < summary.axes.size(); ++i) {
+    if (!work.cutting[i]) continue;
+    const Axis axis = summary.axes[i].axis;
+    words += fmt::format("{}{} {:.3f} to {:.3f} {}", words.empty() ? "" : ", ", letter_of(axis),
+                         rounded(work.cutting[i]->low), rounded(work.cutting[i]->high), is_rotary(axis) ? "deg" : "mm");
+  }
+  return words;
+}
+
 namespace {
 
 std::string axis_words(const AxisSummary& moved, const AxisDescription& axis) {
@@ -176,6 +188,19 @@ nlohmann::ordered_json as_json(const MarginSpot& spot) {
   return json;
 }
 
+nlohmann::ordered_json work_json(const RunSummary& summary) {
+  nlohmann::ordered_json systems = nlohmann::ordered_json::object();
+  for (const WorkSummary& work : summary.work) {
+    nlohmann::ordered_json axes = nlohmann::ordered_json::object();
+    for (std::size_t i = 0; i < summary.axes.size(); ++i) {
+      if (!work.cutting[i]) continue;
+      axes[std::string(1, letter_of(summary.axes[i].axis))] = {work.cutting[i]->low, work.cutting[i]->high};
+    }
+    systems[name_of_system(work.system)] = axes;
+  }
+  return systems;
+}
+
 }  // namespace
 
 // The track wants the load of each phase, and the survey tells that of the last move. So the move comes in pieces.
@@ -271,6 +296,10 @@ std::string to_text(const CheckPage& page, const MachineDescription& machine) {
   text += "\n";
   if (page.line) text += to_text(*page.line);
   for (const AxisSummary& axis : summary.axes) text += axis_words(axis, description_of(machine, axis.axis));
+  for (const WorkSummary& work : summary.work) {
+    const std::string feeds = feed_words(work, summary);
+    if (!feeds.empty()) text += fmt::format("{:16}{} at feed\n", name_of_system(work.system), feeds);
+  }
   return text + speed_words(page) + motor_words(page);
 }
 
@@ -289,6 +318,7 @@ void add_to(nlohmann::ordered_json& json, const CheckPage& page, const MachineDe
     axes[std::string(1, letter_of(axis.axis))] = own;
   }
   json["axes"] = axes;
+  json["work"] = work_json(page.summary);
   json["speed"] = as_json(page.speed);
   json["margin"] = nullptr;
   if (!page.knows_motors) return;

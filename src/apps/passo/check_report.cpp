@@ -117,7 +117,12 @@ std::string axes(const CheckReport& report) {
                fmt::format("{:.4g}{}", axis.acceleration.value(),
                            share_of(moved.peak_acceleration.value(), axis.acceleration.value()))});
   }
-  return "<h2>Axes</h2>\n" + table.html();
+  std::string html = "<h2>Axes</h2>\n" + table.html();
+  for (const WorkSummary& work : report.page->summary.work) {
+    const std::string feeds = feed_words(work, report.page->summary);
+    if (!feeds.empty()) html += fmt::format("<p>{}: {} at feed</p>\n", name_of_system(work.system), feeds);
+  }
+  return html;
 }
 
 std::string bounds(const CheckPage& page) {

@@ -50,17 +50,21 @@ void ServeDaemon::stop() {
   hear_changes();
 }
 
+bool ServeDaemon::works() const {
+  return session_.busy() || session_.state() == MachineState::offline;
+}
+
+// While the machine is busy, its board is waited for in turn(). A look that may not sleep would only cost: each socket
+// of each client is looked at again.
 void ServeDaemon::wait() {
+  if (works() && machine_.has_board()) return;
+  Seconds most = works() ? busy_look : idle_look;
+  if (web_ != nullptr) most = web_->most_wait(most);
+  if (most == Seconds(0)) return;
   std::vector<pollfd> all;
   for (const auto& line : lines_) line->add_to(all, may_read(*line));
-  const bool busy = session_.busy() || session_.state() == MachineState::offline;
-  Seconds most = busy ? busy_look : idle_look;
-  if (web_ != nullptr) {
-    web_->add_to(all);
-    most = web_->most_wait(most);
-  }
-  const auto milliseconds = static_cast<int>(machine_.has_board() && busy ? 0 : most.value() * 1e3);
-  static_cast<void>(poll(all.data(), all.size(), milliseconds));
+  if (web_ != nullptr) web_->add_to(all);
+  static_cast<void>(poll(all.data(), all.size(), static_cast<int>(most.value() * 1e3)));
 }
 
 // One sender at a time; others are told that they have to wait.
@@ -112,7 +116,7 @@ void ServeDaemon::hear_changes() {
 
 void ServeDaemon::turn() {
   if (machine_.has_board()) {
-    session_.turn(session_.busy() ? busy_look : Seconds(0));
+    session_.turn(works() ? busy_look : Seconds(0));
     return hear_changes();
   }
   for (int turns = 0; turns < most_turns; ++turns) {

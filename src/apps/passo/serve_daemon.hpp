@@ -54,6 +54,7 @@ class ServeDaemon {
   void stop();
 
  private:
+  bool works() const;  // or gets ready
   void wait();
   bool may_read(const SenderLine& line) const;
   void attend(SenderLine& line);

@@ -10,6 +10,7 @@
 #include "motion.hpp"
 #include <nlohmann/json.hpp>
 
+#include "passo/interpreter/frame.hpp"
 #include "passo/report/line_load.hpp"
 #include "passo/report/summary_builder.hpp"
 
@@ -25,9 +26,7 @@ Operation of(const OperationKind& what, std::uint32_t line = 0) {
 // Shows the builder the motion of a move, and the program's move that it comes from.
 void watch(SummaryBuilder& builder, const PlannedMove& move, const OperationKind& what, const Point& zero) {
   builder.watch_operation(of(what));
-  Segment segment = move.segment;
-  segment.work_zero = zero;
-  builder.watch_path(segment);
+  builder.watch_path(move.segment);
   builder.watch(move, zero);
 }
 
@@ -37,6 +36,7 @@ RunSummary small_job(LengthUnits units = LengthUnits::mm) {
   const Point offset = at(10, 20);
   builder.watch_operation(of(operation::SetLengthUnits{units}));
   builder.watch_operation(of(operation::Message{"clamp the work"}, 3));
+  builder.watch_operation(of(operation::SetWorkOffset{.system = 1, .offset = offset}));
   watch(builder, rapid(at(0, 0, 5), at(10, 20, 5)), operation::StraightTraverse{}, offset);
   watch(builder, feed(at(10, 20, 5), at(10, 20, -1)), operation::StraightFeed{}, offset);
   builder.watch(dwell(0.5), offset);
@@ -197,6 +197,35 @@ TEST(SummaryBuilder, tells_work_systems_apart_and_leaves_probe_moves_out) {
   EXPECT_EQ(summary.work[0].cutting[0]->high, 10);
   EXPECT_EQ(summary.work[1].system, 7);
   EXPECT_EQ(summary.work[1].cutting[0]->high, 30);
+}
+
+// A square of 40 by 20 and a half circle beside it, on a work that lies at 30 degrees and at X 7 on the machine.
+TEST(SummaryBuilder, tells_a_turned_work_along_its_own_axes) {
+  SummaryBuilder builder({Axis::x, Axis::y, Axis::z});
+  const Operation set_offset = of(operation::SetWorkOffset{.system = 3, .offset = at(7, 0, 5)});
+  const Operation turn = of(operation::SetRotation{30});
+  Frame frame;
+  for (const Operation& one : {set_offset, turn}) {
+    builder.watch_operation(one);
+    frame.follow(one);
+  }
+  const auto cut = [&](const Curve& curve) { builder.watch_path(play(curve, 10, 100).segment); };
+  const auto place = [&](double x, double y) { return frame.machine_from_work(at(x, y, -1)); };
+  cut(Curve::line(place(0, 0), place(40, 0)));
+  cut(Curve::line(place(40, 0), place(40, 20)));
+  const Point center = place(20, 20);
+  cut(Curve::arc(place(40, 20), place(0, 20), Axis::x, Axis::y, center[Axis::x], center[Axis::y], pi));
+  const RunSummary summary = builder.summary();
+  ASSERT_EQ(summary.work.size(), 1U);
+  EXPECT_EQ(summary.work[0].system, 3);
+  const auto expect = [&](std::size_t axis, double low, double high) {
+    EXPECT_NEAR(summary.work[0].cutting[axis]->low, low, 1e-9);
+    EXPECT_NEAR(summary.work[0].cutting[axis]->high, high, 1e-9);
+  };
+  expect(0, 0, 40);
+  expect(1, 0, 40);
+  expect(2, -1, -1);
+  EXPECT_NEAR(*summary.tools[0].depth, -1, 1e-9);
 }
 
 TEST(SummaryBuilder, extents_know_how_far_an_arc_bulges_in_both_frames) {

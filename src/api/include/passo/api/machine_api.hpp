@@ -149,6 +149,7 @@ class MachineApi final : public WebHandler {
   WebAnswer change_queue(const FoundRoute& found, const WebRequest& request);
   WebAnswer take_ownership(const WebRequest& request);
   WebAnswer ask(Request wanted);
+  WebAnswer ticket_answer(Ticket ticket) const;
   WebAnswer set_work_zero(std::string_view body);
   WebAnswer begin_probing(std::string_view body);
   WebAnswer take_height_map(const StoredProgram& program, const WebRequest& request);

@@ -40,7 +40,7 @@ class ProgramPath {
     double diagonal() const;
   };
 
-  // Arcs become chords that leave the arc by less than `chord_error`. `frame` is the one in force, where it is turned.
+  // Arcs become chords that leave the arc by less than `chord_error`. `frame` is the one in force.
   void add(const PathItem& item, const Frame& frame = {});
   // No more items come.
   void finish();
@@ -65,7 +65,7 @@ class ProgramPath {
   };
   // The tools that are used, by their first motion. Beyond most_tools, the last one stands for all others.
   const std::vector<UsedTool>& tools() const { return tools_; }
-  const Range& work() const { return work_; }  // feeds alone, in the work coordinates that were in force
+  const Range& work() const { return work_; }  // feeds alone, along the axes of the work that were in force
   std::size_t bytes() const { return points_ * (sizeof(Packed) + sizeof(std::uint32_t)); }
 
   // A chunk as docs/api/openapi.json describes it, little-endian. `chunk` < chunks(), `level` < levels.

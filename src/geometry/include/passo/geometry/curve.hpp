@@ -51,6 +51,9 @@ class Curve {
   // The piece from one s to another as a curve of its own, with the same places, tangents and second derivatives. Its
   // ends are at(from) and at(to), bit for bit.
   Curve part(Mm from, Mm to) const;
+  // The curve turned about Z at the origin, by the angle of this cosine and sine. The plane of an arc is XY, or has
+  // neither X nor Y.
+  Curve turned(double cosine, double sine) const;
 
   Shape shape() const { return shape_; }
   const ArcData& arc_data() const { return arc_; }

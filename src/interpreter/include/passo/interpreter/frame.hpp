@@ -7,6 +7,7 @@
 #pragma once
 
 #include "passo/geometry/axes.hpp"
+#include "passo/geometry/curve.hpp"
 #include "passo/interpreter/operation.hpp"
 
 namespace passo {
@@ -18,6 +19,8 @@ class Frame {
 
   Point machine_from_work(const Point& work) const;
   Point work_from_machine(const Point& machine) const;
+  // How far a curve of the machine reaches along the axes of the work, from the zero of the work.
+  Box work_extents(const Curve& curve) const;
 
   const Point& work_offset() const { return work_offset_; }
   const Point& g92_offset() const { return g92_offset_; }

@@ -25,7 +25,7 @@ struct AxisSummary {
   Axis axis = Axis::x;
   // The extents of the path, rapids included. Empty if nothing moved.
   std::optional<Range> machine_extents;
-  std::optional<Range> work_extents;
+  std::optional<Range> work_extents;          // along the machine's axes too, but from the work's zero
   std::optional<Range> cutting_extents = {};  // machine coordinates, of the moves at feed alone
   MmPerSecond peak_speed{0};
   MmPerSecond2 peak_acceleration{0};
@@ -35,8 +35,8 @@ struct AxisSummary {
   double position = 0;  // machine coordinates at the end, from the counted steps
 };
 
-// How far the program goes in one work system, in work coordinates, as programmed. Probe moves do not count, because
-// they end where they touch. The ranges are of the machine's axes, in the summary's order.
+// How far the program goes in one work system, along the axes of the work, as programmed. Probe moves do not count,
+// because they end where they touch. The ranges come in the summary's order of axes.
 struct WorkSummary {
   std::uint8_t system = 1;  // 1 = G54 … 9 = G59.3
   std::vector<std::optional<Range>> extents = {};

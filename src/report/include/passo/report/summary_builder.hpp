@@ -23,8 +23,8 @@ class SummaryBuilder {
   void watch_operation(const Operation& operation);
   // The path as the program means it, before smoothing: work extents, feeds and depths.
   void watch_path(const PathItem& item);
-  // The motion: times, distances, machine extents and peaks. `machine_minus_work` is the work frame at this item, as an
-  // offset. (A frame that is turned about Z has no such offset; the work extents are then those of its offset alone.)
+  // The motion: times, distances, machine extents and peaks. `machine_minus_work` is where the work's zero lies at this
+  // item: the work extents of the motion are told from it, along the machine's axes.
   void watch(const MotionItem& item, const Point& machine_minus_work);
 
   // The summary of the motion. The caller adds names and board.
