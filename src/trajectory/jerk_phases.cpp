@@ -130,7 +130,7 @@ std::uint32_t JerkProfile::axes_near_limits(std::size_t i, const NodeState& most
     const double slope = std::max(std::abs(shape->slope_in), std::abs(shape->slope_out)) + length * length / 8 * third;
     const double force = slope * most.acceleration + bend * x;
     const double jolt = slope * jerk + most.speed * (3 * bend * most.acceleration + third * x);
-    const bool is_far = axes_[k].falling == nullptr && slope * most.speed < far_below * axes_[k].velocity &&
+    const bool is_far = !axes_[k].falls_at(slope * slope * x) && slope * most.speed < far_below * axes_[k].velocity &&
                         force < far_below * axes_[k].acceleration && jolt < far_below * axes_[k].jerk;
     if (!is_far) near |= std::uint32_t{1} << k;
   }
