@@ -168,11 +168,10 @@ void JerkProfile::look_at_half(std::size_t i, std::uint32_t axes, const NodeStat
         jolt[at] = slope * jerk + 3 * bend * v * a + third * v * v * v;
       }
       if (any_falls_ && axes_[k].falling != nullptr) {
-        const double at_bends = highest_at_bends(axes_[k], pace, force);
+        raise_to(worst.force, highest_at_bends(axes_[k], pace, force), seen);
         for (std::size_t at = 0; at < places.size(); ++at) {
           force[at] *= axes_[k].acceleration / axes_[k].acceleration_at(pace[at] * pace[at]);
         }
-        raise_to(worst.force, at_bends, seen);
       }
       const double fastest_here = highest_through(pace);
       const double velocity = axes_[k].velocity * looked_at_velocity;

@@ -12,21 +12,21 @@ using passo::test::Outcome;
 using testing::HasSubstr;
 using testing::Not;
 
-std::string with_motor(double acceleration, const std::string& more = "") {
-  return "name = \"checked\"\n[board]\nclock_hz = 16_000_000\nmax_event_rate_hz = 100_000\n"
-         "[axis.X]\nsteps_per_turn = 200\nmicrosteps = 8\nscrew_pitch_mm = 4\ntravel_mm = [-100, 100]\n"
+const std::string board = "name = \"checked\"\n[board]\nclock_hz = 16_000_000\nmax_event_rate_hz = 100_000\n";
+
+std::string axis(const std::string& name, double acceleration) {
+  return "[axis." + name +
+         "]\nsteps_per_turn = 200\nmicrosteps = 8\nscrew_pitch_mm = 4\ntravel_mm = [-100, 100]\n"
          "max_velocity_mm_s = 50\nmax_acceleration_mm_s2 = " +
-         std::to_string(acceleration) +
-         "\n[axis.X.torque]\nlimits_motion = false\nholding_torque_nm = 0.45\nrated_current_a = 1.7\n"
+         std::to_string(acceleration) + "\n";
+}
+
+std::string with_motor(double acceleration, const std::string& more = "") {
+  return board + axis("X", acceleration) +
+         "[axis.X.torque]\nlimits_motion = false\nholding_torque_nm = 0.45\nrated_current_a = 1.7\n"
          "resistance_ohm = 1.5\ninductance_mh = 2.8\nsupply_v = 24\nrotor_inertia_g_cm2 = 68\nload_mass_kg = 200\n"
          "friction_n = 100\n" +
          more;
-}
-
-std::string axis(const std::string& name) {
-  return "[axis." + name +
-         "]\nsteps_per_turn = 200\nmicrosteps = 8\nscrew_pitch_mm = 4\ntravel_mm = [-100, 100]\n"
-         "max_velocity_mm_s = 50\nmax_acceleration_mm_s2 = 500\n";
 }
 
 class CheckMargin : public passo::test::CommandLine {
@@ -71,8 +71,7 @@ TEST_F(CheckMargin, is_doubtful_where_only_a_strong_motor_does_it_and_passes) {
 
 // The extents on the machine are wider than those of the work.
 TEST_F(CheckMargin, tells_a_turned_work_along_its_own_axes) {
-  const std::string machine = "name = \"turned\"\n[board]\nclock_hz = 16_000_000\nmax_event_rate_hz = 100_000\n" +
-                              axis("X") + axis("Y") + axis("Z");
+  const std::string machine = board + axis("X", 500) + axis("Y", 500) + axis("Z", 500);
   const std::string program = write("p.ngc", "G21 G90 G61 G10 L2 P1 X7 R30\nG0 X0 Y0\nG1 X40 F600\nY20\nX0\nY0\nM2\n") +
                               " -m " + write("m.toml", machine);
   EXPECT_THAT(passo("check " + program).out,
