@@ -20,9 +20,9 @@ constexpr double rounding = 1e-9;
 // A cell in which the square of the speed can change by less than this share of itself is short enough: in two halves
 // it would gain a quarter of the share at most.
 constexpr double least_change = 0.04;
-// In mm. A shorter rest of a cell is rounding: places of up to ten metres are 1e-12 apart, and no machine steps so
-// finely.
-constexpr double smallest_rest = 1e-9;
+// Of what a stop leaves of a cell, which is a micrometre. A shorter rest of a cell is rounding: places of up to ten
+// metres are 1e-12 apart, and no machine steps so finely.
+constexpr double rounding_of_rest = 1e-3;
 // In cells. Any size from 32 to 256 costs the same instructions within 0.1 % on chords; it doubles where that is too
 // short for braking. A smaller window lets the first move come sooner.
 constexpr std::size_t first_window = 64;
@@ -106,7 +106,7 @@ class AccelerationLaw final : public SpeedLaw {
   // as in what a hold has left of a corner, a single cell would take for ever.
   bool is_front_too_long() const {
     const Cell& cell = cells_[0].cell;
-    if (cell.straight || cell.length < smallest_rest) return false;
+    if (cell.straight || cell.length < rounding_of_rest * cell.smallest_rest) return false;
     const double exit = exit_of_front();
     if (2 * cell.acceleration * cell.length < least_change * (speed_squared_ + exit)) return false;
     return is_too_long(cells_.demands(0), cells_.falling(0),
@@ -266,7 +266,8 @@ class AccelerationLaw final : public SpeedLaw {
       // The feed was lowered: slow down at once, not only at the cell's end.
       const double too_fast = speed_squared_ - cells_[0].top_squared;
       const double slowing = cell.straight ? too_fast / (2 * cell.acceleration) : 0;
-      if (too_fast > rounding * speed_squared_ && slowing > smallest_cell && slowing + smallest_cell < cell.length) {
+      if (too_fast > rounding * speed_squared_ && slowing > cell.smallest_rest &&
+          slowing + cell.smallest_rest < cell.length) {
         add_phase(cell.start, slowing, speed_squared_, cells_[0].top_squared, move);
         complete = go({slowing, cells_[0].top_squared}, move);
         continue;
@@ -312,11 +313,12 @@ class AccelerationLaw final : public SpeedLaw {
     const Segment& segment = move.segment;
     const Cell& cell = cells_[0].cell;
     const double cell_end = cell.end;
+    const double least_rest = rounding_of_rest * cell.smallest_rest;
     move.to = Mm(ride.way < cell.length ? cell.start + ride.way : cell_end);
     speed_squared_ = ride.exit;
-    const std::optional<PlannedMove> rest = shorten(move, wishes_.longest_move, Mm(smallest_rest));
+    const std::optional<PlannedMove> rest = shorten(move, wishes_.longest_move, Mm(least_rest));
     if (rest) speed_squared_ = squared(rest->begin()->velocity.value());
-    if (move.to.value() < cell_end - smallest_rest) {
+    if (move.to.value() < cell_end - least_rest) {
       // The exit of the rest of the cell is decided as it was for the whole.
       cut_front_again(segment, move.to.value(), cell_end, ride.exit);
       return true;

@@ -65,6 +65,10 @@ void lower(double& top, double limit, double part) {
   if (!(top * part < limit)) top = std::min(top, limit / part);
 }
 
+double smallest_rest(double top) {
+  return std::min(smallest_cell, shortest_cell * top);
+}
+
 // Writes member by member. A cell built elsewhere and copied at once would have to wait until its bytes are written.
 void fill(double from, double to, Cell& cell) {
   cell.start = from;
@@ -271,7 +275,9 @@ void CellCutter::cut_straight(const Segment& segment, const Axes& axes, double f
   Cell& cell = place.cell;
   fill(from, to, cell);
   const Point slope = segment.curve.tangent(Mm(from));
-  cell.top_squared = squared(std::min(top_speed(axes, slope), flat_top(axes, slope)));
+  const double top = std::min(top_speed(axes, slope), flat_top(axes, slope));
+  cell.top_squared = squared(top);
+  cell.smallest_rest = smallest_rest(top);
   cell.acceleration = top_acceleration(axes, slope);
   cell.straight = true;
 }
@@ -326,6 +332,7 @@ void CellCutter::cut_curve(const Segment& segment, const Axes& axes, const Place
     lower(slope_strength, axis.acceleration, std::min(std::abs(in.slope.values[i]), std::abs(out.slope.values[i])));
   }
   cell.top_squared = top * top;
+  cell.smallest_rest = smallest_rest(top);
   // Between the ends, v² lies between its values at the ends.
   double top_squared = std::min(top * top, std::max(in.turning, out.turning));
   const double fastest_squared = std::min(top_squared, squared(room_for_override * segment.speed.value()));

@@ -25,8 +25,10 @@
 namespace passo {
 
 // In mm. A stop within a cell leaves at least this much of the cell, so that the rest can be halved down to what is
-// rounding.
+// rounding. Less where an axis turns so far in a micrometre that this would be long: what takes so many seconds at the
+// axes' velocities.
 inline constexpr double smallest_cell = 1e-6;
+inline constexpr double shortest_cell = 1e-4;
 
 // The demand of one axis on the squares of the speeds at the cell's ends:
 // |entry_x x + entry_y y| <= limit and |exit_x x + exit_y y| <= limit.
@@ -58,12 +60,13 @@ struct FallingDemand {
 };
 
 struct Cell {
-  double start = 0;         // s on the segment's curve
-  double end = 0;           // in the last cell exactly the curve's length
-  double length = 0;        // end - start, above 0
-  double top_squared = 0;   // the limit by the axes' velocities, anywhere in the cell
-  double acceleration = 0;  // the greatest along the path, either way
-  bool straight = false;    // uses just this acceleration; may speed up and brake within the cell
+  double start = 0;                      // s on the segment's curve
+  double end = 0;                        // in the last cell exactly the curve's length
+  double length = 0;                     // end - start, above 0
+  double top_squared = 0;                // the limit by the axes' velocities, anywhere in the cell
+  double acceleration = 0;               // the greatest along the path, either way
+  double smallest_rest = smallest_cell;  // that a stop leaves of the cell
+  bool straight = false;                 // uses just this acceleration; may speed up and brake within the cell
   std::uint8_t demand_count = 0;
   std::uint8_t falling_count = 0;
 };

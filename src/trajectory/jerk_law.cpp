@@ -116,9 +116,12 @@ class JerkLaw final : public SpeedLaw {
     if (!take(move)) return false;
     rest_ = shorten(move, wishes_.longest_move);
     now_ = PathState::behind(move, path_.first());
-    if (!rest_ && move.ends_at_rest()) now_.speed = now_.acceleration = 0;
+    if (!rest_ && (has_stopped() || move.ends_at_rest())) now_.speed = now_.acceleration = 0;
     return true;
   }
+
+  // At the end of a stop the motion rests, whatever speed rounding has left: the window is that of the plan before.
+  bool has_stopped() const { return change_ && given_pieces_ == change_->pieces().size() && change_->end().speed == 0; }
 
   bool take(PlannedMove& move) {
     if (rest_) {
@@ -163,6 +166,7 @@ class JerkLaw final : public SpeedLaw {
       take_pieces(*change_, outlook.pieces, move);
       return true;
     }
+    if (change_ && change_->end().speed == 0) return false;
     return window_->look_at(outlook.cells++, segment, move);
   }
 

@@ -15,6 +15,9 @@ namespace {
 // there.
 constexpr double least_lowering = 0.97;
 constexpr double most_lowering = 0.7;
+// A jerk that is farther too strong comes this near at once: where the motion begins, no axis that moves has a limit of
+// jerk, or one that has moves little.
+constexpr double nearly = 2;
 // Trials that end near a segment's end count as so much too strong: the least lowering.
 constexpr double laid_badly = 1.03;
 // A change of less than this share of what the limits allow at the start would take fifty times as long as it should.
@@ -49,15 +52,23 @@ constexpr double whole_pieces = 3;
 
 // In mm. What a phase goes beyond a segment's end by rounding: places of up to a metre are 1e-13 apart.
 constexpr double smallest_way = 1e-11;
-// After the end of a change, at least so much of the segment, in mm or as a share, is left: it is cut like a whole
-// segment, and cells need a length of their own.
+// After the end of a change, so much of the segment is left: it is cut like a whole segment, and cells need a length of
+// their own. In mm or degrees of the axis that moves the most, as a share of the segment, and in seconds at the speed
+// at which the change begins. The least of the three is enough: a stop that waits for the segment's end comes no later.
 constexpr double smallest_rest = 0.02;
 constexpr double smallest_part = 0.2;
+constexpr double shortest_rest = 0.01;
 // Times the unseen jump: the profile accepts as much (most_above_cap, jerk_phases.cpp).
 constexpr double most_unseen_jump = 4;
 
 // Even if all steps were halvings, about 53 would exhaust the digits of a double.
 constexpr int most_steps = 100;
+
+double least_rest(const Curve& curve, double speed) {
+  const Point steepest = curve.steepest();
+  const double most = std::ranges::max(steepest.values);
+  return std::min({smallest_rest / std::max(most, 1.0), smallest_part * curve.length().value(), shortest_rest * speed});
+}
 
 // The time within the phase at which the motion is at s.
 double time_at(const Phase& phase, double s) {
@@ -108,8 +119,15 @@ std::optional<SpeedChange> SpeedChange::plan(PathAhead& path, const PathState& s
     }
     if (trial >= hopeless_in && worst.jolt > hopeless) break;
     if (worst.force > 1) strength.acceleration *= std::clamp(1 / worst.force, most_lowering, least_lowering);
-    if (worst.jolt > 1) strength.jerk *= std::clamp(1 / worst.jolt, most_lowering, least_lowering);
-    if (strength.acceleration < weakest * most.acceleration || strength.jerk < weakest * most.jerk) break;
+    if (worst.jolt > nearly) {
+      strength.jerk *= nearly / worst.jolt;
+    } else if (worst.jolt > 1) {
+      strength.jerk *= std::clamp(1 / worst.jolt, most_lowering, least_lowering);
+    }
+    if (strength.acceleration < weakest * most.acceleration) break;
+    // A jerk matters where the acceleration rises for longer than braking takes.
+    const bool is_slow = strength.acceleration / strength.jerk > state.speed / strength.acceleration;
+    if (strength.jerk < weakest * most.jerk && is_slow) break;
   }
   return std::nullopt;
 }
@@ -166,7 +184,7 @@ bool SpeedChange::shape(const PathState& state, double exit, const Strength& str
   const double to_peak = std::abs(a + p) / j;
   const double lost = too_strong ? (a * a - p * p) / (2 * j) : (p * p - a * a) / (2 * j);
   add(to_peak, too_strong ? j : -j);
-  if (!phases_.empty()) chain_.acceleration = -p;
+  chain_.acceleration = -p;  // also where nothing limits the jerk, and that takes no time
   add((v - lost - p * p / (2 * j) - exit) / p, 0);
   add(p / j, j);
   return true;
@@ -200,8 +218,7 @@ SpeedChange::Laid SpeedChange::lay(PathAhead& path, const PathState& state) {
     pieces_.push_back({.segment = end_.segment, .phase = phase});
   }
   end_.s = chain_.at - base;
-  const double least = std::min(smallest_rest, smallest_part * segment->curve.length().value());
-  return end - chain_.at > least ? Laid::whole : Laid::near_an_end;
+  return end - chain_.at > least_rest(segment->curve, state.speed) ? Laid::whole : Laid::near_an_end;
 }
 
 SpeedChange::Demand SpeedChange::excess(PathAhead& path, const Request& request) const {

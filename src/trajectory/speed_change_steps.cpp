@@ -11,9 +11,14 @@ namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
 constexpr int steps_a_rise = 16;  // in the time in which the acceleration rises from 0 to its strongest
+// Where little or nothing limits the jerk: in the time that braking takes. All steps together take three times as long.
+constexpr int steps_a_braking = 128;
 constexpr int most_steps = 400;
-constexpr int looks_ahead = 4;  // in that time
-// Share of a limit that the motion may use without the change: the profile plans to 0.998 (planned_share).
+constexpr int looks_ahead = 4;    // in the time of a rise
+constexpr int looks_on_way = 16;  // on the way to rest
+// Shares of a limit. The change uses the first at most, as the profile does (planned_share): on curves all of the limit
+// would be found to be too much. The motion may use the second without the change.
+constexpr double most_used = 0.998;
 constexpr double used_up = 0.9985;
 constexpr double no_slope = 1e-9;  // the path does not move the axis
 
@@ -41,13 +46,30 @@ struct Room {
   // `share`: of the limit. What is used may use more, and then leaves the rate 0.
   void narrow(double slope, double used, double limit, double share) {
     if (!(std::abs(slope) > no_slope)) return;
-    const double most = limit * std::max(share, std::min(std::abs(used) / limit, used_up));
+    const double most = limit * std::max(std::min(share, most_used), std::min(std::abs(used) / limit, used_up));
     const double one = (-most - used) / slope;
     const double other = (most - used) / slope;
     low = std::max(low, std::min(one, other));
     high = std::min(high, std::max(one, other));
   }
 };
+
+// The least jerk along the path that the axes allow on this way, where it is straight. An axis that begins to move
+// there may have a limit of jerk which those have not that move now.
+double jerk_on(PathAhead& path, Walk walk, double way, const std::vector<LimitedAxis>& axes) {
+  double least = infinity;
+  for (int k = 0; k <= looks_on_way; ++k) {
+    const double place = way * k / looks_on_way;
+    const Segment* const segment = walk.at(path, place);
+    if (segment == nullptr) break;
+    const Point slope = segment->curve.tangent(std::clamp(Mm(place - walk.base), Mm(0), segment->curve.length()));
+    for (const LimitedAxis& axis : axes) {
+      const double part = std::abs(slope.values[axis.index]);
+      if (part > no_slope) least = std::min(least, axis.jerk / part);
+    }
+  }
+  return least;
+}
 
 }  // namespace
 
@@ -88,13 +110,16 @@ bool SpeedChange::shape_in_steps(PathAhead& path, const PathState& state, const 
   phases_.clear();
   chain_ = {.speed = state.speed, .acceleration = state.acceleration};
   end_.speed = request.exit;
-  const double rise = strength.acceleration / strength.jerk;
-  const double step = rise / steps_a_rise;
   Walk walk{.segment = state.segment, .base = -state.s};
+  const double braking = state.speed / strength.acceleration;
+  const double jerk =
+      std::min(strength.jerk, share.jerk * jerk_on(path, walk, braking * state.speed / 2, request.axes));
+  const double step = std::max(strength.acceleration / strength.jerk / steps_a_rise, braking / steps_a_braking);
+  const double rise = std::max(strength.acceleration / jerk, step);
   for (int count = 0; count < most_steps; ++count) {
     const double v = chain_.speed;
     const double a = chain_.acceleration;
-    if (a < 0 && v + a * step - a * a / (2 * strength.jerk) <= end_.speed) {
+    if (a < 0 && v + a * step - a * a / (2 * jerk) <= end_.speed) {
       const double left = v - end_.speed;
       if (!(left > 0)) return false;
       add(2 * left / -a, a * a / (2 * left));

@@ -363,7 +363,7 @@ Ride hardest_braking(const Cell& cell, std::span<const AxisDemand> demands, std:
       cell.straight ? cell.acceleration : sure_deceleration(demands, falling, cell.length, entry);
   if (deceleration > 0 && entry < 2 * deceleration * cell.length) {
     const double way = entry / (2 * deceleration);
-    return {way + smallest_cell < cell.length ? way : cell.length, 0};
+    return {way + cell.smallest_rest < cell.length ? way : cell.length, 0};
   }
   const double least =
       cell.straight ? std::max(0.0, entry - 2 * cell.acceleration * cell.length) : least_exit(demands, falling, entry);

@@ -100,9 +100,31 @@ inline void give_starts(std::uint64_t number, MachineDescription& machine) {
   }
 }
 
+// Gives any of the axes limits of jerk, the torque of a motor and backlash, each axis by its own chance, and half of
+// the machines a rotary axis where they have none.
+inline void mix_everything(std::uint64_t number, MachineDescription& machine) {
+  Random random = Random::of(number ^ 0x616c6c);
+  const bool turns = std::ranges::any_of(machine.axes, [](const auto& axis) { return is_rotary(axis.axis); });
+  if (!turns && random.chance(0.5)) {
+    AxisDescription axis = machine.axes.back();
+    axis.axis = Axis::a;
+    axis.velocity = std::min(axis.velocity, MmPerSecond(std::exp(random.between(2, 5))));
+    machine.axes.push_back(axis);
+  }
+  const double rise = std::exp(random.between(-6, -2));
+  for (AxisDescription& axis : machine.axes) {
+    axis.jerk = random.chance(0.5) ? axis.acceleration / Seconds(rise * random.between(0.5, 2)) : MmPerSecond3(0);
+    axis.motor.reset();
+    if (random.chance(0.25)) axis.motor = random_motor(random, axis);
+    if (random.chance(0.2)) axis.screw = ScrewDescription{.backlash = std::exp(random.between(-5, -1))};
+  }
+}
+
 class RandomGcode {
  public:
-  RandomGcode(Random& random, const MachineDescription& machine) : random_(random), machine_(machine) {}
+  // `turning`: a rotary axis moves by so many degrees where another axis would move by a millimetre.
+  RandomGcode(Random& random, const MachineDescription& machine, double turning = 1)
+      : random_(random), machine_(machine), turning_(turning) {}
 
   std::string draw() {
     say("G21 G90 G17 F{:.1f}", feed());
@@ -154,7 +176,7 @@ class RandomGcode {
     std::string words = word;
     for (const AxisDescription& axis : machine_.axes) {
       if (!random_.chance(0.6)) continue;
-      place_[axis.axis] += way();
+      place_[axis.axis] += way() * (is_rotary(axis.axis) ? turning_ : 1);
       words += fmt::format(" {}{:.4f}", letter_of(axis.axis), place_[axis.axis]);
     }
     if (words != word) say("{}", words);
@@ -238,17 +260,18 @@ class RandomGcode {
 
   Random& random_;
   const MachineDescription& machine_;
+  double turning_;
   std::string text_;
   Point place_;
   double size_ = 1;
 };
 
-enum class Machines : std::uint8_t { as_drawn, mixed, starting };
+enum class Machines : std::uint8_t { as_drawn, mixed, starting, of_all_mixtures };
 
 struct RandomJob {
   explicit RandomJob(Random& random) : machine(random_machine(random)), program(RandomGcode(random, machine).draw()) {}
-  RandomJob(Random& random, MachineDescription on)
-      : machine(std::move(on)), program(RandomGcode(random, machine).draw()) {}
+  RandomJob(Random& random, MachineDescription on, double turning = 1)
+      : machine(std::move(on)), program(RandomGcode(random, machine, turning).draw()) {}
   // With limits of jerk on some axes only, and more rotary axes.
   static RandomJob mixed(std::uint64_t number, Random& random) {
     MachineDescription machine = random_machine(random);
@@ -261,11 +284,19 @@ struct RandomJob {
     give_starts(number, machine);
     return {random, std::move(machine)};
   }
+  // With limits of jerk, torque curves and backlash on any axes; and some lines mostly turn.
+  static RandomJob of_all_mixtures(std::uint64_t number, Random& random) {
+    MachineDescription machine = random_machine(random);
+    mix_everything(number, machine);
+    const double turning = number % 2 == 0 ? 1 : std::exp(Random::of(number ^ 0x7475726e).between(0, 7));
+    return {random, std::move(machine), turning};
+  }
   static RandomJob of(Machines machines, std::uint64_t number, Random& random) {
     switch (machines) {
       case Machines::as_drawn: break;
       case Machines::mixed: return mixed(number, random);
       case Machines::starting: return starting(number, random);
+      case Machines::of_all_mixtures: return of_all_mixtures(number, random);
     }
     return RandomJob(random);
   }

@@ -90,6 +90,12 @@ TEST_P(BrakingPlan, keeps_every_axis_within_its_limits_on_lines_and_blends) {
   EXPECT_LE(longest_move_, 0.0055);
 }
 
+TEST_P(BrakingPlan, keeps_limits_of_jerk_on_some_axes_only) {
+  SCOPED_TRACE("PASSO_SEED=" + std::to_string(random_.seed()));
+  brake_everywhere(smooth_chain(random_, 10), draw_mixed_limits(random_), Planner::Braking::gentle);
+  EXPECT_GT(plans_, 20);
+}
+
 TEST_P(BrakingPlan, that_is_hard_keeps_velocities_and_accelerations_on_lines_and_blends) {
   SCOPED_TRACE("PASSO_SEED=" + std::to_string(random_.seed()));
   const std::vector<PathItem> path = lines_and_blends(random_);

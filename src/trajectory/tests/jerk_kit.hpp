@@ -52,6 +52,16 @@ inline MotionLimits draw_jerk_limits(Random& random) {
   return limits;
 }
 
+// Half of the axes have no limit of jerk, but at least one has.
+inline MotionLimits draw_mixed_limits(Random& random) {
+  MotionLimits limits = draw_jerk_limits(random);
+  const Axis sure = random.chance(0.5) ? Axis::x : random.chance(0.5) ? Axis::y : Axis::z;
+  for (const Axis axis : {Axis::x, Axis::y, Axis::z}) {
+    if (axis != sure && random.chance(0.6)) limits.jerk[axis] = MmPerSecond3(0);
+  }
+  return limits;
+}
+
 inline Segment segment_of(const Curve& curve, double speed) {
   return {.curve = curve,
           .speed = MmPerSecond(speed),

@@ -1,0 +1,136 @@
+// StepJudge: judges a run by its steps alone, against the limits in the machine's description. It shares no code with
+// what plans the motion and makes the steps.
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "kit/step_log.hpp"
+#include <fmt/format.h>
+
+#include "passo/machine_file/machine_description.hpp"
+
+namespace passo::test {
+
+// Looks at the places of the motors at even distances of time. The mean acceleration over a window cannot exceed the
+// limit of the acceleration, nor can the mean jerk exceed that of the jerk. A short window shows a short jump, and a
+// long one a small excess, because whole steps disturb it less.
+class StepJudge {
+ public:
+  StepJudge(const MachineDescription& machine, const StepLog::Steps& steps) : machine_(machine), steps_(steps) {
+    for (unsigned m = 0; m < machine.axes.size(); ++m) {
+      if (steps[m].empty()) continue;
+      const double end = static_cast<double>(steps[m].back().tick) / machine.board.clock.value();
+      PlaceAt place(steps[m], m);
+      const auto count = static_cast<std::int64_t>(end / apart) + 2;
+      for (std::int64_t k = 0; k < count; ++k) {
+        places_[m].push_back(place(static_cast<double>(k) * apart * machine.board.clock.value()));
+      }
+    }
+  }
+
+  // The first motor that exceeds a limit, and where. Nothing where all limits are kept.
+  std::optional<std::string> fault() const {
+    for (unsigned m = 0; m < machine_.axes.size(); ++m) {
+      for (const int samples : {4, 8, 16, 32}) {
+        if (auto found = fault_of(m, samples)) return found;
+      }
+    }
+    return {};
+  }
+
+  // How long it takes at most to come to rest from what the motors do between these times, as if each axis were alone:
+  // to brake; and for each axis that moves until `rested`, to turn its acceleration round and to let it go.
+  double braking(double from, double to, double rested) const {
+    double most = 0;
+    double longest_rise = 0;
+    for (unsigned m = 0; m < machine_.axes.size(); ++m) {
+      const AxisDescription& axis = machine_.axes[m];
+      if (fastest(m, from, rested) == 0) continue;
+      const double speed = std::min(fastest(m, from, to), axis.velocity.value());
+      most = std::max(most, speed / axis.acceleration_at(MmPerSecond(speed)).value());
+      if (axis.jerk.value() > 0) longest_rise = std::max(longest_rise, axis.acceleration.value() / axis.jerk.value());
+    }
+    return most + 2.5 * longest_rise;
+  }
+  // Of any motor, in seconds. 0: none.
+  double last_step_before(double time) const {
+    const double tick = time * machine_.board.clock.value();
+    double last = 0;
+    for (const auto& steps : steps_) {
+      const auto after = std::upper_bound(
+          steps.begin(), steps.end(), tick,
+          [](double limit, const StepLog::Step& step) { return limit < static_cast<double>(step.tick); });
+      if (after != steps.begin()) last = std::max(last, static_cast<double>(std::prev(after)->tick));
+    }
+    return last / machine_.board.clock.value();
+  }
+
+ private:
+  static constexpr double apart = 0.00125;  // seconds
+  // In steps. Whole steps make less than 2 in an acceleration and 4 in a jerk. Events of another motor, at most one
+  // step off each, make as much again.
+  static constexpr double slack = 4;
+  static constexpr double slack_of_jerk = 8;
+  static constexpr double tolerated = 1.02;
+
+  double at(unsigned motor, std::int64_t sample) const {
+    const std::vector<double>& places = places_[motor];
+    if (places.empty() || sample < 0) return 0;
+    return places[std::min(static_cast<std::size_t>(sample), places.size() - 1)];
+  }
+  // In mm a second.
+  double fastest(unsigned motor, double from, double to) const {
+    constexpr int samples = 8;
+    double most = 0;
+    for (auto k = static_cast<std::int64_t>(from / apart); k <= static_cast<std::int64_t>(to / apart) + samples; ++k) {
+      most = std::max(most, std::abs(at(motor, k) - at(motor, k - samples)));
+    }
+    return most / (samples * apart) / machine_.axes[motor].steps_per_unit;
+  }
+
+  std::optional<std::string> fault_of(unsigned motor, int samples) const {
+    const AxisDescription& axis = machine_.axes[motor];
+    const double window = samples * apart;
+    const double steps = axis.steps_per_unit;
+    const double farthest = axis.velocity.value() * window * steps * tolerated + 2;
+    const double jolt = axis.jerk.value() * window * window * window * steps * tolerated + slack_of_jerk;
+    const auto count = static_cast<std::int64_t>(places_[motor].size()) + 2 * samples;
+    for (std::int64_t k = 0; k < count; ++k) {
+      const double newest = at(motor, k);
+      const double second = at(motor, k - samples);
+      const double third = at(motor, k - 2 * samples);
+      const double fourth = at(motor, k - 3 * samples);
+      const auto told = [&](const char* what, double value, double most) {
+        return fmt::format("{} of {} over {} ms at {:.4f} s: {:.1f} steps, at most {:.1f}", what, letter_of(axis.axis),
+                           window * 1e3, static_cast<double>(k) * apart, value, most);
+      };
+      const double way = std::abs(newest - second);
+      if (way > farthest) return told("way", way, farthest);
+      const double bend = std::abs(newest - 2 * second + third);
+      const double most = axis.acceleration.value() * window * window * steps * tolerated + slack;
+      if (bend > most) return told("bend", bend, most);
+      if (axis.follows_torque()) {
+        // The torque is the greatest where the motor was slowest. It was hardly slower than on the mean of both halves.
+        const double mean = (newest - second) * (second - third) > 0 ? std::min(way, std::abs(second - third)) - 2 : 0;
+        const double slowest = std::max(mean / window / steps - axis.acceleration.value() * window, 0.0);
+        const double left = axis.acceleration_at(MmPerSecond(slowest)).value() * window * window * steps * tolerated;
+        if (bend > left + slack) return told("bend at speed", bend, left + slack);
+      }
+      const double change = std::abs(newest - 3 * second + 3 * third - fourth);
+      if (axis.jerk.value() > 0 && change > jolt) return told("change of bend", change, jolt);
+    }
+    return {};
+  }
+
+  const MachineDescription& machine_;
+  const StepLog::Steps& steps_;
+  std::array<std::vector<double>, StepLog::motors> places_;
+};
+
+}  // namespace passo::test

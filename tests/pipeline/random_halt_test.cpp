@@ -1,0 +1,262 @@
+// Holds, resumes, overrides, stops and lost lines at random instants of random programs, on machines with every mixture
+// of limits: judged from the steps. No axis exceeds a limit, and the machine comes to rest about as soon as it can.
+//
+// PASSO_SEED=S PASSO_RUNS=N random_halt_tests takes the programs S to S + N - 1. Each has some eight such instants.
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <fstream>
+#include <iterator>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "kit/driven.hpp"
+#include "kit/random_gcode.hpp"
+#include "kit/step_judge.hpp"
+#include "kit/step_log.hpp"
+
+namespace passo {
+namespace {
+
+constexpr double soon = 0.1;  // seconds after the braking time
+constexpr int most_instants = 12;
+constexpr int most_cuts = 3;
+constexpr Seconds most_time{60};
+constexpr Seconds cut_for{8};  // longer than any machine brakes
+
+// A halt that was asked for at `asked`, while motion was committed up to `from`.
+struct Halt {
+  const char* what = "";
+  double asked = 0;
+  double from = 0;
+  double rested = 0;  // no step came from then on
+};
+
+// What all runs together had.
+struct Tally {
+  int holds = 0;
+  int resumes = 0;
+  int overrides = 0;
+  int stops = 0;
+  int cuts = 0;
+  double latest = 0;  // of a rest, in seconds after the braking time
+  std::uint64_t latest_number = 0;
+  int instants() const { return holds + resumes + overrides + stops + cuts; }
+  void print() const {
+    std::printf(
+        "%d instants: %d holds, %d resumes, %d overrides, %d stops, %d lost lines; rests at most %.4f s late "
+        "(%llu)\n",
+        instants(), holds, resumes, overrides, stops, cuts, latest, static_cast<unsigned long long>(latest_number));
+  }
+};
+
+void judge(const MachineDescription& machine, const test::StepLog::Steps& steps, const std::vector<Halt>& halts,
+           std::uint64_t number, Tally& tally) {
+  const test::StepJudge judge(machine, steps);
+  if (const auto fault = judge.fault()) ADD_FAILURE() << *fault;
+  for (const Halt& halt : halts) {
+    const double rested = judge.last_step_before(halt.rested);
+    const double braking = judge.braking(halt.asked, halt.from, rested);
+    const double late = rested - halt.from - braking;
+    if (late > tally.latest) {
+      tally.latest = late;
+      tally.latest_number = number;
+    }
+    EXPECT_LE(late, soon) << halt.what << " from " << halt.from << " s on, with a braking time of " << braking
+                          << " s, rests at " << rested << " s";
+  }
+}
+
+// Acts at random instants on one run.
+class RandomActs {
+ public:
+  RandomActs(test::DrivenProgram& job, test::Random& random, Tally& tally)
+      : drive_(job.drive()), random_(random), tally_(tally), next_(gap()) {}
+
+  const std::vector<Halt>& halts() const { return halts_; }
+
+  void act() {
+    const MotionDrive::State state = drive_.state();
+    if (state == MotionDrive::State::held) return go_on_from_rest();
+    if (drive_.now() < next_) return;
+    next_ = drive_.now() + gap();
+    if (drive_.stopped()) return;
+    ++instants_;
+    if (instants_ > most_instants || drive_.now() > most_time) return stop();
+    if (state == MotionDrive::State::holding) return random_.chance(0.2) ? resume() : override_something();
+    random_.chance(0.55) ? hold() : override_something();
+  }
+  void end() {
+    if (drive_.stopped() && halting_) rest();
+  }
+
+ private:
+  Seconds gap() { return Seconds(std::exp(random_.between(-5, 0.5))); }
+
+  void hold() {
+    ++tally_.holds;
+    begin_halt("hold");
+    drive_.hold();
+  }
+  void stop() {
+    ++tally_.stops;
+    if (!halting_) begin_halt("stop");
+    drive_.stop();
+  }
+  void resume() {
+    ++tally_.resumes;
+    halting_ = false;
+    drive_.resume();
+  }
+  void override_something() {
+    ++tally_.overrides;
+    if (random_.chance(0.25)) return drive_.set_rapid_override(random_.between(0.1, 1));
+    drive_.set_feed_override(random_.chance(0.3) ? 1 : random_.between(0.05, 2));
+  }
+  void go_on_from_rest() {
+    if (halting_) rest();
+    if (random_.chance(0.3)) test::let_pass(drive_, Seconds(random_.between(0, 0.3)));
+    ++tally_.resumes;
+    drive_.resume();
+    next_ = drive_.now() + gap();
+  }
+  void begin_halt(const char* what) {
+    halting_ = true;
+    const double from = (drive_.now() + drive_.committed()).value();
+    halts_.push_back({.what = what, .asked = from, .from = from});
+  }
+  void rest() {
+    halting_ = false;
+    halts_.back().rested = drive_.now().value();
+  }
+
+  MotionDrive& drive_;
+  test::Random& random_;
+  Tally& tally_;
+  Seconds next_;
+  int instants_ = 0;
+  bool halting_ = false;
+  std::vector<Halt> halts_;
+};
+
+void act_at_random(std::uint64_t number, const test::RandomJob& job, test::Random& random, Tally& tally) {
+  Diagnostics diagnostics;
+  test::DrivenProgram running(ProgramReader::from_text("t", job.program), job.machine, InterpreterOptions(),
+                              diagnostics, {.live = live_commitment});
+  test::StepLog log;
+  running.machine().add_observer(log);
+  RandomActs acts(running, random, tally);
+  while (running.advance()) acts.act();
+  acts.end();
+  EXPECT_FALSE(diagnostics.any_error()) << render(diagnostics, false);
+  EXPECT_FALSE(running.link().error());
+  std::vector<Halt> halts = acts.halts();
+  std::erase_if(halts, [](const Halt& halt) { return halt.rested == 0; });  // taken back, or at the program's end
+  judge(job.machine, log.steps, halts, number, tally);
+}
+
+// Cuts the line a few times. The board plays what it holds, the end of which is a way to rest, and the job goes on when
+// the line is there again.
+void cut_at_random(std::uint64_t number, test::RandomJob job, test::Random& random, Tally& tally) {
+  job.machine.board.held_items = random.chance(0.5) ? 240 : 31;
+  Diagnostics diagnostics;
+  test::DrivenProgram running(ProgramReader::from_text("t", job.program), job.machine, InterpreterOptions(),
+                              diagnostics, {.line = LineOptions{}});
+  test::StepLog log;
+  running.machine().add_observer(log);
+  std::vector<Halt> halts;
+  const auto gap = [&] { return Seconds(std::exp(random.between(-3, 0.5))); };
+  Seconds next = running.machine().elapsed() + gap();
+  while (running.advance()) {
+    const Seconds now = running.machine().elapsed();
+    if (now < next || running.drive().stopped()) continue;
+    if (halts.size() == most_cuts || now > most_time) {
+      running.drive().stop();
+      continue;
+    }
+    running.line().cut(now, cut_for);
+    next = now + cut_for + gap();
+    halts.push_back({.what = "lost line",
+                     .asked = now.value(),
+                     .from = (now + running.drive().committed()).value(),
+                     .rested = (now + cut_for).value()});
+    ++tally.cuts;
+  }
+  EXPECT_FALSE(diagnostics.any_error()) << render(diagnostics, false);
+  EXPECT_FALSE(running.link().error());
+  judge(job.machine, log.steps, halts, number, tally);
+}
+
+template <class Act>
+void for_each_mixture(int runs, const Act& act) {
+  Tally tally;
+  test::for_each_job(
+      runs,
+      [&](std::uint64_t number, const test::RandomJob& job, test::Random& random) { act(number, job, random, tally); },
+      test::Machines::of_all_mixtures);
+  tally.print();
+}
+
+TEST(RandomHalt, keeps_limits_and_rests_soon_on_machines_of_all_mixtures) {
+  for_each_mixture(60, act_at_random);
+}
+
+TEST(RandomHalt, of_a_lost_line_keeps_limits_and_rests_soon_on_machines_of_all_mixtures) {
+  for_each_mixture(30, cut_at_random);
+}
+
+// Programs in which a hold once made an axis jump, or was ignored.
+class HaltCase : public testing::Test {
+ protected:
+  static constexpr const char* folder = PASSO_SOURCE_DIR "/../shared/cases/motion/";
+  void SetUp() override {
+    if (!std::ifstream(folder + std::string("README.tsv"))) GTEST_SKIP() << "no ../shared/cases beside this checkout";
+  }
+  // Holds at that time, and goes on after a moment.
+  static void hold_at(const std::string& name, Seconds at) {
+    SCOPED_TRACE(name + ", hold at " + std::to_string(at.value()));
+    Diagnostics diagnostics;
+    const auto machine = load_machine_file(folder + name + ".toml", diagnostics);
+    ASSERT_TRUE(machine) << render(diagnostics, false);
+    std::ifstream file(folder + name + ".ngc");
+    const std::string program{std::istreambuf_iterator<char>(file), {}};
+    test::DrivenProgram running(ProgramReader::from_text(name, program), *machine, InterpreterOptions(), diagnostics,
+                                {.live = live_commitment});
+    test::StepLog log;
+    running.machine().add_observer(log);
+    std::vector<Halt> halts;
+    while (running.advance()) {
+      MotionDrive& drive = running.drive();
+      if (drive.state() == MotionDrive::State::held) {
+        halts.back().rested = drive.now().value();
+        drive.resume();
+      } else if (halts.empty() && drive.now() >= at) {
+        const double from = (drive.now() + drive.committed()).value();
+        halts.push_back({.what = "hold", .asked = from, .from = from, .rested = 1e9});
+        drive.hold();
+      }
+    }
+    Tally tally;
+    judge(*machine, log.steps, halts, 0, tally);
+  }
+  // At instants over all of the program.
+  static void hold_everywhere(const std::string& name, Seconds whole, int instants) {
+    for (int i = 1; i < instants && !HasFailure(); ++i) hold_at(name, whole * (static_cast<double>(i) / instants));
+  }
+};
+
+TEST_F(HaltCase, hold_jump) {
+  hold_at("hold_jump", Seconds(1.9686));
+  hold_everywhere("hold_jump", Seconds(3), test::fewer(200));
+}
+TEST_F(HaltCase, mixjump) {
+  hold_at("mixjump", Seconds(0.2301));
+  hold_everywhere("mixjump", Seconds(0.5), test::fewer(300));
+}
+TEST_F(HaltCase, slow_hold) {
+  for (const Seconds at : {Seconds(200), Seconds(300), Seconds(340), Seconds(355)}) hold_at("slow_hold", at);
+}
+
+}  // namespace
+}  // namespace passo
