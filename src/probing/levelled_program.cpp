@@ -5,116 +5,66 @@
 #include <numbers>
 #include <utility>
 
-#include "plain_code.hpp"
-
-#include "passo/interpreter/frame.hpp"
-#include "passo/levelling/levelled_move.hpp"
+#include "leveller.hpp"
 
 namespace passo {
 namespace {
 
 constexpr double turn = 2 * std::numbers::pi;
-constexpr double same_height = 1e-9;  // mm
+constexpr double same_height = 1e-9;  // mm; degrees
+constexpr double coarsest = 1e6;      // mm: an arc is not divided
+constexpr double least_step = 1e-5;   // mm, that is written
 // A piece of an arc that is shorter is written as a line: its ends might be one place as they are written.
 constexpr double shortest_arc = 1e-3;  // mm
-
-// A move as the program means it, in work coordinates.
-struct Move {
-  Point from;
-  Point to;
-  AxisSet named = {};  // axes that the program names
-  bool rapid = false;
-  bool levelled = true;
-  bool is_first = false;  // nobody knows where it begins
-  bool is_arc = false;    // about a centre in X and Y
-  double center_x = 0;
-  double center_y = 0;
-  double sweep = 0;
-  double feed = 0;  // mm/min
-};
-
-// What comes between moves: a line as it is. Or a move.
-struct Item {
-  std::string line;
-  Move move;
-  bool is_move = false;
-};
 
 LevelPlace level_place(const Point& place) {
   return {place[Axis::x], place[Axis::y], place[Axis::z]};
 }
 
-bool goes_straight_up_or_down(const Move& move) {
-  for (const Axis axis : all_axes) {
-    if (axis != Axis::z && move.from[axis] != move.to[axis]) return false;
-  }
-  return !move.is_arc;
-}
-
 double sweep_of(double start_angle, double end_angle, std::int32_t turns) {
   double sweep = std::fmod((end_angle - start_angle) * (turns > 0 ? 1 : -1), turn);
+  if (sweep < 0) sweep += turn;
   if (sweep < 1e-12) sweep += turn;
   sweep += turn * (std::abs(turns) - 1);
   return turns > 0 ? sweep : -sweep;
 }
 
-class Leveller {
- public:
-  Leveller(const InterpreterOptions& options, const std::string& file, const HeightMap& map, const LevelOptions& wish,
-           Diagnostics& diagnostics, const std::function<void(std::string_view)>& write)
-      : map_(map),
-        wish_(wish),
-        diagnostics_(diagnostics),
-        file_(file),
-        code_(write),
-        highest_(map.highest()),
-        place_(options.start),
-        height_(options.start[Axis::z]) {}
+}  // namespace
 
-  // False: the program ends here.
-  bool take(const Operation& operation);
-  void finish();
-  const LevelCount& count() const { return count_; }
+bool is_same_place(double a, double b) {
+  return std::abs(a - b) < same_height;
+}
+bool is_same_place(const Point& a, const Point& b) {
+  return std::ranges::all_of(all_axes, [&](Axis axis) { return is_same_place(a[axis], b[axis]); });
+}
 
- private:
-  void take_straight(const Operation& operation, const Point& end, bool rapid);
-  void take_arc(const Operation& operation, const operation::ArcFeed& arc);
-  void take_upright_arc(const Operation& operation, const operation::ArcFeed& arc);
-  bool follow_frame(const Operation& operation);
-  void write_frame(const Operation& operation, const Frame& before);
-  Move move_to(const Operation& operation, const Point& end, bool rapid) const;
-  void refuse(const Operation& operation, std::string code, std::string message, std::string expected);
-  void look_beside(const Operation& operation, const Point& end);
+// From anywhere: no way is known to be straight up.
+bool LevelledMove::is_upright() const {
+  for (const Axis axis : all_axes) {
+    if (axis != Axis::z && !is_same_place(from[axis], to[axis])) return false;
+  }
+  return !is_arc && !from_anywhere;
+}
 
-  void add(Item item);
-  void add_line(std::string line) { add({.line = std::move(line), .move = {}}); }
-  void give_run();
-  void give(const Item& item);
-  void give_move(const Move& move);
-  void give_arc_piece(const Move& move, double from_part, const LevelledPiece& piece);
+Leveller::Leveller(Interpreter& interpreter, const InterpreterOptions& options, const std::string& file,
+                   const HeightMap& map, const LevelOptions& wish, Diagnostics& diagnostics,
+                   const std::function<void(std::string_view)>& write)
+    : blocks_(interpreter),
+      map_(map),
+      wish_(wish),
+      diagnostics_(diagnostics),
+      file_(file),
+      code_(write),
+      highest_(map.highest()),
+      machine_unit_(options.machine_units == LengthUnits::inch ? 25.4 : 1),
+      has_tools_(!options.tools.name.empty()),
+      place_(options.start),
+      height_(options.start[Axis::z]) {}
 
-  const HeightMap& map_;
-  const LevelOptions& wish_;
-  Diagnostics& diagnostics_;
-  const std::string& file_;
-  PlainCode code_;
-  double highest_;
-  Frame frame_;
-  bool is_reset_ = false;
-  bool selects_ = false;  // the operation before has selected a work system
-  Point place_;           // where the program is, work coordinates
-  bool is_known_ = false;
-  double height_;  // Z where the levelled program is
-  double feed_ = 0;
-  double rotary_feed_ = 0;
-  operation::SetPathMode path_mode_;
-  // Moves straight up and down, and what is between them, until it is known whether they are a hole.
-  std::vector<Item> run_;
-  LevelCount count_;
-};
-
-void Leveller::refuse(const Operation& operation, std::string code, std::string message, std::string expected) {
-  diagnostics_.add({.code = std::move(code),
+void Leveller::report(const Operation& operation, Severity severity, std::string code, std::string message,
+                      std::string expected) {
+  diagnostics_.add({.severity = severity,
+                    .code = std::move(code),
                     .file = operation.file.empty() ? file_ : std::string(operation.file),
                     .place = {.line = operation.source.line,
                               .column = operation.word.column,
@@ -122,6 +72,16 @@ void Leveller::refuse(const Operation& operation, std::string code, std::string 
                     .message = std::move(message),
                     .expected = std::move(expected),
                     .text = std::string(operation.text)});
+}
+
+void Leveller::refuse(const FrameBlock& block, std::string code, std::string message, std::string expected) {
+  diagnostics_.add(
+      {.code = std::move(code),
+       .file = block.file,
+       .place = {.line = block.line, .column = block.place.place.column, .length = block.place.place.length},
+       .message = std::move(message),
+       .expected = std::move(expected),
+       .text = block.text});
 }
 
 void Leveller::look_beside(const Operation& operation, const Point& end) {
@@ -132,32 +92,72 @@ void Leveller::look_beside(const Operation& operation, const Point& end) {
          fmt::format("a map that covers all that is milled, or at most {:g} mm beside it", wish_.beside));
 }
 
-Move Leveller::move_to(const Operation& operation, const Point& end, bool rapid) const {
-  Move move{.from = place_, .to = end, .rapid = rapid};
-  for (const Axis axis : all_axes) {
-    if (operation.axis_words != nullptr && (*operation.axis_words)[axis].column != 0) move.named.add(axis);
-  }
-  // Nothing is in the way of a rapid that is high enough all its way. Before the first move nobody knows where it
-  // begins.
-  const bool ends_clear = rapid && end[Axis::z] >= highest_ + wish_.clear;
-  const bool is_clear =
-      ends_clear && (!is_known_ || place_[Axis::z] >= highest_ + wish_.clear || goes_straight_up_or_down(move));
-  move.levelled = !is_clear && !names_machine_place(operation.text);
+double Leveller::feed_of(const Point& end) const {
   bool is_rotary_only = true;
-  for (const Axis axis : all_axes) is_rotary_only = is_rotary_only && (is_rotary(axis) || end[axis] == place_[axis]);
-  move.feed = is_rotary_only && end != place_ ? rotary_feed_ : feed_;
+  for (const Axis axis : all_axes)
+    is_rotary_only = is_rotary_only && (is_rotary(axis) || is_same_place(end[axis], place_[axis]));
+  return is_rotary_only && !is_same_place(end, place_) ? rotary_feed_ : feed_;
+}
+
+LevelledMove Leveller::move_to(const Operation& operation, const Point& end, bool rapid) {
+  const FrameBlock& block = blocks_.last();
+  LevelledMove move{.from = place_, .to = end, .rapid = rapid, .feed = feed_of(end)};
+  for (const Axis axis : all_axes) {
+    const bool is_word = operation.axis_words != nullptr && (*operation.axis_words)[axis].column != 0;
+    const bool is_polar =
+        block.line == operation.source.line && (block.has('@') || block.has('^')) && block.named.has(axis);
+    if (is_word || is_polar) move.named.add(axis);
+  }
+  if (!block.incremental) move.absolute = move.named;
+  for (const Axis axis : {Axis::x, Axis::y}) {
+    move.from_anywhere = move.from_anywhere || (move.absolute.has(axis) && !known_.has(axis));
+  }
+  const bool is_of_machine = at_ == LevelHeight::of_machine;
+  const bool names_height = move.absolute.has(Axis::z) || !is_same_place(end[Axis::z], place_[Axis::z]);
+  move.from_above = at_ != LevelHeight::known && move.absolute.has(Axis::z);
+  // Nothing is in the way of a rapid that is high enough all its way.
+  const double clear = highest_ + wish_.clear;
+  const bool is_clear =
+      rapid && end[Axis::z] >= clear && (is_of_machine || place_[Axis::z] >= clear || move.is_upright());
+  move.levelled = !is_clear && (names_height || !is_of_machine);
+  if (!rapid && !move.levelled && !std::exchange(told_height_, true)) {
+    report(operation, Severity::warning, "level.height",
+           "this feed is not levelled: the program has not given a Z of the work yet",
+           "a move to a Z in work coordinates before");
+  }
+  const bool is_assumed = !move.from_anywhere && (!known_.has(Axis::x) || !known_.has(Axis::y));
+  if (move.levelled && is_assumed && !std::exchange(told_place_, true)) {
+    report(operation, Severity::warning, "level.place",
+           fmt::format("the program has not given X and Y of the work yet: X{:.3f} Y{:.3f} is assumed", end[Axis::x],
+                       end[Axis::y]),
+           "a move to X and Y in work coordinates before");
+  }
+  if (names_height) {
+    const bool becomes_known = at_ == LevelHeight::known || move.absolute.has(Axis::z);
+    at_ = becomes_known ? LevelHeight::known : LevelHeight::of_work;
+  }
+  move.is_new_place = (move.absolute.bits() & ~known_.bits()) != 0;
+  for (const Axis axis : all_axes) {
+    if (move.absolute.has(axis)) known_.add(axis);
+  }
   return move;
 }
 
 void Leveller::take_straight(const Operation& operation, const Point& end, bool rapid) {
-  if (!rapid) look_beside(operation, end);
-  add({.line = {}, .move = move_to(operation, end, rapid), .is_move = true});
+  const LevelledMove move = move_to(operation, end, rapid);
+  if (is_same_place(move.from, move.to) && !move.is_new_place) return;
+  if (!rapid && move.levelled) look_beside(operation, end);
+  add({.line = {}, .move = move, .is_move = true});
 }
 
 void Leveller::take_arc(const Operation& operation, const operation::ArcFeed& arc) {
   if (arc.plane != Plane::xy) return take_upright_arc(operation, arc);
-  look_beside(operation, arc.end);
-  Move move = move_to(operation, arc.end, false);
+  LevelledMove move = move_to(operation, arc.end, false);
+  if (move.levelled) look_beside(operation, arc.end);
+  if (move.from_above && std::abs(arc.turns) > 1) {
+    refuse(operation, "level.height", "a helix of several turns begins at a height that the program has not given",
+           "a move to a Z before");
+  }
   move.is_arc = true;
   move.center_x = arc.first_center.value();
   move.center_y = arc.second_center.value();
@@ -189,53 +189,31 @@ void Leveller::take_upright_arc(const Operation& operation, const operation::Arc
   }
 }
 
-// True: the operation is about the frame, and is done.
-bool Leveller::follow_frame(const Operation& operation) {
-  const Frame before = frame_;
-  if (!frame_.follow(operation)) return false;
-  if (is_reset_) write_frame(operation, before);
-  give_run();
-  const Point after = frame_.work_from_machine(before.machine_from_work(place_));
-  height_ += after[Axis::z] - place_[Axis::z];
-  place_ = after;
-  Point stands = place_;
-  stands[Axis::z] = height_;
-  code_.stand_at(stands);
-  return true;
-}
-
-void Leveller::write_frame(const Operation& operation, const Frame& before) {
-  if (std::holds_alternative<operation::SetToolOffset>(operation.what)) {
-    if (auto words = tool_offset_words(operation.text, frame_.tool_offset())) return add_line(std::move(*words));
-    return refuse(operation, "level.cannot", "this tool offset cannot be written again",
-                  "G43, G43 H with a number, G43.1, or G49");
-  }
-  if (frame_.work_system() != before.work_system()) {
-    selects_ = true;  // its rotation comes next
-    return add_line(code_of_system(frame_.work_system()));
-  }
-  const bool turns = frame_.rotation_degrees() != before.rotation_degrees();
-  const bool changes = frame_.work_offset() != before.work_offset() || frame_.g92_offset() != before.g92_offset();
-  if (changes || (turns && !selects_)) {
-    refuse(operation, "level.offset", "the program changes the zero of its work itself",
-           "offsets that are set before the program (G54 and others)");
-  }
+void Leveller::take_move(const Operation& operation) {
+  const auto* rapid = std::get_if<operation::StraightTraverse>(&operation.what);
+  const auto* feed = std::get_if<operation::StraightFeed>(&operation.what);
+  if (rapid == nullptr && feed == nullptr) return take_arc(operation, std::get<operation::ArcFeed>(operation.what));
+  const Point& end = rapid != nullptr ? rapid->end : feed->end;
+  const std::string& code = blocks_.last().place.name;
+  if (code == "G53") return take_machine_move(end, rapid != nullptr);
+  if ((code == "G28" || code == "G30") && take_home(end)) return;
+  take_straight(operation, end, rapid != nullptr);
 }
 
 bool Leveller::take(const Operation& operation) {
+  if (cycle_.block != blocks_.last().number) end_cycle();
+  for (const FrameBlock& block : blocks_.take()) take_block(block);
   if (std::holds_alternative<operation::Reset>(operation.what) && !is_reset_) {
     is_reset_ = true;
-    add_line("G17 G21 G40 G49 G80 G90 G94 " + code_of_system(frame_.work_system()));
+    add_line("G17 G21 G40 G80 G90 G94");
     return true;
   }
+  if (keeps_cycle(operation)) return true;
   if (follow_frame(operation)) return true;
-  selects_ = false;
-  if (const auto* rapid = std::get_if<operation::StraightTraverse>(&operation.what)) {
-    take_straight(operation, rapid->end, true);
-  } else if (const auto* feed = std::get_if<operation::StraightFeed>(&operation.what)) {
-    take_straight(operation, feed->end, false);
-  } else if (const auto* arc = std::get_if<operation::ArcFeed>(&operation.what)) {
-    take_arc(operation, *arc);
+  if (std::holds_alternative<operation::StraightTraverse>(operation.what) ||
+      std::holds_alternative<operation::StraightFeed>(operation.what) ||
+      std::holds_alternative<operation::ArcFeed>(operation.what)) {
+    take_move(operation);
   } else if (const auto* rate = std::get_if<operation::SetFeedRate>(&operation.what)) {
     feed_ = rate->rate * 60;
     rotary_feed_ = rate->rotary_rate * 60;
@@ -257,11 +235,11 @@ bool Leveller::take(const Operation& operation) {
 void Leveller::add(Item item) {
   if (item.is_move) {
     ++count_.moves_before;
-    item.move.is_first = !std::exchange(is_known_, true);
     place_ = item.move.to;
-    const bool is_upright = goes_straight_up_or_down(item.move);
-    const bool begins = run_.empty() && is_upright && item.move.to[Axis::z] < item.move.from[Axis::z];
-    if (begins || (!run_.empty() && is_upright)) {
+    any_levelled_ = any_levelled_ || item.move.levelled;
+    const LevelledMove& move = item.move;
+    const bool goes_down = move.to[Axis::z] < move.from[Axis::z] || move.from_above;
+    if (move.is_upright() && (goes_down || !run_.empty())) {
       run_.push_back(std::move(item));
       return;
     }
@@ -272,14 +250,19 @@ void Leveller::add(Item item) {
   run_.push_back(std::move(item));
 }
 
-// A run that ends where its first feed began, or higher, is a hole. Below that its heights are those of the program.
-void Leveller::give_run() {
+// A run that ends where its first feed began, or higher, is a hole. Below that its heights are those of the program. If
+// nobody knows where it began, it is a hole if the tool comes up again.
+void Leveller::give_run(bool rises) {
   if (run_.empty()) return;
   const auto feed = std::ranges::find_if(run_, [](const Item& item) { return item.is_move && !item.move.rapid; });
-  const double top = feed != run_.end() ? feed->move.from[Axis::z] : 0;
+  double top = feed != run_.end() ? feed->move.from[Axis::z] : 0;
   double end = top;
   for (const Item& item : run_) end = item.is_move ? item.move.to[Axis::z] : end;
-  const bool is_hole = !wish_.holes && feed != run_.end() && end >= top - same_height;
+  if (feed != run_.end() && feed->move.from_above) {
+    rises = rises || end > feed->move.to[Axis::z] + same_height;
+    top = std::max(end, feed->move.to[Axis::z] + 2 * same_height);
+  }
+  const bool is_hole = !wish_.holes && feed != run_.end() && (rises || end >= top - same_height);
   if (is_hole) ++count_.holes;
   for (Item& item : run_) {
     if (is_hole && item.move.to[Axis::z] < top - same_height) item.move.levelled = false;
@@ -289,6 +272,7 @@ void Leveller::give_run() {
 }
 
 void Leveller::finish() {
+  end_cycle();
   give_run();
 }
 
@@ -297,19 +281,34 @@ void Leveller::give(const Item& item) {
   code_.line(item.line);
 }
 
-void Leveller::give_move(const Move& move) {
-  PlainMove plain{.rapid = move.rapid, .feed = move.feed, .named = move.named, .to = move.to};
+// After a rapid that was not levelled: the whole way of this move is levelled, from its beginning.
+void Leveller::begin_at_height(const LevelledMove& move) {
+  const double height = move.from[Axis::z] + map_.height(move.from[Axis::x], move.from[Axis::y]);
+  if (move.from_anywhere || move.from_above || std::abs(height - height_) < least_step) return;
+  PlainMove plain{.rapid = move.rapid, .feed = move.feed, .to = move.from};
+  plain.to[Axis::z] = height_ = height;
+  code_.move(plain);
+  ++count_.moves_after;
+}
+
+void Leveller::give_move(const LevelledMove& move) {
+  PlainMove plain{
+      .rapid = move.rapid, .feed = move.feed, .named = move.named, .absolute = move.absolute, .to = move.to};
   const LevelPlace from = level_place(move.from);
   const LevelPlace to = level_place(move.to);
-  if (!move.levelled || (move.is_first && !move.is_arc)) {
+  if (move.is_arc && !move.levelled) return give_arc_piece(move, 0, {.end = to});
+  const bool is_whole = (move.from_anywhere || move.from_above) && !move.is_arc;
+  if (!move.levelled || is_whole || move.is_upright()) {
     plain.to[Axis::z] = move.levelled ? to.z + map_.height(to.x, to.y) : to.z;
     code_.move(plain);
     ++count_.moves_after;
     height_ = plain.to[Axis::z];
     return;
   }
-  const auto pieces = move.is_arc ? level_arc(map_, from, to, move.center_x, move.center_y, move.sweep, wish_.tolerance)
-                                  : level_line(map_, from, to, wish_.tolerance);
+  begin_at_height(move);
+  const double tolerance = move.from_above ? coarsest : wish_.tolerance;
+  const auto pieces = move.is_arc ? level_arc(map_, from, to, move.center_x, move.center_y, move.sweep, tolerance)
+                                  : level_line(map_, from, to, tolerance);
   double part = 0;
   for (const LevelledPiece& piece : pieces) {
     if (move.is_arc) {
@@ -326,7 +325,7 @@ void Leveller::give_move(const Move& move) {
 }
 
 // Whole turns are written one by one.
-void Leveller::give_arc_piece(const Move& move, double from_part, const LevelledPiece& piece) {
+void Leveller::give_arc_piece(const LevelledMove& move, double from_part, const LevelledPiece& piece) {
   const double sweep = move.sweep * (piece.part - from_part);
   const int turns = std::max(1, static_cast<int>(std::ceil(std::abs(sweep) / turn - 1e-9)));
   const double start_radius = std::hypot(move.from[Axis::x] - move.center_x, move.from[Axis::y] - move.center_y);
@@ -336,7 +335,7 @@ void Leveller::give_arc_piece(const Move& move, double from_part, const Levelled
   for (int i = 1; i <= turns; ++i) {
     const double share = static_cast<double>(i) / turns;
     const double part = from_part + (piece.part - from_part) * share;
-    PlainMove plain{.rapid = false, .feed = move.feed, .named = move.named, .to = move.to};
+    PlainMove plain{.rapid = false, .feed = move.feed, .named = move.named, .absolute = move.absolute, .to = move.to};
     if (part != 1) {
       const double radius = start_radius + (end_radius - start_radius) * part;
       plain.to = move.from + (move.to - move.from) * part;
@@ -352,14 +351,12 @@ void Leveller::give_arc_piece(const Move& move, double from_part, const Levelled
   }
 }
 
-}  // namespace
-
 LevelCount write_levelled_program(ProgramReader program, const InterpreterOptions& options, const HeightMap& map,
                                   const LevelOptions& wish, Diagnostics& diagnostics,
                                   const std::function<void(std::string_view)>& write) {
   const std::string file = program.name();
   Interpreter interpreter(std::move(program), options, diagnostics);
-  Leveller leveller(options, file, map, wish, diagnostics, write);
+  Leveller leveller(interpreter, options, file, map, wish, diagnostics, write);
   Operation operation;
   while (!diagnostics.full() && interpreter.next(operation)) {
     if (!leveller.take(operation)) break;

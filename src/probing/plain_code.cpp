@@ -1,51 +1,26 @@
 #include "plain_code.hpp"
 
-#include <cctype>
-#include <charconv>
 #include <cmath>
 #include <iterator>
 
 namespace passo {
 namespace {
 
-constexpr double places = 1e5;  // a hundredth of a micrometre
+constexpr double places_a_mm = 1e5;  // a hundredth of a micrometre
 
 std::int64_t written(double value) {
-  return std::llround(value * places);
+  return std::llround(value * places_a_mm);
 }
 
 // Without zeros at its end.
-void append_number(std::string& text, std::int64_t number) {
-  fmt::format_to(std::back_inserter(text), "{:.5f}", static_cast<double>(number) / places);
+void append_number(std::string& text, double number, int decimals) {
+  fmt::format_to(std::back_inserter(text), "{:.{}f}", number, decimals);
   while (text.back() == '0') text.pop_back();
   if (text.back() == '.') text.pop_back();
+  if (text.ends_with("-0")) text.erase(text.size() - 2, 1);
 }
-
-// The words of a line in capitals, without blanks and comments.
-std::string words_of(std::string_view line) {
-  std::string words;
-  bool in_comment = false;
-  for (const char c : line) {
-    if (c == ';' && !in_comment) break;
-    if (c == '(') in_comment = true;
-    if (!in_comment && std::isspace(static_cast<unsigned char>(c)) == 0)
-      words += static_cast<char>(std::toupper(static_cast<unsigned char>(c)));
-    if (c == ')') in_comment = false;
-  }
-  return words;
-}
-
-// Whether the words have this code: not G430 or G43.1 where G43 is asked for.
-std::size_t find_code(std::string_view words, std::string_view code) {
-  for (std::size_t at = words.find(code); at != std::string_view::npos; at = words.find(code, at + 1)) {
-    const std::size_t end = at + code.size();
-    const char next = end < words.size() ? words[end] : ' ';
-    if (next != '.' && std::isdigit(static_cast<unsigned char>(next)) == 0) return at;
-  }
-  return std::string_view::npos;
-}
-bool has_code(std::string_view words, std::string_view code) {
-  return find_code(words, code) != std::string_view::npos;
+void append_number(std::string& text, std::int64_t number) {
+  append_number(text, static_cast<double>(number) / places_a_mm, 5);
 }
 
 std::string in_parentheses(std::string_view before, std::string_view text) {
@@ -67,6 +42,9 @@ struct PlainLine {
   Line operator()(const operation::StartToolChange&) const { return nothing(); }
   Line operator()(const operation::Finish&) const { return nothing(); }
   Line operator()(const operation::Log&) const { return nothing(); }
+  // Written with the block that sets the tool: the operation does not say all its words.
+  Line operator()(const operation::SetToolTableEntry&) const { return nothing(); }
+  Line operator()(const operation::ReloadTools&) const { return nothing(); }
   Line operator()(const operation::SetFeedMode& set) const {
     return set.mode == FeedMode::units_per_minute ? nothing() : std::nullopt;
   }
@@ -116,49 +94,128 @@ struct PlainLine {
 
 void PlainCode::stand_at(const Point& place) {
   for (const Axis axis : all_axes) at_[axis] = written(place[axis]);
-  sure_ = AxisSet();
+}
+
+void PlainCode::forget(AxisSet axes) {
+  for (const Axis axis : all_axes) {
+    if (axes.has(axis)) known_.remove(axis);
+  }
 }
 
 void PlainCode::line(std::string_view text) {
   text_.assign(text);
+  write_line();
+}
+
+void PlainCode::write_line() {
   text_ += '\n';
   write_(text_);
+  text_.clear();
+}
+
+void PlainCode::write_mode(bool incremental) {
+  if (incremental == is_incremental_) return;
+  is_incremental_ = incremental;
+  text_ += incremental ? "G91" : "G90";
+}
+
+void PlainCode::write_feed(double feed) {
+  const std::int64_t number = written(feed);
+  if (number == feed_) return;
+  text_ += " F";
+  append_number(text_, number);
+  feed_ = number;
 }
 
 void PlainCode::move(const PlainMove& move) {
-  text_.clear();
-  const int code = move.arc ? (move.arc->clockwise ? 2 : 3) : move.rapid ? 0 : 1;
-  if (code != code_ || move.arc) text_ += fmt::format("G{}", code);
-  const double from_x = static_cast<double>(at_[Axis::x]) / places;
-  const double from_y = static_cast<double>(at_[Axis::y]) / places;
-  bool moves = false;
+  AxisSet places;
+  AxisSet ways;
+  bool any_new_place = false;
   for (const Axis axis : all_axes) {
-    const std::int64_t to = written(move.to[axis]);
+    const bool is_known = known_.has(axis);
+    const bool is_place = is_known || move.absolute.has(axis);
     const bool is_in_plane = move.arc && (axis == Axis::x || axis == Axis::y);
-    if (at_[axis] == to && (sure_.has(axis) || !move.named.has(axis)) && !is_in_plane) continue;
+    const bool stays = at_[axis] == written(move.to[axis]) && (!is_place || is_known || !move.named.has(axis));
+    if (stays && !is_in_plane) continue;
+    (is_place ? places : ways).add(axis);
+    any_new_place = any_new_place || (is_place && !is_known);
+  }
+  if (places.empty() && ways.empty()) return;
+  const bool incremental = !ways.empty() && !any_new_place;
+  write_mode(incremental);
+  const int code = move.arc ? (move.arc->clockwise ? 2 : 3) : move.rapid ? 0 : 1;
+  if (code != code_ || move.arc) text_ += fmt::format("{}G{}", text_.empty() ? "" : " ", code);
+  const double from_x = static_cast<double>(at_[Axis::x]) / places_a_mm;
+  const double from_y = static_cast<double>(at_[Axis::y]) / places_a_mm;
+  for (const Axis axis : all_axes) {
+    if (!places.has(axis) && !ways.has(axis)) continue;
+    const std::int64_t to = written(move.to[axis]);
+    const std::int64_t way = to - at_[axis];
     if (!text_.empty()) text_ += ' ';
     text_ += letter_of(axis);
-    append_number(text_, to);
+    if (incremental) {
+      append_number(text_, way);
+    } else if (places.has(axis)) {
+      append_number(text_, to);
+      known_.add(axis);
+    } else {  // a place and a way cannot be in one block: #5420 and what follows is where the axes stand
+      text_ += fmt::format("[#{}{}", 5420 + index_of(axis), way < 0 ? "" : "+");
+      append_number(text_, way);
+      text_ += ']';
+    }
     at_[axis] = to;
-    sure_.add(axis);
-    moves = true;
   }
-  if (!moves) return;
   if (move.arc) {
     text_ += " I";
     append_number(text_, written(move.arc->center_x - from_x));
     text_ += " J";
     append_number(text_, written(move.arc->center_y - from_y));
   }
-  const std::int64_t feed = written(move.feed);
-  if (!move.rapid && feed != feed_) {
-    text_ += " F";
-    append_number(text_, feed);
-    feed_ = feed;
-  }
+  if (!move.rapid) write_feed(move.feed);
   code_ = code;
-  text_ += '\n';
-  write_(text_);
+  write_line();
+}
+
+// With all the digits that a number of the program may have: a place of the machine stays what it is.
+void PlainCode::machine_move(bool rapid, double feed, AxisSet axes, const Point& machine) {
+  write_mode(false);
+  text_ += fmt::format("{}G53 G{}", text_.empty() ? "" : " ", rapid ? 0 : 1);
+  for (const Axis axis : all_axes) {
+    if (!axes.has(axis)) continue;
+    text_ += fmt::format(" {}", letter_of(axis));
+    append_number(text_, machine[axis], 10);
+  }
+  if (!rapid) write_feed(feed);
+  code_ = rapid ? 0 : 1;
+  write_line();
+}
+
+void PlainCode::cycle(std::string_view code, std::string_view words, double feed, const Point& end,
+                      bool is_height_known) {
+  write_mode(false);
+  if (!text_.empty()) text_ += ' ';
+  text_ += code;
+  stand_at(end);
+  for (const Axis axis : {Axis::x, Axis::y}) {
+    text_ += fmt::format(" {}", letter_of(axis));
+    append_number(text_, at_[axis]);
+    known_.add(axis);
+  }
+  if (is_height_known) known_.add(Axis::z);
+  text_ += words;
+  write_feed(feed);
+  code_ = -1;
+  write_line();
+}
+
+void PlainCode::home(std::string_view code, AxisSet axes) {
+  if (!axes.empty()) write_mode(true);
+  if (!text_.empty()) text_ += ' ';
+  text_ += code;
+  for (const Axis axis : all_axes) {
+    if (axes.has(axis)) text_ += fmt::format(" {}0", letter_of(axis));
+  }
+  write_line();
 }
 
 std::string path_mode_line(const operation::SetPathMode& mode, Mm merge) {
@@ -174,37 +231,13 @@ std::string code_of_system(int system) {
   return system <= 6 ? fmt::format("G{}", 53 + system) : fmt::format("G59.{}", system - 6);
 }
 
+int system_of_code(std::string_view code) {
+  const int tenth = code.size() > 4 ? code[4] - '0' : 0;
+  return code[2] - '0' - 3 + tenth;
+}
+
 std::optional<std::string> plain_line_of(const Operation& operation) {
   return std::visit(PlainLine{}, operation.what);
-}
-
-std::optional<std::string> tool_offset_words(std::string_view line, const Point& offset) {
-  const std::string words = words_of(line);
-  if (has_code(words, "G49")) return "G49";
-  if (has_code(words, "G43.1")) {
-    std::string text = "G43.1";
-    for (const Axis axis : all_axes) {
-      text += fmt::format(" {}{:.5f}", letter_of(axis), offset[axis]);
-      if (axis == Axis::z) break;
-    }
-    return text;
-  }
-  if (!has_code(words, "G43")) return {};
-  const std::size_t h = words.find('H');
-  if (h == std::string::npos) return "G43";
-  unsigned number = 0;
-  const char* const end = words.data() + words.size();
-  const auto [rest, error] = std::from_chars(words.data() + h + 1, end, number);
-  const bool is_whole = error == std::errc() && (rest == end || (*rest != '.' && *rest != '['));
-  return is_whole ? std::optional(fmt::format("G43 H{}", number)) : std::nullopt;
-}
-
-bool names_machine_place(std::string_view line) {
-  if (line.find('5') == std::string_view::npos && line.find('2') == std::string_view::npos &&
-      line.find('3') == std::string_view::npos)
-    return false;
-  const std::string words = words_of(line);
-  return has_code(words, "G53") || has_code(words, "G28") || has_code(words, "G30");
 }
 
 }  // namespace passo

@@ -27,7 +27,8 @@ std::size_t cell_of(double offset, double size, std::size_t cells) {
 
 }  // namespace
 
-Surface::Surface(std::vector<SurfaceTriangle> triangles) : triangles_(std::move(triangles)) {
+Surface::Surface(std::vector<SurfaceTriangle> triangles, std::function<double(double x, double y)> height)
+    : triangles_(std::move(triangles)), height_(std::move(height)) {
   if (triangles_.empty()) return;
   low_ = high_ = triangles_.front().front();
   for (const SurfaceTriangle& triangle : triangles_) {
@@ -108,6 +109,7 @@ void Surface::add_levels() {
 
 double Surface::top(double x, double y) const {
   if (triangles_.empty() || x < low_.x || x > high_.x || y < low_.y || y > high_.y) return nothing;
+  if (height_) return height_(x, y);
   const Level& level = levels_.front();
   const std::size_t cell =
       cell_of(y - low_.y, level.size, level.up) * level.across + cell_of(x - low_.x, level.size, level.across);

@@ -1,6 +1,7 @@
 #include "passo/surface_file/surface_file.hpp"
 
 #include <optional>
+#include <utility>
 
 #include "stl_file.hpp"
 
@@ -14,7 +15,8 @@ bool is_text(std::string_view bytes) {
   return bytes.substr(0, 4096).find('\0') == std::string_view::npos;
 }
 
-std::vector<SurfaceTriangle> triangles_of(const HeightMap& map) {
+// Two triangles a cell bound it; its height is that of the map.
+Surface surface_of(const HeightMap& map) {
   const auto corner = [&](std::size_t column, std::size_t row) {
     return SurfacePoint{map.columns()[column], map.rows()[row], map.at(column, row)};
   };
@@ -26,7 +28,7 @@ std::vector<SurfaceTriangle> triangles_of(const HeightMap& map) {
       all.push_back({corner(x, y), corner(x + 1, y + 1), corner(x, y + 1)});
     }
   }
-  return all;
+  return Surface(std::move(all), [map](double x, double y) { return map.height(x, y); });
 }
 
 }  // namespace
@@ -39,7 +41,7 @@ Surface read_surface(const std::string& name, std::string_view bytes, Diagnostic
   if (looks_like_body(bytes)) return Surface(read_stl(name, bytes, diagnostics));
   if (is_text(bytes)) {
     const std::optional<HeightMap> map = read_height_map(name, bytes, diagnostics);
-    return map ? Surface(triangles_of(*map)) : Surface();
+    return map ? surface_of(*map) : Surface();
   }
   diagnostics.add(of_file("surface.unknown-kind", name, "this is neither an STL file nor a height map",
                           "STL, text or binary, or lines x,y,z"));

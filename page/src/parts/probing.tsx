@@ -151,31 +151,29 @@ export function Probing() {
   );
 }
 
-// Between the lowest and the highest: the colours of the scene.
+// Between the lowest and the highest: the colours of the scene. A pixel for each place of the grid; what is between is
+// the browser's to smooth, and only a picture.
 function drawMap(canvas: HTMLCanvasElement, map: HeightMap): void {
   const pen = canvas.getContext('2d');
-  if (pen === null) return;
+  const grid = document.createElement('canvas');
+  const dots = grid.getContext('2d');
+  if (pen === null || dots === null) return;
   const [columns, rows] = [map.columns.length, map.rows.length];
-  const side = 6; // pixels of the picture from place to place; the browser smooths them
-  canvas.width = (columns - 1) * side + 1;
-  canvas.height = (rows - 1) * side + 1;
+  [grid.width, grid.height] = [columns, rows];
+  const side = 6; // pixels of the picture from place to place
+  [canvas.width, canvas.height] = [(columns - 1) * side, (rows - 1) * side];
   const colours = getComputedStyle(canvas);
   const parse = (name: string): number[] => [1, 3, 5].map((i) => parseInt(colours.getPropertyValue(name).trim().slice(i, i + 2), 16));
   const [slow, fast] = [parse('--slow'), parse('--fast')];
   const span = Math.max(map.highest - map.lowest, 1e-9);
-  for (let j = 0; j < canvas.height; ++j) {
-    for (let i = 0; i < canvas.width; ++i) {
-      const [x, y] = [i / side, (canvas.height - 1 - j) / side];
-      const [c, r] = [Math.min(Math.floor(x), columns - 2), Math.min(Math.floor(y), rows - 2)];
-      const at = (dr: number, dc: number): number => map.heights[r + dr]?.[c + dc] ?? 0;
-      const [u, v] = [x - c, y - r];
-      const height = (at(0, 0) * (1 - u) + at(0, 1) * u) * (1 - v) + (at(1, 0) * (1 - u) + at(1, 1) * u) * v;
-      const share = (height - map.lowest) / span;
-      const mixed = slow.map((low, k) => Math.round(low + share * ((fast[k] ?? 0) - low)));
-      pen.fillStyle = `rgb(${mixed.join(',')})`;
-      pen.fillRect(i, j, 1, 1);
-    }
-  }
+  map.heights.forEach((row, r) =>
+    row.forEach((height, c) => {
+      const mixed = slow.map((low, k) => Math.round(low + ((height - map.lowest) / span) * ((fast[k] ?? 0) - low)));
+      dots.fillStyle = `rgb(${mixed.join(',')})`;
+      dots.fillRect(c, rows - 1 - r, 1, 1);
+    }),
+  );
+  pen.drawImage(grid, 0.5, 0.5, columns - 1, rows - 1, 0, 0, canvas.width, canvas.height);
 }
 
 function MapPanel() {

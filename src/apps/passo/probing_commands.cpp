@@ -49,6 +49,7 @@ int level(const LevelArguments& arguments) {
   files.reads("the program", arguments.program.program);
   files.reads("--map", arguments.map);
   files.reads("--tools", arguments.program.tools);
+  files.reads("--parameters", arguments.program.parameters);
   files.writes("--output", arguments.output);
   if (!files.are_apart()) return exit_bad_program;
   Diagnostics diagnostics;
@@ -69,8 +70,11 @@ int level(const LevelArguments& arguments) {
   if (!program || !options) return exit_bad_program;
   Diagnostics findings;
   std::string text;
-  const LevelOptions wish{
-      .tolerance = arguments.tolerance, .holes = arguments.holes, .clear = arguments.clear, .beside = arguments.beside};
+  const LevelOptions wish{.tolerance = arguments.tolerance,
+                          .holes = arguments.holes,
+                          .clear = arguments.clear,
+                          .beside = arguments.beside,
+                          .knows_offsets = !arguments.program.parameters.empty()};
   const LevelCount count = write_levelled_program(std::move(*program), *options, *map, wish, findings,
                                                   [&](std::string_view piece) { text += piece; });
   show(findings);

@@ -76,6 +76,8 @@ void add_level_options(CLI::App& command, LevelArguments& arguments) {
       ->capture_default_str();
   command.add_option("--zero", arguments.zero, "X,Y: there the program's Z0 was set, so there the height is 0");
   command.add_option("--tools", arguments.program.tools, "tool table (.tbl), for programs with G43");
+  command.add_option("--parameters", arguments.program.parameters,
+                     "numbered parameters (.var) of the run, for programs that change the work system or go home");
   command.add_flag("--inches", arguments.program.inches, "lengths are inches until the program says G20 or G21");
   command.add_option("-o,--output", arguments.output, "the program; without it standard output");
   command.footer(level_examples);

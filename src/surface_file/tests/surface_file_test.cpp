@@ -2,10 +2,13 @@
 
 #include <cstdint>
 #include <cstring>
+#include <optional>
 #include <string>
 
 #include <fmt/format.h>
 #include <gmock/gmock.h>
+
+#include "passo/levelling/height_map.hpp"
 
 namespace passo {
 namespace {
@@ -28,6 +31,22 @@ TEST(HeightMap, four_points_are_a_plane) {
   EXPECT_NEAR(plane.surface.top(5, 10), 0.5, 1e-12);
   EXPECT_NEAR(plane.surface.top(2, 15), -0.3, 1e-12);
   EXPECT_EQ(plane.surface.top(10.1, 10), Surface::nothing);
+}
+
+TEST(HeightMap, is_the_surface_that_programs_are_levelled_by) {
+  const std::string text = "0,0,0\n10,0,1\n0,20,0.5\n10,20,-1\n25,0,0.3\n25,20,2\n";
+  const Read twisted = read(text);
+  EXPECT_EQ(twisted.words, "");
+  EXPECT_NEAR(twisted.surface.top(5, 10), 0.125, 1e-12);
+  Diagnostics diagnostics;
+  const std::optional<HeightMap> map = read_height_map("it", text, diagnostics);
+  ASSERT_TRUE(map);
+  for (double x = 0; x <= 25; x += 0.5) {
+    for (double y = 0; y <= 20; y += 0.5) {
+      EXPECT_EQ(twisted.surface.top(x, y), map->height(x, y));
+      EXPECT_EQ(twisted.surface.clearance({x, y, map->height(x, y)}), 0);
+    }
+  }
 }
 
 TEST(HeightMap, points_may_stand_in_any_order_with_blanks_or_semicolons) {

@@ -10,12 +10,20 @@
 // What is not levelled:
 // - rapids whose ends are both higher than the highest place of the map by `clear` at least: nothing is in their way;
 // - what is drilled, unless `holes`: where the tool goes straight down and comes straight up again, its depths stay.
-// (The tool
-//   goes sideways only above the hole, so that begins and ends at the height of the surface.)
+// (The
+//   tool goes sideways only above the hole, so that begins and ends at the height of the surface.)
+// - places of the machine: G53, G28 and G30 are written as such, and moves after them, or at the start, that do not
+//   name Z do not get one. A feed there is a warning "level.height".
+//
+// Where the machine stands when the program starts is not known, nor which offsets and tool lengths it has. So words of
+// work systems, tool lengths and homes stay words, and an axis is written as a place only where the program has named
+// its place since. Any other axis goes as far as the program says (G91). A drilling cycle from an unknown height stays
+// a cycle. Moves that nobody can place on the map are levelled where the options' start and offsets have them, with a
+// warning "level.place".
 //
 // Refused, with a diagnostic "level.…" at the line: what a list of moves cannot say (probe moves, threads, taps,
-// inputs, offsets that the program itself changes), arcs of other planes than XY, splines, and feeds farther beside the
-// map than `beside`.
+// inputs, splines), words that move the zero of the work (G10 L2, G10 L20, G52, G92), and feeds farther beside the map
+// than `beside`.
 #pragma once
 
 #include <cstdint>
@@ -34,6 +42,8 @@ struct LevelOptions {
   bool holes = false;       // what is drilled is levelled too
   double clear = 1;         // mm, see above
   double beside = 5;        // mm
+  // The options' work offsets are those of the run: a change of the work system does not hide where the tool is.
+  bool knows_offsets = false;
 };
 
 struct LevelCount {

@@ -1,6 +1,7 @@
 // Surface: the upper face of a body, seen from above: a height Z for each X and Y.
 //
-// The face is the highest of its triangles. What an edge hangs over is taken for solid; upright triangles have no area
+// The face is the highest of its triangles. A face that is curved between the corners of its triangles gives its height
+// itself. What an edge hangs over is taken for solid; upright triangles have no area
 // seen from above, and their neighbours bound the wall. Beside the triangles there is nothing.
 //
 // All lengths are millimetres. Cost: top() looks at the triangles of one cell, clearance() at about 90 heights. Memory:
@@ -10,6 +11,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <limits>
 #include <vector>
 
@@ -28,7 +30,9 @@ class Surface {
   static constexpr double nothing = -std::numeric_limits<double>::infinity();
 
   Surface() = default;
-  explicit Surface(std::vector<SurfaceTriangle> triangles);
+  // `height`: of a face that is nowhere higher than the highest corner of the triangles there. None: the triangles are
+  // flat.
+  explicit Surface(std::vector<SurfaceTriangle> triangles, std::function<double(double x, double y)> height = {});
 
   // The height at a place, or `nothing`.
   double top(double x, double y) const;
@@ -63,6 +67,7 @@ class Surface {
   static double clearance_at(const Level& level, double x, double y, double z);
 
   std::vector<SurfaceTriangle> triangles_;
+  std::function<double(double, double)> height_;
   SurfacePoint low_{1, 1, 1};
   SurfacePoint high_{};
   std::vector<Level> levels_;

@@ -1,8 +1,8 @@
 // read_surface: a Surface from a file: a body (STL, text or binary) or a height map (CSV). The kind is told by what is
 // in the file.
 //
-// A height map has a line x,y,z for each point of a grid (levelling/height_map.hpp). Four points are a plane. Between
-// the points the surface is made of two triangles a cell.
+// A height map has a line x,y,z for each point of a grid. Between the points its surface is that of HeightMap
+// (levelling/height_map.hpp), so a program that is levelled by a map meets the surface of that map.
 //
 // Files are in millimetres. What a file says is bounded: its size, the triangles, and how far they lie. Errors are
 // diagnostics "surface.…".

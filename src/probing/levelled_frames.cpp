@@ -1,0 +1,192 @@
+// Leveller: work systems, offsets and places of the machine. What the machine knows and this program does not (offsets,
+// lengths of tools, homes) stays words: G55, G43 H1, G28.
+#include <cmath>
+#include <utility>
+
+#include "leveller.hpp"
+#include <fmt/format.h>
+
+namespace passo {
+namespace {
+
+constexpr AxisSet every_axis{0x1FF};
+
+AxisSet only(Axis axis) {
+  AxisSet set;
+  set.add(axis);
+  return set;
+}
+
+// " X1.5", of the words of the axes.
+std::string axis_words_of(const FrameBlock& block, double more_z = 0) {
+  std::string text;
+  for (const auto& [letter, value] : block.words) {
+    if (!axis_of(letter)) continue;
+    text += fmt::format(" {}{:.5f}", letter, letter == 'Z' ? value + more_z : value);
+  }
+  return text;
+}
+
+}  // namespace
+
+// What no operation says.
+void Leveller::take_block(const FrameBlock& block) {
+  if (!is_reset_) return;
+  if (!block.system.empty()) take_system(block);
+  const std::string& code = block.place.name;
+  if (code == "G28.1" || code == "G30.1") return store_home(block);
+  if (code == "G10") return take_tool_entry(block);
+  if (code == "G52" || code == "G92") {
+    refuse(block, "level.offset", fmt::format("{} changes the zero of the work itself", code),
+           "offsets that are set before the program (G54 and others)");
+  }
+}
+
+void Leveller::take_system(const FrameBlock& block) {
+  give_run();
+  add_line(block.system.name);
+  // The interpreter has the number already; where it stays, no operation follows.
+  const int before = std::exchange(system_, system_of_code(block.system.name));
+  if (before != system_ && !wish_.knows_offsets) lose(every_axis);
+}
+
+// G10 L1, L10 and L11 set a tool, L2 and L20 the zero of the work.
+void Leveller::take_tool_entry(const FrameBlock& block) {
+  const auto kind = static_cast<int>(std::lround(block.value('L')));
+  if (kind != 0 && kind != 1 && kind != 10 && kind != 11) {
+    return refuse(block, "level.offset", fmt::format("G10 L{} changes the zero of the work itself", kind),
+                  "offsets that are set before the program (G54 and others)");
+  }
+  give_run();
+  std::string line = fmt::format("G10 L{}", kind);
+  for (const char letter : {'P', 'R', 'I', 'J', 'Q'}) {
+    if (!block.has(letter) || kind == 0) continue;
+    const double unit = letter == 'R' ? block.length_unit : 1;
+    line += fmt::format(" {}{:g}", letter, block.value(letter) * unit);
+  }
+  // L10 and L11 say where the tool is; the levelled program is higher.
+  if (kind != 0) line += axis_words_of(block, kind == 1 ? 0 : height_ - place_[Axis::z]);
+  add_line(std::move(line));
+}
+
+// The machine keeps where it stands: higher than the program would stand by the height of the surface.
+void Leveller::store_home(const FrameBlock& block) {
+  give_run();
+  add_line(block.place.name);
+  const double higher = (height_ - place_[Axis::z]) / machine_unit_;
+  if (std::abs(higher) < 1e-6) return;
+  const int parameter = block.place.name == "G28.1" ? 5163 : 5183;
+  add_line(fmt::format("#{}=[#{}{:+.6f}]", parameter, parameter, -higher));
+}
+
+// True: the operation is about the frame, and is done.
+bool Leveller::follow_frame(const Operation& operation) {
+  const Frame before = frame_;
+  if (!frame_.follow(operation)) return false;
+  if (is_reset_) write_frame(operation, before);
+  give_run();
+  const Point after = frame_.work_from_machine(before.machine_from_work(place_));
+  height_ += after[Axis::z] - place_[Axis::z];
+  place_ = after;
+  Point stands = place_;
+  stands[Axis::z] = height_;
+  code_.stand_at(stands);
+  return true;
+}
+
+void Leveller::write_frame(const Operation& operation, const Frame& before) {
+  if (std::holds_alternative<operation::SetToolOffset>(operation.what)) return write_tool_offset();
+  const FrameBlock& block = blocks_.last();
+  if (frame_.work_system() != before.work_system()) {
+    if (frame_.work_system() == system_) return;                  // written with its block
+    if (block.value('M') == 2 || block.value('M') == 30) return;  // the end of the program, here and there
+    system_ = frame_.work_system();
+    give_run();
+    add_line(code_of_system(system_));  // M72
+    return lose(every_axis);
+  }
+  const bool has_moved = frame_.g92_offset() != before.g92_offset();
+  if (block.place.name.starts_with("G92.") && block.number != g92_block_) {
+    g92_block_ = block.number;
+    if (has_moved && any_levelled_) {
+      return refuse(operation, "level.offset",
+                    fmt::format("{} changes the zero of the work after moves on the surface", block.place.name),
+                    "offsets that are set before the program (G54 and others)");
+    }
+    give_run();
+    add_line(block.place.name);
+    if (!wish_.knows_offsets) lose(every_axis);
+  }
+}
+
+// Without a tool table the lengths are not known.
+void Leveller::write_tool_offset() {
+  const FrameBlock& block = blocks_.last();
+  std::string line = block.tool.name;
+  if (line.empty()) {  // M72
+    const Point& offset = frame_.tool_offset();
+    line = offset == Point() ? "G49" : "G43.1";
+    for (const Axis axis : all_axes) {
+      if (offset[axis] != 0) line += fmt::format(" {}{:.5f}", letter_of(axis), offset[axis]);
+    }
+  } else if (line == "G43.1" || (line == "G43.2" && !block.has('H'))) {
+    line += axis_words_of(block);
+  } else if (block.has('H')) {
+    line += fmt::format(" H{}", std::lround(block.value('H')));
+  }
+  give_run();
+  add_line(std::move(line));
+  const bool was_known = std::exchange(has_tool_offset_, true) || wish_.knows_offsets;
+  if (!was_known || !has_tools_) lose(only(Axis::z));
+}
+
+void Leveller::lose(AxisSet axes) {
+  for (const Axis axis : all_axes) {
+    if (axes.has(axis)) known_.remove(axis);
+  }
+  if (axes.has(Axis::z) && at_ == LevelHeight::known) at_ = LevelHeight::of_work;
+  code_.forget(axes);
+}
+
+void Leveller::take_machine_move(const Point& end, bool rapid) {
+  const FrameBlock& block = blocks_.last();
+  if (block.named.empty()) return;
+  give_run(block.named.has(Axis::z));
+  code_.machine_move(rapid, feed_of(end), block.named, frame_.machine_from_work(end));
+  stand_in_machine(end, block.named);
+}
+
+// G28 and G30 go to a place of the work first. False: this is that move, and it goes somewhere.
+bool Leveller::take_home(const Point& end) {
+  const FrameBlock& block = blocks_.last();
+  if (std::exchange(homing_, block.number) != block.number) {
+    const bool is_known = (block.named.bits() & ~known_.bits()) == 0;
+    return is_same_place(end, place_) && (block.incremental || is_known);
+  }
+  const AxisSet axes = block.named.empty() ? every_axis : block.named;
+  give_run(axes.has(Axis::z));
+  code_.home(block.place.name, block.named);
+  stand_in_machine(end, axes);
+  return true;
+}
+
+// In a work that is turned X and Y change together.
+void Leveller::stand_in_machine(const Point& end, AxisSet axes) {
+  ++count_.moves_before;
+  ++count_.moves_after;
+  if (axes.has(Axis::x) || axes.has(Axis::y)) {
+    axes.add(Axis::x);
+    axes.add(Axis::y);
+  }
+  const double higher = axes.has(Axis::z) ? 0 : height_ - place_[Axis::z];
+  if (!wish_.knows_offsets) lose(axes);
+  if (axes.has(Axis::z)) lose(only(Axis::z));
+  if (axes.has(Axis::z)) at_ = LevelHeight::of_machine;
+  place_ = end;
+  height_ = end[Axis::z] + higher;
+  Point stands = place_;
+  stands[Axis::z] = height_;
+  code_.stand_at(stands);
+}
+
+}  // namespace passo
