@@ -49,7 +49,7 @@ void BoardSession::forget_what_was() {
   answered_ = true;
   rests_ = repeating_ = question_waits_ = outputs_timed_out_ = false;
   refusals_ = doubts_ = free_ = 0;
-  pressed_ = 0;
+  pressed_ = stopped_by_ = 0;
 }
 
 void BoardSession::hang_up() {
@@ -81,7 +81,9 @@ PinSetup BoardSession::undone_setup() const {
   return {.inputs = static_cast<std::uint16_t>(setup_.inputs & ~set_up_.inputs),
           .steps = static_cast<std::uint8_t>(setup_.steps & ~set_up_.steps),
           .outputs = static_cast<std::uint8_t>(setup_.outputs & ~set_up_.outputs),
-          .drivers_rest = set_up_.drivers_rest == 0 ? setup_.drivers_rest : std::uint8_t{0}};
+          .drivers_rest = set_up_.drivers_rest == 0 ? setup_.drivers_rest : std::uint8_t{0},
+          .alarms = static_cast<std::uint16_t>(setup_.alarms & ~set_up_.alarms),
+          .filter = set_up_.filter == 0 ? setup_.filter : std::uint8_t{0}};
 }
 
 std::string words_of_setup(const PinSetup& setup) {
@@ -102,6 +104,10 @@ std::string words_of_setup(const PinSetup& setup) {
   add((setup.outputs & mist_on) != 0, "mist");
   add((setup.outputs & flood_on) != 0, "flood");
   add(setup.drivers_rest != 0, "drivers_off_after_s");
+  for (unsigned i = 0; i < 8; ++i) add((setup.alarms >> i & 1U) != 0, "alarm at limit " + std::to_string(i + 1));
+  add((setup.alarms & input_hold) != 0, "alarm at feed_hold");
+  add((setup.alarms & input_start) != 0, "alarm at cycle_start");
+  add(setup.filter != 0, "filter_us");
   return words;
 }
 

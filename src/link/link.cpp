@@ -18,6 +18,10 @@ std::string_view message_of(LinkError error) {
     case LinkError::refused: return "the board refused what was sent to it";
     case LinkError::was_reset: return "the board was reset, and does not know any more where the motors are";
     case LinkError::stopped: return "the board has stopped its motors at once, and where they are is not certain";
+    case LinkError::drivers_off:
+      return "the board did not hear this computer for drivers_off_after_s and has switched the drivers off: the axes "
+             "may "
+             "have moved";
     case LinkError::too_few_places: return "the board cannot hold as much as it takes to bring the machine to rest";
     case LinkError::manual:
       return "the board was put into manual mode by its keypad: leave it there by *, and start again";

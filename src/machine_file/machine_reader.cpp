@@ -294,6 +294,7 @@ void MachineReader::read_axis(const TomlEntry& entry, Axis axis) {
   description.screw = read_screw_of(reader, is_rotary(axis), reporter_, end);
   description.encoder = read_encoder_of(reader, is_rotary(axis), reporter_, end);
   read_second_of(reader, description);
+  description.alarm_input = read_alarm_input(reader);
   if (const auto motor = reader.whole_number(motor_key, Need::optional)) {
     result.motor = static_cast<std::size_t>(*motor);
     result.motor_place = reader.place_of(motor_key.name);
@@ -444,6 +445,7 @@ void MachineReader::order_motors() {
     if (home && home->input < 0) home->input = static_cast<int>(machine_.axes.size()) - 1;
   }
   number_second_motors();
+  for (std::size_t i = 0; i < axes_.size(); ++i) check_alarm_input(reporter_, axes_[i].place, machine_, i);
 }
 
 void MachineReader::number_second_motors() {

@@ -11,6 +11,7 @@
 
 #include "passo/activity/machine_plant.hpp"
 #include "passo/activity/stage_options.hpp"
+#include "passo/session/stop_cause.hpp"
 
 namespace passo {
 namespace {
@@ -303,8 +304,10 @@ void MachineSession::end_work() {
 
 std::pair<Outcome, std::optional<ActivityFault>> MachineSession::judge_work() const {
   if (const auto error = board_.error()) {
-    return {Outcome::failed, ActivityFault{*error == LinkError::stopped ? "board.stopped" : "board.lost",
-                                           std::string(message_of(*error))}};
+    const char* const code = *error == LinkError::stopped       ? "board.stopped"
+                             : *error == LinkError::drivers_off ? "board.drivers-off"
+                                                                : "board.lost";
+    return {Outcome::failed, ActivityFault{code, words_of_trouble(*error)}};
   }
   if (work_->findings->any_error()) {
     return {Outcome::failed, ActivityFault{"program.wrong", "the program cannot go on"}};
@@ -368,18 +371,30 @@ bool MachineSession::counts_agree() {
   return true;
 }
 
+// A sentence without a full stop.
+std::string MachineSession::words_of_trouble(LinkError error) const {
+  const std::string words(message_of(error));
+  if (error == LinkError::cannot_set_up) return words + ": it has no " + words_of_setup(board_.undone_setup());
+  const std::uint16_t inputs = board_.stopped_by();
+  if (error != LinkError::stopped || inputs == 0) return words;
+  if (state_ == MachineState::offline && (inputs & input_emergency_stop) != 0) {
+    return "the emergency stop is pressed: release it first";
+  }
+  return stop_cause(inputs, machine_).what + ": where the motors are is not certain";
+}
+
 // An error of the board ends what is going on. The machine is then in alarm or in fault until a reset.
 void MachineSession::mind_board() {
   if (!board_.error() || state_ == MachineState::alarm || state_ == MachineState::fault) return;
   const LinkError error = *board_.error();
   if (busy() && is_of_work(error)) return;  // the drive ends by itself
   trouble_ = error;
-  trouble_words_ = message_of(error);
-  if (error == LinkError::cannot_set_up) trouble_words_ += ": it has no " + words_of_setup(board_.undone_setup());
+  trouble_words_ = words_of_trouble(error);
   if (busy()) end_work();
   doubt_place();
   place_.reset();
-  move_to(error == LinkError::stopped ? MachineEvent::stop_at_once : MachineEvent::lose_board);
+  const bool is_alarm = error == LinkError::stopped || error == LinkError::drivers_off;
+  move_to(is_alarm ? MachineEvent::stop_at_once : MachineEvent::lose_board);
 }
 
 void MachineSession::look_at_panel() {

@@ -288,16 +288,18 @@ int make_ready(const ResumableRun::Subject& subject, const ProgramReader& progra
   brake_on_signals();
   // With --resume the machine is not homed again, because it was homed before the job began.
   const bool homes = arguments.home && !arguments.resume;
-  if (const auto closed = machine.session().closed_limit(); closed && !homes) {
-    return fail(exit_failed, words_of(*closed));
-  }
   if ((homes || resumable == nullptr) && !machine.greet(machine.any_greeting(), code)) return code;
   if (homes) {
     code = home_first(machine, !arguments.quiet);
     machine.keep_place();
   }
-  if (code == exit_done && resumable != nullptr) {
-    static_cast<void>(resumable->begin(machine, program, subject, code));
+  if (code == exit_done && resumable != nullptr && !resumable->begin(machine, program, subject, code)) return code;
+  if (code != exit_done) return code;
+  // Only from the greeting does the board know at which level a switch is closed.
+  if (const auto closed = machine.session().closed_limit()) {
+    code = fail(exit_failed, words_of(*closed));
+    if (resumable != nullptr)
+      resumable->end(machine.session(), {.outcome = Outcome::failed, .fault = refused(*closed)});
   }
   return code;
 }

@@ -169,6 +169,7 @@ extern "C" {
       lds r25, stops_b
       and r24, r25
       brne 8f
+  .Lpasso_watch:
       lds r25, armed
       and r25, r25
       breq 6f
@@ -189,12 +190,14 @@ extern "C" {
       out %[sreg], r24
       pop r24
       rjmp 1b
-  8:  ldi r24, 0
+  8:  ldi r24, 1
+      sts halted, r24
+      lds r24, %[filter]
+      and r24, r24
+      brne .Lpasso_watch            ; the loop finds out whether the switch stays on
       sts %[timsk], r24
       sts running, r24
       sts line_is_watched, r24
-      ldi r24, 1
-      sts halted, r24
       pop r25
       pop r24
       mov r3, r24
@@ -205,8 +208,9 @@ extern "C" {
       [port_a] "n"(toggle_a), [port_c] "n"(toggle_c), [port_l] "n"(toggle_l), [pcifr] "n"(io(Pcifr::where)),
       [eifr] "n"(io(Eifr::where)), [gpior0] "n"(io(Gpior0::where)), [gpior1] "n"(io(Gpior1::where)),
       [sreg] "n"(io(Sreg::where)), [ocrah] "n"(Ocr1ah::where), [ocral] "n"(Ocr1al::where), [timsk] "n"(Timsk1::where),
-      [pinb] "n"(0x03), [pind] "n"(0x09), [pine] "n"(0x0c), [pinj] "n"(0x103), [special] "n"(4), [stop] "n"(3),
-      [padding] "n"(padding), [plain] "n"(0xff & ~(pins.flag_special | pins.flag_stop)), [turns] "n"(turns_address),
+      [filter] "n"(Ocr2b::where), [pinb] "n"(0x03), [pind] "n"(0x09), [pine] "n"(0x0c), [pinj] "n"(0x103),
+      [special] "n"(4), [stop] "n"(3), [padding] "n"(padding),
+      [plain] "n"(0xff & ~(pins.flag_special | pins.flag_stop)), [turns] "n"(turns_address),
       [turns_mask] "n"(turns_mask), [turning] "n"(turning_bits), [safe] "n"(safe_action), [port_h] "n"(0x102),
       [port_b] "n"(0x05), [duty] "n"(Ocr4cl::where), [control] "n"(Tccr4a::where), [ucsra] "n"(Ucsr0a::where),
       [udr] "n"(Udr0::where), [received] "n"(received_address), [page_high] "n"(page(times_high_address)),

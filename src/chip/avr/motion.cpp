@@ -7,6 +7,7 @@
 #include "spindle_counter.hpp"
 #include "wiring.hpp"
 
+#include "passo/chip/input_filter.hpp"
 #include "passo/chip/input_reader.hpp"
 #include "passo/firmware/board.hpp"
 #include "passo/firmware/manual_mode.hpp"
@@ -87,13 +88,13 @@ void start_watchdog() {
   Wdtcsr::write(1 << 3 | 6);
 }
 
-// Stops everything at once. Nothing moves again until a host says hello.
-[[gnu::noinline]] void stop_at_once() {
-  const bool pressed = (Wiring::inputs() & input_emergency_stop) != 0;
+// Stops everything at once. Nothing moves again until a host says hello. `on`: inputs that were seen on.
+[[gnu::noinline]] void stop_at_once(uint16_t on = 0) {
+  const uint16_t inputs = on | Wiring::inputs();
   ChipPlayer::halt();
   OutputActions::make_safe();
-  if (pressed) Wiring::enable_motors(false);
-  board.stop_at_once(pressed ? FaultReason::emergency_stop : FaultReason::limit);
+  if ((inputs & input_emergency_stop) != 0) Wiring::enable_motors(false);
+  board.stop_at_once(inputs);
   manual.stopped();
   halted = 0;
 }
@@ -112,7 +113,7 @@ void start_watchdog() {
 [[gnu::noinline]] void Hardware::watch() {
   SerialLine::breathe();
   ChipPlayer::watch(false);
-  stop_on(board.watched());
+  stop_on(board.watched(), board.alarms());
   SerialLine::breathe();
   watch_input();
   SerialLine::breathe();
@@ -125,7 +126,7 @@ void start_watchdog() {
   SerialLine::breathe();
   done.steps = MotorOutputs::set_idle(wanted.steps);
   SerialLine::breathe();
-  reader.look(Wiring::inputs(), false);
+  reader.look(Wiring::inputs(), false, board.buttons());
   board.set_inputs(reader.inputs());
   watch();
   return done;
@@ -166,19 +167,27 @@ bool take_tick() {
 [[gnu::noinline]] void look_at_inputs() {
   const bool tick = take_tick();
   if (tick) count_tick();
-  if (halted != 0) return stop_at_once();
-  uint16_t raw = Wiring::inputs();
-  const uint16_t watched = board.watched();
-  const bool changed = ChipPlayer::captured();
+  if (halted != 0) {
+    if (Wiring::filter() == 0) return stop_at_once();
+    halted = 0;
+  }
   const uint16_t before = reader.inputs();
+  const uint16_t watched = board.watched();
+  const uint16_t by_people = board.buttons();
+  bool changed = ChipPlayer::captured();
+  uint16_t raw = settled_inputs<Wiring>(before, static_cast<uint16_t>(~by_people), Wiring::filter());
+  if (changed && Wiring::filter() != 0 && ((raw ^ before) & watched) == 0) {
+    changed = false;  // it was noise: the interrupt is to wait for the next change
+    ChipPlayer::watch(false);
+  }
   if (changed || (running != 0 && ChipPlayer::watches())) {
     raw = static_cast<uint16_t>((raw & ~watched) | watched_in_motion(raw, before, changed));
   }
-  const uint16_t on = reader.look(raw, tick);
+  const uint16_t on = reader.look(raw, tick, by_people);
   // During motion the interrupt has stopped already. At rest nobody else looks.
-  if ((on & board.stopping()) != 0 && !board.idle()) return stop_at_once();
-  if ((on & input_emergency_stop) != 0) return stop_at_once();
-  uint16_t told = on & InputReader::pressed_by_people;
+  if ((on & board.stopping()) != 0 && !board.idle()) return stop_at_once(on);
+  if ((on & board.stopping_at_rest()) != 0) return stop_at_once(on);
+  uint16_t told = on & by_people;
   told |= (reader.inputs() ^ before) & watched;
   if (changed) board.settle();  // releases the items finished before that
   SerialLine::breathe();

@@ -123,6 +123,7 @@ extern "C" {
       lds r25, stops_c
       and r24, r25
       brne 8f
+  .Lpasso_watch:
       lds r25, armed
       and r25, r25
       breq 6f
@@ -148,12 +149,14 @@ extern "C" {
       out %[sreg], r24
       pop r24
       rjmp 1b
-  8:  ldi r24, 0
+  8:  ldi r24, 1
+      sts halted, r24
+      lds r24, %[filter]
+      and r24, r24
+      brne .Lpasso_watch            ; the loop finds out whether the switch stays on
       sts %[timsk], r24
       sts running, r24
       sts line_is_watched, r24
-      ldi r24, 1
-      sts halted, r24
       pop r25
       pop r24
       mov r4, r24
@@ -165,11 +168,12 @@ extern "C" {
   )" ::[port] "n"(toggle_port),
       [pcifr] "n"(io(Pcifr::where)), [gpior0] "n"(io(Gpior0::where)), [gpior1] "n"(io(Gpior1::where)),
       [sreg] "n"(io(Sreg::where)), [ocra] "n"(io(Ocr0a::where)), [timsk] "n"(Timsk0::where), [pinb] "n"(0x03),
-      [pinc] "n"(0x06), [quiet_b] "n"(io(Ocr0b::where)), [quiet_c] "n"(io(Eearl::where)), [special] "n"(0),
-      [padding] "n"(padding), [stop] "n"(1), [plain] "n"(pins.steps_on('D')), [turns] "n"(turns_address),
-      [turns_mask] "n"(turns_mask), [turning] "n"(turning_bits), [action] "n"(action_bits), [safe] "n"(safe_action),
-      [port_b] "n"(0x05), [port_c] "n"(0x08), [duty] "n"(Ocr2a::where), [control] "n"(Tccr2a::where),
-      [ucsra] "n"(Ucsr0a::where), [udr] "n"(Udr0::where), [received] "n"(received_address));
+      [pinc] "n"(0x06), [quiet_b] "n"(io(Ocr0b::where)), [filter] "n"(Ocr2b::where), [quiet_c] "n"(io(Eearl::where)),
+      [special] "n"(0), [padding] "n"(padding), [stop] "n"(1), [plain] "n"(pins.steps_on('D')),
+      [turns] "n"(turns_address), [turns_mask] "n"(turns_mask), [turning] "n"(turning_bits), [action] "n"(action_bits),
+      [safe] "n"(safe_action), [port_b] "n"(0x05), [port_c] "n"(0x08), [duty] "n"(Ocr2a::where),
+      [control] "n"(Tccr2a::where), [ucsra] "n"(Ucsr0a::where), [udr] "n"(Udr0::where),
+      [received] "n"(received_address));
 }
 static_assert(pins.flag_special == 1 << 0 && pins.flag_stop == 1 << 1 && pins.step_ports[0] == 'D');
 

@@ -3,6 +3,7 @@
 
 #include "event_ring.hpp"
 #include "registers.hpp"
+#include "serial_line.hpp"
 
 #ifdef __AVR_ATmega2560__
 #include "mega_wiring.hpp"
@@ -57,6 +58,9 @@ class Wiring {
     done.outputs = wanted.outputs & known_outputs();
     done.drivers_rest = wanted.drivers_rest;
     Twar::write(wanted.drivers_rest);
+    done.alarms = wanted.alarms & may_be_alarms();
+    done.filter = wanted.filter;
+    Ocr2b::write(wanted.filter);
     if (done.outputs == Twbr::read()) return done;
     const Pin enable = pins.motor[0].enable;
     const bool enabled = enable.exists() && is_high(enable) == is_inverted(inverted_enable);
@@ -67,6 +71,18 @@ class Wiring {
   }
   static uint8_t drivers_rest() {
     return Twar::read();
+  }
+  // Microseconds for which a switch must stay in its new state. Like other parts of the setup it is in a register that
+  // nobody else uses.
+  [[gnu::always_inline]] static uint8_t filter() {
+    return Ocr2b::read();
+  }
+  // Timer 2 runs all the time.
+  [[gnu::always_inline]] static uint8_t half_microseconds() {
+    return Tcnt2::read();
+  }
+  static void breathe() {
+    SerialLine::breathe();
   }
 
   // The action that switches the outputs to this and keeps everything else on their ports.
@@ -136,6 +152,15 @@ class Wiring {
     return (port_register(pin.port, 2) & pin.mask()) != 0;
   }
 
+  static constexpr uint16_t may_be_alarms() {
+    uint16_t known = 0;
+    for (uint8_t i = 0; i < most_axis_switches; ++i) {
+      if (pins.limits[i].exists()) known |= static_cast<uint16_t>(input_limit << i);
+    }
+    if (pins.feed_hold.exists()) known |= input_hold;
+    if (pins.cycle_start.exists()) known |= input_start;
+    return known;
+  }
   [[gnu::always_inline]] static bool switch_off(Pin pin, uint8_t output) {
     if (!pin.exists() || is_high(pin) == is_inverted(output)) return false;
     set(pin, is_inverted(output));

@@ -34,14 +34,15 @@ class PinSetupTest : public testing::Test {
   void be_silent(int tenths) {
     for (int i = 0; i < tenths; ++i) board_.count_silence();
   }
-  bool is_trusted() {
+  BoardStatus status() {
     bench_.replies.clear();
     bench_.decoder.set_motors(max_motors);
     send(Ask{.motors = max_motors}, std::uint8_t{1});
     BoardStatus status;
     decode(bench_.replies.back(), max_motors, status);
-    return (status.state & board_trusted) != 0;
+    return status;
   }
+  bool is_trusted() { return (status().state & board_trusted) != 0; }
 
   PinBench bench_;
   Board<PinBench, capacity> board_{bench_, {.motors = 4, .clock = 16'000'000}};
@@ -83,10 +84,12 @@ TEST_F(PinSetupTest, drivers_go_off_when_the_host_is_silent_and_the_place_is_not
   be_silent(1);
   EXPECT_FALSE(bench_.drivers_on) << "a stranger who asks is no host";
   EXPECT_FALSE(is_trusted());
+  EXPECT_EQ(status().inputs & drivers_timed_out, unsigned{drivers_timed_out}) << "the host is told why";
   set_up({.drivers_rest = 20});
   greet();
   EXPECT_TRUE(bench_.drivers_on);
   EXPECT_TRUE(is_trusted());
+  EXPECT_EQ(status().inputs & drivers_timed_out, 0);
 }
 
 TEST_F(PinSetupTest, drivers_stay_on_amid_motion_and_without_such_a_time) {

@@ -128,7 +128,8 @@ class RandomMessages {
       case 8: size = encode(status(), motors, sequence, frame.data()); break;
       case 9: size = encode(captured(), motors, sequence, frame.data()); break;
       case 10: {
-        const Fault fault{.reason = static_cast<FaultReason>(byte()), .event = byte(), .executed = word()};
+        const Fault fault{
+            .reason = static_cast<FaultReason>(byte()), .inputs = word(), .event = byte(), .executed = word()};
         size = encode(fault, sequence, frame.data());
         break;
       }

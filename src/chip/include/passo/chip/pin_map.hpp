@@ -140,6 +140,13 @@ struct PinMap {
   constexpr uint8_t stops_on(char port) const {
     return static_cast<uint8_t>(limits_on(port) | (emergency_stop.port == port ? emergency_stop.mask() : 0));
   }
+  // These, and buttons that a host may say are alarms of drives.
+  constexpr uint8_t may_stop_on(char port) const {
+    const Pin buttons[] = {feed_hold, cycle_start};
+    uint8_t mask = stops_on(port);
+    for (const Pin one : buttons) mask = static_cast<uint8_t>(mask | (one.port == port ? one.mask() : 0));
+    return mask;
+  }
   constexpr uint8_t inputs_on(char port) const {
     const Pin others[] = {probe, door, feed_hold, cycle_start, encoder.pulses, encoder.index};
     uint8_t mask = stops_on(port);

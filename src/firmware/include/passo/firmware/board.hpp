@@ -72,9 +72,15 @@ class Board : private BoardVoice<Hardware> {
   // Bits of BoardInput: watched() is the one that is captured, stopping() those that stop the motors when they go on.
   uint16_t watched() const { return watch_.input(); }
   uint16_t stopping() const { return watch_.stopping(); }
+  uint16_t stopping_at_rest() const { return watch_.stopping_at_rest(); }
+  uint16_t alarms() const { return watch_.alarms(); }
+  // Those that a person presses.
+  uint16_t buttons() const { return watch_.buttons(); }
   // Stops without braking and drops all items. Steps may be lost, so nothing is played until a host says hello again.
-  void stop_at_once(FaultReason reason) {
-    const Fault fault{.reason = reason, .event = played(), .executed = executed_};
+  // `inputs` are those that are on: the host is told which of them stop the motors.
+  void stop_at_once(uint16_t inputs) {
+    inputs &= stopping();
+    const Fault fault{.reason = watch_.reason_of(inputs), .inputs = inputs, .event = played(), .executed = executed_};
     if (begun_ != 0) player_.add_steps(positions_);
     player_.restart(motors_);
     drop_all();
@@ -184,7 +190,14 @@ class Board : private BoardVoice<Hardware> {
     PinSetup setup;
     decode(frame, setup);
     is_set_up_ = true;
-    send(set_up(hardware_, setup));
+    take_on(setup);
+    send(setup);
+  }
+  // Leaves of the setup what the board can do.
+  [[gnu::noinline]] void take_on(PinSetup& setup) {
+    watch_.take_alarms(setup.alarms);  // the hardware looks at its inputs meanwhile
+    setup = set_up(hardware_, setup);
+    watch_.take_alarms(setup.alarms);
   }
 
   void greet(const WireFrame& frame) {
@@ -198,7 +211,10 @@ class Board : private BoardVoice<Hardware> {
       decoder_.set_motors(agrees ? hello.motors : uint8_t{0});
       return send_hello_reply();
     }
-    if (!is_set_up_) set_up(hardware_, PinSetup{});
+    if (!is_set_up_) {
+      PinSetup usual;
+      take_on(usual);
+    }
     is_set_up_ = false;
     // A host that dislikes the answer will not go on. Until the two agree there are no segments.
     motors_ = agrees && hello.motors <= identity_.motors && hello.motors <= most_motors ? hello.motors : uint8_t{0};
@@ -213,11 +229,11 @@ class Board : private BoardVoice<Hardware> {
     executed_ = frame.sequence;
     owed_ = 0;
     trusted_ = true;
-    silence_.forget_off();
+    silence_.begin();
     manual_ = Manual::off;
     send_hello_reply();
     // Not while the button is still pressed.
-    if ((inputs_ & input_emergency_stop) != 0) stop_at_once(FaultReason::emergency_stop);
+    if ((inputs_ & stopping_at_rest()) != 0) stop_at_once(inputs_);
   }
   void enable() {
     if ((inputs_ & input_emergency_stop) == 0) passo::enable(hardware_);
@@ -286,7 +302,7 @@ class Board : private BoardVoice<Hardware> {
                                        .state = static_cast<uint8_t>(state),
                                        .reset = identity_.reset,
                                        .motors = motors_,
-                                       .inputs = static_cast<uint16_t>(inputs_ | silence_.bit()),
+                                       .inputs = static_cast<uint16_t>(inputs_ | silence_.bits()),
                                        .answers = question};
     for (uint8_t motor = 0; motor < motors && motor < most_motors; ++motor) {
       breathe();
@@ -396,7 +412,7 @@ class Board : private BoardVoice<Hardware> {
   static constexpr WireError no_error = WireError{};
   // Puts the gathered items in place, if they are what was sent and come in time.
   WireError complete() {
-    WireError wrong = silence_.bit() != 0 ? WireError::silent_host : no_error;
+    WireError wrong = (silence_.bits() & outputs_timed_out) != 0 ? WireError::silent_host : no_error;
     if (!sums_.is_nothing()) wrong = WireError::wrong_sums;
     if (wrong != no_error) {
       list_.drop_replacement();

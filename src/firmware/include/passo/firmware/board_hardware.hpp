@@ -70,10 +70,11 @@ template <class Hardware>
 
 // Lets the motors go if the host has been silent for as long as the setup says. True if it does.
 template <class Hardware>
-[[gnu::always_inline]] inline bool lets_go(Hardware& hardware, const HostSilence& silence) {
+[[gnu::always_inline]] inline bool lets_go(Hardware& hardware, HostSilence& silence) {
   if constexpr (requires { hardware.release(); }) {
     if (!silence.is_over(hardware.drivers_rest())) return false;
     hardware.release();
+    silence.note_let_go();
     return true;
   }
   return false;

@@ -116,6 +116,8 @@ class BoardSession final : public Link {
   std::uint16_t take_pressed() { return std::exchange(pressed_, std::uint16_t{0}); }
   // The inputs that are on now, as far as the board has told.
   std::uint16_t inputs() const { return inputs_; }
+  // After LinkError::stopped: the inputs that stopped the motors, as bits of BoardInput. 0: the board does not know.
+  std::uint16_t stopped_by() const { return stopped_by_; }
   Seconds now() const override { return port_.elapsed(); }
   std::optional<LinkError> error() const override { return error_; }
   void fail(LinkError error) override { error_ = error_.value_or(error); }
@@ -176,6 +178,7 @@ class BoardSession final : public Link {
   void take(const Credit& credit);
   void take(const BoardStatus& status);
   void take(const ErrorReport& error);
+  void take(const Fault& fault);
   void take(const Captured& captured);
   void take(const Turned& turned);
   void settle(Question answered);
@@ -245,6 +248,7 @@ class BoardSession final : public Link {
   Seconds unanswered_since_{0};
   std::uint16_t inputs_ = 0;
   std::uint16_t pressed_ = 0;
+  std::uint16_t stopped_by_ = 0;
   Seconds answer_time_{0};
   bool news_ = false;          // since poll() began
   std::vector<Frame> frames_;  // the frames of a replacement while it is put together

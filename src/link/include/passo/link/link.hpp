@@ -28,6 +28,7 @@ enum class LinkError : std::uint8_t {
   refused,         // the board did not take what was sent
   was_reset,       // the board has forgotten the session, and with it where the motors are
   stopped,         // the board has stopped its motors at once
+  drivers_off,     // the board has switched the drivers off, because it has not heard the host for so long
   too_few_places,  // the board cannot hold enough items to bring the machine to rest
   manual,          // a person moves the machine by the board's keypad, or has done so since the hello
   no_encoder,      // something is to follow the spindle, and the board has no encoder

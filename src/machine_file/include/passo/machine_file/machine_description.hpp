@@ -69,6 +69,11 @@ struct SecondMotor {
 };
 
 // For a rotary axis degrees take the place of millimetres throughout.
+// The inputs of a board at which a drive may give its alarm: below 8 the pin of that limit switch, then those of
+// buttons.
+inline constexpr int alarm_at_feed_hold = 8;
+inline constexpr int alarm_at_cycle_start = 9;
+
 struct AxisDescription {
   Axis axis = Axis::x;
   double steps_per_unit = 0;  // motor steps a millimetre (rotary axis: a degree); always positive
@@ -84,6 +89,7 @@ struct AxisDescription {
   std::optional<ScrewDescription> screw = {};
   std::optional<SecondMotor> second = {};
   std::optional<EncoderDescription> encoder = {};
+  std::optional<int> alarm_input = {};  // where its drive gives its alarm; several axes may share an input
 
   // The limit switches by which the axis is homed: bit i is switch i. Only for an axis with `home`.
   std::uint8_t home_switches() const {
@@ -155,6 +161,8 @@ struct PinsDescription {
   bool emergency_stop_high = false;
   bool feed_hold_high = false;
   bool cycle_start_high = false;
+  Seconds filter{
+      100e-6};  // for so long a switch must have kept its new state before that counts, in whole microseconds
   bool driver_enable_high = false;
   // True: on when the pin is low.
   bool step_low = false;

@@ -126,6 +126,7 @@ class MachineSession {
   Answer take(request::Wake& wake);
   std::optional<Refusal> refuse(MachineEvent event) const;
   Refusal why_not() const;
+  std::string alarm_words() const;
   std::optional<Refusal> refuse_way(const Point& way) const;
   Answer at_once();
   Answer begin(MachineEvent event, std::unique_ptr<Work> work);
@@ -164,6 +165,7 @@ class MachineSession {
   void look_at_panel();
   void look_at_place();
   void hear_place();
+  std::string words_of_trouble(LinkError error) const;
   bool watches_counts() const { return options_.over_a_line || options_.tells_place; }
 
   void move_to(MachineEvent event);

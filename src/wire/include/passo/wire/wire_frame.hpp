@@ -68,9 +68,9 @@ constexpr uint8_t payload_size(uint8_t type, uint8_t motors) {
     case MessageType::outputs: return 3;
     case MessageType::ask:
     case MessageType::credit: return 4;
-    case MessageType::session:
-    case MessageType::pin_setup:
-    case MessageType::fault: return 5;
+    case MessageType::session: return 5;
+    case MessageType::pin_setup: return 8;
+    case MessageType::fault:
     case MessageType::replace:
     case MessageType::hello_reply: return 7;
     case MessageType::turned: return 20;
