@@ -309,6 +309,7 @@ void BoardSession::take(const BoardStatus& status) {
   const bool is_known = session_ != 0 && status.session == session_;
   // Before the board has heard of the session it is no wonder.
   if (!is_known && session_ != 0 && phase_ == Phase::ready) return doubt(LinkError::was_reset);
+  if (is_known && (status.state & board_slipped) != 0) return doubt(LinkError::stood_still);
   if (is_known && (status.state & board_trusted) == 0) return doubt(LinkError::stopped);
   // What is in doubt answers nothing: the counts of a board that was reset are not those of the motors.
   if (status.answers == question_) settle(Question::status);

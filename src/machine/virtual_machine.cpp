@@ -139,6 +139,12 @@ void VirtualMachine::reset_board() {
   look_at_plant();
 }
 
+void VirtualMachine::stand_still(Ticks time) {
+  assert(waits_);
+  next_event_ += time.count;
+  board_.player().slip();
+}
+
 void VirtualMachine::wait(Ticks time) {
   assert(board_.idle() && time.count >= 0);
   hardware_.now += time.count;

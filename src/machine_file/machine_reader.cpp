@@ -21,6 +21,8 @@ constexpr NumberKey path_tolerance_key{"path_tolerance_mm", 1e-4, 10, "0.02"};
 constexpr NumberKey clock_key{"clock_hz", 1e3, 1e9, "16_000_000"};
 constexpr NumberKey event_rate_key{"max_event_rate_hz", 10, 1e7, "50_000"};
 constexpr NumberKey step_pulse_key{"step_pulse_us", 0.05, 1000, "2.5"};
+constexpr NumberKey direction_setup_key{"direction_setup_us", 0, 15, "0.65"};
+constexpr NumberKey direction_hold_key{"direction_hold_us", 0, 15, "0.65"};
 constexpr NumberKey items_key{"held_items", 8, 240, "240"};
 
 constexpr NumberKey rpm_key{"max_rpm", 0, 65535, "10000"};
@@ -156,6 +158,9 @@ void MachineReader::read_board(const TomlEntry& entry) {
   const auto clock = reader.number(clock_key, Need::required);
   auto rate = reader.number(event_rate_key, Need::required);
   const auto pulse = reader.number(step_pulse_key, Need::optional);
+  if (const auto time = reader.number(direction_setup_key, Need::optional))
+    board.direction_setup = Seconds(*time * 1e-6);
+  if (const auto time = reader.number(direction_hold_key, Need::optional)) board.direction_hold = Seconds(*time * 1e-6);
   if (const auto items = reader.whole_number(items_key, Need::optional)) board.held_items = static_cast<int>(*items);
   board.held_items_are_given = reader.has(items_key.name);
   read_windings(reader, board);
@@ -178,7 +183,6 @@ void MachineReader::read_board(const TomlEntry& entry) {
   if (!rate) return;
   event_rate_ = board.highest_event_rate = Hertz(*rate);
   if (pulse) board.step_pulse = Seconds(*pulse * 1e-6);
-  board.step_pulse_is_given = pulse.has_value();
   // A driver wants a pause as long as the pulse.
   const double longest_us = 1e6 / (2 * *rate);
   if ((pulse || !reader.has(step_pulse_key.name)) && board.step_pulse.value() * 1e6 > longest_us * (1 + 1e-9)) {

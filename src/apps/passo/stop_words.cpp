@@ -82,6 +82,16 @@ std::optional<ClosedSwitch> following_error(OpenedMachine& opened, const Machine
                       .code = "run.following-error"};
 }
 
+std::string line_words(std::uint32_t line, const std::string& program) {
+  return line == 0 ? "" : fmt::format(" in line {} of {}", line, program);
+}
+
+std::string remedy_for_place(const MachineDescription& machine, const std::string& program) {
+  const bool homes = !machine.homing.empty();
+  return fmt::format("{}{}", homes ? "home the machine (passo home)" : "put the machine where --from-here is true",
+                     program.empty() ? "" : ", and run the program from its beginning");
+}
+
 }  // namespace
 
 void LatestMotion::watch(const MotionItem& motion) {
@@ -119,13 +129,22 @@ std::string stop_words(OpenedMachine& opened, const MachineDescription& machine,
   const Point place = counted_place(opened, machine);
   const std::uint32_t line = known_line != 0 ? known_line : motion.line_at(place);
   const ClosedSwitch what = following_error(opened, machine).value_or(closed_switch(*status, machine));
-  const bool homes = !machine.homing.empty();
+  return fmt::format("{}{}: the motors stopped at once near {}, and steps may be lost. To go on, {}, {} [{}]{}",
+                     what.words, line_words(line, program), place_words(machine, place), what.remedy,
+                     remedy_for_place(machine, program), what.code, closed);
+}
+
+std::string slip_words(OpenedMachine& opened, const MachineDescription& machine, const std::string& program,
+                       std::uint32_t line) {
   return fmt::format(
-      "{}{}: the motors stopped at once near {}, and steps may be lost. To go on, {}, {}{} "
-      "[{}]{}",
-      what.words, line == 0 ? "" : fmt::format(" in line {} of {}", line, program), place_words(machine, place),
-      what.remedy, homes ? "home the machine (passo home)" : "put the machine where --from-here is true",
-      program.empty() ? "" : ", and run the program from its beginning", what.code, closed);
+      "it stood still amid motion{}: it could not make its events in time, and steps may be lost. It "
+      "was near {}. To go on, lower max_event_rate_hz of the machine file, {} [board.slipped]",
+      line_words(line, program), place_words(machine, counted_place(opened, machine)),
+      remedy_for_place(machine, program));
+}
+
+std::uint32_t line_of_stop(OpenedMachine& opened, const MachineDescription& machine, const LatestMotion& motion) {
+  return motion.line_at(counted_place(opened, machine));
 }
 
 }  // namespace passo

@@ -25,8 +25,9 @@ constexpr uint32_t shortest = shortest_interval(clock, about.highest_event_rate)
 struct Hardware {
   void step(uint8_t, uint8_t) {}
   void outputs(const BoardOutputs&) {}  // the player has switched them already, at their event
-  void send(uint8_t byte) { line.send(byte); }
-  uint8_t room() { return line.room(); }
+  uint8_t* space() { return line.space(); }
+  void put(uint8_t size) { line.put(size); }
+  uint8_t room() { return line.can_send() ? 0xff : 0; }
   void enable() { Wiring::enable_motors(true); }
   bool switch_off(uint8_t switches) { return Wiring::switch_off(switches); }
   void watch();
@@ -38,6 +39,7 @@ struct Hardware {
   static SpindleCount spindle() { return SpindleCounter::count(); }
   static void breathe() { SerialLine::breathe(); }
   static void keep_up();
+  static void slice();
   static int32_t high_product(int32_t a, int32_t b) { return chip::high_product(a, b); }
 
   SerialLine line;
@@ -124,6 +126,7 @@ void start_watchdog() {
   PinSetup done = Wiring::set_up(wanted);
   SerialLine::breathe();
   done.steps = MotorOutputs::set_idle(wanted.steps);
+  done.timing = MotorOutputs::set_timing(wanted.timing);
   SerialLine::breathe();
   reader.look(Wiring::inputs(), false);
   board.set_inputs(reader.inputs());
@@ -230,6 +233,13 @@ void Hardware::keep_up() {
 #ifndef PASSO_WINDINGS
   if (running != 0) chip::keep_up();
   SerialLine::breathe();
+#endif
+}
+
+[[gnu::noinline]] void Hardware::slice() {
+  SerialLine::breathe();
+#ifndef PASSO_WINDINGS
+  if (running != 0 && ChipPlayer::is_low()) chip::keep_up();
 #endif
 }
 

@@ -14,7 +14,7 @@ constexpr uint32_t cycles_a_second = 128'000'000;
 constexpr uint32_t clock = cycles_a_second / StepStream::cycles_of_tick;
 constexpr uint32_t baud = 1'000'000;
 constexpr uint8_t queue_capacity = 250;
-constexpr About about = {.firmware = 102, .highest_event_rate = 1'000'000, .baud = baud, .name = PASSO_PICO_NAME};
+constexpr About about = {.firmware = 103, .highest_event_rate = 1'000'000, .baud = baud, .name = PASSO_PICO_NAME};
 
 struct Hardware {
   void step(uint8_t, uint8_t) {}
@@ -68,7 +68,8 @@ void Hardware::watch() {
 
 // Called at rest. What the switches are under the new setup is known at once, because a hello may follow.
 PinSetup Hardware::set_up(const PinSetup& wanted) {
-  const PinSetup done = PicoWiring::set_up(wanted);
+  PinSetup done = PicoWiring::set_up(wanted);
+  done.timing = PicoPlayer::set_timing(wanted.timing);
   reader.look(PicoWiring::inputs(), false);
   board().set_inputs(reader.inputs());
   hardware.watch();

@@ -175,6 +175,7 @@ class Board : private BoardVoice<Hardware> {
   void append_by_hand() {
     breathe();
     list_.space().number = executed_;
+    from_rest_ = static_cast<uint8_t>(executed_);
     list_.append();
     settle();
   }
@@ -184,7 +185,14 @@ class Board : private BoardVoice<Hardware> {
     PinSetup setup;
     decode(frame, setup);
     is_set_up_ = true;
-    send(set_up(hardware_, setup));
+    take_on(setup);
+    send(setup);
+  }
+  // Leaves of the setup what the board can do.
+  [[gnu::noinline]] void take_on(PinSetup& setup) {
+    setup = set_up(hardware_, setup);
+    const uint16_t ticks = setup.timing.event_ticks;
+    if (ticks != 0) identity_.shortest_interval = uint32_t{static_cast<uint16_t>(ticks - 1)} << 16;
   }
 
   void greet(const WireFrame& frame) {
@@ -198,7 +206,10 @@ class Board : private BoardVoice<Hardware> {
       decoder_.set_motors(agrees ? hello.motors : uint8_t{0});
       return send_hello_reply();
     }
-    if (!is_set_up_) set_up(hardware_, PinSetup{});
+    if (!is_set_up_) {
+      PinSetup usual;
+      take_on(usual);
+    }
     is_set_up_ = false;
     // A host that dislikes the answer will not go on. Until the two agree there are no segments.
     motors_ = agrees && hello.motors <= identity_.motors && hello.motors <= most_motors ? hello.motors : uint8_t{0};
@@ -272,9 +283,12 @@ class Board : private BoardVoice<Hardware> {
   [[gnu::noinline]] void tell_status(uint8_t motors, uint8_t question) {
     keep_up(hardware_);
     unsigned state = watch_.state();
-    if (trusted_) state |= board_trusted;
+    if (player_.slipped()) {
+      state |= board_slipped;
+    } else if (trusted_) {
+      state |= board_trusted;
+    }
     if (!idle()) state |= board_moves;
-    if (player_.slipped()) state |= board_slipped;
     if (list_.gathering()) state |= board_replaces;
     if (manual()) state |= board_manual;
     if (has_encoder(hardware_)) state |= board_encodes;
@@ -374,7 +388,11 @@ class Board : private BoardVoice<Hardware> {
       if (!list_.gathering()) silence_.forget_off();
     }
     accept();
-    if (list_.gathering()) add_to_sums(frame);
+    if (list_.gathering()) {
+      add_to_sums(frame);
+    } else if (list_.empty()) {
+      from_rest_ = static_cast<uint8_t>(item.number);
+    }
     list_.append();
     breathe();
     if (list_.gathering()) return;
@@ -402,7 +420,7 @@ class Board : private BoardVoice<Hardware> {
       list_.drop_replacement();
       return wrong;
     }
-    return list_.template complete<Breath>(executed_, begun_) ? no_error : WireError::too_late;
+    return list_.template complete<Breath>(executed_, begun_, from_rest_) ? no_error : WireError::too_late;
   }
   void accept() {
     ++expected_;
@@ -416,9 +434,18 @@ class Board : private BoardVoice<Hardware> {
     breathe();
     auto& item = list_.at(static_cast<uint8_t>(begun_ - 1));
     const uint16_t events = item.segment.events;
+    if (begins && static_cast<uint8_t>(item.number) == from_rest_) begin_from_rest(events);
     if (events == 0) return player_.pass(item.outputs());
     if (item.segment.form == 0 && item.segment.bend == 0 && events <= longest_part) return player_.load(item.segment);
     load_part(item.segment, begins);
+  }
+  // The motors rest before the item begun last. Outputs need no time: the motors rest before the item after them, too.
+  void begin_from_rest(uint16_t events) {
+    if (events == 0) {
+      ++from_rest_;
+    } else if constexpr (requires { player_.begin_from_rest(); }) {
+      player_.begin_from_rest();
+    }
   }
   [[gnu::noinline]] void load_part(Segment& segment, bool begins) {
     parts_.take(segment, begins);
@@ -488,10 +515,12 @@ class Board : private BoardVoice<Hardware> {
   uint16_t expected_ = 0;  // number of the next frame; the wire has its low byte
   uint16_t executed_ = 0;  // number of the last item done
   uint8_t owed_ = 0;       // items executed and other news since the last report
+  uint8_t from_rest_ = 0;  // low byte of the number of the item that came last behind an item after which motors rest
   ItemSums sums_;          // of the replacement being gathered, so far
   HostSilence silence_;
-  bool complained_ : 1 = false, trusted_ : 1 = true, is_set_up_ : 1 = false;  // in one byte: a chip has none to spare
-  Manual manual_ = Manual::off;
+  // In one byte: a chip has none to spare.
+  bool complained_ : 1 = false, trusted_ : 1 = true, is_set_up_ : 1 = false;
+  Manual manual_ : 2 = Manual::off;
   uint16_t inputs_ = 0;
   int32_t positions_[most_motors] = {};  // at the end of the last segment
   InputWatch<most_motors> watch_;
