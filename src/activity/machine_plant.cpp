@@ -81,6 +81,18 @@ PinSetup pin_setup(const MachineDescription& machine) {
           .filter = static_cast<std::uint8_t>(std::lround(pins.filter.value() * 1e6))};
 }
 
+StepTiming step_timing(const BoardDescription& board) {
+  const auto sixteenths = [](Seconds time) {
+    constexpr double hardly_more = 1e-6;
+    return static_cast<std::uint8_t>(std::clamp(std::ceil(time.value() * 16e6 - hardly_more), 0.0, 255.0));
+  };
+  const double ticks = std::floor(board.clock.value() / board.highest_event_rate.value() * (1 + 1e-9));
+  return {.pulse = sixteenths(board.windings ? Seconds(0) : board.step_pulse),
+          .set_up = sixteenths(board.direction_setup),
+          .hold = sixteenths(board.direction_hold),
+          .event_ticks = static_cast<std::uint16_t>(std::min(ticks, 65535.0))};
+}
+
 SpindleModel spindle_model(const SpindleDescription& spindle) {
   return {.counts_per_turn = spindle.counts_per_turn,
           .run_up = spindle.run_up.value(),

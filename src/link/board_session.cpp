@@ -321,6 +321,7 @@ void BoardSession::take(const BoardStatus& status) {
   const bool is_known = session_ != 0 && status.session == session_;
   // Before the board has heard of the session it is no wonder.
   if (!is_known && session_ != 0 && phase_ == Phase::ready) return doubt(LinkError::was_reset);
+  if (is_known && (status.state & board_slipped) != 0) return doubt(LinkError::stood_still);
   if (is_known && (status.state & board_trusted) == 0) {
     if ((status.inputs & drivers_timed_out) != 0) return doubt(LinkError::drivers_off);
     stopped_by_ = inputs_ & stopping_inputs;

@@ -88,6 +88,15 @@ Refusal MachineSession::why_not() const {
   return {RefusalCode::nothing_runs, "nothing is going on"};
 }
 
+std::string MachineSession::words_of_stop() const {
+  const std::uint16_t inputs = board_.stopped_by();
+  if (inputs == 0) return std::string(message_of(LinkError::stopped));
+  if (state_ == MachineState::offline && (inputs & input_emergency_stop) != 0) {
+    return "the emergency stop is pressed: release it first";
+  }
+  return stop_cause(inputs, machine_).what + ": where the motors are is not certain";
+}
+
 std::string MachineSession::alarm_words() const {
   if (trouble_ == LinkError::drivers_off) return "the drivers were switched off";
   const std::uint16_t inputs = board_.stopped_by();

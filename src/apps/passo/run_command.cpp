@@ -106,14 +106,15 @@ void tell_tails(const MachineSession& session) {
              rests == 1 ? "once" : fmt::format("{} times", rests));
 }
 
-// A board that cannot make its events in time lets the motors stand still amid motion, without braking.
-void tell_slip(const MachineSession& session) {
-  const std::optional<BoardStatus>& status = session.board().status();
-  if (!status || (status->state & board_slipped) == 0) return;
-  fmt::print(stderr,
-             "passo: warning: the board stood still amid motion, because its events came too late. It has made every "
-             "step, but a motor that is stopped so suddenly may not: home the machine, and lower max_event_rate_hz of "
-             "the machine file [board.slipped]\n");
+// A board that cannot make its events in time lets the motors stand still amid motion, without braking. The time up to
+// that counts all standstills.
+void note_slip(RunSummary& summary, OpenedMachine& opened, const MachineDescription& machine,
+               const LatestMotion& motion, Seconds began) {
+  if (opened.session().status().trouble != LinkError::stood_still) return;
+  summary.board->stood_still = true;
+  summary.board->stood_still_line = line_of_stop(opened, machine, motion);
+  summary.board->end = opened.session().now() - began;
+  summary.board->without_line.reset();
 }
 
 std::vector<Axis> axes_of(const MachineDescription& machine) {
@@ -224,6 +225,7 @@ RunSummary play(const Run& run, request::Start start, Answered& answered) {
   run.outputs.watch(run.opened.machine(), start.watchers);
   run.opened.follow(start.watchers, start.stands.value_or(session.status().position.place));
   const Before before = before_program(run.opened);
+  const Seconds began = session.now();
   TailWatch tails;
   LineLoad load;
   LineWatch line = line_watch();
@@ -255,6 +257,7 @@ RunSummary play(const Run& run, request::Start start, Answered& answered) {
   add_board(summary, run.opened, machine, before);
   summary.board->busiest_second = load.busiest();
   summary.board->without_line = run.without_line;
+  note_slip(summary, run.opened, machine, run.motion, began);
   summary.holds = run.changes.holds();
   if (probes.moves > 0) summary.probes = probes;
   summary.tails = tails.tails();
@@ -332,15 +335,17 @@ int end_run(const Run& run, const Answered& answered, const RunSummary& summary,
     return fail(exit_failed,
                 "the board: " + stop_words(run.opened, run.machine, run.arguments.program.program, run.motion, line));
   }
+  if (session.status().trouble == LinkError::stood_still) {
+    print(summary, run.arguments);
+    return fail(exit_failed, "the board: " + slip_words(run.opened, run.machine, run.arguments.program.program,
+                                                        summary.board->stood_still_line));
+  }
   if (session.status().trouble) return fail(exit_failed, "the board: " + session.trouble_words());
   if (answered.fault && answered.fault->code.starts_with("board.")) {
     return fail(exit_failed, "the board: " + answered.fault->message);
   }
   if (const auto words = run.opened.compare()) return fail(exit_failed, "the board: " + *words);
-  if (run.opened.has_board()) {
-    tell_tails(session);
-    tell_slip(session);
-  }
+  if (run.opened.has_board()) tell_tails(session);
   if (answered.outcome == Outcome::failed || interrupted_by() != 0) {
     show(late);
     tell_of_touch(run.arguments, late);

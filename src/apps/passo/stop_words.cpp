@@ -58,6 +58,16 @@ std::optional<StopCause> following_error(OpenedMachine& opened, const MachineDes
                    .remedy = "find out what holds the axis"};
 }
 
+std::string line_words(std::uint32_t line, const std::string& program) {
+  return line == 0 ? "" : fmt::format(" in line {} of {}", line, program);
+}
+
+std::string remedy_for_place(const MachineDescription& machine, const std::string& program) {
+  const bool homes = !machine.homing.empty();
+  return fmt::format("{}{}", homes ? "home the machine (passo home)" : "put the machine where --from-here is true",
+                     program.empty() ? "" : ", and run the program from its beginning");
+}
+
 }  // namespace
 
 void LatestMotion::watch(const MotionItem& motion) {
@@ -100,14 +110,22 @@ std::string stop_words(OpenedMachine& opened, const MachineDescription& machine,
   if (cause.remedy.empty()) {
     cause = {.what = "a limit switch or the emergency stop closed, and is open again", .remedy = "look at its wiring"};
   }
-  const bool homes = !machine.homing.empty();
+  return fmt::format("{}{}: the motors stopped at once near {}, and steps may be lost. To go on, {}, {} [{}]{}",
+                     cause.what, line_words(line, program), place_words(machine, place), cause.remedy,
+                     remedy_for_place(machine, program), following ? "run.following-error" : "board.stopped", closed);
+}
+
+std::string slip_words(OpenedMachine& opened, const MachineDescription& machine, const std::string& program,
+                       std::uint32_t line) {
   return fmt::format(
-      "{}{}: the motors stopped at once near {}, and steps may be lost. To go on, {}, {}{} "
-      "[{}]{}",
-      cause.what, line == 0 ? "" : fmt::format(" in line {} of {}", line, program), place_words(machine, place),
-      cause.remedy, homes ? "home the machine (passo home)" : "put the machine where --from-here is true",
-      program.empty() ? "" : ", and run the program from its beginning",
-      following ? "run.following-error" : "board.stopped", closed);
+      "it stood still amid motion{}: it could not make its events in time, and steps may be lost. It "
+      "was near {}. To go on, lower max_event_rate_hz of the machine file, {} [board.slipped]",
+      line_words(line, program), place_words(machine, counted_place(opened, machine)),
+      remedy_for_place(machine, program));
+}
+
+std::uint32_t line_of_stop(OpenedMachine& opened, const MachineDescription& machine, const LatestMotion& motion) {
+  return motion.line_at(counted_place(opened, machine));
 }
 
 }  // namespace passo

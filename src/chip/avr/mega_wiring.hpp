@@ -22,7 +22,7 @@ inline void prepare_spindle() {
   SpindleDuty::write(0);
   SpindleControl::write(spindle_disconnected);
   Tccr4b::write(1 << 3 | 1 << 1);
-  Tccr2b::write(1 << 1);  // a clock of half microseconds for Wiring
+  Tccr2b::write(1 << 1);  // Wiring's clock
 }
 
 // Sets the pins that stop the motors while `watched` is captured. `alarms`: inputs that are alarms of drives.

@@ -26,19 +26,22 @@ constexpr uint32_t shortest = shortest_interval(clock, about.highest_event_rate)
 struct Hardware {
   void step(uint8_t, uint8_t) {}
   void outputs(const BoardOutputs&) {}  // the player has switched them already, at their event
-  void send(uint8_t byte) { line.send(byte); }
-  uint8_t room() { return line.room(); }
+  uint8_t* space() { return line.space(); }
+  void put(uint8_t size) { line.put(size); }
+  uint8_t room() { return line.can_send() ? 0xff : 0; }
   void enable() { Wiring::enable_motors(true); }
   bool switch_off(uint8_t switches) { return Wiring::switch_off(switches); }
   void watch();
   PinSetup set_up(const PinSetup& wanted);
   static uint8_t drivers_rest() { return Wiring::drivers_rest(); }
+  static uint16_t alarms() { return Wiring::alarms(); }
   void release() { Wiring::enable_motors(false); }
   static bool can_watch(uint8_t limits) { return are_on_one_port(limits); }
   static constexpr bool has_encoder() { return SpindleCounter::exists(); }
   static SpindleCount spindle() { return SpindleCounter::count(); }
   static void breathe() { SerialLine::breathe(); }
   static void keep_up();
+  static void slice();
   static int32_t high_product(int32_t a, int32_t b) { return chip::high_product(a, b); }
 
   SerialLine line;
@@ -113,7 +116,7 @@ void start_watchdog() {
 [[gnu::noinline]] void Hardware::watch() {
   SerialLine::breathe();
   ChipPlayer::watch(false);
-  stop_on(board.watched(), board.alarms());
+  stop_on(board.watched(), Wiring::alarms());
   SerialLine::breathe();
   watch_input();
   SerialLine::breathe();
@@ -125,8 +128,9 @@ void start_watchdog() {
   PinSetup done = Wiring::set_up(wanted);
   SerialLine::breathe();
   done.steps = MotorOutputs::set_idle(wanted.steps);
+  done.timing = MotorOutputs::set_timing(wanted.timing);
   SerialLine::breathe();
-  reader.look(Wiring::inputs(), false, board.buttons());
+  reader.look(Wiring::inputs(), false, pressed_by_people(Wiring::alarms()));
   board.set_inputs(reader.inputs());
   watch();
   return done;
@@ -173,9 +177,9 @@ bool take_tick() {
   }
   const uint16_t before = reader.inputs();
   const uint16_t watched = board.watched();
-  const uint16_t by_people = board.buttons();
+  const uint16_t by_people = pressed_by_people(Wiring::alarms());
   bool changed = ChipPlayer::captured();
-  uint16_t raw = settled_inputs<Wiring>(before, static_cast<uint16_t>(~by_people), Wiring::filter());
+  uint16_t raw = settled_inputs<Wiring>(before, static_cast<uint16_t>(~by_people));
   if (changed && Wiring::filter() != 0 && ((raw ^ before) & watched) == 0) {
     changed = false;  // it was noise: the interrupt is to wait for the next change
     ChipPlayer::watch(false);
@@ -186,7 +190,7 @@ bool take_tick() {
   const uint16_t on = reader.look(raw, tick, by_people);
   // During motion the interrupt has stopped already. At rest nobody else looks.
   if ((on & board.stopping()) != 0 && !board.idle()) return stop_at_once(on);
-  if ((on & board.stopping_at_rest()) != 0) return stop_at_once(on);
+  if ((on & stopping_at_rest(Wiring::alarms())) != 0) return stop_at_once(on);
   uint16_t told = on & by_people;
   told |= (reader.inputs() ^ before) & watched;
   if (changed) board.settle();  // releases the items finished before that
@@ -239,6 +243,13 @@ void Hardware::keep_up() {
 #ifndef PASSO_WINDINGS
   if (running != 0) chip::keep_up();
   SerialLine::breathe();
+#endif
+}
+
+[[gnu::noinline]] void Hardware::slice() {
+  SerialLine::breathe();
+#ifndef PASSO_WINDINGS
+  if (running != 0 && ChipPlayer::is_low()) chip::keep_up();
 #endif
 }
 

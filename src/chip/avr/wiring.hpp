@@ -58,7 +58,9 @@ class Wiring {
     done.outputs = wanted.outputs & known_outputs();
     done.drivers_rest = wanted.drivers_rest;
     Twar::write(wanted.drivers_rest);
-    done.alarms = wanted.alarms & may_be_alarms();
+    done.alarms = wanted.alarms & may_be_alarms;
+    Ocr1bh::write(static_cast<uint8_t>(done.alarms >> 8));
+    Ocr1bl::write(static_cast<uint8_t>(done.alarms));
     done.filter = wanted.filter;
     Ocr2b::write(wanted.filter);
     if (done.outputs == Twbr::read()) return done;
@@ -77,11 +79,15 @@ class Wiring {
   [[gnu::always_inline]] static uint8_t filter() {
     return Ocr2b::read();
   }
-  // Timer 2 runs all the time.
-  [[gnu::always_inline]] static uint8_t half_microseconds() {
-    return Tcnt2::read();
+  // Inputs that are alarms of drives. Nobody waits for this match either.
+  [[gnu::always_inline]] static uint16_t alarms() {
+    return static_cast<uint16_t>(Ocr1bl::read() | Ocr1bh::read() << 8);
   }
-  static void breathe() {
+  // Timer 2 runs all the time.
+  [[gnu::always_inline]] static uint8_t microseconds() {
+    return Tcnt2::read() >> 1;
+  }
+  [[gnu::noinline]] static void breathe() {
     SerialLine::breathe();
   }
 
@@ -152,15 +158,6 @@ class Wiring {
     return (port_register(pin.port, 2) & pin.mask()) != 0;
   }
 
-  static constexpr uint16_t may_be_alarms() {
-    uint16_t known = 0;
-    for (uint8_t i = 0; i < most_axis_switches; ++i) {
-      if (pins.limits[i].exists()) known |= static_cast<uint16_t>(input_limit << i);
-    }
-    if (pins.feed_hold.exists()) known |= input_hold;
-    if (pins.cycle_start.exists()) known |= input_start;
-    return known;
-  }
   [[gnu::always_inline]] static bool switch_off(Pin pin, uint8_t output) {
     if (!pin.exists() || is_high(pin) == is_inverted(output)) return false;
     set(pin, is_inverted(output));

@@ -64,6 +64,7 @@ class PicoWiring {
     done.drivers_rest = drivers_rest_ = wanted.drivers_rest;
     done.alarms =
         wanted.alarms & inputs_of(pins.inputs()) & static_cast<uint16_t>(~(input_probe | input_emergency_stop));
+    alarms_ = done.alarms;
     done.filter = wanted.filter;
     filter_ = wanted.filter;
     constexpr struct {
@@ -86,7 +87,9 @@ class PicoWiring {
   static uint8_t drivers_rest() { return drivers_rest_; }
   // Microseconds for which a switch must stay in its new state.
   static uint8_t filter() { return filter_; }
-  static uint8_t half_microseconds() { return static_cast<uint8_t>(TimerLow::read() * 2); }
+  // Inputs that are alarms of drives.
+  static uint16_t alarms() { return alarms_; }
+  static uint8_t microseconds() { return TimerLow::read() & 0x7f; }
   static void breathe() {}
   // Any switches can be watched together.
   static bool can_watch(uint8_t limits) {
@@ -207,6 +210,7 @@ class PicoWiring {
   static inline uint8_t inverted_outputs_ = 0;        // bits of PinSetup's outputs
   static inline uint8_t drivers_rest_ = 0;
   static inline volatile uint8_t filter_ = 0;
+  static inline uint16_t alarms_ = 0;
 };
 
 }  // namespace passo::chip

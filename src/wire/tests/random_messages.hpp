@@ -136,7 +136,13 @@ class RandomMessages {
       case 11: size = encode(about(), sequence, frame.data()); break;
       case 12: size = encode(turned(), sequence, frame.data()); break;
       case 13: {
-        const PinSetup setup{.inputs = word(), .steps = byte(), .outputs = byte(), .drivers_rest = byte()};
+        const PinSetup setup{.inputs = word(),
+                             .steps = byte(),
+                             .outputs = byte(),
+                             .drivers_rest = byte(),
+                             .timing = {.pulse = byte(), .set_up = byte(), .hold = byte(), .event_ticks = word()},
+                             .alarms = word(),
+                             .filter = byte()};
         size = encode(setup, sequence, frame.data());
         break;
       }

@@ -27,6 +27,8 @@ MotorSteps truth_at(const MachineDescription& machine, const Point& place);
 std::uint16_t alarm_of(const AxisDescription& axis);
 // How the machine's switches and drivers are connected to its board's pins.
 PinSetup pin_setup(const MachineDescription& machine);
+// What the drivers ask of the board's step and direction pins, and how close its events come.
+StepTiming step_timing(const BoardDescription& board);
 
 SpindleModel spindle_model(const SpindleDescription& spindle);
 

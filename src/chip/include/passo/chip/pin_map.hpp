@@ -85,8 +85,7 @@ struct PinMap {
   MotorPins motor[motor_count] = {};
   // The ports with step or direction pins, the first one with the interrupt's flags; or the ports with windings.
   char step_ports[most_step_ports] = {};
-  uint8_t shortest_pulse = 16;  // cycles: 1 microsecond for an A4988, 31 for a DRV8825
-  uint8_t flag_special = 0;     // masks in the first step port
+  uint8_t flag_special = 0;  // masks in the first step port
   uint8_t flag_stop = 0;
 
   Pin limits[most_axis_switches] = {};  // limit switches 0 to 5, as BoardInput numbers them

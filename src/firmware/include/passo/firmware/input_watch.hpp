@@ -30,21 +30,8 @@ class InputWatch {
   // Bits of BoardInput: input() is the one that is captured, stopping() those that stop the motors when they go on.
   uint16_t input() const { return limit_ != 0 ? uint16_t{limit_} : uint16_t{input_probe}; }
   uint16_t stopping() const {
-    return static_cast<uint16_t>(stopping_at_rest() | (all_limits & static_cast<uint8_t>(~limit_)));
+    return static_cast<uint16_t>(input_emergency_stop | (all_limits & static_cast<uint8_t>(~limit_)));
   }
-  // Those of them that stop the board at rest, too: what holds the machine may be gone.
-  uint16_t stopping_at_rest() const { return static_cast<uint16_t>(input_emergency_stop | alarms_); }
-
-  FaultReason reason_of(uint16_t stopping) const {
-    return (stopping & input_emergency_stop) != 0 ? FaultReason::emergency_stop
-           : (stopping & alarms_) != 0            ? FaultReason::driver
-                                                  : FaultReason::limit;
-  }
-  // These inputs are alarms of drives, whatever else they usually are.
-  void take_alarms(uint16_t alarms) { alarms_ = alarms; }
-  uint16_t alarms() const { return alarms_; }
-  // Inputs that a person presses.
-  uint16_t buttons() const { return static_cast<uint16_t>((input_door | input_hold | input_start) & ~alarms_); }
 
   // Bits of BoardState.
   uint8_t state() const {
@@ -70,7 +57,6 @@ class InputWatch {
   enum class Kept : uint8_t { nothing, closing, opening };
   static constexpr uint8_t all_limits = 0xFF;
 
-  uint16_t alarms_ = 0;
   uint8_t limit_ = 0;
   Kept kept_ = Kept::nothing;
 };

@@ -130,6 +130,9 @@ class BoardSession final : public Link {
   bool forget_shifts() { return status_ && twins_.forget_shifts(status_->positions); }
   // What the board cannot do of the setup in the greeting, after LinkError::cannot_set_up.
   PinSetup undone_setup() const;
+  // The times that the board gives its step and direction pins, and those that the greeting asked for.
+  const StepTiming& timing() const { return set_up_.timing; }
+  const StepTiming& wanted_timing() const { return setup_.timing; }
   // The number of motors in the hello; 0 before the hello.
   std::uint8_t motors() const { return motors_; }
   // The board's answer to the hello. Empty: the board has not answered.
@@ -163,7 +166,7 @@ class BoardSession final : public Link {
   void say_hello();
   void say_session();
   void take(const PinSetup& setup);
-  bool is_set_up() const { return set_up_ == setup_; }
+  bool is_set_up() const;
   void look_at_greeting();
   bool hear(Seconds most);
   bool expects() const;
@@ -265,6 +268,10 @@ class BoardSession final : public Link {
   std::uint64_t frames_repeated_ = 0;
 };
 
+// Whether all times are as long as needed, and events as close.
+bool suffices(const StepTiming& given, const StepTiming& needed);
+// What a board makes that does not suffice, as the object of a sentence. `clock`: its ticks a second.
+std::string words_of_timing(const StepTiming& given, const StepTiming& needed, double clock);
 // The pins of a setup, as words: "door, limit 4". Limits are counted from 1.
 std::string words_of_setup(const PinSetup& setup);
 

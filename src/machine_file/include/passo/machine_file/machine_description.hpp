@@ -111,10 +111,11 @@ struct AxisDescription {
 };
 
 struct BoardDescription {
-  Hertz clock{16e6};               // ticks a second
-  Hertz highest_event_rate{50e3};  // events a second
-  Seconds step_pulse{2.5e-6};
-  bool step_pulse_is_given = false;  // true: a board whose pulses are shorter does not suit
+  Hertz clock{16e6};                 // ticks a second
+  Hertz highest_event_rate{50e3};    // events a second
+  Seconds step_pulse{2.5e-6};        // the least that the drivers need, as the next two
+  Seconds direction_setup{0.65e-6};  // from a change of the direction to the next step
+  Seconds direction_hold{0.65e-6};   // from a step's beginning to a change of the direction
   int held_items = 240;              // places in the list of the virtual board; a real board tells its own number
   std::optional<Excitation> windings = {};  // the board's own pins switch the motors' windings; empty: drivers do
   bool held_items_are_given = false;        // true: `passo check` says what a line to a board with so many places costs
