@@ -14,6 +14,7 @@ namespace {
 
 constexpr std::uint64_t cycles_a_microsecond = 16;
 constexpr std::uint8_t filter = 100;
+constexpr std::size_t segments = 10;  // as many as the board takes at once
 
 struct NoisyBoard {
   BoardUnderTest board;
@@ -28,7 +29,7 @@ NoisyBoard noisy_uno() {
   std::vector<Pin> stops(std::begin(uno_cnc_shield.limits), std::begin(uno_cnc_shield.limits) + 3);
   stops.push_back(uno_cnc_shield.emergency_stop);
   return {.board = uno_under_test(PASSO_MOTION_UNO),
-          .interval = 250,
+          .interval = 400,
           .stops = stops,
           .probe = uno_cnc_shield.probe,
           .alarm = uno_cnc_shield.cycle_start,
@@ -38,7 +39,7 @@ NoisyBoard noisy_mega() {
   std::vector<Pin> stops(std::begin(mega_ramps.limits), std::end(mega_ramps.limits));
   stops.push_back(mega_ramps.emergency_stop);
   return {.board = mega_under_test(PASSO_MOTION_MEGA, 3),
-          .interval = 250,
+          .interval = 400,
           .stops = stops,
           .probe = mega_ramps.probe,
           .alarm = mega_ramps.cycle_start,
@@ -52,9 +53,9 @@ class FilteredBench : public BoardBench {
     set_up(setup);
     run(50'000);
   }
-  void start_long_run(int segments) {
+  void start_long_run() {
     const BoardSegment segment{.events = 200, .flips = 7, .interval = kind_.interval << 16};
-    start(std::vector<BoardSegment>(static_cast<std::size_t>(segments), segment));
+    start(std::vector<BoardSegment>(segments, segment));
     run(60'000);
   }
   // A pin is pulled low for 1 to 25 us, after up to 200 us.
@@ -82,11 +83,11 @@ class FilteredBench : public BoardBench {
 
 void expect_no_stop_by_spikes(const NoisyBoard& kind) {
   FilteredBench bench(kind);
-  bench.start_long_run(30);
+  bench.start_long_run();
   for (int i = 0; i < 300; ++i) bench.spike(bench.any_of(kind.stops));
   bench.run(2'000'000);
   EXPECT_FALSE(bench.fault());
-  EXPECT_EQ(bench.edges().size(), 30U * 200U);
+  EXPECT_EQ(bench.edges().size(), segments * 200U) << "each step is made";
   // At rest, too.
   for (int i = 0; i < 100; ++i) bench.spike(bench.any_of(kind.stops));
   EXPECT_FALSE(bench.fault());
@@ -94,7 +95,7 @@ void expect_no_stop_by_spikes(const NoisyBoard& kind) {
 
 void expect_a_stop_by_spikes_without_a_filter(const NoisyBoard& kind) {
   FilteredBench bench(kind, {});
-  bench.start_long_run(30);
+  bench.start_long_run();
   for (int i = 0; i < 100 && !bench.fault(); ++i) bench.spike(bench.any_of(kind.stops));
   EXPECT_TRUE(bench.fault()) << "else the spikes prove nothing";
 }
@@ -104,7 +105,7 @@ void expect_a_stop_within(std::uint64_t microseconds, const NoisyBoard& kind) {
   std::uint64_t worst = 0;
   for (int trial = 0; trial < 20; ++trial) {
     FilteredBench bench(kind);
-    bench.start_long_run(30);
+    bench.start_long_run();
     bench.run(static_cast<std::uint64_t>(trial) * 7'001);
     const Pin pin = kind.stops[static_cast<std::size_t>(trial) % kind.stops.size()];
     const std::uint64_t pressed = bench.cycles();
@@ -125,9 +126,9 @@ void expect_a_stop_within(std::uint64_t microseconds, const NoisyBoard& kind) {
 
 // Spikes at the probe, none of which counts; then it touches, at each cycle from one event to the next.
 void expect_exact_touches_amid_spikes(const NoisyBoard& kind) {
-  for (std::uint32_t phase = 0; phase < kind.interval; phase += 13) {
+  for (std::uint32_t phase = 0; phase < kind.interval; phase += 31) {
     FilteredBench bench(kind);
-    bench.start_long_run(30);
+    bench.start_long_run();
     for (int i = 0; i < 10; ++i) bench.spike(kind.probe);
     bench.run(60'000 + phase);
     ASSERT_FALSE(bench.captured()) << "a spike is no touch";
@@ -150,7 +151,7 @@ void expect_alarm(const NoisyBoard& kind) {
     EXPECT_EQ(bench.pin_setup()->alarms, unsigned{input_start});
     EXPECT_EQ(bench.pin_setup()->filter, filter);
     if (moves) {
-      bench.start_long_run(30);
+      bench.start_long_run();
     } else {
       bench.start({});
       bench.run(60'000);
