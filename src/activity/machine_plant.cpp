@@ -48,6 +48,13 @@ MotorSteps truth_at(const MachineDescription& machine, const Point& place) {
   return steps;
 }
 
+std::uint16_t alarm_of(const AxisDescription& axis) {
+  if (!axis.alarm_input) return 0;
+  if (*axis.alarm_input == alarm_at_feed_hold) return input_hold;
+  if (*axis.alarm_input == alarm_at_cycle_start) return input_start;
+  return static_cast<std::uint16_t>(input_limit << *axis.alarm_input);
+}
+
 PinSetup pin_setup(const MachineDescription& machine) {
   const PinsDescription& pins = machine.pins;
   unsigned inputs = 0;
@@ -63,11 +70,27 @@ PinSetup pin_setup(const MachineDescription& machine) {
   if (pins.mist_low) outputs |= mist_on;
   if (pins.flood_low) outputs |= flood_on;
   if (pins.driver_enable_high) outputs |= inverted_enable;
+  unsigned alarms = 0;
+  for (const AxisDescription& axis : machine.axes) alarms |= alarm_of(axis);
   const unsigned motors = (1U << machine.motor_count()) - 1;
   return {.inputs = static_cast<std::uint16_t>(inputs),
           .steps = static_cast<std::uint8_t>(pins.step_low ? motors : 0U),
           .outputs = static_cast<std::uint8_t>(outputs),
-          .drivers_rest = static_cast<std::uint8_t>(std::lround(pins.drivers_off_after.value() * 10))};
+          .drivers_rest = static_cast<std::uint8_t>(std::lround(pins.drivers_off_after.value() * 10)),
+          .alarms = static_cast<std::uint16_t>(alarms),
+          .filter = static_cast<std::uint8_t>(std::lround(pins.filter.value() * 1e6))};
+}
+
+StepTiming step_timing(const BoardDescription& board) {
+  const auto sixteenths = [](Seconds time) {
+    constexpr double hardly_more = 1e-6;
+    return static_cast<std::uint8_t>(std::clamp(std::ceil(time.value() * 16e6 - hardly_more), 0.0, 255.0));
+  };
+  const double ticks = std::floor(board.clock.value() / board.highest_event_rate.value() * (1 + 1e-9));
+  return {.pulse = sixteenths(board.windings ? Seconds(0) : board.step_pulse),
+          .set_up = sixteenths(board.direction_setup),
+          .hold = sixteenths(board.direction_hold),
+          .event_ticks = static_cast<std::uint16_t>(std::min(ticks, 65535.0))};
 }
 
 SpindleModel spindle_model(const SpindleDescription& spindle) {

@@ -2,6 +2,8 @@
 
 #include "api_json.hpp"
 
+#include "passo/activity/machine_plant.hpp"
+
 namespace passo {
 namespace {
 
@@ -26,7 +28,16 @@ Json names_of(const HoldReasons& holds) {
 Json closed_limits(const MachineDescription& machine, std::uint16_t inputs) {
   Json list = Json::array();
   for (unsigned i = 0; i < machine.motor_count(); ++i) {
-    if (((inputs >> i) & input_limit) != 0) list.push_back(i);
+    if (((inputs & ~unsigned{pin_setup(machine).alarms}) >> i & input_limit) != 0) list.push_back(i);
+  }
+  return list;
+}
+
+// The axes whose drives give an alarm. Those that share an input are all in the list.
+Json drive_alarms(const MachineDescription& machine, std::uint16_t inputs) {
+  Json list = Json::array();
+  for (const AxisDescription& axis : machine.axes) {
+    if ((inputs & alarm_of(axis)) != 0) list.push_back(axis_key(axis.axis));
   }
   return list;
 }
@@ -130,7 +141,8 @@ Json as_json(const MachineDescription& machine, const MachineStatus& status) {
         {"hold", (status.inputs & input_hold) != 0},
         {"start", (status.inputs & input_start) != 0},
         {"emergency_stop", (status.inputs & input_emergency_stop) != 0},
-        {"limits", closed_limits(machine, status.inputs)}}},
+        {"limits", closed_limits(machine, status.inputs)},
+        {"drive_alarms", drive_alarms(machine, status.inputs)}}},
       {"waits_for_tool", Json()},
       {"waits_for_operator", status.waits_for.has_value()},
       {"trouble", status.trouble_words}};

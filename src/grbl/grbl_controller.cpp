@@ -6,6 +6,7 @@
 
 #include <fmt/format.h>
 
+#include "passo/activity/machine_plant.hpp"
 #include "passo/interpreter/grbl_errors.hpp"
 
 namespace passo {
@@ -115,7 +116,7 @@ void GrblController::turn(const std::vector<MachineChange>& changes) {
 void GrblController::heed(const MachineChange& change) {
   switch (change.kind) {
     case MachineChange::Kind::state:
-      if (change.state == MachineState::alarm) raise(GrblAlarm::hard_limit);
+      if (change.state == MachineState::alarm) raise_alarm_of_board();
       if (change.state == MachineState::fault) raise(GrblAlarm::lost_place);
       return;
     case MachineChange::Kind::position_lost: return raise(GrblAlarm::lost_place);
@@ -146,6 +147,13 @@ void GrblController::end_probe() {
   if (failed) raise(probe_ && probe_->refused ? GrblAlarm::probe_before : GrblAlarm::probe_untouched);
   if (!probe_ || !probe_->refused) say(probe_text(probe_, units()));
   answer(GrblError::none);
+}
+
+// Grbl's numbers do not tell what it was, so a message does.
+void GrblController::raise_alarm_of_board() {
+  const bool is_drive = (session_.board().stopped_by() & pin_setup(machine_).alarms) != 0;
+  raise(is_drive ? GrblAlarm::motor_fault : GrblAlarm::hard_limit);
+  say("[MSG:" + session_.trouble_words() + "]\r\n");
 }
 
 void GrblController::raise(GrblAlarm alarm) {

@@ -14,6 +14,8 @@ std::string_view code_of(ResumeRefusal refusal) {
     case ResumeRefusal::board_reset: return "resume.board-reset";
     case ResumeRefusal::other_session: return "resume.other-session";
     case ResumeRefusal::not_trusted: return "resume.not-trusted";
+    case ResumeRefusal::drivers_off: return "resume.drivers-off";
+    case ResumeRefusal::session_ended: return "resume.session-ended";
     case ResumeRefusal::rest_unknown: return "resume.rest-unknown";
     case ResumeRefusal::path_changed: return "resume.path-changed";
     case ResumeRefusal::counts_differ: return "resume.counts-differ";
@@ -29,6 +31,12 @@ std::string_view message_of(ResumeRefusal refusal) {
     case ResumeRefusal::other_session: return "another program was run on the board since";
     case ResumeRefusal::not_trusted:
       return "the board has stopped its motors at once, and where they are is not certain";
+    case ResumeRefusal::drivers_off:
+      return "the board has switched the drivers off after a time without a host (drivers_off_after_s), and the axes "
+             "may "
+             "have moved";
+    case ResumeRefusal::session_ended:
+      return "the machine was moved by the board's keypad since, or another program began to talk to the board";
     case ResumeRefusal::rest_unknown: return "the journal does not know where the board has come to rest";
     case ResumeRefusal::path_changed: return "the program does not mean any more what it meant";
     case ResumeRefusal::counts_differ: return "the board's step counts are not those of the place where the job ended";
@@ -40,13 +48,15 @@ std::string_view message_of(ResumeRefusal refusal) {
 
 std::optional<ResumeRefusal> refuse_stranger(const Journal& journal, const BoardStatus& status) {
   if (journal.is_of(status)) return {};
-  const bool reset = status.session == 0 && status.motors == 0;
-  return reset ? ResumeRefusal::board_reset : ResumeRefusal::other_session;
+  if (status.session != 0) return ResumeRefusal::other_session;
+  return status.motors == 0 ? ResumeRefusal::board_reset : ResumeRefusal::session_ended;
 }
 
 std::optional<ResumeRefusal> refuse_rest(const Journal& journal, const BoardStatus& status) {
   if (const auto stranger = refuse_stranger(journal, status)) return stranger;
-  if ((status.state & board_trusted) == 0) return ResumeRefusal::not_trusted;
+  if ((status.state & board_trusted) == 0) {
+    return (status.inputs & drivers_timed_out) != 0 ? ResumeRefusal::drivers_off : ResumeRefusal::not_trusted;
+  }
   if (!journal.place_of(status)) return ResumeRefusal::rest_unknown;
   return {};
 }

@@ -1,5 +1,6 @@
 // BoardSession: questions before the hello, the hello itself, and the session's number.
 #include <cassert>
+#include <sstream>
 
 #include "passo/link/board_session.hpp"
 
@@ -49,7 +50,7 @@ void BoardSession::forget_what_was() {
   answered_ = true;
   rests_ = repeating_ = question_waits_ = outputs_timed_out_ = false;
   refusals_ = doubts_ = free_ = 0;
-  pressed_ = 0;
+  pressed_ = stopped_by_ = 0;
 }
 
 void BoardSession::hang_up() {
@@ -70,18 +71,58 @@ void BoardSession::take(const PinSetup& setup) {
   if (phase_ != Phase::greeting || is_set_up()) return;
   set_up_ = setup;
   if (!is_set_up()) {
-    error_ = LinkError::cannot_set_up;
+    const bool lacks_pins = undone_setup() != PinSetup{};
+    error_ = lacks_pins ? LinkError::cannot_set_up : LinkError::cannot_time;
     return;
   }
   board_.reset();  // an answer to a hello before
   say_hello();
 }
 
+// Levels are as wanted or not. Times may be longer, and events may come sooner.
+bool BoardSession::is_set_up() const {
+  PinSetup done = set_up_;
+  done.timing = setup_.timing;
+  return done == setup_ && (setup_.timing == StepTiming{} || suffices(set_up_.timing, setup_.timing));
+}
+
+bool suffices(const StepTiming& given, const StepTiming& needed) {
+  return given.pulse >= needed.pulse && given.set_up >= needed.set_up && given.hold >= needed.hold &&
+         (needed.event_ticks == 0 || given.event_ticks <= needed.event_ticks);
+}
+
 PinSetup BoardSession::undone_setup() const {
   return {.inputs = static_cast<std::uint16_t>(setup_.inputs & ~set_up_.inputs),
           .steps = static_cast<std::uint8_t>(setup_.steps & ~set_up_.steps),
           .outputs = static_cast<std::uint8_t>(setup_.outputs & ~set_up_.outputs),
-          .drivers_rest = set_up_.drivers_rest == 0 ? setup_.drivers_rest : std::uint8_t{0}};
+          .drivers_rest = set_up_.drivers_rest == 0 ? setup_.drivers_rest : std::uint8_t{0},
+          .alarms = static_cast<std::uint16_t>(setup_.alarms & ~set_up_.alarms),
+          .filter = set_up_.filter == 0 ? setup_.filter : std::uint8_t{0}};
+}
+
+std::string words_of_timing(const StepTiming& given, const StepTiming& needed, double clock) {
+  constexpr double sixteenths = 16;
+  const auto number = [](double value) {
+    std::ostringstream out;
+    out << value;
+    return out.str();
+  };
+  const auto too_short = [&](const char* what, const char* key, std::uint8_t gives, std::uint8_t needs) {
+    return std::string(what) + " of at most " + number(gives / sixteenths) + " us, and " + key + " = " +
+           number(needs / sixteenths) + " of the machine file asks for more [board.step-pulse]";
+  };
+  if (given.pulse < needed.pulse) return too_short("step pulses", "step_pulse_us", given.pulse, needed.pulse);
+  if (given.set_up < needed.set_up) {
+    return too_short("a set-up time of directions", "direction_setup_us", given.set_up, needed.set_up);
+  }
+  if (given.hold < needed.hold) {
+    return too_short("a hold time of directions", "direction_hold_us", given.hold, needed.hold);
+  }
+  const std::string rate = std::to_string(static_cast<long>(clock / given.event_ticks));
+  return "at most " + rate + " events a second with step pulses of " + number(needed.pulse / sixteenths) +
+         " us and directions set " + number(needed.set_up / sixteenths) +
+         " us before a step, and max_event_rate_hz of the machine file asks for more: lower max_event_rate_hz to " +
+         rate + " or less [board.event-rate]";
 }
 
 std::string words_of_setup(const PinSetup& setup) {
@@ -102,6 +143,10 @@ std::string words_of_setup(const PinSetup& setup) {
   add((setup.outputs & mist_on) != 0, "mist");
   add((setup.outputs & flood_on) != 0, "flood");
   add(setup.drivers_rest != 0, "drivers_off_after_s");
+  for (unsigned i = 0; i < 8; ++i) add((setup.alarms >> i & 1U) != 0, "alarm at limit " + std::to_string(i + 1));
+  add((setup.alarms & input_hold) != 0, "alarm at feed_hold");
+  add((setup.alarms & input_start) != 0, "alarm at cycle_start");
+  add(setup.filter != 0, "filter_us");
   return words;
 }
 

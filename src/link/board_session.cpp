@@ -23,6 +23,9 @@ constexpr double most_patiences = 2;
 
 constexpr std::size_t most_gibberish = 256;
 
+// Limit switches and the emergency stop.
+constexpr std::uint16_t stopping_inputs = 0xFF | input_emergency_stop;
+
 }  // namespace
 
 BoardSession::BoardSession(BoardPort& port, const LineCare& care)
@@ -238,10 +241,11 @@ void BoardSession::take(const WireFrame& frame) {
       decode(frame, error);
       return take(error);
     }
-    case MessageType::fault:
-      // A board that does not know yet how its switches are wired may take them for closed.
-      if (phase_ != Phase::before_hello && is_set_up()) error_ = LinkError::stopped;
-      return;
+    case MessageType::fault: {
+      Fault fault;
+      decode(frame, fault);
+      return take(fault);
+    }
     case MessageType::pin_setup: {
       PinSetup setup;
       decode(frame, setup);
@@ -263,6 +267,14 @@ void BoardSession::take(const WireFrame& frame) {
       if (!may_lose()) error_ = LinkError::refused;
       return;
   }
+}
+
+// A board that does not know yet how its switches are wired may take them for closed.
+void BoardSession::take(const Fault& fault) {
+  if (phase_ == Phase::before_hello || !is_set_up()) return;
+  stopped_by_ = fault.inputs;
+  inputs_ |= fault.inputs;
+  error_ = LinkError::stopped;
 }
 
 // Ignores a credit that a later credit has overtaken, and a credit that is impossible.
@@ -309,7 +321,12 @@ void BoardSession::take(const BoardStatus& status) {
   const bool is_known = session_ != 0 && status.session == session_;
   // Before the board has heard of the session it is no wonder.
   if (!is_known && session_ != 0 && phase_ == Phase::ready) return doubt(LinkError::was_reset);
-  if (is_known && (status.state & board_trusted) == 0) return doubt(LinkError::stopped);
+  if (is_known && (status.state & board_slipped) != 0) return doubt(LinkError::stood_still);
+  if (is_known && (status.state & board_trusted) == 0) {
+    if ((status.inputs & drivers_timed_out) != 0) return doubt(LinkError::drivers_off);
+    stopped_by_ = inputs_ & stopping_inputs;
+    return doubt(LinkError::stopped);
+  }
   // What is in doubt answers nothing: the counts of a board that was reset are not those of the motors.
   if (status.answers == question_) settle(Question::status);
   if (!is_known) return;
@@ -362,7 +379,7 @@ void BoardSession::take(const Captured& captured) {
 }
 
 void BoardSession::note_inputs(const BoardStatus& status) {
-  const auto inputs = static_cast<std::uint16_t>(status.inputs & ~passo::outputs_timed_out);
+  const auto inputs = static_cast<std::uint16_t>(status.inputs & ~(passo::outputs_timed_out | drivers_timed_out));
   const auto pressed = static_cast<std::uint16_t>(inputs & ~inputs_ & ~unsigned{probe_.input()});
   pressed_ |= pressed;
   news_ = news_ || pressed != 0;

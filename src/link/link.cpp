@@ -13,11 +13,18 @@ std::string_view message_of(LinkError error) {
       return "the board speaks another version of the protocol: its firmware and passo must be of one version";
     case LinkError::too_few_motors: return "the board has fewer motors than the machine";
     case LinkError::cannot_set_up: return "the board cannot do what [inputs] and [outputs] of the machine file say";
+    case LinkError::cannot_time: return "the board does not time its steps as the drivers need it";
     case LinkError::cannot_watch:
       return "the board cannot watch these limit switches at once: their pins are on several ports (docs/boards.md)";
     case LinkError::refused: return "the board refused what was sent to it";
     case LinkError::was_reset: return "the board was reset, and does not know any more where the motors are";
     case LinkError::stopped: return "the board has stopped its motors at once, and where they are is not certain";
+    case LinkError::drivers_off:
+      return "the board did not hear this computer for drivers_off_after_s and has switched the drivers off: the axes "
+             "may have moved";
+    case LinkError::stood_still:
+      return "the board stood still amid motion, because it could not make its events in time: a motor that is stopped "
+             "so suddenly may have lost steps";
     case LinkError::too_few_places: return "the board cannot hold as much as it takes to bring the machine to rest";
     case LinkError::manual:
       return "the board was put into manual mode by its keypad: leave it there by *, and start again";

@@ -116,15 +116,14 @@ void VirtualMachine::look_at_inputs() {
 // an input that stops, with the outputs off.
 void VirtualMachine::heed(unsigned now) {
   const unsigned changed = now ^ std::exchange(told_, static_cast<std::uint16_t>(now));
-  constexpr unsigned by_people = input_door | input_hold | input_start;
+  const unsigned by_people = pressed_by_people(hardware_.alarms());
   const unsigned on = changed & now;
   board_.set_inputs(told_, static_cast<std::uint16_t>((changed & board_.watched()) | (on & by_people)));
   const unsigned stops = on & board_.stopping();
-  const bool pressed = (stops & input_emergency_stop) != 0;
-  if (!pressed && (stops == 0 || board_.idle())) return;
+  if ((stops & stopping_at_rest(hardware_.alarms())) == 0 && (stops == 0 || board_.idle())) return;
   hardware_.switch_off();
-  if (pressed) hardware_.drivers_on = false;
-  board_.stop_at_once(pressed ? FaultReason::emergency_stop : FaultReason::limit);
+  if ((stops & input_emergency_stop) != 0) hardware_.drivers_on = false;
+  board_.stop_at_once(told_);
 }
 
 void VirtualMachine::reset_board() {
@@ -137,6 +136,12 @@ void VirtualMachine::reset_board() {
   hardware_.setup = {};
   told_ = 0;
   look_at_plant();
+}
+
+void VirtualMachine::stand_still(Ticks time) {
+  assert(waits_);
+  next_event_ += time.count;
+  board_.player().slip();
 }
 
 void VirtualMachine::wait(Ticks time) {

@@ -46,6 +46,15 @@ std::string describe_second(const MachineDescription& machine, std::size_t index
   return line + "\n";
 }
 
+std::string describe_alarm(const AxisDescription& axis) {
+  if (!axis.alarm_input) return "";
+  const int input = *axis.alarm_input;
+  const std::string place = input == alarm_at_feed_hold     ? "the pin of feed hold"
+                            : input == alarm_at_cycle_start ? "the pin of cycle start"
+                                                            : fmt::format("limit {}", input + 1);
+  return fmt::format("                drive's alarm at {}\n", place);
+}
+
 // The pins that are on at another level than usual.
 std::string describe_pins(const PinsDescription& pins) {
   std::string high;
@@ -69,6 +78,9 @@ std::string describe_pins(const PinsDescription& pins) {
   std::string out;
   if (!high.empty()) out += fmt::format("pins            on when high: {}\n", high);
   if (!low.empty()) out += fmt::format("pins            on when low: {}\n", low);
+  if (pins.filter != PinsDescription().filter) {
+    out += fmt::format("switches        count after {:g} us\n", pins.filter.value() * 1e6);
+  }
   if (pins.drivers_off_after > Seconds(0)) {
     out += fmt::format("drivers         off {:g} s after the host's last word\n", pins.drivers_off_after.value());
   }
@@ -149,7 +161,8 @@ std::string describe(const MachineDescription& machine) {
   out += describe_pins(machine.pins);
   out += describe_homing(machine);
   for (std::size_t motor = 0; motor < machine.axes.size(); ++motor) {
-    out += describe_axis(machine.axes[motor], motor) + describe_second(machine, motor);
+    out += describe_axis(machine.axes[motor], motor) + describe_second(machine, motor) +
+           describe_alarm(machine.axes[motor]);
   }
   return out;
 }

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <utility>
 
+#include "axis_keys.hpp"
 #include "encoder_reader.hpp"
 #include "homing_reader.hpp"
 #include "pins_reader.hpp"
@@ -21,6 +22,8 @@ constexpr NumberKey path_tolerance_key{"path_tolerance_mm", 1e-4, 10, "0.02"};
 constexpr NumberKey clock_key{"clock_hz", 1e3, 1e9, "16_000_000"};
 constexpr NumberKey event_rate_key{"max_event_rate_hz", 10, 1e7, "50_000"};
 constexpr NumberKey step_pulse_key{"step_pulse_us", 0.05, 1000, "2.5"};
+constexpr NumberKey direction_setup_key{"direction_setup_us", 0, 15, "0.65"};
+constexpr NumberKey direction_hold_key{"direction_hold_us", 0, 15, "0.65"};
 constexpr NumberKey items_key{"held_items", 8, 240, "240"};
 
 constexpr NumberKey rpm_key{"max_rpm", 0, 65535, "10000"};
@@ -38,38 +41,6 @@ constexpr NumberKey motor_key{"motor", 0, most_motors - 1, "0"};
 constexpr std::string_view torque_table = "torque";
 constexpr std::string_view home_table = "home";
 constexpr std::string_view second_table = "second_motor";
-
-// The keys of an axis that carry a unit in their names.
-struct AxisKeys {
-  const char* unit;
-  NumberKey scale;
-  NumberKey gear;
-  NumberKey travel;
-  NumberKey velocity;
-  NumberKey acceleration;
-  NumberKey jerk;
-  NumberKey start_stop;
-};
-constexpr AxisKeys linear_keys{
-    .unit = "mm",
-    .scale = {"steps_per_mm", 1e-3, 1e6, "100"},
-    .gear = {"screw_pitch_mm", 1e-2, 1e3, "4"},
-    .travel = {"travel_mm", -1e5, 1e5, "[-150, 150]"},
-    .velocity = {"max_velocity_mm_s", 1e-3, 1e5, "25"},
-    .acceleration = {"max_acceleration_mm_s2", 1e-3, 1e6, "200"},
-    .jerk = {"max_jerk_mm_s3", 1e-3, 1e9, "5000"},
-    .start_stop = {"start_stop_velocity_mm_s", 0, 1e5, "2"},
-};
-constexpr AxisKeys rotary_keys{
-    .unit = "deg",
-    .scale = {"steps_per_deg", 1e-3, 1e6, "40"},
-    .gear = {"gear_ratio", 1e-3, 1e5, "36"},
-    .travel = {"travel_deg", -1e7, 1e7, "[-180, 180]"},
-    .velocity = {"max_velocity_deg_s", 1e-3, 1e5, "60"},
-    .acceleration = {"max_acceleration_deg_s2", 1e-3, 1e6, "300"},
-    .jerk = {"max_jerk_deg_s3", 1e-3, 1e9, "8000"},
-    .start_stop = {"start_stop_velocity_deg_s", 0, 1e5, "5"},
-};
 
 // Fewer ticks for an event are impossible: on any processor its interrupt takes longer.
 constexpr double fewest_ticks_an_event = 16;
@@ -156,6 +127,9 @@ void MachineReader::read_board(const TomlEntry& entry) {
   const auto clock = reader.number(clock_key, Need::required);
   auto rate = reader.number(event_rate_key, Need::required);
   const auto pulse = reader.number(step_pulse_key, Need::optional);
+  if (const auto time = reader.number(direction_setup_key, Need::optional))
+    board.direction_setup = Seconds(*time * 1e-6);
+  if (const auto time = reader.number(direction_hold_key, Need::optional)) board.direction_hold = Seconds(*time * 1e-6);
   if (const auto items = reader.whole_number(items_key, Need::optional)) board.held_items = static_cast<int>(*items);
   board.held_items_are_given = reader.has(items_key.name);
   read_windings(reader, board);
@@ -178,7 +152,6 @@ void MachineReader::read_board(const TomlEntry& entry) {
   if (!rate) return;
   event_rate_ = board.highest_event_rate = Hertz(*rate);
   if (pulse) board.step_pulse = Seconds(*pulse * 1e-6);
-  board.step_pulse_is_given = pulse.has_value();
   // A driver wants a pause as long as the pulse.
   const double longest_us = 1e6 / (2 * *rate);
   if ((pulse || !reader.has(step_pulse_key.name)) && board.step_pulse.value() * 1e6 > longest_us * (1 + 1e-9)) {
@@ -284,7 +257,8 @@ void MachineReader::read_axes(const TomlEntry& entry) {
 void MachineReader::read_axis(const TomlEntry& entry, Axis axis) {
   TableReader reader(std::get<TomlTable>(entry.value.content), fmt::format("axis.{}", entry.key), entry.place,
                      reporter_);
-  AxisEntry result{.description = {}, .motor = {}, .place = entry.place, .motor_place = {}};
+  AxisEntry& result = axes_.emplace_back();
+  result.place = entry.place;
   AxisDescription& description = result.description;
   description.axis = axis;
   read_motion(reader, is_rotary(axis) ? rotary_keys : linear_keys, description);
@@ -294,13 +268,13 @@ void MachineReader::read_axis(const TomlEntry& entry, Axis axis) {
   description.screw = read_screw_of(reader, is_rotary(axis), reporter_, end);
   description.encoder = read_encoder_of(reader, is_rotary(axis), reporter_, end);
   read_second_of(reader, description);
+  description.alarm_input = read_alarm_input(reader);
   if (const auto motor = reader.whole_number(motor_key, Need::optional)) {
     result.motor = static_cast<std::size_t>(*motor);
     result.motor_place = reader.place_of(motor_key.name);
   }
   if (reader.has(motor_key.name) && !result.motor) motors_are_readable_ = false;
   finish(reader);
-  axes_.push_back(result);
 }
 
 std::optional<HomeDescription> MachineReader::read_home_of(TableReader& reader, const AxisDescription& axis) {
@@ -436,7 +410,7 @@ void MachineReader::check_velocity(const TableReader& reader, const AxisKeys& ke
 
 // Orders the motors by their numbers if the file gives them, else in the order X Y Z A B C U V W.
 void MachineReader::order_motors() {
-  std::ranges::sort(axes_, {}, [](const AxisEntry& entry) { return index_of(entry.description.axis); });
+  std::ranges::stable_sort(axes_, {}, [](const AxisEntry& entry) { return index_of(entry.description.axis); });
   const bool numbered = std::ranges::any_of(axes_, [](const AxisEntry& entry) { return entry.motor.has_value(); });
   if (numbered && motors_are_readable_) number_motors();
   for (const AxisEntry& entry : axes_) {
@@ -444,6 +418,7 @@ void MachineReader::order_motors() {
     if (home && home->input < 0) home->input = static_cast<int>(machine_.axes.size()) - 1;
   }
   number_second_motors();
+  for (std::size_t i = 0; i < axes_.size(); ++i) check_alarm_input(reporter_, axes_[i].place, machine_, i);
 }
 
 void MachineReader::number_second_motors() {
@@ -487,7 +462,7 @@ void MachineReader::number_motors() {
       taken[*entry.motor] = &entry;
     }
   }
-  if (good) std::ranges::sort(axes_, {}, [](const AxisEntry& entry) { return *entry.motor; });
+  if (good) std::ranges::stable_sort(axes_, {}, [](const AxisEntry& entry) { return *entry.motor; });
 }
 
 }  // namespace

@@ -1,5 +1,6 @@
 #include "pins_reader.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 #include <fmt/format.h>
@@ -12,6 +13,7 @@ const char* const level_code = "machine.level";
 // While it works, a host is heard five times a second.
 constexpr double shortest_silence = 0.5;
 
+constexpr NumberKey filter_key{"filter_us", 0, 250, "100"};
 constexpr NumberKey drivers_off_key{"drivers_off_after_s", 0, 25.5, "20"};
 constexpr NumberKey silent_spindle_key{"spindle_off_after_s", 0, 25.5, "2"};
 constexpr NumberKey silent_mist_key{"mist_off_after_s", 0, 25.5, "2"};
@@ -51,6 +53,36 @@ void read_inputs(TableReader& reader, PinsDescription& pins) {
   read_high(reader, "emergency_stop", pins.emergency_stop_high);
   read_high(reader, "feed_hold", pins.feed_hold_high);
   read_high(reader, "cycle_start", pins.cycle_start_high);
+  if (const auto filter = reader.whole_number(filter_key, Need::optional)) pins.filter = Seconds(*filter * 1e-6);
+}
+
+std::optional<int> read_alarm_input(TableReader& reader) {
+  constexpr std::string_view key = "alarm_input";
+  const auto name = reader.text(key, "limit 3", Need::optional);
+  if (!name) return std::nullopt;
+  if (*name == "feed_hold") return alarm_at_feed_hold;
+  if (*name == "cycle_start") return alarm_at_cycle_start;
+  for (int i = 0; i < static_cast<int>(most_motors); ++i) {
+    if (*name == fmt::format("limit {}", i)) return i;
+  }
+  reader.error("machine.alarm-input", key, fmt::format("{} = \"{}\"", reader.full_name(key), *name),
+               "\"limit 0\" to \"limit 7\", the pin of that limit switch, or \"feed_hold\" or \"cycle_start\"");
+  return std::nullopt;
+}
+
+void check_alarm_input(const TomlReporter& reporter, const SourcePlace& place, const MachineDescription& machine,
+                       std::size_t index) {
+  const AxisDescription& axis = machine.axes[index];
+  if (!axis.alarm_input || *axis.alarm_input >= static_cast<int>(most_motors)) return;
+  const auto is_switch = [&](const AxisDescription& one) {
+    return one.home && (one.home_switches() >> static_cast<unsigned>(*axis.alarm_input) & 1U) != 0;
+  };
+  const auto homed = std::ranges::find_if(machine.axes, is_switch);
+  if (homed == machine.axes.end()) return;
+  reporter.error("machine.alarm-input", place,
+                 fmt::format("the drive of axis {} has its alarm at limit {}, where the switch of axis {} is",
+                             letter_of(axis.axis), *axis.alarm_input, letter_of(homed->axis)),
+                 "an input by which no axis is homed");
 }
 
 void read_outputs(TableReader& reader, PinsDescription& pins) {

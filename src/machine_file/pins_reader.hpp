@@ -8,6 +8,10 @@
 namespace passo {
 
 void read_inputs(TableReader& reader, PinsDescription& pins);
+// The input at which the drive of an axis gives its alarm. No axis may be homed by it.
+std::optional<int> read_alarm_input(TableReader& reader);
+void check_alarm_input(const TomlReporter& reporter, const SourcePlace& place, const MachineDescription& machine,
+                       std::size_t index);
 void read_outputs(TableReader& reader, PinsDescription& pins);
 void read_windings(TableReader& reader, BoardDescription& board);
 

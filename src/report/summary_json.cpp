@@ -83,6 +83,8 @@ void add_board(const RunSummary& summary, const BoardSummary& board, Json& json)
   if (board.held_items > 0) {
     json["board"]["held_items"] = board.held_items;
     json["board"]["rests"] = board.rests;
+    json["board"]["stood_still"] = board.stood_still;
+    if (board.stood_still) json["board"]["stood_still_line"] = board.stood_still_line;
   }
   if (board.without_line) {
     json["board"]["cost_of_line_s"] = board.cost_of_line().value();

@@ -121,6 +121,9 @@ class Text {
       line("holds", counted(static_cast<std::uint64_t>(board.held_items), "item"),
            fmt::format("  and rested {} for want of more", so_often(board.rests)));
     }
+    if (board.stood_still) {
+      line("stopped", "amid motion", "  its events came too late, and steps may be lost");
+    }
     if (!board.without_line) return;
     const Seconds cost = board.cost_of_line();
     if (cost < least_cost_of_line) {

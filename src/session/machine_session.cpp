@@ -47,10 +47,12 @@ std::vector<MotorPair> motor_pairs(const MachineDescription& machine) {
   return pairs;
 }
 
-Greeting with_machine(Greeting greeting, const MachineDescription& machine) {
+// The pulses of a machine within this process are nobody's. Without a line it is not told of them.
+Greeting with_machine(Greeting greeting, const MachineDescription& machine, bool over_a_line) {
   const auto tenths = [](Seconds time) { return static_cast<std::uint8_t>(std::lround(time.value() * 10)); };
   greeting.motors = machine.motor_count();
   greeting.setup = pin_setup(machine);
+  if (over_a_line) greeting.setup.timing = step_timing(machine.board);
   greeting.pairs = motor_pairs(machine);
   greeting.silence = {.spindle = tenths(machine.silence.spindle),
                       .mist = tenths(machine.silence.mist),
@@ -71,13 +73,13 @@ MachineSession::MachineSession(const MachineDescription& machine, BoardPort& por
       board_(port, options.care),
       position_(options.start),
       panel_(std::make_unique<Panel>(board_)) {
-  options_.greeting = with_machine(options_.greeting, machine);
+  options_.greeting = with_machine(options_.greeting, machine, options_.over_a_line);
 }
 
 MachineSession::~MachineSession() = default;
 
 void MachineSession::greet(const Greeting& greeting) {
-  options_.greeting = with_machine(greeting, machine_);
+  options_.greeting = with_machine(greeting, machine_, options_.over_a_line);
   greeted_ = true;
   board_.greet(options_.greeting);
 }
@@ -303,8 +305,11 @@ void MachineSession::end_work() {
 
 std::pair<Outcome, std::optional<ActivityFault>> MachineSession::judge_work() const {
   if (const auto error = board_.error()) {
-    return {Outcome::failed, ActivityFault{*error == LinkError::stopped ? "board.stopped" : "board.lost",
-                                           std::string(message_of(*error))}};
+    const char* const code = *error == LinkError::stopped       ? "board.stopped"
+                             : *error == LinkError::drivers_off ? "board.drivers-off"
+                             : *error == LinkError::stood_still ? "board.slipped"
+                                                                : "board.lost";
+    return {Outcome::failed, ActivityFault{code, words_of(*error)}};
   }
   if (work_->findings->any_error()) {
     return {Outcome::failed, ActivityFault{"program.wrong", "the program cannot go on"}};
@@ -374,12 +379,27 @@ void MachineSession::mind_board() {
   const LinkError error = *board_.error();
   if (busy() && is_of_work(error)) return;  // the drive ends by itself
   trouble_ = error;
-  trouble_words_ = message_of(error);
-  if (error == LinkError::cannot_set_up) trouble_words_ += ": it has no " + words_of_setup(board_.undone_setup());
+  trouble_words_ = words_of(error);
   if (busy()) end_work();
   doubt_place();
   place_.reset();
-  move_to(error == LinkError::stopped ? MachineEvent::stop_at_once : MachineEvent::lose_board);
+  const bool is_alarm =
+      error == LinkError::stopped || error == LinkError::drivers_off || error == LinkError::stood_still;
+  move_to(is_alarm ? MachineEvent::stop_at_once : MachineEvent::lose_board);
+}
+
+// A sentence without a full stop, with what only the session knows of it.
+std::string MachineSession::words_of(LinkError error) const {
+  std::string words(message_of(error));
+  if (error == LinkError::cannot_set_up) return words + ": it has no " + words_of_setup(board_.undone_setup());
+  if (error == LinkError::cannot_time) {
+    return words + ": it makes " +
+           words_of_timing(board_.timing(), board_.wanted_timing(), machine_.board.clock.value());
+  }
+  if (error == LinkError::stopped) return words_of_stop();
+  if (error != LinkError::stood_still || !busy() || !work_->is_program()) return words;
+  const std::uint32_t line = work_->lines_ahead.at(clock_of(*work_)).line;
+  return line == 0 ? words : words + "; that was near line " + std::to_string(line) + " of the program";
 }
 
 void MachineSession::look_at_panel() {

@@ -23,7 +23,8 @@ std::optional<PlaceDoubt> refuse_board(const SessionNumbers& numbers, const Boar
   const Stage stage = numbers.stage_of(status, true);
   const bool is_fresh = stage == Stage::before_hello && numbers.session_before == 0;
   if (stage != Stage::another && !is_fresh) return {};
-  return status.session == 0 && status.motors == 0 ? PlaceDoubt::board_reset : PlaceDoubt::other_session;
+  if (status.session != 0) return PlaceDoubt::other_session;
+  return status.motors == 0 ? PlaceDoubt::board_reset : PlaceDoubt::session_ended;
 }
 
 }  // namespace
@@ -93,6 +94,12 @@ std::string_view message_of(PlaceDoubt doubt) {
     case PlaceDoubt::other_machine: return "the machine file is another, or was changed";
     case PlaceDoubt::board_reset: return "its board was reset or switched off";
     case PlaceDoubt::other_session: return "another program was run on its board";
+    case PlaceDoubt::session_ended:
+      return "it was moved by the board's keypad, or another program has begun to talk to the board";
+    case PlaceDoubt::drivers_off:
+      return "its board has switched the drivers off after a time without a host (drivers_off_after_s), and the axes "
+             "may "
+             "have moved";
     case PlaceDoubt::stopped_at_once: return "its motors were stopped at once and may have lost steps";
   }
   return "its place is in doubt";
@@ -105,7 +112,10 @@ Result<KnownPosition, PlaceDoubt> place_of(const std::optional<PlaceRecord>& rec
     return Failure{PlaceDoubt::other_machine};
   }
   if (const auto refused = refuse_board(record->numbers, status)) return Failure{*refused};
-  if ((status.state & board_trusted) == 0) return Failure{PlaceDoubt::stopped_at_once};
+  if ((status.state & board_trusted) == 0) {
+    const bool let_go = (status.inputs & drivers_timed_out) != 0;
+    return Failure{let_go ? PlaceDoubt::drivers_off : PlaceDoubt::stopped_at_once};
+  }
   KnownPosition position{.place = Point(), .trust = record->trust};
   const StepOptions steps = step_options(machine);
   for (std::size_t m = 0; m < machine.axes.size(); ++m) {

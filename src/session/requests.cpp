@@ -11,6 +11,7 @@
 #include "passo/activity/probe_line.hpp"
 #include "passo/activity/stage_options.hpp"
 #include "passo/geometry/euclid.hpp"
+#include "passo/session/stop_cause.hpp"
 
 namespace passo {
 namespace {
@@ -77,7 +78,7 @@ std::optional<Refusal> MachineSession::refuse(MachineEvent event) const {
 Refusal MachineSession::why_not() const {
   switch (state_) {
     case MachineState::offline: return {RefusalCode::not_ready, "the board has not answered yet"};
-    case MachineState::alarm: return {RefusalCode::alarm, "the motors were stopped at once: reset the machine first"};
+    case MachineState::alarm: return {RefusalCode::alarm, alarm_words() + ": reset the machine first"};
     case MachineState::fault: return {RefusalCode::alarm, "the board was lost: reset the machine first"};
     case MachineState::sleep: return {RefusalCode::asleep, "the machine sleeps: wake it first"};
     case MachineState::door: return {RefusalCode::door_open, "the door is open"};
@@ -87,9 +88,25 @@ Refusal MachineSession::why_not() const {
   return {RefusalCode::nothing_runs, "nothing is going on"};
 }
 
+std::string MachineSession::words_of_stop() const {
+  const std::uint16_t inputs = board_.stopped_by();
+  if (inputs == 0) return std::string(message_of(LinkError::stopped));
+  if (state_ == MachineState::offline && (inputs & input_emergency_stop) != 0) {
+    return "the emergency stop is pressed: release it first";
+  }
+  return stop_cause(inputs, machine_).what + ": where the motors are is not certain";
+}
+
+std::string MachineSession::alarm_words() const {
+  if (trouble_ == LinkError::drivers_off) return "the drivers were switched off";
+  const std::uint16_t inputs = board_.stopped_by();
+  return inputs == 0 ? "the motors were stopped at once" : stop_cause(inputs, machine_).what;
+}
+
 std::optional<Refusal> MachineSession::closed_limit() const {
+  const unsigned closed = board_.inputs() & ~unsigned{options_.greeting.setup.alarms};
   for (unsigned input = 0; input < max_motors; ++input) {
-    if ((board_.inputs() & (unsigned{input_limit} << input)) == 0) continue;
+    if ((closed & (unsigned{input_limit} << input)) == 0) continue;
     return Refusal{.code = RefusalCode::limit_closed,
                    .message = "the limit switch " + switch_words(machine_, input) +
                               " is closed: jog away from it, or home the machine, first"};

@@ -4,9 +4,14 @@
 #include <array>
 #include <cerrno>
 #include <cstring>
+#include <filesystem>
+#include <fstream>
 
 #include <fcntl.h>
+#include <linux/serial.h>
+#include <linux/tty_flags.h>
 #include <sys/file.h>
+#include <sys/ioctl.h>
 #include <termios.h>
 #include <unistd.h>
 
@@ -40,7 +45,28 @@ bool set_raw(int descriptor, speed_t speed) {
   return tcflush(descriptor, TCIOFLUSH) == 0;
 }
 
+std::optional<int> latency_told_by(const std::filesystem::path& timer) {
+  std::ifstream file(timer);
+  int milliseconds = 0;
+  return file >> milliseconds ? std::optional(milliseconds) : std::nullopt;
+}
+
 }  // namespace
+
+std::optional<int> hurry_adapter(int descriptor, const std::string& device, const std::string& sys) {
+  // Whoever may open the line may set this flag.
+  serial_struct settings{};
+  if (ioctl(descriptor, TIOCGSERIAL, &settings) == 0 && (settings.flags & ASYNC_LOW_LATENCY) == 0) {
+    settings.flags |= static_cast<int>(ASYNC_LOW_LATENCY);
+    static_cast<void>(ioctl(descriptor, TIOCSSERIAL, &settings));
+  }
+  // An older kernel needs the number, and allows it to the administrator only.
+  std::error_code none;
+  const auto name = std::filesystem::weakly_canonical(device, none).filename();
+  const std::filesystem::path timer = std::filesystem::path(sys) / "class/tty" / name / "device/latency_timer";
+  if (latency_told_by(timer).value_or(1) > 1) std::ofstream(timer) << 1 << std::flush;
+  return latency_told_by(timer);
+}
 
 Result<int, std::string> open_serial_line(const std::string& device, unsigned baud) {
   const auto* speed = std::find_if(speeds.begin(), speeds.end(), [&](const Speed& one) { return one.baud == baud; });
@@ -58,7 +84,10 @@ Result<int, std::string> open_serial_line(const std::string& device, unsigned ba
     close(descriptor);
     return Failure{device + ": in use by another program"};
   }
-  if (set_raw(descriptor, speed->code)) return descriptor;
+  if (set_raw(descriptor, speed->code)) {
+    static_cast<void>(hurry_adapter(descriptor, device));
+    return descriptor;
+  }
   std::string message = device + ": no serial line: " + reason();
   close(descriptor);
   return Failure{std::move(message)};

@@ -106,12 +106,24 @@ TEST_F(Boards, that_are_too_slow_or_make_too_short_pulses_are_refused_in_words) 
     return write("m.toml", text.replace(at, from.size(), to));
   };
   const std::string command = "run " + write("p.ngc", "G21 G1 F600 X1\nM2\n") + " -m ";
-  const Outcome pulse = passo(command + with("step_pulse_us = 1.0", "step_pulse_us = 1.9") + " --board sim:uno");
-  if (passo::test::lacks_an_emulator(pulse)) GTEST_SKIP() << pulse.err;
-  EXPECT_EQ(pulse.code, 1);
-  EXPECT_NE(pulse.err.find("its step pulses last 1.00 us, and step_pulse_us = 1.9 of the machine file asks for longer"),
-            std::string::npos)
-      << pulse.err;
+  // Without the key pulses last as long as the manual says: 2.5 microseconds.
+  for (const char* key : {"", "step_pulse_us = 2.5"}) {
+    const Outcome pulse = passo(command + with("step_pulse_us = 1.0", key) + " --board sim:uno");
+    if (passo::test::lacks_an_emulator(pulse)) GTEST_SKIP() << pulse.err;
+    EXPECT_EQ(pulse.code, 1);
+    EXPECT_NE(pulse.err.find(" events a second with step pulses of 2.5 us and directions set 0.6875 us before a step"),
+              std::string::npos)
+        << pulse.err;
+    EXPECT_NE(pulse.err.find("[board.event-rate]"), std::string::npos) << pulse.err;
+  }
+  const Outcome setup =
+      passo(command + with("step_pulse_us = 1.0", "step_pulse_us = 1\ndirection_setup_us = 15") + " --board sim:uno");
+  EXPECT_EQ(setup.code, 1);
+  EXPECT_NE(setup.err.find("directions set 15 us before a step"), std::string::npos) << setup.err;
+  std::string slower = read(with("step_pulse_us = 1.0", ""));
+  slower.replace(slower.find("150_000"), 7, "100_000");
+  const Outcome slow = passo(command + write("slower.toml", slower) + " --board sim:uno");
+  EXPECT_EQ(slow.code, 0) << slow.err;
   const Outcome rate = passo(command + with("step_pulse_us = 1.0", "step_pulse_us = 1") + " --board sim:mega");
   EXPECT_EQ(rate.code, 1);
   EXPECT_NE(rate.err.find("it makes at most 110000 events a second, and max_event_rate_hz = 150000"), std::string::npos)

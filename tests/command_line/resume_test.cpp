@@ -333,7 +333,19 @@ TEST_F(Resumed, only_over_a_line) {
   const Outcome unwritable =
       passo("run " + program_ + " -m " + machine_ + " --board " + board_ + from_here + " --journal /dev/null/j");
   EXPECT_EQ(unwritable.code, 1);
-  EXPECT_NE(unwritable.err.find("cannot be written"), std::string::npos) << unwritable.err;
+  EXPECT_NE(unwritable.err.find("cannot be written: Not a directory"), std::string::npos) << unwritable.err;
+}
+
+TEST_F(Resumed, or_told_what_is_truly_wrong_with_the_journal) {
+  const std::string run = "run " + program_ + " -m " + machine_ + " --board " + board_ + from_here;
+  std::filesystem::create_directory(path("folder"));
+  const Outcome folder = passo(run + " --journal " + path("folder"));
+  EXPECT_EQ(folder.code, 1);
+  EXPECT_NE(folder.err.find("this journal cannot be opened: Is a directory [journal.unreadable]"), std::string::npos)
+      << folder.err;
+  write("j", "bread, milk");
+  expect_refused("resume.no-journal", "is no journal of Passo's");
+  EXPECT_EQ(read(journal()), "bread, milk");
 }
 
 }  // namespace

@@ -182,6 +182,78 @@ TEST(Uno, loses_no_step_and_tells_it_where_its_events_come_too_late) {
   EXPECT_FALSE(slipped_after(slow)) << "a hello begins anew";
 }
 
+// Also where its ring runs dry at the end of a segment, of which the next one is there.
+TEST(Mega, tells_it_where_its_events_come_too_late) {
+  std::mt19937_64 random(test::seed());
+  BoardBench bench(mega_under_test(PASSO_MOTION_MEGA, 4));
+  const auto slipped_after = [&](const StreamKind& kind) {
+    const EdgeCheck check = bench.play(random_stream(random, 4, kind));
+    EXPECT_TRUE(check.finished);
+    EXPECT_EQ(check.wrong_count, 0U);
+    EXPECT_EQ(check.wrong_direction, 0U);
+    EXPECT_LE(check.unwatched, most_unwatched);
+    bench.ask();
+    bench.run(100'000);
+    return bench.status() && (bench.status()->state & board_slipped) != 0;
+  };
+  for (const std::uint8_t events : {std::uint8_t{1}, std::uint8_t{3}, std::uint8_t{10}}) {
+    EXPECT_TRUE(slipped_after({.shortest_interval = 150,
+                               .longest_interval = 160,
+                               .shortest_segment = events,
+                               .longest_segment = events,
+                               .segments = 100}))
+        << int{events};
+    EXPECT_EQ(bench.status()->state & board_trusted, 0);
+  }
+  EXPECT_FALSE(slipped_after({.shortest_interval = 1000, .longest_interval = 2000, .segments = 20}));
+  EXPECT_NE(bench.status()->state & board_trusted, 0) << "a hello begins anew";
+}
+
+// As a host says: pulses, and the times before and behind a direction's change.
+void expect_timing(BoardBench& bench, std::mt19937_64& random, std::uint8_t motors, std::int64_t most_error) {
+  for (const StepTiming& wanted :
+       {StepTiming{}, StepTiming{.pulse = 31, .set_up = 11, .hold = 11}, StepTiming{.pulse = 40, .set_up = 80},
+        StepTiming{.pulse = 80, .set_up = 80, .hold = 80}, StepTiming{.pulse = 160, .hold = 255}}) {
+    bench.set_up({.timing = wanted});
+    bench.run(50'000);
+    ASSERT_TRUE(bench.pin_setup());
+    const StepTiming has = bench.pin_setup()->timing;
+    std::printf("pulse %u, set-up %u, hold %u: %u ticks an event\n", has.pulse, has.set_up, has.hold, has.event_ticks);
+    StreamKind kind{.shortest_interval = has.event_ticks,
+                    .longest_interval = has.event_ticks * 9U / 8U,
+                    .shortest_segment = 150,
+                    .segments = 40,
+                    .ramp = 20};
+    const EdgeCheck check = bench.play(random_stream(random, motors, kind));
+    EXPECT_TRUE(check.exact());
+    EXPECT_LE(check.error, most_error);
+    EXPECT_EQ(check.overruns, 0U);
+    EXPECT_LE(check.unwatched, most_unwatched);
+    EXPECT_GE(has.pulse, wanted.pulse);
+    EXPECT_GE(check.shortest_pulse, has.pulse);
+    EXPECT_GE(has.set_up, wanted.set_up);
+    EXPECT_GE(check.shortest_setup, has.set_up);
+    EXPECT_GE(check.shortest_hold, std::min(has.hold, std::uint8_t{200}));
+    if (wanted.hold < 200) EXPECT_GE(has.hold, wanted.hold);
+    // A segment that is two ticks too fast is refused.
+    bench.set_up({.timing = wanted});
+    bench.start({{.events = 200, .flips = 7, .interval = (has.event_ticks - 2U) << 16}});
+    bench.run(200'000);
+    ASSERT_TRUE(bench.error().has_value());
+    EXPECT_EQ(bench.error()->reason, WireError::bad_value);
+  }
+}
+TEST(Uno, makes_pulses_and_set_up_times_as_its_host_needs_them) {
+  std::mt19937_64 random(test::seed());
+  BoardBench bench(uno_under_test(PASSO_MOTION_UNO));
+  expect_timing(bench, random, 3, unavoidable);
+}
+TEST(Mega, makes_pulses_and_set_up_times_as_its_host_needs_them) {
+  std::mt19937_64 random(test::seed());
+  BoardBench bench(mega_under_test(PASSO_MOTION_MEGA, 4));
+  expect_timing(bench, random, 4, unavoidable_on_mega);
+}
+
 TEST(Uno, refuses_a_segment_faster_than_it_states) {
   BoardBench bench(uno_under_test(PASSO_MOTION_UNO));
   bench.start({{.events = 200, .flips = 7, .interval = 105 << 16}});

@@ -105,6 +105,8 @@ void BoardBench::hear(std::uint8_t byte) {
     decode(frame, static_cast<std::uint8_t>(board_.motors.size()), captured_.emplace());
   } else if (frame.type == MessageType::status) {
     decode(frame, static_cast<std::uint8_t>(board_.motors.size()), status_.emplace());
+  } else if (frame.type == MessageType::pin_setup) {
+    decode(frame, pin_setup_.emplace());
   } else if (frame.type == MessageType::turned && on_turned) {
     Turned turned;
     decode(frame, turned);
@@ -164,6 +166,7 @@ bool BoardBench::say_hello() {
   decoder_.set_motors(motors);
   greeted_ = false;
   complaints_ = 0;
+  error_.reset();
   put_on_line({frame, size});
   for (int i = 0; i < 20 && !greeted_; ++i) chip_->run_for(clock_rate / 1000);
   last_executed_ = last_sent_;
@@ -193,6 +196,7 @@ void BoardBench::name_session(const Session& session) {
 
 void BoardBench::set_up(const PinSetup& setup) {
   std::uint8_t frame[largest_frame];
+  pin_setup_.reset();
   put_on_line({frame, encode(setup, 0, frame)});
 }
 
@@ -257,6 +261,7 @@ void BoardBench::see_steps(std::vector<SeenSteps>& seen, EdgeCheck& result) cons
       if (change.port == pins.direction.port && (turned_over & pins.direction.mask()) != 0) {
         down[m] = (change.now & pins.direction.mask()) != 0;
         turned[m] = change.cycle;
+        if (rose[m] != 0) result.shortest_hold = std::min(result.shortest_hold, change.cycle - rose[m]);
       }
       if (change.port != pins.step.port || (turned_over & pins.step.mask()) == 0) continue;
       if ((change.now & pins.step.mask()) != 0) {
@@ -313,7 +318,7 @@ EdgeCheck BoardBench::check(const std::vector<BoardSegment>& segments) {
   const std::vector<SeenSteps> expected = edges_of_model(segments, motors, result.events);
   std::vector<SeenSteps> seen(motors);
   constexpr std::uint64_t never = std::numeric_limits<std::uint64_t>::max();
-  result.shortest_pulse = result.shortest_setup = never;
+  result.shortest_pulse = result.shortest_setup = result.shortest_hold = never;
   if (board_.motors[0].windings[0].exists()) {
     see_windings(seen, result);
   } else {

@@ -48,6 +48,7 @@ struct EdgeCheck {
   std::uint64_t shortest_pulse = 0;
   std::uint64_t longest_pulse = 0;
   std::uint64_t shortest_setup = 0;  // from a direction's change to that motor's next step
+  std::uint64_t shortest_hold = 0;   // from a motor's step to its direction's change
   std::uint64_t overruns = 0;        // bytes lost in the UART
   std::uint64_t unwatched = 0;       // the longest time between two looks at it, since the board started
   std::uint64_t complaints = 0;      // frames that the board did not take
@@ -103,6 +104,7 @@ class BoardBench {
   // Of the last frame that went to the board.
   std::uint8_t last_byte() const { return last_byte_; }
   const std::optional<BoardStatus>& status() const { return status_; }
+  const std::optional<PinSetup>& pin_setup() const { return pin_setup_; }
   const std::optional<ErrorReport>& error() const { return error_; }
   const std::optional<Fault>& fault() const { return fault_; }
   const std::optional<Captured>& captured() const { return captured_; }
@@ -143,6 +145,7 @@ class BoardBench {
   std::optional<Captured> captured_;
   std::optional<BoardStatus> status_;
   std::optional<ErrorReport> error_;
+  std::optional<PinSetup> pin_setup_;
 };
 
 // What a random stream of segments is made of.

@@ -17,7 +17,8 @@ class ServedBoard : public CommandLine {
   // Where the machine stands on a board that was just started: a run wants to be told.
   static constexpr const char* from_here = " --from-here ";
 
-  // Starts a board in place of the last one and returns its address. Without a clock it has the machine's.
+  // Starts a board in place of the last one and returns its address. Without a clock it has the machine's, and
+  // without a machine three motors.
   std::string serve(const std::string& clock = "16000000", const std::string& machine = "") {
     end_server();
     const std::string said = path("said");
@@ -25,7 +26,8 @@ class ServedBoard : public CommandLine {
     server_ = fork();
     if (server_ == 0) {
       if (std::freopen(said.c_str(), "w", stdout) == nullptr) _exit(1);
-      std::vector<std::string> words = {PASSO_PROGRAM, "board", "serve", "--port", "0", "--motors", "3"};
+      std::vector<std::string> words = {PASSO_PROGRAM, "board", "serve", "--port", "0"};
+      if (machine.empty()) words.insert(words.end(), {"--motors", "3"});
       if (!clock.empty()) words.insert(words.end(), {"--clock", clock});
       if (!machine.empty()) words.insert(words.end(), {"--machine", machine});
       std::vector<char*> arguments;

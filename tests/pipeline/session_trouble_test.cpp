@@ -140,6 +140,34 @@ TEST(LineTrouble, a_cut_is_a_fault_and_after_a_reset_the_place_is_what_the_board
   }
 }
 
+// Motors that are stopped so suddenly may lose steps, although the board has made them all. Early in a program and in
+// its last move, of which the board holds all when it stands still.
+TEST(LineTrouble, a_standstill_amid_motion_is_an_alarm_and_the_place_is_not_trusted_after_it) {
+  for (const double at : {0.7, 3.9}) {
+    SCOPED_TRACE(at);
+    SessionRun run(test::short_router(), {.line = true});
+    run.make_ready();
+    run.taken(request::Home{});
+    run.to_end();
+    const Ticket program = run.taken(start_of(along));
+    run.pass(Seconds(at));
+    run.board().stand_still(Ticks{2000});
+    ASSERT_TRUE(run.turn_until(MachineState::alarm, Seconds(3)));
+    EXPECT_EQ(run.session().status().trouble, LinkError::stood_still);
+    EXPECT_EQ(run.outcome(program), Outcome::failed);
+    EXPECT_EQ(run.answer(program)->fault->code, "board.slipped");
+    EXPECT_NE(run.session().status().trouble_words.find("near line " + std::string(at < 1 ? "2" : "3")),
+              std::string::npos)
+        << run.session().status().trouble_words;
+    expect_refuses_all_but_a_reset(run);
+    run.pass(Seconds(1));
+    run.taken(request::ResetMachine{});
+    ASSERT_TRUE(run.turn_until(MachineState::idle, Seconds(1)));
+    EXPECT_EQ(run.session().status().position.trust, Trust::unknown) << "steps may be lost";
+    expect_works(run);
+  }
+}
+
 TEST(LineTrouble, a_reset_that_comes_to_a_line_that_is_still_cut_forgets_nothing) {
   SessionRun run(test::short_router(), {.line = true, .start = {.place = Point(), .trust = Trust::homed}});
   run.make_ready();

@@ -85,7 +85,7 @@ int board_serve(const BoardServeArguments& arguments) {
     show(diagnostics);
     if (!description) return exit_bad_machine;
     plant = plant_of(*description);
-    motors = std::max(motors, static_cast<unsigned>(description->axes.size()));
+    motors = std::max(motors, static_cast<unsigned>(description->motor_count()));
     board = description->board;
     wiring = pin_setup(*description);
   }

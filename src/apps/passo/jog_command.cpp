@@ -167,6 +167,9 @@ int jog(const JogArguments& arguments) {
   if (opened->session().status().trouble == LinkError::stopped) {
     return fail(exit_failed, "the board: " + stop_words(*opened, *machine));
   }
+  if (opened->session().status().trouble == LinkError::stood_still) {
+    return fail(exit_failed, "the board: " + slip_words(*opened, *machine));
+  }
   if (ending.fault) return fail(exit_failed, fmt::format("{} [{}]", ending.fault->message, ending.fault->code));
   if (const auto differs = opened->compare()) return fail(exit_failed, "the board: " + *differs);
   print(ending, *machine, arguments.json);

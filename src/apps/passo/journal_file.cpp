@@ -2,7 +2,9 @@
 
 #include <array>
 #include <cctype>
+#include <cerrno>
 #include <cstdlib>
+#include <cstring>
 #include <filesystem>
 #include <fstream>
 #include <utility>
@@ -34,6 +36,7 @@ bool write_all(int descriptor, std::string_view bytes, std::size_t offset) {
   while (!bytes.empty()) {
     const ssize_t written = pwrite(descriptor, bytes.data(), bytes.size(), static_cast<off_t>(offset));
     if (written < 0 && errno == EINTR) continue;
+    if (written == 0) errno = ENOSPC;
     if (written <= 0) return false;
     bytes.remove_prefix(static_cast<std::size_t>(written));
     offset += static_cast<std::size_t>(written);
@@ -86,12 +89,13 @@ int replace_state_file(const std::string& path, std::string_view text) {
   if (const fs::path folder = fs::path(path).parent_path(); !folder.empty()) fs::create_directories(folder, none);
   constexpr mode_t mode = S_IRUSR | S_IWUSR | S_IRGRP | S_IROTH;
   auto file = NamelessFile::open(path, mode);
-  if (!file) return -1;
+  if (!file) return -file.error();
   const int descriptor = fcntl((*file)->descriptor(), F_DUPFD_CLOEXEC, 0);
-  const bool written = write_all(descriptor, text, 0) && fsync(descriptor) == 0;
-  if (written && (*file)->publish(path) == 0) return descriptor;
+  const bool written = descriptor >= 0 && write_all(descriptor, text, 0) && fsync(descriptor) == 0;
+  const int error = written ? (*file)->publish(path) : errno;
+  if (error == 0) return descriptor;
   if (descriptor >= 0) close(descriptor);
-  return -1;
+  return -error;
 }
 
 FileStamp stamp_of(const std::string& path) {
@@ -123,33 +127,47 @@ JournalFile::~JournalFile() {
 }
 
 // A journal that is written is locked, and so is each journal that takes its place.
-bool JournalFile::claim() {
-  if (descriptor_ >= 0) return true;
+Status<int> JournalFile::claim() {
+  if (descriptor_ >= 0) return Unit{};
   const int descriptor = open(path_.c_str(), O_RDWR | O_CLOEXEC);
-  if (descriptor < 0) return true;  // there is none yet
+  if (descriptor < 0 && (errno == ENOENT || errno == ENOTDIR)) return Unit{};  // there is none yet
+  if (descriptor < 0) return Failure{errno};
   if (flock(descriptor, LOCK_EX | LOCK_NB) != 0) {
+    const int error = errno;
     close(descriptor);
-    return false;
+    return Failure{error};
   }
   descriptor_ = descriptor;
-  return true;
+  return Unit{};
+}
+
+std::string JournalFile::trouble() const {
+  return std::strerror(error_);
 }
 
 bool JournalFile::replace(std::string_view text) {
   const int descriptor = replace_state_file(path_, text);
   if (descriptor_ >= 0) close(descriptor_);
   descriptor_ = descriptor;
+  if (descriptor < 0) error_ = -descriptor;
   return descriptor_ >= 0;
 }
 
 bool JournalFile::overwrite(std::size_t offset, std::string_view bytes) {
-  return descriptor_ >= 0 && write_all(descriptor_, bytes, offset);
+  if (descriptor_ < 0) return false;
+  const bool written = write_all(descriptor_, bytes, offset);
+  if (!written) error_ = errno;
+  return written;
 }
 
 bool JournalFile::append(std::string_view bytes) {
   struct stat file {};
-  if (descriptor_ < 0 || fstat(descriptor_, &file) != 0) return false;
-  return write_all(descriptor_, bytes, static_cast<std::size_t>(file.st_size)) && fdatasync(descriptor_) == 0;
+  if (descriptor_ < 0) return false;
+  const bool written = fstat(descriptor_, &file) == 0 &&
+                       write_all(descriptor_, bytes, static_cast<std::size_t>(file.st_size)) &&
+                       fdatasync(descriptor_) == 0;
+  if (!written) error_ = errno;
+  return written;
 }
 
 void JournalFile::remove() {

@@ -7,6 +7,7 @@
 #include <string_view>
 #include <utility>
 
+#include "passo/base/result.hpp"
 #include "passo/journal/journal.hpp"
 
 namespace passo {
@@ -17,7 +18,7 @@ std::string state_file(const std::string& board, std::string_view ending);
 // Reads such a file. A file that is too long for a journal gives an empty text. Nothing: there is no readable file.
 std::optional<std::string> read_state_file(const std::string& path);
 // Writes such a file anew: all of it or nothing is on the disk, whatever happens meanwhile. Returns its descriptor,
-// open for writing; less than 0: it cannot be written.
+// open for writing; less than 0: it cannot be written, and this is -errno.
 int replace_state_file(const std::string& path, std::string_view text);
 // The stamp of a file as it is now. Standard input and pipes, which can be read only once, have a stamp without a name.
 FileStamp stamp_of(const std::string& path);
@@ -32,17 +33,21 @@ class JournalFile final : public JournalStore {
   JournalFile& operator=(const JournalFile&) = delete;
 
   const std::string& path() const { return path_; }
-  // Claims the journal for this program, as long as this object lives. False: another program writes it.
-  [[nodiscard]] bool claim();
+  // Claims the journal for this program, as long as this object lives. The error is errno; EWOULDBLOCK: another program
+  // writes the journal.
+  [[nodiscard]] Status<int> claim();
   [[nodiscard]] bool replace(std::string_view text) override;
   [[nodiscard]] bool overwrite(std::size_t offset, std::string_view bytes) override;
   bool append(std::string_view bytes) override;
+  // Why the journal could not be written, after a function has returned false.
+  std::string trouble() const;
   // Removes the journal when the job is done, or cannot go on.
   void remove();
 
  private:
   std::string path_;
   int descriptor_ = -1;  // the file at the path, locked
+  int error_ = 0;        // errno of the last failure
 };
 
 }  // namespace passo

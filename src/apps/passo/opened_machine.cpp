@@ -42,18 +42,7 @@ std::string unsuited_to(const BoardDescription& board, const About& about) {
         "max_event_rate_hz to {} or less [board.event-rate]",
         about.highest_event_rate, board.highest_event_rate.value(), about.highest_event_rate);
   }
-  constexpr double ticks_a_microsecond = 16;
-  constexpr double hardly_shorter = 0.98;
-  const double pulse = about.step_pulse / ticks_a_microsecond;
-  const double wanted = board.step_pulse.value() * 1e6;
-  if (!board.step_pulse_is_given || about.step_pulse == 0 || pulse >= wanted * hardly_shorter) return "";
-  return fmt::format(
-      "its step pulses last {:.2f} us, and step_pulse_us = {:g} of the machine file asks for longer ones: the drivers "
-      "may "
-      "miss steps. Take drivers that are content with less and lower step_pulse_us, or build the firmware with a "
-      "larger "
-      "shortest_pulse (docs/boards.md) [board.step-pulse]",
-      pulse, wanted);
+  return "";
 }
 
 MotorSteps zero_counts_of(const MachineDescription& machine, const BoardStatus& status, const Point& place) {

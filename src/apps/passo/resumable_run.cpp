@@ -1,5 +1,7 @@
 #include "resumable_run.hpp"
 
+#include <cerrno>
+#include <cstring>
 #include <filesystem>
 #include <utility>
 
@@ -46,9 +48,16 @@ std::unique_ptr<ResumableRun> ResumableRun::open(const RunArguments& arguments, 
   }
   std::unique_ptr<ResumableRun> run(new ResumableRun(path));
   run->resumes_ = arguments.resume;
-  if (!run->file_.claim()) {
-    code = fail(exit_failed, path + ": another passo that runs now keeps this journal [journal.in-use]");
-    return nullptr;
+  if (const auto claimed = run->file_.claim(); !claimed) {
+    if (claimed.error() == EWOULDBLOCK) {
+      code = fail(exit_failed, path + ": another passo that runs now keeps this journal [journal.in-use]");
+      return nullptr;
+    }
+    if (arguments.resume || !arguments.journal.empty()) {
+      code = fail(exit_failed, fmt::format("{}: this journal cannot be opened: {} [journal.unreadable]", path,
+                                           std::strerror(claimed.error())));
+      return nullptr;
+    }
   }
   const std::optional<std::string> text = read_state_file(path);
   if (text) run->before_ = Journal::read(*text);
@@ -66,7 +75,8 @@ std::unique_ptr<ResumableRun> ResumableRun::open(const RunArguments& arguments, 
   if (!text) {
     code = refuse("resume.no-journal", path + " is not there: nothing on this board was left unfinished");
   } else if (!run->before_) {
-    code = refuse("resume.torn-journal", path + " is not whole");
+    code = Journal::is_journal(*text) ? refuse("resume.torn-journal", path + " is not whole")
+                                      : refuse("resume.no-journal", path + " is no journal of Passo's");
   } else if (const JournalHead& then = run->before_->head(); then.made_by != now.made_by) {
     code = refuse("resume.other-version", "the job was begun by version " + then.made_by);
   } else if (then.program != now.program) {
@@ -143,7 +153,7 @@ bool ResumableRun::begin(OpenedMachine& machine, const ProgramReader& program, c
 bool ResumableRun::write_head(const Subject& subject, int& code) {
   writer_.begin(head_);
   if (!writer_.failed()) return true;
-  const std::string words = file_.path() + ": this journal cannot be written";
+  const std::string words = file_.path() + ": this journal cannot be written: " + file_.trouble();
   if (resumes_ || !subject.arguments.journal.empty()) {
     code = fail(exit_failed, words);
     return false;
@@ -174,9 +184,9 @@ void ResumableRun::end(const MachineSession& session, const Answered& answered) 
   const auto trouble = session.status().trouble;
   const bool ended = !trouble && answered.outcome == Outcome::done;
   const std::string code = answered.fault ? answered.fault->code : "";
-  const bool never_began = code.starts_with("machine.");
+  const bool never_began = code.starts_with("machine.") && !resumes_;
   if (ended || never_began || code == "program.wrong") return file_.remove();
-  if (writer_.failed()) return note(file_.path() + ": this journal could not be written");
+  if (writer_.failed()) return note(file_.path() + ": this journal could not be written: " + file_.trouble());
   if (trouble && *trouble != LinkError::no_answer) return;  // --resume would be refused
   if (trouble) {
     return note(

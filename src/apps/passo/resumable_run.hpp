@@ -44,8 +44,8 @@ class ResumableRun {
   // program cannot begin, shows a message and returns false. Call it after suits().
   [[nodiscard]] bool begin(OpenedMachine& machine, const ProgramReader& program, const Subject& subject, int& code);
   void add_to(request::Start& start);
-  // Call it after the run. Removes the journal if the program has come to its end, is wrong, or did not begin.
-  // Otherwise the journal stays.
+  // Call it after the run. Removes the journal if the program has come to its end, is wrong, or did not begin and was
+  // not to be resumed. Otherwise the journal stays.
   void end(const MachineSession& session, const Answered& answered);
 
  private:

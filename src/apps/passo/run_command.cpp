@@ -106,14 +106,15 @@ void tell_tails(const MachineSession& session) {
              rests == 1 ? "once" : fmt::format("{} times", rests));
 }
 
-// A board that cannot make its events in time lets the motors stand still amid motion, without braking.
-void tell_slip(const MachineSession& session) {
-  const std::optional<BoardStatus>& status = session.board().status();
-  if (!status || (status->state & board_slipped) == 0) return;
-  fmt::print(stderr,
-             "passo: warning: the board stood still amid motion, because its events came too late. It has made every "
-             "step, but a motor that is stopped so suddenly may not: home the machine, and lower max_event_rate_hz of "
-             "the machine file [board.slipped]\n");
+// A board that cannot make its events in time lets the motors stand still amid motion, without braking. The time up to
+// that counts all standstills.
+void note_slip(RunSummary& summary, OpenedMachine& opened, const MachineDescription& machine,
+               const LatestMotion& motion, Seconds began) {
+  if (opened.session().status().trouble != LinkError::stood_still) return;
+  summary.board->stood_still = true;
+  summary.board->stood_still_line = line_of_stop(opened, machine, motion);
+  summary.board->end = opened.session().now() - began;
+  summary.board->without_line.reset();
 }
 
 std::vector<Axis> axes_of(const MachineDescription& machine) {
@@ -224,6 +225,7 @@ RunSummary play(const Run& run, request::Start start, Answered& answered) {
   run.outputs.watch(run.opened.machine(), start.watchers);
   run.opened.follow(start.watchers, start.stands.value_or(session.status().position.place));
   const Before before = before_program(run.opened);
+  const Seconds began = session.now();
   TailWatch tails;
   LineLoad load;
   LineWatch line = line_watch();
@@ -255,6 +257,7 @@ RunSummary play(const Run& run, request::Start start, Answered& answered) {
   add_board(summary, run.opened, machine, before);
   summary.board->busiest_second = load.busiest();
   summary.board->without_line = run.without_line;
+  note_slip(summary, run.opened, machine, run.motion, began);
   summary.holds = run.changes.holds();
   if (probes.moves > 0) summary.probes = probes;
   summary.tails = tails.tails();
@@ -288,16 +291,18 @@ int make_ready(const ResumableRun::Subject& subject, const ProgramReader& progra
   brake_on_signals();
   // With --resume the machine is not homed again, because it was homed before the job began.
   const bool homes = arguments.home && !arguments.resume;
-  if (const auto closed = machine.session().closed_limit(); closed && !homes) {
-    return fail(exit_failed, words_of(*closed));
-  }
   if ((homes || resumable == nullptr) && !machine.greet(machine.any_greeting(), code)) return code;
   if (homes) {
     code = home_first(machine, !arguments.quiet);
     machine.keep_place();
   }
-  if (code == exit_done && resumable != nullptr) {
-    static_cast<void>(resumable->begin(machine, program, subject, code));
+  if (code == exit_done && resumable != nullptr && !resumable->begin(machine, program, subject, code)) return code;
+  if (code != exit_done) return code;
+  // Only from the greeting does the board know at which level a switch is closed.
+  if (const auto closed = machine.session().closed_limit()) {
+    code = fail(exit_failed, words_of(*closed));
+    if (resumable != nullptr)
+      resumable->end(machine.session(), {.outcome = Outcome::failed, .fault = refused(*closed)});
   }
   return code;
 }
@@ -330,15 +335,17 @@ int end_run(const Run& run, const Answered& answered, const RunSummary& summary,
     return fail(exit_failed,
                 "the board: " + stop_words(run.opened, run.machine, run.arguments.program.program, run.motion, line));
   }
+  if (session.status().trouble == LinkError::stood_still) {
+    print(summary, run.arguments);
+    return fail(exit_failed, "the board: " + slip_words(run.opened, run.machine, run.arguments.program.program,
+                                                        summary.board->stood_still_line));
+  }
   if (session.status().trouble) return fail(exit_failed, "the board: " + session.trouble_words());
   if (answered.fault && answered.fault->code.starts_with("board.")) {
     return fail(exit_failed, "the board: " + answered.fault->message);
   }
   if (const auto words = run.opened.compare()) return fail(exit_failed, "the board: " + *words);
-  if (run.opened.has_board()) {
-    tell_tails(session);
-    tell_slip(session);
-  }
+  if (run.opened.has_board()) tell_tails(session);
   if (answered.outcome == Outcome::failed || interrupted_by() != 0) {
     show(late);
     tell_of_touch(run.arguments, late);

@@ -1,5 +1,7 @@
 #include "served_journal.hpp"
 
+#include <cerrno>
+#include <cstring>
 #include <filesystem>
 
 #include "program_input.hpp"
@@ -10,8 +12,11 @@ namespace passo {
 std::unique_ptr<ServedJournal> ServedJournal::open(const std::string& folder, OpenedMachine& machine) {
   const std::string path = (std::filesystem::path(folder) / "job.journal").string();
   std::unique_ptr<ServedJournal> journal(new ServedJournal(path, machine));
-  if (journal->file_.claim()) return journal;
-  fail(exit_failed, "--data " + path + ": another passo that runs now keeps its jobs there [serve.data]");
+  const auto claimed = journal->file_.claim();
+  if (claimed) return journal;
+  fail(exit_failed, claimed.error() == EWOULDBLOCK
+                        ? "--data " + path + ": another passo that runs now keeps its jobs there [serve.data]"
+                        : "--data " + path + ": " + std::strerror(claimed.error()) + " [serve.data]");
   return nullptr;
 }
 
@@ -25,7 +30,7 @@ bool ServedJournal::take_up(const Greeting& greeting) {
   if (found_->refused) return true;
   JournalWriter writer(file_);
   writer.begin(found_->head);
-  if (writer.failed()) fail(exit_failed, file_.path() + ": this journal cannot be written");
+  if (writer.failed()) fail(exit_failed, file_.path() + ": this journal cannot be written: " + file_.trouble());
   return !writer.failed();
 }
 

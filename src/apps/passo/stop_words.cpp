@@ -10,6 +10,7 @@
 
 #include "passo/activity/stage_options.hpp"
 #include "passo/geometry/euclid.hpp"
+#include "passo/session/stop_cause.hpp"
 
 namespace passo {
 namespace {
@@ -41,32 +42,8 @@ Point counted_place(OpenedMachine& opened, const MachineDescription& machine) {
   return place;
 }
 
-struct ClosedSwitch {
-  std::string words;   // the subject of a sentence
-  std::string remedy;  // what to do first
-  const char* code = "board.stopped";
-};
-
-ClosedSwitch closed_switch(const BoardStatus& status, const MachineDescription& machine) {
-  if ((status.inputs & input_emergency_stop) != 0)
-    return {.words = "the emergency stop was pressed", .remedy = "release it"};
-  for (unsigned input = 0; input < max_motors; ++input) {
-    if ((status.inputs & (unsigned{input_limit} << input)) == 0) continue;
-    const auto axis = std::ranges::find_if(machine.axes, [&](const AxisDescription& one) {
-      return one.home && static_cast<unsigned>(one.home->input) == input;
-    });
-    if (axis == machine.axes.end()) {
-      return {.words = fmt::format("limit switch {} closed", input + 1), .remedy = "jog off it (passo jog)"};
-    }
-    const char letter = letter_of(axis->axis);
-    return {.words = fmt::format("the limit switch of {} closed", letter),
-            .remedy = fmt::format("jog off it (passo jog {}{}2)", letter, axis->home->toward_high ? '-' : '+')};
-  }
-  return {.words = "a limit switch or the emergency stop closed, and is open again", .remedy = "look at its wiring"};
-}
-
 // An axis whose drive has given its alarm. Only of motors with physics; empty: none has.
-std::optional<ClosedSwitch> following_error(OpenedMachine& opened, const MachineDescription& machine) {
+std::optional<StopCause> following_error(OpenedMachine& opened, const MachineDescription& machine) {
   const RotorPlant* const rotors = opened.rotors();
   if (rotors == nullptr || !rotors->following_fault()) return std::nullopt;
   const FollowingFault& fault = *rotors->following_fault();
@@ -75,11 +52,20 @@ std::optional<ClosedSwitch> following_error(OpenedMachine& opened, const Machine
     if (machine.axes[m].second && machine.second_motor_of(m) == fault.motor) index = m;
   }
   const AxisDescription& axis = machine.axes[index];
-  return ClosedSwitch{.words = fmt::format("axis {} was {:.3g} {} from its commanded place ({:g} are allowed)",
-                                           letter_of(axis.axis), std::abs(fault.error) / axis.steps_per_unit,
-                                           is_rotary(axis.axis) ? "degrees" : "mm", axis.encoder->most_error),
-                      .remedy = "find out what holds the axis",
-                      .code = "run.following-error"};
+  return StopCause{.what = fmt::format("axis {} was {:.3g} {} from its commanded place ({:g} are allowed)",
+                                       letter_of(axis.axis), std::abs(fault.error) / axis.steps_per_unit,
+                                       is_rotary(axis.axis) ? "degrees" : "mm", axis.encoder->most_error),
+                   .remedy = "find out what holds the axis"};
+}
+
+std::string line_words(std::uint32_t line, const std::string& program) {
+  return line == 0 ? "" : fmt::format(" in line {} of {}", line, program);
+}
+
+std::string remedy_for_place(const MachineDescription& machine, const std::string& program) {
+  const bool homes = !machine.homing.empty();
+  return fmt::format("{}{}", homes ? "home the machine (passo home)" : "put the machine where --from-here is true",
+                     program.empty() ? "" : ", and run the program from its beginning");
 }
 
 }  // namespace
@@ -113,19 +99,33 @@ std::uint32_t LatestMotion::line_at(const Point& place) const {
 
 std::string stop_words(OpenedMachine& opened, const MachineDescription& machine, const std::string& program,
                        const LatestMotion& motion, std::uint32_t known_line) {
+  const std::uint16_t stopped_by = opened.session().board().stopped_by();
   const std::string closed = closed_switches(opened.session().board());
   const auto& status = opened.session().board().status();
   if (!status) return std::string(message_of(LinkError::stopped)) + " [board.stopped]";
   const Point place = counted_place(opened, machine);
   const std::uint32_t line = known_line != 0 ? known_line : motion.line_at(place);
-  const ClosedSwitch what = following_error(opened, machine).value_or(closed_switch(*status, machine));
-  const bool homes = !machine.homing.empty();
+  const std::optional<StopCause> following = following_error(opened, machine);
+  StopCause cause = following.value_or(stop_cause(stopped_by != 0 ? stopped_by : status->inputs, machine));
+  if (cause.remedy.empty()) {
+    cause = {.what = "a limit switch or the emergency stop closed, and is open again", .remedy = "look at its wiring"};
+  }
+  return fmt::format("{}{}: the motors stopped at once near {}, and steps may be lost. To go on, {}, {} [{}]{}",
+                     cause.what, line_words(line, program), place_words(machine, place), cause.remedy,
+                     remedy_for_place(machine, program), following ? "run.following-error" : "board.stopped", closed);
+}
+
+std::string slip_words(OpenedMachine& opened, const MachineDescription& machine, const std::string& program,
+                       std::uint32_t line) {
   return fmt::format(
-      "{}{}: the motors stopped at once near {}, and steps may be lost. To go on, {}, {}{} "
-      "[{}]{}",
-      what.words, line == 0 ? "" : fmt::format(" in line {} of {}", line, program), place_words(machine, place),
-      what.remedy, homes ? "home the machine (passo home)" : "put the machine where --from-here is true",
-      program.empty() ? "" : ", and run the program from its beginning", what.code, closed);
+      "it stood still amid motion{}: it could not make its events in time, and steps may be lost. It "
+      "was near {}. To go on, lower max_event_rate_hz of the machine file, {} [board.slipped]",
+      line_words(line, program), place_words(machine, counted_place(opened, machine)),
+      remedy_for_place(machine, program));
+}
+
+std::uint32_t line_of_stop(OpenedMachine& opened, const MachineDescription& machine, const LatestMotion& motion) {
+  return motion.line_at(counted_place(opened, machine));
 }
 
 }  // namespace passo

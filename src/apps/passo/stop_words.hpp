@@ -36,4 +36,10 @@ class LatestMotion {
 std::string stop_words(OpenedMachine& opened, const MachineDescription& machine, const std::string& program = {},
                        const LatestMotion& motion = {}, std::uint32_t known_line = 0);
 
+// The same for a board that has stood still amid motion. `line` as known_line.
+std::string slip_words(OpenedMachine& opened, const MachineDescription& machine, const std::string& program = {},
+                       std::uint32_t line = 0);
+// Near which line of the program the motors stand now by the board's counts. 0: not known.
+std::uint32_t line_of_stop(OpenedMachine& opened, const MachineDescription& machine, const LatestMotion& motion);
+
 }  // namespace passo

@@ -11,8 +11,6 @@ constexpr uint8_t toggle_f = 0x0f;  // the numbers of PINF, PINA, PINC for `out`
 constexpr uint8_t toggle_a = 0x00;
 constexpr uint8_t toggle_c = 0x06;
 constexpr uint16_t toggle_l = 0x109;
-// A pulse takes 16 cycles without padding.
-constexpr uint8_t padding = about.step_pulse - pulse_without_padding;
 constexpr uint8_t io(uint16_t address) {
   return static_cast<uint8_t>(address - io_base);
 }
@@ -39,7 +37,8 @@ extern "C" {
       in r31, %[eifr]               ; 1
       cpse r30, r31                 ; 2   both are 0
       rjmp 5f
-  1:  mov r30, r2                   ; 1
+  .Lpasso_edge:
+      mov r30, r2                   ; 1
       ldi r31, %[page_l]            ; 3
       ld r4, Z
       ldi r31, %[page_a]            ; 3
@@ -57,10 +56,9 @@ extern "C" {
       ldi r31, %[page_low]          ; 5
       ld r31, Z
       sts %[ocral], r31
-      .rept %[padding]
-      nop
-      .endr
-      sts %[port_l], r4             ; 2   the end of the pulse, 16 cycles after its start
+      sbic %[eecr], %[padding]      ; 2
+      rjmp 6f
+  1:  sts %[port_l], r4             ; 2   the end of the pulse, 18 cycles after its start or more
       out %[port_f], r5             ; 1
       out %[port_a], r3             ; 1
       out %[port_c], r6             ; 1
@@ -73,7 +71,14 @@ extern "C" {
   3:  lds r3, %[ucsra]              ; 2   a byte off the line does not wait for the main loop
       sbrc r3, 7                    ; 2
       rjmp 8f
-      reti                          ; 5   57 in all
+      reti                          ; 5   59 in all
+
+  6:  in r31, %[sreg]               ; 8 more, and 3 for each further turn
+      in r30, %[eedr]
+  9:  dec r30
+      brne 9b
+      out %[sreg], r31
+      rjmp 1b
 
   8:  out %[gpior0], r30            ; 20 in all, and 12 for a second byte
       out %[gpior1], r31
@@ -169,6 +174,7 @@ extern "C" {
       lds r25, stops_b
       and r24, r25
       brne 8f
+  .Lpasso_watch:
       lds r25, armed
       and r25, r25
       breq 6f
@@ -188,13 +194,15 @@ extern "C" {
       pop r24
       out %[sreg], r24
       pop r24
-      rjmp 1b
-  8:  ldi r24, 0
+      rjmp .Lpasso_edge
+  8:  ldi r24, 1
+      sts halted, r24
+      lds r24, %[filter]
+      and r24, r24
+      brne .Lpasso_watch            ; the loop finds out whether the switch stays on
       sts %[timsk], r24
       sts running, r24
       sts line_is_watched, r24
-      ldi r24, 1
-      sts halted, r24
       pop r25
       pop r24
       mov r3, r24
@@ -205,8 +213,9 @@ extern "C" {
       [port_a] "n"(toggle_a), [port_c] "n"(toggle_c), [port_l] "n"(toggle_l), [pcifr] "n"(io(Pcifr::where)),
       [eifr] "n"(io(Eifr::where)), [gpior0] "n"(io(Gpior0::where)), [gpior1] "n"(io(Gpior1::where)),
       [sreg] "n"(io(Sreg::where)), [ocrah] "n"(Ocr1ah::where), [ocral] "n"(Ocr1al::where), [timsk] "n"(Timsk1::where),
-      [pinb] "n"(0x03), [pind] "n"(0x09), [pine] "n"(0x0c), [pinj] "n"(0x103), [special] "n"(4), [stop] "n"(3),
-      [padding] "n"(padding), [plain] "n"(0xff & ~(pins.flag_special | pins.flag_stop)), [turns] "n"(turns_address),
+      [filter] "n"(Ocr2b::where), [pinb] "n"(0x03), [pind] "n"(0x09), [pine] "n"(0x0c), [pinj] "n"(0x103), [special] "n"(4), [stop] "n"(3),
+      [padding] "n"(padding_bit), [eecr] "n"(io(Eecr::where)), [eedr] "n"(io(Eedr::where)),
+      [plain] "n"(0xff & ~(pins.flag_special | pins.flag_stop)), [turns] "n"(turns_address),
       [turns_mask] "n"(turns_mask), [turning] "n"(turning_bits), [safe] "n"(safe_action), [port_h] "n"(0x102),
       [port_b] "n"(0x05), [duty] "n"(Ocr4cl::where), [control] "n"(Tccr4a::where), [ucsra] "n"(Ucsr0a::where),
       [udr] "n"(Udr0::where), [received] "n"(received_address), [page_high] "n"(page(times_high_address)),

@@ -3,6 +3,7 @@
 #pragma once
 
 #include "registers.hpp"
+#include "step_times.hpp"
 #include <stdint.h>
 
 #include "passo/chip/mega_ramps.hpp"
@@ -13,14 +14,13 @@ namespace passo::chip {
 inline constexpr const PinMap<6>& pins = mega_ramps;
 inline constexpr uint8_t flag_special = pins.flag_special;
 inline constexpr uint8_t flag_stop = pins.flag_stop;
-// The interrupt makes a pulse of so many cycles, or of more if the pin map wants a longer one.
-inline constexpr uint8_t pulse_without_padding = 16;
-inline constexpr About about = {
-    .firmware = 104,
-    .highest_event_rate = 110'000,
-    .baud = 500'000,
-    .name = "mega ramps 1.4",
-    .step_pulse = pins.shortest_pulse > pulse_without_padding ? pins.shortest_pulse : pulse_without_padding};
+inline constexpr StepTimes step_times = {
+    .shortest_pulse = 18, .first_padding = 26, .event_ticks = 145, .first_turn = 23, .last_turn = 39};
+inline constexpr About about = {.firmware = 105,
+                                .highest_event_rate = 110'000,
+                                .baud = 500'000,
+                                .name = "mega ramps 1.4",
+                                .step_pulse = step_times.shortest_pulse};
 
 // Pages at the start of RAM, before everything that the linker places: the times' high and low bytes, then the bits to
 // toggle on each step port, in the pin map's order.

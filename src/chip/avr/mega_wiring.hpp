@@ -22,21 +22,22 @@ inline void prepare_spindle() {
   SpindleDuty::write(0);
   SpindleControl::write(spindle_disconnected);
   Tccr4b::write(1 << 3 | 1 << 1);
+  Tccr2b::write(1 << 1);  // Wiring's clock
 }
 
-// Sets the pins that stop the motors while `watched` is captured.
-inline void stop_on(uint16_t watched) {
-  stops_b = stops_beside<'B'>(watched);
-  stops_d = stops_beside<'D'>(watched);
-  stops_e = stops_beside<'E'>(watched);
-  stops_j = stops_beside<'J'>(watched);
+// Sets the pins that stop the motors while `watched` is captured. `alarms`: inputs that are alarms of drives.
+inline void stop_on(uint16_t watched, uint16_t alarms = 0) {
+  stops_b = stops_beside<'B'>(watched, alarms);
+  stops_d = stops_beside<'D'>(watched, alarms);
+  stops_e = stops_beside<'E'>(watched, alarms);
+  stops_j = stops_beside<'J'>(watched, alarms);
 }
 
 // The interrupt reads these flags before every step; they have no interrupt of their own. Pins of ports D and E have a
 // flag each, INT2 to INT5. Pins of B and J share one for the port.
 inline void watch_switches() {
-  constexpr uint8_t b = pins.stops_on('B');
-  constexpr uint8_t j = pins.stops_on('J');
+  constexpr uint8_t b = pins.may_stop_on('B');
+  constexpr uint8_t j = pins.may_stop_on('J');
   stop_on(input_probe);
   Eicra::write(1 << 6 | 1 << 4);  // any change of INT3 and INT2
   Eicrb::write(1 << 2 | 1 << 0);  // any change of INT5 and INT4
@@ -48,7 +49,7 @@ inline void watch_switches() {
 static_assert(pins.spindle_pwm == Pin{'H', 5} && pins.probe.port == 'B');
 // The interrupt compares PCIFR with EIFR: they are equal only if both are 0, because no bit is used in both. PCIFR has
 // 0 and 1.
-static_assert((pins.stops_on('D') & ~0x0c) == 0 && (pins.stops_on('E') & ~0x30) == 0);
-static_assert(pins.stops_on('K') == 0 && pins.stops_on('A') == 0 && pins.stops_on('H') == 0);
+static_assert((pins.may_stop_on('D') & ~0x0c) == 0 && (pins.may_stop_on('E') & ~0x30) == 0);
+static_assert(pins.may_stop_on('K') == 0 && pins.may_stop_on('A') == 0 && pins.may_stop_on('H') == 0);
 
 }  // namespace passo::chip

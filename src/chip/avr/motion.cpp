@@ -7,6 +7,7 @@
 #include "spindle_counter.hpp"
 #include "wiring.hpp"
 
+#include "passo/chip/input_filter.hpp"
 #include "passo/chip/input_reader.hpp"
 #include "passo/firmware/board.hpp"
 #include "passo/firmware/manual_mode.hpp"
@@ -25,19 +26,22 @@ constexpr uint32_t shortest = shortest_interval(clock, about.highest_event_rate)
 struct Hardware {
   void step(uint8_t, uint8_t) {}
   void outputs(const BoardOutputs&) {}  // the player has switched them already, at their event
-  void send(uint8_t byte) { line.send(byte); }
-  uint8_t room() { return line.room(); }
+  uint8_t* space() { return line.space(); }
+  void put(uint8_t size) { line.put(size); }
+  uint8_t room() { return line.can_send() ? 0xff : 0; }
   void enable() { Wiring::enable_motors(true); }
   bool switch_off(uint8_t switches) { return Wiring::switch_off(switches); }
   void watch();
   PinSetup set_up(const PinSetup& wanted);
   static uint8_t drivers_rest() { return Wiring::drivers_rest(); }
+  static uint16_t alarms() { return Wiring::alarms(); }
   void release() { Wiring::enable_motors(false); }
   static bool can_watch(uint8_t limits) { return are_on_one_port(limits); }
   static constexpr bool has_encoder() { return SpindleCounter::exists(); }
   static SpindleCount spindle() { return SpindleCounter::count(); }
   static void breathe() { SerialLine::breathe(); }
   static void keep_up();
+  static void slice();
   static int32_t high_product(int32_t a, int32_t b) { return chip::high_product(a, b); }
 
   SerialLine line;
@@ -87,13 +91,13 @@ void start_watchdog() {
   Wdtcsr::write(1 << 3 | 6);
 }
 
-// Stops everything at once. Nothing moves again until a host says hello.
-[[gnu::noinline]] void stop_at_once() {
-  const bool pressed = (Wiring::inputs() & input_emergency_stop) != 0;
+// Stops everything at once. Nothing moves again until a host says hello. `on`: inputs that were seen on.
+[[gnu::noinline]] void stop_at_once(uint16_t on = 0) {
+  const uint16_t inputs = on | Wiring::inputs();
   ChipPlayer::halt();
   OutputActions::make_safe();
-  if (pressed) Wiring::enable_motors(false);
-  board.stop_at_once(pressed ? FaultReason::emergency_stop : FaultReason::limit);
+  if ((inputs & input_emergency_stop) != 0) Wiring::enable_motors(false);
+  board.stop_at_once(inputs);
   manual.stopped();
   halted = 0;
 }
@@ -112,7 +116,7 @@ void start_watchdog() {
 [[gnu::noinline]] void Hardware::watch() {
   SerialLine::breathe();
   ChipPlayer::watch(false);
-  stop_on(board.watched());
+  stop_on(board.watched(), Wiring::alarms());
   SerialLine::breathe();
   watch_input();
   SerialLine::breathe();
@@ -124,8 +128,9 @@ void start_watchdog() {
   PinSetup done = Wiring::set_up(wanted);
   SerialLine::breathe();
   done.steps = MotorOutputs::set_idle(wanted.steps);
+  done.timing = MotorOutputs::set_timing(wanted.timing);
   SerialLine::breathe();
-  reader.look(Wiring::inputs(), false);
+  reader.look(Wiring::inputs(), false, pressed_by_people(Wiring::alarms()));
   board.set_inputs(reader.inputs());
   watch();
   return done;
@@ -166,19 +171,27 @@ bool take_tick() {
 [[gnu::noinline]] void look_at_inputs() {
   const bool tick = take_tick();
   if (tick) count_tick();
-  if (halted != 0) return stop_at_once();
-  uint16_t raw = Wiring::inputs();
-  const uint16_t watched = board.watched();
-  const bool changed = ChipPlayer::captured();
+  if (halted != 0) {
+    if (Wiring::filter() == 0) return stop_at_once();
+    halted = 0;
+  }
   const uint16_t before = reader.inputs();
+  const uint16_t watched = board.watched();
+  const uint16_t by_people = pressed_by_people(Wiring::alarms());
+  bool changed = ChipPlayer::captured();
+  uint16_t raw = settled_inputs<Wiring>(before, static_cast<uint16_t>(~by_people));
+  if (changed && Wiring::filter() != 0 && ((raw ^ before) & watched) == 0) {
+    changed = false;  // it was noise: the interrupt is to wait for the next change
+    ChipPlayer::watch(false);
+  }
   if (changed || (running != 0 && ChipPlayer::watches())) {
     raw = static_cast<uint16_t>((raw & ~watched) | watched_in_motion(raw, before, changed));
   }
-  const uint16_t on = reader.look(raw, tick);
+  const uint16_t on = reader.look(raw, tick, by_people);
   // During motion the interrupt has stopped already. At rest nobody else looks.
-  if ((on & board.stopping()) != 0 && !board.idle()) return stop_at_once();
-  if ((on & input_emergency_stop) != 0) return stop_at_once();
-  uint16_t told = on & InputReader::pressed_by_people;
+  if ((on & board.stopping()) != 0 && !board.idle()) return stop_at_once(on);
+  if ((on & stopping_at_rest(Wiring::alarms())) != 0) return stop_at_once(on);
+  uint16_t told = on & by_people;
   told |= (reader.inputs() ^ before) & watched;
   if (changed) board.settle();  // releases the items finished before that
   SerialLine::breathe();
@@ -230,6 +243,13 @@ void Hardware::keep_up() {
 #ifndef PASSO_WINDINGS
   if (running != 0) chip::keep_up();
   SerialLine::breathe();
+#endif
+}
+
+[[gnu::noinline]] void Hardware::slice() {
+  SerialLine::breathe();
+#ifndef PASSO_WINDINGS
+  if (running != 0 && ChipPlayer::is_low()) chip::keep_up();
 #endif
 }
 

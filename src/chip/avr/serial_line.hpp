@@ -1,5 +1,5 @@
-// SerialLine: the UART, polled. Received bytes wait in a ring that the expander fills too. Bytes to send wait in
-// another.
+// SerialLine: the UART, polled. Received bytes wait in a ring that the expander fills too. Frames to send are put
+// together where they wait.
 #pragma once
 
 #include "event_ring.hpp"
@@ -25,12 +25,15 @@ class SerialLine {
   [[gnu::always_inline]] static void breathe() {
     if (line_is_watched == 0 && (Ucsr0a::read() & byte_received) != 0) fetch();
   }
-  // Sends the next bytes.
+  // Sends the next byte.
   static void poll() {
     breathe();
     if (sent_ != to_send_ && (Ucsr0a::read() & may_send) != 0) {
-      Udr0::write(out_[sent_]);
-      sent_ = static_cast<uint8_t>((sent_ + 1) & out_mask);
+      Udr0::write(out_[sent_++]);
+      if (sent_ == end_) {
+        sent_ = 0;
+        end_ = out_size;
+      }
     }
   }
 
@@ -51,14 +54,26 @@ class SerialLine {
   }
   static void drop(uint8_t count) { taken_ = static_cast<uint8_t>(taken_ + count); }
 
-  static uint8_t room() { return static_cast<uint8_t>((sent_ - to_send_ - 1) & out_mask); }
-  // Whether there is room for any frame of the board.
-  static bool can_send() { return room() >= longest; }
-  static void send(uint8_t byte) {
-    breathe();
-    out_[to_send_] = byte;
-    to_send_ = static_cast<uint8_t>((to_send_ + 1) & out_mask);
+  // Whether there is room for any frame of the board. It lies in one piece, behind those that wait or before them.
+  [[gnu::noinline]] static bool can_send() {
+    if (sent_ == to_send_) sent_ = to_send_ = 0;
+    if (to_send_ < sent_) return static_cast<uint8_t>(sent_ - to_send_) > longest;
+    if (to_send_ < out_size - longest) return true;
+    if (sent_ <= longest) return false;
+    end_ = to_send_;
+    to_send_ = 0;
+    return true;
   }
+  // Where to put the next frame, which goes out after put(). If there is no room, it takes the place of those that
+  // wait.
+  static uint8_t* space() {
+    if (!can_send()) {
+      sent_ = to_send_ = 0;
+      end_ = out_size;
+    }
+    return out_ + to_send_;
+  }
+  static void put(uint8_t size) { to_send_ = static_cast<uint8_t>(to_send_ + size); }
 
  private:
   // The interrupt fetches bytes too, so it must not come between the look and the end. It must not be held back either:
@@ -88,15 +103,16 @@ class SerialLine {
         : "r24", "r25", "r30", "r31", "memory");
   }
 
-  static constexpr uint8_t out_mask = 63;
   // The longest frame: an about, or a status.
-  static constexpr uint8_t longest = frame_overhead + (pins.motors < 4 ? 26 : status_size + 4 * pins.motors);
-  static_assert(longest <= out_mask);
+  static constexpr uint8_t longest = frame_overhead + (pins.motors < 4 ? 27 : status_size + 4 * pins.motors);
+  static constexpr uint8_t out_size = pins.motors < 4 ? 64 : 128;
+  static_assert(longest < out_size);
 
   static inline uint8_t taken_ = 0;
-  static inline uint8_t out_[out_mask + 1] = {};
-  static inline uint8_t to_send_ = 0;
-  static inline uint8_t sent_ = 0;
+  static inline uint8_t out_[out_size] = {};
+  static inline uint8_t to_send_ = 0;     // behind the last frame
+  static inline uint8_t sent_ = 0;        // the next byte to send
+  static inline uint8_t end_ = out_size;  // where the frames end of which the next one lies at the start
 };
 
 }  // namespace passo::chip

@@ -79,11 +79,16 @@ class RingTimes {
   static uint8_t make(uint8_t count, uint8_t& left) {
     if (reach_ != Reach::near) return make_slowly(count, left);
     if (count > left) count = left;
-    expand(count);
     left = static_cast<uint8_t>(left - count);
+    make_near(count);
+    return count;
+  }
+  // Whether no event needs a wait before it.
+  static bool are_near() { return reach_ == Reach::near; }
+  static void make_near(uint8_t count) {
+    expand(count);
     add(count);
     since_wait_ = no_more_than_255(since_wait_, count);
-    return count;
   }
   [[gnu::noinline]] static uint8_t make_slowly(uint8_t count, uint8_t& left) {
     since_wait_ = 0;

@@ -51,7 +51,9 @@ extern volatile uint8_t action_at_end;    // low byte of the address of the acti
 extern volatile uint8_t received_head;    // low byte of the address for the next received byte
 extern volatile uint8_t armed;            // the watched input has not changed yet
 extern volatile uint16_t captured_entry;  // the ring's register when it changed
-extern volatile uint8_t halted;           // a pin stopped the motion
+// A pin that stops the motion went on. Without a filter the motion has stopped; otherwise the loop looks whether the
+// pin stays on.
+extern volatile uint8_t halted;
 // The watched pins of one port: the address of its PINx, the pins, and their levels until they change. At the first
 // change the interrupt leaves in `watch_pins` those that changed.
 extern volatile uint16_t watch_port;

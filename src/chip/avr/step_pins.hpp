@@ -9,6 +9,7 @@
 #include "step_interrupt.hpp"
 
 #include "passo/wire/board_segment.hpp"
+#include "passo/wire/message.hpp"
 
 namespace passo::chip {
 
@@ -49,6 +50,7 @@ class StepPins {
     }
     return high & ((1 << pins.motors) - 1);
   }
+  [[gnu::noinline]] static StepTiming set_timing(const StepTiming& wanted) { return step_times.set(wanted); }
 
  private:
   static constexpr auto motor_pins = motor_pins_by_port<step_port_count>(pins);

@@ -47,12 +47,33 @@ template <char port>
   return mask;
 }
 
+// The inputs that a host may say are alarms of drives.
+inline constexpr uint16_t may_be_alarms = [] {
+  uint16_t known = 0;
+  for (uint8_t i = 0; i < most_axis_switches; ++i) {
+    if (pins.limits[i].exists()) known |= static_cast<uint16_t>(input_limit << i);
+  }
+  if (pins.feed_hold.exists()) known |= input_hold;
+  if (pins.cycle_start.exists()) known |= input_start;
+  return known;
+}();
+
+// The pins of buttons on a port that are alarms of drives.
+template <char port>
+[[gnu::always_inline]] inline uint8_t buttons_of(uint16_t alarms) {
+  uint8_t mask = 0;
+  if (pins.feed_hold.port == port && (alarms & input_hold) != 0) mask |= pins.feed_hold.mask();
+  if (pins.cycle_start.port == port && (alarms & input_start) != 0) mask |= pins.cycle_start.mask();
+  return mask;
+}
+
 // The pins that stop the motors while `watched` is captured. If that is a limit switch, an axis is being homed, and
 // other axes may still be on their switches. So closed switches do not count.
 template <char port>
-[[gnu::noinline]] uint8_t stops_beside(uint16_t watched) {
-  constexpr uint8_t stops = pins.stops_on(port);
+[[gnu::noinline]] uint8_t stops_beside(uint16_t watched, uint16_t alarms) {
+  constexpr uint8_t always = pins.stops_on(port);
   constexpr uint8_t limits = pins.limits_on(port);
+  const uint8_t stops = static_cast<uint8_t>(always | buttons_of<port>(alarms));
   if (limits == 0 || (watched & input_probe) != 0) return stops;
   return static_cast<uint8_t>(stops & ~(limits & pins_that_are_on(port)) & ~pins_of<port>(watched));
 }

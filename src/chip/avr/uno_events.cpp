@@ -8,8 +8,6 @@ namespace passo::chip {
 namespace {
 
 constexpr uint8_t toggle_port = 0x09;  // PIND
-// A pulse takes 16 cycles without padding.
-constexpr uint8_t padding = about.step_pulse - pulse_without_padding;
 constexpr uint8_t io(uint16_t address) {
   return static_cast<uint8_t>(address - io_base);
 }
@@ -30,7 +28,8 @@ extern "C" {
       rjmp 5f
       sbic %[pcifr], 1              ; 2
       rjmp 5f
-  1:  out %[port], r5               ; 1   the edge
+  .Lpasso_edge:
+      out %[port], r5               ; 1   the edge
       out %[gpior0], r30            ; 1
       out %[gpior1], r31            ; 1
       lds r4, %[ucsra]              ; 2   a byte off the line does not wait for the main loop
@@ -41,16 +40,22 @@ extern "C" {
       out %[ocra], r4               ; 1
       ld r4, Z+                     ; 2
       mov r2, r30                   ; 1   r3 stays: the ring is a page
-      in r30, %[gpior0]             ; 1
+      sbic %[eecr], %[padding]      ; 2
+      rjmp 6f
+  7:  in r30, %[gpior0]             ; 1
       in r31, %[gpior1]             ; 1
-      .rept %[padding]
-      nop
-      .endr
-      out %[port], r5               ; 1   the end of the pulse, 16 cycles after its start
+      out %[port], r5               ; 1   the end of the pulse, 18 cycles after its start or more
       mov r5, r4                    ; 1
       sbrc r5, %[special]           ; 2
       rjmp 2f
-      reti                          ; 4   32 in all
+      reti                          ; 4   34 in all
+
+  6:  in r31, %[sreg]               ; 8 more, and 3 for each further turn
+      in r30, %[eedr]
+  1:  dec r30
+      brne 1b
+      out %[sreg], r31
+      rjmp 7b
 
   8:  lds r30, received_head        ; 12 more
       ldi r31, hi8(%[received])
@@ -123,6 +128,7 @@ extern "C" {
       lds r25, stops_c
       and r24, r25
       brne 8f
+  .Lpasso_watch:
       lds r25, armed
       and r25, r25
       breq 6f
@@ -147,13 +153,15 @@ extern "C" {
       pop r24
       out %[sreg], r24
       pop r24
-      rjmp 1b
-  8:  ldi r24, 0
+      rjmp .Lpasso_edge
+  8:  ldi r24, 1
+      sts halted, r24
+      lds r24, %[filter]
+      and r24, r24
+      brne .Lpasso_watch            ; the loop finds out whether the switch stays on
       sts %[timsk], r24
       sts running, r24
       sts line_is_watched, r24
-      ldi r24, 1
-      sts halted, r24
       pop r25
       pop r24
       mov r4, r24
@@ -165,11 +173,12 @@ extern "C" {
   )" ::[port] "n"(toggle_port),
       [pcifr] "n"(io(Pcifr::where)), [gpior0] "n"(io(Gpior0::where)), [gpior1] "n"(io(Gpior1::where)),
       [sreg] "n"(io(Sreg::where)), [ocra] "n"(io(Ocr0a::where)), [timsk] "n"(Timsk0::where), [pinb] "n"(0x03),
-      [pinc] "n"(0x06), [quiet_b] "n"(io(Ocr0b::where)), [quiet_c] "n"(io(Eearl::where)), [special] "n"(0),
-      [padding] "n"(padding), [stop] "n"(1), [plain] "n"(pins.steps_on('D')), [turns] "n"(turns_address),
-      [turns_mask] "n"(turns_mask), [turning] "n"(turning_bits), [action] "n"(action_bits), [safe] "n"(safe_action),
-      [port_b] "n"(0x05), [port_c] "n"(0x08), [duty] "n"(Ocr2a::where), [control] "n"(Tccr2a::where),
-      [ucsra] "n"(Ucsr0a::where), [udr] "n"(Udr0::where), [received] "n"(received_address));
+      [pinc] "n"(0x06), [quiet_b] "n"(io(Ocr0b::where)), [filter] "n"(Ocr2b::where), [quiet_c] "n"(io(Eearl::where)), [special] "n"(0),
+      [padding] "n"(padding_bit), [eecr] "n"(io(Eecr::where)), [eedr] "n"(io(Eedr::where)), [stop] "n"(1),
+      [plain] "n"(pins.steps_on('D')), [turns] "n"(turns_address), [turns_mask] "n"(turns_mask),
+      [turning] "n"(turning_bits), [action] "n"(action_bits), [safe] "n"(safe_action), [port_b] "n"(0x05),
+      [port_c] "n"(0x08), [duty] "n"(Ocr2a::where), [control] "n"(Tccr2a::where), [ucsra] "n"(Ucsr0a::where),
+      [udr] "n"(Udr0::where), [received] "n"(received_address));
 }
 static_assert(pins.flag_special == 1 << 0 && pins.flag_stop == 1 << 1 && pins.step_ports[0] == 'D');
 

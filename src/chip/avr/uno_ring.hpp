@@ -3,6 +3,7 @@
 #pragma once
 
 #include "registers.hpp"
+#include "step_times.hpp"
 #include <stdint.h>
 
 #include "passo/chip/uno_cnc_shield.hpp"
@@ -13,14 +14,13 @@ namespace passo::chip {
 inline constexpr const PinMap<3>& pins = uno_cnc_shield;
 inline constexpr uint8_t flag_special = pins.flag_special;
 inline constexpr uint8_t flag_stop = pins.flag_stop;
-// The interrupt makes a pulse of so many cycles, or of more if the pin map wants a longer one.
-inline constexpr uint8_t pulse_without_padding = 16;
-inline constexpr About about = {
-    .firmware = 106,
-    .highest_event_rate = 150'000,
-    .baud = 500'000,
-    .name = "uno cnc shield3",
-    .step_pulse = pins.shortest_pulse > pulse_without_padding ? pins.shortest_pulse : pulse_without_padding};
+inline constexpr StepTimes step_times = {
+    .shortest_pulse = 18, .first_padding = 26, .event_ticks = 106, .first_turn = 22, .last_turn = 38};
+inline constexpr About about = {.firmware = 107,
+                                .highest_event_rate = 150'000,
+                                .baud = 500'000,
+                                .name = "uno cnc shield3",
+                                .step_pulse = step_times.shortest_pulse};
 
 // The ring lies at the start of RAM, before everything that the linker places.
 struct EventEntry {

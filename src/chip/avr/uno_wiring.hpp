@@ -22,22 +22,22 @@ inline void prepare_spindle() {
   Tccr2b::write(1 << 1);
 }
 
-// Sets the pins that stop the motors while `watched` is captured.
-inline void stop_on(uint16_t watched) {
-  stops_b = stops_beside<'B'>(watched);
-  stops_c = stops_beside<'C'>(watched);
+// Sets the pins that stop the motors while `watched` is captured. `alarms`: inputs that are alarms of drives.
+inline void stop_on(uint16_t watched, uint16_t alarms = 0) {
+  stops_b = stops_beside<'B'>(watched, alarms);
+  stops_c = stops_beside<'C'>(watched, alarms);
 }
 
 // The interrupt reads these flags before every step; they have no interrupt of their own.
 inline void watch_switches() {
-  constexpr uint8_t b = pins.stops_on('B');
-  constexpr uint8_t c = pins.stops_on('C');
+  constexpr uint8_t b = pins.may_stop_on('B');
+  constexpr uint8_t c = pins.may_stop_on('C');
   stop_on(input_probe);
   Pcmsk0::write(b);
   Pcmsk1::write(static_cast<uint8_t>(c | pins.probe.mask()));
   Pcifr::write(7);
 }
 static_assert(!pins.spindle_pwm.exists() || pins.spindle_pwm == Pin{'B', 3});
-static_assert(pins.probe.port == 'C' && pins.stops_on('D') == 0);
+static_assert(pins.probe.port == 'C' && pins.may_stop_on('D') == 0);
 
 }  // namespace passo::chip

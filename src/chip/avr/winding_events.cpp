@@ -65,10 +65,12 @@ constexpr uint8_t vectors_before = 11;
 [[gnu::always_inline]] inline bool look_at_switches(uint8_t entry) {
   forget_moves();
   if (must_stop()) {
-    stop_playing();
     halted = 1;
-    act(safe_action);
-    return false;
+    if (Wiring::filter() == 0) {
+      stop_playing();
+      act(safe_action);
+      return false;
+    }
   }
   if (armed == 0) return true;
   if (const uint8_t moved = pins_that_moved(); moved != 0) {

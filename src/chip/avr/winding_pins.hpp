@@ -10,6 +10,7 @@
 #include "step_interrupt.hpp"
 
 #include "passo/wire/board_segment.hpp"
+#include "passo/wire/message.hpp"
 
 namespace passo::chip {
 
@@ -45,6 +46,10 @@ class WindingPins {
 
   // There are no step pins.
   static uint8_t set_idle(uint8_t /*high*/) { return 0; }
+  static StepTiming set_timing(StepTiming wanted) {
+    wanted.event_ticks = 16'000'000 / about.highest_event_rate;
+    return wanted;
+  }
 
   // Switches all windings off; each motor stays at its place. Only while the interrupt does not play.
   static void release() {

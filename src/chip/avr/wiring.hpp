@@ -3,6 +3,7 @@
 
 #include "event_ring.hpp"
 #include "registers.hpp"
+#include "serial_line.hpp"
 
 #ifdef __AVR_ATmega2560__
 #include "mega_wiring.hpp"
@@ -57,6 +58,11 @@ class Wiring {
     done.outputs = wanted.outputs & known_outputs();
     done.drivers_rest = wanted.drivers_rest;
     Twar::write(wanted.drivers_rest);
+    done.alarms = wanted.alarms & may_be_alarms;
+    Ocr1bh::write(static_cast<uint8_t>(done.alarms >> 8));
+    Ocr1bl::write(static_cast<uint8_t>(done.alarms));
+    done.filter = wanted.filter;
+    Ocr2b::write(wanted.filter);
     if (done.outputs == Twbr::read()) return done;
     const Pin enable = pins.motor[0].enable;
     const bool enabled = enable.exists() && is_high(enable) == is_inverted(inverted_enable);
@@ -67,6 +73,22 @@ class Wiring {
   }
   static uint8_t drivers_rest() {
     return Twar::read();
+  }
+  // Microseconds for which a switch must stay in its new state. Like other parts of the setup it is in a register that
+  // nobody else uses.
+  [[gnu::always_inline]] static uint8_t filter() {
+    return Ocr2b::read();
+  }
+  // Inputs that are alarms of drives. Nobody waits for this match either.
+  [[gnu::always_inline]] static uint16_t alarms() {
+    return static_cast<uint16_t>(Ocr1bl::read() | Ocr1bh::read() << 8);
+  }
+  // Timer 2 runs all the time.
+  [[gnu::always_inline]] static uint8_t microseconds() {
+    return Tcnt2::read() >> 1;
+  }
+  [[gnu::noinline]] static void breathe() {
+    SerialLine::breathe();
   }
 
   // The action that switches the outputs to this and keeps everything else on their ports.

@@ -175,16 +175,24 @@ z_windings
         addwf   PCL,f
         table   Z_OUTPUTS
 
-; What a key moves: bits 0 to 2 the axes, bits 3 to 5 those of them that go down.
+; What a key moves: bits 0 to 2 the axes, bits 3 to 5 those of them whose windings go backwards, which is down. On the
+; first board 5 raises Z with the windings going backwards, and 0 lowers it.
+    ifdef first_board
+KEY_5_MOVES equ b'100100'
+KEY_0_MOVES equ b'000100'
+    else
+KEY_5_MOVES equ b'000100'
+KEY_0_MOVES equ b'100100'
+    endif
 jog_of  addwf   PCL,f
         retlw   b'001011'               ; 1: X down, Y up
         retlw   b'001001'               ; 4: X down
         retlw   b'011011'               ; 7: X and Y down
         retlw   0                       ; *
         retlw   b'000010'               ; 2: Y up
-        retlw   b'000100'               ; 5: Z up
+        retlw   KEY_5_MOVES             ; 5: Z up
         retlw   b'010010'               ; 8: Y down
-        retlw   b'100100'               ; 0: Z down
+        retlw   KEY_0_MOVES             ; 0: Z down
         retlw   b'000011'               ; 3: X and Y up
         retlw   b'000001'               ; 6: X up
         retlw   b'010011'               ; 9: X up, Y down

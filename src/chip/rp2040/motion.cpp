@@ -4,6 +4,7 @@
 #include "pico_player.hpp"
 #include "pico_wiring.hpp"
 
+#include "passo/chip/input_filter.hpp"
 #include "passo/chip/input_reader.hpp"
 #include "passo/firmware/board.hpp"
 
@@ -14,7 +15,7 @@ constexpr uint32_t cycles_a_second = 128'000'000;
 constexpr uint32_t clock = cycles_a_second / StepStream::cycles_of_tick;
 constexpr uint32_t baud = 1'000'000;
 constexpr uint8_t queue_capacity = 250;
-constexpr About about = {.firmware = 102, .highest_event_rate = 1'000'000, .baud = baud, .name = PASSO_PICO_NAME};
+constexpr About about = {.firmware = 103, .highest_event_rate = 1'000'000, .baud = baud, .name = PASSO_PICO_NAME};
 
 struct Hardware {
   void step(uint8_t, uint8_t) {}
@@ -30,6 +31,7 @@ struct Hardware {
   static bool can_watch(uint8_t limits) { return PicoWiring::can_watch(limits); }
   static PinSetup set_up(const PinSetup& wanted);
   static uint8_t drivers_rest() { return PicoWiring::drivers_rest(); }
+  static uint16_t alarms() { return PicoWiring::alarms(); }
   static void release() { PicoWiring::enable_motors(false); }
 
   PicoLine line;
@@ -68,19 +70,21 @@ void Hardware::watch() {
 
 // Called at rest. What the switches are under the new setup is known at once, because a hello may follow.
 PinSetup Hardware::set_up(const PinSetup& wanted) {
-  const PinSetup done = PicoWiring::set_up(wanted);
-  reader.look(PicoWiring::inputs(), false);
+  PinSetup done = PicoWiring::set_up(wanted);
+  done.timing = PicoPlayer::set_timing(wanted.timing);
+  reader.look(PicoWiring::inputs(), false, pressed_by_people(PicoWiring::alarms()));
   board().set_inputs(reader.inputs());
   hardware.watch();
   return done;
 }
 
-void stop_at_once() {
-  const bool pressed = (PicoWiring::inputs() & input_emergency_stop) != 0;
+// `on`: inputs that were seen on.
+void stop_at_once(uint16_t on = 0) {
+  const uint16_t inputs = on | PicoWiring::inputs();
   PicoPlayer::halt();
   PicoWiring::switch_outputs({});
-  if (pressed) PicoWiring::enable_motors(false);
-  board().stop_at_once(pressed ? FaultReason::emergency_stop : FaultReason::limit);
+  if ((inputs & input_emergency_stop) != 0) PicoWiring::enable_motors(false);
+  board().stop_at_once(inputs);
   watch_input();
 }
 
@@ -97,12 +101,18 @@ bool take_tick() {
 void look_at_inputs() {
   const bool tick = take_tick<4'096>();
   if (PicoPlayer::halted()) return stop_at_once();
-  // A switch that was closed before the motion began has no edge that would tell the interrupt.
-  if (!board().idle() && PicoWiring::stops()) return stop_at_once();
-  uint16_t raw = PicoWiring::inputs();
   const uint16_t watched = board().watched();
-  const bool changed = PicoPlayer::captured();
+  const uint16_t by_people = pressed_by_people(PicoWiring::alarms());
   const uint16_t before = reader.inputs();
+  bool changed = PicoPlayer::captured();
+  uint16_t raw = settled_inputs<PicoWiring>(before, static_cast<uint16_t>(~by_people));
+  if (changed && PicoWiring::filter() != 0 && ((raw ^ before) & watched) == 0) {
+    changed = false;  // it was noise: the interrupt is to wait for the next change
+    PicoPlayer::watch(false);
+  }
+  // A switch that was closed before the motion began has no edge that would tell the interrupt.
+  const uint16_t stops = raw & PicoWiring::stopping();
+  if (!board().idle() && stops != 0) return stop_at_once(stops);
   // During motion the interrupt reports changes of the watched input, and where. Several are one, which is on while any
   // of them is.
   if (changed || (!board().idle() && PicoPlayer::watches())) {
@@ -111,11 +121,11 @@ void look_at_inputs() {
     const uint16_t now = !changed ? (is_on == was_on ? raw : before) : was_on ? 0 : PicoWiring::captured_inputs();
     raw = static_cast<uint16_t>((raw & ~watched) | (now & watched));
   }
-  const uint16_t on = reader.look(raw, tick);
+  const uint16_t on = reader.look(raw, tick, by_people);
   // During motion the interrupt has stopped already. At rest nobody else looks.
-  if ((on & board().stopping()) != 0 && !board().idle()) return stop_at_once();
-  if ((on & input_emergency_stop) != 0) return stop_at_once();
-  uint16_t told = on & InputReader::pressed_by_people;
+  if ((on & board().stopping()) != 0 && !board().idle()) return stop_at_once(on);
+  if ((on & stopping_at_rest(PicoWiring::alarms())) != 0) return stop_at_once(on);
+  uint16_t told = on & by_people;
   told |= (reader.inputs() ^ before) & watched;
   if (changed) board().settle();  // releases the items finished before that
   if (told != 0 || tick) board().set_inputs(reader.inputs(), told);

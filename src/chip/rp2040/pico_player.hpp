@@ -12,6 +12,7 @@
 
 #include "passo/chip/pico_pins.hpp"
 #include "passo/wire/board_segment.hpp"
+#include "passo/wire/message.hpp"
 
 namespace passo::chip {
 
@@ -56,6 +57,24 @@ class PicoPlayer {
 
   explicit PicoPlayer(uint8_t /*motors*/) {}
 
+  // Sets the pulses. Returns what the pins then have. At rest.
+  static StepTiming set_timing(const StepTiming& wanted) {
+    const uint32_t before_turn = StepStream::ticks_of_word;
+    uint32_t pulse = wanted.hold > before_turn ? wanted.hold - before_turn : 0;
+    if (pulse < wanted.pulse) pulse = wanted.pulse;
+    if (pulse < shortest_pulse) pulse = shortest_pulse;
+    longest_pulse_ = wanted.pulse == 0 && pulse < usual_pulse ? usual_pulse : pulse;
+    // A pulse takes half of an interval at most, and a segment may be a tick too fast.
+    uint32_t ticks = pulse > shortest_pulse ? 2 * pulse + 1 : 2 * shortest_pulse;
+    if (ticks < pulse + before_turn + wanted.set_up) ticks = pulse + before_turn + wanted.set_up;
+    const uint32_t set_up = ticks - pulse - before_turn;
+    const uint32_t hold = pulse + before_turn;
+    return {.pulse = static_cast<uint8_t>(pulse),
+            .set_up = set_up > 0xff ? uint8_t{0xff} : static_cast<uint8_t>(set_up),
+            .hold = hold > 0xff ? uint8_t{0xff} : static_cast<uint8_t>(hold),
+            .event_ticks = static_cast<uint16_t>(ticks)};
+  }
+
   // Breaks off at once whatever it played.
   static void restart(uint8_t motors) {
     StepStream::restart(direction_pins_);
@@ -91,7 +110,7 @@ class PicoPlayer {
     const uint32_t last = segment.interval + static_cast<uint32_t>(segment.change) * (left_ - 1);
     const uint32_t shortest = (segment.interval < last ? segment.interval : last) >> 16;
     const uint32_t longest = (segment.interval < last ? last : segment.interval) >> 16;
-    pulse_ = shortest / 2 < longest_pulse ? shortest / 2 : longest_pulse;
+    pulse_ = shortest / 2 < longest_pulse_ ? shortest / 2 : longest_pulse_;
     most_ahead_ = 1;
     for (uint32_t ticks = longest | 1; ticks < ticks_ahead; ticks <<= 1) most_ahead_ <<= 1;
     if (most_ahead_ < 2) most_ahead_ = 2;
@@ -180,7 +199,7 @@ class PicoPlayer {
   // Call when the board has given it all that it could take: nothing follows the last event soon.
   static void end() {
     if (!pending_ || !ready()) return;
-    end_pulse(longest_pulse);
+    end_pulse(longest_pulse_);
     StepStream::publish();
   }
 
@@ -213,7 +232,6 @@ class PicoPlayer {
   static constexpr uint32_t most_at_once = 128;
   static constexpr uint32_t ticks_ahead = 32'768;
   static constexpr uint32_t most_events_ahead = 2'048;
-  static constexpr uint32_t longest_pulse = 32;  // ticks: 2 microseconds, enough for every driver
 
   // An item that was begun and is not finished.
   struct Item {
@@ -238,7 +256,7 @@ class PicoPlayer {
   // itself is kept back.
   static void end_pulse(uint32_t most) {
     look_for_slip(StepStream::played());
-    fell_ = most < longest_pulse ? most : longest_pulse;
+    fell_ = most < longest_pulse_ ? most : longest_pulse_;
     StepStream::push(fell_, direction_pins_);
     pending_ = false;
   }
@@ -302,6 +320,11 @@ class PicoPlayer {
     accumulators_[motor] = first;
     accumulators_[motor + 1] = second;
   }
+
+  // Ticks. At a million events a second pulses take half of the interval.
+  static constexpr uint32_t shortest_pulse = 8;
+  static constexpr uint32_t usual_pulse = 32;  // without a host that says what it needs: enough for most drivers
+  static inline uint32_t longest_pulse_ = usual_pulse;
 
   static inline Segment segment_;
   static inline uint32_t left_ = 0;  // events of the loaded segment that are not made yet

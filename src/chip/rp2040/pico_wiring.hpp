@@ -62,6 +62,11 @@ class PicoWiring {
     }
     done.steps = wanted.steps & PicoPinTables::all;
     done.drivers_rest = drivers_rest_ = wanted.drivers_rest;
+    done.alarms =
+        wanted.alarms & inputs_of(pins.inputs()) & static_cast<uint16_t>(~(input_probe | input_emergency_stop));
+    alarms_ = done.alarms;
+    done.filter = wanted.filter;
+    filter_ = wanted.filter;
     constexpr struct {
       uint8_t gpio;
       uint8_t which;
@@ -80,6 +85,12 @@ class PicoWiring {
     return done;
   }
   static uint8_t drivers_rest() { return drivers_rest_; }
+  // Microseconds for which a switch must stay in its new state.
+  static uint8_t filter() { return filter_; }
+  // Inputs that are alarms of drives.
+  static uint16_t alarms() { return alarms_; }
+  static uint8_t microseconds() { return TimerLow::read() & 0x7f; }
+  static void breathe() {}
   // Any switches can be watched together.
   static bool can_watch(uint8_t limits) {
     for (uint32_t i = 0; i < pico_limits; ++i) {
@@ -125,12 +136,13 @@ class PicoWiring {
     SpindleCounter::listen();
     interrupts_on();
   }
-  // Whether a pin that stops is on, since whenever.
-  static bool stops() { return (pins_that_are_on() & stops_) != 0; }
+  // The inputs that stop, as bits of BoardInput.
+  static uint16_t stopping() { return inputs_of(stops_); }
   // The interrupt of the pins.
   [[gnu::always_inline]] static void switch_moved() {
     const uint32_t on = pins_that_are_on();
-    if ((on & stops_) != 0 && !StepStream::dry()) PicoPlayer::halt();
+    // With a filter the loop finds out whether the switch stays on.
+    if ((on & stops_) != 0 && filter_ == 0 && !StepStream::dry()) PicoPlayer::halt();
     if (watched_ != 0 && ((on & watched_) != 0) != was_closed_ && PicoPlayer::capture()) captured_ = on;
     SpindleCounter::index_moved();
     forget_edges();
@@ -172,7 +184,7 @@ class PicoWiring {
     pwm(slice, pwm_cc) = (pins.spindle_pwm & 1) != 0 ? level << 16 : level;
   }
   static void listen(const PicoInput& input, uint16_t stopping, uint16_t watched) {
-    if (input.gpio == no_gpio || input.which >= input_hold) return;
+    if (input.gpio == no_gpio) return;
     const uint32_t bit = gpio_bit(input.gpio);
     uint32_t edges = 0;
     if ((watched & input.which) != 0) {
@@ -197,6 +209,8 @@ class PicoWiring {
   static inline volatile uint32_t on_when_high_ = 0;  // inputs whose switches are on when they are high
   static inline uint8_t inverted_outputs_ = 0;        // bits of PinSetup's outputs
   static inline uint8_t drivers_rest_ = 0;
+  static inline volatile uint8_t filter_ = 0;
+  static inline uint16_t alarms_ = 0;
 };
 
 }  // namespace passo::chip

@@ -63,7 +63,7 @@ TEST_F(LongSegmentTest, is_one_item_wherever_it_is_asked_for) {
 
 TEST_F(LongSegmentTest, is_broken_off_in_a_later_part) {
   for (int k = 0; k < 400; ++k) event();
-  board_.stop_at_once(FaultReason::limit);
+  board_.stop_at_once(input_limit);
   Fault fault;
   decode(bench_.replies.back(), fault);
   EXPECT_EQ(fault.event, 400);

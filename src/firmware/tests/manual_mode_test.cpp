@@ -263,7 +263,7 @@ TEST_F(ManualModeTest, is_stopped_by_a_limit_switch_and_begins_anew_behind_it) {
   press('#');
   Keys::held = {'6'};
   run(1'000);
-  board_.stop_at_once(FaultReason::limit);
+  board_.stop_at_once(input_limit);
   manual_.stopped();
   due_ = 0;
   const std::size_t steps = log_.times[0].size();

@@ -11,6 +11,9 @@ struct PinBench : Bench {
     setup.inputs &= input_probe;
     setup.steps = 0;
     setup.outputs &= inverted_enable;
+    // The longer its pulses, the fewer events it makes.
+    if (setup.timing.pulse < 16) setup.timing.pulse = 16;
+    setup.timing.event_ticks = static_cast<std::uint16_t>(100 + setup.timing.pulse);
     return setup;
   }
   std::uint8_t drivers_rest() const { return setup.drivers_rest; }
@@ -34,14 +37,15 @@ class PinSetupTest : public testing::Test {
   void be_silent(int tenths) {
     for (int i = 0; i < tenths; ++i) board_.count_silence();
   }
-  bool is_trusted() {
+  BoardStatus status() {
     bench_.replies.clear();
     bench_.decoder.set_motors(max_motors);
     send(Ask{.motors = max_motors}, std::uint8_t{1});
     BoardStatus status;
     decode(bench_.replies.back(), max_motors, status);
-    return (status.state & board_trusted) != 0;
+    return status;
   }
+  bool is_trusted() { return (status().state & board_trusted) != 0; }
 
   PinBench bench_;
   Board<PinBench, capacity> board_{bench_, {.motors = 4, .clock = 16'000'000}};
@@ -53,7 +57,34 @@ TEST_F(PinSetupTest, is_answered_by_what_the_board_can_do) {
   EXPECT_EQ(bench_.replies[0].type, MessageType::pin_setup);
   PinSetup told;
   decode(bench_.replies[0], told);
-  EXPECT_EQ(told, (PinSetup{.inputs = input_probe, .outputs = inverted_enable, .drivers_rest = 20}));
+  EXPECT_EQ(told, (PinSetup{.inputs = input_probe,
+                            .outputs = inverted_enable,
+                            .drivers_rest = 20,
+                            .timing = {.pulse = 16, .event_ticks = 116}}));
+}
+
+// A segment may be one tick faster.
+TEST_F(PinSetupTest, sets_the_pulses_and_how_close_events_may_be) {
+  const auto is_taken = [this](std::uint32_t ticks) {
+    bench_.replies.clear();
+    send(BoardSegment{.events = 5, .flips = 1, .interval = ticks << 16}, std::uint8_t{3}, std::uint8_t{1});
+    const bool taken = bench_.replies.empty() || bench_.replies[0].type != MessageType::error;
+    while (!board_.idle()) {
+      static_cast<void>(board_.ticks_to_next_event());
+      board_.on_event();
+    }
+    return taken;
+  };
+  set_up({.timing = {.pulse = 40}});
+  greet();
+  EXPECT_FALSE(is_taken(138));
+  greet();
+  EXPECT_FALSE(is_taken(114)) << "a hello without a setup";
+  greet();
+  EXPECT_TRUE(is_taken(115));
+  set_up({.timing = {.pulse = 40}});
+  greet();
+  EXPECT_TRUE(is_taken(139));
 }
 
 TEST_F(PinSetupTest, counts_for_one_hello) {
@@ -61,7 +92,7 @@ TEST_F(PinSetupTest, counts_for_one_hello) {
   greet();
   EXPECT_EQ(bench_.setup.inputs, input_probe);
   greet();
-  EXPECT_EQ(bench_.setup, PinSetup{}) << "another host, which says nothing of the pins";
+  EXPECT_EQ(bench_.setup.inputs, 0U) << "another host, which says nothing of the pins";
 }
 
 TEST_F(PinSetupTest, is_refused_amid_motion) {
@@ -83,10 +114,12 @@ TEST_F(PinSetupTest, drivers_go_off_when_the_host_is_silent_and_the_place_is_not
   be_silent(1);
   EXPECT_FALSE(bench_.drivers_on) << "a stranger who asks is no host";
   EXPECT_FALSE(is_trusted());
+  EXPECT_EQ(status().inputs & drivers_timed_out, unsigned{drivers_timed_out}) << "the host is told why";
   set_up({.drivers_rest = 20});
   greet();
   EXPECT_TRUE(bench_.drivers_on);
   EXPECT_TRUE(is_trusted());
+  EXPECT_EQ(status().inputs & drivers_timed_out, 0);
 }
 
 TEST_F(PinSetupTest, drivers_stay_on_amid_motion_and_without_such_a_time) {

@@ -247,12 +247,14 @@ TEST_F(ReplaceTest, stops_at_once_in_an_emergency_and_does_not_trust_its_positio
   send_segment(1, 20);
   send_segment(2, 20);
   for (int i = 0; i < 7; ++i) event();
-  board_.stop_at_once(FaultReason::emergency_stop);
+  board_.stop_at_once(input_emergency_stop);
   EXPECT_TRUE(board_.idle());
   ASSERT_EQ(bench_.replies.back().type, MessageType::fault);
   Fault fault;
   decode(bench_.replies.back(), fault);
   EXPECT_EQ(fault.event, 7);
+  EXPECT_EQ(fault.reason, FaultReason::emergency_stop);
+  EXPECT_EQ(fault.inputs, input_emergency_stop);
   EXPECT_EQ(status().state, 0);
   EXPECT_EQ(status().positions[0], 7);
   send_segment(3);

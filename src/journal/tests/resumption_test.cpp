@@ -149,6 +149,20 @@ TEST_F(Resumptions, are_refused_where_the_board_was_reset_or_used_by_others) {
   EXPECT_EQ(refusal(), "resume.board-reset");
 }
 
+// Manual mode ends the session, and the board still knows its motors.
+TEST_F(Resumptions, are_refused_where_the_machine_was_moved_by_the_keypad) {
+  status_ = {.session = 0, .executed = 7, .state = board_trusted, .motors = 3};
+  EXPECT_EQ(refusal(), "resume.session-ended");
+}
+
+TEST_F(Resumptions, are_refused_where_the_drivers_were_switched_off) {
+  status_.state = 0;
+  status_.inputs = drivers_timed_out;
+  EXPECT_EQ(refusal(), "resume.drivers-off");
+  status_.inputs = 0;
+  EXPECT_EQ(refusal(), "resume.not-trusted");
+}
+
 TEST_F(Resumptions, are_refused_where_steps_may_be_lost_or_the_rest_is_not_known) {
   status_.executed = 19;
   EXPECT_EQ(refusal(), "resume.rest-unknown");

@@ -67,13 +67,21 @@ TEST_F(PlaceRecords, do_not_trust_a_board_that_was_reset) {
   EXPECT_EQ(doubt(), PlaceDoubt::board_reset) << "it looks as it did before its first hello";
 }
 
+TEST_F(PlaceRecords, do_not_call_a_machine_that_was_moved_by_the_keypad_a_board_of_another_program) {
+  status_ = {.session = 0, .executed = 7, .state = board_trusted, .motors = 3};
+  EXPECT_EQ(doubt(), PlaceDoubt::session_ended);
+}
+
 TEST_F(PlaceRecords, do_not_trust_a_board_of_another_host_or_machine_or_one_that_was_stopped_at_once) {
   status_.session = 301;
   EXPECT_EQ(doubt(), PlaceDoubt::other_session);
   status_.session = 300;
   status_.state = 0;
   EXPECT_EQ(doubt(), PlaceDoubt::stopped_at_once);
+  status_.inputs = drivers_timed_out;
+  EXPECT_EQ(doubt(), PlaceDoubt::drivers_off) << "nothing has stopped its motors";
   status_.state = board_trusted;
+  status_.inputs = 0;
   machine_.axes[1].steps_per_unit *= 2;
   EXPECT_EQ(doubt(), PlaceDoubt::other_machine);
   EXPECT_FALSE(place_of(std::nullopt, machine_, status_));

@@ -119,10 +119,12 @@ TEST(Message, what_version_2_brings_keeps_every_field) {
     ASSERT_EQ(std::tie(told.after, told.count), std::tie(replace.after, replace.count));
     ASSERT_EQ(std::tie(told.sums.first, told.sums.second), std::tie(replace.sums.first, replace.sums.second));
 
-    const Fault fault{.reason = FaultReason::limit, .event = random.byte(), .executed = random.word()};
+    const Fault fault{
+        .reason = FaultReason::limit, .inputs = random.word(), .event = random.byte(), .executed = random.word()};
     Fault known;
     decode(carried(frame, encode(fault, 5, frame)), known);
-    ASSERT_EQ(std::tie(known.reason, known.event, known.executed), std::tie(fault.reason, fault.event, fault.executed));
+    ASSERT_EQ(std::tie(known.reason, known.inputs, known.event, known.executed),
+              std::tie(fault.reason, fault.inputs, fault.event, fault.executed));
 
     Session session;
     decode(carried(frame, encode(Session{.number = replace.after}, 6, frame)), session);

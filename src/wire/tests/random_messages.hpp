@@ -128,14 +128,21 @@ class RandomMessages {
       case 8: size = encode(status(), motors, sequence, frame.data()); break;
       case 9: size = encode(captured(), motors, sequence, frame.data()); break;
       case 10: {
-        const Fault fault{.reason = static_cast<FaultReason>(byte()), .event = byte(), .executed = word()};
+        const Fault fault{
+            .reason = static_cast<FaultReason>(byte()), .inputs = word(), .event = byte(), .executed = word()};
         size = encode(fault, sequence, frame.data());
         break;
       }
       case 11: size = encode(about(), sequence, frame.data()); break;
       case 12: size = encode(turned(), sequence, frame.data()); break;
       case 13: {
-        const PinSetup setup{.inputs = word(), .steps = byte(), .outputs = byte(), .drivers_rest = byte()};
+        const PinSetup setup{.inputs = word(),
+                             .steps = byte(),
+                             .outputs = byte(),
+                             .drivers_rest = byte(),
+                             .timing = {.pulse = byte(), .set_up = byte(), .hold = byte(), .event_ticks = word()},
+                             .alarms = word(),
+                             .filter = byte()};
         size = encode(setup, sequence, frame.data());
         break;
       }

@@ -25,9 +25,16 @@ std::vector<std::string> example_session() {
   std::vector<std::string> lines;
   std::uint8_t frame[largest_frame];
   const auto line = [&](std::uint8_t size) { lines.push_back(hex(frame, size)); };
-  const PinSetup setup{.inputs = input_limit | input_emergency_stop, .outputs = inverted_enable, .drivers_rest = 200};
+  const PinSetup setup{.inputs = input_limit | input_emergency_stop,
+                       .outputs = inverted_enable,
+                       .drivers_rest = 200,
+                       .timing = {.pulse = 40, .set_up = 11, .hold = 11, .event_ticks = 160},
+                       .alarms = input_start,
+                       .filter = 100};
   line(encode(setup, 0, frame));
-  line(encode(setup, 0, frame));
+  PinSetup has = setup;
+  has.timing = {.pulse = 41, .set_up = 44, .hold = 63, .event_ticks = 129};
+  line(encode(has, 0, frame));
   line(encode(Hello{.motors = 2}, 0, frame));
   line(encode(HelloReply{.motors = 4, .capacity = 32, .clock = 16'000'000}, 0, frame));
   line(encode(Session{.number = 0x1234, .silence = {.spindle = 20, .mist = 20, .flood = 20}}, 0, frame));

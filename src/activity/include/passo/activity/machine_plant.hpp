@@ -23,8 +23,12 @@ ScrewModel screw_model(const AxisDescription& axis, bool inverted);
 // Where the motors of that plant stand at first, if the axes stand at `place`: second motors are ahead by their skew.
 MotorSteps truth_at(const MachineDescription& machine, const Point& place);
 
+// The input at which the drive of the axis gives its alarm, as a bit of BoardInput; 0: it gives none.
+std::uint16_t alarm_of(const AxisDescription& axis);
 // How the machine's switches and drivers are connected to its board's pins.
 PinSetup pin_setup(const MachineDescription& machine);
+// What the drivers ask of the board's step and direction pins, and how close its events come.
+StepTiming step_timing(const BoardDescription& board);
 
 SpindleModel spindle_model(const SpindleDescription& spindle);
 

@@ -16,18 +16,18 @@ class InputReader {
   static constexpr uint8_t steady_looks = 3;
 
   // `raw` has bits of BoardInput, set where the switch is on. `tick` means that some milliseconds have passed since the
-  // last tick. Returns the inputs that have gone on.
-  uint16_t look(uint16_t raw, bool tick) {
+  // last tick. `by_people`: those that are debounced. Returns the inputs that have gone on.
+  uint16_t look(uint16_t raw, bool tick, uint16_t by_people = pressed_by_people) {
     const uint16_t before = inputs_;
-    const uint16_t buttons = raw & pressed_by_people;
+    const uint16_t buttons = raw & by_people;
     if (buttons != candidate_) {
       candidate_ = buttons;
       looks_ = 0;
     } else if (tick && looks_ < steady_looks) {
       ++looks_;
     }
-    const uint16_t steady = looks_ == steady_looks ? candidate_ : static_cast<uint16_t>(inputs_ & pressed_by_people);
-    inputs_ = static_cast<uint16_t>((raw & ~pressed_by_people) | steady);
+    const uint16_t steady = looks_ == steady_looks ? candidate_ : static_cast<uint16_t>(inputs_ & by_people);
+    inputs_ = static_cast<uint16_t>((raw & ~by_people) | steady);
     return static_cast<uint16_t>(inputs_ & ~before);
   }
   uint16_t inputs() const { return inputs_; }

@@ -85,8 +85,7 @@ struct PinMap {
   MotorPins motor[motor_count] = {};
   // The ports with step or direction pins, the first one with the interrupt's flags; or the ports with windings.
   char step_ports[most_step_ports] = {};
-  uint8_t shortest_pulse = 16;  // cycles: 1 microsecond for an A4988, 31 for a DRV8825
-  uint8_t flag_special = 0;     // masks in the first step port
+  uint8_t flag_special = 0;  // masks in the first step port
   uint8_t flag_stop = 0;
 
   Pin limits[most_axis_switches] = {};  // limit switches 0 to 5, as BoardInput numbers them
@@ -139,6 +138,13 @@ struct PinMap {
   // Inputs that stop the machine at once.
   constexpr uint8_t stops_on(char port) const {
     return static_cast<uint8_t>(limits_on(port) | (emergency_stop.port == port ? emergency_stop.mask() : 0));
+  }
+  // These, and buttons that a host may say are alarms of drives.
+  constexpr uint8_t may_stop_on(char port) const {
+    const Pin buttons[] = {feed_hold, cycle_start};
+    uint8_t mask = stops_on(port);
+    for (const Pin one : buttons) mask = static_cast<uint8_t>(mask | (one.port == port ? one.mask() : 0));
+    return mask;
   }
   constexpr uint8_t inputs_on(char port) const {
     const Pin others[] = {probe, door, feed_hold, cycle_start, encoder.pulses, encoder.index};

@@ -17,6 +17,7 @@
 #include "passo/firmware/board_hardware.hpp"
 #include "passo/firmware/board_identity.hpp"
 #include "passo/firmware/board_voice.hpp"
+#include "passo/firmware/drive_alarms.hpp"
 #include "passo/firmware/host_silence.hpp"
 #include "passo/firmware/input_watch.hpp"
 #include "passo/firmware/part_taker.hpp"
@@ -71,10 +72,13 @@ class Board : private BoardVoice<Hardware> {
   }
   // Bits of BoardInput: watched() is the one that is captured, stopping() those that stop the motors when they go on.
   uint16_t watched() const { return watch_.input(); }
-  uint16_t stopping() const { return watch_.stopping(); }
+  uint16_t stopping() const { return static_cast<uint16_t>(watch_.stopping() | alarms_of(hardware_)); }
   // Stops without braking and drops all items. Steps may be lost, so nothing is played until a host says hello again.
-  void stop_at_once(FaultReason reason) {
-    const Fault fault{.reason = reason, .event = played(), .executed = executed_};
+  // `inputs` are those that are on: the host is told which of them stop the motors.
+  void stop_at_once(uint16_t inputs) {
+    inputs &= stopping();
+    const Fault fault{
+        .reason = reason_of(inputs, alarms_of(hardware_)), .inputs = inputs, .event = played(), .executed = executed_};
     if (begun_ != 0) player_.add_steps(positions_);
     player_.restart(motors_);
     drop_all();
@@ -175,6 +179,7 @@ class Board : private BoardVoice<Hardware> {
   void append_by_hand() {
     breathe();
     list_.space().number = executed_;
+    from_rest_ = static_cast<uint8_t>(executed_);
     list_.append();
     settle();
   }
@@ -184,7 +189,14 @@ class Board : private BoardVoice<Hardware> {
     PinSetup setup;
     decode(frame, setup);
     is_set_up_ = true;
-    send(set_up(hardware_, setup));
+    take_on(setup);
+    send(setup);
+  }
+  // Leaves of the setup what the board can do.
+  [[gnu::noinline]] void take_on(PinSetup& setup) {
+    setup = set_up(hardware_, setup);
+    const uint16_t ticks = setup.timing.event_ticks;
+    if (ticks != 0) identity_.shortest_interval = uint32_t{static_cast<uint16_t>(ticks - 1)} << 16;
   }
 
   void greet(const WireFrame& frame) {
@@ -198,7 +210,10 @@ class Board : private BoardVoice<Hardware> {
       decoder_.set_motors(agrees ? hello.motors : uint8_t{0});
       return send_hello_reply();
     }
-    if (!is_set_up_) set_up(hardware_, PinSetup{});
+    if (!is_set_up_) {
+      PinSetup usual;
+      take_on(usual);
+    }
     is_set_up_ = false;
     // A host that dislikes the answer will not go on. Until the two agree there are no segments.
     motors_ = agrees && hello.motors <= identity_.motors && hello.motors <= most_motors ? hello.motors : uint8_t{0};
@@ -213,11 +228,11 @@ class Board : private BoardVoice<Hardware> {
     executed_ = frame.sequence;
     owed_ = 0;
     trusted_ = true;
-    silence_.forget_off();
+    silence_.begin();
     manual_ = Manual::off;
     send_hello_reply();
     // Not while the button is still pressed.
-    if ((inputs_ & input_emergency_stop) != 0) stop_at_once(FaultReason::emergency_stop);
+    if ((inputs_ & stopping_at_rest(alarms_of(hardware_))) != 0) stop_at_once(inputs_);
   }
   void enable() {
     if ((inputs_ & input_emergency_stop) == 0) passo::enable(hardware_);
@@ -272,9 +287,12 @@ class Board : private BoardVoice<Hardware> {
   [[gnu::noinline]] void tell_status(uint8_t motors, uint8_t question) {
     keep_up(hardware_);
     unsigned state = watch_.state();
-    if (trusted_) state |= board_trusted;
+    if (player_.slipped()) {
+      state |= board_slipped;
+    } else if (trusted_) {
+      state |= board_trusted;
+    }
     if (!idle()) state |= board_moves;
-    if (player_.slipped()) state |= board_slipped;
     if (list_.gathering()) state |= board_replaces;
     if (manual()) state |= board_manual;
     if (has_encoder(hardware_)) state |= board_encodes;
@@ -286,7 +304,7 @@ class Board : private BoardVoice<Hardware> {
                                        .state = static_cast<uint8_t>(state),
                                        .reset = identity_.reset,
                                        .motors = motors_,
-                                       .inputs = static_cast<uint16_t>(inputs_ | silence_.bit()),
+                                       .inputs = static_cast<uint16_t>(inputs_ | silence_.bits()),
                                        .answers = question};
     for (uint8_t motor = 0; motor < motors && motor < most_motors; ++motor) {
       breathe();
@@ -374,7 +392,11 @@ class Board : private BoardVoice<Hardware> {
       if (!list_.gathering()) silence_.forget_off();
     }
     accept();
-    if (list_.gathering()) add_to_sums(frame);
+    if (list_.gathering()) {
+      add_to_sums(frame);
+    } else if (list_.empty()) {
+      from_rest_ = static_cast<uint8_t>(item.number);
+    }
     list_.append();
     breathe();
     if (list_.gathering()) return;
@@ -396,13 +418,13 @@ class Board : private BoardVoice<Hardware> {
   static constexpr WireError no_error = WireError{};
   // Puts the gathered items in place, if they are what was sent and come in time.
   WireError complete() {
-    WireError wrong = silence_.bit() != 0 ? WireError::silent_host : no_error;
+    WireError wrong = (silence_.bits() & outputs_timed_out) != 0 ? WireError::silent_host : no_error;
     if (!sums_.is_nothing()) wrong = WireError::wrong_sums;
     if (wrong != no_error) {
       list_.drop_replacement();
       return wrong;
     }
-    return list_.template complete<Breath>(executed_, begun_) ? no_error : WireError::too_late;
+    return list_.template complete<Breath>(executed_, begun_, from_rest_) ? no_error : WireError::too_late;
   }
   void accept() {
     ++expected_;
@@ -416,9 +438,18 @@ class Board : private BoardVoice<Hardware> {
     breathe();
     auto& item = list_.at(static_cast<uint8_t>(begun_ - 1));
     const uint16_t events = item.segment.events;
+    if (begins && static_cast<uint8_t>(item.number) == from_rest_) begin_from_rest(events);
     if (events == 0) return player_.pass(item.outputs());
     if (item.segment.form == 0 && item.segment.bend == 0 && events <= longest_part) return player_.load(item.segment);
     load_part(item.segment, begins);
+  }
+  // The motors rest before the item begun last. Outputs need no time: the motors rest before the item after them, too.
+  void begin_from_rest(uint16_t events) {
+    if (events == 0) {
+      ++from_rest_;
+    } else if constexpr (requires { player_.begin_from_rest(); }) {
+      player_.begin_from_rest();
+    }
   }
   [[gnu::noinline]] void load_part(Segment& segment, bool begins) {
     parts_.take(segment, begins);
@@ -488,10 +519,12 @@ class Board : private BoardVoice<Hardware> {
   uint16_t expected_ = 0;  // number of the next frame; the wire has its low byte
   uint16_t executed_ = 0;  // number of the last item done
   uint8_t owed_ = 0;       // items executed and other news since the last report
+  uint8_t from_rest_ = 0;  // low byte of the number of the item that came last behind an item after which motors rest
   ItemSums sums_;          // of the replacement being gathered, so far
   HostSilence silence_;
-  bool complained_ : 1 = false, trusted_ : 1 = true, is_set_up_ : 1 = false;  // in one byte: a chip has none to spare
-  Manual manual_ = Manual::off;
+  // In one byte: a chip has none to spare.
+  bool complained_ : 1 = false, trusted_ : 1 = true, is_set_up_ : 1 = false;
+  Manual manual_ : 2 = Manual::off;
   uint16_t inputs_ = 0;
   int32_t positions_[most_motors] = {};  // at the end of the last segment
   InputWatch<most_motors> watch_;

@@ -1,7 +1,8 @@
 // What a Board needs of its hardware, and what it does where optional parts are missing. A type with
 //   void step(uint8_t stepped, uint8_t directions);   motors in `stepped` make a step; those in `directions` step down
 //   void outputs(const BoardOutputs&);
-//   void send(uint8_t byte);                          to the host
+//   void send(uint8_t byte);                          to the host; or
+//   uint8_t* space(); void put(uint8_t size);         where the next frame to the host is put together; sends it
 //   void enable();                                    optional: lets the motors move again after a stop released them
 //   bool switch_off(uint8_t switches);                optional: switches these outputs (bits of OutputSwitch) off, at
 //                                                     rest; true if one was on
@@ -11,9 +12,10 @@
 //   bool can_watch(uint8_t limits);                   optional: whether it can watch several limit switches at once
 //   static void breathe();                            optional: called between two pieces of work
 //   static void keep_up();                            optional: breathes, and makes events for the timer
-//   static int32_t high_product(int32_t, int32_t);    optional: that of wire/segment_parts.hpp, faster
-//   uint8_t room();                                   optional: the number of bytes that may be sent now
-//   bool has_encoder(); SpindleCount spindle();       optional, both: an encoder at the spindle
+//   static void slice();                              optional: the same where it is needed; between two bytes of a
+//   frame static int32_t high_product(int32_t, int32_t);    optional: that of wire/segment_parts.hpp, faster uint8_t
+//   room();                                   optional: the number of bytes that may be sent now bool has_encoder();
+//   SpindleCount spindle();       optional, both: an encoder at the spindle
 //
 // Portable.
 #pragma once
@@ -35,6 +37,18 @@ struct BreathOf {
   { return Hardware::high_product(a, b); }
   [[gnu::always_inline]] void operator()() const {
     if constexpr (requires { Hardware::breathe(); }) Hardware::breathe();
+  }
+};
+
+// Called at each byte of a frame that is put together: like keep_up(), but cheap where there is nothing to do.
+template <class Hardware>
+struct SliceOf {
+  [[gnu::always_inline]] void operator()() const {
+    if constexpr (requires { Hardware::slice(); }) {
+      Hardware::slice();
+    } else {
+      BreathOf<Hardware>{}();
+    }
   }
 };
 
@@ -70,10 +84,11 @@ template <class Hardware>
 
 // Lets the motors go if the host has been silent for as long as the setup says. True if it does.
 template <class Hardware>
-[[gnu::always_inline]] inline bool lets_go(Hardware& hardware, const HostSilence& silence) {
+[[gnu::always_inline]] inline bool lets_go(Hardware& hardware, HostSilence& silence) {
   if constexpr (requires { hardware.release(); }) {
     if (!silence.is_over(hardware.drivers_rest())) return false;
     hardware.release();
+    silence.note_let_go();
     return true;
   }
   return false;

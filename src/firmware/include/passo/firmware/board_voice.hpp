@@ -19,19 +19,21 @@ class BoardVoice {
                            static_cast<uint8_t>(frame_overhead + payload_size(static_cast<uint8_t>(type), motors)));
   }
 
-  // Two functions of their own: a frame is large for a chip's stack, and two must never be there at once.
-  template <class Message>
-  [[gnu::noinline]] void send(const Message& message) {
-    uint8_t frame[largest_frame];
-    put_on_line(frame, encode<BreathOf<Hardware>>(message, sent_++, frame));
+  // Functions of their own. A frame is large for a chip's stack: where the line has room for whole frames, it is put
+  // together there.
+  template <class Message, class... More>
+  [[gnu::noinline]] void send(const Message& message, More... more) {
+    if constexpr (requires { hardware_.space(); }) {
+      hardware_.put(encode<SliceOf<Hardware>>(message, more..., sent_++, hardware_.space()));
+    } else {
+      uint8_t frame[largest_frame];
+      const uint8_t size = encode<SliceOf<Hardware>>(message, more..., sent_++, frame);
+      for (uint8_t i = 0; i < size; ++i) hardware_.send(frame[i]);
+    }
   }
   template <class Message>
-  [[gnu::noinline]] void send_for_motors(const Message& message, uint8_t motors) {
-    uint8_t frame[largest_frame];
-    put_on_line(frame, encode<BreathOf<Hardware>>(message, motors, sent_++, frame));
-  }
-  void put_on_line(const uint8_t* frame, uint8_t size) {
-    for (uint8_t i = 0; i < size; ++i) hardware_.send(frame[i]);
+  void send_for_motors(const Message& message, uint8_t motors) {
+    send(message, motors);
   }
 
   Hardware& hardware_;

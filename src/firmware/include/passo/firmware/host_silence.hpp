@@ -31,18 +31,24 @@ class HostSilence {
   // The host has been silent for so many tenths of a second; never for 0.
   bool is_over(uint8_t allowed) const { return allowed != 0 && tenths_ >= allowed; }
 
+  // A host has said hello.
+  void begin() { off_ = let_go_ = false; }
   // Outputs were switched off, and no host has sent outputs since.
   void note_off() { off_ = true; }
   void forget_off() { off_ = false; }
-  // That, as a bit of a status's inputs.
-  uint16_t bit() const { return off_ ? outputs_timed_out : uint16_t{0}; }
+  // The drivers were switched off, and no host has said hello since.
+  void note_let_go() { let_go_ = true; }
+  // Both, as bits of a status's inputs.
+  uint16_t bits() const {
+    return static_cast<uint16_t>((off_ ? outputs_timed_out : 0) | (let_go_ ? drivers_timed_out : 0));
+  }
 
  private:
   static constexpr uint8_t most = 0xFF;
 
   uint8_t tenths_ = 0;  // of a second, since the host was heard
   Silence allowed_;     // as the last session said
-  bool off_ = false;
+  bool off_ : 1 = false, let_go_ : 1 = false;
 };
 
 }  // namespace passo

@@ -116,9 +116,10 @@ class PlayList {
   bool gathered() const { return staged_.front != none && staged_.missing == 0; }
   // Puts the replacement in place. `executed` is the last item that was popped. The first `begun` items are being
   // played or prepared for the timer, and stay. Returns false and changes nothing if an item after the one to replace
-  // after has begun. This is the longest work of all, so Pause{}() is called between its parts.
+  // after has begun. What the list holds ends at rest: if nothing is replaced, `from_rest` becomes the low byte of the
+  // number of the first new item. This is the longest work of all, so Pause{}() is called between its parts.
   template <class Pause = NoPause>
-  bool complete(uint16_t executed, uint8_t begun) {
+  bool complete(uint16_t executed, uint8_t begun, uint8_t& from_rest) {
     uint8_t slot = front_;
     uint8_t place = 1;
     for (; slot != none && slots_[slot].number != staged_.after; slot = slots_[slot].next) {
@@ -134,7 +135,11 @@ class PlayList {
     }
     const uint8_t kept = slot == none ? uint8_t{0} : place;
     uint8_t& end = slot == none ? front_ : slots_[slot].next;
-    if (end != none) give_back(end, last_, static_cast<uint8_t>(size_ - kept));
+    if (end != none) {
+      give_back(end, last_, static_cast<uint8_t>(size_ - kept));
+    } else {
+      from_rest = static_cast<uint8_t>(slots_[staged_.front].number);
+    }
     end = staged_.front;
     last_ = staged_.last;
     size_ = static_cast<uint8_t>(kept + staged_.count);

@@ -35,9 +35,10 @@ class Player {
   void restart(uint8_t motors) { *this = Player(motors); }
 
   bool done() const { return left_ == 0; }
-  // Whether since restart() an event could not be made in time, so that all later ones were late. Never here: each
-  // event is made when it is due.
-  bool slipped() const { return false; }
+  // Whether since restart() an event could not be made in time, so that all later ones were late. Here each event is
+  // made when it is due, unless somebody says that it was not.
+  bool slipped() const { return slipped_; }
+  void slip() { slipped_ = true; }
   uint8_t directions() const { return segment_.directions; }
 
   // Whole ticks from the last event to the next. Only when not done(), once for each event.
@@ -86,6 +87,7 @@ class Player {
   uint8_t motors_;
   uint8_t left_ = 0;
   uint8_t finished_ = 0;  // items done and not forgotten yet
+  bool slipped_ = false;
   // Half a step and half a tick: with these, truncation below means rounding outside.
   uint16_t accumulators_[max_motors] = {0x8000, 0x8000, 0x8000, 0x8000, 0x8000, 0x8000, 0x8000, 0x8000};
   uint16_t at_start_[max_motors] = {};  // as they were at the start of the segment

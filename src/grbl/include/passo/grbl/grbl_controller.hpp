@@ -60,6 +60,7 @@ enum class GrblAlarm : int {
   homing_stopped = 6,
   homing_no_release = 8,
   homing_no_switch = 9,
+  motor_fault = 17,  // as grblHAL numbers it
 };
 
 class GrblController {
@@ -147,6 +148,7 @@ class GrblController {
   void end_probe();
   void begin_homing();
   void end_reset();
+  void raise_alarm_of_board();
   void raise(GrblAlarm alarm);
   void stop_for(Waits waits);
 

@@ -21,7 +21,9 @@ namespace passo {
 enum class ResumeRefusal : std::uint8_t {
   board_reset,    // the board has restarted since
   other_session,  // another host has said hello to the board since
+  session_ended,  // a person has moved the machine by the board's keypad, or a host has said hello and nothing else
   not_trusted,    // the board has stopped its motors at once
+  drivers_off,    // the board has switched the drivers off
   rest_unknown,   // the journal does not know where the board rests
   path_changed,   // the program's path has no such place
   counts_differ,  // the motors stand elsewhere

@@ -116,6 +116,8 @@ class BoardSession final : public Link {
   std::uint16_t take_pressed() { return std::exchange(pressed_, std::uint16_t{0}); }
   // The inputs that are on now, as far as the board has told.
   std::uint16_t inputs() const { return inputs_; }
+  // After LinkError::stopped: the inputs that stopped the motors, as bits of BoardInput. 0: the board does not know.
+  std::uint16_t stopped_by() const { return stopped_by_; }
   Seconds now() const override { return port_.elapsed(); }
   std::optional<LinkError> error() const override { return error_; }
   void fail(LinkError error) override { error_ = error_.value_or(error); }
@@ -128,6 +130,9 @@ class BoardSession final : public Link {
   bool forget_shifts() { return status_ && twins_.forget_shifts(status_->positions); }
   // What the board cannot do of the setup in the greeting, after LinkError::cannot_set_up.
   PinSetup undone_setup() const;
+  // The times that the board gives its step and direction pins, and those that the greeting asked for.
+  const StepTiming& timing() const { return set_up_.timing; }
+  const StepTiming& wanted_timing() const { return setup_.timing; }
   // The number of motors in the hello; 0 before the hello.
   std::uint8_t motors() const { return motors_; }
   // The board's answer to the hello. Empty: the board has not answered.
@@ -161,7 +166,7 @@ class BoardSession final : public Link {
   void say_hello();
   void say_session();
   void take(const PinSetup& setup);
-  bool is_set_up() const { return set_up_ == setup_; }
+  bool is_set_up() const;
   void look_at_greeting();
   bool hear(Seconds most);
   bool expects() const;
@@ -176,6 +181,7 @@ class BoardSession final : public Link {
   void take(const Credit& credit);
   void take(const BoardStatus& status);
   void take(const ErrorReport& error);
+  void take(const Fault& fault);
   void take(const Captured& captured);
   void take(const Turned& turned);
   void settle(Question answered);
@@ -245,6 +251,7 @@ class BoardSession final : public Link {
   Seconds unanswered_since_{0};
   std::uint16_t inputs_ = 0;
   std::uint16_t pressed_ = 0;
+  std::uint16_t stopped_by_ = 0;
   Seconds answer_time_{0};
   bool news_ = false;          // since poll() began
   std::vector<Frame> frames_;  // the frames of a replacement while it is put together
@@ -261,6 +268,10 @@ class BoardSession final : public Link {
   std::uint64_t frames_repeated_ = 0;
 };
 
+// Whether all times are as long as needed, and events as close.
+bool suffices(const StepTiming& given, const StepTiming& needed);
+// What a board makes that does not suffice, as the object of a sentence. `clock`: its ticks a second.
+std::string words_of_timing(const StepTiming& given, const StepTiming& needed, double clock);
 // The pins of a setup, as words: "door, limit 4". Limits are counted from 1.
 std::string words_of_setup(const PinSetup& setup);
 

@@ -24,10 +24,13 @@ enum class LinkError : std::uint8_t {
   wrong_version,   // the board speaks another protocol
   too_few_motors,  // the board has fewer motors than the machine
   cannot_set_up,   // the board cannot do what the host says of its pins
+  cannot_time,     // the board cannot make its step pulses as long, or its events as fast, as the host needs
   cannot_watch,    // the board cannot watch these limit switches at once
   refused,         // the board did not take what was sent
   was_reset,       // the board has forgotten the session, and with it where the motors are
   stopped,         // the board has stopped its motors at once
+  drivers_off,     // the board has switched the drivers off, because it has not heard the host for so long
+  stood_still,     // the board could not make its events in time: motors stopped amid motion
   too_few_places,  // the board cannot hold enough items to bring the machine to rest
   manual,          // a person moves the machine by the board's keypad, or has done so since the hello
   no_encoder,      // something is to follow the spindle, and the board has no encoder

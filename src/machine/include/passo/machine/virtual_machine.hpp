@@ -46,6 +46,8 @@ class VirtualMachine final : public BoardPort {
   // Says how the plant's switches and drivers are connected to the board's pins, at the start. A host that says nothing
   // of it then finds closed switches open.
   void wire(const PinSetup& wiring);
+  // As a board that cannot make its events in time: the next event, and all after it, come so much later. In motion.
+  void stand_still(Ticks time);
   // As its reset button: the board forgets all, the motors stop where they are, and the outputs are off.
   void reset_board();
 
@@ -89,11 +91,15 @@ class VirtualMachine final : public BoardPort {
     void send(std::uint8_t byte) { to_host.push_back(byte); }
     void enable() { drivers_on = true; }
     void release() { drivers_on = false; }
+    // Its pulses are as long as wanted, and cost no events.
     PinSetup set_up(const PinSetup& wanted) {
       is_new_setup = true;
-      return setup = wanted;
+      setup = wanted;
+      setup.timing.event_ticks = 0;
+      return setup;
     }
     std::uint8_t drivers_rest() const { return setup.drivers_rest; }
+    std::uint16_t alarms() const { return setup.alarms; }
     static bool can_watch(std::uint8_t /*limits*/) { return true; }
     bool has_encoder() const { return plant->spindle().has_encoder(); }
     SpindleCount spindle() const;

@@ -69,6 +69,11 @@ struct SecondMotor {
 };
 
 // For a rotary axis degrees take the place of millimetres throughout.
+// The inputs of a board at which a drive may give its alarm: below 8 the pin of that limit switch, then those of
+// buttons.
+inline constexpr int alarm_at_feed_hold = 8;
+inline constexpr int alarm_at_cycle_start = 9;
+
 struct AxisDescription {
   Axis axis = Axis::x;
   double steps_per_unit = 0;  // motor steps a millimetre (rotary axis: a degree); always positive
@@ -84,6 +89,7 @@ struct AxisDescription {
   std::optional<ScrewDescription> screw = {};
   std::optional<SecondMotor> second = {};
   std::optional<EncoderDescription> encoder = {};
+  std::optional<int> alarm_input = {};  // where its drive gives its alarm; several axes may share an input
 
   // The limit switches by which the axis is homed: bit i is switch i. Only for an axis with `home`.
   std::uint8_t home_switches() const {
@@ -105,10 +111,11 @@ struct AxisDescription {
 };
 
 struct BoardDescription {
-  Hertz clock{16e6};               // ticks a second
-  Hertz highest_event_rate{50e3};  // events a second
-  Seconds step_pulse{2.5e-6};
-  bool step_pulse_is_given = false;  // true: a board whose pulses are shorter does not suit
+  Hertz clock{16e6};                 // ticks a second
+  Hertz highest_event_rate{50e3};    // events a second
+  Seconds step_pulse{2.5e-6};        // the least that the drivers need, as the next two
+  Seconds direction_setup{0.65e-6};  // from a change of the direction to the next step
+  Seconds direction_hold{0.65e-6};   // from a step's beginning to a change of the direction
   int held_items = 240;              // places in the list of the virtual board; a real board tells its own number
   std::optional<Excitation> windings = {};  // the board's own pins switch the motors' windings; empty: drivers do
   bool held_items_are_given = false;        // true: `passo check` says what a line to a board with so many places costs
@@ -155,6 +162,8 @@ struct PinsDescription {
   bool emergency_stop_high = false;
   bool feed_hold_high = false;
   bool cycle_start_high = false;
+  Seconds filter{
+      100e-6};  // for so long a switch must have kept its new state before that counts, in whole microseconds
   bool driver_enable_high = false;
   // True: on when the pin is low.
   bool step_low = false;

@@ -70,6 +70,8 @@ struct BoardSummary {
   // Only for a board on a line. The motion that such a board holds always ends at rest.
   int held_items = 0;                        // places in its list; 0: no line
   int rests = 0;                             // how often the board came to rest because no more motion had come in time
+  bool stood_still = false;                  // amid motion, because its events came too late: the run failed
+  std::uint32_t stood_still_line = 0;        // of the program; 0: not known
   std::optional<Seconds> without_line = {};  // the planned time; empty: not known, or the run was changed on the way
   Seconds cost_of_line() const { return end > *without_line ? end - *without_line : Seconds(0); }
 };

@@ -126,6 +126,7 @@ class MachineSession {
   Answer take(request::Wake& wake);
   std::optional<Refusal> refuse(MachineEvent event) const;
   Refusal why_not() const;
+  std::string alarm_words() const;
   std::optional<Refusal> refuse_way(const Point& way) const;
   Answer at_once();
   Answer begin(MachineEvent event, std::unique_ptr<Work> work);
@@ -161,9 +162,11 @@ class MachineSession {
   void put_overrides_on(MotionDrive& drive) const;
   void note_tails();
   void mind_board();
+  std::string words_of(LinkError error) const;
   void look_at_panel();
   void look_at_place();
   void hear_place();
+  std::string words_of_stop() const;
   bool watches_counts() const { return options_.over_a_line || options_.tells_place; }
 
   void move_to(MachineEvent event);

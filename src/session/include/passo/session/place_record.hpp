@@ -40,7 +40,9 @@ enum class PlaceDoubt : std::uint8_t {
   other_machine,    // the record is of another machine file, or the file has changed
   board_reset,      // the board was reset or switched off
   other_session,    // another host has said hello to the board
+  session_ended,    // a person has moved the machine by the board's keypad, or a host has said hello and nothing else
   stopped_at_once,  // the motors may have lost steps
+  drivers_off,      // the drivers were off, so the axes may have moved
 };
 // A sentence without a full stop.
 std::string_view message_of(PlaceDoubt doubt);

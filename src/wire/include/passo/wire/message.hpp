@@ -39,6 +39,19 @@ struct Session {
   Silence silence = {};
 };
 
+// What the drivers ask of the step and direction pins, in sixteenths of a microsecond. The host says the least that it
+// needs, and the board answers what it gives. Longer times may leave the board fewer events a second.
+struct StepTiming {
+  uint8_t pulse = 0;         // how long a step pulse lasts
+  uint8_t set_up = 0;        // from a change of the direction to the edge that begins a step
+  uint8_t hold = 0;          // from the edge that begins a step to a change of the direction
+  uint16_t event_ticks = 0;  // the fewest ticks of the board's clock from event to event; 0: any number
+
+  friend constexpr bool operator==(const StepTiming& a, const StepTiming& b) {
+    return a.pulse == b.pulse && a.set_up == b.set_up && a.hold == b.hold && a.event_ticks == b.event_ticks;
+  }
+};
+
 // Host to board, before a hello: what is connected to the board's pins. It counts for that hello, and until a hello
 // without one. Board to host, as the answer: the setup that the board now has. What it cannot do is left out.
 //
@@ -49,9 +62,13 @@ struct PinSetup {
   uint8_t steps = 0;         // bit m: the step pin of motor m
   uint8_t outputs = 0;       // bits: OutputSwitch, and inverted_enable
   uint8_t drivers_rest = 0;  // after so many tenths of a second without host or motion drivers are off; 0: never
+  StepTiming timing = {};
+  uint16_t alarms = 0;  // bits of BoardInput: these inputs are alarms of drives, which stop the motors
+  uint8_t filter = 0;   // microseconds for which a switch must have kept its new state before that counts
 
   friend constexpr bool operator==(const PinSetup& a, const PinSetup& b) {
-    return a.inputs == b.inputs && a.steps == b.steps && a.outputs == b.outputs && a.drivers_rest == b.drivers_rest;
+    return a.inputs == b.inputs && a.steps == b.steps && a.outputs == b.outputs && a.drivers_rest == b.drivers_rest &&
+           a.timing == b.timing && a.alarms == b.alarms && a.filter == b.filter;
   }
 };
 inline constexpr uint8_t inverted_enable = 0x10;
@@ -127,6 +144,8 @@ enum BoardInput : uint16_t {
 };
 // A further bit in the inputs of a status: the host was silent, outputs are off, and no motion is taken before outputs.
 inline constexpr uint16_t outputs_timed_out = 0x2000;
+// Another one: the host was silent and the board has switched the drivers off, so the place is not trusted.
+inline constexpr uint16_t drivers_timed_out = 0x4000;
 // Further bits in the input of a captured.
 inline constexpr uint16_t captured_kept = 0x4000;      // this answers a question
 inline constexpr uint16_t captured_released = 0x8000;  // the input has gone off
@@ -179,6 +198,7 @@ struct Turned {
 enum class FaultReason : uint8_t { emergency_stop = 1, limit = 2, driver = 3 };
 struct Fault {
   FaultReason reason = FaultReason::emergency_stop;
+  uint16_t inputs = 0;  // bits of BoardInput: those that stopped the motors; 0: they are off again
   uint16_t event = 0;
   uint16_t executed = 0;
 };
@@ -186,10 +206,10 @@ struct Fault {
 // Board to host, as an answer: more of its properties.
 struct About {
   uint16_t firmware = 0;            // its own version, hundreds and units
-  uint32_t highest_event_rate = 0;  // events a second
+  uint32_t highest_event_rate = 0;  // events a second, with the shortest step pulses
   uint32_t baud = 0;                // the highest baud rate of its line
   char name[16] = {};               // of the board; filled up with zeros
-  uint8_t step_pulse = 0;           // how long a step pulse lasts, in sixteenths of a microsecond; 0: as wanted
+  uint8_t step_pulse = 0;           // the shortest step pulse, in sixteenths of a microsecond; 0: it makes none
 };
 
 // Each of these writes one frame to `frame`, which must have room for largest_frame bytes, and returns its size. Pause
@@ -237,6 +257,12 @@ uint8_t encode(const PinSetup& setup, uint8_t sequence, uint8_t* frame) {
   encoder.put8(setup.steps);
   encoder.put8(setup.outputs);
   encoder.put8(setup.drivers_rest);
+  encoder.put8(setup.timing.pulse);
+  encoder.put8(setup.timing.set_up);
+  encoder.put8(setup.timing.hold);
+  encoder.put16(setup.timing.event_ticks);
+  encoder.put16(setup.alarms);
+  encoder.put8(setup.filter);
   return encoder.finish();
 }
 
@@ -303,6 +329,7 @@ template <class Pause = NoPause>
 uint8_t encode(const Fault& fault, uint8_t sequence, uint8_t* frame) {
   Encoder<Pause> encoder(frame, MessageType::fault, sequence);
   encoder.put8(static_cast<uint8_t>(fault.reason));
+  encoder.put16(fault.inputs);
   encoder.put16(fault.event);
   encoder.put16(fault.executed);
   return encoder.finish();
@@ -380,7 +407,13 @@ inline void decode(const WireFrame& frame, PinSetup& setup) {
   setup = {.inputs = load16(frame.payload),
            .steps = frame.payload[2],
            .outputs = frame.payload[3],
-           .drivers_rest = frame.payload[4]};
+           .drivers_rest = frame.payload[4],
+           .timing = {.pulse = frame.payload[5],
+                      .set_up = frame.payload[6],
+                      .hold = frame.payload[7],
+                      .event_ticks = load16(frame.payload + 8)},
+           .alarms = load16(frame.payload + 10),
+           .filter = frame.payload[12]};
 }
 
 inline void decode(const WireFrame& frame, Replace& replace) {
@@ -426,8 +459,9 @@ inline void decode(const WireFrame& frame, uint8_t motors, Captured& captured) {
 
 inline void decode(const WireFrame& frame, Fault& fault) {
   fault = {.reason = static_cast<FaultReason>(frame.payload[0]),
-           .event = load16(frame.payload + 1),
-           .executed = load16(frame.payload + 3)};
+           .inputs = load16(frame.payload + 1),
+           .event = load16(frame.payload + 3),
+           .executed = load16(frame.payload + 5)};
 }
 
 inline void decode(const WireFrame& frame, About& about) {

@@ -16,7 +16,7 @@
 namespace passo {
 
 inline constexpr uint8_t sync_byte = 0xA5;
-inline constexpr uint8_t protocol_version = 9;
+inline constexpr uint8_t protocol_version = 10;
 
 // Words of the extended Hamming code (8,4): three bits must be wrong before one type passes for another.
 enum class MessageType : uint8_t {
@@ -68,11 +68,11 @@ constexpr uint8_t payload_size(uint8_t type, uint8_t motors) {
     case MessageType::outputs: return 3;
     case MessageType::ask:
     case MessageType::credit: return 4;
-    case MessageType::session:
-    case MessageType::pin_setup:
-    case MessageType::fault: return 5;
+    case MessageType::session: return 5;
+    case MessageType::fault:
     case MessageType::replace:
     case MessageType::hello_reply: return 7;
+    case MessageType::pin_setup: return 13;
     case MessageType::turned: return 20;
     case MessageType::about: return 27;
     case MessageType::segment:

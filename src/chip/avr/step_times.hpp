@@ -1,0 +1,55 @@
+// StepTimes: how long the interrupt's step pulses are, how soon directions change behind them, and what that costs.
+//
+// Without padding a pulse is as long as the interrupt's own work. With padding it waits in a loop: so many cycles for
+// the first turn, three for each further one. While it waits nobody else works, so events must be as much further
+// apart.
+#pragma once
+
+#include "registers.hpp"
+#include <stdint.h>
+
+#include "passo/wire/message.hpp"
+
+namespace passo::chip {
+
+// In EECR: the interrupt pads its pulses, by as many turns as EEDR says.
+inline constexpr uint8_t padding_bit = 4;
+
+struct StepTimes {
+  uint8_t shortest_pulse;  // cycles, without padding
+  uint8_t first_padding;   // a pulse with one turn of the loop
+  uint8_t event_ticks;     // the fewest from event to event, without padding
+  uint8_t first_turn;      // from a pulse's end to the first change of a direction, at least
+  uint8_t last_turn;       // and to the last one, at most
+
+  static constexpr uint8_t cycles_a_turn = 3;
+
+  // Sets pulses at least as long as wanted, and as the hold time needs. Returns what the pins then have. At rest.
+  [[gnu::always_inline]] StepTiming set(const StepTiming& wanted) const {
+    uint8_t pulse = shortest_pulse;
+    uint8_t turns = 0;
+    const uint8_t held = wanted.hold > first_turn ? static_cast<uint8_t>(wanted.hold - first_turn) : uint8_t{0};
+    const uint8_t needed = wanted.pulse > held ? wanted.pulse : held;
+    if (needed > pulse) {
+      turns = 1;
+      for (pulse = first_padding; pulse < needed && pulse < longest_pulse; pulse += cycles_a_turn) ++turns;
+    }
+    Eedr::write(turns);
+    Eecr::write(turns != 0 ? 1 << padding_bit : 0);
+    const uint16_t padded = static_cast<uint16_t>(event_ticks + (pulse - shortest_pulse));
+    const uint16_t around_turn = static_cast<uint16_t>(pulse + last_turn);
+    uint16_t ticks = static_cast<uint16_t>(around_turn + wanted.set_up);
+    if (ticks < padded) ticks = padded;
+    const uint16_t set_up = static_cast<uint16_t>(ticks - around_turn);
+    return {.pulse = pulse,
+            .set_up = set_up > 0xff ? uint8_t{0xff} : static_cast<uint8_t>(set_up),
+            .hold = pulse > 0xff - first_turn ? uint8_t{0xff} : static_cast<uint8_t>(pulse + first_turn),
+            .event_ticks = ticks};
+  }
+
+ private:
+  // 11 microseconds: beyond that an interrupt would be longer than the UART can wait.
+  static constexpr uint8_t longest_pulse = 176;
+};
+
+}  // namespace passo::chip

@@ -1,0 +1,37 @@
+// Tells a switch that has moved from noise on its wire: a change counts only when it has lasted for a time. Portable.
+#pragma once
+
+#include <stdint.h>
+
+namespace passo {
+
+// Chip has
+//   static uint16_t inputs();       bits of BoardInput, set where a switch is on
+//   static uint8_t microseconds();  a clock that comes round after 128; a look may not take as long as that
+//   static uint8_t filter();        for how many microseconds a switch must stay in its new state
+//   static void breathe();          called between two looks
+
+// Those of the inputs in `moved` that go on to differ from `before` for that many microseconds. Looks at the pins again and
+// again, so it takes time only where a switch has truly moved. A function of its own: a chip has few registers.
+template <class Chip>
+[[gnu::noinline]] uint16_t stay_moved(uint16_t before, uint16_t moved, uint8_t microseconds) {
+  for (uint8_t last = Chip::microseconds(); moved != 0;) {
+    Chip::breathe();
+    const uint8_t passed = static_cast<uint8_t>(Chip::microseconds() - last) & 0x7f;
+    last = static_cast<uint8_t>(last + passed);
+    moved = static_cast<uint16_t>(moved & (Chip::inputs() ^ before));
+    if (passed >= microseconds) break;
+    microseconds = static_cast<uint8_t>(microseconds - passed);
+  }
+  return moved;
+}
+
+// The inputs now. Of those in `filtered`, one that differs from `before` counts only if it stays so.
+template <class Chip>
+uint16_t settled_inputs(uint16_t before, uint16_t filtered) {
+  const uint16_t now = Chip::inputs();
+  const uint16_t moved = static_cast<uint16_t>((now ^ before) & filtered);
+  return static_cast<uint16_t>(now ^ moved ^ stay_moved<Chip>(before, moved, Chip::filter()));
+}
+
+}  // namespace passo
