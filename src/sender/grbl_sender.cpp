@@ -21,6 +21,7 @@ constexpr Seconds longest_clearing{2};
 constexpr Seconds longest_spindle_start{30};
 constexpr std::size_t longest_reply = 4096;
 constexpr char soft_reset = 0x18;
+constexpr std::string_view homing_line = "$H\n";
 
 std::optional<int> read_code(std::string_view text) {
   const auto number = read_grbl_number(text);
@@ -117,6 +118,11 @@ void GrblSender::override_spindle(int percent) {
 void GrblSender::stop() {
   if (stops() || stopped()) return;
   waiting_.clear();
+  // Homing hears no hold, and the place is not known anyway.
+  if (!unanswered_.empty() && unanswered_.front().text == homing_line) {
+    act(soft_reset);
+    return enter(Stage::dropping);
+  }
   enter(Stage::braking);
   asked_ = Seconds(-1);
   reported_ = Seconds(-1);
@@ -161,8 +167,10 @@ GrblFault GrblSender::fault_between_lines(std::string code, std::string message)
 void GrblSender::mind_silence() {
   const Seconds since = std::max(heard_, stage_since_);
   if (now_ - since < longest_silence + silence_of_oldest()) return;
-  end_with(fault_between_lines("grbl.no-answer",
-                               fmt::format("the machine has not answered for {:.0f} s", (now_ - since).value())));
+  const char* const hint =
+      greets() ? ": it is off, has another rate (@BAUD), or is in an alarm that only a reset ends" : "";
+  end_with(fault_between_lines(
+      "grbl.no-answer", fmt::format("the machine has not answered for {:.0f} s{}", (now_ - since).value(), hint)));
 }
 
 // Bytes that a bad line has swallowed are never answered, and neither is a line by a machine that needs a reset.

@@ -28,9 +28,10 @@ class StrictGrbl {
   std::function<std::string()> own_report = {};  // another form of its reports
   double spindle_time = 0;                       // s, of M3
   bool has_switches = true;                      // for $H
-  double block_time = 0.05;                      // s, of each motion
-  std::string refused = {};                      // this line gets error:20
-  std::string trips = {};                        // at this line a limit switch closes
+  bool homes_for_ever = false;
+  double block_time = 0.05;  // s, of each motion
+  std::string refused = {};  // this line gets error:20
+  std::string trips = {};    // at this line a limit switch closes
   bool loses_next_line_end = false;
 
   std::size_t most_waiting() const { return most_waiting_; }
@@ -140,6 +141,8 @@ class StrictGrbl {
       output_ += settings + "ok\r\n";
     } else if (line == "$#") {
       output_ += offsets + "ok\r\n";
+    } else if (line == "$H" && homes_for_ever) {
+      state = "Home";
     } else if (line == "$H") {
       state = has_switches ? "Idle" : "Alarm";
       output_ += has_switches ? "ok\r\n" : "ALARM:9\r\n";

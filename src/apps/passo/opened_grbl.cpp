@@ -44,8 +44,9 @@ std::unique_ptr<OpenedGrbl> OpenedGrbl::open(const std::string& board, int& code
 }
 
 int OpenedGrbl::give_up() const {
-  if (sender_.fault()) return fail(exit_failed, fmt::format("{}: {}", board_, words_of(*sender_.fault(), "")));
-  return exit_of_signal();
+  const auto& fault = sender_.fault();
+  const int failed = fault ? fail(exit_failed, fmt::format("{}: {}", board_, words_of(*fault, ""))) : exit_failed;
+  return fault && interrupted_by() == 0 ? failed : exit_of_signal();
 }
 
 void OpenedGrbl::turn(Seconds most) {

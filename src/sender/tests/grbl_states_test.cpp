@@ -137,6 +137,30 @@ TEST(GrblStates, people_at_the_machine_have_their_time_and_are_told_what_to_do) 
   }
 }
 
+// It would go on for seconds after a hold that it does not hear.
+TEST(GrblStates, homing_is_reset_at_once) {
+  GrblPair pair;
+  ASSERT_TRUE(pair.greet());
+  pair.machine.homes_for_ever = true;
+  pair.sender.add("$H", 0, Seconds(300));
+  ASSERT_TRUE(pair.play([&] { return pair.machine.state == "Home"; }));
+  pair.sender.stop();
+  EXPECT_EQ(pair.sender.take_bytes(pair.now).find('\x18'), 0U);
+  pair.machine.receive("\x18");
+  ASSERT_TRUE(pair.play([&] { return pair.sender.stopped(); }));
+  EXPECT_LT(pair.now, Seconds(5));
+}
+
+// Which takes at most five minutes; grblHAL reports its state meanwhile, Grbl is silent.
+TEST(GrblStates, homing_that_does_not_end_is_an_error) {
+  GrblPair pair;
+  ASSERT_TRUE(pair.greet());
+  pair.machine.homes_for_ever = true;
+  pair.sender.add("$H", 0, Seconds(300));
+  ASSERT_TRUE(pair.play_for(Seconds(400), [&] { return pair.sender.stopped(); }));
+  EXPECT_EQ(pair.sender.fault()->code, "grbl.no-answer");
+}
+
 TEST(GrblStates, a_hold_of_ours_waits_for_nobody) {
   GrblPair pair;
   ASSERT_TRUE(pair.greet());

@@ -85,7 +85,7 @@ class GrblSender {
   void override_rapids(int percent);
   void override_spindle(int percent);
   // Brakes on the path, and drops what the machine holds. stopped() tells when that is done; the place is then known
-  // still, if the machine has told that it rests.
+  // still, if the machine has told that it rests. Homing is reset at once.
   void stop();
   bool stops() const { return stage_ == Stage::braking || stage_ == Stage::dropping; }
   bool stopped() const { return stage_ == Stage::stopped; }
