@@ -1,7 +1,6 @@
 #include "passo/sender/grbl_sender.hpp"
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 #include <utility>
 
@@ -16,16 +15,24 @@ constexpr Seconds longest_braking{10};
 constexpr Seconds longest_drop{3};
 // A machine that is idle for so long, with lines that it has not answered, has not got them.
 constexpr Seconds longest_idle{2};
+// Another sender's reports may come all the time.
+constexpr Seconds longest_clearing{2};
+// A spindle is waited for in the state Idle, by grblHAL and FluidNC.
+constexpr Seconds longest_spindle_start{30};
 constexpr std::size_t longest_reply = 4096;
 constexpr char soft_reset = 0x18;
+constexpr std::string_view homing_line = "$H\n";
 
-std::optional<int> number_after(std::string_view line, std::string_view head) {
-  if (!line.starts_with(head)) return {};
-  line.remove_prefix(head.size());
-  int value = 0;
-  const auto [end, error] = std::from_chars(line.data(), line.data() + line.size(), value);
-  if (error != std::errc() || end != line.data() + line.size()) return {};
-  return value;
+std::optional<int> read_code(std::string_view text) {
+  const auto number = read_grbl_number(text);
+  if (!number || std::abs(*number) > 1e6) return {};
+  return static_cast<int>(*number);
+}
+
+std::string_view without_blanks(std::string_view text) {
+  while (text.starts_with(' ')) text.remove_prefix(1);
+  while (text.ends_with(' ')) text.remove_suffix(1);
+  return text;
 }
 
 std::string without_end(std::string_view text) {
@@ -47,23 +54,49 @@ std::string steps_to(int& now, int wanted, char hundred, char ten_up) {
 
 }  // namespace
 
-bool GrblMachine::in_inches() const {
-  const auto found = settings.find(13);
-  return found != settings.end() && found->second != 0;
-}
-
-GrblSender::GrblSender(Seconds now) : now_(now), stage_since_(now), heard_(now) {}
+GrblSender::GrblSender(Seconds now) : now_(now), begun_(now), stage_since_(now), heard_(now) {}
 
 std::optional<Point> GrblSender::place() const {
   if (!report_) return {};
-  if (report_->machine_place) return *report_->machine_place * unit();
-  if (!report_->work_place || !offset_) return {};
-  return (*report_->work_place + *offset_) * unit();
+  if (report_->machine_place) return *report_->machine_place * machine_.unit();
+  if (!report_->work_place) return {};
+  if (offset_) return (*report_->work_place + *offset_) * machine_.unit();
+  // A machine whose reports ($10) tell no offset: from its own offsets.
+  const auto zero = machine_.work_zero();
+  if (!zero) return {};
+  return *report_->work_place * machine_.unit() + *zero;
+}
+
+void GrblSender::ask_for_offsets() {
+  if (machine_.settings.empty()) add("$$");
+  add("$#");
+  add("$G");
+}
+
+std::string GrblSender::alarm_words() const {
+  const bool has_number = report_ && report_->state == "Alarm" && report_->detail > 0;
+  return locked_by_.empty() && has_number ? words_of_alarm(report_->detail) : locked_by_;
+}
+
+std::string_view GrblSender::waits_for() const {
+  if (stage_ != Stage::ready || is_held_ || !report_) return {};
+  return words_of_grbl_wait(*report_);
 }
 
 void GrblSender::add(std::string text, std::uint32_t line, Seconds silence) {
+  if (text.starts_with('M')) silence = std::max(silence, longest_spindle_start);
   text += '\n';
   waiting_.push_back({.text = std::move(text), .line = line, .silence = silence});
+}
+
+void GrblSender::hold() {
+  is_held_ = true;
+  act('!');
+}
+
+void GrblSender::resume() {
+  is_held_ = false;
+  act('~');
 }
 
 bool GrblSender::at_rest() const {
@@ -85,20 +118,25 @@ void GrblSender::override_spindle(int percent) {
 void GrblSender::stop() {
   if (stops() || stopped()) return;
   waiting_.clear();
-  stage_ = Stage::braking;
-  stage_since_ = now_;
+  // Homing hears no hold, and the place is not known anyway.
+  if (!unanswered_.empty() && unanswered_.front().text == homing_line) {
+    act(soft_reset);
+    return enter(Stage::dropping);
+  }
+  enter(Stage::braking);
   asked_ = Seconds(-1);
   reported_ = Seconds(-1);
   act('!');
 }
 
 void GrblSender::lose() {
-  fail({.code = "grbl.line-lost",
-        .message = "the line is gone. The machine finishes what it holds, and then rests",
-        .first_line = first_held_line(),
-        .last_line = last_line_});
-  waiting_.clear();
-  stage_ = Stage::stopped;
+  end_with(
+      fault_between_lines("grbl.line-lost", "the line is gone. The machine finishes what it holds, and then rests"));
+}
+
+void GrblSender::enter(Stage stage) {
+  stage_ = stage;
+  stage_since_ = now_;
 }
 
 // What the machine may be executing: the planner's blocks that are not free. An arc takes many, so the line may be a
@@ -115,37 +153,81 @@ void GrblSender::fail(GrblFault fault) {
   if (!fault_) fault_ = std::move(fault);
 }
 
-Seconds GrblSender::patience() const {
-  return longest_silence + (unanswered_.empty() ? Seconds(0) : unanswered_.front().silence);
-}
-
-void GrblSender::mind_silence() {
-  const Seconds since = std::max(heard_, stage_since_);
-  if (now_ - since < patience()) return;
-  fail({.code = "grbl.no-answer",
-        .message = fmt::format("the machine has not answered for {:.0f} s", (now_ - since).value()),
-        .first_line = first_held_line(),
-        .last_line = last_line_});
+void GrblSender::end_with(GrblFault fault) {
+  fail(std::move(fault));
   waiting_.clear();
   stage_ = Stage::stopped;
 }
 
-// Bytes that a bad line has swallowed are never answered.
+GrblFault GrblSender::fault_between_lines(std::string code, std::string message) const {
+  return {
+      .code = std::move(code), .message = std::move(message), .first_line = first_held_line(), .last_line = last_line_};
+}
+
+void GrblSender::mind_silence() {
+  const Seconds since = std::max(heard_, stage_since_);
+  if (now_ - since < longest_silence + silence_of_oldest()) return;
+  const char* const hint =
+      greets() ? ": it is off, has another rate (@BAUD), or is in an alarm that only a reset ends" : "";
+  end_with(fault_between_lines(
+      "grbl.no-answer", fmt::format("the machine has not answered for {:.0f} s{}", (now_ - since).value(), hint)));
+}
+
+// Bytes that a bad line has swallowed are never answered, and neither is a line by a machine that needs a reset.
 void GrblSender::mind_lost_bytes() {
-  const bool is_idle = report_ && report_->state == "Idle";
-  if (!is_idle || unanswered_.empty()) {
+  const bool is_locked = report_->state == "Alarm";
+  const bool waits = !unanswered_.empty() || (is_locked && has_work_);
+  if ((report_->state != "Idle" && !is_locked) || !waits) {
     idle_since_ = now_;
     return;
   }
-  const Seconds since = std::max({idle_since_, unanswered_.front().sent, answered_});
+  Seconds since = std::max({idle_since_, told_, answered_});
+  if (!unanswered_.empty()) since = std::max(since, unanswered_.front().sent);
   // By its reports, not by the clock: a machine that is silent is not idle.
-  if (reported_ - since < longest_idle + unanswered_.front().silence) return;
+  if (reported_ - since < longest_idle + silence_of_oldest()) return;
+  if (is_locked && greets()) {
+    return end_with({.code = "grbl.locked",
+                     .message = "the machine is in an alarm and answers no line: reset it, by its button or its power",
+                     .first_line = 0,
+                     .last_line = 0});
+  }
+  if (is_locked) return end_with(fault_between_lines("grbl.alarm", "the machine is locked by an alarm"));
+  if (greets()) return end_with(fault_of_greeting());
+  const Line& oldest = unanswered_.front();
   fail({.code = "grbl.lost-bytes",
         .message = fmt::format("the machine is idle and has not answered \"{}\": bytes were lost on the line",
-                               without_end(unanswered_.front().text)),
-        .first_line = unanswered_.front().line,
-        .last_line = unanswered_.front().line});
+                               without_end(oldest.text)),
+        .first_line = oldest.line,
+        .last_line = oldest.line});
   stop();
+}
+
+// Whatever its state is: a machine that has something to do moves or answers.
+void GrblSender::mind_standstill() {
+  const bool has_nothing_to_do = unanswered_.empty() && (report_->state == "Idle" || report_->state == "Alarm");
+  if (has_nothing_to_do || !words_of_grbl_wait(*report_).empty()) progress_ = now_;
+  if (now_ - progress_ < longest_standstill + silence_of_oldest()) return;
+  fail(fault_between_lines(
+      "grbl.no-answer", fmt::format("the machine is in the state {}, and has neither moved nor answered for {:.0f} s",
+                                    report_->state, (now_ - progress_).value())));
+  stop();
+}
+
+GrblFault GrblSender::fault_of_greeting() const {
+  constexpr std::size_t most_shown = 60;
+  std::string words = "the machine tells no state";
+  if (report_) words = "the machine does not tell what it is";
+  if (report_ && !unanswered_.empty()) words += fmt::format(" (to \"{}\")", without_end(unanswered_.front().text));
+  const std::string& heard = last_line_heard_.empty() ? came_ : last_line_heard_;
+  const bool is_readable = std::ranges::all_of(heard, [](char letter) { return letter >= ' ' && letter <= '~'; });
+  if (!is_readable) {
+    words += ", and what it says is not readable: it may have another rate (@BAUD)";
+  } else if (!heard.empty()) {
+    words += fmt::format(", as Grbl 1.1 does. It said \"{}\"", heard.substr(0, most_shown));
+  } else {
+    words += ", as Grbl 1.1 does";
+  }
+  return {.code = "grbl.no-answer", .message = std::move(words), .first_line = 0, .last_line = 0};
 }
 
 void GrblSender::ask_for_status() {
@@ -159,42 +241,67 @@ void GrblSender::turn(Seconds now) {
   now_ = now;
   switch (stage_) {
     case Stage::waking:
-      if (now - stage_since_ < start_of_an_arduino) return;
-      stage_ = Stage::clearing;
-      stage_since_ = now;
-      urgent_ += '\n';  // ends a line that another sender has left
-      return;
     case Stage::clearing:
-      if (now - std::max(heard_, stage_since_) < quiet) return;
-      stage_ = Stage::asking;
-      stage_since_ = heard_ = now;
-      for (const char* question : {"$I", "$$", "$#"}) add(question);
-      return;
-    case Stage::asking:
-    case Stage::ready:
-      ask_for_status();
-      if (stage_ == Stage::asking && report_ && all_answered()) {
-        stage_ = Stage::ready;
-        stage_since_ = now;
-      }
-      mind_lost_bytes();
-      return mind_silence();
-    case Stage::braking: {
-      ask_for_status();
-      // A hold at rest, or nothing to hold. A dwell is no motion and is not held: it rests too.
-      const bool rests = report_ && reported_ > stage_since_ && (report_->rests() || report_->state == "Alarm");
-      if (!rests && now - stage_since_ < longest_braking) return;
-      rested_for_stop_ = rests;
-      act(soft_reset);
-      stage_ = Stage::dropping;
-      stage_since_ = now;
-      return;
-    }
+    case Stage::looking:
+    case Stage::asking: return greet();
+    case Stage::ready: return watch();
+    case Stage::braking: return brake();
     case Stage::dropping:
       if (now - stage_since_ > longest_drop) stage_ = Stage::stopped;
       return;
     case Stage::stopped: return;
   }
+}
+
+void GrblSender::greet() {
+  if (now_ - begun_ > longest_greeting) return end_with(fault_of_greeting());
+  switch (stage_) {
+    case Stage::waking:
+      if (now_ - stage_since_ < start_of_an_arduino) return;
+      enter(Stage::clearing);
+      urgent_ += '\n';  // ends a line that another sender has left
+      return;
+    case Stage::clearing:
+      if (now_ - std::max(heard_, stage_since_) < quiet && now_ - stage_since_ < longest_clearing) return;
+      enter(Stage::looking);
+      heard_ = now_;
+      report_.reset();
+      return;
+    case Stage::looking:
+      // The state is told in each state; lines are answered in few.
+      ask_for_status();
+      if (!report_) return mind_silence();
+      if (auto trouble = trouble_of_grbl_state(*report_)) return end_with(std::move(*trouble));
+      enter(Stage::asking);
+      add("$I");
+      return ask_for_offsets();
+    default:
+      if (all_answered()) return enter(Stage::ready);
+      ask_for_status();
+      mind_lost_bytes();
+      return mind_silence();
+  }
+}
+
+void GrblSender::watch() {
+  ask_for_status();
+  // It cannot come out of these by itself.
+  if (report_->state == "Sleep" || report_->state == "Check") {
+    GrblFault trouble = *trouble_of_grbl_state(*report_);
+    return end_with(fault_between_lines(std::move(trouble.code), std::move(trouble.message)));
+  }
+  mind_lost_bytes();
+  if (stage_ == Stage::ready) mind_standstill();
+  if (stage_ == Stage::ready) mind_silence();
+}
+
+void GrblSender::brake() {
+  ask_for_status();
+  // A hold at rest, or nothing to hold. A dwell is no motion and is not held: it rests too.
+  const bool rests = report_ && reported_ > stage_since_ && report_->rests();
+  if (!rests && now_ - stage_since_ < longest_braking) return;
+  act(soft_reset);
+  enter(Stage::dropping);
 }
 
 std::string GrblSender::take_bytes(Seconds now) {
@@ -203,7 +310,7 @@ std::string GrblSender::take_bytes(Seconds now) {
   const bool may_send = (stage_ == Stage::asking || stage_ == Stage::ready) && !fault_;
   while (may_send && !waiting_.empty()) {
     Line& next = waiting_.front();
-    if (unanswered_bytes_ + next.text.size() > machine_.bytes) break;
+    if (unanswered_bytes_ + next.text.size() > buffer_size()) break;
     next.sent = now;
     bytes += next.text;
     unanswered_bytes_ += next.text.size();
@@ -229,110 +336,105 @@ void GrblSender::receive(std::string_view bytes, Seconds now) {
 }
 
 void GrblSender::hear(std::string_view line) {
-  while (!line.empty() && line.front() == ' ') line.remove_prefix(1);
-  if (const auto report = read_grbl_report(line)) return hear_report(*report);
-  if (line.starts_with("Grbl") || line.starts_with("GrblHAL") || line.starts_with("[FIRMWARE:")) return hear_banner();
-  if (line == "ok") return answer(0);
-  if (const auto error = number_after(line, "error:")) return answer(*error);
-  if (const auto number = number_after(line, "ALARM:")) return alarm(*number);
-  if (line.starts_with('[') && line.ends_with(']')) return hear_bracket(line.substr(1, line.size() - 2));
-  if (line.starts_with('$')) hear_setting(line);
+  constexpr std::string_view error = "error:";
+  constexpr std::string_view alarm_head = "ALARM:";
+  line = without_blanks(line);
+  if (const auto report = read_grbl_report(line, machine_.axes)) return hear_report(*report);
+  told_ = now_;
+  last_line_heard_ = line;
+  if (is_report_of_old_grbl(line) || line.starts_with("Grbl 0.")) {
+    return end_with({.code = "grbl.too-old",
+                     .message = "the machine has a Grbl older than 1.1, which Passo does not drive: flash Grbl 1.1",
+                     .first_line = 0,
+                     .last_line = 0});
+  }
+  if (is_grbl_greeting(line)) {
+    machine_.hear_greeting(line);
+    return hear_greeting();
+  }
+  if (line == "ok") return answer({});
+  if (line.starts_with(error)) return answer(without_blanks(line.substr(error.size())));
+  if (line.starts_with(alarm_head)) return alarm(without_blanks(line.substr(alarm_head.size())));
+  machine_.hear(line);
 }
 
 void GrblSender::hear_report(const GrblReport& report) {
   if (report.work_offset) offset_ = report.work_offset;
+  const bool is_news = !report_ || report.state != report_->state || report.machine_place != report_->machine_place ||
+                       report.work_place != report_->work_place;
+  if (is_news) progress_ = now_;
+  // Free bytes in a buffer without a line of ours: no more fit, whatever it has told.
+  const bool shows_size = unanswered_.empty() && report.bytes_free && *report.bytes_free >= 64;
+  if (shows_size) empty_buffer_ = *report.bytes_free;
   report_ = report;
   reported_ = now_;
 }
 
-void GrblSender::hear_setting(std::string_view line) {
-  const std::size_t equals = line.find('=');
-  if (equals == std::string_view::npos) return;
-  const auto number = number_after(line.substr(0, equals), "$");
-  const auto value = read_grbl_place(line.substr(equals + 1, line.find(' ', equals) - equals - 1));
-  if (number && value) machine_.settings[*number] = value->values[0];
-}
-
-// [VER:1.1h.20190830:] and [OPT:V,15,128]; [G54:0.000,0.000,0.000] … [TLO:0.000]
-void GrblSender::hear_bracket(std::string_view line) {
-  const std::size_t colon = line.find(':');
-  if (colon == std::string_view::npos) return;
-  const std::string_view name = line.substr(0, colon);
-  const std::string_view value = line.substr(colon + 1);
-  if (name == "VER") machine_.version = value.substr(0, value.find(':'));
-  if (name == "OPT") hear_options(value);
-  const bool is_offset = (name.size() == 3 && name.starts_with("G5")) || name == "G92" || name == "TLO";
-  if (!is_offset) return;
-  auto place = read_grbl_place(value);
-  if (!place) return;
-  if (name == "TLO" && value.find(',') == std::string_view::npos) {
-    (*place)[Axis::z] = std::exchange((*place)[Axis::x], 0.0);
-  }
-  machine_.offsets[std::string(name)] = *place * unit();
-}
-
-void GrblSender::hear_options(std::string_view options) {
-  const auto sizes = read_grbl_place(options.substr(std::min(options.find(','), options.size() - 1) + 1));
-  if (!sizes) return;
-  const double blocks = sizes->values[0];
-  const double bytes = sizes->values[1];
-  if (blocks >= 1 && blocks <= 10000) machine_.blocks = static_cast<std::size_t>(blocks);
-  if (bytes >= 64 && bytes <= 65536) machine_.bytes = static_cast<std::size_t>(bytes);
-}
-
-void GrblSender::hear_banner() {
+void GrblSender::hear_greeting() {
   switch (stage_) {
     case Stage::waking: stage_since_ = now_ - start_of_an_arduino; return;
     case Stage::clearing:
     case Stage::stopped: return;
+    case Stage::looking:
+    case Stage::asking:
+      // A board that starts for longer than an Arduino does. It has not heard the questions, or has forgotten them.
+      waiting_.clear();
+      unanswered_.clear();
+      unanswered_bytes_ = 0;
+      machine_.version.clear();
+      return enter(Stage::clearing);
     case Stage::dropping:
       unanswered_.clear();
       unanswered_bytes_ = 0;
       stage_ = Stage::stopped;
       return;
-    case Stage::asking:
     case Stage::ready:
     case Stage::braking: break;
   }
-  fail({.code = "grbl.restarted",
-        .message =
-            "the machine has started anew: its reset button, its power, or another program. It may have lost its "
-            "place",
-        .first_line = first_held_line(),
-        .last_line = last_line_});
-  waiting_.clear();
+  end_with(fault_between_lines(
+      "grbl.restarted",
+      "the machine has started anew: its reset button, its power, or another program. It may have lost its place"));
   unanswered_.clear();
   unanswered_bytes_ = 0;
-  stage_ = Stage::stopped;
 }
 
-void GrblSender::answer(int error) {
+void GrblSender::answer(std::optional<std::string_view> error) {
   if (unanswered_.empty()) return;  // of what another sender has left
+  // The same, if it comes late: the answer to $I tells the version.
+  if (stage_ == Stage::asking && machine_.version.empty()) return;
   const Line line = std::move(unanswered_.front());
   unanswered_.pop_front();
   unanswered_bytes_ -= line.text.size();
-  answered_ = now_;
-  if (error == 0) {
+  answered_ = progress_ = now_;
+  if (!error) {
     if (line.line != 0) held_lines_.push_back(line.line);
     if (held_lines_.size() > machine_.blocks + 8) held_lines_.pop_front();
     return;
   }
+  // In some alarms it answers few questions. They are asked again.
+  if (stage_ == Stage::asking && report_->state == "Alarm") return;
+  const auto number = read_code(*error);
   fail({.code = "grbl.error",
-        .message = fmt::format("the machine refuses \"{}\": error:{}, {}", without_end(line.text), error,
-                               words_of_grbl_error(error)),
+        .message = fmt::format("the machine refuses \"{}\": error:{}{}{}", without_end(line.text), *error,
+                               number ? ", " : "", number ? words_of_grbl_error(machine_.firmware, *number) : ""),
         .first_line = line.line,
         .last_line = line.line});
   // What follows is in the machine already. It must not go on without the refused line.
   if (has_work_ && stage_ == Stage::ready) stop();
 }
 
-void GrblSender::alarm(int number) {
-  fail({.code = "grbl.alarm",
-        .message = fmt::format("ALARM:{}, {}", number, words_of_grbl_alarm(number)),
-        .first_line = first_held_line(),
-        .last_line = last_line_});
-  waiting_.clear();
-  stage_ = Stage::stopped;
+std::string GrblSender::words_of_alarm(int number) const {
+  return fmt::format("ALARM:{}, {}", number, words_of_grbl_alarm(machine_.firmware, number));
+}
+
+void GrblSender::alarm(std::string_view text) {
+  const auto number = read_code(text);
+  std::string words = number ? words_of_alarm(*number) : fmt::format("ALARM: {}", text);
+  if (greets()) {
+    locked_by_ = std::move(words);
+  } else {
+    end_with(fault_between_lines("grbl.alarm", std::move(words)));
+  }
 }
 
 }  // namespace passo

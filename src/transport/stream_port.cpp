@@ -11,6 +11,7 @@
 #include <netinet/tcp.h>
 #include <poll.h>
 #include <sys/socket.h>
+#include <sys/time.h>
 #include <unistd.h>
 
 #include "passo/transport/serial_line.hpp"
@@ -22,6 +23,7 @@ constexpr std::size_t most_at_once = 4096;
 // The longest wait for a line that accepts nothing, before it counts as broken.
 constexpr Seconds longest_write{2};
 constexpr Seconds between_attempts{0.2};
+constexpr timeval longest_connect{.tv_sec = 5, .tv_usec = 0};
 
 std::string reason() {
   return std::strerror(errno);
@@ -44,10 +46,12 @@ Result<int, std::string> connect_tcp(const BoardAddress& address) {
   for (const addrinfo* one = found; one != nullptr && descriptor < 0; one = one->ai_next) {
     const int socket_ = socket(one->ai_family, one->ai_socktype | SOCK_CLOEXEC, one->ai_protocol);
     if (socket_ < 0) continue;
+    // Without a limit connect() waits two minutes for an address that does not answer.
+    setsockopt(socket_, SOL_SOCKET, SO_SNDTIMEO, &longest_connect, sizeof longest_connect);
     if (connect(socket_, one->ai_addr, one->ai_addrlen) == 0) {
       descriptor = socket_;
     } else {
-      const int kept = errno;
+      const int kept = errno == EINPROGRESS ? ETIMEDOUT : errno;
       close(socket_);
       errno = kept;
     }

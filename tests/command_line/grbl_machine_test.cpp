@@ -1,12 +1,15 @@
-// --board grbl: a machine that speaks Grbl 1.1, for which passo serve stands.
+// --board grbl: a machine that speaks Grbl 1.1, for which passo serve stands, or a fake one with other firmware.
 #include <string>
 
 #include "kit/command_line.hpp"
+#include "kit/fake_grbl.hpp"
 #include <gmock/gmock.h>
 #include <nlohmann/json.hpp>
 
 namespace {
 
+using passo::StrictGrbl;
+using passo::test::FakeGrbl;
 using testing::HasSubstr;
 
 // The machine lives as long as the command in `commands`, which finds its line as $L.
@@ -63,6 +66,86 @@ TEST_F(GrblMachine, cannot_do_all_and_says_so) {
   EXPECT_THAT(outcome.err, HasSubstr("p.ngc:2:1: error: a machine that speaks Grbl cannot do this: its probe"));
   EXPECT_THAT(outcome.err, HasSubstr("--resume and --journal"));
   EXPECT_THAT(outcome.err, HasSubstr("[board.grbl]"));
+}
+
+// Beside a fake machine, which is greeted without a delay.
+class FakeGrblMachine : public passo::test::CommandLine {
+ protected:
+  passo::test::Outcome beside(const FakeGrbl& machine, const std::string& command) const {
+    EXPECT_TRUE(machine.listens());
+    return passo(command + " -m " PASSO_SOURCE_DIR "/examples/machines/router.toml --board " + machine.address());
+  }
+  std::string program() const { return write("p.ngc", "G21 G90 G1 X5 F6000\nM3 S1000\nX1\nM5\nM2\n"); }
+};
+
+TEST_F(FakeGrblMachine, with_grblhal_is_driven) {
+  StrictGrbl grblhal(1023);
+  grblhal.greeting = "GrblHAL 1.1f ['$' or '$HELP' for help]";
+  grblhal.options = "VNML+,100,1024,3,0";
+  grblhal.more_of_itself =
+      "[AXS:3:XYZ]\r\n[NEWOPT:ENUMS,RT+,TC,SED]\r\n[FIRMWARE:grblHAL]\r\n[NVS STORAGE:*EEPROM]\r\n";
+  const FakeGrbl machine(grblhal);
+  const auto outcome = beside(machine, "run " + program() + " --json");
+  ASSERT_EQ(outcome.code, 0) << outcome.err;
+  const auto all = nlohmann::json::parse(outcome.out);
+  EXPECT_EQ(all["grbl"]["firmware"], "grblHAL");
+  EXPECT_EQ(all["grbl"]["receive_buffer"], 1023);
+  EXPECT_EQ(all["position_mm"]["X"], 1.0);
+}
+
+// Without MPos, without an offset in the reports, in inches.
+TEST_F(FakeGrblMachine, may_tell_the_work_place_alone) {
+  StrictGrbl grbl;
+  grbl.settings = "$10=0\r\n$13=1\r\n";
+  grbl.own_report = [] { return std::string("<Idle|WPos:1.0000,0.0000,0.0000>"); };
+  grbl.offsets = "[G54:0.0000,1.0000,0.0000]\r\n[G92:0.0000,0.0000,0.0000]\r\n[TLO:0.0000]\r\n";
+  const FakeGrbl machine(grbl);
+  const auto outcome = beside(machine, "home --json");
+  ASSERT_EQ(outcome.code, 0) << outcome.err;
+  const auto all = nlohmann::json::parse(outcome.out);
+  EXPECT_NEAR(all["position_mm"]["X"].get<double>(), 25.4, 1e-9);
+  EXPECT_NEAR(all["position_mm"]["Y"].get<double>(), 25.4, 1e-9);
+}
+
+TEST_F(FakeGrblMachine, that_takes_no_program_is_refused_in_words) {
+  const auto outcome_in = [&](StrictGrbl machine, const std::string& command) {
+    const FakeGrbl fake(std::move(machine));
+    const auto outcome = beside(fake, command);
+    EXPECT_EQ(outcome.code, 1) << outcome.err;
+    return outcome.err;
+  };
+  StrictGrbl asleep;
+  asleep.own_report = [] { return std::string("<Sleep|MPos:0.000,0.000,0.000|FS:0,0>"); };
+  EXPECT_THAT(outcome_in(asleep, "run " + program()), HasSubstr("[grbl.asleep]"));
+  EXPECT_THAT(outcome_in(asleep, "home"), HasSubstr("[grbl.asleep]"));
+  StrictGrbl nowhere;
+  nowhere.own_report = [] { return std::string("<Idle|FS:0,0>"); };
+  EXPECT_THAT(outcome_in(nowhere, "run " + program()), HasSubstr("$10=1 makes them tell it [grbl.no-place]"));
+  StrictGrbl locked;
+  locked.more_of_itself = "[FIRMWARE:grblHAL]\r\n";
+  locked.own_report = [] { return std::string("<Alarm:11|MPos:0.000,0.000,0.000|FS:0,0>"); };
+  locked.state = "Alarm";
+  EXPECT_THAT(outcome_in(locked, "run " + program()),
+              HasSubstr("locked by an alarm (ALARM:11, it must be homed first). --home homes it"));
+  StrictGrbl bare;
+  bare.has_switches = false;
+  const std::string words = outcome_in(bare, "home");
+  EXPECT_THAT(words, HasSubstr("ALARM:9, homing found no switch"));
+  EXPECT_THAT(words, HasSubstr("[grbl.alarm]"));
+}
+
+TEST_F(FakeGrblMachine, that_is_held_by_somebody_is_waited_for_in_words) {
+  int turns = 0;
+  const FakeGrbl machine(StrictGrbl(), [turns, held = false](StrictGrbl& grbl) mutable {
+    if (!held && grbl.state == "Run") {
+      grbl.state = "Hold:0";
+      held = true;
+    }
+    if (grbl.state == "Hold:0" && ++turns == 400) grbl.resume();
+  });
+  const auto outcome = beside(machine, "run " + program());
+  EXPECT_EQ(outcome.code, 0) << outcome.err;
+  EXPECT_THAT(outcome.err, HasSubstr("note: the machine is in a feed hold (state Hold): resume it"));
 }
 
 }  // namespace

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <deque>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -227,24 +228,23 @@ class TimedBytes {
 bool make_ready(OpenedGrbl& opened, const std::string& board, bool homes, int& code) {
   GrblSender& sender = opened.sender();
   if (homes && !opened.home(code)) return false;
-  const std::string& state = sender.report()->state;
-  if (state == "Alarm") {
-    code = fail(exit_failed, board +
-                                 ": the machine is locked by an alarm. --home homes it; $X of another sender unlocks "
-                                 "it where it stands [grbl.locked]");
+  if (sender.report()->state == "Alarm") {
+    const std::string alarm = sender.alarm_words();
+    code = fail(exit_failed, fmt::format("{}: the machine is locked by an alarm{}{}{}. --home homes it; $X of another "
+                                         "sender unlocks it where it stands [grbl.locked]",
+                                         board, alarm.empty() ? "" : " (", alarm, alarm.empty() ? "" : ")"));
     return false;
   }
-  if (state != "Idle") {
-    code = fail(exit_failed, fmt::format("{}: the machine is in the state {}: wait for it, or end that with the sender "
-                                         "that began it [grbl.busy]",
-                                         board, state));
+  for (const char* line : {"G21G90G94G17G40G49G54", "M5", "M9"}) sender.add(line);
+  sender.ask_for_offsets();
+  if (!opened.turn_to_rest()) {
+    code = opened.give_up();
     return false;
   }
-  sender.add("G21G90G94G17G40G49G54");
-  for (const char* line : {"M5", "M9", "$#"}) sender.add(line);
-  if (opened.turn_to_rest() && sender.place()) return true;
-  code = sender.fault() ? fail(exit_failed, fmt::format("{}: {}", board, words_of(*sender.fault(), "")))
-                        : 128 + interrupted_by();
+  if (sender.place()) return true;
+  code = fail(exit_failed, board +
+                               ": the reports of the machine tell no place: $10=1 makes them tell it "
+                               "[grbl.no-place]");
   return false;
 }
 
@@ -280,7 +280,10 @@ void print(const GrblRunResult& result, const RunArguments& arguments, const Ope
   if (arguments.json) {
     const nlohmann::ordered_json all = {
         {"program", arguments.program.program},
-        {"grbl", {{"version", machine.version}, {"receive_buffer", machine.bytes}}},
+        {"grbl",
+         {{"firmware", machine.firmware},
+          {"version", machine.version},
+          {"receive_buffer", opened.sender().buffer_size()}}},
         {"moves", check.moves},
         {"lines", result.lines},
         {"time_s", result.time.value()},
@@ -288,9 +291,9 @@ void print(const GrblRunResult& result, const RunArguments& arguments, const Ope
     fmt::print("{}\n", all.dump(2));
   } else if (!arguments.quiet) {
     fmt::print(
-        "{}: {} moves in {} lines, {:.1f} s; at rest in {} (machine). Its steps are not counted: Grbl {} tells none\n",
+        "{}: {} moves in {} lines, {:.1f} s; at rest in {} (machine). Its steps are not counted: {} {} tells none\n",
         arguments.program.program, check.moves, result.lines, result.time.value(), opened.place_words(),
-        machine.version);
+        machine.firmware, machine.version);
   }
 }
 
@@ -311,7 +314,7 @@ int end_broken_off(const RunArguments& arguments, OpenedGrbl& opened, const std:
       exit_failed, fmt::format("{}; the machine was last in the state {} at {} (machine coordinates). A Grbl machine "
                                "cannot go on exactly where it was: --from-line begins at a line",
                                words, sender.report()->state, opened.place_words()));
-  return interrupted_by() != 0 ? 128 + interrupted_by() : failed;
+  return interrupted_by() != 0 ? exit_of_signal() : failed;
 }
 
 int stream(const RunArguments& arguments, OpenedGrbl& opened, GrblProgram& lines, const ProgramCheck& check,
@@ -327,6 +330,10 @@ int stream(const RunArguments& arguments, OpenedGrbl& opened, GrblProgram& lines
     lines.feed(sender);
     opened.turn(OpenedGrbl::between_looks);
     if (interrupted_by() != 0 || timed.look(opened)) sender.stop();
+    if (const std::string_view wait = opened.news_of_wait(); !wait.empty()) {
+      progress.clear();
+      note(std::string(wait));
+    }
     if (check.nominal_time > Seconds(0)) progress.update(std::min(1.0, lines.nominal_time() / check.nominal_time));
     if (!lines.stop() || !sender.at_rest()) continue;
     progress.clear();

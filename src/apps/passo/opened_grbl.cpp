@@ -35,13 +35,18 @@ std::unique_ptr<OpenedGrbl> OpenedGrbl::open(const std::string& board, int& code
     code = fail(exit_failed, port.error());
     return nullptr;
   }
-  std::unique_ptr<OpenedGrbl> opened(new OpenedGrbl(std::move(*claim), std::move(*port)));
+  std::unique_ptr<OpenedGrbl> opened(new OpenedGrbl(board, std::move(*claim), std::move(*port)));
   GrblSender& sender = opened->sender_;
   while (!sender.ready() && !sender.fault() && interrupted_by() == 0) opened->turn(between_looks);
   if (sender.ready()) return opened;
-  code = sender.fault() ? fail(exit_failed, fmt::format("{}: {}", board, words_of(*sender.fault(), "")))
-                        : 128 + interrupted_by();
+  code = opened->give_up();
   return nullptr;
+}
+
+int OpenedGrbl::give_up() const {
+  const auto& fault = sender_.fault();
+  const int failed = fault ? fail(exit_failed, fmt::format("{}: {}", board_, words_of(*fault, ""))) : exit_failed;
+  return fault && interrupted_by() == 0 ? failed : exit_of_signal();
 }
 
 void OpenedGrbl::turn(Seconds most) {
@@ -59,15 +64,24 @@ bool OpenedGrbl::turn_to_rest(const std::function<void()>& watch) {
     if (interrupted_by() != 0) sender_.stop();
     if (sender_.stopped() || (sender_.fault() && !sender_.stops())) break;
     turn(between_looks);
+    if (const std::string_view wait = news_of_wait(); !wait.empty()) note(std::string(wait));
     if (watch) watch();
   }
   return !sender_.fault() && !sender_.stopped();
 }
 
+std::string_view OpenedGrbl::news_of_wait() {
+  const std::string_view wait = sender_.waits_for();
+  return std::exchange(last_wait_, wait) == wait ? std::string_view() : wait;
+}
+
 bool OpenedGrbl::home(int& code) {
   sender_.add("$H", 0, longest_homing);
-  if (turn_to_rest()) return true;
-  code = sender_.fault() ? fail(exit_failed, words_of(*sender_.fault(), "")) : 128 + interrupted_by();
+  // Homing may move the zero of the work: startup lines ($N0) run after it.
+  const bool homed = turn_to_rest();
+  if (homed) sender_.ask_for_offsets();
+  if (homed && turn_to_rest()) return true;
+  code = give_up();
   return false;
 }
 

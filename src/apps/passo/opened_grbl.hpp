@@ -4,6 +4,7 @@
 #include <functional>
 #include <memory>
 #include <string>
+#include <string_view>
 
 #include "board_claim.hpp"
 
@@ -29,20 +30,27 @@ class OpenedGrbl {
   // Sends what is to be sent and hears what comes, for `most` at most.
   void turn(Seconds most);
   // Turns until the machine has done all lines and rests, or has a fault. Ctrl-C brakes, and drops what it holds.
-  // `look`, if any, is called after each turn. False: it was interrupted, or there is a fault.
+  // Shows what somebody must do at the machine. `look`, if any, is called after each turn. False: it was interrupted,
+  // or there is a fault.
   [[nodiscard]] bool turn_to_rest(const std::function<void()>& look = {});
+  // What somebody must do at the machine, if that is new: once for each wait.
+  std::string_view news_of_wait();
+  // Shows why the machine is not at rest with all lines done. Returns the exit code.
+  [[nodiscard]] int give_up() const;
   // Unlocks the machine by homing it. False, with a message.
   [[nodiscard]] bool home(int& code);
   // "X1.000 Y2.000 Z0.000", machine coordinates; or that the place is not known.
   std::string place_words() const;
 
  private:
-  OpenedGrbl(BoardClaim claim, std::unique_ptr<StreamPort> port)
-      : claim_(std::move(claim)), port_(std::move(port)), sender_(port_->elapsed()) {}
+  OpenedGrbl(std::string board, BoardClaim claim, std::unique_ptr<StreamPort> port)
+      : board_(std::move(board)), claim_(std::move(claim)), port_(std::move(port)), sender_(port_->elapsed()) {}
 
+  std::string board_;
   BoardClaim claim_;
   std::unique_ptr<StreamPort> port_;
   GrblSender sender_;
+  std::string_view last_wait_;
 };
 
 // The fault for people: where, what, and its code.

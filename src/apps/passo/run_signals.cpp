@@ -4,6 +4,7 @@
 #include <cstdlib>
 #include <string_view>
 
+#include "program_input.hpp"
 #include <unistd.h>
 
 #include "passo/report/nameless_file.hpp"
@@ -67,6 +68,11 @@ void note_signals() {
 
 int interrupted_by() {
   return first_signal;
+}
+
+int exit_of_signal() {
+  if (first_signal != 0) return 128 + first_signal;
+  return fail(exit_failed, "ended without a reason that it knows: that is an error in Passo [passo.no-reason]");
 }
 
 void outlive_readers() {

@@ -16,6 +16,9 @@ void brake_on_signals();
 void note_signals();
 // The signal's number; 0: no signal has come.
 int interrupted_by();
+// What a command returns that a signal has ended: 128 and its number. If no signal has come, shows that as an error, so
+// that no command ends without a word.
+int exit_of_signal();
 // For a program without such signals: a reader that goes away is no reason to end.
 void outlive_readers();
 

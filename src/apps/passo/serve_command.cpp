@@ -209,7 +209,7 @@ int serve(const ServeArguments& given) {
   daemon.serve();
   service.stopping();
   daemon.stop();
-  return interrupted_by() == 2 || interrupted_by() == 15 ? exit_done : 128 + interrupted_by();
+  return interrupted_by() == 2 || interrupted_by() == 15 ? exit_done : exit_of_signal();
 }
 
 }  // namespace passo

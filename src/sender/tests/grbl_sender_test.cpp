@@ -1,57 +1,17 @@
 #include "passo/sender/grbl_sender.hpp"
 
-#include <functional>
-
-#include "strict_grbl.hpp"
+#include "grbl_pair.hpp"
 #include <gtest/gtest.h>
 
 namespace passo {
 namespace {
 
-// A sender and a machine on one line, in virtual time.
-struct Pair {
-  explicit Pair(std::size_t bytes = 128) : machine(bytes) {}
-
-  // Plays until it is so, or for a minute. `each` is called at each step.
-  bool play(const std::function<bool()>& is_so, const std::function<void()>& each = {}) {
-    for (int i = 0; i < 12'000; ++i) {
-      if (is_so()) return true;
-      if (each) each();
-      machine.receive(sender.take_bytes(now));
-      machine.run(0.005);
-      now += Seconds(0.005);
-      sender.receive(machine.take_output(), now);
-    }
-    return is_so();
-  }
-  bool greet() {
-    return play([&] { return sender.ready(); });
-  }
-  // Streams moves of a millimetre each: lines 1 to `count`.
-  bool stream(std::uint32_t count, const std::function<void()>& each = {}) {
-    std::uint32_t next = 1;
-    const auto feed = [&] {
-      while (sender.wants_lines() && next <= count && !sender.fault()) {
-        sender.add(fmt::format("G1F600X{}Y0Z0", next), next);
-        ++next;
-      }
-      if (each) each();
-    };
-    feed();
-    return play([&] { return (next > count && sender.at_rest()) || sender.stopped(); }, feed);
-  }
-
-  Seconds now{0};
-  StrictGrbl machine;
-  GrblSender sender{Seconds(0)};
-};
-
 TEST(GrblSender, streams_all_lines_and_fills_the_buffer_to_the_byte_but_never_more) {
   for (const std::size_t bytes : {std::size_t{128}, std::size_t{254}, std::size_t{80}}) {
-    Pair pair(bytes);
+    GrblPair pair(bytes);
     pair.machine.options = fmt::format("VNMGPH,15,{}", bytes);
     ASSERT_TRUE(pair.greet());
-    EXPECT_EQ(pair.sender.machine().bytes, bytes);
+    EXPECT_EQ(pair.sender.buffer_size(), bytes);
     EXPECT_EQ(pair.sender.machine().version, "1.1h.20190830");
     ASSERT_TRUE(pair.stream(300));
     EXPECT_FALSE(pair.sender.fault());
@@ -64,7 +24,7 @@ TEST(GrblSender, streams_all_lines_and_fills_the_buffer_to_the_byte_but_never_mo
 }
 
 TEST(GrblSender, takes_128_bytes_if_the_machine_tells_no_size) {
-  Pair pair;
+  GrblPair pair;
   pair.machine.options = "PHS";
   ASSERT_TRUE(pair.greet());
   EXPECT_EQ(pair.sender.machine().bytes, 128U);
@@ -72,7 +32,7 @@ TEST(GrblSender, takes_128_bytes_if_the_machine_tells_no_size) {
 }
 
 TEST(GrblSender, tells_the_line_that_was_refused_and_stops_before_the_next) {
-  Pair pair;
+  GrblPair pair;
   pair.machine.refused = "G1F600X40Y0Z0";
   ASSERT_TRUE(pair.greet());
   ASSERT_TRUE(pair.stream(100));
@@ -86,7 +46,7 @@ TEST(GrblSender, tells_the_line_that_was_refused_and_stops_before_the_next) {
 }
 
 TEST(GrblSender, tells_an_alarm_and_between_which_lines_it_came) {
-  Pair pair;
+  GrblPair pair;
   pair.machine.trips = "G1F600X40Y0Z0";
   ASSERT_TRUE(pair.greet());
   ASSERT_TRUE(pair.stream(100));
@@ -100,7 +60,7 @@ TEST(GrblSender, tells_an_alarm_and_between_which_lines_it_came) {
 }
 
 TEST(GrblSender, holds_goes_on_and_stops_where_it_holds) {
-  Pair pair;
+  GrblPair pair;
   ASSERT_TRUE(pair.greet());
   int steps = 0;
   ASSERT_TRUE(pair.stream(60, [&] {
@@ -120,7 +80,7 @@ TEST(GrblSender, holds_goes_on_and_stops_where_it_holds) {
 }
 
 TEST(GrblSender, notices_a_restart_silence_and_lost_bytes) {
-  Pair restarted;
+  GrblPair restarted;
   ASSERT_TRUE(restarted.greet());
   int steps = 0;
   ASSERT_TRUE(restarted.stream(60, [&] {
@@ -129,7 +89,7 @@ TEST(GrblSender, notices_a_restart_silence_and_lost_bytes) {
   ASSERT_TRUE(restarted.sender.fault());
   EXPECT_EQ(restarted.sender.fault()->code, "grbl.restarted");
 
-  Pair silent;
+  GrblPair silent;
   ASSERT_TRUE(silent.greet());
   silent.machine.silent = true;
   silent.machine.block_time = 1000;
@@ -137,7 +97,7 @@ TEST(GrblSender, notices_a_restart_silence_and_lost_bytes) {
   ASSERT_TRUE(silent.sender.fault());
   EXPECT_EQ(silent.sender.fault()->code, "grbl.no-answer");
 
-  Pair lossy;
+  GrblPair lossy;
   ASSERT_TRUE(lossy.greet());
   lossy.machine.loses_next_line_end = true;
   ASSERT_TRUE(lossy.stream(1));
@@ -146,7 +106,7 @@ TEST(GrblSender, notices_a_restart_silence_and_lost_bytes) {
 }
 
 TEST(GrblSender, waits_for_a_long_dwell) {
-  Pair pair;
+  GrblPair pair;
   ASSERT_TRUE(pair.greet());
   pair.sender.add("G4P20", 1, Seconds(20));
   pair.sender.add("G1F600X1Y0Z0", 2);
@@ -164,7 +124,7 @@ TEST(GrblSender, says_that_nobody_answers) {
 }
 
 TEST(GrblSender, overrides_in_grbls_steps) {
-  Pair pair;
+  GrblPair pair;
   ASSERT_TRUE(pair.greet());
   static_cast<void>(pair.sender.take_bytes(pair.now));
   const auto bytes_of = [&] {

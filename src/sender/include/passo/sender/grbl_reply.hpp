@@ -1,4 +1,4 @@
-// What a Grbl 1.1 machine says, line by line.
+// The reports of a machine that speaks Grbl 1.1, and the parts that its lines consist of.
 #pragma once
 
 #include <cstddef>
@@ -14,7 +14,7 @@ namespace passo {
 // A status report: <Idle|MPos:0.000,0.000,0.000|Bf:15,128|FS:0,0|WCO:0.000,0.000,0.000|Pn:XP>
 struct GrblReport {
   std::string state;                        // "Idle", "Run", "Hold", "Alarm" …
-  int detail = -1;                          // of Hold and Door: 0 is at rest
+  int detail = -1;                          // of Hold and Door: 0 is at rest; of Alarm: its number
   std::optional<Point> machine_place = {};  // as it is written: mm, or inches with $13=1
   std::optional<Point> work_place = {};     // the same
   std::optional<Point> work_offset = {};    // the same
@@ -22,17 +22,25 @@ struct GrblReport {
   std::optional<std::size_t> bytes_free = {};
   std::string pins = {};  // the letters of the closed inputs
 
-  bool rests() const { return state == "Idle" || (state == "Hold" && detail == 0); }
+  // Nothing moves, and nothing will by itself.
+  bool rests() const;
 };
 
+// The letters of the axes in the order in which Grbl tells them, if it does not tell the letters.
+inline constexpr std::string_view grbl_axes = "XYZABCUVW";
+
 // Empty: the line is no report, or a broken one.
-std::optional<GrblReport> read_grbl_report(std::string_view line);
+std::optional<GrblReport> read_grbl_report(std::string_view line, std::string_view axes = grbl_axes);
+// Whether a line is a report as Grbl had them before 1.1: <Idle,MPos:0.000,0.000,0.000,WPos:…>
+bool is_report_of_old_grbl(std::string_view line);
 
-// Numbers between commas, as many as there are axes. Empty: no numbers.
-std::optional<Point> read_grbl_place(std::string_view text);
+// Numbers between commas, one of each letter in `axes`. Only X, Y and Z count: a sender moves no other axis of such a
+// machine. Empty: no numbers.
+std::optional<Point> read_grbl_place(std::string_view text, std::string_view axes = grbl_axes);
 
-// The meaning of error:n and of ALARM:n, as a clause.
-std::string_view words_of_grbl_error(int number);
-std::string_view words_of_grbl_alarm(int number);
+// Empty: the text is no number.
+std::optional<double> read_grbl_number(std::string_view text);
+// Takes what comes before the next `mark`, and the mark.
+std::string_view take_grbl_part(std::string_view& text, char mark);
 
 }  // namespace passo

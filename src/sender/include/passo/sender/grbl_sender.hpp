@@ -9,50 +9,38 @@
 //
 // Invariants: the bytes of all lines that the machine has not answered never exceed its receive buffer, as `$I` tells
 // the buffer's size (128 if it tells none). Each answer belongs to the oldest line without one. A line that the machine
-// refuses, an alarm, a restart and silence end the stream; nothing more is sent but what stops the machine.
+// refuses, an alarm, a restart and silence end the stream; nothing more is sent but what stops the machine. Every wait
+// ends: the greeting, a line without an answer, and a state in which nothing goes on have their bounds. Only a hold, a
+// door and a tool change wait for people as long as they last, and waits_for() tells it.
 //
 // What such a machine cannot tell: how many steps it has made, and which line it is executing. The line of a fault is
 // exact for error:n. For an alarm it lies between two lines: the machine holds some lines that it has answered already.
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <deque>
-#include <map>
+#include <limits>
 #include <optional>
 #include <string>
 #include <string_view>
 
 #include "passo/geometry/axes.hpp"
+#include "passo/sender/grbl_machine.hpp"
 #include "passo/sender/grbl_reply.hpp"
+#include "passo/sender/grbl_words.hpp"
 #include "passo/units/units.hpp"
 
 namespace passo {
-
-// What a machine has told of itself.
-struct GrblMachine {
-  std::string version = {};                   // "1.1h.20190830"
-  std::size_t blocks = 15;                    // of its planner
-  std::size_t bytes = 128;                    // of its receive buffer
-  std::map<int, double> settings = {};        // $0 … $132
-  std::map<std::string, Point> offsets = {};  // mm: G54 … G59, G92, TLO
-  bool in_inches() const;                     // its reports are in inches ($13)
-};
-
-// `code` is stable; the message is a sentence without a full stop.
-struct GrblFault {
-  std::string code;
-  std::string message;
-  // Of the program; 0: none. From the first to the last line that it may be.
-  std::uint32_t first_line = 0;
-  std::uint32_t last_line = 0;
-};
 
 class GrblSender {
  public:
   static constexpr Seconds between_questions{0.2};
   static constexpr Seconds between_urgent_questions{0.05};
   static constexpr Seconds longest_silence{5};
+  static constexpr Seconds longest_greeting{20};
+  static constexpr Seconds longest_standstill{60};
 
   // Begins to greet the machine, at this time. Nothing is sent for 2 s: an Arduino whose line is opened starts anew.
   explicit GrblSender(Seconds now);
@@ -61,16 +49,22 @@ class GrblSender {
   // What to send now. Call often.
   std::string take_bytes(Seconds now);
 
-  // The machine has told what it is, and lines may be added. It may be in an alarm: see report().
+  // The machine has told what it is, and lines may be added. It is idle or in an alarm: see report().
   bool ready() const { return stage_ == Stage::ready; }
   const GrblMachine& machine() const { return machine_; }
   // The last status report. Empty: none has come.
   const std::optional<GrblReport>& report() const { return report_; }
   // Where the machine stands, in machine coordinates, mm. Empty: not known yet.
   std::optional<Point> place() const;
+  // Asks again for what a machine in an alarm may not have told, and for its offsets and modes.
+  void ask_for_offsets();
+  // The alarm that the machine was in when it was greeted, as a clause; empty: it has not told which.
+  std::string alarm_words() const;
+  // What somebody must do at the machine before it goes on, as a sentence without a full stop. Empty: nothing.
+  std::string_view waits_for() const;
 
   // A line of a program, without its end. `line`: of the program's file. `silence`: how long the machine may be silent
-  // because of it (homing).
+  // because of it (homing, a dwell). Spindles may take their time anyway.
   void add(std::string text, std::uint32_t line = 0, Seconds silence = Seconds(0));
   // Few lines wait here.
   bool wants_lines() const { return waiting_.size() < 32; }
@@ -78,18 +72,20 @@ class GrblSender {
   bool all_answered() const { return waiting_.empty() && unanswered_.empty(); }
   // All lines were answered, and a report that came later shows that the machine rests.
   bool at_rest() const;
+  // Bytes that the machine can hold, as far as it has told.
+  std::size_t buffer_size() const { return std::min(machine_.bytes, empty_buffer_); }
   // Bytes of lines that the machine may hold in its receive buffer.
   std::size_t unanswered_bytes() const { return unanswered_bytes_; }
   std::uint64_t lines_sent() const { return lines_sent_; }
 
-  void hold() { act('!'); }
-  void resume() { act('~'); }
+  void hold();
+  void resume();
   // Percent; as near as Grbl comes: feed and spindle 10 to 200, rapids 25, 50 or 100.
   void override_feed(int percent);
   void override_rapids(int percent);
   void override_spindle(int percent);
   // Brakes on the path, and drops what the machine holds. stopped() tells when that is done; the place is then known
-  // still, if the machine has told that it rests.
+  // still, if the machine has told that it rests. Homing is reset at once.
   void stop();
   bool stops() const { return stage_ == Stage::braking || stage_ == Stage::dropping; }
   bool stopped() const { return stage_ == Stage::stopped; }
@@ -100,7 +96,7 @@ class GrblSender {
   const std::optional<GrblFault>& fault() const { return fault_; }
 
  private:
-  enum class Stage : std::uint8_t { waking, clearing, asking, ready, braking, dropping, stopped };
+  enum class Stage : std::uint8_t { waking, clearing, looking, asking, ready, braking, dropping, stopped };
   struct Line {
     std::string text;  // with its end
     std::uint32_t line = 0;
@@ -109,31 +105,43 @@ class GrblSender {
   };
 
   void act(char byte) { urgent_ += byte; }
+  bool greets() const { return stage_ < Stage::ready; }
+  void enter(Stage stage);
   void turn(Seconds now);
+  void greet();
+  void watch();
+  void brake();
   void hear(std::string_view line);
   void hear_report(const GrblReport& report);
-  void hear_bracket(std::string_view line);
-  void hear_setting(std::string_view line);
-  void hear_options(std::string_view options);
-  void hear_banner();
-  void answer(int error);
-  void alarm(int number);
+  void hear_greeting();
+  // `error`: what follows "error:". Empty: ok.
+  void answer(std::optional<std::string_view> error);
+  void alarm(std::string_view text);
+  std::string words_of_alarm(int number) const;
   void fail(GrblFault fault);
+  void end_with(GrblFault fault);
+  GrblFault fault_between_lines(std::string code, std::string message) const;
+  GrblFault fault_of_greeting() const;
   void mind_silence();
   void mind_lost_bytes();
+  void mind_standstill();
   void ask_for_status();
-  Seconds patience() const;
-  double unit() const { return machine_.in_inches() ? 25.4 : 1; }
+  Seconds silence_of_oldest() const { return unanswered_.empty() ? Seconds(0) : unanswered_.front().silence; }
   std::uint32_t first_held_line() const;
 
   Stage stage_ = Stage::waking;
   Seconds now_{0};
+  Seconds begun_{0};
   Seconds stage_since_{0};
   Seconds heard_{0};     // any byte
   Seconds asked_{-1};    // for the status
   Seconds answered_{0};  // the last line
   Seconds idle_since_{0};
-  std::string came_;  // a line that is not whole yet
+  Seconds progress_{0};  // the last answer, or the last report with another state or place
+  Seconds told_{0};      // a line that is no report
+  std::string came_;     // a line that is not whole yet
+  std::string last_line_heard_;
+  std::string locked_by_;  // the alarm that it told while it was greeted
   std::string urgent_;
   std::deque<Line> waiting_;
   std::deque<Line> unanswered_;
@@ -142,11 +150,13 @@ class GrblSender {
   std::deque<std::uint32_t> held_lines_;  // answered lines that the planner may still hold
   std::uint32_t last_line_ = 0;
   bool has_work_ = false;  // lines of a program were sent
+  bool is_held_ = false;   // by hold()
   GrblMachine machine_;
+  std::size_t empty_buffer_ =
+      std::numeric_limits<std::size_t>::max();  // bytes that were free in it when it held no line of ours
   std::optional<GrblReport> report_;
   std::optional<Point> offset_;  // of the work, as reported
   Seconds reported_{-1};
-  bool rested_for_stop_ = false;
   int feed_percent_ = 100;
   int spindle_percent_ = 100;
   std::optional<GrblFault> fault_;

@@ -6,6 +6,7 @@
 #include <cstddef>
 #include <cstdlib>
 #include <deque>
+#include <functional>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -18,7 +19,16 @@ class StrictGrbl {
  public:
   explicit StrictGrbl(std::size_t bytes = 128) : bytes_(bytes) {}
 
+  std::string greeting = "Grbl 1.1h ['$' for help]";
   std::string options = "V,15,128";
+  std::string more_of_itself = {};  // after the options, whole lines
+  std::string settings = "$10=1\r\n$13=0\r\n$22=0\r\n";
+  std::string offsets = "[G54:0.000,0.000,0.000]\r\n[G92:0.000,0.000,0.000]\r\n[TLO:0.000]\r\n";
+  std::string modes = "G0 G54 G17 G21 G90 G94 M5 M9 T0 F0 S0";
+  std::function<std::string()> own_report = {};  // another form of its reports
+  double spindle_time = 0;                       // s, of M3
+  bool has_switches = true;                      // for $H
+  bool homes_for_ever = false;
   double block_time = 0.05;  // s, of each motion
   std::string refused = {};  // this line gets error:20
   std::string trips = {};    // at this line a limit switch closes
@@ -35,8 +45,10 @@ class StrictGrbl {
   void restart() {
     waiting_.clear();
     planner_.clear();
-    output_ += "\r\nGrbl 1.1h ['$' for help]\r\n";
+    output_ += "\r\n" + greeting + "\r\n";
   }
+  void say(const std::string& line) { output_ += line + "\r\n"; }
+  void resume() { begin_motion(); }
 
   void receive(std::string_view bytes) {
     for (const char byte : bytes) {
@@ -89,6 +101,7 @@ class StrictGrbl {
     }
   }
   void report() {
+    if (own_report) return say(own_report());
     output_ += fmt::format("<{}|MPos:{:.3f},0.000,0.000|Bf:{},{}|FS:0,0|WCO:0.000,0.000,0.000>\r\n", state, x,
                            15 - planner_.size(), bytes_ - waiting_.size());
   }
@@ -108,7 +121,7 @@ class StrictGrbl {
     output_ += "ALARM:1\r\n";
   }
   void read_lines() {
-    while (dwell_until_ == 0 && state != "Alarm" && planner_.size() < 15) {
+    while (dwell_until_ == 0 && takes_lines() && planner_.size() < 15) {
       const std::size_t end = waiting_.find('\n');
       if (end == std::string::npos) return;
       const std::string line = waiting_.substr(0, end);
@@ -118,20 +131,32 @@ class StrictGrbl {
       take(line);
     }
   }
+  bool takes_lines() const { return state == "Idle" || state == "Run" || state == "Hold:0" || state == "Alarm"; }
   void take(const std::string& line) {
     if (line.size() > 79) {
       output_ += "error:11\r\n";
     } else if (line == "$I") {
-      output_ += "[VER:1.1h.20190830:]\r\n[OPT:" + options + "]\r\nok\r\n";
+      output_ += "[VER:1.1h.20190830:]\r\n[OPT:" + options + "]\r\n" + more_of_itself + "ok\r\n";
     } else if (line == "$$") {
-      output_ += "$10=1\r\n$13=0\r\n$22=0\r\nok\r\n";
+      output_ += settings + "ok\r\n";
     } else if (line == "$#") {
-      output_ += "[G54:0.000,0.000,0.000]\r\n[G92:0.000,0.000,0.000]\r\n[TLO:0.000]\r\nok\r\n";
+      output_ += offsets + "ok\r\n";
+    } else if (line == "$H" && homes_for_ever) {
+      state = "Home";
+    } else if (line == "$H") {
+      state = has_switches ? "Idle" : "Alarm";
+      output_ += has_switches ? "ok\r\n" : "ALARM:9\r\n";
+    } else if (line == "$G") {
+      output_ += "[GC:" + modes + "]\r\nok\r\n";
+    } else if (state == "Alarm") {
+      output_ += line.empty() ? "ok\r\n" : "error:9\r\n";
     } else if (line == refused || line.find_first_not_of("GXYZFIJKMSP0123456789.-") != std::string::npos) {
       output_ += "error:20\r\n";
     } else if (line.starts_with("G4P")) {
       dwell_until_ = now_ + std::atof(line.c_str() + 3) + 1e-9;
       done_.push_back(line);
+    } else if (line.starts_with("M3") && spindle_time > 0) {
+      dwell_until_ = now_ + spindle_time;
     } else {
       output_ += "ok\r\n";
       if (line.empty() || line.front() == 'M' || line.starts_with("G2")) return;
