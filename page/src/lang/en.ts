@@ -196,6 +196,7 @@ export const en = {
   'jog.keys': 'Arrows move X and Y, Page Up and Page Down move Z, each only while held. The numeric keypad moves diagonally.',
   'jog.keys.on': 'Keys move the machine',
   'jog.keys.off': 'Keys do nothing',
+  'jog.keys.field': 'Keys go to the field that has the focus',
   'jog.gamepad': 'Gamepad {name}: cross and left stick move X and Y, shoulder buttons and right stick move Z.',
   'jog.zero': 'Work zero',
   'jog.zero.axis': 'Zero {axis}',

@@ -189,6 +189,7 @@ export const fr: Words = {
   'jog.keys': 'Les flèches déplacent X et Y, Page préc. et Page suiv. déplacent Z, seulement tant qu’elles sont tenues. Le pavé numérique déplace en diagonale.',
   'jog.keys.on': 'Les touches déplacent la machine',
   'jog.keys.off': 'Les touches ne font rien',
+  'jog.keys.field': 'Les touches vont au champ qui a le focus',
   'jog.gamepad': 'Manette {name} : croix et manche gauche déplacent X et Y, gâchettes hautes et manche droit déplacent Z.',
   'jog.zero': 'Zéro pièce',
   'jog.zero.axis': 'Zéro {axis}',

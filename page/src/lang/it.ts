@@ -189,6 +189,7 @@ export const it: Words = {
   'jog.keys': 'Le frecce muovono X e Y, Pag su e Pag giù muovono Z, solo finché sono premute. Il tastierino numerico muove in diagonale.',
   'jog.keys.on': 'I tasti muovono la macchina',
   'jog.keys.off': 'I tasti non fanno nulla',
+  'jog.keys.field': 'I tasti vanno al campo attivo',
   'jog.gamepad': 'Gamepad {name}: croce e levetta sinistra muovono X e Y, tasti dorsali e levetta destra muovono Z.',
   'jog.zero': 'Zero pezzo',
   'jog.zero.axis': 'Azzera {axis}',

@@ -189,6 +189,7 @@ export const zh: Words = {
   'jog.keys': '方向键移动 X 和 Y,Page Up 和 Page Down 移动 Z，只在按住时移动。数字小键盘可斜向移动。',
   'jog.keys.on': '按键可移动机床',
   'jog.keys.off': '按键无效',
+  'jog.keys.field': '按键作用于获得焦点的控件',
   'jog.gamepad': '手柄 {name}：十字键和左摇杆移动 X 和 Y，肩键和右摇杆移动 Z。',
   'jog.zero': '工件零点',
   'jog.zero.axis': '{axis} 清零',

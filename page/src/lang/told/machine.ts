@@ -31,7 +31,7 @@ export const machine: readonly Saying[] = [
   saying('there are too many programs: delete some first', 'il y a trop de programmes : supprimez-en d’abord', 'ci sono troppi programmi: prima eliminane alcuni', '程序太多：请先删除一些'),
   saying('the program is about to run', 'le programme va démarrer', 'il programma sta per partire', '程序即将运行'),
   saying('the body is too long', 'le fichier est trop grand', 'il file è troppo grande', '文件太大'),
-  saying('other large uploads are under way: try again', 'd’autres gros envois sont en cours : réessayez', 'altri grandi invii sono in corso: riprova', '其他大文件正在上传：请重试'),
+  saying('other clients or large uploads take all the room: try again', 'd’autres clients ou de gros envois occupent toute la place : réessayez', 'altri client o grandi invii occupano tutto lo spazio: riprova', '其他客户端或大文件上传占满了连接：请重试'),
   saying('passo serve keeps nothing: start it with --data DIR', 'passo serve ne garde rien : démarrez-le avec --data DIR', 'passo serve non conserva nulla: avvialo con --data DIR', 'passo serve 不保存数据：请用 --data DIR 启动'),
   saying('there is nothing at this path', 'il n’y a rien ici', 'qui non c’è nulla', '此处没有内容'),
   saying('a token is needed: the header Authorization: Bearer …', 'un jeton est nécessaire', 'serve un token', '需要令牌'),
