@@ -71,6 +71,7 @@ export const en = {
   'state.Tool.next': 'The program has stopped. Press Done to go on.',
   'state.Line': 'Waits for a line',
   'state.Line.next': 'A sender gives the lines.',
+  'state.Line.console': 'The console has left the spindle or the coolant on. M5 M9 switches them off, and so does Stop.',
   'state.Check': 'Checking',
   'state.Check.next': 'Nothing moves.',
   'state.Door': 'Door is open',
@@ -258,7 +259,8 @@ export const en = {
   'console.log': 'Log',
   'console.empty': 'Nothing yet.',
   'console.nothing': 'Nothing in the log has these words.',
-  'console.help': 'The line is checked, and then run as a program of its own. Arrow up brings earlier lines back.',
+  'console.modes': 'Modes in force',
+  'console.help': 'Modes stay in force from line to line, until a program has run or the machine is reset. $G, $#, $$, $H and $X answer as in Grbl; ! holds, ~ resumes. Arrow up brings earlier lines back.',
   // Machine
   'machine.title': 'Machine',
   'machine.axis': 'Axis',
