@@ -37,6 +37,8 @@ Json as_json(const MachineDescription& machine, const Point& place);
 Json as_json(const MachineDescription& machine, const MachineStatus& status);
 Json as_json(const MotionOwner& owner);
 Json as_json(const ApiJob& job);
+// The modes of the lines that a person types, and where the tool is by them.
+Json as_json(const MachineDescription& machine, const MdiLines& mdi, const Point& at);
 Json as_json(const StoredProgram& program, bool with_findings);
 Json as_json(const HistoryJob& job);
 // What the last homing has found, and how well all homings agree.

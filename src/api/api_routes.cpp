@@ -50,6 +50,7 @@ constexpr ApiRoute routes[] = {
     {"POST", "/api/v1/machine/file/draft"},
     {"POST", "/api/v1/make"},
     {"POST", "/api/v1/make/files"},
+    {"POST", "/api/v1/mdi", true},
     {"POST", "/api/v1/operator-done", true},
     {"POST", "/api/v1/outputs", true},
     {"POST", "/api/v1/override", true},

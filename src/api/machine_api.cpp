@@ -67,8 +67,14 @@ std::string_view name_of(JobState state) {
 
 MachineApi::MachineApi(const MachineDescription& machine, MachineSession& session, MotionOwner& owner,
                        ApiOptions options)
-    : machine_(machine), session_(session), owner_(owner), options_(std::move(options)), repeats_(machine) {
+    : machine_(machine),
+      session_(session),
+      owner_(owner),
+      options_(std::move(options)),
+      repeats_(machine),
+      mdi_(machine, session, programs_) {
   programs_.set_offsets(options_.parameters, options_.tools);
+  mdi_.begin_anew();
   session_.board().sent_segments().keep(machine_.board.clock);
   if (options_.keeper == nullptr || options_.history == nullptr) return;
   kept_ = std::make_unique<KeptJob>(machine, session, *options_.keeper, *options_.history, programs_,
@@ -87,7 +93,7 @@ WebAnswer MachineApi::refusal(unsigned status) {
     case 405: return error_answer(status, "http.method", "this path has other methods");
     case 413: return error_answer(status, "http.too-large", "the body is too long");
     case 431: return error_answer(status, "http.too-large", "the header is too long");
-    case 503: return error_answer(status, "http.busy", "other large uploads are under way: try again");
+    case 503: return error_answer(status, "http.busy", "other clients or large uploads take all the room: try again");
     default: return error_answer(status, "http.error", "the request failed");
   }
 }
@@ -193,6 +199,7 @@ WebAnswer MachineApi::change(const FoundRoute& found, const WebRequest& request)
   }
   const Json body = request.body.empty() ? Json::object() : Json::parse(request.body, nullptr, false);
   if (path == "/api/v1/work") return set_work_zero(request.body);
+  if (path == "/api/v1/mdi") return take_mdi(request.body);
   if (path == "/api/v1/probe") return begin_probing(request.body);
   std::string reason;
   auto wanted = read_request(path, body, machine_, reason);
@@ -242,6 +249,7 @@ WebAnswer MachineApi::set_work_zero(std::string_view body) {
   const auto is_far = [](double value) { return std::abs(value) > farthest_zero; };
   if (std::ranges::any_of(place->values, is_far)) return bad_body("the place is too far away");
   programs_.set_work_zero(at - (frame.machine_from_work(*place) - frame.work_offset()));
+  mdi_.take_offsets();
   if (options_.keep_offsets) options_.keep_offsets(programs_.parameters(), programs_.tools());
   return json_answer(200, {{"work_offset", as_json(machine_, programs_.work_zero())}});
 }
@@ -249,7 +257,9 @@ WebAnswer MachineApi::set_work_zero(std::string_view body) {
 void MachineApi::take_offsets(const SavedParameters& parameters) {
   SavedParameters all = programs_.parameters();
   set_lasting_offsets(all, parameters);
-  if (all != programs_.parameters()) programs_.set_offsets(all, programs_.tools());
+  if (all == programs_.parameters()) return;
+  programs_.set_offsets(all, programs_.tools());
+  mdi_.begin_anew();
 }
 
 WebAnswer MachineApi::ask(Request wanted) {
@@ -392,6 +402,7 @@ void MachineApi::turn() {
   programs_.turn();
   heed_maker();
   mind_times();
+  mind_mdi();
   if (kept_) kept_->look();
   if (job_.state == JobState::checking && !programs_.checks()) begin_checked_job();
   // The disk may take its time while nothing moves.
@@ -408,6 +419,7 @@ std::string MachineApi::status_text() const {
   json["work_rotation"] = frame.rotation_degrees();
   json["owner"] = as_json(owner_);
   json["job"] = as_json(job_);
+  json["mdi"] = as_json(machine_, mdi_, status.now_at);
   return json.dump() + "\n";
 }
 

@@ -224,6 +224,7 @@ void MachineApi::start_job() {
 // A job that was broken off and did not begin again stays broken off.
 void MachineApi::end_job(JobState state, std::string why) {
   if (resumes_ && kept_->interrupted() != nullptr) state = JobState::interrupted;
+  if (job_.state == JobState::running) mdi_.begin_anew();
   job_.state = state;
   job_.why = std::move(why);
   ticket_.reset();
@@ -249,6 +250,7 @@ void MachineApi::heed_state(MachineState state) {
 
 void MachineApi::heed(const std::vector<MachineChange>& changes) {
   for (const MachineChange& change : changes) {
+    mdi_.heed(change);
     if (change.kind == MachineChange::Kind::rested_by_tail) ++late_;
     if (change.kind == MachineChange::Kind::state) heed_state(change.state);
     if (change.kind != MachineChange::Kind::answered || !ticket_ || change.ticket != *ticket_) continue;

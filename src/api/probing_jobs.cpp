@@ -102,14 +102,16 @@ void MachineApi::note_words(const Operation& operation) {
 }
 
 // What a program has found, and set, counts when the program has come to its end.
+void MachineApi::keep_results(const SavedParameters& parameters, const ToolTable& all_tools) {
+  const ToolTable& tools = programs_.tools().name.empty() ? programs_.tools() : all_tools;
+  const bool changed = parameters != programs_.parameters() || tools != programs_.tools();
+  programs_.set_offsets(parameters, ToolTable(tools));
+  if (changed && options_.keep_offsets) options_.keep_offsets(programs_.parameters(), programs_.tools());
+}
+
 void MachineApi::keep_results() {
   if (const Program* const program = session_.program(); program != nullptr) {
-    const bool has_table = !programs_.tools().name.empty();
-    const SavedParameters before = programs_.parameters();
-    const ToolTable tools = has_table ? program->tools() : programs_.tools();
-    const bool changed = program->saved_parameters() != before || tools != programs_.tools();
-    programs_.set_offsets(program->saved_parameters(), tools);
-    if (changed && options_.keep_offsets) options_.keep_offsets(programs_.parameters(), programs_.tools());
+    keep_results(program->saved_parameters(), program->tools());
   }
   if (map_for_ == 0) return;
   std::string text;

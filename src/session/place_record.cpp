@@ -16,6 +16,10 @@ std::optional<Trust> read_trust(RecordWords& words) {
   return value <= static_cast<unsigned>(Trust::homed) ? std::optional(static_cast<Trust>(value)) : std::nullopt;
 }
 
+bool is_of(const PlaceRecord& record, const MachineDescription& machine) {
+  return record.machine == place_fingerprint(machine) && record.zero_counts.size() == machine.axes.size();
+}
+
 // Why the board is not the one of the record, if it is not. A board that was never greeted looks like one that was
 // reset, so it is not believed even if it seems to wait for its first hello.
 std::optional<PlaceDoubt> refuse_board(const SessionNumbers& numbers, const BoardStatus& status) {
@@ -98,31 +102,34 @@ std::string_view message_of(PlaceDoubt doubt) {
       return "it was moved by the board's keypad, or another program has begun to talk to the board";
     case PlaceDoubt::drivers_off:
       return "its board has switched the drivers off after a time without a host (drivers_off_after_s), and the axes "
-             "may "
-             "have moved";
+             "may have moved";
     case PlaceDoubt::stopped_at_once: return "its motors were stopped at once and may have lost steps";
   }
   return "its place is in doubt";
 }
 
+std::optional<Point> counted_place(const std::optional<PlaceRecord>& record, const MachineDescription& machine,
+                                   const BoardStatus& status) {
+  if (!record || !is_of(*record, machine) || refuse_board(record->numbers, status)) return {};
+  Point place;
+  const StepOptions steps = step_options(machine);
+  for (std::size_t m = 0; m < machine.axes.size(); ++m) {
+    const auto counted = static_cast<double>(std::int64_t{status.positions[m]} - record->zero_counts[m]);
+    place[steps.motors[m].axis] = steps.motors[m].place_at(counted, false);
+  }
+  return place;
+}
+
 Result<KnownPosition, PlaceDoubt> place_of(const std::optional<PlaceRecord>& record, const MachineDescription& machine,
                                            const BoardStatus& status) {
   if (!record || record->trust == Trust::unknown) return Failure{PlaceDoubt::no_record};
-  if (record->machine != place_fingerprint(machine) || record->zero_counts.size() != machine.axes.size()) {
-    return Failure{PlaceDoubt::other_machine};
-  }
+  if (!is_of(*record, machine)) return Failure{PlaceDoubt::other_machine};
   if (const auto refused = refuse_board(record->numbers, status)) return Failure{*refused};
   if ((status.state & board_trusted) == 0) {
     const bool let_go = (status.inputs & drivers_timed_out) != 0;
     return Failure{let_go ? PlaceDoubt::drivers_off : PlaceDoubt::stopped_at_once};
   }
-  KnownPosition position{.place = Point(), .trust = record->trust};
-  const StepOptions steps = step_options(machine);
-  for (std::size_t m = 0; m < machine.axes.size(); ++m) {
-    const auto counted = static_cast<double>(std::int64_t{status.positions[m]} - record->zero_counts[m]);
-    position.place[steps.motors[m].axis] = steps.motors[m].place_at(counted, false);
-  }
-  return position;
+  return KnownPosition{.place = counted_place(record, machine, status).value_or(Point()), .trust = record->trust};
 }
 
 }  // namespace passo

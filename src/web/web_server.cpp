@@ -33,7 +33,7 @@ constexpr int send_buffer = 65'536;
 constexpr std::size_t most_answers = 16;
 constexpr int usual_rate = 10;
 constexpr int highest_rate = 60;
-constexpr auto before_next_accept = std::chrono::milliseconds(100);
+constexpr auto before_next_accept = std::chrono::milliseconds(20);
 
 std::string_view view(beast::string_view text) {
   return {text.data(), text.size()};
@@ -60,6 +60,7 @@ class WebServer::Implementation {
   ~Implementation();
 
   void accept();
+  void make_room();
 
   // All of them, for the end: a connection keeps itself alive by what it waits for in the context. So these outlive the
   // context.
@@ -181,6 +182,8 @@ class WebServer::Implementation::Connection : public std::enable_shared_from_thi
 
   void start() { read_header(); }
   void close() { stream_.close(); }
+  // Who goes first where there is no room: those who have not asked yet, then those who have waited longest.
+  std::pair<bool, std::chrono::steady_clock::time_point> standing() const { return {asks_, since_}; }
   pollfd awaited() { return {.fd = stream_.socket().native_handle(), .events = awaits_, .revents = 0}; }
 
  private:
@@ -188,6 +191,8 @@ class WebServer::Implementation::Connection : public std::enable_shared_from_thi
 
   void read_header() {
     awaits_ = POLLIN;
+    asks_ = false;
+    since_ = std::chrono::steady_clock::now();
     parser_.emplace();
     parser_->header_limit(longest_header);
     parser_->body_limit(any_length);  // the limit is known once the path is
@@ -203,6 +208,7 @@ class WebServer::Implementation::Connection : public std::enable_shared_from_thi
 
   // Nothing of a body is read for a caller who may not ask, or that is too long.
   void take_header() {
+    asks_ = true;
     const auto& header = parser_->get();
     const std::string_view target = view(header.target());
     const std::size_t mark = std::min(target.find('?'), target.size());
@@ -262,6 +268,7 @@ class WebServer::Implementation::Connection : public std::enable_shared_from_thi
 
   void upgrade() {
     if (!server_.handler.is_stream(request_.path)) return refuse(404);
+    if (server_.watching.size() >= server_.limits.watchers) return refuse(503);
     ++server_.requests;
     stream_.expires_never();
     std::make_shared<Watcher>(server_, std::move(stream_), pace_of(request_.query))->start(parser_->get());
@@ -310,6 +317,8 @@ class WebServer::Implementation::Connection : public std::enable_shared_from_thi
   WebRequest request_;
   short awaits_ = POLLIN;
   bool large_body_ = false;
+  bool asks_ = false;  // a whole header has come
+  std::chrono::steady_clock::time_point since_;
 };
 
 // Closing ends all that is waited for. The handlers then run once more, and let the connections go.
@@ -323,24 +332,32 @@ WebServer::Implementation::~Implementation() {
   context.poll();
 }
 
+// Whoever comes may want to hold the machine. So a newcomer never waits for those who keep connections open: watchers
+// have a limit of their own, and of the others one goes.
+void WebServer::Implementation::make_room() {
+  if (open.empty()) return;
+  Connection* const first = *std::ranges::min_element(open, {}, [](const Connection* one) { return one->standing(); });
+  ++refused;
+  open.erase(first);  // it lives until what it waits for has ended
+  first->close();
+}
+
 void WebServer::Implementation::accept() {
   acceptor.async_accept([this](Error error, tcp::socket socket) {
     if (error == asio::error::operation_aborted) return;
     if (error) {  // for instance too many open files: that may pass
+      if (error == asio::error::no_descriptors) make_room();
       pause.expires_after(before_next_accept);
       pause.async_wait([this](Error cancelled) {
         if (!cancelled) accept();
       });
       return;
     }
-    if (open.size() + watching.size() >= limits.connections) {
-      ++refused;
-    } else {
-      Error ignored;
-      socket.set_option(tcp::no_delay(true), ignored);
-      socket.set_option(asio::socket_base::send_buffer_size(send_buffer), ignored);
-      std::make_shared<Connection>(*this, std::move(socket))->start();
-    }
+    if (open.size() + watching.size() >= limits.connections) make_room();
+    Error ignored;
+    socket.set_option(tcp::no_delay(true), ignored);
+    socket.set_option(asio::socket_base::send_buffer_size(send_buffer), ignored);
+    std::make_shared<Connection>(*this, std::move(socket))->start();
     accept();
   });
 }

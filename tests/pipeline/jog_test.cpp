@@ -1,7 +1,9 @@
 // Jogging: as long as the lease, within the travel, and with every step counted.
 #include <algorithm>
 #include <cmath>
+#include <cstdlib>
 #include <string>
+#include <utility>
 
 #include "kit/stage_test.hpp"
 #include "pipeline/session_kit.hpp"
@@ -135,6 +137,60 @@ TEST_P(Jog, is_not_slowed_by_the_overrides_of_programs) {
   const Point place = jog(
       run, {.way = {.direction = test::xyz(1, 0), .speed = MmPerSecond(20), .distance = Mm(10)}, .lease = Seconds(10)});
   EXPECT_NEAR(place[Axis::x], 10, within);
+}
+
+// A person at a page, or somebody whose network is cut: the jog is renewed, and other things are asked meanwhile, until
+// it is let go or nobody renews it any more.
+class JogStories : public Jog {};
+INSTANTIATE_TEST_SUITE_P(, JogStories, testing::Bool(),
+                         [](const auto& line) { return std::string(line.param ? "over_a_line" : "direct"); });
+
+TEST_P(JogStories, end_at_rest_within_0_3_s) {
+  const char* const given = std::getenv("PASSO_RUNS");
+  const int stories = given != nullptr ? std::atoi(given) : 100;
+  test::Random random;
+  SessionRun run(example_machine("router"), on());
+  run.make_ready();
+  const auto asked = [&](Request what) { static_cast<void>(run.ask(std::move(what)).has_value()); };
+  for (int story = 0; story < stories; ++story) {
+    const auto direction = [&] {
+      return test::xyz(random.between(-1, 1), random.between(-1, 1), random.between(-1, 1));
+    };
+    const auto wanted = [&] {
+      return request::Jog{.way = {.direction = direction(),
+                                  .speed = MmPerSecond(random.between(1, 40)),
+                                  .distance = random.chance(0.2) ? Mm(random.between(0.01, 20)) : Mm(0)}};
+    };
+    run.taken(wanted());
+    const auto disturb = [&] {
+      switch (static_cast<int>(random.between(0, 6))) {
+        case 0: return asked(wanted());
+        case 1: return asked(request::Override{.feed = random.between(0, 2)});
+        case 2: return asked(request::Resume{});
+        case 3: return asked(request::OperatorDone{});
+        case 4: return asked(request::SetPosition{});
+        default: return asked(test::start_of("G0 X1\nM2\n"));
+      }
+    };
+    for (double held = random.between(0, 0.6); held > 0 && run.session().busy(); held -= 0.02) {
+      run.pass(Seconds(0.02));
+      if (random.chance(0.3)) asked(request::RenewLease{});
+      if (run.session().busy() && random.chance(0.2)) disturb();
+    }
+    // Let go, held by the red button, or silent.
+    const Seconds let_go = run.now();
+    const int how = static_cast<int>(random.between(0, 3));
+    if (how == 0) asked(request::Stop{});
+    if (how == 1) asked(request::Hold{});
+    for (bool late = false; run.session().busy() && run.now() - let_go < Seconds(2); late = true) {
+      run.pass(Seconds(0.02));
+      if (how < 2 && late) asked(request::RenewLease{});  // a renewal that comes late wakes nothing
+    }
+    ASSERT_FALSE(run.session().busy()) << story;
+    EXPECT_LE(time_of_last_step(run), let_go.value() + 0.3) << story;
+    if (how != 0) run.to_end();
+    run.expect_at_place();
+  }
 }
 
 }  // namespace

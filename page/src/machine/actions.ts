@@ -20,11 +20,12 @@ const stateWhy = (): string => {
 const isLost = (): boolean => connection.value !== 'live' || status.value === null;
 const is = (...states: string[]): boolean => states.includes(status.value?.state ?? '');
 
+// Why this page may ask for no motion, whatever the machine does.
+export const whyNotOurs = (): string => (isLost() ? say('why.lost') : ownership.value === 'other' ? say('why.other') : '');
 // Why a request that moves cannot be made in these states.
 export function whyNot(...states: string[]): string {
-  if (isLost()) return say('why.lost');
-  if (ownership.value === 'other') return say('why.other');
-  return is(...states) ? '' : stateWhy();
+  const why = whyNotOurs();
+  return why !== '' || is(...states) ? why : stateWhy();
 }
 
 export const whyNoStart = computed(() => {

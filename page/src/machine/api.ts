@@ -45,6 +45,8 @@ export interface Status {
   trouble: string;
   owner: { kind: 'nobody' | 'sender' | 'client'; name: string };
   job: Job | null;
+  // The lines of the console: the modes in force, and where the tool is by them.
+  mdi: { codes: string[]; feed: number; speed: number; tool: number; place: Place; streams: boolean; trouble: string };
 }
 
 export interface MachineAxis {

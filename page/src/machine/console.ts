@@ -1,8 +1,10 @@
-// Lines that a person types: each is checked, and run as a program of its own.
+// Lines that a person types, whose modes last from line to line; and short programs of the page's own.
+import { kept } from '../core/kept';
 import { attempt } from '../core/notices';
 import { toldOr } from '../core/told';
 import type { Program } from './api';
 import { get, post, remove, upload } from './api';
+import { hold, resume } from './actions';
 import { status } from './connection';
 import { note } from './log';
 import { beOwner } from './owner';
@@ -14,6 +16,24 @@ const ofPrograms = ['gcode.no-end', 'path.no-units'];
 const lookEvery = 120; // ms
 const most = 50; // looks
 
+const isLines = (value: unknown): value is string[] => Array.isArray(value) && value.every((one) => typeof one === 'string');
+const mostTyped = 100;
+export const typed = kept<string[]>('console-lines', [], isLines); // the earlier lines, the last one at the end
+
+// As in grbl, ! holds and ~ goes on.
+export async function typeLine(text: string): Promise<boolean> {
+  typed.value = [...typed.value.filter((one) => one !== text), text].slice(-mostTyped);
+  note('asked', text);
+  if (text === '!') return hold();
+  if (text === '~') return resume();
+  return attempt(async () => {
+    await beOwner();
+    const { words } = await post<{ words: string[] }>('/mdi', { line: text });
+    for (const one of words) note('done', one);
+  });
+}
+
+// A program of one line or a few, which is checked first. It is in no list.
 export async function runLine(text: string, name = consoleName): Promise<boolean> {
   note('asked', text.replaceAll('\n', ' · '));
   return attempt(async () => {

@@ -1,7 +1,7 @@
 // A gamepad jogs as keys do: while something is held, on the page "Set up", in a window that has the focus.
 import { effect, signal } from '@preact/signals';
 import { path } from '../core/route';
-import { beginHold, endHold, nameOf, windowHasFocus, type Direction } from './jog';
+import { letGo, nameOf, press, windowHasFocus, type Direction } from './jog';
 
 const lookEvery = 40; // ms. A timer looks, and not the screen's frames: those end where nobody sees the page.
 const stickCounts = 0.6; // of its way
@@ -56,8 +56,7 @@ export function followGamepad(): void {
     const name = nameOf(direction);
     if (name === before) return;
     before = name;
-    if (name === '') endHold();
-    else beginHold(direction);
+    press('gamepad', direction);
   };
   effect(() => {
     // What is held while the page or the window changes has to be let go before it counts again.
@@ -66,6 +65,7 @@ export function followGamepad(): void {
     timer = undefined;
     if (!may) {
       before = '';
+      letGo('gamepad');
       return;
     }
     const pad = pads()[0];

@@ -1,9 +1,10 @@
-// The page's one jogger: keys, buttons and touches hold it.
+// The page's one jogger: keys, pointers on the pad and a gamepad hold it. A jog ends when what has begun it is let go, and
+// with the focus, the page or the connection, whatever else was touched meanwhile.
 import { effect, signal } from '@preact/signals';
 import { kept } from '../core/kept';
 import { notify, wordsOfError } from '../core/notices';
 import { path } from '../core/route';
-import { isTyping } from '../core/typing';
+import { isTyping, takesText } from '../core/typing';
 import { asked } from '../core/question';
 import { post, type Taken } from './api';
 import { connection, machine, status, tell } from './connection';
@@ -50,37 +51,50 @@ function wayOf(direction: Direction, distance: number): JogWay {
   return { direction: Object.fromEntries(parts), speed: jogSpeed(direction), distance: distance * Math.sqrt(parts.length) };
 }
 
-export const canJog = (): boolean =>
-  mayMove.value && asked.value === null && (status.value?.state === 'Idle' || status.value?.state === 'Jog');
+const canJog = (): boolean =>
+  path.value === 'jog' && mayMove.value && asked.value === null && (status.value?.state === 'Idle' || status.value?.state === 'Jog');
 
+// What is held: by a key, by a pointer on the pad, by a gamepad. Whether the machine moves until it is let go or makes
+// one step is settled when it is pressed: the choice of steps may change while it is held.
+interface Hold {
+  direction: Direction;
+  lasts: boolean;
+}
+const holds = new Map<string, Hold>();
 let heldWay = '';
 
-// In continuous jog this lasts until endHold(); else it is one step.
-export function beginHold(direction: Direction): void {
-  const name = nameOf(direction);
-  if (name === '') return endHold();
-  if (!canJog()) return;
-  if (jogStep.value > 0) {
-    jogger.step(wayOf(direction, jogStep.value));
-  } else if (name !== heldWay) {
-    heldWay = name;
-    jogger.hold(wayOf(direction, 0));
-  }
-  movesNow.value = name;
+// The holder may be one that holds already, and points elsewhere now.
+export function press(holder: string, direction: Direction): void {
+  if (nameOf(direction) === '' || !canJog()) return letGo(holder);
+  const lasts = jogStep.value === 0;
+  holds.set(holder, { direction, lasts });
+  if (!lasts) jogger.step(wayOf(direction, jogStep.value));
+  follow();
 }
 
-export function endHold(): void {
-  heldWay = '';
-  movesNow.value = '';
-  if (jogStep.value === 0) jogger.release();
+export function letGo(holder: string): void {
+  if (holds.delete(holder)) follow();
 }
 
 // Whatever is held, and whatever step goes on: it ends.
 export function endAll(): void {
-  held.clear();
+  holds.clear();
   heldWay = '';
   movesNow.value = '';
   jogger.release();
+}
+
+// The machine moves in the sum of the directions that are held. Nobody who still holds keeps alive what another has let go.
+function follow(): void {
+  const all = [...holds.values()];
+  movesNow.value = nameOf(sumOf(all.map((one) => one.direction)));
+  const way = sumOf(all.filter((one) => one.lasts).map((one) => one.direction));
+  const name = nameOf(way);
+  if (name === heldWay) return;
+  heldWay = name;
+  if (name === '') jogger.letGo();
+  else if (canJog()) jogger.hold(wayOf(way, 0));
+  else endAll();
 }
 
 export const keyDirections: Readonly<Record<string, Direction>> = {
@@ -102,8 +116,6 @@ export const keyDirections: Readonly<Record<string, Direction>> = {
   NumpadSubtract: { z: -1 },
 };
 
-const held = new Map<string, Direction>();
-
 // Keys together are the sum of their directions; opposite ones rest.
 export function sumOf(directions: Iterable<Direction>): Direction {
   const sum: Record<string, -1 | 0 | 1> = {};
@@ -113,20 +125,52 @@ export function sumOf(directions: Iterable<Direction>): Direction {
   return sum;
 }
 
+// A choice or a slider that has the focus takes the arrow keys, and so does a field for text.
+export const fieldHasKeys = signal(false);
+
 function keyDown(event: KeyboardEvent): void {
   const direction = keyDirections[event.code];
   if (path.value !== 'jog' || event.ctrlKey || event.altKey || event.metaKey) return endAll();
-  if (direction === undefined || isTyping(event.target)) return;
+  if (direction === undefined) return;
+  if (holds.has(event.code)) return event.preventDefault(); // it repeats, and the focus may be in a field meanwhile
+  if (isTyping(event.target) || document.querySelector('dialog[open]') !== null) return;
   event.preventDefault(); // the page does not scroll
   if (event.repeat || !windowHasFocus.value) return;
-  held.set(event.code, direction);
-  beginHold(jogStep.value > 0 ? direction : sumOf(held.values()));
+  press(event.code, direction);
 }
 
-function keyUp(event: KeyboardEvent): void {
-  if (!held.delete(event.code)) return;
-  if (held.size === 0) endHold();
-  else if (jogStep.value === 0) beginHold(sumOf(held.values()));
+// A pointer on a button of the pad.
+export function pressByPointer(event: PointerEvent, direction: Direction): void {
+  if (event.button !== 0 || !canJog()) return;
+  (event.currentTarget as HTMLElement).setPointerCapture(event.pointerId);
+  press(`pointer ${event.pointerId}`, direction);
+}
+
+// The window hears of each pointer, also when its button of the pad is gone. A mouse that presses a second button tells
+// of the first one's end by a move only.
+function followPointers(): void {
+  const end = (event: PointerEvent): void => letGo(`pointer ${event.pointerId}`);
+  for (const type of ['pointerup', 'pointercancel', 'lostpointercapture'] as const) addEventListener(type, end, true);
+  const look = (event: PointerEvent): void => {
+    if ((event.buttons & 1) === 0) end(event);
+  };
+  addEventListener('pointermove', look, true);
+  addEventListener('pointerdown', look, true);
+}
+
+// Whoever has clicked a step wants to move by keys next: the choice gives the keys back. By Tab it can still be chosen.
+function followFocus(): void {
+  const look = (): void => void (fieldHasKeys.value = isTyping(document.activeElement));
+  const giveBack = (): void => {
+    const field = document.activeElement;
+    if (path.value === 'jog' && field instanceof HTMLInputElement && !takesText(field)) field.blur();
+  };
+  // Later, because a click on a label gives the focus to its field afterwards. A click by the keyboard has no number.
+  const clicked = (event: MouseEvent): void => void (event.detail > 0 && setTimeout(giveBack));
+  addEventListener('click', clicked, true);
+  addEventListener('pointerup', () => void setTimeout(giveBack), true);
+  addEventListener('focusin', look);
+  addEventListener('focusout', () => void setTimeout(look));
 }
 
 export function followJog(): void {
@@ -135,7 +179,7 @@ export function followJog(): void {
     if (!windowHasFocus.value) endAll();
   };
   addEventListener('keydown', keyDown);
-  addEventListener('keyup', keyUp);
+  addEventListener('keyup', (event) => letGo(event.code), true);
   addEventListener('focus', focus);
   addEventListener('blur', () => {
     windowHasFocus.value = false;
@@ -143,11 +187,14 @@ export function followJog(): void {
   });
   addEventListener('pagehide', endAll);
   document.addEventListener('visibilitychange', focus);
+  followPointers();
+  followFocus();
   windowHasFocus.value = document.hasFocus();
   effect(() => {
     if (status.value !== null) jogger.heard(status.value.state, status.value.version);
   });
+  const goesElse = (): boolean => status.value !== null && !['Idle', 'Jog'].includes(status.value.state);
   effect(() => {
-    if (path.value !== 'jog' || connection.value !== 'live') endAll();
+    if (path.value !== 'jog' || connection.value !== 'live' || asked.value !== null || goesElse()) endAll();
   });
 }

@@ -44,10 +44,17 @@ export class Jogger {
     return this.phase === 'rest';
   }
 
-  // Moves until release(), or until another way is held.
+  // Moves until letGo() or release(), or until another way is held.
   hold(way: JogWay): void {
     this.steps = [];
     this.want = way;
+    this.kick();
+  }
+
+  // Nothing is held any more. A step goes on to its end.
+  letGo(): void {
+    this.want = null;
+    if (this.phase === 'asking' && this.current?.distance === 0) this.cancelled = true;
     this.kick();
   }
 

@@ -30,6 +30,7 @@ export function search(lines: readonly LogLine[], text: string): LogLine[] {
 export function followLog(): void {
   let state = '';
   let job = '';
+  let trouble = '';
   let noticed = 0;
   effect(() => {
     const now = status.value;
@@ -44,6 +45,8 @@ export function followLog(): void {
     const isTold = now.job?.state === 'failed' && now.job.name === consoleName;
     if (words !== job && words !== '' && !isTold) note(now.job?.state === 'failed' ? 'refused' : 'done', words);
     job = words;
+    if (now.mdi.trouble !== trouble && now.mdi.trouble !== '') note('refused', toldOr(now.mdi.trouble));
+    trouble = now.mdi.trouble;
   });
   effect(() => {
     if (connection.value === 'lost') note('alarm', say('connection.lost'));

@@ -46,6 +46,7 @@ function nextOf({ status, program, canHome }: Facts): string {
     return say(program === 'none' ? 'state.Idle.open' : program === 'bad' ? 'state.Idle.bad' : 'state.Idle.next');
   }
   if (state === 'Run') return say('state.Run.next', { line: status.line });
+  if (state === 'Line' && status.mdi.streams) return say('state.Line.console');
   if (state === 'Hold' && waitsForPerson(status)) return say('state.Tool.next');
   if (state === 'Hold' && status.rests && status.holds.includes('line-end')) return say('state.Hold.line');
   if (state === 'Tool') {

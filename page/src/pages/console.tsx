@@ -2,14 +2,14 @@
 import { signal } from '@preact/signals';
 import { useEffect, useRef } from 'preact/hooks';
 import { language, say } from '../core/language';
-import { whyNot } from '../machine/actions';
-import { runLine } from '../machine/console';
+import { whyNotOurs } from '../machine/actions';
+import { status } from '../machine/connection';
+import { typed, typeLine } from '../machine/console';
 import { log, search, type LogKind } from '../machine/log';
+import { placeWords } from '../machine/place';
 import { Icon, type IconName } from '../parts/icon';
 
-const typed = signal<string[]>([]);
 const sought = signal('');
-const mostTyped = 100;
 const mostShown = 400;
 
 const icons: Record<LogKind, IconName> = { state: 'machine', asked: 'console', done: 'calm', refused: 'warn', warning: 'warn', alarm: 'bad' };
@@ -17,15 +17,16 @@ const icons: Record<LogKind, IconName> = { state: 'machine', asked: 'console', d
 function Line() {
   const field = useRef<HTMLInputElement>(null);
   const back = useRef(0); // how far up in the earlier lines
-  const why = whyNot('Idle');
+  const why = whyNotOurs();
   const send = async (event: SubmitEvent): Promise<void> => {
     event.preventDefault();
     const text = field.current?.value.trim() ?? '';
     if (text === '' || why !== '' || field.current === null) return;
     field.current.value = '';
-    typed.value = [...typed.value.filter((one) => one !== text), text].slice(-mostTyped);
     back.current = 0;
-    await runLine(text);
+    const taken = await typeLine(text);
+    // What was refused can be corrected.
+    if (!taken && field.current?.value === '') field.current.value = text;
     field.current?.focus();
   };
   const recall = (event: KeyboardEvent): void => {
@@ -54,6 +55,20 @@ function Line() {
         {say('console.send')}
       </button>
     </form>
+  );
+}
+
+// What counts for the next line.
+function Modes() {
+  const mdi = status.value?.mdi;
+  if (mdi === undefined) return null;
+  return (
+    <p class="modes" role="group" aria-label={say('console.modes')} data-testid="modes">
+      {[...mdi.codes, `T${mdi.tool}`, `F${mdi.feed}`, `S${mdi.speed}`].map((code) => (
+        <code key={code}>{code}</code>
+      ))}
+      <span class="figure">{placeWords(mdi.place)}</span>
+    </p>
   );
 }
 
@@ -87,6 +102,7 @@ export function ConsolePage() {
         </div>
       </section>
       <section class="panel" aria-label={say('console.title')}>
+        <Modes />
         <Line />
         <p class="dim">{say('console.help')}</p>
       </section>

@@ -1,13 +1,12 @@
 // Set up: jog, work zero, homing.
 import type { ComponentChildren } from 'preact';
-import { useRef } from 'preact/hooks';
 import { say } from '../core/language';
 import { notify } from '../core/notices';
 import { fromMm, lengthText, lengthUnit, speedText, speedUnit, units } from '../core/units';
 import { whyNot } from '../machine/actions';
 import { machine, status } from '../machine/connection';
 import { gamepad } from '../machine/gamepad';
-import { beginHold, canJog, endHold, jogShare, jogSpeed, jogStep, movesNow, windowHasFocus, type Direction } from '../machine/jog';
+import { fieldHasKeys, jogShare, jogSpeed, jogStep, movesNow, pressByPointer, windowHasFocus, type Direction } from '../machine/jog';
 import { axes } from '../machine/place';
 import { goToZero, home, makeZero } from '../machine/set_up';
 import { Button } from '../parts/button';
@@ -28,20 +27,11 @@ const keyOf = (direction: Direction): string =>
 
 // Moves while a finger or a mouse button holds it.
 function PadButton({ direction, turn, children }: { direction: Direction; turn?: number; children?: ComponentChildren }) {
-  const holds = useRef(false);
   const name = nameOf(direction);
   const why = whyNot('Idle', 'Jog');
   const begin = (event: PointerEvent): void => {
     if (why !== '') notify('refused', why);
-    if (event.button !== 0 || !canJog()) return;
-    (event.currentTarget as HTMLElement).setPointerCapture(event.pointerId);
-    holds.current = true;
-    beginHold(direction);
-  };
-  const end = (): void => {
-    if (!holds.current) return;
-    holds.current = false;
-    endHold();
+    pressByPointer(event, direction);
   };
   return (
     <button
@@ -53,9 +43,6 @@ function PadButton({ direction, turn, children }: { direction: Direction; turn?:
       aria-disabled={why !== ''}
       title={why === '' ? undefined : why}
       onPointerDown={begin}
-      onPointerUp={end}
-      onPointerCancel={end}
-      onLostPointerCapture={end}
       onContextMenu={(event) => event.preventDefault()}
     >
       <span style={turn === undefined ? undefined : { transform: `rotate(${turn}deg)` }}>
@@ -110,6 +97,7 @@ const stepsOf = { mm: [0.01, 0.1, 1, 10, 100], inch: [0.0254, 0.254, 2.54, 25.4,
 function JogPanel() {
   const speed = jogSpeed({ x: 1 });
   const steps = stepsOf[units.value];
+  const keysMove = windowHasFocus.value && !fieldHasKeys.value;
   const known = jogStep.value === 0 || steps.some((one) => one === jogStep.value);
   return (
     <section class="panel jog" aria-label={say('jog.title')}>
@@ -130,10 +118,10 @@ function JogPanel() {
         unit={speedUnit()}
         set={(to) => (jogShare.value = to)}
       />
-      <p class={`keys-state ${windowHasFocus.value ? 'on' : ''}`}>
-        <Icon name={windowHasFocus.value ? 'jog' : 'close'} />
+      <p class={`keys-state ${keysMove ? 'on' : ''}`}>
+        <Icon name={keysMove ? 'jog' : 'close'} />
         <span>
-          <b>{say(windowHasFocus.value ? 'jog.keys.on' : 'jog.keys.off')}</b> <span class="dim">{say('jog.keys')}</span>
+          <b>{say(keysMove ? 'jog.keys.on' : windowHasFocus.value ? 'jog.keys.field' : 'jog.keys.off')}</b> <span class="dim">{say('jog.keys')}</span>
           {gamepad.value !== '' && <span> {say('jog.gamepad', { name: gamepad.value })}</span>}
         </span>
       </p>

@@ -124,7 +124,7 @@ std::unique_ptr<OpenedMachine> OpenedMachine::open(const MachineDescription& mac
                                                                      .tells_place = wish.tells_place,
                                                                      .start = {}});
   if (!opened->ask_first(wish.board, wish.may_move, code)) return nullptr;
-  if (const auto place = opened->place()) opened->start_at(*place);
+  opened->stand_as_counted();
   return opened;
 }
 
@@ -135,6 +135,13 @@ OpenedMachine::~OpenedMachine() {
 Result<KnownPosition, PlaceDoubt> OpenedMachine::place() const {
   if (!place_file_) return KnownPosition{.place = Point(), .trust = Trust::commanded};
   return place_of(record_, description_, before_);
+}
+
+void OpenedMachine::stand_as_counted() {
+  if (const auto known = place()) return start_at(*known);
+  if (const auto counted = counted_place(record_, description_, before_)) {
+    start_at({.place = *counted, .trust = Trust::unknown});
+  }
 }
 
 // Greeting and session number differ from those of the board's last session, and mean nothing else: 1 is every
@@ -163,11 +170,6 @@ void OpenedMachine::stand_in_truth_at(const Point& place) {
 void OpenedMachine::write_down(const KnownPosition& position, const MotorSteps& zero_counts,
                                const SessionNumbers& numbers) {
   if (!place_file_) return;
-  if (position.trust == Trust::unknown) {
-    if (record_) place_file_->remove();
-    record_.reset();
-    return;
-  }
   PlaceRecord record{
       .machine = place_fingerprint(description_), .trust = position.trust, .zero_counts = {}, .numbers = numbers};
   for (std::size_t m = 0; m < description_.axes.size(); ++m) {

@@ -61,6 +61,9 @@ class OpenedMachine {
   // Where the machine stands before the hello, or why nobody knows. Virtual and emulated machines stand at machine
   // zero. A real board is known by what an earlier command has written down, and by its counts.
   Result<KnownPosition, PlaceDoubt> place() const;
+  // The machine stands there. Where nobody knows the place, but the board has gone on counting, it stands where it
+  // stood for the command before. Call before the hello.
+  void stand_as_counted();
   // Says where the machine stands, before the hello.
   void start_at(const KnownPosition& position) { session_->start_at(position); }
   // A virtual machine stands here in truth, whatever its board believes. Call before the board drives it.

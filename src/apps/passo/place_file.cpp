@@ -22,8 +22,4 @@ void PlaceFile::write(const PlaceRecord& record) const {
   close(descriptor);
 }
 
-void PlaceFile::remove() const {
-  if (!path_.empty()) unlink(path_.c_str());
-}
-
 }  // namespace passo

@@ -18,8 +18,6 @@ class PlaceFile {
   // Call it before the board hears the record's numbers. If the record cannot be written, a note says so: the record
   // before it is of no use after the numbers were told.
   void write(const PlaceRecord& record) const;
-  // From now on nobody knows where the machine stands.
-  void remove() const;
 
  private:
   std::string path_;  // empty: there is no such folder

@@ -120,11 +120,10 @@ std::unique_ptr<ServedJournal> open_journal(const std::string& folder, OpenedMac
   std::filesystem::create_directories(folder, error);
   auto journal = ServedJournal::open(folder, opened);
   if (!journal || !journal->take_up(greeting)) return nullptr;
-  const auto place = opened.place();
   if (!opened.is_on_a_line() && journal->found()) {
     opened.start_at({.place = Point(), .trust = Trust::unknown});
-  } else if (place) {
-    opened.start_at(*place);
+  } else {
+    opened.stand_as_counted();
   }
   return journal;
 }

@@ -34,6 +34,7 @@ void ServeDaemon::serve() {
     if (web_ != nullptr) web_->turn();
     mind_owner();
     turn();
+    mind_place();
     reply();
     if (status_ != nullptr) status_->turn(session_);
     service_.alive();
@@ -126,6 +127,13 @@ void ServeDaemon::turn() {
     hear_changes();
   }
   hear_changes();
+}
+
+// Homing, or a person, may have said where the machine stands. Whoever kills the daemon then takes nothing of it away.
+void ServeDaemon::mind_place() {
+  const std::uint64_t version = session_.status().version;
+  if (works() || std::exchange(kept_version_, version) == version) return;
+  machine_.keep_place();
 }
 
 void ServeDaemon::reply() {

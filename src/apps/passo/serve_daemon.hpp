@@ -3,6 +3,7 @@
 #pragma once
 
 #include <chrono>
+#include <cstdint>
 #include <memory>
 #include <vector>
 
@@ -62,6 +63,7 @@ class ServeDaemon {
   void mind_owner();
   void turn();
   void hear_changes();
+  void mind_place();
   void reply();
 
   OpenedMachine& machine_;
@@ -72,7 +74,8 @@ class ServeDaemon {
   ServedWeb* web_;
   ServiceNotice& service_;
   ServedStatus* status_ = nullptr;
-  SenderLine* driver_ = nullptr;  // where the sender is
+  SenderLine* driver_ = nullptr;    // where the sender is
+  std::uint64_t kept_version_ = 0;  // of the status with which the place was written down
   WallClock clock_;
 };
 

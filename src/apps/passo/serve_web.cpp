@@ -130,12 +130,14 @@ void ServedWeb::publish() {
   if (now - published_ < between_messages) return;
   const std::uint64_t version = session_.status().version;
   const bool is_news = session_.busy() || version != told_version_ || owner_.changes() != told_owner_ ||
-                       api_.job() != told_job_ || now - published_ >= between_signs_of_life;
+                       api_.job() != told_job_ || api_.mdi_version() != told_mdi_ ||
+                       now - published_ >= between_signs_of_life;
   if (!is_news) return;
   published_ = now;
   told_version_ = version;
   told_owner_ = owner_.changes();
   told_job_ = api_.job();
+  told_mdi_ = api_.mdi_version();
   server_->publish(api_.status_text());
 }
 

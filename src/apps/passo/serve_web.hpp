@@ -76,6 +76,7 @@ class ServedWeb {
   std::uint64_t told_version_ = 0;
   std::uint64_t told_owner_ = 0;
   ApiJob told_job_;
+  std::uint64_t told_mdi_ = 0;
 };
 
 }  // namespace passo

@@ -87,5 +87,18 @@ TEST_F(PlaceRecords, do_not_trust_a_board_of_another_host_or_machine_or_one_that
   EXPECT_FALSE(place_of(std::nullopt, machine_, status_));
 }
 
+// Nobody knows where machine zero is, and the work's zero stays where it was.
+TEST_F(PlaceRecords, go_on_counting_where_nobody_trusts_the_place) {
+  const Point known = place()->place;
+  record_.trust = Trust::unknown;
+  EXPECT_FALSE(place());
+  EXPECT_EQ(counted_place(record_, machine_, status_), known);
+  EXPECT_EQ(read_place_record(text_of(record_)), record_);
+  status_.state = 0;
+  EXPECT_EQ(counted_place(record_, machine_, status_), known) << "stopped at once";
+  status_.session = 301;
+  EXPECT_EQ(counted_place(record_, machine_, status_), std::nullopt);
+}
+
 }  // namespace
 }  // namespace passo

@@ -315,20 +315,69 @@ TEST_F(WebServerTest, outlives_random_bytes) {
 
 class FewConnections : public WebServerTest {
  protected:
-  FewConnections() : WebServerTest({.connections = 3, .header_within = std::chrono::seconds(1)}) {}
+  FewConnections() : WebServerTest({.connections = 3, .watchers = 2, .header_within = std::chrono::seconds(1)}) {}
+  bool has(std::size_t number) {
+    return turn_until([&] { return server->connections() == number; }, {});
+  }
 };
 
-TEST_F(FewConnections, are_shared_by_those_who_ask_and_taken_from_those_who_are_silent) {
+TEST_F(FewConnections, go_from_who_has_not_asked_to_who_comes) {
   Caller one(server->port());
+  ASSERT_TRUE(has(1));
   Caller two(server->port());
   Caller three(server->port());
-  ASSERT_TRUE(turn_until([&] { return server->connections() == 3; }, {}));
-  Caller four(server->port());
-  four.send(get("/"));
-  ASSERT_TRUE(turn_until([&] { return four.closed; }, {&four}));
-  EXPECT_EQ(four.heard, "");
-  EXPECT_TRUE(turn_until([&] { return server->connections() == 0; }, {&one, &two, &three})) << "within a second";
+  ASSERT_TRUE(has(3));
   EXPECT_EQ(status_of(answer_to(get("/"))), "HTTP/1.1 200 OK");
+  EXPECT_TRUE(turn_until([&] { return one.closed; }, {&one})) << "it has waited longest";
+  two.look();
+  EXPECT_FALSE(two.closed);
+  EXPECT_TRUE(turn_until([&] { return server->connections() == 0; }, {&two, &three})) << "within a second";
+}
+
+TEST_F(FewConnections, stay_with_who_is_sending_while_others_have_not_asked) {
+  Caller sends(server->port());
+  sends.send("POST /upload HTTP/1.1\r\nHost: localhost\r\nContent-Length: 9\r\nConnection: close\r\n\r\nhalf");
+  ASSERT_TRUE(turn_until([&] { return sends.has_sent() && server->connections() == 1; }, {&sends}));
+  server->turn();
+  for (int i = 0; i < 10; ++i) {
+    std::vector<std::unique_ptr<Caller>> slow;
+    for (int k = 0; k < 5; ++k) {
+      slow.push_back(std::make_unique<Caller>(server->port()));
+      slow.back()->send("GET / HT");
+      slow.back()->look();
+    }
+    EXPECT_EQ(status_of(answer_to(get("/"))), "HTTP/1.1 200 OK");
+  }
+  sends.send(" done");
+  EXPECT_TRUE(turn_until([&] { return sends.closed; }, {&sends}));
+  EXPECT_TRUE(sends.heard.ends_with("POST /upload half done")) << sends.heard;
+}
+
+// Those who send half of something, and those who do not read their answers, go too.
+TEST_F(FewConnections, go_to_who_comes_however_slow_the_others_are) {
+  std::vector<std::unique_ptr<Caller>> slow;
+  for (int i = 0; i < 30; ++i) {
+    slow.push_back(std::make_unique<Caller>(server->port()));
+    slow.back()->send(i % 2 == 0 ? get("/large")
+                                 : "POST /upload HTTP/1.1\r\nHost: localhost\r\nContent-Length: 9\r\n\r\nhalf");
+    for (int k = 0; k < 20; ++k) {
+      slow.back()->look(false);
+      server->turn();
+    }
+    EXPECT_EQ(status_of(answer_to(get("/"))), "HTTP/1.1 200 OK") << i;
+  }
+}
+
+TEST_F(FewConnections, are_not_all_for_those_who_watch) {
+  const auto one = watcher();
+  const auto two = watcher();
+  const std::string upgrade =
+      "Upgrade: websocket\r\nConnection: Upgrade\r\nSec-WebSocket-Version: 13\r\n"
+      "Sec-WebSocket-Key: dGhlIHNhbXBsZSBub25jZQ==\r\n";
+  EXPECT_EQ(status_of(answer_to(get("/stream", upgrade))), "HTTP/1.1 503 Service Unavailable");
+  EXPECT_EQ(status_of(answer_to(get("/"))), "HTTP/1.1 200 OK");
+  one->send(frame("hold"));
+  EXPECT_TRUE(turn_until([&] { return echo.heard == 1; }, {one.get()}));
 }
 
 TEST(WebServer, tells_why_it_cannot_listen) {

@@ -87,6 +87,7 @@ class OpenProgram final : public Source<PathItem> {
 
   ModesInForce modes() const { return interpreter_->modes(); }
   SavedParameters parameters() const { return interpreter_->saved_parameters(); }
+  const ToolTable& tools() const { return interpreter_->tools(); }
   // The source line of the item that was pulled last: the value of its N word, below 0: none.
   std::int64_t line_number() const { return line_number_; }
 

@@ -24,6 +24,7 @@
 #include "passo/api/api_routes.hpp"
 #include "passo/api/kept_job.hpp"
 #include "passo/api/maker.hpp"
+#include "passo/api/mdi_lines.hpp"
 #include "passo/api/motion_owner.hpp"
 #include "passo/api/motion_times.hpp"
 #include "passo/api/program_store.hpp"
@@ -131,6 +132,8 @@ class MachineApi final : public WebHandler {
   // What web servers count, for the metrics.
   void watch(const WebServer& server) { server_ = &server; }
   const ApiJob& job() const { return job_; }
+  // Grows when the modes of the lines that a person types have changed.
+  std::uint64_t mdi_version() const { return mdi_.version(); }
   // From now on a job that is stopped was broken off: the program is about to end.
   void leave() { leaves_ = true; }
 
@@ -151,6 +154,8 @@ class MachineApi final : public WebHandler {
   WebAnswer ask(Request wanted);
   WebAnswer ticket_answer(Ticket ticket) const;
   WebAnswer set_work_zero(std::string_view body);
+  WebAnswer take_mdi(std::string_view body);
+  void mind_mdi();
   WebAnswer begin_probing(std::string_view body);
   WebAnswer take_height_map(const StoredProgram& program, const WebRequest& request);
   WebAnswer level_program(const StoredProgram& program, std::string_view query);
@@ -158,6 +163,7 @@ class MachineApi final : public WebHandler {
   void note_words(const Operation& operation);
   void heed_state(MachineState state);
   void keep_results();
+  void keep_results(const SavedParameters& parameters, const ToolTable& tools);
   WebAnswer change_machine_file(const FoundRoute& found, const WebRequest& request);
   WebAnswer change_interrupted(const FoundRoute& found);
   WebAnswer change_making(const FoundRoute& found, const WebRequest& request);
@@ -225,6 +231,8 @@ class MachineApi final : public WebHandler {
   std::vector<HomedAxis> homed_;     // by the last homing
   std::optional<Point> homes_from_;  // where the machine stood, if that was known when a homing began
   bool homes_ = false;               // a homing goes on
+  MdiLines mdi_;
+  std::uint64_t mdi_owner_ = 0;  // MotionOwner::changes()
   const WebServer* server_ = nullptr;
   std::uint64_t jobs_ended_ = 0;
   std::uint64_t alarms_ = 0;

@@ -21,7 +21,7 @@ namespace passo {
 
 struct PlaceRecord {
   std::uint64_t machine = 0;     // place_fingerprint() of the machine
-  Trust trust = Trust::unknown;  // commanded, counted or homed
+  Trust trust = Trust::unknown;  // unknown: nobody knows where machine zero is, and the counts go on all the same
   std::vector<int> zero_counts;  // the board's count of each motor at machine zero
   SessionNumbers numbers;
   friend bool operator==(const PlaceRecord&, const PlaceRecord&) = default;
@@ -50,5 +50,11 @@ std::string_view message_of(PlaceDoubt doubt);
 // Where the machine stands. `record` may be empty. The status must be one at rest.
 Result<KnownPosition, PlaceDoubt> place_of(const std::optional<PlaceRecord>& record, const MachineDescription& machine,
                                            const BoardStatus& status);
+
+// The place by the board's counts alone, also where place_of() does not trust it. It is no more than where the machine
+// stood for the host before: the work's zero stays where somebody has set it. Empty: the counts are not those of the
+// record.
+std::optional<Point> counted_place(const std::optional<PlaceRecord>& record, const MachineDescription& machine,
+                                   const BoardStatus& status);
 
 }  // namespace passo

@@ -7,6 +7,9 @@
 // called by the owner's thread alone. What a client does not read or send in time costs that client its connection:
 // connections, bodies, messages and times are bounded (WebLimits). A watcher of the stream that reads slowly skips
 // messages, and gets the newest one when it has read the last.
+//
+// A newcomer always gets in: where all connections are taken, one of those that wait goes, first of all one that has
+// not asked anything. So nobody who keeps connections open delays a request to hold the machine.
 #pragma once
 
 #include <chrono>
@@ -63,6 +66,7 @@ class WebHandler {
 
 struct WebLimits {
   std::size_t connections = 700;
+  std::size_t watchers = 600;                     // of them: the rest is for requests
   std::size_t large_bodies = 4;                   // at once
   std::size_t small_body = std::size_t{1} << 16;  // bytes; what is longer is a large body
   std::size_t message = std::size_t{1} << 14;     // of a client of the stream

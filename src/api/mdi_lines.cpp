@@ -1,0 +1,185 @@
+#include "passo/api/mdi_lines.hpp"
+
+#include <algorithm>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "passo/grbl/grbl_reports.hpp"
+#include "passo/grbl/grbl_settings.hpp"
+
+namespace passo {
+namespace {
+
+constexpr const char* help = "[HLP:$$ $# $G $I $H $X $SLP]";
+
+bool is_off(const OutputState& outputs) {
+  return outputs.spindle == SpindleDirection::off && !outputs.mist && !outputs.flood;
+}
+
+std::string_view without_blanks(std::string_view text) {
+  const std::size_t first = std::min(text.find_first_not_of(" \t\r\n"), text.size());
+  const std::size_t last = text.find_last_not_of(" \t\r\n");
+  return text.substr(first, last == std::string_view::npos ? 0 : last + 1 - first);
+}
+
+std::vector<std::string> lines_of(std::string_view text) {
+  std::vector<std::string> lines;
+  while (!text.empty()) {
+    const std::size_t end = std::min(text.find("\r\n"), text.size());
+    if (end > 0) lines.emplace_back(text.substr(0, end));
+    text.remove_prefix(std::min(end + 2, text.size()));
+  }
+  return lines;
+}
+
+MdiLines::Answer refused(std::string code, std::string message) {
+  return {.code = std::move(code), .message = std::move(message), .words = {}};
+}
+
+MdiLines::Answer told(std::string_view text) {
+  return {.code = {}, .message = {}, .words = lines_of(text)};
+}
+
+}  // namespace
+
+MdiLines::MdiLines(const MachineDescription& machine, MachineSession& session, ProgramStore& programs)
+    : machine_(machine), session_(session), programs_(programs) {
+  make_program();
+}
+
+void MdiLines::make_program() {
+  program_ = std::make_shared<OpenProgram>(machine_, programs_.options_of(Dialect::linuxcnc),
+                                           session_.status().position.place);
+  ++version_;
+}
+
+void MdiLines::begin_anew() {
+  ended_ = false;
+  if (streams()) {
+    ended_ = true;  // once the stream has ended
+  } else {
+    make_program();
+  }
+}
+
+void MdiLines::take_offsets() {
+  program_->take_offsets(programs_.parameters(), session_.status().position.place);
+  ++version_;
+}
+
+ModesInForce MdiLines::modes() const {
+  ModesInForce modes = program_->modes();
+  if (!streams()) {
+    modes.spindle = SpindleDirection::off;
+    modes.mist = modes.flood = false;
+  }
+  return modes;
+}
+
+MdiLines::Answer MdiLines::take(std::string_view line) {
+  const std::string_view text = without_blanks(line);
+  if (text.size() > longest_line) {
+    return refused("mdi.too-long", fmt::format("the line is longer than {} characters", longest_line));
+  }
+  if (text.empty()) return {};
+  if (text.front() != '$') return take_code(text);
+  std::string command;
+  for (const char c : text) {
+    if (c != ' ') command += static_cast<char>(c >= 'a' && c <= 'z' ? c - 'a' + 'A' : c);
+  }
+  return take_command(command);
+}
+
+MdiLines::Answer MdiLines::take_code(std::string_view line) {
+  const MachineState state = session_.state();
+  if (!streams() && state != MachineState::idle) {
+    return refused("machine.busy", fmt::format("the machine is not idle: {}", name_of(state)));
+  }
+  if (streams() && (stops_ || !program_->room())) {
+    return refused("machine.busy", "the lines before this one still run: wait");
+  }
+  if (const auto closed = session_.closed_limit()) return refused(std::string(code_of(closed->code)), closed->message);
+  if (!streams()) program_->drop(session_.status().position.place);
+  if (auto wrong = program_->take(line, session_.now())) {
+    const std::string expected = wrong->expected.empty() ? "" : fmt::format(". {}", wrong->expected);
+    return refused(std::move(wrong->code), wrong->message + expected);
+  }
+  trouble_.clear();
+  changed_ = true;
+  ++version_;
+  ended_ = program_->take_ended() || ended_;
+  if (!streams() && (program_->queued() > 0 || program_->asks())) {
+    auto answer = ask(request::Stream{.program = program_.get()});
+    if (!answer.code.empty()) program_->drop(session_.status().position.place);
+    if (answer.code.empty()) streamed_ = program_;
+    return answer;
+  }
+  return {};
+}
+
+// As a Grbl controller answers them, where that makes sense for a page.
+MdiLines::Answer MdiLines::take_command(const std::string& text) {
+  const GrblUnits units{.axes = grbl_axes_of(machine_), .inches = false};
+  if (text == "$") return told(help);
+  if (text == "$G") return told(modes_text(modes(), units));
+  if (text == "$#") return told(offsets_text(program_->parameters(), program_->modes(), probe_, units));
+  if (text == "$I") return told(build_text(""));
+  if (text == "$$") {
+    std::string all;
+    for (const GrblSetting& one : grbl_settings(machine_, {})) {
+      all += fmt::format("${}={}\r\n", one.number, one.value);
+    }
+    return told(all);
+  }
+  if (text == "$H") return ask(request::Home{});
+  if (text == "$SLP") return ask(request::Sleep{});
+  if (text == "$X") {
+    const MachineState state = session_.state();
+    if (state != MachineState::alarm && state != MachineState::fault) return told("[MSG:Nothing is locked]");
+    return ask(request::ResetMachine{});
+  }
+  if (text.starts_with("$J=")) return refused("mdi.unsupported", "the console does not jog: use the page Set up");
+  if (text == "$C") return refused("mdi.unsupported", "the console does not check: open the program in Files");
+  if (text.size() > 1 && text[1] >= '0' && text[1] <= '9') {
+    return refused("mdi.unsupported", "settings are in the machine file: change them on the page Machine");
+  }
+  return refused("mdi.unsupported",
+                 fmt::format("the console does not know {}: it knows $$ $# $G $I $H $X $SLP", text.substr(0, 20)));
+}
+
+MdiLines::Answer MdiLines::ask(Request wanted) {
+  const bool is_stream = std::holds_alternative<request::Stream>(wanted);
+  const auto ticket = session_.request(std::move(wanted));
+  if (!ticket) return refused(std::string(code_of(ticket.error().code)), ticket.error().message);
+  if (is_stream) ticket_ = *ticket;
+  return {};
+}
+
+void MdiLines::heed(const MachineChange& change) {
+  if (change.kind == MachineChange::Kind::probed) probe_ = change.probe;
+  if (change.kind == MachineChange::Kind::state &&
+      (change.state == MachineState::alarm || change.state == MachineState::fault)) {
+    ended_ = true;
+  }
+  const bool is_mine = change.kind == MachineChange::Kind::answered && ticket_ == change.ticket;
+  if (is_mine) {
+    ticket_.reset();
+    // What was left on is off now, and stays off.
+    if (!std::exchange(stops_, false)) take_offsets();
+    ++version_;
+  }
+  if (ended_ && !streams()) begin_anew();
+}
+
+bool MdiLines::turn() {
+  if (streams() && !stops_ && session_.state() == MachineState::await_line && program_->queued() == 0 &&
+      !program_->asks() && session_.drive() != nullptr && is_off(session_.drive()->outputs())) {
+    if (const auto& wrong = program_->answer_fault(); wrong && trouble_.empty()) trouble_ = wrong->message;
+    stops_ = session_.request(request::Stop{}).has_value();
+  }
+  const bool rests = !session_.busy() || session_.state() == MachineState::await_line;
+  return rests && std::exchange(changed_, false);
+}
+
+}  // namespace passo

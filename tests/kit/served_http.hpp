@@ -1,0 +1,102 @@
+// Starts `passo serve --http`, and speaks to it over a socket.
+#pragma once
+
+#include <algorithm>
+#include <csignal>
+#include <cstdio>
+#include <string>
+#include <vector>
+
+#include "kit/served_board.hpp"
+#include <arpa/inet.h>
+#include <gtest/gtest.h>
+#include <netinet/in.h>
+#include <nlohmann/json.hpp>
+#include <sys/socket.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+namespace passo::test {
+
+class ServedHttp : public ServedBoard {
+ protected:
+  ~ServedHttp() override { end(); }
+
+  void serve(const std::vector<std::string>& more = {}) {
+    const std::string said = path("http-said");
+    write("http-said", "");
+    server_ = fork();
+    if (server_ == 0) {
+      if (std::freopen(said.c_str(), "w", stdout) == nullptr) _exit(1);
+      std::vector<std::string> words = {PASSO_PROGRAM, "serve", "--http", "127.0.0.1:0"};
+      words.insert(words.end(), more.begin(), more.end());
+      std::vector<char*> arguments;
+      for (std::string& word : words) arguments.push_back(word.data());
+      arguments.push_back(nullptr);
+      execv(PASSO_PROGRAM, arguments.data());
+      _exit(1);
+    }
+    for (int i = 0; i < 1000 && read(said).find("Ctrl-C") == std::string::npos; ++i) usleep(10'000);
+    const std::string text = read(said);
+    const std::string before = "http://127.0.0.1:";
+    const std::size_t at = text.find(before);
+    ASSERT_NE(at, std::string::npos) << text;
+    port_ = std::stoi(text.substr(at + before.size()));
+  }
+  int end(int signal = SIGTERM) {
+    if (server_ <= 0) return 0;
+    int status = 0;
+    kill(server_, signal);
+    waitpid(server_, &status, 0);
+    server_ = 0;
+    return WIFEXITED(status) ? WEXITSTATUS(status) : -WTERMSIG(status);
+  }
+
+  // A socket that is connected to the daemon, or -1.
+  int connected() const {
+    const int line = socket(AF_INET, SOCK_STREAM, 0);
+    sockaddr_in address{};
+    address.sin_family = AF_INET;
+    address.sin_port = htons(static_cast<std::uint16_t>(port_));
+    address.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
+    if (connect(line, reinterpret_cast<const sockaddr*>(&address), sizeof address) == 0) return line;
+    close(line);
+    return -1;
+  }
+  // The whole answer: header and body.
+  std::string ask(const std::string& method, const std::string& path, const std::string& body = "",
+                  const std::string& headers = "") const {
+    const int line = connected();
+    if (line < 0) return "nobody is there";
+    const std::string text =
+        method + " " + path +
+        " HTTP/1.1\r\nHost: 127.0.0.1\r\nConnection: close\r\nContent-Length: " + std::to_string(body.size()) + "\r\n" +
+        headers + "\r\n" + body;
+    static_cast<void>(send(line, text.data(), text.size(), MSG_NOSIGNAL));
+    std::string answer;
+    char bytes[4096];
+    for (ssize_t got = 0; (got = recv(line, bytes, sizeof bytes, 0)) > 0;) {
+      answer.append(bytes, static_cast<std::size_t>(got));
+    }
+    close(line);
+    return answer;
+  }
+  nlohmann::json json(const std::string& method, const std::string& path, const std::string& body = "",
+                      const std::string& headers = "") const {
+    const std::string answer = ask(method, "/api/v1" + path, body, headers);
+    return nlohmann::json::parse(answer.substr(std::min(answer.find("\r\n\r\n"), answer.size())), nullptr, false);
+  }
+  // The header of an owner of the motion.
+  std::string new_key() const { return "X-Passo-Key: " + json("POST", "/owner", "{}").value("key", "") + "\r\n"; }
+  template <class Condition>
+  bool until(Condition condition) {
+    for (int i = 0; i < 3000 && !condition(); ++i) usleep(10'000);
+    return condition();
+  }
+
+ private:
+  pid_t server_ = 0;
+  int port_ = 0;
+};
+
+}  // namespace passo::test
