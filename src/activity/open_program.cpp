@@ -47,7 +47,6 @@ OpenProgram::OpenProgram(const MachineDescription& machine, InterpreterOptions o
   options_.open_ended = true;
   options_.on_machine = true;
   path_options_.open_ended = true;
-  path_options_.spindle_run_up = machine.spindle.run_up;
   begin(start);
 }
 

@@ -41,11 +41,13 @@ ProgramChecker::ProgramChecker(ProgramReader program, const MachineDescription& 
       interpreter_(std::move(program), options, diagnostics),
       mistakes_(machine, options.units, path_options_.file, diagnostics),
       low_rapids_(machine, path_options_.file, diagnostics),
+      spindle_mistakes_(machine, path_options_.file, diagnostics),
       operations_(interpreter_),
       builder_(operations_, path_options_, diagnostics) {
   operations_.watch([this](const Operation& operation) {
     mistakes_.watch(operation);
     low_rapids_.watch(operation);
+    spindle_mistakes_.watch(operation);
   });
 }
 
@@ -73,6 +75,7 @@ bool ProgramChecker::take_item() {
 void ProgramChecker::finish() {
   done_ = true;
   mistakes_.finish();
+  spindle_mistakes_.finish();
   if (after_a_probe_ == most_moves_after_a_probe) tell_end(diagnostics_, path_options_.file, item_);
   diagnostics_.doubt_errors({});
   check_.tools_change = interpreter_.tools() != tools_;

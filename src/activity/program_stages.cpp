@@ -3,20 +3,11 @@
 #include "passo/activity/stage_options.hpp"
 
 namespace passo {
-namespace {
-
-PathOptions path_options_of(const MachineDescription& machine, const std::string& program, const Point& start) {
-  PathOptions options = path_options(machine, program, start);
-  options.spindle_run_up = machine.spindle.run_up;
-  return options;
-}
-
-}  // namespace
 
 ProgramStages::ProgramStages(ProgramReader program, const MachineDescription& machine,
                              const InterpreterOptions& options, const MachineAnswers& answers, Diagnostics& diagnostics,
                              std::vector<ProbeOutcome> known)
-    : path_options_(path_options_of(machine, program.name(), options.start)),
+    : path_options_(path_options(machine, program.name(), options.start)),
       answers_(answers, std::move(known)),
       interpreter_(std::move(program), options, diagnostics, answers_),
       operations_(interpreter_),

@@ -14,9 +14,11 @@ PathOptions path_options(const MachineDescription& machine, const std::string& p
   for (const AxisDescription& axis : machine.axes) {
     options.axes.add(axis.axis);
     options.travel[axis.axis] = {.low = axis.travel_low, .high = axis.travel_high};
+    options.velocity[axis.axis] = axis.velocity;
   }
   options.tolerance = machine.path_tolerance;
   options.spindle_limit = machine.tool.highest_rpm;
+  options.spindle_run_up = machine.spindle.run_up;
   options.file = program;
   options.start = start;
   return options;

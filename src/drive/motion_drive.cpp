@@ -9,6 +9,7 @@
 
 #include "passo/drive/backlash_options.hpp"
 #include "passo/drive/direct_feed.hpp"
+#include "passo/path/run_up.hpp"
 
 namespace passo {
 namespace {
@@ -43,13 +44,16 @@ MotionDrive::MotionDrive(Source<PathItem>& path, const MotionLimits& limits, con
       probe_(board_, answers, steps),
       spindle_({.planner = planner_, .feed = *feed_, .link = board_}, limits, options.counts_per_turn,
                steps.clock.tick_rate),
+      pause_end_(options.not_before),
       spindle_wait_(options.spindle_wait),
+      spindle_run_up_(options.spindle_run_up),
       waits_at_optional_(options.waits_at_optional) {
   line_stops_.stop_at_lines(options.stops_at_lines);
   backlash_taker_.ask_after_probe([this, motors = steps] { return backlash_at_rest(motors); });
   watched_path_.watch([this](const PathItem& item) { watch(item); });
   watched_motion_.watch([this](const MotionItem& item) { watch(item); });
   if (options.guards_by_probe) probe_.guard_other_moves();
+  await_pause_end();
   // Whoever used the board before may have been stopped amid a probe move.
   script_.then([this] { probe_.ask_to_watch_others(); });
   script_.until([this] { return board_.settled(); });
@@ -371,7 +375,7 @@ void MotionDrive::resume(HoldReason reason) {
 
 void MotionDrive::let_outputs_go() {
   const bool spindle_stands = outputs_.spindle_stands();
-  if (!spindle_stands && !outputs_.all_stand()) return;
+  if (!spindle_stands && !outputs_.all_stand()) return await_pause_end();
   outputs_.stop_spindle(false);
   outputs_.stop_all(false);
   switch_on(outputs_.ordered(), spindle_wait_);
@@ -421,8 +425,14 @@ void MotionDrive::switch_flood(bool on) {
 
 void MotionDrive::stop_spindle(bool stands) {
   if (state_ != State::held || stopped()) return;
+  if (stands == outputs_.spindle_stands()) return;
   outputs_.stop_spindle(stands);
   tell_outputs();
+  if (!stands) pause_end_ = now() + run_up_time({}, outputs_.in_force(), spindle_run_up_);
+}
+
+void MotionDrive::await_pause_end() {
+  script_.until([this] { return pause_end_ - now() <= hardly_any; });
 }
 
 void MotionDrive::stop_outputs() {
@@ -456,8 +466,9 @@ void MotionDrive::switch_on(const OutputState& outputs, Seconds spindle_wait) {
   };
   order(spindle);
   if (spindle.spindle != SpindleDirection::off) {
-    script_.then([this, spindle_wait] { pause_end_ = now() + spindle_wait; });
-    script_.until([this] { return pause_end_ - now() <= hardly_any; });
+    const Seconds wait = std::max(spindle_wait, run_up_time({}, spindle, spindle_run_up_));
+    script_.then([this, wait] { pause_end_ = now() + wait; });
+    await_pause_end();
   }
   if (spindle != outputs) order(outputs);
 }

@@ -23,8 +23,7 @@ constexpr Seconds half_a_move{0.001};
 // In turns: after this way the tool has made up for its start.
 constexpr double lead_in = 4;
 
-// The tool is up to speed, and its place counts, from this part of the spindle's speed on.
-constexpr double up_to_speed = 0.95;
+// The tool goes with the spindle, and does not brake for the end of the move, from this part of the spindle's speed on.
 constexpr double most_of_it = 0.8;
 
 // Under a limit of jerk, the smallest changes of the ratio that are made: while the tool speeds up, and after that.
@@ -59,6 +58,7 @@ void SpindleFollower::watch(const PlannedMove& move) {
   if (lock_ == SpindleLock::none) return;
   const double pitch = move.segment.pitch.value();
   programmed_ = move.segment.speed.value() / pitch;
+  most_turns_ = speed_within(move.segment.curve.steepest_bound(), fastest, limits_) / pitch;
   if (lag_ < 0) lag_ = lag_of(move);
   followed_ += direction_ * (move.to - move.from()).value() / pitch;
   reached_ = move.exit_velocity().value() / pitch;
@@ -140,7 +140,7 @@ bool SpindleFollower::turns_back(Seconds committed) const {
 }
 
 double SpindleFollower::missing(Seconds committed) const {
-  const bool goes_with_it = in_place_ && reached_ > most_of_it * speed();  // and does not brake for the end of the move
+  const bool goes_with_it = in_place_ && reached_ > most_of_it * speed();
   if (!goes_with_it || followed_ < lead_in || readings_.size() < least_readings) return 0;
   return course(committed).turns - lag_ - followed_;
 }

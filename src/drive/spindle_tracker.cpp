@@ -23,7 +23,7 @@ constexpr double counts_at_least = 8;
 // A thread that begins more than this many turns late has no lead-in long enough to make up for the delay.
 constexpr double latest_start = 0.25;
 constexpr int sure_of_start = 3;
-// If the tool is off by this part of a turn after its lead-in, the line is too slow to follow this spindle.
+// If the tool is off by this part of a turn after its lead-in, the line or an axis is too slow to follow this spindle.
 constexpr double most_missing = 0.1;
 constexpr Seconds longest_lead{0.2};
 constexpr std::size_t bytes_of_a_start = 460;  // twenty items
@@ -145,7 +145,10 @@ bool SpindleTracker::follow() {
   const bool by_place = follower_.lock() == SpindleLock::place;
   if (!mind_encoder(by_place ? longest_stand : longest_run_up)) return true;
   if (index_time_) mind_start();
-  if (remote && by_place && std::abs(follower_.missing(ahead)) > most_missing) trouble_ = LinkError::thread_lost;
+  if (by_place && std::abs(follower_.missing(ahead)) > most_missing) {
+    trouble_ = remote ? LinkError::thread_lost : LinkError::thread_outrun;
+  }
+  if (by_place && follower_.outruns_axes()) trouble_ = LinkError::thread_outrun;
   if (turn_expected_ && follower_.turns_back(ahead)) {
     turn_expected_ = false;
     turned_back_ = true;

@@ -12,6 +12,7 @@
 
 #include "passo/activity/stage_options.hpp"
 #include "passo/drive/backlash_options.hpp"
+#include "passo/path/run_up.hpp"
 
 namespace passo {
 namespace {
@@ -177,7 +178,8 @@ class LeadIn {
   }
   void switch_on() {
     if (at_.outputs.spindle == SpindleDirection::off) return;
-    const Seconds wait = std::max(at_.spindle_wait, machine_.silence.spindle_wait);
+    const Seconds run_up = run_up_time({}, at_.outputs, machine_.spindle.run_up);
+    const Seconds wait = std::max({at_.spindle_wait, machine_.silence.spindle_wait, run_up});
     OutputState spindle = at_.outputs;
     spindle.mist = spindle.flood = false;
     say(fmt::format("spindle on, {} at {:.0f} turns a minute, and a wait of {:g} s",

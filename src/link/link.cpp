@@ -38,6 +38,10 @@ std::string_view message_of(LinkError error) {
     case LinkError::thread_lost:
       return "the line was broken in a thread, or too slow for it: the machine has come to rest on the path, spindle "
              "off, and the thread cannot go on there";
+    case LinkError::thread_outrun:
+      return "the spindle turned faster in a thread than the axes can follow: the machine has come to rest on the "
+             "path, "
+             "spindle off, and the thread cannot go on there; the override of the spindle, S or the pitch is too high";
   }
   return "the link to the board failed";
 }

@@ -84,6 +84,9 @@ std::string describe_pins(const PinsDescription& pins) {
   if (pins.drivers_off_after > Seconds(0)) {
     out += fmt::format("drivers         off {:g} s after the host's last word\n", pins.drivers_off_after.value());
   }
+  if (pins.enable_wait > Seconds(0)) {
+    out += fmt::format("drivers         ready {:g} s after they are enabled\n", pins.enable_wait.value());
+  }
   return out;
 }
 
@@ -139,9 +142,12 @@ std::string describe_tool(const ToolDescription& tool) {
 }
 
 std::string describe_spindle(const SpindleDescription& spindle) {
-  if (spindle.counts_per_turn == 0) return "";
+  if (spindle.counts_per_turn == 0) {
+    return spindle.run_up > Seconds(0) ? fmt::format("spindle         {:g} s to 1000 rpm\n", spindle.run_up.value())
+                                       : "";
+  }
   return fmt::format(
-      "spindle         encoder of {} counts a turn; virtual: {:g} s to 1000 rpm, droop {:g} %, ripple {:g} % at "
+      "spindle         encoder of {} counts a turn; {:g} s to 1000 rpm; virtual: droop {:g} %, ripple {:g} % at "
       "{:g} Hz\n",
       spindle.counts_per_turn, spindle.run_up.value(), spindle.droop * 100, spindle.ripple * 100,
       spindle.ripple_rate.value());

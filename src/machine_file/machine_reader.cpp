@@ -184,6 +184,7 @@ void MachineReader::read_spindle(const TomlEntry& entry) {
     spindle.counts_per_turn = static_cast<int>(*counts);
   }
   if (const auto time = reader.number(run_up_key, Need::optional)) spindle.run_up = Seconds(*time);
+  spindle.run_up_is_given = reader.has(run_up_key.name);
   if (const auto droop = reader.number(droop_key, Need::optional)) spindle.droop = *droop / 100;
   if (const auto ripple = reader.number(ripple_key, Need::optional)) spindle.ripple = *ripple / 100;
   if (const auto rate = reader.number(ripple_rate_key, Need::optional)) spindle.ripple_rate = Hertz(*rate);

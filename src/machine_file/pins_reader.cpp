@@ -15,6 +15,7 @@ constexpr double shortest_silence = 0.5;
 
 constexpr NumberKey filter_key{"filter_us", 0, 250, "100"};
 constexpr NumberKey drivers_off_key{"drivers_off_after_s", 0, 25.5, "20"};
+constexpr NumberKey enable_wait_key{"enable_wait_s", 0, 10, "0.2"};
 constexpr NumberKey silent_spindle_key{"spindle_off_after_s", 0, 25.5, "2"};
 constexpr NumberKey silent_mist_key{"mist_off_after_s", 0, 25.5, "2"};
 constexpr NumberKey silent_flood_key{"flood_off_after_s", 0, 25.5, "10"};
@@ -93,6 +94,7 @@ void read_outputs(TableReader& reader, PinsDescription& pins) {
   read_low(reader, "mist", pins.mist_low);
   read_low(reader, "flood", pins.flood_low);
   read_tenths(reader, drivers_off_key, pins.drivers_off_after);
+  if (const auto wait = reader.number(enable_wait_key, Need::optional)) pins.enable_wait = Seconds(*wait);
 }
 
 void read_windings(TableReader& reader, BoardDescription& board) {

@@ -31,9 +31,6 @@ constexpr Mm least_spline_tolerance{1e-5};
 // How far a merged line may leave the path if the program does not say: this share of the tolerance.
 constexpr double merge_share = 0.05;
 
-// After an error a move still needs some speed, so that the checking pass can go on.
-constexpr MmPerSecond speed_after_error{1};
-
 // The operations that take() ignores, because other parts of the program act on them. A new operation must be named
 // here or handled in take(). Otherwise take() does not compile.
 template <class What, class... Others>
@@ -45,15 +42,6 @@ concept OfOthers =
               operation::SetToolNumber, operation::SetToolTableEntry, operation::PalletShuttle, operation::Finish,
               operation::TurnProbe, operation::Comment, operation::Message, operation::Print, operation::Log,
               operation::Reset, operation::SetFeedReference>;
-
-bool turns_only_rotary_axes(const Curve& curve) {
-  if (curve.shape() != Curve::Shape::line) return false;
-  const Point direction = curve.tangent(Mm(0));
-  for (const Axis axis : all_axes) {
-    if (!is_rotary(axis) && direction[axis] != 0) return false;
-  }
-  return true;
-}
 
 template <class... Handlers>
 struct Overloaded : Handlers... {
@@ -90,24 +78,16 @@ bool PathBuilder::next(PathItem& item) {
   // there is no item in hand.
   const bool switches = outputs() != handed_on_;
   if (switches) in_step_ = false;
-  const bool awaits = has_item && must_await_index(item);
-  if (!switches && !awaits) return has_item;
+  if (switches) run_up_left_ = run_up_after(handed_on_);
+  const bool awaits_index = has_item && must_await_index(item);
+  const bool awaits_speed = has_item && must_await_speed(item);
+  if (!switches && !awaits_index && !awaits_speed) return has_item;
   if (has_item) held_.push_back(item);
-  Action await = outputs_action();
-  await.kind = Action::Kind::await_index;
-  if (switches && awaits) held_.push_front(await);
-  item = switches ? outputs_action() : await;
+  if (awaits_index) held_.emplace_front(outputs_action(Action::Kind::await_index));
+  if (awaits_speed) held_.emplace_front(outputs_action(Action::Kind::dwell, std::exchange(run_up_left_, Seconds(0))));
+  if (switches) held_.emplace_front(outputs_action());
   handed_on_ = outputs();
-  return true;
-}
-
-// A thread directly after another thread stays in step, and need not wait for the index.
-bool PathBuilder::must_await_index(const PathItem& item) {
-  const auto* segment = std::get_if<Segment>(&item);
-  if (followed_tap_ == TapStep::back && segment == nullptr) return false;
-  const bool was = in_step_;
-  in_step_ = segment != nullptr && segment->lock == SpindleLock::place;
-  return in_step_ && !was;
+  return next(item);
 }
 
 // Some operations stand for several operations. These come before the next operation of the program.
@@ -364,8 +344,10 @@ bool PathBuilder::take_curve(const Curve& curve, bool rapid, PathItem& item) {
   check_axes(curve);
   check_travel(curve);
   position_ = curve.end();
+  const MmPerSecond speed = rapid ? MmPerSecond(std::numeric_limits<double>::infinity()) : feed_along(curve);
+  if (!rapid && lock() != SpindleLock::none) check_thread(curve, speed);
   item = Segment{.curve = curve,
-                 .speed = rapid ? MmPerSecond(std::numeric_limits<double>::infinity()) : feed_along(curve),
+                 .speed = speed,
                  .rapid = rapid,
                  .mode = path_mode_,
                  .tolerance = tolerance_,
@@ -385,36 +367,6 @@ Point PathBuilder::machine_end(const Point& work_end) const {
     if (std::abs(end[axis] - position_[axis]) < still) end[axis] = position_[axis];
   }
   return end;
-}
-
-MmPerSecond PathBuilder::feed_along(const Curve& curve) {
-  if (synchronised_pitch_) return feed_with_spindle(synchronised_pitch_->value());
-  const double rate = turns_only_rotary_axes(curve) ? feed_rate_.rotary_rate : feed_rate_.rate;
-  if (feed_mode_ == FeedMode::units_per_revolution) return feed_with_spindle(rate);
-  if (rate > 0) return MmPerSecond(rate);
-  report(Severity::error, "path.no-feed", "a feed move without a feed rate", "F above 0 before the move, or on it");
-  return speed_after_error;
-}
-
-MmPerSecond PathBuilder::feed_with_spindle(double mm_per_revolution) {
-  const double rate = mm_per_revolution * outputs().revolutions_per_minute / seconds_per_minute;
-  if (rate > 0) return MmPerSecond(rate);
-  report(Severity::error, "path.spindle-off",
-         mm_per_revolution > 0 ? "the feed follows the spindle, and the spindle stands"
-                               : "the feed follows the spindle, by nothing a revolution",
-         "S above 0 with M3 or M4, and a pitch (K) or feed (F) above 0, before the move");
-  return speed_after_error;
-}
-
-void PathBuilder::set_spindle_speed(double revolutions_per_minute) {
-  const double limit = options_.spindle_limit;
-  commanded_.revolutions_per_minute = limit > 0 ? std::min(revolutions_per_minute, limit) : revolutions_per_minute;
-  if (!(limit > 0 && revolutions_per_minute > limit) || revolutions_per_minute == refused_spindle_speed_) return;
-  refused_spindle_speed_ = revolutions_per_minute;
-  report(Severity::warning, "path.spindle-too-fast",
-         fmt::format("the program asks for {:.0f} rpm, and the spindle turns at {:.0f} at most, which is used",
-                     revolutions_per_minute, limit),
-         fmt::format("S up to {:.0f}", limit));
 }
 
 // G61 and G61.1 allow no deviation from the path, so the tolerance is 0.
@@ -457,13 +409,8 @@ SpindleLock PathBuilder::lock() const {
   return feed_mode_ == FeedMode::units_per_revolution ? SpindleLock::speed : SpindleLock::none;
 }
 
-Action PathBuilder::outputs_action() const {
-  return {.kind = Action::Kind::outputs,
-          .dwell = Seconds(0),
-          .outputs = outputs(),
-          .tool = 0,
-          .heeds = heeds(),
-          .source = outputs_source_};
+Action PathBuilder::outputs_action(Action::Kind kind, Seconds dwell) const {
+  return {.kind = kind, .dwell = dwell, .outputs = outputs(), .tool = 0, .heeds = heeds(), .source = outputs_source_};
 }
 
 void PathBuilder::report(Severity severity, std::string code, std::string message, std::string expected,

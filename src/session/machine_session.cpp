@@ -27,7 +27,8 @@ constexpr bool is_of_work(LinkError error) {
     case LinkError::no_encoder:
     case LinkError::spindle_stands:
     case LinkError::encoder_wrong:
-    case LinkError::thread_lost: return true;
+    case LinkError::thread_lost:
+    case LinkError::thread_outrun: return true;
     default: return false;
   }
 }
@@ -131,6 +132,7 @@ void MachineSession::go_online(Seconds most) {
     board_.poll(most);
     if (!board_.status()) return;
   }
+  enabled_at_ = now();
   place_.reset();
   stand_at(position_);
   move_to(MachineEvent::ready);

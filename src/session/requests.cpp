@@ -150,7 +150,11 @@ StepOptions MachineSession::step_options() const {
 }
 
 DriveOptions MachineSession::drive_options() const {
-  DriveOptions options{.live = live_commitment, .waits_at_optional = stops_.optional_stop};
+  DriveOptions options{.live = live_commitment,
+                       .not_before = enabled_at_ + machine_.pins.enable_wait,
+                       .spindle_wait = machine_.silence.spindle_wait,
+                       .spindle_run_up = machine_.spindle.run_up,
+                       .waits_at_optional = stops_.optional_stop};
   if (options_.over_a_line) options.tails.emplace();
   return options;
 }
@@ -178,7 +182,6 @@ MachineSession::Answer MachineSession::take(request::Start& start) {
   if (start.live) work->whole = start.nominal_time;
   work->watchers = std::move(start.watchers);
   DriveOptions options = drive_options();
-  options.spindle_wait = machine_.silence.spindle_wait;
   options.counts_per_turn = counts;
   options.guards_by_probe = machine_.probe.guards && start.answers_probes;
   options.waits_for_operator = start.waits_for_operator;
@@ -207,7 +210,6 @@ MachineSession::Answer MachineSession::take(request::Stream& stream) {
   work->activity = std::make_unique<OpenRun>(*stream.program, machine_);
   work->watchers = std::move(stream.watchers);
   DriveOptions options = drive_options();
-  options.spindle_wait = machine_.silence.spindle_wait;
   options.waits_for_operator = true;
   put_on_drive(*work, options, true);
   return begin(MachineEvent::begin_run, std::move(work));

@@ -84,7 +84,8 @@ TEST_F(Boards, thread_with_an_encoder_on_their_pins_or_say_that_they_have_none) 
   const std::size_t rate = machine.find("150_000");
   ASSERT_NE(rate, std::string::npos);
   machine.replace(rate, 7, "100_000");
-  machine += "\n[spindle]\nencoder_counts_per_turn = 1024\nrun_up_s = 0.5\nripple_percent = 3\n";
+  const std::string spindle = "[spindle]\n";
+  machine.insert(machine.find(spindle) + spindle.size(), "encoder_counts_per_turn = 1024\nripple_percent = 3\n");
   const std::string program = write("p.ngc", "G21 S600 M3\nG0 Z1\nG33 Z-8 K1.5\nG0 X1\nZ1\nM5\nM2\n");
   const std::string command = "run " + program + " --json -m " + write("lathe.toml", machine);
   const Outcome outcome = passo(command + " --board sim:mega");

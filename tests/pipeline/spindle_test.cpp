@@ -1,5 +1,6 @@
 // Threads and feeds a revolution follow the spindle as it turns, not as it was told to.
 #include <cmath>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -135,6 +136,39 @@ TEST(SpindleFollowing, a_feed_a_revolution_is_as_fast_as_the_spindle_turns) {
 
 TEST(SpindleFollowing, a_machine_without_an_encoder_takes_the_speed_as_commanded) {
   EXPECT_NEAR(run("G21 S600 M3\nG33 Z-15 K1.5\nM2\n", lathe({})).time, 1, 0.05);
+}
+
+// Twice as fast as the program says, a thread of 37.5 mm/s needs 75 of Z, whose limit is 50.
+void expect_outrun(const std::optional<LineOptions>& line, double override_at) {
+  const MachineDescription machine = lathe(ideal);
+  Diagnostics diagnostics;
+  IdealPlant plant = plant_of(machine);
+  test::DrivenProgram job(ProgramReader::from_text("t", "G21 S1500 M3\nG33 Z-60 K1.5\nG0 X10\nM5\nM2\n"), machine,
+                          InterpreterOptions(), diagnostics, {.line = line, .plant = &plant});
+  test::Thread thread(machine, plant);
+  job.machine().add_observer(thread);
+  const auto depth = [&] { return thread.cuts.empty() ? 0.0 : thread.cuts.back().z; };
+  bool raised = false;
+  do {
+    if (!raised && depth() <= override_at) job.drive().set_spindle_override(2);
+    raised = raised || depth() <= override_at;
+  } while (job.advance());
+  ASSERT_TRUE(job.link().error());
+  EXPECT_EQ(*job.link().error(), LinkError::thread_outrun) << message_of(*job.link().error());
+  EXPECT_EQ(job.machine().counts().outputs.switches, 0) << "the spindle is off";
+  EXPECT_LT(std::abs(depth() - override_at), 8) << "braked in the thread";
+}
+
+TEST(SpindleFollowing, a_thread_that_an_axis_cannot_follow_any_more_ends_in_words) {
+  for (const double override_at : {0.0, -20.0}) {
+    expect_outrun({}, override_at);
+    expect_outrun(LineOptions{.baud = 1'000'000, .latency = Seconds(0.001)}, override_at);
+  }
+}
+
+TEST(SpindleFollowing, a_thread_at_an_axis_limit_is_cut) {
+  const Played result = run("G21 S2000 M3\nG33 Z-60 K1.5\nM5\nM2\n", lathe(ideal));
+  EXPECT_LT(spread(result.cuts, 1.5, -10, -55).mm(1.5), 0.03);
 }
 
 }  // namespace

@@ -228,7 +228,8 @@ TEST(LinkError, has_a_sentence_for_each_reason) {
   for (const LinkError error :
        {LinkError::no_answer, LinkError::no_progress, LinkError::wrong_version, LinkError::too_few_motors,
         LinkError::refused, LinkError::was_reset, LinkError::stopped, LinkError::too_few_places, LinkError::manual,
-        LinkError::no_encoder, LinkError::spindle_stands, LinkError::encoder_wrong, LinkError::thread_lost}) {
+        LinkError::no_encoder, LinkError::spindle_stands, LinkError::encoder_wrong, LinkError::thread_lost,
+        LinkError::thread_outrun}) {
     sentences.push_back(message_of(error));
   }
   std::sort(sentences.begin(), sentences.end());

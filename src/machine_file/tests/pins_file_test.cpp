@@ -35,12 +35,15 @@ step = "low"
 driver_enable = "high"
 flood = "low"
 drivers_off_after_s = 12.5
+enable_wait_s = 0.2
 )");
   const PinsDescription& pins = machine.pins;
   EXPECT_EQ(pins.limits_high, (std::array<bool, most_motors>{true, false, true}));
   EXPECT_TRUE(pins.emergency_stop_high && pins.step_low && pins.driver_enable_high && pins.flood_low);
   EXPECT_FALSE(pins.probe_high || pins.mist_low);
   EXPECT_EQ(pins.drivers_off_after, Seconds(12.5));
+  EXPECT_EQ(pins.enable_wait, Seconds(0.2));
+  EXPECT_THAT(describe(machine), testing::HasSubstr("ready 0.2 s after they are enabled\n"));
   EXPECT_THAT(describe(machine), testing::HasSubstr("on when high: limit 1, limit 3, emergency stop, drivers\n"));
   EXPECT_THAT(describe(machine), testing::HasSubstr("on when low: step, flood\n"));
 }

@@ -13,6 +13,7 @@
 #include "passo/activity/activity.hpp"
 #include "passo/activity/low_rapids.hpp"
 #include "passo/activity/program_stages.hpp"
+#include "passo/activity/spindle_mistakes.hpp"
 #include "passo/activity/usual_mistakes.hpp"
 #include "passo/base/tap.hpp"
 #include "passo/diagnostics/diagnostic.hpp"
@@ -65,6 +66,7 @@ class ProgramChecker {
   Interpreter interpreter_;
   UsualMistakes mistakes_;
   LowRapids low_rapids_;
+  SpindleMistakes spindle_mistakes_;
   Tap<Operation> operations_;
   PathBuilder builder_;
   std::function<void(const PathItem&)> watcher_;

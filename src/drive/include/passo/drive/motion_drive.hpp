@@ -47,7 +47,9 @@ struct DriveOptions {
   std::optional<PathPlace> begin_at = {};
   // Leads from where the machine stands to `begin_at`, and ends at rest. Empty: the machine stands there.
   std::vector<PathItem> lead_in = {};
+  Seconds not_before{0};            // no motion before this time on the board's side
   Seconds spindle_wait{0};          // before motion goes on, after the board had switched its outputs off
+  Seconds spindle_run_up{0};        // from rest to 1000 turns a minute; the wait is at least as long as that takes
   int counts_per_turn = 0;          // counts of the spindle's encoder; 0: nothing follows the spindle
   bool guards_by_probe = false;     // a touch outside a probe move stops the drive
   bool waits_for_operator = false;  // at stops (M0, M1) and tool changes (M6)
@@ -181,6 +183,7 @@ class MotionDrive {
   void switch_on_again();
   void tell_outputs();
   void let_outputs_go();
+  void await_pause_end();
   void switch_off_and_end(std::optional<LinkError> error);
   Turn end();
   Seconds due() const;
@@ -204,6 +207,7 @@ class MotionDrive {
   Script script_;  // the steps to do at rest
   Seconds pause_end_{0};
   Seconds spindle_wait_;
+  Seconds spindle_run_up_;
   int output_timeouts_ = 0;
   bool awaits_index_ = false;
 

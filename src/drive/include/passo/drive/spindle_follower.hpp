@@ -47,9 +47,13 @@ class SpindleFollower {
 
   // By how many turns the tool is off when the committed motion ends. 0 until the tool has had a lead-in.
   double missing(Seconds committed) const;
+  // True: the spindle is so fast that the axes cannot get the tool up to speed.
+  bool outruns_axes() const { return up_to_speed * speed() > most_turns_; }
   // The least and the greatest ratio that ratio() gives. A spindle slower than `least_ratio` is not followed.
   static constexpr double least_ratio = 0.02;
   static constexpr double most_ratio = 2;
+  // The tool is up to speed, and its place counts, from this part of the spindle's speed on.
+  static constexpr double up_to_speed = 0.95;
 
  private:
   // What the readings predict for a time after the last reading.
@@ -69,6 +73,7 @@ class SpindleFollower {
   std::deque<SpindleReading> readings_;  // the last few hundredths of a second
   SpindleLock lock_ = SpindleLock::none;
   double programmed_ = 0;  // turns a second
+  double most_turns_ = 0;  // turns a second that the axes can follow on the move that was committed last
   double reached_ = 0;     // turns a second, at the end of the committed motion
   double index_ = 0;       // turns of the spindle where the locked move begins
   double way_ = 1;         // the spindle's direction then; -1: down

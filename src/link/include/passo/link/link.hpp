@@ -37,6 +37,7 @@ enum class LinkError : std::uint8_t {
   spindle_stands,  // the encoder counts nothing, though the spindle is to turn
   encoder_wrong,   // the counts from index to index are not whole turns
   thread_lost,     // the machine had to rest in a thread, because a refill came too late
+  thread_outrun,   // the axes could not keep up with the spindle in a thread
 };
 // A sentence without a full stop.
 std::string_view message_of(LinkError error);

@@ -138,9 +138,10 @@ struct ProbeDescription {
 // The spindle that threads and feeds a revolution follow. Some keys describe how the virtual machine's spindle behaves.
 struct SpindleDescription {
   int counts_per_turn = 0;  // of its encoder; 0: no encoder, and nothing can follow the spindle
-  Seconds run_up{0};        // from rest to 1000 turns a minute
-  double droop = 0;         // the share of the speed that is missing under load
-  double ripple = 0;        // the share of the speed by which it goes up and down
+  Seconds run_up{0};        // from rest to 1000 turns a minute; motion waits for it
+  bool run_up_is_given = false;
+  double droop = 0;   // the share of the speed that is missing under load
+  double ripple = 0;  // the share of the speed by which it goes up and down
   Hertz ripple_rate{1};
 };
 
@@ -172,6 +173,7 @@ struct PinsDescription {
   bool mist_low = false;
   bool flood_low = false;
   Seconds drivers_off_after{0};  // at rest without a host, in whole tenths of a second; 0: never
+  Seconds enable_wait{0};        // from the drivers' enable to motion
 };
 
 struct MachineDescription {

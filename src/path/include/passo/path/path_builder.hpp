@@ -35,15 +35,17 @@ struct TravelLimit {
 };
 
 struct PathOptions {
-  AxisSet axes;                 // the axes that the machine has
-  PerAxis<TravelLimit> travel;  // machine coordinates
-  Mm tolerance{0.01};           // of junctions, if the program gives none (G64 P)
-  double spindle_limit = 0;     // fastest spindle, revolutions a minute; 0: no spindle speed is refused
-  Point start;                  // machine position at the start
+  AxisSet axes;                     // the axes that the machine has
+  PerAxis<TravelLimit> travel;      // machine coordinates
+  PerAxis<MmPerSecond> velocity{};  // the axes' top speeds, for feeds that follow the spindle; 0: no feed is refused
+  Mm tolerance{0.01};               // of junctions, if the program gives none (G64 P)
+  double spindle_limit = 0;         // fastest spindle, revolutions a minute; 0: no spindle speed is refused
+  Point start;                      // machine position at the start
   // True: more operations may come after those that the source has given. At its end nothing is switched off.
   bool open_ended = false;
-  Seconds spindle_run_up{0};  // from rest to 1000 turns a minute; gives the room for a tap to reverse
-  std::string file;           // names the program in diagnostics
+  // From rest to 1000 turns a minute. Motion waits for the spindle, and a tap has room to reverse.
+  Seconds spindle_run_up{0};
+  std::string file;  // names the program in diagnostics
 };
 
 class PathBuilder final : public Source<PathItem> {
@@ -62,6 +64,7 @@ class PathBuilder final : public Source<PathItem> {
   void stand_at(const Point& machine) {
     position_ = machine;
     below_ = above_ = missing_ = AxisSet();
+    refused_feed_ = MmPerSecond(0);
   }
 
  private:
@@ -96,9 +99,12 @@ class PathBuilder final : public Source<PathItem> {
   Heeds heeds() const;
   SpindleLock lock() const;
   OutputState outputs() const;
-  Action outputs_action() const;
+  Action outputs_action(Action::Kind kind = Action::Kind::outputs, Seconds dwell = Seconds(0)) const;
   bool must_await_index(const PathItem& item);
+  bool must_await_speed(const PathItem& item);
+  Seconds run_up_after(const OutputState& before) const;
 
+  void check_thread(const Curve& curve, MmPerSecond speed);
   void check_travel(const Curve& curve);
   bool is_within_travel(const Box& box) const;
   void check_side(Axis axis, bool high_side, double reached, const Curve& curve, AxisSet& outside);
@@ -154,6 +160,8 @@ class PathBuilder final : public Source<PathItem> {
   OutputState handed_on_;
   OperationSource outputs_source_;
   double refused_spindle_speed_ = 0;
+  MmPerSecond refused_feed_{0};  // the last feed that no axis can make, and that follows the spindle
+  Seconds run_up_left_{0};       // the spindle has not reached its speed before that
 
   // The axes on which the path is now outside the machine. An excursion is reported once, not at each of its moves.
   AxisSet below_;

@@ -200,6 +200,7 @@ class MachineSession {
   std::deque<MachineChange> changes_;
   std::vector<Ticket> waiting_holds_;  // answered when the machine rests
   Ticket last_ticket_ = 0;
+  Seconds enabled_at_{0};  // when the board was greeted last, and with that its drivers were enabled
   std::uint64_t version_ = 0;
 };
 

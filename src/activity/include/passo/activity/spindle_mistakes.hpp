@@ -1,0 +1,56 @@
+// SpindleMistakes: warns of a cut that may begin before the spindle is at its speed, and of a program that seems to be
+// written for a laser.
+//
+// Passo has no laser mode. The beam of such a program would stay on in rapids and at rest. A lathe, a machine without
+// Y, is no laser. There M4 is usual, and S may change between cuts.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "passo/diagnostics/diagnostic.hpp"
+#include "passo/interpreter/operation.hpp"
+#include "passo/machine_file/machine_description.hpp"
+
+namespace passo {
+
+class SpindleMistakes {
+ public:
+  // `diagnostics` outlives this.
+  SpindleMistakes(const MachineDescription& machine, std::string file, Diagnostics& diagnostics);
+
+  // Call it for each operation of the program, in order.
+  void watch(const Operation& operation);
+  // Call it after the last operation.
+  void finish();
+
+ private:
+  void turn(const Operation& operation, SpindleDirection direction);
+  void set_speed(const Operation& operation, double speed);
+  void note_speed_up(const Operation& operation);
+  void feed(const Operation& operation);
+
+  bool may_be_early_;  // the spindle has a speed, and the machine file does not say how long it runs up
+  bool is_lathe_;
+  std::string file_;
+  Diagnostics& diagnostics_;
+
+  SpindleDirection direction_ = SpindleDirection::off;
+  double speed_ = 0;       // S
+  bool taps_ = false;      // amid a cycle that taps, which reverses the spindle at the bottom of the hole
+  bool fed_last_ = false;  // the last motion was a feed, and nothing has rested since
+
+  std::optional<Diagnostic> sped_up_;  // the spindle was sped up, and nothing has waited since
+  std::optional<Diagnostic> early_;    // the same, and a feed has followed: the first place
+
+  std::optional<std::uint32_t> changed_;  // the line of a change of S since the last motion
+  std::uint64_t places_ = 0;              // feeds as a laser has them
+  bool any_changes_ = false;              // of S
+  bool any_backwards_ = false;            // M4
+  std::vector<std::uint32_t> lines_;      // of the first places, and one more
+  std::optional<Diagnostic> laser_;       // at the first place
+};
+
+}  // namespace passo

@@ -1,0 +1,97 @@
+#include "passo/activity/spindle_mistakes.hpp"
+
+#include <algorithm>
+#include <utility>
+#include <variant>
+
+#include "operation_warning.hpp"
+#include <fmt/format.h>
+
+namespace passo {
+namespace {
+
+constexpr std::size_t most_named_lines = 3;
+
+template <class... Whats>
+bool asks_for(const Operation& operation) {
+  return (std::holds_alternative<Whats>(operation.what) || ...);
+}
+
+}  // namespace
+
+SpindleMistakes::SpindleMistakes(const MachineDescription& machine, std::string file, Diagnostics& diagnostics)
+    : may_be_early_(machine.tool.highest_rpm > 0 && !machine.spindle.run_up_is_given),
+      is_lathe_(std::ranges::find(machine.axes, Axis::y, &AxisDescription::axis) == machine.axes.end()),
+      file_(std::move(file)),
+      diagnostics_(diagnostics) {}
+
+void SpindleMistakes::watch(const Operation& operation) {
+  using namespace passo::operation;
+  if (const auto* set = std::get_if<SetFeedOverride>(&operation.what)) taps_ = !set->on;
+  if (taps_) return;
+  if (const auto* turned = std::get_if<TurnSpindle>(&operation.what)) return turn(operation, turned->direction);
+  if (const auto* speed = std::get_if<SetSpindleSpeed>(&operation.what)) {
+    return set_speed(operation, speed->revolutions_per_minute);
+  }
+  if (asks_for<StraightFeed, ArcFeed, NurbsFeed>(operation)) return feed(operation);
+  if (!asks_for<StraightTraverse, Dwell, ProgramStop, OptionalProgramStop, ChangeTool>(operation)) return;
+  fed_last_ = false;
+  changed_.reset();
+  if (!asks_for<StraightTraverse>(operation)) sped_up_.reset();
+}
+
+void SpindleMistakes::turn(const Operation& operation, SpindleDirection direction) {
+  if (direction == SpindleDirection::off) {
+    sped_up_.reset();
+  } else if (direction != direction_) {
+    note_speed_up(operation);
+  }
+  direction_ = direction;
+}
+
+void SpindleMistakes::set_speed(const Operation& operation, double speed) {
+  const double before = std::exchange(speed_, speed);
+  if (direction_ == SpindleDirection::off || speed == before) return;
+  changed_ = operation.source.line;
+  if (speed > before) note_speed_up(operation);
+}
+
+void SpindleMistakes::note_speed_up(const Operation& operation) {
+  if (!may_be_early_ || early_ || sped_up_) return;
+  sped_up_ = operation_warning(operation, file_, "path.spindle-early",
+                               "a cut follows at once, and nothing waits until the spindle is at its speed",
+                               "run_up_s in the table [spindle] of the machine file, or a dwell (G4) before the cut");
+}
+
+void SpindleMistakes::feed(const Operation& operation) {
+  if (sped_up_) early_ = std::exchange(sped_up_, std::nullopt);
+  const bool changes = changed_ && (fed_last_ || *changed_ == operation.source.line);
+  changed_.reset();
+  fed_last_ = true;
+  const bool backwards = direction_ == SpindleDirection::counterclockwise;
+  if (is_lathe_ || !(changes || backwards)) return;
+  any_changes_ |= changes;
+  any_backwards_ |= backwards;
+  ++places_;
+  const std::uint32_t line = operation.source.line;
+  if (lines_.size() <= most_named_lines && (lines_.empty() || lines_.back() != line)) lines_.push_back(line);
+  if (!laser_) laser_ = operation_warning(operation, file_, "path.laser", {}, "a program for a spindle");
+}
+
+void SpindleMistakes::finish() {
+  if (laser_) {
+    const std::string_view what = !any_backwards_ ? "S changes" : !any_changes_ ? "M4 is on" : "S changes, or M4 is on";
+    std::string lines = fmt::format("{}", lines_.front());
+    for (std::size_t i = 1; i < lines_.size() && i < most_named_lines; ++i) lines += fmt::format(", {}", lines_[i]);
+    if (lines_.size() > most_named_lines) lines += ", ...";
+    laser_->message = fmt::format(
+        "{} in {} feed{} (line{} {}), as in a program for a laser; there is no laser mode: the beam would stay on in "
+        "rapids and at rest, and the motion rests at each change of S",
+        what, places_, places_ == 1 ? "" : "s", lines_.size() == 1 ? "" : "s", lines);
+    diagnostics_.add_certain(*std::exchange(laser_, std::nullopt));
+  } else if (early_) {
+    diagnostics_.add_certain(*std::exchange(early_, std::nullopt));
+  }
+}
+
+}  // namespace passo

@@ -1,0 +1,119 @@
+// PathBuilder: feeds, and what waits for the spindle or follows it.
+#include <algorithm>
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include "passo/path/path_builder.hpp"
+#include "passo/path/run_up.hpp"
+
+namespace passo {
+namespace {
+
+// After an error a move still needs some speed, so that the checking pass can go on.
+constexpr MmPerSecond speed_after_error{1};
+
+constexpr double rounding = 1e-9;
+
+// What may be had, rounded down, so that it is accepted.
+double rounded_down(double value, int decimals) {
+  const double unit = std::pow(10.0, decimals);
+  return std::floor(value * unit) / unit;
+}
+
+bool turns_only_rotary_axes(const Curve& curve) {
+  if (curve.shape() != Curve::Shape::line) return false;
+  const Point direction = curve.tangent(Mm(0));
+  for (const Axis axis : all_axes) {
+    if (!is_rotary(axis) && direction[axis] != 0) return false;
+  }
+  return true;
+}
+
+}  // namespace
+
+// What is left of an earlier change of speed is added.
+Seconds PathBuilder::run_up_after(const OutputState& before) const {
+  const bool is_off = outputs().spindle == SpindleDirection::off;
+  return (is_off ? Seconds(0) : run_up_left_) + run_up_time(before, outputs(), options_.spindle_run_up);
+}
+
+// A dwell of the program counts as part of the wait.
+bool PathBuilder::must_await_speed(const PathItem& item) {
+  if (run_up_left_ == Seconds(0)) return false;
+  const auto* action = std::get_if<Action>(&item);
+  if (action != nullptr && action->kind == Action::Kind::dwell) {
+    run_up_left_ = std::max(run_up_left_ - action->dwell, Seconds(0));
+  }
+  return action == nullptr || action->kind == Action::Kind::probe_begin;
+}
+
+// A thread directly after another thread stays in step, and need not wait for the index.
+bool PathBuilder::must_await_index(const PathItem& item) {
+  const auto* segment = std::get_if<Segment>(&item);
+  if (followed_tap_ == TapStep::back && segment == nullptr) return false;
+  const bool was = in_step_;
+  in_step_ = segment != nullptr && segment->lock == SpindleLock::place;
+  return in_step_ && !was;
+}
+
+MmPerSecond PathBuilder::feed_along(const Curve& curve) {
+  if (synchronised_pitch_) return feed_with_spindle(synchronised_pitch_->value());
+  const double rate = turns_only_rotary_axes(curve) ? feed_rate_.rotary_rate : feed_rate_.rate;
+  if (feed_mode_ == FeedMode::units_per_revolution) return feed_with_spindle(rate);
+  if (rate > 0) return MmPerSecond(rate);
+  report(Severity::error, "path.no-feed", "a feed move without a feed rate", "F above 0 before the move, or on it");
+  return speed_after_error;
+}
+
+MmPerSecond PathBuilder::feed_with_spindle(double mm_per_revolution) {
+  const double rate = mm_per_revolution * outputs().revolutions_per_minute / seconds_per_minute;
+  if (rate > 0) return MmPerSecond(rate);
+  report(Severity::error, "path.spindle-off",
+         mm_per_revolution > 0 ? "the feed follows the spindle, and the spindle stands"
+                               : "the feed follows the spindle, by nothing a revolution",
+         "S above 0 with M3 or M4, and a pitch (K) or feed (F) above 0, before the move");
+  return speed_after_error;
+}
+
+void PathBuilder::set_spindle_speed(double revolutions_per_minute) {
+  const double limit = options_.spindle_limit;
+  commanded_.revolutions_per_minute = limit > 0 ? std::min(revolutions_per_minute, limit) : revolutions_per_minute;
+  if (!(limit > 0 && revolutions_per_minute > limit) || revolutions_per_minute == refused_spindle_speed_) return;
+  refused_spindle_speed_ = revolutions_per_minute;
+  report(Severity::warning, "path.spindle-too-fast",
+         fmt::format("the program asks for {:.0f} rpm, and the spindle turns at {:.0f} at most, which is used",
+                     revolutions_per_minute, limit),
+         fmt::format("S up to {:.0f}", limit));
+}
+
+// The planner would slow down a feed that is too fast for an axis, and a thread would then get another pitch.
+void PathBuilder::check_thread(const Curve& curve, MmPerSecond speed) {
+  const double rpm = outputs().revolutions_per_minute;
+  if (rpm == 0 || speed == refused_feed_) return;
+  const Point slopes = curve.steepest();
+  Axis slowest = Axis::x;
+  double times = 1;  // what is asked of the slowest axis, as a multiple of what it can do
+  for (const Axis axis : all_axes) {
+    const double limit = options_.velocity[axis].value();
+    if (!(limit > 0) || slopes[axis] * speed.value() <= limit * times * (1 + rounding)) continue;
+    times = slopes[axis] * speed.value() / limit;
+    slowest = axis;
+  }
+  if (times == 1) return;
+  refused_feed_ = speed;
+  const bool inches = units_ == LengthUnits::inch;
+  const double length = inches ? mm_per_inch : 1;
+  const double pitch = speed.value() * seconds_per_minute / rpm / length;
+  const char* const unit = inches ? "inches" : "mm";
+  const int decimals = inches ? 4 : 3;
+  const double limit = options_.velocity[slowest].value();
+  report(Severity::error, "path.thread-too-fast",
+         fmt::format("at {:g} rpm and {:.{}f} {} a turn {} would have to move at {:.1f} {}/s, and its limit is {:g}",
+                     rpm, pitch, decimals, unit, letter_of(slowest), limit * times,
+                     is_rotary(slowest) ? "degrees" : "mm", limit),
+         fmt::format("S up to {:g}, or up to {:.{}f} {} a turn", rounded_down(rpm / times, rpm / times < 10 ? 2 : 0),
+                     rounded_down(pitch / times, decimals), decimals, unit));
+}
+
+}  // namespace passo

@@ -1,0 +1,21 @@
+// The time that a spindle takes to reach another speed. Motion waits for it.
+#pragma once
+
+#include <cmath>
+
+#include "passo/path/segment.hpp"
+
+namespace passo {
+
+// From one state of the outputs to another. `run_up`: from rest to 1000 turns a minute. Nobody waits for a spindle that
+// is switched off.
+inline Seconds run_up_time(const OutputState& from, const OutputState& to, Seconds run_up) {
+  if (to.spindle == SpindleDirection::off) return Seconds(0);
+  const auto speed = [](const OutputState& state) {
+    if (state.spindle == SpindleDirection::off) return 0.0;
+    return state.spindle == SpindleDirection::clockwise ? state.revolutions_per_minute : -state.revolutions_per_minute;
+  };
+  return run_up * (std::abs(speed(to) - speed(from)) / 1000);
+}
+
+}  // namespace passo
