@@ -53,11 +53,11 @@ TEST(Uno, steps_as_the_host_says_at_every_rate) {
   }
 }
 
-TEST(Uno, turns_three_motors_at_150_kHz_while_it_is_fed) {
+TEST(Uno, turns_three_motors_at_160_kHz_while_it_is_fed) {
   std::mt19937_64 random(test::seed());
   BoardBench bench(uno_under_test(PASSO_MOTION_UNO));
   StreamKind kind{
-      .shortest_interval = 107, .longest_interval = 120, .shortest_segment = 120, .segments = 120, .ramp = 20};
+      .shortest_interval = 100, .longest_interval = 113, .shortest_segment = 120, .segments = 120, .ramp = 20};
   expect_every_edge(bench.play(random_stream(random, 3, kind)), unavoidable);
   kind.all_at_every_event = true;
   expect_every_edge(bench.play(random_stream(random, 3, kind)), unavoidable);
@@ -228,13 +228,27 @@ void expect_timing(BoardBench& bench, std::mt19937_64& random, std::uint8_t moto
     EXPECT_TRUE(check.exact());
     EXPECT_LE(check.error, most_error);
     EXPECT_EQ(check.overruns, 0U);
-    EXPECT_LE(check.unwatched, most_unwatched);
+    EXPECT_LT(check.unwatched, 640U) << "the interrupt may be in a long pulse";
     EXPECT_GE(has.pulse, wanted.pulse);
     EXPECT_GE(check.shortest_pulse, has.pulse);
     EXPECT_GE(has.set_up, wanted.set_up);
     EXPECT_GE(check.shortest_setup, has.set_up);
     EXPECT_GE(check.shortest_hold, std::min(has.hold, std::uint8_t{200}));
     if (wanted.hold < 200) EXPECT_GE(has.hold, wanted.hold);
+    // Slower, with waits between the events on the Uno.
+    for (const std::uint32_t slowly : {257U, 520U, 3000U}) {
+      const std::uint32_t interval = std::max<std::uint32_t>(slowly, has.event_ticks);
+      bench.set_up({.timing = wanted});
+      const EdgeCheck slower =
+          bench.play(random_stream(random, motors,
+                                   {.shortest_interval = interval,
+                                    .longest_interval = interval * 5U / 4U,
+                                    .shortest_segment = static_cast<std::uint8_t>(interval < 1000 ? 60 : 5),
+                                    .segments = 20}));
+      EXPECT_TRUE(slower.exact()) << interval;
+      EXPECT_LE(slower.error, most_error) << interval;
+      EXPECT_GE(slower.shortest_pulse, has.pulse);
+    }
     // A segment that is two ticks too fast is refused.
     bench.set_up({.timing = wanted});
     bench.start({{.events = 200, .flips = 7, .interval = (has.event_ticks - 2U) << 16}});
@@ -254,9 +268,44 @@ TEST(Mega, makes_pulses_and_set_up_times_as_its_host_needs_them) {
   expect_timing(bench, random, 4, unavoidable_on_mega);
 }
 
+// As many items as there are events, at every rate, also where the line cannot bring as many and the ring runs dry.
+// Then nobody but the main loop reads the line, which holds two bytes.
+void expect_no_byte_lost(const BoardUnderTest& board) {
+  std::mt19937_64 random(test::seed());
+  for (const std::uint8_t longest : {std::uint8_t{1}, std::uint8_t{2}, std::uint8_t{4}}) {
+    for (const std::uint32_t interval : {150U, 250U, 400U, 700U, 1200U, 2500U, 6000U, 15'000U}) {
+      for (const std::uint32_t spread : {1U, 4U}) {
+        SCOPED_TRACE(testing::Message() << "up to " << int{longest} << " events each " << interval << " ticks, times "
+                                        << spread);
+        BoardBench bench(board);
+        int items = 0;
+        bench.before_item = [&](std::span<const std::uint8_t>) {
+          if (++items % 7 == 0) bench.ask();
+        };
+        const EdgeCheck check = bench.play(random_stream(random, static_cast<std::uint8_t>(board.motors.size()),
+                                                         {.shortest_interval = interval,
+                                                          .longest_interval = interval * spread,
+                                                          .shortest_segment = 1,
+                                                          .longest_segment = longest,
+                                                          .segments = 80}));
+        EXPECT_EQ(check.overruns, 0U);
+        EXPECT_LE(check.unwatched, most_unwatched);
+        EXPECT_TRUE(check.exact());
+        EXPECT_EQ(check.complaints, 0U);
+      }
+    }
+  }
+}
+TEST(Uno, loses_no_byte_where_items_have_few_events) {
+  expect_no_byte_lost(uno_under_test(PASSO_MOTION_UNO));
+}
+TEST(Mega, loses_no_byte_where_items_have_few_events) {
+  expect_no_byte_lost(mega_under_test(PASSO_MOTION_MEGA, 4));
+}
+
 TEST(Uno, refuses_a_segment_faster_than_it_states) {
   BoardBench bench(uno_under_test(PASSO_MOTION_UNO));
-  bench.start({{.events = 200, .flips = 7, .interval = 105 << 16}});
+  bench.start({{.events = 200, .flips = 7, .interval = 98 << 16}});
   bench.run(200'000);
   ASSERT_TRUE(bench.error().has_value());
   EXPECT_EQ(bench.error()->reason, WireError::bad_value);
@@ -307,7 +356,7 @@ TEST(Mega, turns_four_motors_at_110_kHz_while_it_is_fed) {
   std::mt19937_64 random(test::seed());
   BoardBench bench(mega_under_test(PASSO_MOTION_MEGA, 4));
   StreamKind kind{
-      .shortest_interval = 145, .longest_interval = 163, .shortest_segment = 120, .segments = 120, .ramp = 20};
+      .shortest_interval = 145, .longest_interval = 163, .shortest_segment = 160, .segments = 120, .ramp = 20};
   expect_every_edge(bench.play(random_stream(random, 4, kind)), unavoidable_on_mega, apart_on_mega);
   kind.all_at_every_event = true;
   expect_every_edge(bench.play(random_stream(random, 4, kind)), unavoidable_on_mega, apart_on_mega);

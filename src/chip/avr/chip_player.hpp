@@ -208,15 +208,17 @@ class ChipPlayer {
     }
   }
 
-  // Makes some events, and starts the timer if it stands still.
-  static void refill() {
+  // Makes some events, and starts the timer if it stands still. `follows`: another item, or part of one, is there.
+  // Behind a standstill on the Uno half of the ring is made first: else the next one would follow at once.
+  static void refill(bool follows) {
     for (uint8_t pieces = most_pieces; pieces != 0; --pieces) {
       if (captured()) note_capture();
       if (left_ == 0 || !has_room() || !make_events()) break;
       if (RingTimes::are_short && running == 0 && waiting() >= enough_to_start && halted == 0) start();
       SerialLine::poll();
     }
-    if (running == 0 && waiting() != 0 && halted == 0) start();
+    if (running != 0 || waiting() == 0 || halted != 0) return;
+    if (!RingTimes::are_short || (left_ == 0 && !follows)) start();
   }
 
   // True if all events of the segment are made and another can come.
@@ -247,7 +249,7 @@ class ChipPlayer {
   // So many are made only when the interrupt comes so often that it sees every byte.
   static constexpr uint8_t most_pieces = 8;
   // So many entries last until the next ones are made.
-  static constexpr uint8_t enough_to_start = 8;
+  static constexpr uint8_t enough_to_start = most_events / 2;
   static constexpr uint8_t least_fast_behind = 16;
   // A motion from rest begins with some empty events. They give time to fill the ring, and the interrupt reads the line
   // meanwhile.
@@ -366,10 +368,11 @@ class ChipPlayer {
   // times as many events as are ahead are ready before the interrupt stops, less those for the way.
   [[gnu::noinline]] static void make_fast(uint8_t ahead) {
     const uint8_t first = head_;
-    uint8_t count = static_cast<uint8_t>(most_events - ahead);
-    const uint8_t in_time = static_cast<uint8_t>(2 * ahead + ahead / 2 - way_in_events);
-    if (ahead < 48 && count > in_time) count = in_time;
+    uint8_t count = static_cast<uint8_t>(most_ahead_ - ahead);
+    const uint8_t in_time = static_cast<uint8_t>(2 * ahead + (RingTimes::are_short ? ahead / 2 : 0) - way_in_events);
+    if (ahead < (most_at_once + way_in_events) / 2 && count > in_time) count = in_time;
     if (count > most_at_once) count = most_at_once;
+    count = RingTimes::before_the_end(first, count);
     if (count >= left_) {
       count = left_;
       left_ = 0;
@@ -452,6 +455,8 @@ class ChipPlayer {
       const uint8_t next = static_cast<uint8_t>((first + 1) & ring_mask);
       if (next == head_) break;  // its event is not made yet
       if ((flagged_byte(first) & flag_special) != 0) turn_now(flagged_byte(first));
+      // All waits of the ring may be late, and nobody else reads the line.
+      SerialLine::breathe();
       first = next;
       const uint16_t more = RingTimes::gap(first);
       due = static_cast<uint16_t>(due + more);
@@ -459,9 +464,11 @@ class ChipPlayer {
     }
     if (!is_in_time(due, gap)) due = catch_up(first, due);
     fresh_ = false;
+    SerialLine::breathe();
     fetch_entry(first);
     const uint8_t toggles = flagged_byte(first);
     if ((toggles & flag_special) != 0) turn_now(toggles);
+    SerialLine::breathe();
     // A short time comes round again.
     while (RingTimes::are_short && static_cast<uint16_t>(due - now()) > 240) SerialLine::breathe();
     RingTimes::enable(first);

@@ -63,8 +63,8 @@ class RingTimes {
   static bool fit(uint8_t events, uint8_t room) { return room >= events; }
   // Whether an entry takes about as long to make as to play, at its shortest.
   static constexpr bool are_slow() { return false; }
-  static constexpr bool are_near() { return false; }
-  static void make_near(uint8_t /*count*/) {}
+  static constexpr bool are_near() { return true; }
+  static void make_near(uint8_t count) { expand(count); }
   // How many of `count` entries to make at once.
   static uint8_t at_once(uint8_t count) { return count; }
   // The expander stops at the ring's end.

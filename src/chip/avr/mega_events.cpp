@@ -73,11 +73,12 @@ extern "C" {
       rjmp 8f
       reti                          ; 5   59 in all
 
-  6:  in r31, %[sreg]               ; 8 more, and 3 for each further turn
+  6:  in r31, %[sreg]               ; 9 more, and 3 for each further turn
       in r30, %[eedr]
   9:  dec r30
       brne 9b
       out %[sreg], r31
+      mov r30, r2
       rjmp 1b
 
   8:  out %[gpior0], r30            ; 20 in all, and 12 for a second byte

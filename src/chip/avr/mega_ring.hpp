@@ -15,7 +15,7 @@ inline constexpr const PinMap<6>& pins = mega_ramps;
 inline constexpr uint8_t flag_special = pins.flag_special;
 inline constexpr uint8_t flag_stop = pins.flag_stop;
 inline constexpr StepTimes step_times = {
-    .shortest_pulse = 18, .first_padding = 26, .event_ticks = 145, .first_turn = 23, .last_turn = 39};
+    .shortest_pulse = 18, .first_padding = 27, .event_ticks = 145, .first_turn = 23, .last_turn = 39, .beside_wait = 0};
 inline constexpr About about = {.firmware = 105,
                                 .highest_event_rate = 110'000,
                                 .baud = 500'000,
@@ -29,6 +29,7 @@ inline constexpr uint16_t times_low_address = 0x300;
 inline constexpr uint16_t first_toggles_address = 0x400;
 inline constexpr uint16_t ring_entries = 256;
 inline constexpr uint8_t most_events = 220;   // two milliseconds at the highest rate; all of them will be played
+inline constexpr bool ring_is_short = false;  // it lasts while a frame is put together
 inline constexpr uint8_t most_begun = 8;      // items that were begun and are not finished
 inline constexpr uint8_t most_at_once = 100;  // made in one call
 inline constexpr uint8_t way_in_events = 8;   // about what is played while events are begun to be made

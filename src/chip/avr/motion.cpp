@@ -41,7 +41,14 @@ struct Hardware {
   static SpindleCount spindle() { return SpindleCounter::count(); }
   static void breathe() { SerialLine::breathe(); }
   static void keep_up();
-  static void slice();
+  [[gnu::always_inline]] static void slice() {
+    if (ring_is_short) {
+      make_a_slice();
+    } else {
+      SerialLine::breathe();
+    }
+  }
+  static void make_a_slice();
   static int32_t high_product(int32_t a, int32_t b) { return chip::high_product(a, b); }
 
   SerialLine line;
@@ -226,14 +233,14 @@ uint8_t receive_some() {
 
 // Makes events, of the next item if need be.
 [[gnu::noinline]] void keep_up() {
-  ChipPlayer::refill();
+  ChipPlayer::refill(ring_is_short && board.has_more());
   if (!ChipPlayer::wants_more() || !board.has_more()) return;
   if (ChipPlayer::begins_many()) {
     board.feed();
   } else {
     board.settle();
   }
-  ChipPlayer::refill();
+  ChipPlayer::refill(ring_is_short && board.has_more());
 }
 
 // An event of windings takes long to make, and so would the way to a switch. Their rings last longer than an answer
@@ -246,11 +253,9 @@ void Hardware::keep_up() {
 #endif
 }
 
-[[gnu::noinline]] void Hardware::slice() {
+[[gnu::noinline]] void Hardware::make_a_slice() {
   SerialLine::breathe();
-#ifndef PASSO_WINDINGS
   if (running != 0 && ChipPlayer::is_low()) chip::keep_up();
-#endif
 }
 
 // One turn of the loop. Events come first: nothing else here may take longer than the events ahead of the interrupt.

@@ -1,8 +1,7 @@
 // StepTimes: how long the interrupt's step pulses are, how soon directions change behind them, and what that costs.
 //
-// Without padding a pulse is as long as the interrupt's own work. With padding it waits in a loop: so many cycles for
-// the first turn, three for each further one. While it waits nobody else works, so events must be as much further
-// apart.
+// Without padding a pulse is as long as the interrupt's own work. With padding it waits in a loop, three cycles a turn.
+// While it waits nobody else works, so events must be as much further apart.
 #pragma once
 
 #include "registers.hpp"
@@ -21,6 +20,7 @@ struct StepTimes {
   uint8_t event_ticks;     // the fewest from event to event, without padding
   uint8_t first_turn;      // from a pulse's end to the first change of a direction, at least
   uint8_t last_turn;       // and to the last one, at most
+  uint8_t beside_wait;     // ticks an event beside its pulse where waits come between events; 0: there are no waits
 
   static constexpr uint8_t cycles_a_turn = 3;
 
@@ -40,6 +40,13 @@ struct StepTimes {
     const uint16_t around_turn = static_cast<uint16_t>(pulse + last_turn);
     uint16_t ticks = static_cast<uint16_t>(around_turn + wanted.set_up);
     if (ticks < padded) ticks = padded;
+    // Beyond the timer's 256 ticks an event costs more, so what is left beside a long pulse is not enough there at
+    // first.
+    const uint16_t with_wait = static_cast<uint16_t>(pulse + beside_wait);
+    if (beside_wait != 0 && with_wait > 256) {
+      const uint16_t with_margin = static_cast<uint16_t>(with_wait + with_wait / 16);
+      if (ticks < with_margin) ticks = with_margin;
+    }
     const uint16_t set_up = static_cast<uint16_t>(ticks - around_turn);
     return {.pulse = pulse,
             .set_up = set_up > 0xff ? uint8_t{0xff} : static_cast<uint8_t>(set_up),
@@ -48,8 +55,8 @@ struct StepTimes {
   }
 
  private:
-  // 11 microseconds: beyond that an interrupt would be longer than the UART can wait.
-  static constexpr uint8_t longest_pulse = 176;
+  // 10 microseconds: beyond that an interrupt would be longer than the UART can wait.
+  static constexpr uint8_t longest_pulse = 160;
 };
 
 }  // namespace passo::chip

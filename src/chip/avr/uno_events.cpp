@@ -50,10 +50,14 @@ extern "C" {
       rjmp 2f
       reti                          ; 4   34 in all
 
-  6:  in r31, %[sreg]               ; 8 more, and 3 for each further turn
+  6:  in r31, %[sreg]               ; 11 more, and 3 for each further turn
+      mov r30, r5
+      andi r30, %[plain]
+      breq .Lpasso_padded           ; a wait makes no pulse
       in r30, %[eedr]
   1:  dec r30
       brne 1b
+  .Lpasso_padded:
       out %[sreg], r31
       rjmp 7b
 

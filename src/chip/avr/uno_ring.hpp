@@ -14,10 +14,14 @@ namespace passo::chip {
 inline constexpr const PinMap<3>& pins = uno_cnc_shield;
 inline constexpr uint8_t flag_special = pins.flag_special;
 inline constexpr uint8_t flag_stop = pins.flag_stop;
-inline constexpr StepTimes step_times = {
-    .shortest_pulse = 18, .first_padding = 26, .event_ticks = 106, .first_turn = 22, .last_turn = 38};
+inline constexpr StepTimes step_times = {.shortest_pulse = 18,
+                                         .first_padding = 29,
+                                         .event_ticks = 100,
+                                         .first_turn = 22,
+                                         .last_turn = 38,
+                                         .beside_wait = 176};
 inline constexpr About about = {.firmware = 107,
-                                .highest_event_rate = 150'000,
+                                .highest_event_rate = 160'000,
                                 .baud = 500'000,
                                 .name = "uno cnc shield3",
                                 .step_pulse = step_times.shortest_pulse};
@@ -35,6 +39,8 @@ inline constexpr uint16_t ring_address = 0x100;
 inline constexpr uint8_t ring_entries = 128;
 // In the ring; all of them will be played. Those just played must stay to be looked at when a capture is noted.
 inline constexpr uint8_t most_events = 120;
+// It does not last while a frame is put together: events are made meanwhile.
+inline constexpr bool ring_is_short = true;
 inline constexpr uint8_t most_begun = 5;      // items that were begun and are not finished
 inline constexpr uint8_t most_at_once = 100;  // made in one call
 inline constexpr uint8_t way_in_events = 24;  // about what is played while events are begun to be made

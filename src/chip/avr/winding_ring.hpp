@@ -42,6 +42,7 @@ inline constexpr uint16_t received_address = ram_address;
 inline constexpr uint16_t ring_address = ram_address + 0x100;
 inline constexpr uint8_t ring_entries = 64;
 inline constexpr uint8_t most_events = 62;
+inline constexpr bool ring_is_short = false;  // an event takes longer to make than may be spent between two bytes
 inline constexpr uint8_t flags_row = 2;
 inline constexpr uint8_t toggles_row = 3;
 

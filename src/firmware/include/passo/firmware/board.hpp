@@ -126,6 +126,7 @@ class Board : private BoardVoice<Hardware> {
 
   using Breath = BreathOf<Hardware>;
   static void breathe() { Breath{}(); }
+  static void slice() { SliceOf<Hardware>{}(); }
 
   // The timer's side. True if there is nothing to play: no event will come.
   bool idle() const { return player_.done(); }
@@ -141,7 +142,10 @@ class Board : private BoardVoice<Hardware> {
   void settle() {
     for (;; load()) {
       breathe();
-      while (player_.finished()) retire_one();
+      while (player_.finished()) {
+        retire_one();
+        slice();
+      }
       if (!player_.ready() || !has_more()) return;
     }
   }
@@ -326,7 +330,7 @@ class Board : private BoardVoice<Hardware> {
 
   [[gnu::noinline]] void tell_captured(uint16_t captured) {
     if ((captured & inputs_) == 0) captured |= captured_released;
-    Captured message{.input = captured, .item = static_cast<uint8_t>(executed_ + 1), .event = played()};
+    CapturedFor<most_motors> message{.input = captured, .item = static_cast<uint8_t>(executed_ + 1), .event = played()};
     const bool keeps = watch_.keeps(captured);
     for (uint8_t motor = 0; motor < motors_; ++motor) {
       breathe();
@@ -337,7 +341,7 @@ class Board : private BoardVoice<Hardware> {
   }
 
   [[gnu::noinline]] void tell_kept() {
-    Captured message{.input = watch_.kept_input()};
+    CapturedFor<most_motors> message{.input = watch_.kept_input()};
     for (uint8_t motor = 0; motor < motors_; ++motor) {
       breathe();
       message.positions[motor] = watch_.positions[motor];
@@ -398,7 +402,7 @@ class Board : private BoardVoice<Hardware> {
       from_rest_ = static_cast<uint8_t>(item.number);
     }
     list_.append();
-    breathe();
+    slice();
     if (list_.gathering()) return;
     if (list_.gathered()) {
       ++owed_;  // of the free places, in either case

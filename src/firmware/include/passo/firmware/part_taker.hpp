@@ -31,7 +31,7 @@ class PartTaker {
       part_.form = 0;
       left_ = segment.events;
     } else {
-      pass();
+      pass(segment.form);
     }
     Breath{}();
     const uint8_t length = part_length(segment.form);
@@ -44,7 +44,16 @@ class PartTaker {
   }
 
  private:
-  [[gnu::noinline]] void pass() { part_.interval += static_cast<uint32_t>(part_.change) * part_.events; }
+  // Goes on to the interval behind the part. It has all its events: a power of two, but for even segments.
+  [[gnu::noinline]] void pass(uint8_t form) {
+    uint32_t change = static_cast<uint32_t>(part_.change);
+    if (form == 0) {
+      change *= part_.events;
+    } else {
+      for (uint8_t doublings = form & ~root_form; doublings != 0; --doublings) change <<= 1;
+    }
+    part_.interval += change;
+  }
   // Gives the part the increments that bent motors have there.
   [[gnu::noinline]] void bend(const Segment& segment, bool begins) {
     Breath{}();

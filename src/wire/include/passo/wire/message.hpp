@@ -170,12 +170,14 @@ using BoardStatus = BoardStatusFor<max_motors>;
 
 // Board to host: at this very event a watched input has changed. As an answer: where the watched input changed first.
 // Without an input in it, there was no change and there is no item.
-struct Captured {
+template <uint8_t room>
+struct CapturedFor {
   uint16_t input = 0;  // BoardInput, captured_kept, captured_released
   uint8_t item = 0;    // low byte of the number of the item being played
   uint16_t event = 0;  // events of that item that were played
-  int32_t positions[max_motors] = {};
+  int32_t positions[room] = {};
 };
+using Captured = CapturedFor<max_motors>;
 
 // What a board's encoder counted, and when. Counts and ticks start anywhere and run on modulo 2^32.
 struct SpindleCount {
@@ -315,13 +317,15 @@ uint8_t encode(const BoardStatusFor<room>& status, uint8_t motors, uint8_t seque
   return encoder.finish();
 }
 
-template <class Pause = NoPause>
-uint8_t encode(const Captured& captured, uint8_t motors, uint8_t sequence, uint8_t* frame) {
+template <class Pause = NoPause, uint8_t room>
+uint8_t encode(const CapturedFor<room>& captured, uint8_t motors, uint8_t sequence, uint8_t* frame) {
   Encoder<Pause> encoder(frame, MessageType::captured, sequence);
   encoder.put16(captured.input);
   encoder.put8(captured.item);
   encoder.put16(captured.event);
-  for (uint8_t motor = 0; motor < motors; ++motor) encoder.put32(static_cast<uint32_t>(captured.positions[motor]));
+  for (uint8_t motor = 0; motor < motors; ++motor) {
+    encoder.put32(motor < room ? static_cast<uint32_t>(captured.positions[motor]) : 0);
+  }
   return encoder.finish();
 }
 
