@@ -119,10 +119,8 @@ std::optional<SpeedChange> SpeedChange::plan(PathAhead& path, const PathState& s
     }
     if (trial >= hopeless_in && worst.jolt > hopeless) break;
     if (worst.force > 1) strength.acceleration *= std::clamp(1 / worst.force, most_lowering, least_lowering);
-    if (worst.jolt > nearly) {
-      strength.jerk *= nearly / worst.jolt;
-    } else if (worst.jolt > 1) {
-      strength.jerk *= std::clamp(1 / worst.jolt, most_lowering, least_lowering);
+    if (worst.jolt > 1) {
+      strength.jerk *= std::min(std::clamp(1 / worst.jolt, most_lowering, least_lowering), nearly / worst.jolt);
     }
     if (strength.acceleration < weakest * most.acceleration) break;
     // A jerk matters where the acceleration rises for longer than braking takes.

@@ -74,8 +74,10 @@ class StepJudge {
  private:
   static constexpr double apart = 0.00125;  // seconds
   // In steps. Whole steps make less than 2 in an acceleration and 4 in a jerk. Events of another motor, at most one
-  // step off each, make as much again.
-  static constexpr double slack = 4;
+  // step off each, make as much again. What a small board holds ends in tails whose events may come late, without
+  // limits of jerk (decisions 0129 and 0108).
+  double slack() const { return machine_.board.held_items < 100 ? 8 : 4; }
+  bool has_gentle_tails() const { return machine_.board.held_items >= 200; }
   static constexpr double slack_of_jerk = 8;
   static constexpr double tolerated = 1.02;
 
@@ -113,17 +115,17 @@ class StepJudge {
       const double way = std::abs(newest - second);
       if (way > farthest) return told("way", way, farthest);
       const double bend = std::abs(newest - 2 * second + third);
-      const double most = axis.acceleration.value() * window * window * steps * tolerated + slack;
+      const double most = axis.acceleration.value() * window * window * steps * tolerated + slack();
       if (bend > most) return told("bend", bend, most);
       if (axis.follows_torque()) {
         // The torque is the greatest where the motor was slowest. It was hardly slower than on the mean of both halves.
         const double mean = (newest - second) * (second - third) > 0 ? std::min(way, std::abs(second - third)) - 2 : 0;
         const double slowest = std::max(mean / window / steps - axis.acceleration.value() * window, 0.0);
         const double left = axis.acceleration_at(MmPerSecond(slowest)).value() * window * window * steps * tolerated;
-        if (bend > left + slack) return told("bend at speed", bend, left + slack);
+        if (bend > left + slack()) return told("bend at speed", bend, left + slack());
       }
       const double change = std::abs(newest - 3 * second + 3 * third - fourth);
-      if (axis.jerk.value() > 0 && change > jolt) return told("change of bend", change, jolt);
+      if (axis.jerk.value() > 0 && has_gentle_tails() && change > jolt) return told("change of bend", change, jolt);
     }
     return {};
   }
