@@ -134,6 +134,13 @@ TEST_F(FakeGrblMachine, that_takes_no_program_is_refused_in_words) {
   EXPECT_THAT(words, HasSubstr("[grbl.alarm]"));
 }
 
+TEST_F(FakeGrblMachine, is_known_where_a_board_is_expected) {
+  const FakeGrbl machine((StrictGrbl()));
+  const auto outcome = passo("board info --wait 0.5 " + machine.address().substr(5));
+  EXPECT_EQ(outcome.code, 1);
+  EXPECT_THAT(outcome.err, HasSubstr("answers as a machine with Grbl does"));
+}
+
 TEST_F(FakeGrblMachine, that_is_held_by_somebody_is_waited_for_in_words) {
   int turns = 0;
   const FakeGrbl machine(StrictGrbl(), [turns, held = false](StrictGrbl& grbl) mutable {

@@ -60,6 +60,9 @@ std::unique_ptr<BoardPort> open_named(const std::string& board, int& code) {
 std::string silence(const BoardSession& board) {
   if (board.hung_up()) return "closes the line: another program uses it";
   if (board.gibberish().empty()) return "does not answer";
+  if (board.gibberish().find("Grbl ") != std::string::npos || board.gibberish().find("GrblHAL ") != std::string::npos) {
+    return "answers as a machine with Grbl does: passo run and passo home drive it, with --board grbl:... [board.grbl]";
+  }
   return fmt::format("answers, but not as a board of Passo's: \"{}\"", board.gibberish().substr(0, 60));
 }
 

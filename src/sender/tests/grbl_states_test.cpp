@@ -1,5 +1,8 @@
 // The states in which a machine may be when it is greeted, or into which it may come amid a run: each works or is an
 // error with a code, and none is waited for without a bound.
+#include <array>
+#include <random>
+
 #include "grbl_pair.hpp"
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -183,6 +186,33 @@ TEST(GrblStates, a_stop_does_not_wait_for_a_machine_that_rests_otherwise) {
     EXPECT_TRUE(report.rests()) << state;
   }
   EXPECT_FALSE((GrblReport{.state = "Door", .detail = 2}).rests());
+}
+
+// Whatever it says, and whenever: the greeting and the stream end, with a fault or at rest.
+TEST(GrblStates, no_words_of_a_machine_are_waited_for_without_end) {
+  constexpr std::array words = {"ok",       "error:8",        "error:9",  "error:",
+                                "ALARM:1",  "ALARM:",         "ALARM:x",  "<Idle|WPos:1,2,3>",
+                                "<Run>",    "<Alarm>",        "<Sleep>",  "<Check>",
+                                "<Home>",   "<Idle>",         "<>",       "Grbl 1.1h ['$' for help]",
+                                "[VER:]",   "[OPT:V,0,0]",    "[AXS:9:",  "[GC:G55 G56]",
+                                "$13=1",    "$10=0",          "[MSG:]",   "[FIRMWARE:grblHAL]",
+                                "<Jog|Bf:", "<Idle|Bf:0,64>", "\xff\xfe", "[TLO:1,2]",
+                                "",         "[G92:1]",        ">:ok",     "{\"sr\":{}}"};
+  for (unsigned seed = 1; seed <= 40; ++seed) {
+    std::mt19937 random(seed);
+    GrblPair pair;
+    const unsigned one_in = 50U << random() % 6;
+    const auto chatter = [&] {
+      if (random() % one_in == 0) pair.machine.say(words[random() % words.size()]);
+      pair.machine.silent = random() % 4 == 0;
+    };
+    ASSERT_TRUE(pair.play([&] { return pair.sender.ready() || pair.sender.stopped(); }, chatter)) << seed;
+    EXPECT_LT(pair.now, GrblSender::longest_greeting + Seconds(1)) << seed;
+    if (pair.sender.stopped()) continue;
+    const Seconds begun = pair.now;
+    EXPECT_TRUE(pair.stream(60, chatter)) << seed;
+    EXPECT_LT(pair.now - begun, Seconds(200)) << seed;
+  }
 }
 
 }  // namespace
