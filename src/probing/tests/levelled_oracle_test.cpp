@@ -230,13 +230,12 @@ bool is_compared(std::uint64_t seed, bool is_known) {
   std::mt19937_64 random(seed);
   const HeightMap map = random_map(random);
   const InterpreterOptions machine = random_machine(random, !is_known);
-  // Who does not know the machine still has tools of that name.
+  // Who does not know the machine knows neither its offsets nor how long its tools are.
   InterpreterOptions believed = machine;
   if (!is_known) {
     believed = InterpreterOptions();
     believed.on_machine = true;
-    believed.tools = machine.tools;
-    believed.tools.name.clear();
+    for (int number = 1; number <= 2; ++number) EXPECT_TRUE(believed.tools.add({.number = number, .pocket = number}));
   }
   const std::string program = RandomProgram(random, is_known).text();
   const RunPath path = path_of(program, machine);
