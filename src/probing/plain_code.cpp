@@ -128,19 +128,22 @@ void PlainCode::write_feed(double feed) {
 }
 
 void PlainCode::move(const PlainMove& move) {
+  // A full circle ends where it begins, to the last bit: its end is not written.
+  const auto stays_at = [&](Axis axis) { return at_[axis] == written(move.to[axis]); };
+  const bool is_closed = move.arc && stays_at(Axis::x) && stays_at(Axis::y);
   AxisSet places;
   AxisSet ways;
   bool any_new_place = false;
   for (const Axis axis : all_axes) {
     const bool is_known = known_.has(axis);
     const bool is_place = is_known || move.absolute.has(axis);
-    const bool is_in_plane = move.arc && (axis == Axis::x || axis == Axis::y);
-    const bool stays = at_[axis] == written(move.to[axis]) && (!is_place || is_known || !move.named.has(axis));
+    const bool is_in_plane = move.arc && !is_closed && (axis == Axis::x || axis == Axis::y);
+    const bool stays = stays_at(axis) && (!is_place || is_known || !move.named.has(axis));
     if (stays && !is_in_plane) continue;
     (is_place ? places : ways).add(axis);
     any_new_place = any_new_place || (is_place && !is_known);
   }
-  if (places.empty() && ways.empty()) return;
+  if (places.empty() && ways.empty() && !is_closed) return;
   const bool incremental = !ways.empty() && !any_new_place;
   write_mode(incremental);
   const int code = move.arc ? (move.arc->clockwise ? 2 : 3) : move.rapid ? 0 : 1;

@@ -115,6 +115,11 @@ TEST(LevelledFrames, a_cycle_from_an_unknown_height_stays_a_cycle) {
   EXPECT_THAT(it.text, HasSubstr("F100\nG98 G81 X20 Y10 Z-1.80000 R0.70000\nG0 X0\n"));
 }
 
+// G30 stands where no rounded number is: with its end written, the circle might be a millionth of a degree.
+TEST(LevelledFrames, a_full_circle_ends_where_it_begins) {
+  EXPECT_THAT(levelled("G90 F100\nG0 X10 Y10 Z5\nG30\nG2 J-6.3\nM2\n").text, HasSubstr("G30\nG2 I0 J-6.3 F100\n"));
+}
+
 TEST(LevelledFrames, what_moves_the_zero_is_refused_with_its_word) {
   EXPECT_THAT(levelled("G90\nG0 Z5\nG10 L2 P1 Z1\nM2\n").words, HasSubstr("it:3:1: error: G10 L2 changes the zero"));
   EXPECT_THAT(levelled("G90\nG10 L2 P2 Z0\nM2\n").words, HasSubstr("it:2:1: error: G10 L2 changes the zero"));

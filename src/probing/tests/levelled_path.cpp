@@ -303,6 +303,7 @@ class Comparison {
   double part_of(const PathMove& move, const PathMove& it, double from) {
     last_ = static_cast<std::size_t>(&it - levelled_.data());
     ++levelled_count_;
+    if (move.is_arc && it.is_arc) return from + it.sweep / move.sweep;
     if (move.is_arc) {
       const Point place = work(move, it.to);
       const double start =
