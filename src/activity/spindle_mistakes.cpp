@@ -33,6 +33,11 @@ void SpindleMistakes::watch(const Operation& operation) {
   if (const auto* speed = std::get_if<SetSpindleSpeed>(&operation.what)) {
     return set_speed(operation, speed->revolutions_per_minute);
   }
+  // `G1 F600` moves nothing.
+  const auto* line = std::get_if<StraightFeed>(&operation.what);
+  const auto* rapid = std::get_if<StraightTraverse>(&operation.what);
+  if (line != nullptr && line->end == place_) return;
+  if (line != nullptr || rapid != nullptr) place_ = line != nullptr ? line->end : rapid->end;
   if (asks_for<StraightFeed, ArcFeed, NurbsFeed>(operation)) return feed(operation);
   if (!asks_for<StraightTraverse, Dwell, ProgramStop, OptionalProgramStop, ChangeTool>(operation)) return;
   fed_last_ = false;

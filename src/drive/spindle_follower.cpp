@@ -23,6 +23,8 @@ constexpr Seconds half_a_move{0.001};
 // In turns: after this way the tool has made up for its start.
 constexpr double lead_in = 4;
 
+// The tool is up to speed, and its place counts, from this part of the spindle's speed on.
+constexpr double up_to_speed = 0.95;
 // The tool goes with the spindle, and does not brake for the end of the move, from this part of the spindle's speed on.
 constexpr double most_of_it = 0.8;
 
@@ -143,6 +145,11 @@ double SpindleFollower::missing(Seconds committed) const {
   const bool goes_with_it = in_place_ && reached_ > most_of_it * speed();
   if (!goes_with_it || followed_ < lead_in || readings_.size() < least_readings) return 0;
   return course(committed).turns - lag_ - followed_;
+}
+
+bool SpindleFollower::outruns_axes(Seconds committed) const {
+  const double there = in_place_ ? direction_ * course(committed).speed : speed();
+  return up_to_speed * there > std::min(most_turns_, most_ratio * programmed_);
 }
 
 double SpindleFollower::wanted_ratio(Seconds committed) const {

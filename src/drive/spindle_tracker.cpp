@@ -19,6 +19,8 @@ constexpr int most_turns = 1000;
 constexpr Seconds between_looks{0.005};
 constexpr Seconds longest_run_up{5};
 constexpr Seconds longest_stand{0.25};
+// For how long the spindle may be faster than the axes can follow.
+constexpr Seconds longest_outrun{0.05};
 constexpr double counts_at_least = 8;
 // A thread that begins more than this many turns late has no lead-in long enough to make up for the delay.
 constexpr double latest_start = 0.25;
@@ -37,6 +39,7 @@ void SpindleTracker::begin_following() {
   if (std::exchange(follows_, true)) return;
   encoder_.restart();
   follower_.restart();
+  outruns_since_.reset();
   stages_.feed.attend(Attention::follows);
 }
 
@@ -145,16 +148,23 @@ bool SpindleTracker::follow() {
   const bool by_place = follower_.lock() == SpindleLock::place;
   if (!mind_encoder(by_place ? longest_stand : longest_run_up)) return true;
   if (index_time_) mind_start();
-  if (by_place && std::abs(follower_.missing(ahead)) > most_missing) {
-    trouble_ = remote ? LinkError::thread_lost : LinkError::thread_outrun;
-  }
-  if (by_place && follower_.outruns_axes()) trouble_ = LinkError::thread_outrun;
+  if (by_place) mind_place(ahead);
   if (turn_expected_ && follower_.turns_back(ahead)) {
     turn_expected_ = false;
     turned_back_ = true;
   }
   if (const auto ratio = follower_.ratio(ahead)) stages_.planner.set_spindle_ratio(*ratio);
   return true;
+}
+
+// A single reading may be wrong, so the spindle must be too fast for a while.
+void SpindleTracker::mind_place(Seconds ahead) {
+  const Seconds time = encoder_.now().time;
+  const bool outruns = follower_.outruns_axes(ahead);
+  outruns_since_ = outruns ? std::optional(outruns_since_.value_or(time)) : std::nullopt;
+  if (outruns && time - *outruns_since_ > longest_outrun) trouble_ = LinkError::thread_outrun;
+  if (trouble_ || std::abs(follower_.missing(ahead)) <= most_missing) return;
+  trouble_ = outruns || !stages_.feed.is_remote() ? LinkError::thread_outrun : LinkError::thread_lost;
 }
 
 // The thread has begun. The next thread is begun sooner by as much as the board tells that this one was late.

@@ -40,8 +40,7 @@ std::string_view message_of(LinkError error) {
              "off, and the thread cannot go on there";
     case LinkError::thread_outrun:
       return "the spindle turned faster in a thread than the axes can follow: the machine has come to rest on the "
-             "path, "
-             "spindle off, and the thread cannot go on there; the override of the spindle, S or the pitch is too high";
+             "path, spindle off, and the thread cannot go on; S, its override or the pitch is too high";
   }
   return "the link to the board failed";
 }

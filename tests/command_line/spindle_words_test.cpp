@@ -17,11 +17,11 @@ class SpindleWords : public passo::test::CommandLine {
   }
 
   // X and Z, or X, Y and Z; 100 mm/s each. `spindle`: the content of the table [spindle].
-  std::string machine(const std::string& spindle, bool has_y = false, const std::string& more = "") const {
+  std::string machine(const std::string& spindle, bool has_y = false) const {
     std::string text =
         "name = \"m\"\n[board]\nclock_hz = 160_000_000\nmax_event_rate_hz = 5_000_000\nstep_pulse_us = 0.1\n"
         "[tool]\nmax_rpm = 6000\n[spindle]\n" +
-        spindle + "\n" + more + "\n";
+        spindle + "\n";
     for (const char* axis : {"X", "Y", "Z"}) {
       if (*axis == 'Y' && !has_y) continue;
       text += "[axis." + std::string(axis) +
@@ -75,12 +75,6 @@ TEST_F(SpindleWords, the_time_to_run_up_is_part_of_the_time) {
               0.01);
 }
 
-TEST_F(SpindleWords, drivers_may_take_their_time_once) {
-  const std::string program = "G21 G90\nG1 X10 F600\nG4 P1\nG1 X20\nM2\n";
-  EXPECT_NEAR(time_of(program, machine("", true, "[outputs]\nenable_wait_s = 0.2")),
-              time_of(program, machine("", true)) + 0.2, 1e-3);
-}
-
 TEST_F(SpindleWords, a_cut_directly_after_m3_is_warned_of_where_nothing_waits) {
   const std::string unknown = machine("", true);
   const Outcome early = check("G21 G90\nG0 Z5\nM3 S5000\nG0 X10\nG1 Z-1 F60\nG0 Z5\nM5\nM2\n", unknown);
@@ -93,7 +87,8 @@ TEST_F(SpindleWords, a_cut_directly_after_m3_is_warned_of_where_nothing_waits) {
   const std::string dwells = "G21 G90\nM3 S5000\nG4 P2\nG0 X10\nG1 Z-1 F60\nM5\nM2\n";
   EXPECT_FALSE(is_warned(dwells, unknown));
   EXPECT_FALSE(is_warned("G21 G90\nM3 S5000\nG0 X10\nM5\nM2\n", unknown)) << "nothing is cut";
-  EXPECT_TRUE(is_warned("G21 G90\nM3 S2000\nG4 P2\nG1 Z-1 F60\nS5000\nG1 X9\nM5\nM2\n", unknown)) << "S";
+  EXPECT_FALSE(is_warned("G21 G90\nM3 S5000\nG1 F600\nG4 P2\nG1 Z-1\nM5\nM2\n", unknown)) << "F alone moves nothing";
+  EXPECT_TRUE(is_warned("G21 G90\nM3 S2000\nG4 P2\nG1 Z-1 F60\nG0 Z5\nS5000\nG0 X9\nG1 Z-1\nM5\nM2\n", unknown)) << "S";
   EXPECT_FALSE(is_warned("G21 G90\nM3 S5000\nG4 P2\nG1 Z-1 F60\nG0 Z5\nS2000\nG1 X9\nM5\nM2\n", unknown)) << "slower";
   EXPECT_FALSE(is_warned("G21 G90\nM3 S500\nG4 P2\nG84 R2 Z-9 F500\nG80\nM5\nM2\n", unknown)) << "a tap is reversed";
   const std::string program = "G21 G90\nM3 S5000\nG1 Z-1 F60\nM5\nM2\n";

@@ -48,7 +48,7 @@ TEST(GrblSpindle, a_spindle_that_was_stopped_in_a_hold_runs_up_again) {
   run.send("~");
   run.pass(Seconds(1.9));
   EXPECT_NE(run.board().counts().outputs.switches, 0);
-  EXPECT_NEAR(x_of(run), held, 1e-6) << "longer than spindle_wait_s";
+  EXPECT_NEAR(x_of(run), held, 1e-3) << "longer than spindle_wait_s";
   run.pass(Seconds(1));
   EXPECT_GT(x_of(run), held + 1);
 }
@@ -64,7 +64,7 @@ TEST(GrblSpindle, a_spindle_that_was_started_again_in_a_hold_runs_up_before_the_
   run.pass(Seconds(1));
   run.send("\x9e~");
   run.pass(Seconds(1.8));
-  EXPECT_NEAR(x_of(run), held, 1e-6);
+  EXPECT_NEAR(x_of(run), held, 1e-3);
   run.pass(Seconds(1));
   EXPECT_GT(x_of(run), held + 1);
 }

@@ -39,6 +39,7 @@ class SpindleMistakes {
 
   SpindleDirection direction_ = SpindleDirection::off;
   double speed_ = 0;       // S
+  Point place_;            // where the last line ended
   bool taps_ = false;      // amid a cycle that taps, which reverses the spindle at the bottom of the hole
   bool fed_last_ = false;  // the last motion was a feed, and nothing has rested since
 

@@ -48,12 +48,10 @@ class SpindleFollower {
   // By how many turns the tool is off when the committed motion ends. 0 until the tool has had a lead-in.
   double missing(Seconds committed) const;
   // True: the spindle is so fast that the axes cannot get the tool up to speed.
-  bool outruns_axes() const { return up_to_speed * speed() > most_turns_; }
+  bool outruns_axes(Seconds committed) const;
   // The least and the greatest ratio that ratio() gives. A spindle slower than `least_ratio` is not followed.
   static constexpr double least_ratio = 0.02;
   static constexpr double most_ratio = 2;
-  // The tool is up to speed, and its place counts, from this part of the spindle's speed on.
-  static constexpr double up_to_speed = 0.95;
 
  private:
   // What the readings predict for a time after the last reading.

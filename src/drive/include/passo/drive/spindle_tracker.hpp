@@ -66,6 +66,7 @@ class SpindleTracker {
   void look_for_index();
   Seconds time_to_index(Seconds answer);
   void mind_start();
+  void mind_place(Seconds ahead);
   bool mind_encoder(Seconds longest);
 
   Stages stages_;
@@ -78,6 +79,7 @@ class SpindleTracker {
   std::optional<Seconds> index_time_;
   Seconds late_{0};
   int looks_at_start_ = 0;
+  std::optional<Seconds> outruns_since_;  // the spindle is faster than the axes can follow
   bool turn_expected_ = false;
   bool turned_back_ = false;
   std::optional<LinkError> trouble_;
