@@ -127,7 +127,7 @@ describe('a jog', () => {
   it('moves by keys after a click on a step', async () => {
     const { page, context } = await visit(browser, daemon, 'jog');
     await daemon.until((status) => status.state === 'Idle');
-    await page.getByText('1', { exact: true }).first().click();
+    await page.getByRole('radio', { name: '1', exact: true }).click();
     await page.getByText('Keys move the machine').waitFor();
     const before = (await daemon.status()).place.y ?? 0;
     await page.keyboard.press('ArrowUp');

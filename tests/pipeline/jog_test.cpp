@@ -158,7 +158,7 @@ TEST_P(JogStories, end_at_rest_within_0_3_s) {
     };
     const auto wanted = [&] {
       return request::Jog{.way = {.direction = direction(),
-                                  .speed = MmPerSecond(random.between(1, 40)),
+                                  .speed = MmPerSecond(random.between(1, 25)),
                                   .distance = random.chance(0.2) ? Mm(random.between(0.01, 20)) : Mm(0)}};
     };
     run.taken(wanted());

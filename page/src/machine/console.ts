@@ -1,6 +1,6 @@
 // Lines that a person types, whose modes last from line to line; and short programs of the page's own.
 import { kept } from '../core/kept';
-import { attempt } from '../core/notices';
+import { attempt, wordsOfError } from '../core/notices';
 import { toldOr } from '../core/told';
 import type { Program } from './api';
 import { get, post, remove, upload } from './api';
@@ -28,7 +28,10 @@ export async function typeLine(text: string): Promise<boolean> {
   if (text === '~') return resume();
   return attempt(async () => {
     await beOwner();
-    const { words } = await post<{ words: string[] }>('/mdi', { line: text });
+    const { words } = await post<{ words: string[] }>('/mdi', { line: text }).catch((error: unknown) => {
+      // What is wrong, and what would have been right: two sentences.
+      throw new Error(wordsOfError(error).split('. ').map(toldOr).join('. '));
+    });
     for (const one of words) note('done', one);
   });
 }

@@ -37,7 +37,9 @@ export function followLog(): void {
     if (now === null) return;
     if (now.state !== state) {
       const isBad = now.state === 'Alarm' || now.state === 'Fault';
-      note(isBad ? 'alarm' : 'state', `${say(`state.${now.state}`)}${isBad && now.trouble !== '' ? `: ${toldOr(now.trouble)}` : ''}`);
+      // Between two lines of the console the machine waits for a moment.
+      const isBetween = now.state === 'Line' && now.mdi.streams;
+      if (!isBetween) note(isBad ? 'alarm' : 'state', `${say(`state.${now.state}`)}${isBad && now.trouble !== '' ? `: ${toldOr(now.trouble)}` : ''}`);
       state = now.state;
     }
     const words = now.job === null ? '' : `${now.job.name}: ${say(`job.${now.job.state}`)}${now.job.why === '' ? '' : `, ${toldOr(now.job.why)}`}`;

@@ -62,9 +62,10 @@ function Line() {
 function Modes() {
   const mdi = status.value?.mdi;
   if (mdi === undefined) return null;
+  const feed = Number((mdi.codes.includes('G20') ? mdi.feed / 25.4 : mdi.feed).toFixed(3));
   return (
     <p class="modes" role="group" aria-label={say('console.modes')} data-testid="modes">
-      {[...mdi.codes, `T${mdi.tool}`, `F${mdi.feed}`, `S${mdi.speed}`].map((code) => (
+      {[...mdi.codes, `T${mdi.tool}`, `F${feed}`, `S${mdi.speed}`].map((code) => (
         <code key={code}>{code}</code>
       ))}
       <span class="figure">{placeWords(mdi.place)}</span>
