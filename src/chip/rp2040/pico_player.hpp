@@ -64,8 +64,8 @@ class PicoPlayer {
     if (pulse < wanted.pulse) pulse = wanted.pulse;
     if (pulse < shortest_pulse) pulse = shortest_pulse;
     longest_pulse_ = wanted.pulse == 0 && pulse < usual_pulse ? usual_pulse : pulse;
-    // A pulse takes half of an interval at most, and a segment may be a tick too fast.
-    uint32_t ticks = pulse > shortest_pulse ? 2 * pulse + 1 : 2 * shortest_pulse;
+    // A pulse takes half of an interval at most.
+    uint32_t ticks = 2 * pulse;
     if (ticks < pulse + before_turn + wanted.set_up) ticks = pulse + before_turn + wanted.set_up;
     const uint32_t set_up = ticks - pulse - before_turn;
     const uint32_t hold = pulse + before_turn;
@@ -95,7 +95,7 @@ class PicoPlayer {
   static bool done() { return left_ == 0 && StepStream::dry(); }
 
   static void load(const Segment& segment) {
-    if (pending_) end_pulse(segment.interval >> 17);
+    if (pending_) end_pulse(((segment.interval >> 16) + 1) / 2);
     const bool rests = StepStream::dry();
     StepStream::publish();
     if (rests) {
@@ -110,7 +110,8 @@ class PicoPlayer {
     const uint32_t last = segment.interval + static_cast<uint32_t>(segment.change) * (left_ - 1);
     const uint32_t shortest = (segment.interval < last ? segment.interval : last) >> 16;
     const uint32_t longest = (segment.interval < last ? last : segment.interval) >> 16;
-    pulse_ = shortest / 2 < longest_pulse_ ? shortest / 2 : longest_pulse_;
+    const uint32_t half = (shortest + 1) / 2;
+    pulse_ = half < longest_pulse_ ? half : longest_pulse_;
     most_ahead_ = 1;
     for (uint32_t ticks = longest | 1; ticks < ticks_ahead; ticks <<= 1) most_ahead_ <<= 1;
     if (most_ahead_ < 2) most_ahead_ = 2;
