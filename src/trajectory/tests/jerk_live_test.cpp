@@ -129,6 +129,27 @@ TEST(JerkLimitedHold, in_a_line_that_mostly_turns_comes_soon) {
   }
 }
 
+// Without limits of jerk a stop left a micrometre of a cell, in which A turns by 36 degrees here.
+TEST(Hold, in_a_line_that_mostly_turns_comes_soon_without_limits_of_jerk) {
+  MotionLimits limits = jerk_limits(100, 500, 0);
+  limits.velocity[Axis::a] = MmPerSecond(10);
+  limits.acceleration[Axis::a] = MmPerSecond2(500);
+  Point end = xyz(0.0001, 0);
+  end[Axis::a] = 3600;
+  for (const double at : {200.0, 359.0, 359.9}) {
+    LivePlan plan({line(Point(), end, 100)}, limits, Seconds(0.05));
+    ASSERT_TRUE(plan.go_on_until(Seconds(at)));
+    const double from = plan.time();
+    plan.planner().hold();
+    while (!plan.held()) ASSERT_TRUE(plan.go_on());
+    EXPECT_LE(plan.time() - from, 10.0 / 500 + 0.001) << "hold at " << at;
+    plan.planner().resume();
+    while (plan.go_on()) {
+    }
+    plan.expect_good();
+  }
+}
+
 // The acceleration is still at its greatest. It must go to 0 first, which takes 20 ms.
 TEST(JerkLimitedHold, while_speeding_up_turns_the_acceleration_round_without_a_jump) {
   LivePlan plan({line(xyz(0, 0), xyz(100, 0), 80)}, jerk_limits(100, 500, 25'000));
