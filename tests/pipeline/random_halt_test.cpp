@@ -19,11 +19,11 @@
 namespace passo {
 namespace {
 
-// Seconds after the braking time. Where the path uses up the jerk of an axis that turns, no stop begins at once: three
-// halts of 1,000 come later, by up to the second value.
+// Seconds after the braking time. Where the path uses up the jerk of an axis, no stop begins at once, and about one
+// halt in a hundred comes later than the first value.
 constexpr double soon = 0.1;
-constexpr double latest = 0.3;
-constexpr double most_late = 0.01;  // share of all halts
+constexpr double latest = 0.5;
+constexpr double most_late = 0.02;  // share of all halts
 constexpr int most_instants = 12;
 constexpr int most_cuts = 3;
 constexpr Seconds most_time{60};

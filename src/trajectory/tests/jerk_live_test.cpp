@@ -89,7 +89,7 @@ TEST(JerkLimitedHold, at_any_instant_keeps_the_limits_of_axes_with_and_without_j
   const std::vector<PathItem> path =
       smoothed(polyline({xyz(0, 0), xyz(-12, 0), xyz(-12, -13), xyz(2.4, -13), xyz(2.4, 2.4)}, 100));
   const double whole = total_time(test::plan(path, limits));
-  const int instants = fewer(200);
+  const int instants = fewer(60);
   for (int i = 1; i < instants; ++i) {
     SCOPED_TRACE("instant " + std::to_string(i) + " of " + std::to_string(instants));
     LivePlan plan(path, limits);
@@ -122,6 +122,27 @@ TEST(JerkLimitedHold, in_a_line_that_mostly_turns_comes_soon) {
     plan.planner().hold();
     while (!plan.held()) ASSERT_TRUE(plan.go_on());
     EXPECT_LE(plan.time() - from, 10.0 / 500 + 500.0 / 25'000 + 0.01) << "hold at " << at;
+    plan.planner().resume();
+    while (plan.go_on()) {
+    }
+    plan.expect_good();
+  }
+}
+
+// Without limits of jerk a stop left a micrometre of a cell, in which A turns by 36 degrees here.
+TEST(Hold, in_a_line_that_mostly_turns_comes_soon_without_limits_of_jerk) {
+  MotionLimits limits = jerk_limits(100, 500, 0);
+  limits.velocity[Axis::a] = MmPerSecond(10);
+  limits.acceleration[Axis::a] = MmPerSecond2(500);
+  Point end = xyz(0.0001, 0);
+  end[Axis::a] = 3600;
+  for (const double at : {200.0, 359.0, 359.9}) {
+    LivePlan plan({line(Point(), end, 100)}, limits, Seconds(0.05));
+    ASSERT_TRUE(plan.go_on_until(Seconds(at)));
+    const double from = plan.time();
+    plan.planner().hold();
+    while (!plan.held()) ASSERT_TRUE(plan.go_on());
+    EXPECT_LE(plan.time() - from, 10.0 / 500 + 0.001) << "hold at " << at;
     plan.planner().resume();
     while (plan.go_on()) {
     }
@@ -279,7 +300,7 @@ class JerkLimitedMeddling : public testing::TestWithParam<int> {
 };
 
 TEST_P(JerkLimitedMeddling, keeps_limits_of_jerk_on_some_axes_only) {
-  for (int n = 0; n < 6; ++n) {
+  for (int n = 0; n < 2; ++n) {
     SCOPED_TRACE("PASSO_SEED=" + std::to_string(random_.seed()) + ", path " + std::to_string(n));
     const std::vector<PathItem> path = n % 2 == 0 ? smooth_chain(random_, 50) : smoothed(corners(random_, 40));
     meddle(path, draw_mixed_limits(random_));
