@@ -16,6 +16,7 @@ struct PinBench : Bench {
     return setup;
   }
   std::uint8_t drivers_rest() const { return setup.drivers_rest; }
+  std::uint16_t alarms() const { return setup.alarms; }
   void enable() { drivers_on = true; }
   void release() { drivers_on = false; }
 
@@ -95,7 +96,7 @@ TEST_F(PinSetupTest, counts_for_one_hello) {
 
 TEST_F(PinSetupTest, is_refused_amid_motion) {
   greet();
-  send(BoardSegment{.events = 5, .flips = 1, .interval = 10 << 16}, std::uint8_t{3}, std::uint8_t{1});
+  send(BoardSegment{.events = 5, .flips = 1, .interval = 200 << 16}, std::uint8_t{3}, std::uint8_t{1});
   bench_.replies.clear();
   set_up({.inputs = input_probe});
   ASSERT_EQ(bench_.replies.size(), 1U);
@@ -120,13 +121,34 @@ TEST_F(PinSetupTest, drivers_go_off_when_the_host_is_silent_and_the_place_is_not
   EXPECT_EQ(status().inputs & drivers_timed_out, 0);
 }
 
+// The start button's input is the alarm of a drive.
+TEST_F(PinSetupTest, an_alarm_of_a_drive_stops_the_motors_and_answers_a_hello) {
+  set_up({.alarms = input_start});
+  greet();
+  EXPECT_EQ(board_.stopping() & input_start, unsigned{input_start});
+  board_.set_inputs(input_start);
+  bench_.replies.clear();
+  board_.stop_at_once(input_start);
+  ASSERT_EQ(bench_.replies.size(), 1U);
+  Fault fault;
+  decode(bench_.replies[0], fault);
+  EXPECT_EQ(fault.reason, FaultReason::driver);
+  EXPECT_EQ(fault.inputs, unsigned{input_start});
+  EXPECT_FALSE(is_trusted());
+  set_up({.alarms = input_start});
+  greet();
+  EXPECT_EQ(bench_.replies.back().type, MessageType::fault) << "it is still given";
+  greet();
+  EXPECT_EQ(bench_.replies.back().type, MessageType::hello_reply) << "to another host it is a button";
+}
+
 TEST_F(PinSetupTest, drivers_stay_on_amid_motion_and_without_such_a_time) {
   greet();
   be_silent(1000);
   EXPECT_TRUE(bench_.drivers_on);
   set_up({.drivers_rest = 20});
   greet();
-  send(BoardSegment{.events = 5, .flips = 1, .interval = 10 << 16}, std::uint8_t{3}, std::uint8_t{1});
+  send(BoardSegment{.events = 5, .flips = 1, .interval = 200 << 16}, std::uint8_t{3}, std::uint8_t{1});
   be_silent(1000);
   EXPECT_TRUE(bench_.drivers_on);
 }
