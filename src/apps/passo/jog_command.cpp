@@ -121,7 +121,8 @@ void print(const Ending& ending, const MachineDescription& machine, bool json) {
   fmt::print("at rest after {:.3f} s in", ending.time.value());
   for (const AxisDescription& axis : machine.axes)
     fmt::print(" {}{:.3f}", letter_of(axis.axis), ending.place[axis.axis]);
-  fmt::print(" ({}): {}\n", ending.is_known ? "machine" : "from where it stood: its place is not known",
+  fmt::print(" ({}): {}\n",
+             ending.is_known ? "machine" : "its place is not known: counted from where it stood at first",
              in_words(ending.why));
 }
 
