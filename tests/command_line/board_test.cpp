@@ -42,7 +42,7 @@ TEST_F(Boards, are_emulated_too) {
   if (passo::test::lacks_an_emulator(info)) GTEST_SKIP() << info.err;
   ASSERT_EQ(info.code, 0) << info.err;
   const auto json = nlohmann::json::parse(info.out);
-  EXPECT_EQ(json["about"]["highest_event_rate_hz"], 160'000) << info.out;
+  EXPECT_EQ(json["about"]["highest_event_rate_hz"], 150'000) << info.out;
   EXPECT_EQ(json["status"]["positions"].size(), 8);
   const auto mega = nlohmann::json::parse(passo("board info --json sim:mega").out);
   EXPECT_EQ(mega["about"]["highest_event_rate_hz"], 110'000);

@@ -53,11 +53,11 @@ TEST(Uno, steps_as_the_host_says_at_every_rate) {
   }
 }
 
-TEST(Uno, turns_three_motors_at_160_kHz_while_it_is_fed) {
+TEST(Uno, turns_three_motors_at_150_kHz_while_it_is_fed) {
   std::mt19937_64 random(test::seed());
   BoardBench bench(uno_under_test(PASSO_MOTION_UNO));
   StreamKind kind{
-      .shortest_interval = 100, .longest_interval = 113, .shortest_segment = 120, .segments = 120, .ramp = 20};
+      .shortest_interval = 107, .longest_interval = 120, .shortest_segment = 120, .segments = 120, .ramp = 20};
   expect_every_edge(bench.play(random_stream(random, 3, kind)), unavoidable);
   kind.all_at_every_event = true;
   expect_every_edge(bench.play(random_stream(random, 3, kind)), unavoidable);
@@ -305,7 +305,7 @@ TEST(Mega, loses_no_byte_where_items_have_few_events) {
 
 TEST(Uno, refuses_a_segment_faster_than_it_states) {
   BoardBench bench(uno_under_test(PASSO_MOTION_UNO));
-  bench.start({{.events = 200, .flips = 7, .interval = 98 << 16}});
+  bench.start({{.events = 200, .flips = 7, .interval = 104 << 16}});
   bench.run(200'000);
   ASSERT_TRUE(bench.error().has_value());
   EXPECT_EQ(bench.error()->reason, WireError::bad_value);

@@ -16,12 +16,12 @@ inline constexpr uint8_t flag_special = pins.flag_special;
 inline constexpr uint8_t flag_stop = pins.flag_stop;
 inline constexpr StepTimes step_times = {.shortest_pulse = 18,
                                          .first_padding = 29,
-                                         .event_ticks = 100,
+                                         .event_ticks = 106,
                                          .first_turn = 22,
                                          .last_turn = 38,
                                          .beside_wait = 176};
 inline constexpr About about = {.firmware = 107,
-                                .highest_event_rate = 160'000,
+                                .highest_event_rate = 150'000,
                                 .baud = 500'000,
                                 .name = "uno cnc shield3",
                                 .step_pulse = step_times.shortest_pulse};
