@@ -73,6 +73,7 @@ class ServeDaemon {
   ServiceNotice& service_;
   ServedStatus* status_ = nullptr;
   SenderLine* driver_ = nullptr;  // where the sender is
+  bool driver_spoke_ = false;     // and is no stranger
   WallClock clock_;
 };
 
