@@ -1,8 +1,10 @@
 #include "passo/activity/open_program.hpp"
 
 #include <utility>
+#include <vector>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include "passo/activity/nominal_time.hpp"
 #include "passo/activity/stage_options.hpp"
@@ -12,6 +14,7 @@ namespace {
 
 constexpr int first_g92_parameter = 5210;
 constexpr int last_g92_parameter = 5219;
+constexpr int work_system = 5220;
 
 bool is_kind(const PathItem& item, Action::Kind kind) {
   const auto* action = std::get_if<Action>(&item);
@@ -22,17 +25,6 @@ bool is_kind(const PathItem& item, Action::Kind kind) {
 std::optional<Diagnostic> first_error(const Diagnostics& diagnostics) {
   for (const Diagnostic& one : diagnostics.all()) {
     if (one.severity == Severity::error) return one;
-  }
-  return {};
-}
-
-// In grbl, G20 and G21 count for the F of their own line too. So they are read before the rest of the line.
-std::string_view units_word(std::string_view line) {
-  for (const std::string_view word : {"G20", "G21"}) {
-    const std::size_t at = line.find(word);
-    if (at == std::string_view::npos) continue;
-    const char after = at + word.size() < line.size() ? line[at + word.size()] : ' ';
-    if ((after < '0' || after > '9') && after != '.') return word;
   }
   return {};
 }
@@ -59,33 +51,54 @@ void OpenProgram::begin(const Point& start) {
 }
 
 void OpenProgram::restart(const Point& place) {
+  forget_queue();
   options_.parameters = interpreter_->saved_parameters();
   for (int number = first_g92_parameter; number <= last_g92_parameter; ++number) options_.parameters.erase(number);
+  options_.parameters[work_system] = 1;
   options_.units = LengthUnits::mm;
+  begin(place);
+}
+
+void OpenProgram::go_on_at(const Point& place) {
+  const SavedParameters parameters = interpreter_->saved_parameters();
+  take_offsets(parameters, place);
+}
+
+void OpenProgram::take_offsets(const SavedParameters& parameters, const Point& place) {
+  forget_queue();
+  options_.parameters = interpreter_->saved_parameters();
+  set_lasting_offsets(options_.parameters, parameters);
+  begin_with(interpreter_->modes(), interpreter_->motion(), place);
+}
+
+void OpenProgram::forget_queue() {
   queue_.clear();
   queued_time_ = Seconds(0);
   jogs_ = false;
   outputs_ = {};
-  begin(place);
 }
 
-void OpenProgram::take_offsets(const SavedParameters& parameters, const Point& place) {
-  restart(place);
-  set_lasting_offsets(options_.parameters, parameters);
-  begin(place);
-}
-
-// As grbl does after M2: units, feed and tool offset stay.
-void OpenProgram::begin_after_end() {
-  const ModesInForce modes = interpreter_->modes();
-  options_.parameters = interpreter_->saved_parameters();
+// The outputs are off. F is given in G94: in inverse time it counts for its own line alone.
+void OpenProgram::begin_with(const ModesInForce& modes, int motion, const Point& place) {
   options_.units = modes.inches ? LengthUnits::inch : LengthUnits::mm;
-  begin(builder_->position());
+  begin(place);
   const double unit = modes.inches ? mm_per_inch : 1;
-  const std::string again = fmt::format("G1 F{:.6f}", modes.feed / unit);
-  static_cast<void>(read(again));
-  const double tool = modes.frame.tool_offset()[Axis::z] / unit;
-  if (tool != 0) static_cast<void>(read(fmt::format("G43.1 Z{:.6f}", tool)));
+  const double tool_offset = modes.frame.tool_offset()[Axis::z] / unit;
+  std::vector<std::string> lines = {fmt::format("G94 F{:.6f}", modes.feed / unit), fmt::format("S{:.6f}", modes.speed),
+                                    fmt::format("{}", fmt::join(modes.codes.begin() + 1, modes.codes.end(), " "))};
+  if (modes.tool > 0) lines.push_back(fmt::format("T{}", modes.tool));
+  if (tool_offset != 0) lines.push_back(fmt::format("G43.1 Z{:.6f}", tool_offset));
+  for (const std::string& line : lines) static_cast<void>(read(line));
+  interpreter_->set_motion(motion);
+}
+
+// As grbl does after M2: units, feed, speed, tool and its offset stay.
+void OpenProgram::begin_after_end() {
+  constexpr int feed_motion = 10;
+  ModesInForce modes = interpreter_->modes();
+  modes.codes = {"G1", "G54", "G17", modes.inches ? "G20" : "G21", "G90", "G94"};
+  options_.parameters = interpreter_->saved_parameters();
+  begin_with(modes, feed_motion, builder_->position());
   ended_ = true;
 }
 
@@ -96,13 +109,13 @@ std::optional<Diagnostic> OpenProgram::take(std::string_view line, Seconds now) 
 std::optional<Diagnostic> OpenProgram::take_jog(std::string_view words, Seconds now) {
   const ModesInForce modes = interpreter_->modes();
   const double unit = modes.inches ? mm_per_inch : 1;
-  interpreter_->keep_motion();
+  const int motion = interpreter_->motion();
   auto answer = give(fmt::format("G94 G1 {}", words), now, true);
   // Units come first, because F counts in them.
-  const std::string back =
-      fmt::format("{} {} {} F{:.6f}", modes.codes[3], modes.codes[4], modes.codes[5], modes.feed / unit);
-  static_cast<void>(read(back));
-  interpreter_->take_back_motion();
+  static_cast<void>(read(modes.codes[3]));
+  static_cast<void>(read(fmt::format("G94 F{:.6f}", modes.feed / unit)));
+  static_cast<void>(read(fmt::format("{} {}", modes.codes[4], modes.codes[5])));
+  interpreter_->set_motion(motion);
   diagnostics_.clear();
   return answer;
 }
@@ -110,11 +123,17 @@ std::optional<Diagnostic> OpenProgram::take_jog(std::string_view words, Seconds 
 std::optional<Diagnostic> OpenProgram::check(std::string_view line) {
   const std::size_t kept = queue_.size();
   auto answer = read(line);
-  for (PathItem item; asks_ && builder_->next(item);) {
+  for (PathItem item; pull_answer(item);) {
   }
-  asks_ = false;
   queue_.resize(kept);
   if (interpreter_->ended()) begin_after_end();
+  return answer;
+}
+
+std::optional<Diagnostic> OpenProgram::judge(std::string_view line) {
+  const std::size_t kept = queue_.size();
+  auto answer = read(line);
+  if (!answer) take_back(kept);
   return answer;
 }
 
@@ -136,12 +155,11 @@ std::optional<Diagnostic> OpenProgram::give(std::string_view line, Seconds now, 
   return answer;
 }
 
-// Interprets a line, and queues what the line asks for.
+// Interprets a line, and queues what the line asks for. Of a line with an error, nothing stays.
 std::optional<Diagnostic> OpenProgram::read(std::string_view line) {
-  const std::string_view units = units_word(line);
-  if (!units.empty() && line != units) static_cast<void>(read(units));
   const std::size_t kept = queue_.size();
-  const Point place = builder_->position();
+  interpreter_->keep();
+  builder_->keep();
   diagnostics_.clear();
   interpreter_->give_line(line);
   for (PathItem item; builder_->next(item);) {
@@ -150,11 +168,14 @@ std::optional<Diagnostic> OpenProgram::read(std::string_view line) {
     asks_ = is_kind(item, Action::Kind::probe_begin);
     if (asks_) break;
   }
-  if (diagnostics_.any_error()) return take_back(kept, place);
-  return {};
+  if (!diagnostics_.any_error()) return {};
+  const Diagnostic error = *first_error(diagnostics_);
+  take_back(kept);
+  return error;
 }
 
-std::optional<Diagnostic> OpenProgram::take_back(std::size_t kept, const Point& place) {
+// Goes back to what was before the line that was read last.
+void OpenProgram::take_back(std::size_t kept) {
   asks_ = false;
   for (PathItem item; builder_->next(item);) {
   }
@@ -162,11 +183,9 @@ std::optional<Diagnostic> OpenProgram::take_back(std::size_t kept, const Point& 
     queued_time_ -= nominal_time_of(queue_.back(), limits_);
     queue_.pop_back();
   }
-  const Diagnostic error = *first_error(diagnostics_);
   diagnostics_.clear();
-  builder_->stand_at(place);
-  interpreter_->stand_at(place);
-  return error;
+  interpreter_->take_back();
+  builder_->take_back();
 }
 
 void OpenProgram::push(const PathItem& item) {
@@ -214,9 +233,19 @@ bool OpenProgram::pull_answer(PathItem& item) {
   }
   asks_ = false;
   answer_fault_ = first_error(diagnostics_);
+  // A probe move that has met nothing ends a program in a file. Whoever has sent it decides what comes next, with all
+  // modes as they were.
+  for (PathItem rest; builder_->next(rest);) {
+  }
   diagnostics_.clear();
-  if (interpreter_->ended()) begin_after_end();
-  ended_ = false;
+  if (!interpreter_->ended()) return false;
+  if (answer_fault_) {
+    interpreter_->reopen();
+    interpreter_->stand_at(builder_->position());
+  } else {
+    begin_after_end();
+    ended_ = false;
+  }
   return false;
 }
 

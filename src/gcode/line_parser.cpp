@@ -148,19 +148,29 @@ bool LineParser::parse_items() {
   }
 }
 
+// In grbl N is a word like others: with a sign, anywhere, and once.
 bool LineParser::parse_line_number() {
   const char* const n = at_;
+  const bool as_word = line_numbers_anywhere_;
+  if (as_word && block_.line_number) {
+    return fail("gcode.repeated-word", n, 1, "a second N in one block", "each letter once");
+  }
   take();
+  const bool is_negative = as_word && peek() == '-';
+  if (is_negative || (as_word && peek() == '+')) take();
   bool point = false;
+  bool any_digit = false;
   const char* first = nullptr;
-  for (char c = peek(); is_digit(c) || (c == '.' && first != nullptr && !point); c = peek()) {
+  for (char c = peek(); is_digit(c) || (c == '.' && !point && (any_digit || as_word)); c = peek()) {
     if (first == nullptr) first = at_;
     point = point || c == '.';
+    any_digit = any_digit || is_digit(c);
     take();
   }
-  if (first == nullptr) {
+  if (!any_digit) {
     return fail("gcode.missing-value", n, 1, "N has no line number", "digits after N, as in N120");
   }
+  if (is_negative) return fail("gcode.negative-word", n, 1, "the line number is negative", "N of 0 or more");
   block_.line_number = std::string_view(first, static_cast<std::size_t>(token_end_ - first));
   return true;
 }

@@ -12,7 +12,6 @@
 namespace passo {
 namespace {
 
-constexpr std::string_view beyond_travel = "travel.exceeded";
 constexpr std::size_t jog_words_from = 3;    // after "$J="
 constexpr std::size_t build_words_from = 3;  // after "$I="
 
@@ -103,7 +102,7 @@ void GrblController::take_jog(const std::string& text) {
     begin_stream();
     return answer(GrblError::none);
   }
-  if (wrong->code == beyond_travel) return answer(GrblError::jog_beyond_travel);
+  if (wrong->code == travel_exceeded) return answer(GrblError::jog_beyond_travel);
   answer(grbl_error_number(wrong->code).value_or(static_cast<int>(GrblError::bad_jog)));
 }
 
@@ -141,18 +140,20 @@ void GrblController::take_startup_line(const std::string& text) {
   if (alarm_) return answer(GrblError::not_idle);
   const std::string line = text.substr(4);
   if (line.size() > GrblMemory::longest) return answer(GrblError::line_too_long_to_keep);
-  if (const auto wrong = line.empty() ? std::nullopt : program_.check(line)) {
-    return answer(grbl_error_number(wrong->code).value_or(static_cast<int>(GrblError::unsupported)));
+  if (const auto wrong = line.empty() ? std::nullopt : program_.judge(line)) {
+    return answer(number_of(*wrong));
   }
-  memory_.startup[text[2] == '0' ? 0 : 1] = line;
-  answer(keep_memory() ? GrblError::none : GrblError::bad_statement);
+  GrblMemory memory = memory_;
+  memory.startup[text[2] == '0' ? 0 : 1] = line;
+  answer(keep_memory(memory) ? GrblError::none : GrblError::bad_statement);
 }
 
 // Senders and shops tell machines apart by these words, which stand in the answer to $I.
 void GrblController::take_build(const std::string& text) {
   if (text.size() > GrblMemory::longest) return answer(GrblError::line_too_long_to_keep);
-  memory_.build = text;
-  answer(keep_memory() ? GrblError::none : GrblError::bad_statement);
+  GrblMemory memory = memory_;
+  memory.build = text;
+  answer(keep_memory(memory) ? GrblError::none : GrblError::bad_statement);
 }
 
 void GrblController::remember(GrblMemory memory, std::function<bool(const GrblMemory&)> write) {
@@ -160,11 +161,14 @@ void GrblController::remember(GrblMemory memory, std::function<bool(const GrblMe
   write_memory_ = std::move(write);
 }
 
-// False, with a message: what counts now is forgotten at the end.
-bool GrblController::keep_memory() {
-  if (!write_memory_ || write_memory_(memory_)) return true;
-  say("[MSG:That counts now, and cannot be kept: the file cannot be written]\r\n");
-  return false;
+// False, with a message: nothing has changed.
+bool GrblController::keep_memory(const GrblMemory& memory) {
+  if (write_memory_ && !write_memory_(memory)) {
+    say("[MSG:Nothing has changed: the file cannot be written]\r\n");
+    return false;
+  }
+  memory_ = memory;
+  return true;
 }
 
 bool GrblController::is_door_open() const {
@@ -178,15 +182,16 @@ void GrblController::restore(const std::string& text) {
   const bool all = text == "$RST=*";
   const bool settings = all || text == "$RST=$";
   if (!settings && text != "$RST=#") return answer(GrblError::bad_statement);
-  if (settings) memory_.choices = GrblChoices();
-  if (all) memory_ = GrblMemory();
+  GrblMemory memory = all ? GrblMemory() : memory_;
+  memory.choices = GrblChoices();
+  if (settings && !keep_memory(memory)) return answer(GrblError::bad_statement);
   if (text != "$RST=$") {
     take_offsets({});
     static_cast<void>(program_.take("G92.1", session_.now()));
     offsets_changed_ = true;
   }
   say("[MSG:Restoring defaults]\r\n");
-  answer(settings && !keep_memory() ? GrblError::bad_statement : GrblError::none);
+  answer(GrblError::none);
   reset();
 }
 
@@ -206,14 +211,15 @@ void GrblController::take_setting(const std::string& text) {
   if (value_error != std::errc() || !std::isfinite(value)) return answer(GrblError::bad_number);
   if (value_end != value_last) return answer(GrblError::bad_statement);
   if (value < 0) return answer(GrblError::negative_value);
+  GrblMemory memory = memory_;
   if (number == 10) {
-    memory_.choices.status_mask = static_cast<unsigned>(std::lround(std::min(value, 255.0)));
+    memory.choices.status_mask = static_cast<unsigned>(std::lround(std::min(value, 255.0)));
   } else if (number == 13) {
-    memory_.choices.inches = value != 0;
+    memory.choices.inches = value != 0;
   } else {
     return keep_setting(number, value);
   }
-  answer(keep_memory() ? GrblError::none : GrblError::bad_statement);
+  answer(keep_memory(memory) ? GrblError::none : GrblError::bad_statement);
 }
 
 void GrblController::keep_settings(std::string text, WriteFile write) {

@@ -12,12 +12,17 @@
 namespace passo {
 namespace {
 
-constexpr std::string_view outside_travel = "travel.exceeded";
-
 // Words by which a program changes what is kept: offsets, and the homes of G28 and G30.
 bool changes_offsets(const std::string& line) {
   return line.find("G10") != std::string::npos || line.find("G28.1") != std::string::npos ||
          line.find("G30.1") != std::string::npos;
+}
+
+GrblAlarm alarm_of_homing(const MachineChange& change) {
+  if (change.outcome == Outcome::stopped) return GrblAlarm::homing_stopped;
+  const std::string_view code = change.fault ? std::string_view(change.fault->code) : std::string_view();
+  const bool holds = code == code_of(HomingFault::still_closed) || code == code_of(HomingFault::unsteady);
+  return holds ? GrblAlarm::homing_no_release : GrblAlarm::homing_no_switch;
 }
 
 // Lines that change nothing.
@@ -40,18 +45,36 @@ void GrblController::connect() {
   say(std::string(grbl_banner));
   if (!drives_) say("[MSG:Another client drives the machine]\r\n");
   if (alarm_) say("[MSG:'$H'|'$X' to unlock]\r\n");
+}
+
+void GrblController::start_up() {
   if (drives_ && !resets_ && !std::exchange(has_started_, true)) run_startup();
 }
 
 // Not while the controller is locked: they may move the machine.
 void GrblController::run_startup() {
-  if (alarm_) return;
   for (const std::string& line : memory_.startup) {
+    if (alarm_) return;
     if (line.empty()) continue;
     const auto wrong = program_.take(line, session_.now());
-    const int error = wrong ? grbl_error_number(wrong->code).value_or(static_cast<int>(GrblError::unsupported)) : 0;
+    const bool is_beyond = wrong && wrong->code == travel_exceeded;
+    if (is_beyond) stop_at_soft_limit();
+    const int error = wrong && !is_beyond ? number_of(*wrong) : 0;
     say(fmt::format(">{}:{}", line, error == 0 ? "ok\r\n" : fmt::format("error:{}\r\n", error)));
   }
+}
+
+// As grbl: what was sent before is held, and the rest is not executed.
+void GrblController::stop_at_soft_limit() {
+  hold();
+  raise(GrblAlarm::soft_limit);
+  say("[MSG:Reset to continue]\r\n");
+}
+
+// grbl checks the travel only while it moves.
+int GrblController::number_of(const Diagnostic& wrong) {
+  if (wrong.code == travel_exceeded) return static_cast<int>(GrblError::invalid_target);
+  return grbl_error_number(wrong.code).value_or(static_cast<int>(GrblError::unsupported));
 }
 
 void GrblController::take_offsets(const SavedParameters& parameters) {
@@ -76,7 +99,7 @@ void GrblController::let_drive(bool drives) {
   checks_ = resets_ = false;
   const KnownPosition position = session_.status().position;
   alarm_ = !machine_.homing.empty() && position.trust == Trust::unknown;
-  if (!session_.busy()) program_.restart(position.place);
+  if (!session_.busy()) program_.go_on_at(position.place);
   say(drives ? "[MSG:This sender drives the machine]\r\n" : "[MSG:Another client drives the machine]\r\n");
 }
 
@@ -93,6 +116,7 @@ void GrblController::disconnect() {
 void GrblController::receive(std::string_view bytes) {
   heard_at_ = session_.now();
   input_.receive(bytes, [this](std::uint8_t byte) { act(byte); });
+  start_up();
 }
 
 std::vector<std::string> GrblController::take_replies() {
@@ -127,16 +151,13 @@ void GrblController::heed(const MachineChange& change) {
   if (waits_ != Waits::homing || homing_ != change.ticket) return;
   homing_.reset();
   waits_ = Waits::none;
-  program_.restart(session_.status().position.place);
+  program_.go_on_at(session_.status().position.place);
   if (change.outcome == Outcome::done) {
     alarm_ = false;
     run_startup();
     return answer(GrblError::none);
   }
-  const bool holds = change.fault && change.fault->code == "homing.not-released";
-  raise(change.outcome == Outcome::stopped ? GrblAlarm::homing_stopped
-        : holds                            ? GrblAlarm::homing_no_release
-                                           : GrblAlarm::homing_no_switch);
+  raise(alarm_of_homing(change));
   answer(GrblError::locked);
 }
 
@@ -200,15 +221,9 @@ void GrblController::take_code(const std::string& text) {
   probe_ = program_.asks() ? std::nullopt : probe_;
   const auto wrong = checks_ ? program_.check(text) : program_.take(text, session_.now());
   if (wrong) {
-    const bool is_beyond = wrong->code == outside_travel;
-    if (is_beyond && !checks_) {
-      // As grbl: what was sent before is held, and the rest is not executed.
-      hold();
-      raise(GrblAlarm::soft_limit);
-      say("[MSG:Reset to continue]\r\n");
-      return answer(GrblError::none);
-    }
-    return answer(grbl_error_number(wrong->code).value_or(static_cast<int>(GrblError::unsupported)));
+    if (checks_ || wrong->code != travel_exceeded) return answer(number_of(*wrong));
+    stop_at_soft_limit();
+    return answer(GrblError::none);
   }
   offsets_changed_ = offsets_changed_ || (!checks_ && changes_offsets(text));
   if (program_.asks()) {

@@ -176,6 +176,7 @@ void GrblController::end_reset() {
   program_.restart(session_.status().position.place);
   has_started_ = false;
   connect();
+  start_up();
 }
 
 void GrblController::change_feed(int percent) {

@@ -83,7 +83,8 @@ std::string modes_text(const ModesInForce& modes, const GrblUnits& units) {
   if (modes.flood) text += " M8";
   if (!modes.mist && !modes.flood) text += " M9";
   const double feed = units.inches ? modes.feed / mm_per_inch : modes.feed;
-  return text + fmt::format(" T{} F{:.0f} S{:.0f}]\r\n", std::max(modes.tool, 0), feed, modes.speed);
+  return text +
+         fmt::format(" T{} F{:.0f} S{:.0f}]\r\n", std::max(modes.tool, 0), std::round(feed), std::round(modes.speed));
 }
 
 std::string probe_text(const std::optional<ProbeOutcome>& probe, const GrblUnits& units) {

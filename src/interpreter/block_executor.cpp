@@ -110,6 +110,18 @@ void BlockExecutor::start(const InterpreterOptions& options) {
   emit(operation::Reset{});
 }
 
+void BlockExecutor::keep() {
+  missing_feed_was_told_ = block_.missing_feed_told;
+  drilling_.keep();
+}
+
+void BlockExecutor::take_back() {
+  block_.missing_feed_told = missing_feed_was_told_;
+  drilling_.take_back();
+  cycle_ = nullptr;
+  reopen();  // the program had not ended when its last line came
+}
+
 void BlockExecutor::finish(Closing closing) {
   splines_.report_open_nurbs();
   (void)cutter_.release();
@@ -133,7 +145,9 @@ void BlockExecutor::execute(const Block& block) {
     fail("gcode.missing-word", words_.span(non_modal), "G4 without P", "P, the seconds to wait");
     return;
   }
-  if (!resolve_motion() || !check_words_used() || !check_words_shared() || !cutter_codes_.check()) return;
+  if (!resolve_motion() || (!speaks_grbl() && !check_words_used()) || !check_words_shared() || !cutter_codes_.check()) {
+    return;
+  }
   if (const CodeEntry* const stops = words_.code(stopping); stops != nullptr && stops->number >= code(98)) {
     subprograms_.call_or_leave(stops->number);
     return;
@@ -141,6 +155,8 @@ void BlockExecutor::execute(const Block& block) {
   if (!block.assignments.empty() && !assign(block)) return;
   if (!block.comments.empty() && !obey_comments(block)) return;
   if (block.words.empty() || !execute_words()) return;
+  // grbl looks for words without use at the very end. Of a line with an error nothing is executed all the same.
+  if (speaks_grbl() && !check_words_used()) return;
   go_on();
   subprograms_.call_modal_macro();
 }
@@ -188,6 +204,8 @@ bool BlockExecutor::execute_words() {
   const bool only_moves = (words_.groups() & ~bit_of(motion)) == 0;  // as most blocks do
   if (!only_moves && !run(steps_before_words)) return false;
   if (words_.has('F') && !set_feed_rate()) return false;
+  // In grbl, F of inverse time counts for its own line alone, also when G94 comes.
+  if (speaks_grbl() && state_.modal.inverse_time()) state_.feed = words_.has('F') ? words_['F'] : 0;
   if (words_.has('S') && !set_spindle_speed()) return false;
   if (words_.has('T') && !tools_.select()) return false;
   if (!only_moves && !run(steps_after_words)) return false;

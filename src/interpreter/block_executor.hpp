@@ -46,6 +46,12 @@ class BlockExecutor : private CodeFamily {
   bool ended() const { return block_.ended; }
   // After (ABORT,…).
   bool gave_up() const { return block_.gave_up; }
+  // Notes what the blocks so far leave to the next ones, beside the program's state and its parameters; and goes back
+  // to that. In grbl's dialect this is all; splines, cutter compensation and macros of LinuxCNC's remember more.
+  void keep();
+  void take_back();
+  // Goes on after the end of the program.
+  void reopen() { block_.ended = block_.gave_up = false; }
   // The jump that the block just executed requests.
   std::optional<SubprogramJump> take_jump() { return subprograms_.take_jump(); }
   // Tells that a sub was left, by its O-word or M99. The flow is back in the caller.
@@ -147,6 +153,7 @@ class BlockExecutor : private CodeFamily {
   std::vector<ModalSnapshot> snapshots_;  // by call depth
   std::string text_;                      // a comment's text, with parameters filled in
   std::vector<double> assigned_;
+  bool missing_feed_was_told_ = false;  // at keep()
   bool has_settings_ = false;
 };
 

@@ -18,6 +18,9 @@ class DrillingCodes final : public CycleCodes {
   void forget() {
     if (kept_.code != 0) kept_ = {};
   }
+  // Notes the words of the active cycle, and goes back to them.
+  void keep() { before_ = kept_; }
+  void take_back() { kept_ = before_; }
   Cycle& cycle() override { return *cycle_; }
   bool finish() override;
 
@@ -46,6 +49,7 @@ class DrillingCodes final : public CycleCodes {
   void plan_way(DrillingPlan& plan) const;
 
   KeptWords kept_;
+  KeptWords before_;  // at keep()
   std::optional<DrillingCycle> cycle_;
 };
 

@@ -90,12 +90,13 @@ bool FrameCodes::store_home(int parameter) {
 }
 
 bool FrameCodes::check_work_offset_words(int& system) {
-  if (!words_.has('P')) {
+  std::int32_t number = 0;
+  if (words_.has('P')) {
+    if (!whole_word('P', 0, work_systems, number)) return false;
+  } else if (!speaks_grbl()) {  // grbl takes P0
     return fail("gcode.missing-word", words_.span(non_modal), "G10 without P",
                 "P, the work system: 1 to 9, or 0 for the active one");
   }
-  std::int32_t number = 0;
-  if (!whole_word('P', 0, work_systems, number)) return false;
   if (words_['L'] == 20 && words_.has('R') && !words_.is_of_another('R', non_modal)) {
     return fail("gcode.unused-word", words_.span('R'), "R with G10 L20", "G10 L2 R… turns a work system");
   }

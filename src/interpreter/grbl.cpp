@@ -145,7 +145,7 @@ class GrblCheck {
     return false;
   }
 
-  // Words of I J K that grbl passes over: those outside the plane of an arc.
+  // Words that grbl passes over: those of I J K outside the plane of an arc, and axis words beside G49.
   LetterSet idle_letters() const { return idle_letters_; }
 
  private:
@@ -200,11 +200,17 @@ class GrblCheck {
     if (word.value.count != 1 || value.op != ExpressionOp::number) {
       return fail(2, word.span, "grbl knows no parameters and expressions", "a number");
     }
+    if (signs_in(word) > 1) return fail(2, word.span, "grbl takes one sign before a number", "a number");
     if (!(accepted_letters | axes_).has(word.letter)) {
       return fail(20, word.span, fmt::format("grbl knows no word {}", word.letter), "F I J K L N P R S T X Y Z");
     }
     if (word.letter == 'G' || word.letter == 'M') return take_code(word, value.number);
     return take_value(word, value.number);
+  }
+
+  std::ptrdiff_t signs_in(const Word& word) const {
+    const std::string_view text = block_.text.substr(word.span.column - 1, word.span.length);
+    return std::ranges::count_if(text, [](char c) { return c == '-' || c == '+'; });
   }
 
   bool take_code(const Word& word, double value) {
@@ -213,6 +219,9 @@ class GrblCheck {
     const auto number = readable ? static_cast<CodeNumber>(tenths) : CodeNumber{-1};
     bool known = false;
     (void)use_of(word.letter, number, known);
+    if (word.letter == 'G' && number == code(43) && axis_user_ != nullptr) {
+      return fail(24, word.span, "G43 and another code use the axis words", "two blocks");
+    }
     if (!readable || std::abs(value * 10 - tenths) > 1e-3 || !known) {
       bool whole_known = false;
       (void)use_of(word.letter, static_cast<CodeNumber>(readable ? std::floor(value) * 10 : -1), whole_known);
@@ -283,12 +292,15 @@ class GrblCheck {
   bool words_suffice() {
     const CodeNumber motion = motion_of_block();
     if (is_inverse_time() && moves() && needs_feed(motion) && !has('F')) return fail_feed();
+    const CodeEntry* const non_modal = code_of(ModalGroup::non_modal);
+    if (non_modal != nullptr && non_modal->number == code(4) && !has('P')) {
+      return fail(28, word_span('G', code(4)), "G4 without P", "P, the seconds to wait");
+    }
     const CodeEntry* const tool_length = code_of(ModalGroup::tool_length);
     if (tool_length != nullptr && tool_length->number == code(43, 1) &&
         (present_ & axes_).bits() != LetterSet("Z").bits()) {
       return fail(37, code_span_, "G43.1 offsets the axis Z alone", "Z, and no other axis word");
     }
-    const CodeEntry* const non_modal = code_of(ModalGroup::non_modal);
     if (non_modal != nullptr && non_modal->number == code(10) && !g10_suffices()) return false;
     if (non_modal != nullptr && non_modal->number == code(92) && !any_axis()) {
       return fail(26, code_span_, "G92 without axis words", "X, Y or Z");
@@ -299,6 +311,7 @@ class GrblCheck {
     if (motion == code(80) && any_axis()) {
       return fail(31, first_axis_span(), "axis words while G80 is active, which moves nothing", "G0, G1, G2 or G3");
     }
+    if (tool_length != nullptr && tool_length->axes == AxisUse::none) idle_letters_ = axes_;
     if (uses_axes(ModalGroup::non_modal) || tool_length != nullptr) return true;
     if (moves() && needs_feed(motion) && !has_feed()) return fail_feed();
     return arc_suffices(motion);
@@ -336,10 +349,12 @@ class GrblCheck {
 
   bool g10_suffices() {
     if (!any_axis()) return fail(26, code_span_, "G10 without axis words", "X, Y or Z");
-    if (!has('P') || !has('L')) return fail(28, code_span_, "G10 needs P and L", "P0 to P6, and L2 or L20");
+    if (!has('P') && !has('L')) return fail(28, code_span_, "G10 needs L", "L2 or L20, and P0 to P6");
     const double kind = std::trunc(value('L'));
     if (value('P') >= work_systems + 1) return fail(29, span('P'), "grbl has six work systems", "P0 to P6");
-    if (kind != 2 && kind != 20) return fail(20, span('L'), "grbl knows G10 L2 and L20", "L2 or L20");
+    if (kind != 2 && kind != 20) {
+      return fail(20, has('L') ? span('L') : code_span_, "grbl knows G10 L2 and L20", "L2 or L20");
+    }
     if (has('R')) return fail(kind == 2 ? 20 : 36, span('R'), "grbl does not turn work systems", "no R");
     return true;
   }

@@ -75,8 +75,23 @@ class Interpreter::Implementation {
 
   void give_line(std::string_view text) { flow_.give_line(text); }
   bool ended() const { return finished_ || executor_.ended(); }
-  void keep_motion() { kept_motion_ = state_.modal[ModalGroup::motion]; }
-  void take_back_motion() { state_.modal.set(ModalGroup::motion, kept_motion_); }
+  void keep() {
+    kept_state_ = state_;
+    parameters_.keep();
+    executor_.keep();
+  }
+  void take_back() {
+    state_ = kept_state_;
+    parameters_.take_back();
+    executor_.take_back();
+    finished_ = false;
+  }
+  void reopen() {
+    executor_.reopen();
+    finished_ = false;
+  }
+  int motion() const { return state_.modal[ModalGroup::motion]; }
+  void set_motion(int tenths) { state_.modal.set(ModalGroup::motion, static_cast<CodeNumber>(tenths)); }
   void stand_at(const Point& machine) { state_.position = state_.frame.work_from_machine(machine); }
   ModesInForce modes() const {
     ModesInForce modes;
@@ -197,7 +212,7 @@ class Interpreter::Implementation {
   BlockExecutor executor_;
   std::string_view text_;  // of the block at hand
   bool finished_ = false;
-  CodeNumber kept_motion_ = 0;
+  ProgramState kept_state_;
   BlockWatcher* watcher_ = nullptr;
 };
 
@@ -230,12 +245,24 @@ bool Interpreter::ended() const {
   return implementation_->ended();
 }
 
-void Interpreter::keep_motion() {
-  implementation_->keep_motion();
+void Interpreter::keep() {
+  implementation_->keep();
 }
 
-void Interpreter::take_back_motion() {
-  implementation_->take_back_motion();
+void Interpreter::take_back() {
+  implementation_->take_back();
+}
+
+void Interpreter::reopen() {
+  implementation_->reopen();
+}
+
+int Interpreter::motion() const {
+  return implementation_->motion();
+}
+
+void Interpreter::set_motion(int tenths) {
+  implementation_->set_motion(tenths);
 }
 
 void Interpreter::stand_at(const Point& machine) {

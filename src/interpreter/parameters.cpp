@@ -103,6 +103,7 @@ bool Parameters::set_named(Symbol name, double value) {
     if (symbols_.name(name).starts_with("_ini[") || symbols_.name(name).starts_with("_hal[")) return false;
     named.kind = symbols_.name(name).starts_with('_') ? Named::Kind::global : Named::Kind::local;
   }
+  if (keeps_) kept_names_.emplace_back(name, named);
   const std::int32_t depth = named.kind == Named::Kind::local ? state_.call_depth : 0;
   if (named.depth != depth) {
     if (depth > 0) undo_.push_back({name.id, named.depth, named.value});
@@ -120,6 +121,19 @@ Point Parameters::point(int first) const {
 
 void Parameters::set_point(int first, const Point& point) {
   for (const Axis axis : all_axes) set(first + static_cast<int>(index_of(axis)), point[axis] / unit_of(axis));
+}
+
+void Parameters::keep() {
+  keeps_ = true;
+  kept_numbers_.clear();
+  kept_names_.clear();
+}
+
+void Parameters::take_back() {
+  for (; !kept_numbers_.empty(); kept_numbers_.pop_back()) {
+    numbers_[static_cast<std::size_t>(kept_numbers_.back().first)] = kept_numbers_.back().second;
+  }
+  for (; !kept_names_.empty(); kept_names_.pop_back()) at(kept_names_.back().first) = kept_names_.back().second;
 }
 
 void Parameters::enter_sub(std::span<const double> arguments) {

@@ -13,6 +13,7 @@
 #include <cstdint>
 #include <memory>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include "program_state.hpp"
@@ -72,12 +73,20 @@ class Parameters final : public ParameterValues {
     return state_.on_machine && number >= machine_position_parameter &&
            number < machine_position_parameter + static_cast<int>(axis_count);
   }
-  void set(int number, double value) { numbers_[static_cast<std::size_t>(number)] = value; }
+  void set(int number, double value) {
+    double& parameter = numbers_[static_cast<std::size_t>(number)];
+    if (keeps_) kept_numbers_.emplace_back(number, parameter);
+    parameter = value;
+  }
   double get(int number) const { return numbers_[static_cast<std::size_t>(number)]; }
 
   // A point in millimetres and degrees. Nine parameters, beginning with `first`, hold it in the machine's unit.
   Point point(int first) const;
   void set_point(int first, const Point& point);
+
+  // Notes what is set from now on. take_back() undoes what was set since.
+  void keep();
+  void take_back();
 
   // A sub begins, with these arguments as its #1 …
   void enter_sub(std::span<const double> arguments);
@@ -116,6 +125,9 @@ class Parameters final : public ParameterValues {
   std::vector<Named> names_;  // by symbol
   std::vector<Undo> undo_;
   std::vector<Caller> callers_;
+  bool keeps_ = false;
+  std::vector<std::pair<int, double>> kept_numbers_;  // what they were, in the order in which they were set
+  std::vector<std::pair<Symbol, Named>> kept_names_;
 };
 
 }  // namespace passo

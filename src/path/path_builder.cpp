@@ -58,10 +58,11 @@ PathBuilder::PathBuilder(Source<Operation>& operations, const PathOptions& optio
       options_(options),
       diagnostics_(diagnostics),
       answers_(answers),
-      spline_(std::make_unique<SplinePieces>()),
-      position_(options.start),
-      tolerance_(options.tolerance),
-      merge_(options.tolerance * merge_share) {}
+      spline_(std::make_unique<SplinePieces>()) {
+  position_ = options.start;
+  tolerance_ = options.tolerance;
+  merge_ = options.tolerance * merge_share;
+}
 
 PathBuilder::~PathBuilder() = default;
 

@@ -90,7 +90,7 @@ void PathBuilder::check_side(Axis axis, bool high_side, double reached, const Cu
   if (!is_new) return;
   const auto shown = [&](double value) { return in_units(value, axis, units_); };
   const std::string limits = fmt::format("{} within {} to {}", letter_of(axis), shown(travel.low), shown(travel.high));
-  report(Severity::error, "travel.exceeded",
+  report(Severity::error, std::string(travel_exceeded),
          fmt::format("{} would reach {} (work {}), {} {} {} its travel's end at {}", letter_of(axis), shown(reached),
                      shown(frame_.work_from_machine(place_of(curve, axis, reached))[axis]),
                      shown(high_side ? reached - limit : limit - reached), unit_of(axis, units_),

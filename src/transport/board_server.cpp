@@ -91,6 +91,12 @@ void BoardServer::hear(Client& client, BoardPort& board) {
     return;
   }
   client.heard = Clock::now();
+  // TCP loses nothing, so whatever begins otherwise is no host. A browser lets a web page send any bytes to a port of
+  // this computer, behind a head of HTTP; frames among them would move the machine.
+  if (!std::exchange(client.has_spoken, true) && bytes[0] != sync_byte) {
+    client.gone = true;
+    return;
+  }
   for (std::size_t i = 0; i < static_cast<std::size_t>(got) && !client.gone; ++i) {
     client.last_bytes.push_back(bytes[i]);
     if (client.decoder.feed(bytes[i]) == Decoded::frame) take(client, client.decoder.frame(), board);

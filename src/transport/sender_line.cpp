@@ -112,6 +112,7 @@ Result<std::unique_ptr<SenderLine>, std::string> SenderLine::open_serial(const s
   if (!opened) return Failure{opened.error()};
   std::unique_ptr<SenderLine> line(new SenderLine);
   line->kind_ = Kind::serial;
+  line->check_ = CallerCheck(CallerCheck::Noise::possible);
   line->sender_ = *opened;
   line->name_ = device;
   line->baud_ = baud;
@@ -175,9 +176,10 @@ void SenderLine::hear_serial(News& news, bool reads) {
   // A device that was unplugged reports a hang-up, and reads as one where nobody speaks.
   broken_ = !has_reader();
   if (broken_ || !reads) return;
+  // A program that puts the port into a network connects one caller after the other, and says nothing of it.
+  if (Clock::now() - heard_ > serial_pause) check_.begin_anew();
   read_bytes(news);
   if (news.bytes.empty()) return;
-  heard_ = Clock::now();
   news.came = !connected_;
   connected_ = true;
 }
@@ -200,7 +202,10 @@ void SenderLine::read_bytes(News& news) {
   std::array<char, most_at_once> bytes;
   const ssize_t got = read(sender_, bytes.data(), bytes.size());
   if (got > 0) {
-    news.bytes.assign(bytes.data(), static_cast<std::size_t>(got));
+    heard_ = Clock::now();
+    news.bytes = check_.pass({bytes.data(), static_cast<std::size_t>(got)});
+    // Nobody can be sent away from a terminal or a serial port. There, what a stranger says is dropped.
+    if (check_.caller() == CallerCheck::Caller::stranger && kind_ == Kind::network) broken_ = true;
   } else if ((got == 0 && kind_ != Kind::serial) || (got < 0 && errno != EAGAIN && errno != EINTR)) {
     broken_ = true;
   }
@@ -235,6 +240,7 @@ void SenderLine::close_sender() {
     sender_ = -1;
   }
   unsent_.clear();
+  check_.reset();
   connected_ = broken_ = false;
 }
 

@@ -87,20 +87,24 @@ void ServeDaemon::attend(SenderLine& line) {
   mind_silent_driver(line);
   if (line.is_connected() && driver_ == nullptr) {
     driver_ = &line;
-    owner_.take_for_sender();
-    grbl_.let_drive(owner_.is_sender());
+    driver_spoke_ = false;
+    grbl_.let_drive(owner_.kind() != MotionOwner::Kind::client);
     grbl_.connect();
   }
   if (driver_ != &line) return;
-  if (!news.bytes.empty()) grbl_.receive(news.bytes);
+  if (!news.bytes.empty()) {
+    if (!std::exchange(driver_spoke_, true)) mind_owner();
+    grbl_.receive(news.bytes);
+  }
   if (!news.went) return;
   driver_ = nullptr;
-  grbl_.disconnect();
+  if (driver_spoke_) grbl_.disconnect();
 }
 
-// A sender has the motion that nobody else wants. One who has gone keeps nothing.
+// A sender has the motion that nobody else wants. One who has gone keeps nothing. Whoever has said nothing yet may be a
+// browser, and has nothing.
 void ServeDaemon::mind_owner() {
-  if (driver_ != nullptr) {
+  if (driver_ != nullptr && driver_spoke_) {
     owner_.take_for_sender();
   } else if (owner_.is_sender()) {
     owner_.give_back();

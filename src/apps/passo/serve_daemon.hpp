@@ -75,6 +75,7 @@ class ServeDaemon {
   ServiceNotice& service_;
   ServedStatus* status_ = nullptr;
   SenderLine* driver_ = nullptr;    // where the sender is
+  bool driver_spoke_ = false;       // and is no stranger
   std::uint64_t kept_version_ = 0;  // of the status with which the place was written down
   WallClock clock_;
 };

@@ -45,7 +45,7 @@ INSTANTIATE_TEST_SUITE_P(
         Refusal{"G59.1\nM2", 23}, Refusal{"G17.1\nM2", 23}, Refusal{"M3.1\nM2", 23}, Refusal{"G0 G28 X1\nM2", 24},
         Refusal{"G0 G49 X1\nM2", 24}, Refusal{"G92 G1 X1 F1\nM2", 24}, Refusal{"G0 X1 X2\nM2", 25},
         Refusal{"G92\nM2", 26}, Refusal{"G10 L2 P1\nM2", 26}, Refusal{"F9 G2 I1\nM2", 26},
-        Refusal{"N10000001 G0\nM2", 27}, Refusal{"G4\nM2", 28}, Refusal{"G10 P1 X1\nM2", 28},
+        Refusal{"N10000001 G0\nM2", 27}, Refusal{"G4\nM2", 28}, Refusal{"G10 X1\nM2", 28}, Refusal{"G10 P1 X1\nM2", 20},
         Refusal{"G10 L2 P7 X1\nM2", 29}, Refusal{"F9 G53 G2 X1 I.5\nM2", 30}, Refusal{"G80 X1\nM2", 31},
         Refusal{"F9 G2 Z1 I1\nM2", 32}, Refusal{"F9 G18 G2 Y1 I1\nM2", 32}, Refusal{"F9 G2 X1 Y9 I1\nM2", 33},
         Refusal{"F9 G2 X9 R1\nM2", 34}, Refusal{"F9 G2 X1\nM2", 35}, Refusal{"F9 G2 X1 K1\nM2", 35},

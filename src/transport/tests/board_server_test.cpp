@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <memory>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -137,6 +138,22 @@ int other_end_of(int descriptor) {
     if (there.sin_family == AF_INET && there.sin_port == here.sin_port) return other;
   }
   return -1;
+}
+
+// A web page makes a browser send frames behind a head of HTTP.
+TEST_F(Served, a_browser_is_sent_away_and_none_of_its_frames_reaches_the_board) {
+  for (const std::string_view head : {"POST / HTTP/1.1\r\n\r\n", "\x16\x03\x01", "\n"}) {
+    const auto browser = call();
+    browser->put(std::span(reinterpret_cast<const std::uint8_t*>(head.data()), head.size()));
+    browser->say_hello();
+    attend();
+    EXPECT_EQ(browser->answered(), -2);
+  }
+  EXPECT_EQ(heard(MessageType::hello), 0);
+  const auto host = call();
+  host->say_hello();
+  attend();
+  EXPECT_EQ(heard(MessageType::hello), 1);
 }
 
 // Two small answers one after the other: the second would wait 40 ms for the first to be acknowledged.

@@ -126,6 +126,60 @@ TEST(SenderLine, of_a_serial_port_has_a_sender_when_somebody_speaks_and_none_whe
   EXPECT_FALSE(SenderLine::open_serial("/nowhere", 115'200));
 }
 
+// What a browser sends for a page's fetch(), in pieces: nothing of it is heard, and it is sent away.
+TEST(SenderLine, over_tcp_sends_a_stranger_away_unheard) {
+  auto line = SenderLine::listen("127.0.0.1", 0);
+  ASSERT_TRUE(line) << line.error();
+  const int stranger = connect_to((*line)->port());
+  EXPECT_TRUE(look_for(**line, came).came);
+  ASSERT_EQ(write(stranger, "PO", 2), 2);
+  for (int i = 0; i < 20; ++i, usleep(1000)) EXPECT_TRUE((*line)->look(true).bytes.empty());
+  const std::string_view rest = "ST /?~ HTTP/1.1\r\nHost: 127.0.0.1\r\n\r\nM3S12000\n";
+  ASSERT_EQ(write(stranger, rest.data(), rest.size()), static_cast<ssize_t>(rest.size()));
+  const SenderLine::News news = look_for(**line, [](const auto& one) { return spoke(one) || went(one); });
+  EXPECT_TRUE(news.went);
+  EXPECT_TRUE(news.bytes.empty());
+  close(stranger);
+  const int sender = connect_to((*line)->port());
+  ASSERT_EQ(write(sender, "G0\n", 3), 3);
+  EXPECT_EQ(look_for(**line, spoke).bytes, "G0\n") << "the next one is judged by what it says itself";
+  close(sender);
+}
+
+TEST(SenderLine, of_a_terminal_hears_nothing_of_a_stranger_until_it_has_gone) {
+  const std::string link =
+      (std::filesystem::temp_directory_path() / ("passo-strange-" + std::to_string(getpid()))).string();
+  auto line = SenderLine::open_terminal(link);
+  ASSERT_TRUE(line) << line.error();
+  const int stranger = open(link.c_str(), O_RDWR | O_NOCTTY);
+  EXPECT_TRUE(look_for(**line, came).came);
+  for (const std::string_view piece : {"GET / HTTP/1.1\r\n", "\r\nG0X9\n", "?~\n"}) {
+    ASSERT_EQ(write(stranger, piece.data(), piece.size()), static_cast<ssize_t>(piece.size()));
+    for (int i = 0; i < 20; ++i, usleep(1000)) EXPECT_TRUE((*line)->look(true).bytes.empty());
+  }
+  close(stranger);
+  EXPECT_TRUE(look_for(**line, went).went);
+  const int sender = open(link.c_str(), O_RDWR | O_NOCTTY);
+  EXPECT_TRUE(look_for(**line, came).came);
+  ASSERT_EQ(write(sender, "?\n", 2), 2);
+  EXPECT_EQ(look_for(**line, spoke).bytes, "?\n");
+  close(sender);
+}
+
+TEST(SenderLine, of_a_serial_port_hears_a_sender_again_after_a_stranger_and_a_pause) {
+  const int sender = posix_openpt(O_RDWR | O_NOCTTY);
+  ASSERT_TRUE(sender >= 0 && grantpt(sender) == 0 && unlockpt(sender) == 0);
+  auto line = SenderLine::open_serial(ptsname(sender), 115'200);
+  ASSERT_TRUE(line) << line.error();
+  const std::string_view request = "GET /?~ HTTP/1.1\r\n\r\nM3S1000\n";
+  ASSERT_EQ(write(sender, request.data(), request.size()), static_cast<ssize_t>(request.size()));
+  for (int i = 0; i < 20; ++i, usleep(1000)) EXPECT_FALSE((*line)->look(true).came);
+  usleep(1'100'000);
+  ASSERT_EQ(write(sender, "?", 1), 1);
+  EXPECT_EQ(look_for(**line, came).bytes, "?");
+  close(sender);
+}
+
 TEST(SenderLine, a_file_in_the_place_of_the_link_is_never_replaced) {
   const std::string link =
       (std::filesystem::temp_directory_path() / ("passo-file-" + std::to_string(getpid()))).string();

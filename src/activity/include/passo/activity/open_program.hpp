@@ -2,8 +2,8 @@
 // as an activity.
 //
 // Place on the street: where Program is for a file. Each line is interpreted when it comes, so whoever sent it is told
-// at once what is wrong with it. The path items of good lines wait in a queue. Nothing of a bad line is played: the
-// program goes on as if the line had not come.
+// at once what is wrong with it. The path items of good lines wait in a queue. A bad line does nothing: it moves
+// nothing, and modes, offsets and parameters stay as they were, as if the line had not come.
 //
 //   lines -> Interpreter -> PathBuilder -> [ queue ] -> OpenRun: PathSmoother -> drive
 //
@@ -54,6 +54,8 @@ class OpenProgram final : public Source<PathItem> {
   [[nodiscard]] std::optional<Diagnostic> take_jog(std::string_view words, Seconds now);
   // The same as take(), but nothing of the line is played: the program is only checked.
   [[nodiscard]] std::optional<Diagnostic> check(std::string_view line);
+  // What take() would say. Nothing changes.
+  [[nodiscard]] std::optional<Diagnostic> judge(std::string_view line);
 
   bool room() const;
   // True: a line has asked the machine, and was not answered yet.
@@ -79,10 +81,12 @@ class OpenProgram final : public Source<PathItem> {
 
   // Drops what is queued. The program goes on from `place`, with its modes.
   void drop(const Point& place);
-  // Begins anew at `place`: modes as at first, offsets of work systems kept. G92 and the tool offset are forgotten.
+  // Begins anew at `place`, as grbl after a reset: modes as at first, and G54. The offsets of the work systems stay;
+  // G92 and the tool offset are forgotten.
   void restart(const Point& place);
-
-  // Begins anew at `place`, with the work systems' offsets and the homes of G28 and G30 from `parameters`.
+  // Drops what is queued, and goes on from `place`, with modes and offsets. The outputs are off.
+  void go_on_at(const Point& place);
+  // The same, with the work systems' offsets and the homes of G28 and G30 from `parameters`.
   void take_offsets(const SavedParameters& parameters, const Point& place);
 
   ModesInForce modes() const { return interpreter_->modes(); }
@@ -93,12 +97,14 @@ class OpenProgram final : public Source<PathItem> {
 
  private:
   void begin(const Point& start);
+  void begin_with(const ModesInForce& modes, int motion, const Point& place);
   void begin_after_end();
+  void forget_queue();
   std::optional<Diagnostic> read(std::string_view line);
   std::optional<Diagnostic> give(std::string_view line, Seconds now, bool jogs);
   void push(const PathItem& item);
   bool pull_answer(PathItem& item);
-  std::optional<Diagnostic> take_back(std::size_t kept, const Point& place);
+  void take_back(std::size_t kept);
 
   InterpreterOptions options_;
   MotionLimits limits_;

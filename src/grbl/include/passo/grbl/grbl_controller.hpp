@@ -40,7 +40,6 @@ enum class GrblError : int {
   setting_disabled = 5,
   not_idle = 8,
   locked = 9,
-  soft_limit_needs_homing = 10,
   line_overflow = 11,
   door_open = 13,
   line_too_long_to_keep = 14,
@@ -48,6 +47,7 @@ enum class GrblError : int {
   bad_jog = 16,
   unsupported = 20,
   no_axis_words = 26,
+  invalid_target = 33,
 };
 
 enum class GrblAlarm : int {
@@ -82,8 +82,9 @@ class GrblController {
   void share_offsets(std::function<void(const SavedParameters&)> share) { share_offsets_ = std::move(share); }
   void take_offsets(const SavedParameters& parameters);
 
-  // A sender has come: it is greeted, and what an earlier one has left unread is dropped. To the first one the
-  // controller has just started: its start lines run, unless it is locked.
+  // A sender has come: it is greeted, and what an earlier one has left unread is dropped. Nothing moves: whoever has
+  // come may be no sender. To the first one that says something the controller has just started: its start lines run,
+  // unless it is locked.
   void connect();
   // The sender has gone: a jog ends, and a program is held until somebody resumes or resets it.
   void disconnect();
@@ -131,7 +132,8 @@ class GrblController {
   void take_setting(const std::string& text);
   void keep_setting(int number, double value);
   void take_build(const std::string& text);
-  bool keep_memory();
+  bool keep_memory(const GrblMemory& memory);
+  void start_up();
   void run_startup();
   bool is_door_open() const;
   void share_changed_offsets();
@@ -151,7 +153,9 @@ class GrblController {
   void raise_alarm_of_board();
   void raise(GrblAlarm alarm);
   void stop_for(Waits waits);
+  void stop_at_soft_limit();
 
+  static int number_of(const Diagnostic& wrong);
   void answer(GrblError error) { answer(static_cast<int>(error)); }
   void answer(int error);
   void say(std::string text) { replies_.push_back(std::move(text)); }

@@ -76,9 +76,15 @@ class Interpreter final : public Source<Operation> {
   void give_line(std::string_view text);
   // True: the program has ended, with M2, M30 or an error that ends programs. The interpreter takes no more lines.
   bool ended() const;
-  // Notes the motion code in force (G0, G1 …), and puts it in force again.
-  void keep_motion();
-  void take_back_motion();
+  // Notes modes, offsets, parameters and the place, which are those of the lines so far; and goes back to them, as if
+  // the lines since had not come. Call when next() has returned false.
+  void keep();
+  void take_back();
+  // A program that has ended goes on, with its modes.
+  void reopen();
+  // The motion code in force, as tenths: 0 for G0, 382 for G38.2.
+  int motion() const;
+  void set_motion(int tenths);
   // Says that the machine stands somewhere else than where the program has left it. Modes and offsets stay.
   void stand_at(const Point& machine);
   // The modes and offsets after the lines read so far.

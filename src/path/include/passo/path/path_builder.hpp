@@ -18,6 +18,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <string_view>
 
 #include "passo/base/source.hpp"
 #include "passo/diagnostics/diagnostic.hpp"
@@ -48,7 +49,40 @@ struct PathOptions {
   std::string file;  // names the program in diagnostics
 };
 
-class PathBuilder final : public Source<PathItem> {
+// The code of the error that a move leaves the travel of an axis.
+inline constexpr std::string_view travel_exceeded = "travel.exceeded";
+
+// What a path builder remembers when it has handed on all items of the operations so far.
+struct PathMemory {
+  Frame frame_;
+  bool in_step_ = false;  // in step with the spindle since its index
+  Point position_;        // machine
+
+  LengthUnits units_ = LengthUnits::mm;  // for messages
+  FeedMode feed_mode_ = FeedMode::units_per_minute;
+  operation::SetFeedRate feed_rate_;
+  std::optional<Mm> synchronised_pitch_;
+  PathMode path_mode_ = PathMode::continuous;
+  Mm tolerance_{0};
+  Heeds heeds_;
+  bool gives_tolerance_ = false;  // the program gives a tolerance, with G64 P
+  Mm merge_{0};
+
+  OutputState commanded_;  // keeps the spindle's speed also while the spindle stands
+  OutputState handed_on_;
+  OperationSource outputs_source_;
+  double refused_spindle_speed_ = 0;
+  MmPerSecond refused_feed_{0};  // the last feed that no axis can make, and that follows the spindle
+  Seconds run_up_left_{0};       // the spindle has not reached its speed before that
+
+  // The axes on which the path is now outside the machine. An excursion is reported once, not at each of its moves.
+  AxisSet below_;
+  AxisSet above_;
+  AxisSet missing_;
+  std::array<bool, 4> told_{};  // what was already reported, by Lack
+};
+
+class PathBuilder final : public Source<PathItem>, private PathMemory {
  public:
   // `options` outlives the builder.
   PathBuilder(Source<Operation>& operations, const PathOptions& options, Diagnostics& diagnostics,
@@ -66,6 +100,10 @@ class PathBuilder final : public Source<PathItem> {
     below_ = above_ = missing_ = AxisSet();
     refused_feed_ = MmPerSecond(0);
   }
+  // Notes what the operations so far have set, and goes back to that, as if those since had not come. Call when next()
+  // has returned false.
+  void keep() { kept_ = *this; }
+  void take_back() { static_cast<PathMemory&>(*this) = kept_; }
 
  private:
   bool next_operation();
@@ -117,7 +155,6 @@ class PathBuilder final : public Source<PathItem> {
   const PathOptions& options_;
   Diagnostics& diagnostics_;
   const MachineAnswers& answers_;
-  Frame frame_;
 
   // An arc in the turned work frame whose chords are not all given yet.
   struct TiltedArc {
@@ -143,31 +180,7 @@ class PathBuilder final : public Source<PathItem> {
   std::array<OperationKind, 4> tap_;
   std::size_t tap_step_ = tap_.size();
   std::deque<PathItem> held_;  // items that wait while an item before them is handed on
-  bool in_step_ = false;       // in step with the spindle since its index
-  Point position_;             // machine
-
-  LengthUnits units_ = LengthUnits::mm;  // for messages
-  FeedMode feed_mode_ = FeedMode::units_per_minute;
-  operation::SetFeedRate feed_rate_;
-  std::optional<Mm> synchronised_pitch_;
-  PathMode path_mode_ = PathMode::continuous;
-  Mm tolerance_{0};
-  Heeds heeds_;
-  bool gives_tolerance_ = false;  // the program gives a tolerance, with G64 P
-  Mm merge_{0};
-
-  OutputState commanded_;  // keeps the spindle's speed also while the spindle stands
-  OutputState handed_on_;
-  OperationSource outputs_source_;
-  double refused_spindle_speed_ = 0;
-  MmPerSecond refused_feed_{0};  // the last feed that no axis can make, and that follows the spindle
-  Seconds run_up_left_{0};       // the spindle has not reached its speed before that
-
-  // The axes on which the path is now outside the machine. An excursion is reported once, not at each of its moves.
-  AxisSet below_;
-  AxisSet above_;
-  AxisSet missing_;
-  std::array<bool, 4> told_{};  // what was already reported, by Lack
+  PathMemory kept_;
 };
 
 }  // namespace passo

@@ -4,6 +4,8 @@
 // something that only a host says: a hello, an item, a question for its own motors. Whoever only asks is answered, and
 // disturbs nobody. A second host is sent away, but a host that was silent for `most_silence` gives way to it.
 //
+// A caller whose first byte begins no frame is sent away at once: a web page can make a browser call.
+//
 // Frames go to the board whole, so half a frame of one program never spoils another's. Nobody makes the board wait: a
 // program that does not read what it is told is sent away.
 #pragma once
@@ -53,6 +55,7 @@ class BoardServer {
     std::uint8_t motors = 0;               // for which its messages carry values
     std::vector<std::uint8_t> last_bytes;  // as many as a frame may have
     Clock::time_point heard = Clock::now();
+    bool has_spoken = false;
     bool gone = false;
   };
 

@@ -5,6 +5,10 @@
 // nothing for `serial_silence` counts as gone as soon as another sender wants the machine: see gives_way(). A port
 // whose device goes away is opened again when it is back.
 //
+// A caller whose first line is that of another protocol, such as a browser's, is no sender (CallerCheck). A connection
+// is then closed; of a terminal or a serial port, what is said is dropped, until the terminal is closed or the port was
+// silent for `serial_pause`.
+//
 // Nothing here waits, so one loop can serve a machine and any number of lines. What cannot be sent at once is kept; a
 // sender that reads nothing for so long that `most_unsent` bytes wait is sent away. What is not read stays with the
 // operating system, and so the sender is held up.
@@ -20,6 +24,7 @@
 #include <poll.h>
 
 #include "passo/base/result.hpp"
+#include "passo/transport/caller_check.hpp"
 
 namespace passo {
 
@@ -28,6 +33,8 @@ class SenderLine {
   static constexpr std::size_t most_unsent = std::size_t{256} * 1024;
   // A sender that works asks for the status several times a second.
   static constexpr std::chrono::seconds serial_silence{10};
+  // After this, somebody else may be at a serial port.
+  static constexpr std::chrono::seconds serial_pause{1};
 
   // Listens at a TCP address; port 0: any that is free. The errors are sentences with the reason.
   static Result<std::unique_ptr<SenderLine>, std::string> listen(const std::string& host, unsigned port);
@@ -79,6 +86,7 @@ class SenderLine {
   int sender_ = -1;  // the connection; of a pseudo-terminal, the end that is ours; the serial port
   Kind kind_ = Kind::network;
   unsigned baud_ = 0;
+  CallerCheck check_;
   Clock::time_point heard_;
   Clock::time_point tried_;  // to open the device again
   bool connected_ = false;
