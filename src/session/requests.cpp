@@ -88,6 +88,20 @@ Refusal MachineSession::why_not() const {
   return {RefusalCode::nothing_runs, "nothing is going on"};
 }
 
+// A sentence without a full stop, with what only the session knows of it.
+std::string MachineSession::words_of(LinkError error) const {
+  std::string words(message_of(error));
+  if (error == LinkError::cannot_set_up) return words + ": it has no " + words_of_setup(board_.undone_setup());
+  if (error == LinkError::cannot_time) {
+    return words + ": it makes " +
+           words_of_timing(board_.timing(), board_.wanted_timing(), machine_.board.clock.value());
+  }
+  if (error == LinkError::stopped) return words_of_stop();
+  if (error != LinkError::stood_still || !busy() || !work_->is_program()) return words;
+  const std::uint32_t line = work_->lines_ahead.at(clock_of(*work_)).line;
+  return line == 0 ? words : words + "; that was near line " + std::to_string(line) + " of the program";
+}
+
 std::string MachineSession::words_of_stop() const {
   const std::uint16_t inputs = board_.stopped_by();
   if (inputs == 0) return std::string(message_of(LinkError::stopped));
