@@ -89,7 +89,10 @@ row() {
   fi
   local over=(--cut-cable-at 9999:1)
   [[ -z ${3-} ]] || over=(--yes --board "$3")
-  line=$("$passo" run "$1" -m "$work/$2.toml" "${over[@]}" 2>"$work/said")
+  if ! line=$("$passo" run "$1" -m "$work/$2.toml" "${over[@]}" 2>"$work/said") && ! grep -q 'board.slipped' "$work/said"; then
+    cat "$work/said" >&2
+    exit 1
+  fi
   local without with rests sent
   without=$(value end <<<"$alone" | seconds)
   with=$(value end <<<"$line" | seconds)
@@ -123,13 +126,14 @@ pico_table() {
 chip_table() {
   echo "| program | chip | without a line, s | over the line, s | ratio | rests for want of more | sent |"
   echo "|---|---|---:|---:|---:|---|---:|"
-  local board name
+  local board chip name
   for board in Uno Mega Uno-jerk Mega-jerk; do
-    for name in "$work"/{circles-F3600,circles-F6000,rapids,chords-spiral}.ngc examples/{engrave,drill-board}.ngc; do
+    for name in "${programs[@]}" "$work"/chords-{spiral,relief}.ngc; do
       chip=${board%-jerk}
       row "$name" "$board" "sim:${chip,}"
     done
   done
+  for chip in Uno Mega; do row "$work/moves-3d.ngc" "$chip-fast" "sim:${chip,}"; done
 }
 if [[ ${1-} == --chips ]]; then
   cmake --build "$build" --parallel "$(nproc)" --target emulated_boards >/dev/null

@@ -215,13 +215,32 @@ TEST_F(Boards, that_stand_still_amid_motion_are_told_of) {
   }
   const std::string files =
       write("p.ngc", "G21 G90\nG0 X80 Y79 Z78 U77 V76 W75\nM2\n") + " -m " + write("m.toml", machine);
-  const Outcome run = passo("run --from-here --board sim:mega " + files);
+  const Outcome run = passo("run --json --from-here --board sim:mega " + files);
   if (passo::test::lacks_an_emulator(run)) GTEST_SKIP() << run.err;
-  EXPECT_EQ(run.code, 0) << run.err;
-  EXPECT_NE(run.err.find("the board stood still amid motion"), std::string::npos) << run.err;
+  EXPECT_EQ(run.code, 1) << run.err;
+  EXPECT_NE(run.err.find("it stood still amid motion in line 2"), std::string::npos) << run.err;
+  EXPECT_NE(run.err.find("[board.slipped]"), std::string::npos) << run.err;
+  const auto json = nlohmann::json::parse(run.out);
+  EXPECT_EQ(json["board"]["stood_still"], true) << run.out;
+  EXPECT_EQ(json["board"]["stood_still_line"], 2) << run.out;
   const Outcome slow = passo("run --from-here --board sim:uno " + write("q.ngc", "G21 F600 G1 X0.5\nM2\n") +
                              " -m " PASSO_SOURCE_DIR "/examples/machines/uno.toml");
   EXPECT_EQ(slow.err.find("stood still"), std::string::npos) << slow.err;
+}
+
+// A rapid of one axis at the Uno's highest rate: hundreds of standstills at first.
+TEST_F(Boards, never_stand_still_in_a_long_rapid_at_their_highest_rate) {
+  const std::string cases = PASSO_SOURCE_DIR "/../shared/cases/boards/uno150";
+  if (!std::filesystem::exists(cases + ".ngc")) GTEST_SKIP() << "there is no ../shared/cases";
+  const Outcome run = passo("run --json --from-here --board sim:uno " + cases + ".ngc -m " + cases + ".toml");
+  if (passo::test::lacks_an_emulator(run)) GTEST_SKIP() << run.err;
+  if (run.code == 0) {
+    const auto json = nlohmann::json::parse(run.out);
+    EXPECT_EQ(json["board"]["stood_still"], false) << run.out;
+    EXPECT_EQ(json["board"]["rests"], 0) << run.out;
+  } else {
+    EXPECT_NE(run.err.find("[board.event-rate]"), std::string::npos) << run.err;
+  }
 }
 
 TEST_F(Boards, are_flashed_by_avrdude_after_what_they_held_was_kept) {

@@ -1,9 +1,14 @@
 // board_rates: sweeps event rates on the emulated boards and prints what the firmware makes of them, as the table in
-// docs/boards.md. Numbers as arguments are intervals in ticks to try instead.
+// docs/boards.md. Numbers as arguments are intervals in ticks to try instead. With --pulses: the highest rates that the
+// boards state for each length of step pulses, as the other table there.
+#include <cmath>
 #include <cstdio>
 #include <cstdlib>
 #include <exception>
+#include <stdexcept>
+#include <string_view>
 
+#include "emulator/stated_timing.hpp"
 #include "emulator/streamed_run.hpp"
 
 namespace {
@@ -41,9 +46,47 @@ void sweep(const BoardUnderTest& board, const char* name, bool changing, std::ui
   }
 }
 
+std::string stated_rate(const char* kind, const char* program, double pulse, double set_up) {
+  constexpr double ticks_of_microsecond = 16;
+  constexpr double clock = 16e6;
+  if (program[0] == '\0') return "";
+  const auto board = EmulatedBoard::start(kind, program);
+  if (!board) throw std::runtime_error(board.error());
+  const auto ticks = [](double time) { return static_cast<std::uint8_t>(std::ceil(time * ticks_of_microsecond)); };
+  const auto timing = test::stated_timing(**board, {.pulse = ticks(pulse), .set_up = ticks(set_up)});
+  if (!timing) throw std::runtime_error(std::string(kind) + " does not answer");
+  return std::to_string(static_cast<long>(clock / timing->event_ticks));
+}
+
+void print_pulses() {
+  constexpr double short_set_up = 0.65;
+  constexpr double long_set_up = 5;
+  std::puts("| step pulse, us | Uno | Uno, set-up 5 us | Mega | Mega, set-up 5 us | Pico |");
+  std::puts("|---:|---:|---:|---:|---:|---:|");
+  for (const double pulse : {1.0, 1.9, 2.5, 5.0, 10.0}) {
+    std::printf("| %g |", pulse);
+    for (const double set_up : {short_set_up, long_set_up}) {
+      std::printf(" %s |", stated_rate("uno", PASSO_MOTION_UNO, pulse, set_up).c_str());
+    }
+    for (const double set_up : {short_set_up, long_set_up}) {
+      std::printf(" %s |", stated_rate("mega", PASSO_MOTION_MEGA, pulse, set_up).c_str());
+    }
+    std::printf(" %s |\n", stated_rate("pico", PASSO_MOTION_PICO, pulse, short_set_up).c_str());
+  }
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
+  if (argc == 2 && std::string_view(argv[1]) == "--pulses") {
+    try {
+      print_pulses();
+    } catch (const std::exception& error) {
+      std::fprintf(stderr, "board_rates: %s\n", error.what());
+      return 1;
+    }
+    return 0;
+  }
   std::vector<std::uint32_t> intervals;
   for (int i = 1; i < argc; ++i) intervals.push_back(static_cast<std::uint32_t>(std::strtoul(argv[i], nullptr, 10)));
   const bool all = intervals.empty();
