@@ -234,7 +234,9 @@ void expect_timing(BoardBench& bench, std::mt19937_64& random, std::uint8_t moto
     EXPECT_GE(has.set_up, wanted.set_up);
     EXPECT_GE(check.shortest_setup, has.set_up);
     EXPECT_GE(check.shortest_hold, std::min(has.hold, std::uint8_t{200}));
-    if (wanted.hold < 200) EXPECT_GE(has.hold, wanted.hold);
+    if (wanted.hold < 200) {
+      EXPECT_GE(has.hold, wanted.hold);
+    }
     // Slower, with waits between the events on the Uno.
     for (const std::uint32_t slowly : {257U, 520U, 3000U}) {
       const std::uint32_t interval = std::max<std::uint32_t>(slowly, has.event_ticks);
