@@ -54,8 +54,8 @@ TEST_F(Mdi, keeps_its_modes_from_line_to_line) {
   line("G20");
   line("g0 x1");
   EXPECT_NEAR(at("x"), 25.4, 1e-3);
-  line("G21 G90 G1 F1200");
-  line("X5");
+  line("G21 G90");
+  line("G1 X5 F1200");
   EXPECT_NEAR(at("x"), 5, 1e-3);
   EXPECT_EQ(run.get("/status")["mdi"]["feed"], 1200.0);
   EXPECT_EQ(run.get("/status")["state"], "Idle");
@@ -98,6 +98,7 @@ TEST_F(Mdi, changes_nothing_by_a_line_that_is_refused) {
   const Json before = run.get("/status")["mdi"];
   EXPECT_EQ(refused("G91 G99.9 X1"), "gcode.unknown-code");
   EXPECT_EQ(refused("X99999"), "travel.exceeded");
+  EXPECT_EQ(refused("G20 G91 X99999"), "travel.exceeded");
   EXPECT_EQ(refused("G55 M3 S100 Q#"), "gcode.missing-value");
   EXPECT_EQ(run.get("/status")["mdi"], before);
   EXPECT_EQ(run.get("/status")["state"], "Idle");
@@ -124,6 +125,17 @@ TEST_F(Mdi, begins_anew_after_a_job_and_after_m2) {
   run.owner.take_for_sender();
   run.turn();
   EXPECT_TRUE(has("G54") && has("G90")) << "a sender has driven";
+}
+
+TEST_F(Mdi, keeps_its_modes_over_a_stop_and_a_new_zero) {
+  line("G91 G20");
+  run.post("/stop");
+  EXPECT_TRUE(run.turn_until_state("Idle"));
+  EXPECT_TRUE(has("G91") && has("G20"));
+  run.post("/work", R"({"place": {"x": 0}})");
+  EXPECT_EQ(run.status, 200U);
+  run.turn();
+  EXPECT_TRUE(has("G91") && has("G20"));
 }
 
 // A program that begins where lines have moved the machine, and lines after jogs.
