@@ -397,6 +397,7 @@ class ChipPlayer {
   // How many entries to make at once behind so many that wait.
   [[gnu::noinline]] static uint8_t piece_behind(uint8_t ahead) {
     if (line_is_watched == 0) {
+      SerialLine::breathe();  // the interrupt may come as late as `often` from here on
       line_is_watched = is_watched(ahead);
       if (running == 0) line_is_watched = 0;  // the interrupt stopped in between
     }

@@ -185,8 +185,10 @@ bool take_tick() {
   const uint16_t before = reader.inputs();
   const uint16_t watched = board.watched();
   const uint16_t by_people = pressed_by_people(Wiring::alarms());
+  SerialLine::breathe();
   bool changed = ChipPlayer::captured();
   uint16_t raw = settled_inputs<Wiring>(before, static_cast<uint16_t>(~by_people));
+  SerialLine::breathe();
   if (changed && Wiring::filter() != 0 && ((raw ^ before) & watched) == 0) {
     changed = false;  // it was noise: the interrupt is to wait for the next change
     ChipPlayer::watch(false);
@@ -231,16 +233,22 @@ uint8_t receive_some() {
   return 1;
 }
 
-// Makes events, of the next item if need be.
+constexpr uint8_t most_parts = 3;
+
+// Makes events, of the next item if need be. On the Uno also of those behind it, if it has only a few events: the next
+// call may be far away.
 [[gnu::noinline]] void keep_up() {
   ChipPlayer::refill(ring_is_short && board.has_more());
-  if (!ChipPlayer::wants_more() || !board.has_more()) return;
-  if (ChipPlayer::begins_many()) {
-    board.feed();
-  } else {
-    board.settle();
-  }
-  ChipPlayer::refill(ring_is_short && board.has_more());
+  uint8_t parts = most_parts;
+  do {
+    if (!ChipPlayer::wants_more() || !board.has_more()) return;
+    if (ChipPlayer::begins_many()) {
+      board.feed();
+    } else {
+      board.settle();
+    }
+    ChipPlayer::refill(ring_is_short && board.has_more());
+  } while (ring_is_short && --parts != 0);
 }
 
 // An event of windings takes long to make, and so would the way to a switch. Their rings last longer than an answer
