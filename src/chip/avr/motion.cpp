@@ -26,9 +26,9 @@ constexpr uint32_t shortest = shortest_interval(clock, about.highest_event_rate)
 struct Hardware {
   void step(uint8_t, uint8_t) {}
   void outputs(const BoardOutputs&) {}  // the player has switched them already, at their event
-  uint8_t* space() { return line.space(); }
+  uint8_t* space(uint8_t size) { return line.space(size); }
   void put(uint8_t size) { line.put(size); }
-  uint8_t room() { return line.can_send() ? 0xff : 0; }
+  uint8_t room() { return line.room(); }
   void enable() { Wiring::enable_motors(true); }
   bool switch_off(uint8_t switches) { return Wiring::switch_off(switches); }
   void watch();

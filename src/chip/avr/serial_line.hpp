@@ -54,22 +54,24 @@ class SerialLine {
   }
   static void drop(uint8_t count) { taken_ = static_cast<uint8_t>(taken_ + count); }
 
-  // Whether there is room for any frame of the board. It lies in one piece, behind those that wait or before them.
-  [[gnu::noinline]] static bool can_send() {
+  // The most bytes that the next frame may have. It lies in one piece, behind those that wait or before them.
+  [[gnu::noinline]] static uint8_t room() {
     if (sent_ == to_send_) sent_ = to_send_ = 0;
-    if (to_send_ < sent_) return static_cast<uint8_t>(sent_ - to_send_) > longest;
-    if (to_send_ < out_size - longest) return true;
-    if (sent_ <= longest) return false;
-    end_ = to_send_;
-    to_send_ = 0;
-    return true;
+    if (to_send_ < sent_) return static_cast<uint8_t>(sent_ - to_send_ - 1);
+    const uint8_t behind = room_behind();
+    return sent_ > behind ? static_cast<uint8_t>(sent_ - 1) : behind;
   }
-  // Where to put the next frame, which goes out after put(). If there is no room, it takes the place of those that
-  // wait.
-  static uint8_t* space() {
-    if (!can_send()) {
+  // Whether there is room for all that the board says unasked.
+  static bool can_send() { return room() >= longest; }
+  // Where to put the next frame, which has at most `size` bytes and goes out after put(). If there is no room, it takes
+  // the place of those that wait.
+  static uint8_t* space(uint8_t size) {
+    if (room() < size) {
       sent_ = to_send_ = 0;
       end_ = out_size;
+    } else if (to_send_ >= sent_ && room_behind() < size) {
+      end_ = to_send_;
+      to_send_ = 0;
     }
     return out_ + to_send_;
   }
@@ -103,10 +105,12 @@ class SerialLine {
         : "r24", "r25", "r30", "r31", "memory");
   }
 
-  // The longest frame: an about, or a status.
+  static uint8_t room_behind() { return static_cast<uint8_t>(out_size - 1 - to_send_); }
+
+  // The longest frame: an about, or a status. A host that asks for more motors than there are gets a longer one.
   static constexpr uint8_t longest = frame_overhead + (pins.motors < 4 ? 27 : status_size + 4 * pins.motors);
   static constexpr uint8_t out_size = pins.motors < 4 ? 64 : 128;
-  static_assert(longest < out_size);
+  static_assert(longest < out_size && largest_frame < out_size);
 
   static inline uint8_t taken_ = 0;
   static inline uint8_t out_[out_size] = {};

@@ -9,10 +9,10 @@ namespace passo {
 //   static uint16_t inputs();       bits of BoardInput, set where a switch is on
 //   static uint8_t microseconds();  a clock that comes round after 128; a look may not take as long as that
 //   static uint8_t filter();        for how many microseconds a switch must stay in its new state
-//   static void breathe();          called between two looks
+//   static void breathe();          called after each look
 
-// Those of the inputs in `moved` that go on to differ from `before` for that many microseconds. Looks at the pins again and
-// again, so it takes time only where a switch has truly moved. A function of its own: a chip has few registers.
+// Those of the inputs in `moved` that go on to differ from `before` for that many microseconds. Looks at the pins again
+// and again, so it takes time only where a switch has truly moved. A function of its own: a chip has few registers.
 template <class Chip>
 [[gnu::noinline]] uint16_t stay_moved(uint16_t before, uint16_t moved, uint8_t microseconds) {
   for (uint8_t last = Chip::microseconds(); moved != 0;) {
@@ -30,6 +30,7 @@ template <class Chip>
 template <class Chip>
 uint16_t settled_inputs(uint16_t before, uint16_t filtered) {
   const uint16_t now = Chip::inputs();
+  Chip::breathe();
   const uint16_t moved = static_cast<uint16_t>((now ^ before) & filtered);
   return static_cast<uint16_t>(now ^ moved ^ stay_moved<Chip>(before, moved, Chip::filter()));
 }

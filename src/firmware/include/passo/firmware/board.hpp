@@ -56,7 +56,7 @@ class Board : private BoardVoice<Hardware> {
   bool owes_report() const { return owed_ != 0; }
   uint8_t owed() const { return owed_; }
   void report() {
-    const bool can_send = has_room(MessageType::credit);
+    const bool can_send = has_room();
     owed_ = can_send ? uint8_t{0} : owed_ == 0 ? uint8_t{1} : owed_;
     if (can_send) send(progress());
   }
@@ -270,7 +270,7 @@ class Board : private BoardVoice<Hardware> {
                                                                : MessageType::status;
     // Questions whose answers nobody waits for, however many, must not displace other messages.
     const uint8_t motors = kept ? motors_ : ask.motors;
-    if (!has_room(answer, motors)) return;
+    if (!has_room(motors)) return;
     if (answer == MessageType::about) return send(identity_.about);
     if (kept) return tell_kept();
     if (ask.question == Question::watch) begin_watch(ask.limit);
@@ -322,7 +322,7 @@ class Board : private BoardVoice<Hardware> {
   // The motion's place at the tick of the count: hardly any time passes between the two.
   [[gnu::noinline]] void tell_spindle(uint8_t question) {
     if constexpr (requires { hardware_.spindle(); }) {
-      if (!has_room(MessageType::turned)) return;
+      if (!has_room()) return;
       breathe();
       send(Turned{.progress = progress(), .event = played(), .answers = question, .spindle = hardware_.spindle()});
     }
@@ -506,7 +506,7 @@ class Board : private BoardVoice<Hardware> {
 
   // Complains once for each gap. All frames after a lost one are out of sequence, and one message tells the host.
   void complain(WireError reason) {
-    if (complained_ || !has_room(MessageType::error)) return;
+    if (complained_ || !has_room()) return;
     complained_ = true;
     send(ErrorReport{.reason = reason, .expected = static_cast<uint8_t>(expected_)});
   }

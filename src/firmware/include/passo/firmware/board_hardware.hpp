@@ -2,7 +2,8 @@
 //   void step(uint8_t stepped, uint8_t directions);   motors in `stepped` make a step; those in `directions` step down
 //   void outputs(const BoardOutputs&);
 //   void send(uint8_t byte);                          to the host; or
-//   uint8_t* space(); void put(uint8_t size);         where the next frame to the host is put together; sends it
+//   uint8_t* space(uint8_t size); void put(uint8_t);  where the next frame, of at most `size` bytes, is put together;
+//                                                     sends it
 //   void enable();                                    optional: lets the motors move again after a stop released them
 //   bool switch_off(uint8_t switches);                optional: switches these outputs (bits of OutputSwitch) off, at
 //                                                     rest; true if one was on
@@ -13,9 +14,10 @@
 //   static void breathe();                            optional: called between two pieces of work
 //   static void keep_up();                            optional: breathes, and makes events for the timer
 //   static void slice();                              optional: the same where it is needed; between two bytes of a
-//   frame static int32_t high_product(int32_t, int32_t);    optional: that of wire/segment_parts.hpp, faster uint8_t
-//   room();                                   optional: the number of bytes that may be sent now bool has_encoder();
-//   SpindleCount spindle();       optional, both: an encoder at the spindle
+//                                                     frame
+//   static int32_t high_product(int32_t, int32_t);    optional: that of wire/segment_parts.hpp, faster
+//   uint8_t room();                                   optional: the number of bytes that may be sent now
+//   bool has_encoder(); SpindleCount spindle();       optional, both: an encoder at the spindle
 //
 // Portable.
 #pragma once

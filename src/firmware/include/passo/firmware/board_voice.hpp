@@ -14,17 +14,14 @@ class BoardVoice {
  protected:
   explicit BoardVoice(Hardware& hardware) : hardware_(hardware) {}
 
-  bool has_room(MessageType type, uint8_t motors = 0) {
-    return passo::has_room(hardware_,
-                           static_cast<uint8_t>(frame_overhead + payload_size(static_cast<uint8_t>(type), motors)));
-  }
+  bool has_room(uint8_t motors = 0) { return passo::has_room(hardware_, most_bytes(motors)); }
 
   // Functions of their own. A frame is large for a chip's stack: where the line has room for whole frames, it is put
   // together there.
   template <class Message, class... More>
   [[gnu::noinline]] void send(const Message& message, More... more) {
-    if constexpr (requires { hardware_.space(); }) {
-      hardware_.put(encode<SliceOf<Hardware>>(message, more..., sent_++, hardware_.space()));
+    if constexpr (requires { hardware_.space(largest_frame); }) {
+      hardware_.put(encode<SliceOf<Hardware>>(message, more..., sent_++, hardware_.space(most_bytes(more...))));
     } else {
       uint8_t frame[largest_frame];
       const uint8_t size = encode<SliceOf<Hardware>>(message, more..., sent_++, frame);
@@ -39,6 +36,13 @@ class BoardVoice {
   Hardware& hardware_;
 
  private:
+  // No frame is longer that tells of so many motors. A host may ask for more of them than the board has.
+  static constexpr uint8_t most_bytes(uint8_t motors = 0) {
+    const uint8_t status = payload_size(static_cast<uint8_t>(MessageType::status), motors);
+    constexpr uint8_t about = payload_size(static_cast<uint8_t>(MessageType::about), 0);
+    return static_cast<uint8_t>(frame_overhead + (status > about ? status : about));
+  }
+
   uint8_t sent_ = 0;  // the board's own sequence number
 };
 
