@@ -159,7 +159,11 @@ TEST(LineTrouble, a_standstill_amid_motion_is_an_alarm_and_the_place_is_not_trus
     EXPECT_NE(run.session().status().trouble_words.find("near line " + std::string(at < 1 ? "2" : "3")),
               std::string::npos)
         << run.session().status().trouble_words;
-    run.pass(Seconds(4));  // the board plays what it holds, and switches its outputs off when its host is silent
+    run.pass(Seconds(4));
+    const std::int64_t steps = run.steps_made();
+    run.pass(Seconds(0.5));
+    EXPECT_EQ(run.steps_made(), steps) << "what it holds ends at rest";
+    EXPECT_EQ(run.board().counts().outputs.switches, 0) << "its host is silent";
     expect_refuses_all_but_a_reset(run);
     run.taken(request::ResetMachine{});
     ASSERT_TRUE(run.turn_until(MachineState::idle, Seconds(1)));
