@@ -2,9 +2,12 @@
 // after each line. What differs on purpose stands in a table of docs/manual/serve.md.
 #include <cmath>
 #include <filesystem>
-#include <fmt/format.h>
 #include <regex>
 #include <string>
+
+#include "kit/command_line.hpp"
+#include "kit/in_full.hpp"
+#include <fmt/format.h>
 
 namespace {
 
