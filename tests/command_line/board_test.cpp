@@ -208,7 +208,8 @@ TEST_F(Boards, that_are_not_there_are_said_to_be_missing) {
 
 // Six motors of a Mega, faster than 90 kHz.
 TEST_F(Boards, that_stand_still_amid_motion_are_told_of) {
-  std::string machine = "name = 'six'\n[board]\nclock_hz = 16e6\nmax_event_rate_hz = 110e3\nheld_items = 100\n";
+  std::string machine =
+      "name = 'six'\n[board]\nclock_hz = 16e6\nmax_event_rate_hz = 110e3\nstep_pulse_us = 1\nheld_items = 100\n";
   for (const std::string letter : {"X", "Y", "Z", "U", "V", "W"}) {
     machine += "[axis." + letter +
                "]\nsteps_per_mm = 640\nmax_velocity_mm_s = 171\nmax_acceleration_mm_s2 = 2000\ntravel_mm = [0, 99]\n";
