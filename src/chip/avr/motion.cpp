@@ -32,6 +32,7 @@ struct Hardware {
   void enable() { Wiring::enable_motors(true); }
   bool switch_off(uint8_t switches) { return Wiring::switch_off(switches); }
   void watch();
+  static void release_capture() { ChipPlayer::watch(false); }
   PinSetup set_up(const PinSetup& wanted);
   static uint8_t drivers_rest() { return Wiring::drivers_rest(); }
   static uint16_t alarms() { return Wiring::alarms(); }
@@ -263,7 +264,7 @@ void Hardware::keep_up() {
 
 [[gnu::noinline]] void Hardware::make_a_slice() {
   SerialLine::breathe();
-  if (running != 0 && ChipPlayer::is_low()) chip::keep_up();
+  if (running != 0 && ChipPlayer::is_low() && !ChipPlayer::captured()) chip::keep_up();
 }
 
 // One turn of the loop. Events come first: nothing else here may take longer than the events ahead of the interrupt.
@@ -274,8 +275,9 @@ void Hardware::keep_up() {
   SpindleCounter::look();
   line.poll();
   keep_up();
-  // Some bytes at a time: events must not wait for a flood of them.
-  for (uint8_t taken = 0, looked = 0; line.has_byte() && taken < most_bytes_a_turn;) {
+  // Some bytes at a time: events must not wait for a flood of them. Nor must a capture: until it is told, no item is
+  // released and few can begin, so the ring would run dry.
+  for (uint8_t taken = 0, looked = 0; line.has_byte() && taken < most_bytes_a_turn && !ChipPlayer::captured();) {
     taken = static_cast<uint8_t>(taken + receive_some());
     line.poll();
     if (static_cast<uint8_t>(taken - looked) < most_bytes_at_once) continue;

@@ -192,16 +192,19 @@ class PicoPlayer {
     uint32_t count = most_ahead_ - ahead;
     if (count > most_at_once) count = most_at_once;
     if (count > left_) count = left_;
+    // A turn waits with the only event behind it: the pins follow each word as soon as they have it.
+    const uint32_t last_words = turned_ != 0 && count == 1 ? 2 : 1;
     make(count);
     left_ -= count;
     pending_ = left_ == 0;
-    StepStream::publish(pending_ ? 1 : 0);
+    StepStream::publish(pending_ ? last_words : 0);
   }
-  // Call when the board has given it all that it could take: nothing follows the last event soon.
+  // Call when the board has given it all that it could take: nothing follows the last event soon, and the motors rest.
   static void end() {
     if (!pending_ || !ready()) return;
     end_pulse(longest_pulse_);
     StepStream::publish();
+    rest_ = StepStream::published();
   }
 
   // Waits for the first change of the watched pin. Until watch() is called again, everything that is told of the oldest

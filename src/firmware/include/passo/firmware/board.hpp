@@ -337,6 +337,7 @@ class Board : private BoardVoice<Hardware> {
       message.positions[motor] = position(motor);
       if (keeps) watch_.positions[motor] = message.positions[motor];
     }
+    if ((captured & watched()) != 0) release_capture(hardware_);
     send_for_motors(message, motors_);
   }
 

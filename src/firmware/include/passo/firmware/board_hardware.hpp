@@ -8,6 +8,7 @@
 //   bool switch_off(uint8_t switches);                optional: switches these outputs (bits of OutputSwitch) off, at
 //                                                     rest; true if one was on
 //   void watch();                                     optional: another input is watched now (Board::watched())
+//   static void release_capture();                    optional: the place of the capture is known now
 //   PinSetup set_up(const PinSetup&);                 optional: applies what it can, at rest, and returns that
 //   uint8_t drivers_rest(); void release();           optional, both: that part of the setup; lets the motors go
 //   bool can_watch(uint8_t limits);                   optional: whether it can watch several limit switches at once
@@ -100,6 +101,13 @@ template <class Hardware>
 [[gnu::always_inline]] inline PinSetup set_up(Hardware& hardware, const PinSetup& setup) {
   if constexpr (requires { hardware.set_up(setup); }) return hardware.set_up(setup);
   return {};
+}
+
+// The chip may hold its items back from a capture on, until their place is read. Putting the answer together takes
+// long.
+template <class Hardware>
+[[gnu::always_inline]] inline void release_capture(Hardware& hardware) {
+  if constexpr (requires { hardware.release_capture(); }) hardware.release_capture();
 }
 
 // Whether the switches of these bits can capture together.
