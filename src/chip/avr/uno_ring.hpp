@@ -19,7 +19,7 @@ inline constexpr StepTimes step_times = {.shortest_pulse = 18,
                                          .event_ticks = 106,
                                          .first_turn = 22,
                                          .last_turn = 38,
-                                         .beside_wait = 176};
+                                         .beside_wait = 200};
 inline constexpr About about = {.firmware = 107,
                                 .highest_event_rate = 150'000,
                                 .baud = 500'000,
