@@ -188,7 +188,8 @@ class PicoPlayer {
     const uint32_t played = StepStream::played();
     const uint32_t ahead = (StepStream::pushed() - played) / 2;
     if (ahead >= most_ahead_) return;
-    look_for_slip(played);
+    // Before a segment's first event the end of the one before was looked at, which may be the last before a rest.
+    if (left_ != segment_.events) look_for_slip(played);
     uint32_t count = most_ahead_ - ahead;
     if (count > most_at_once) count = most_at_once;
     if (count > left_) count = left_;
