@@ -218,7 +218,8 @@ class ChipPlayer {
       SerialLine::poll();
     }
     if (running != 0 || waiting() == 0 || halted != 0) return;
-    if (!RingTimes::are_short || (left_ == 0 && !follows)) start();
+    // Where no other can begin until some of these are played, half of the ring never comes.
+    if (!RingTimes::are_short || (left_ == 0 && (!follows || !ready()))) start();
   }
 
   // True if all events of the segment are made and another can come.
