@@ -19,7 +19,7 @@ class HomeCommand : public passo::test::ServedBoard {
     const std::string axis =
         "steps_per_mm = 640\nmax_velocity_mm_s = 100\nmax_acceleration_mm_s2 = 800\ntravel_mm = [-5, 5]\n";
     const std::string speeds = "seek_mm_s = 20\nlatch_mm_s = 2\npull_off_mm = 0.5\n";
-    std::string text = "name = 'near'\n[board]\nclock_hz = 16e6\nmax_event_rate_hz = 100e3\n";
+    std::string text = "name = 'near'\n[board]\nclock_hz = 16e6\nmax_event_rate_hz = 90e3\n";
     const auto add = [&](const std::string& letter, const std::string& home) {
       text += "[axis." + letter + "]\n" + axis + "[axis." + letter + ".home]\n" + speeds + home;
     };
