@@ -56,7 +56,8 @@ std::optional<int> latency_told_by(const std::filesystem::path& timer) {
 std::optional<int> hurry_adapter(int descriptor, const std::string& device, const std::string& sys) {
   // Whoever may open the line may set this flag.
   serial_struct settings{};
-  if (ioctl(descriptor, TIOCGSERIAL, &settings) == 0 && (static_cast<unsigned>(settings.flags) & ASYNC_LOW_LATENCY) == 0) {
+  if (ioctl(descriptor, TIOCGSERIAL, &settings) == 0 &&
+      (static_cast<unsigned>(settings.flags) & ASYNC_LOW_LATENCY) == 0) {
     settings.flags |= static_cast<int>(ASYNC_LOW_LATENCY);
     static_cast<void>(ioctl(descriptor, TIOCSSERIAL, &settings));
   }
