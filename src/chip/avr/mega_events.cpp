@@ -214,15 +214,15 @@ extern "C" {
       [port_a] "n"(toggle_a), [port_c] "n"(toggle_c), [port_l] "n"(toggle_l), [pcifr] "n"(io(Pcifr::where)),
       [eifr] "n"(io(Eifr::where)), [gpior0] "n"(io(Gpior0::where)), [gpior1] "n"(io(Gpior1::where)),
       [sreg] "n"(io(Sreg::where)), [ocrah] "n"(Ocr1ah::where), [ocral] "n"(Ocr1al::where), [timsk] "n"(Timsk1::where),
-      [filter] "n"(Ocr2b::where), [pinb] "n"(0x03), [pind] "n"(0x09), [pine] "n"(0x0c), [pinj] "n"(0x103), [special] "n"(4), [stop] "n"(3),
-      [padding] "n"(padding_bit), [eecr] "n"(io(Eecr::where)), [eedr] "n"(io(Eedr::where)),
-      [plain] "n"(0xff & ~(pins.flag_special | pins.flag_stop)), [turns] "n"(turns_address),
-      [turns_mask] "n"(turns_mask), [turning] "n"(turning_bits), [safe] "n"(safe_action), [port_h] "n"(0x102),
-      [port_b] "n"(0x05), [duty] "n"(Ocr4cl::where), [control] "n"(Tccr4a::where), [ucsra] "n"(Ucsr0a::where),
-      [udr] "n"(Udr0::where), [received] "n"(received_address), [page_high] "n"(page(times_high_address)),
-      [page_low] "n"(page(times_low_address)), [page_f] "n"(page(first_toggles_address)),
-      [page_l] "n"(page(first_toggles_address + 0x100)), [page_a] "n"(page(first_toggles_address + 0x200)),
-      [page_c] "n"(page(first_toggles_address + 0x300)));
+      [filter] "n"(Ocr2b::where), [pinb] "n"(0x03), [pind] "n"(0x09), [pine] "n"(0x0c), [pinj] "n"(0x103),
+      [special] "n"(4), [stop] "n"(3), [padding] "n"(padding_bit), [eecr] "n"(io(Eecr::where)),
+      [eedr] "n"(io(Eedr::where)), [plain] "n"(0xff & ~(pins.flag_special | pins.flag_stop)),
+      [turns] "n"(turns_address), [turns_mask] "n"(turns_mask), [turning] "n"(turning_bits), [safe] "n"(safe_action),
+      [port_h] "n"(0x102), [port_b] "n"(0x05), [duty] "n"(Ocr4cl::where), [control] "n"(Tccr4a::where),
+      [ucsra] "n"(Ucsr0a::where), [udr] "n"(Udr0::where), [received] "n"(received_address),
+      [page_high] "n"(page(times_high_address)), [page_low] "n"(page(times_low_address)),
+      [page_f] "n"(page(first_toggles_address)), [page_l] "n"(page(first_toggles_address + 0x100)),
+      [page_a] "n"(page(first_toggles_address + 0x200)), [page_c] "n"(page(first_toggles_address + 0x300)));
 }
 static_assert(pins.flag_special == 1 << 4 && pins.flag_stop == 1 << 3);
 static_assert(pins.step_ports[0] == 'F' && pins.step_ports[1] == 'L' && pins.step_ports[2] == 'A' &&

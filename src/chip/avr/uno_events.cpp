@@ -177,9 +177,9 @@ extern "C" {
   )" ::[port] "n"(toggle_port),
       [pcifr] "n"(io(Pcifr::where)), [gpior0] "n"(io(Gpior0::where)), [gpior1] "n"(io(Gpior1::where)),
       [sreg] "n"(io(Sreg::where)), [ocra] "n"(io(Ocr0a::where)), [timsk] "n"(Timsk0::where), [pinb] "n"(0x03),
-      [pinc] "n"(0x06), [quiet_b] "n"(io(Ocr0b::where)), [filter] "n"(Ocr2b::where), [quiet_c] "n"(io(Eearl::where)), [special] "n"(0),
-      [padding] "n"(padding_bit), [eecr] "n"(io(Eecr::where)), [eedr] "n"(io(Eedr::where)), [stop] "n"(1),
-      [plain] "n"(pins.steps_on('D')), [turns] "n"(turns_address), [turns_mask] "n"(turns_mask),
+      [pinc] "n"(0x06), [quiet_b] "n"(io(Ocr0b::where)), [filter] "n"(Ocr2b::where), [quiet_c] "n"(io(Eearl::where)),
+      [special] "n"(0), [padding] "n"(padding_bit), [eecr] "n"(io(Eecr::where)), [eedr] "n"(io(Eedr::where)),
+      [stop] "n"(1), [plain] "n"(pins.steps_on('D')), [turns] "n"(turns_address), [turns_mask] "n"(turns_mask),
       [turning] "n"(turning_bits), [action] "n"(action_bits), [safe] "n"(safe_action), [port_b] "n"(0x05),
       [port_c] "n"(0x08), [duty] "n"(Ocr2a::where), [control] "n"(Tccr2a::where), [ucsra] "n"(Ucsr0a::where),
       [udr] "n"(Udr0::where), [received] "n"(received_address));
