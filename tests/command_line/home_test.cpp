@@ -96,8 +96,7 @@ TEST_F(HomeCommand, squares_a_gantry) {
   }
 }
 
-// The switches of the Uno are on one port, those of the Mega are not. A Pico watches any, but stands still for a moment
-// where two close at once, and says so.
+// The switches of the Uno are on one port, those of the Mega are not. A Pico watches any.
 TEST_F(HomeCommand, homes_two_axes_at_once_where_the_board_can_watch_both_switches) {
   const std::string at_once = "[homing]\norder = 'Z (XY)'\n";
   const Outcome uno = passo("home --json --board sim:uno" + near_machine(x_switch, at_once));
@@ -109,7 +108,6 @@ TEST_F(HomeCommand, homes_two_axes_at_once_where_the_board_can_watch_both_switch
   EXPECT_THAT(mega.err, HasSubstr("cannot watch these limit switches at once"));
   const Outcome pico = passo("home --json --board sim:pico" + near_machine(x_switch, at_once));
   if (lacks_an_emulator(pico)) GTEST_SKIP() << pico.err;
-  if (pico.err.find("stood still") != std::string::npos) GTEST_SKIP() << "not mended yet: " << pico.err;
   EXPECT_EQ(pico.code, 0) << pico.err;
   EXPECT_NEAR(nlohmann::json::parse(pico.out, nullptr, false)["position_mm"]["Y"], -4.7, 1.0 / 640);
 }

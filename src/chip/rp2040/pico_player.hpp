@@ -80,7 +80,7 @@ class PicoPlayer {
     StepStream::restart(direction_pins_);
     motors_ = motors;
     begun_ = finished_ = left_ = 0;
-    slipped_ = pending_ = whole_ = false;
+    slipped_ = pending_ = whole_ = fresh_ = false;
     rest_ = 0;
     armed_ = false;
     captured_ = false;
@@ -97,10 +97,11 @@ class PicoPlayer {
   static void load(const Segment& segment) {
     if (pending_) end_pulse(((segment.interval >> 16) + 1) / 2);
     const bool rests = StepStream::dry();
-    StepStream::publish();
+    publish();
     if (rests) {
       rest_ = StepStream::published();
       fell_ = 0;  // long ago
+      fresh_ = true;
     }
     segment_ = segment;
     left_ = segment.events;
@@ -187,9 +188,8 @@ class PicoPlayer {
     if (left_ == 0) return;
     const uint32_t played = StepStream::played();
     const uint32_t ahead = (StepStream::pushed() - played) / 2;
-    if (ahead >= most_ahead_) return;
-    // Before a segment's first event the end of the one before was looked at, which may be the last before a rest.
-    if (left_ != segment_.events) look_for_slip(played);
+    if (ahead >= most_ahead_) return begin();
+    look_for_slip(played);
     uint32_t count = most_ahead_ - ahead;
     if (count > most_at_once) count = most_at_once;
     if (count > left_) count = left_;
@@ -198,13 +198,14 @@ class PicoPlayer {
     make(count);
     left_ -= count;
     pending_ = left_ == 0;
-    StepStream::publish(pending_ ? last_words : 0);
+    publish(pending_ ? last_words : 0);
   }
   // Call when the board has given it all that it could take: nothing follows the last event soon, and the motors rest.
   static void end() {
     if (!pending_ || !ready()) return;
     end_pulse(longest_pulse_);
-    StepStream::publish();
+    fresh_ = false;
+    publish();
     rest_ = StepStream::published();
   }
 
@@ -236,6 +237,7 @@ class PicoPlayer {
   static constexpr uint32_t most_begun = 32;
   static constexpr uint32_t most_at_once = 128;
   static constexpr uint32_t ticks_ahead = 32'768;
+  static constexpr uint32_t first_words = 16;  // two an event
   static constexpr uint32_t most_events_ahead = 2'048;
 
   // An item that was begun and is not finished.
@@ -250,6 +252,19 @@ class PicoPlayer {
   static uint32_t words_played() {
     const uint32_t played = StepStream::played();
     return captured_ ? captured_at_ : played;
+  }
+
+  // A motion begins when the ring holds some events, or all that there is room for: its first segments may have one
+  // event each, and these may be closer together than the loop can make them.
+  static void publish(uint32_t kept_back = 0) {
+    if (fresh_ && StepStream::pushed() - rest_ < first_words) return;
+    fresh_ = false;
+    StepStream::publish(kept_back);
+  }
+  static void begin() {
+    if (!fresh_) return;
+    fresh_ = false;
+    StepStream::publish();
   }
 
   // All that was published is played, and more belongs to the same motion: it comes too late.
@@ -344,6 +359,7 @@ class PicoPlayer {
   static inline uint32_t turned_ = 0;  // ticks of the word that set the directions since
   static inline uint32_t most_ahead_ = 0;
   static inline bool pending_ = false;  // the last event's pulse has no end yet
+  static inline bool fresh_ = false;    // the motors rest before the events that were made last
   static inline uint16_t direction_pins_ = 0;
   static inline uint32_t rest_ = 0;  // words that were published when the motors last stood
   static inline bool slipped_ = false;
