@@ -113,9 +113,11 @@ class PicoPlayer {
     const uint32_t longest = (segment.interval < last ? last : segment.interval) >> 16;
     const uint32_t half = (shortest + 1) / 2;
     pulse_ = half < longest_pulse_ ? half : longest_pulse_;
+    // What is still in the ring may be closer together than the events of this segment.
+    const uint32_t before = begun_ == finished_ ? 2 : most_ahead_;
     most_ahead_ = 1;
     for (uint32_t ticks = longest | 1; ticks < ticks_ahead; ticks <<= 1) most_ahead_ <<= 1;
-    if (most_ahead_ < 2) most_ahead_ = 2;
+    if (most_ahead_ < before) most_ahead_ = before;
     if (most_ahead_ > most_events_ahead) most_ahead_ = most_events_ahead;
     turned_ = 0;
     const uint16_t directions = pin_tables.directions[segment.directions & PicoPinTables::all];
