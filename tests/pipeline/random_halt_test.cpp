@@ -66,7 +66,11 @@ void judge(const MachineDescription& machine, const test::StepLog::Steps& steps,
     const double braking = judge.braking(halt.asked, halt.from, rested);
     const double late = rested - halt.from - braking;
     ++tally.halts;
-    if (late > soon) ++tally.late;
+    if (late > soon) {
+      ++tally.late;
+      std::printf("late: number %llu, %s from %.4f s on, braking %.4f s, rests at %.4f s: %.4f s late\n",
+                  static_cast<unsigned long long>(number), halt.what, halt.from, braking, rested, late);
+    }
     if (late > tally.latest) {
       tally.latest = late;
       tally.latest_number = number;
