@@ -102,9 +102,23 @@ run() {
   echo "+ $*"
   "$@"
 }
+# Another program may use apt, such as the updates of a fresh system. DPkg::Lock::Timeout waits for the packages; nothing
+# waits for the lists.
+update_lists() {
+  local said
+  echo "+ ${as_root[*]:+${as_root[*]} }apt-get update"
+  for _ in {1..120}; do
+    said=$("${as_root[@]}" env LC_ALL=C apt-get update --quiet 2>&1) && echo "$said" && return
+    [[ $said == *"Could not get lock"* ]] || break
+    echo "Another program uses apt. Waiting for it."
+    sleep 5
+  done
+  echo "$said" >&2
+  return 1
+}
 echo "Missing: ${missing[*]}"
-run "${as_root[@]}" apt-get update --quiet
+update_lists
 run "${as_root[@]}" env DEBIAN_FRONTEND=noninteractive \
-  apt-get install --yes --quiet --no-install-recommends "${missing[@]}"
+  apt-get install -o DPkg::Lock::Timeout=600 --yes --quiet --no-install-recommends "${missing[@]}"
 echo "Installed: ${missing[*]}"
 fetch_pico_emulator "$@"

@@ -15,68 +15,96 @@ constexpr double nothing = 1e-3;  // mm: less is rounding in programs
 
 }  // namespace
 
-LowRapids::LowRapids(const MachineDescription& machine, std::string file, Diagnostics& diagnostics)
+LowRapids::LowRapids(const MachineDescription& machine, bool zero_is_known, std::string file, Diagnostics& diagnostics)
     : has_height_(std::ranges::all_of(std::array{Axis::x, Axis::y, Axis::z},
                                       [&](Axis axis) {
                                         return std::ranges::find(machine.axes, axis, &AxisDescription::axis) !=
                                                machine.axes.end();
                                       })),
+      has_spindle_(machine.tool.highest_rpm > 0),
+      zero_is_known_(zero_is_known),
       file_(std::move(file)),
       diagnostics_(diagnostics) {}
 
-void LowRapids::watch(const Operation& operation) {
+void LowRapids::watch(const Operation& operation, const ToolTrack& track) {
   using namespace passo::operation;
   if (!has_height_) return;
-  const OperationKind& what = operation.what;
-  if (const auto* line = std::get_if<StraightFeed>(&what)) return feed_to(line->end);
-  if (const auto* arc = std::get_if<ArcFeed>(&what)) return feed_to(arc->end);
-  if (const auto* rapid = std::get_if<StraightTraverse>(&what)) return rapid_to(operation, rapid->end);
-  if (const auto* probe = std::get_if<StraightProbe>(&what)) {
-    end_descent();
-    place_ = probe->end;
-  } else if (std::holds_alternative<NurbsFeed>(what)) {
-    end_descent();
-    place_.reset();  // somewhere in X and Y
-  } else if (std::holds_alternative<SetToolOffset>(what)) {
-    end_descent();
-    place_.reset();
-  } else if (std::holds_alternative<SetWorkOffset>(what) || std::holds_alternative<SetG92Offset>(what) ||
-             std::holds_alternative<SetRotation>(what)) {
-    forget_heights();
+  if (track.frame_changed()) {
+    end_descent(track.from());
+    zero_is_known_ |= operation.source.line > 0;
+    knows_z_ = false;
+    if (!is_any_of<SetToolOffset>(operation)) forget_heights();
+    return;
   }
-}
-
-void LowRapids::feed_to(const Point& end) {
-  const double z = end[Axis::z];
-  if (place_ && z < (*place_)[Axis::z] - nothing) {
-    descends_ = true;
+  if (!is_any_of<StraightTraverse, StraightFeed, ArcFeed, NurbsFeed, StraightProbe>(operation)) return;
+  const bool knew_z = knows_z_;
+  know_place(operation);
+  if (!knows_z_) {
+    descends_ = false;
+  } else if (is_any_of<StraightFeed, ArcFeed>(operation)) {
+    feed(operation, track, knew_z);
   } else {
-    end_descent();
+    end_descent(track.from());
+    if (is_any_of<StraightTraverse>(operation)) rapid(operation, track, knew_z);
   }
-  place_ = end;
+}
+
+// Where the zero of the work is not known, a place of the machine is nowhere in the work. A Z of the program is.
+void LowRapids::know_place(const Operation& operation) {
+  const auto has = [&](Axis axis) {
+    return operation.axis_words != nullptr && (*operation.axis_words)[axis].column > 0;
+  };
+  if (operation.in_machine) {
+    knows_z_ = knows_z_ && zero_is_known_;
+    return;
+  }
+  knows_z_ |= has(Axis::z) || std::holds_alternative<operation::StraightProbe>(operation.what);
+  if (!std::holds_alternative<operation::StraightTraverse>(operation.what) || knows_xy_) {
+    knows_xy_ = true;
+    return;
+  }
+  knows_xy_ = has(Axis::x) || has(Axis::y);
+  const double z = std::get<operation::StraightTraverse>(operation.what).end[Axis::z];
+  if (knows_xy_ || !has(Axis::z) || z >= -nothing || is_noted(operation, "path.blind-plunge")) return;
+  diagnostics_.add_certain(
+      operation_warning(operation, file_, "path.blind-plunge",
+                        fmt::format("a rapid goes down to Z{:.6g} before the program has given X or Y", z),
+                        "X and Y first, at a Z above the work"));
+}
+
+void LowRapids::feed(const Operation& operation, const ToolTrack& track, bool knew_z) {
+  const double z = track.to()[Axis::z];
+  if (knew_z && z < track.from()[Axis::z] - nothing) {
+    descends_ = true;
+    if (has_spindle_ && !no_depth_ && lowest_ > nothing) {
+      no_depth_ = operation_warning(operation, file_, "path.no-depth", {},
+                                    "a minus sign, if the zero of the work is at its top");
+    }
+  } else {
+    end_descent(track.from());
+  }
   deepest_ = std::min(deepest_.value_or(z), z);
+  lowest_ = std::min(lowest_, z);
 }
 
-void LowRapids::end_descent() {
-  if (!std::exchange(descends_, false) || !place_) return;
-  const double z = (*place_)[Axis::z];
-  top_ = std::max(top_.value_or(z), z);
+// `end`: where the last feed led.
+void LowRapids::end_descent(const Point& end) {
+  if (!std::exchange(descends_, false)) return;
+  top_ = std::max(top_.value_or(end[Axis::z]), end[Axis::z]);
 }
 
-void LowRapids::rapid_to(const Operation& operation, const Point& end) {
-  end_descent();
-  const std::optional<Point> from = std::exchange(place_, end);
-  if (!from) return;
-  const double z = end[Axis::z];
-  const bool sideways = std::hypot(end[Axis::x] - (*from)[Axis::x], end[Axis::y] - (*from)[Axis::y]) > nothing;
-  if (sideways && top_ && z <= *top_ + nothing && !std::exchange(told_sideways_, true)) {
+void LowRapids::rapid(const Operation& operation, const ToolTrack& track, bool knew_z) {
+  const Point& from = track.from();
+  const double z = track.to()[Axis::z];
+  const bool sideways = std::hypot(track.to()[Axis::x] - from[Axis::x], track.to()[Axis::y] - from[Axis::y]) > nothing;
+  if (sideways && top_ && z <= *top_ + nothing && !is_noted(operation, "path.low-rapid")) {
     diagnostics_.add_certain(
         operation_warning(operation, file_, "path.low-rapid",
                           fmt::format("a rapid goes sideways at Z{:.6g}, and the program has cut at Z{:.6g}", z, *top_),
                           "Z above the work before a rapid goes sideways, or a feed (G1)"));
   }
-  const bool down = z < (*from)[Axis::z] - nothing;
-  if (!sideways && down && deepest_ && z < *deepest_ - nothing && !std::exchange(told_down_, true)) {
+  const bool down = knew_z && z < from[Axis::z] - nothing;
+  if (!sideways && down && deepest_ && z < *deepest_ - nothing && !is_noted(operation, "path.rapid-plunge")) {
     diagnostics_.add_certain(operation_warning(
         operation, file_, "path.rapid-plunge",
         fmt::format("a rapid goes down to Z{:.6g}, deeper than all feeds before it (Z{:.6g})", z, *deepest_),
@@ -84,11 +112,19 @@ void LowRapids::rapid_to(const Operation& operation, const Point& end) {
   }
 }
 
+bool LowRapids::is_noted(const Operation& operation, std::string_view code) {
+  return diagnostics_.note_again(code, operation.file.empty() ? file_ : operation.file, operation.source.line);
+}
+
 void LowRapids::forget_heights() {
-  end_descent();
-  place_.reset();
   top_.reset();
   deepest_.reset();
+}
+
+void LowRapids::finish() {
+  if (!no_depth_ || lowest_ <= nothing) return;
+  no_depth_->message = fmt::format("no feed goes below Z0: the lowest is Z{:.6g}", lowest_);
+  diagnostics_.add_certain(*std::exchange(no_depth_, std::nullopt));
 }
 
 }  // namespace passo

@@ -39,15 +39,17 @@ ProgramChecker::ProgramChecker(ProgramReader program, const MachineDescription& 
       limits_(motion_limits(machine)),
       tools_(options.tools),
       interpreter_(std::move(program), options, diagnostics),
+      track_(options.start),
       mistakes_(machine, options.units, path_options_.file, diagnostics),
-      low_rapids_(machine, path_options_.file, diagnostics),
+      low_rapids_(machine, !options.parameters.empty(), path_options_.file, diagnostics),
       spindle_mistakes_(machine, path_options_.file, diagnostics),
       operations_(interpreter_),
       builder_(operations_, path_options_, diagnostics) {
   operations_.watch([this](const Operation& operation) {
-    mistakes_.watch(operation);
-    low_rapids_.watch(operation);
-    spindle_mistakes_.watch(operation);
+    track_.follow(operation);
+    mistakes_.watch(operation, track_);
+    low_rapids_.watch(operation, track_);
+    spindle_mistakes_.watch(operation, track_);
   });
 }
 
@@ -75,6 +77,7 @@ bool ProgramChecker::take_item() {
 void ProgramChecker::finish() {
   done_ = true;
   mistakes_.finish();
+  low_rapids_.finish();
   spindle_mistakes_.finish();
   if (after_a_probe_ == most_moves_after_a_probe) tell_end(diagnostics_, path_options_.file, item_);
   diagnostics_.doubt_errors({});

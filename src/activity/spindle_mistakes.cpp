@@ -8,16 +8,6 @@
 #include <fmt/format.h>
 
 namespace passo {
-namespace {
-
-constexpr std::size_t most_named_lines = 3;
-
-template <class... Whats>
-bool asks_for(const Operation& operation) {
-  return (std::holds_alternative<Whats>(operation.what) || ...);
-}
-
-}  // namespace
 
 SpindleMistakes::SpindleMistakes(const MachineDescription& machine, std::string file, Diagnostics& diagnostics)
     : may_be_early_(machine.tool.highest_rpm > 0 && !machine.spindle.run_up_is_given),
@@ -25,7 +15,7 @@ SpindleMistakes::SpindleMistakes(const MachineDescription& machine, std::string 
       file_(std::move(file)),
       diagnostics_(diagnostics) {}
 
-void SpindleMistakes::watch(const Operation& operation) {
+void SpindleMistakes::watch(const Operation& operation, const ToolTrack& track) {
   using namespace passo::operation;
   if (const auto* set = std::get_if<SetFeedOverride>(&operation.what)) taps_ = !set->on;
   if (taps_) return;
@@ -33,16 +23,14 @@ void SpindleMistakes::watch(const Operation& operation) {
   if (const auto* speed = std::get_if<SetSpindleSpeed>(&operation.what)) {
     return set_speed(operation, speed->revolutions_per_minute);
   }
-  // `G1 F600` moves nothing.
-  const auto* line = std::get_if<StraightFeed>(&operation.what);
-  const auto* rapid = std::get_if<StraightTraverse>(&operation.what);
-  if (line != nullptr && line->end == place_) return;
-  if (line != nullptr || rapid != nullptr) place_ = line != nullptr ? line->end : rapid->end;
-  if (asks_for<StraightFeed, ArcFeed, NurbsFeed>(operation)) return feed(operation);
-  if (!asks_for<StraightTraverse, Dwell, ProgramStop, OptionalProgramStop, ChangeTool>(operation)) return;
+  if (is_any_of<StraightFeed, ArcFeed, NurbsFeed>(operation)) {
+    if (track.moves()) feed(operation);
+    return;
+  }
+  if (!is_any_of<StraightTraverse, Dwell, ProgramStop, OptionalProgramStop, ChangeTool>(operation)) return;
   fed_last_ = false;
   changed_.reset();
-  if (!asks_for<StraightTraverse>(operation)) sped_up_.reset();
+  if (!is_any_of<StraightTraverse>(operation)) sped_up_.reset();
 }
 
 void SpindleMistakes::turn(const Operation& operation, SpindleDirection direction) {
@@ -78,21 +66,17 @@ void SpindleMistakes::feed(const Operation& operation) {
   any_changes_ |= changes;
   any_backwards_ |= backwards;
   ++places_;
-  const std::uint32_t line = operation.source.line;
-  if (lines_.size() <= most_named_lines && (lines_.empty() || lines_.back() != line)) lines_.push_back(line);
-  if (!laser_) laser_ = operation_warning(operation, file_, "path.laser", {}, "a program for a spindle");
+  if (laser_) return laser_->note_line(operation.source.line);
+  laser_ = operation_warning(operation, file_, "path.laser", {}, "a program for a spindle");
 }
 
 void SpindleMistakes::finish() {
   if (laser_) {
     const std::string_view what = !any_backwards_ ? "S changes" : !any_changes_ ? "M4 is on" : "S changes, or M4 is on";
-    std::string lines = fmt::format("{}", lines_.front());
-    for (std::size_t i = 1; i < lines_.size() && i < most_named_lines; ++i) lines += fmt::format(", {}", lines_[i]);
-    if (lines_.size() > most_named_lines) lines += ", ...";
     laser_->message = fmt::format(
-        "{} in {} feed{} (line{} {}), as in a program for a laser; there is no laser mode: the beam would stay on in "
-        "rapids and at rest, and the motion rests at each change of S",
-        what, places_, places_ == 1 ? "" : "s", lines_.size() == 1 ? "" : "s", lines);
+        "{} in {} feed{}, as in a program for a laser; there is no laser mode: the beam would stay on in rapids and at "
+        "rest, and the motion rests at each change of S",
+        what, places_, places_ == 1 ? "" : "s");
     diagnostics_.add_certain(*std::exchange(laser_, std::nullopt));
   } else if (early_) {
     diagnostics_.add_certain(*std::exchange(early_, std::nullopt));

@@ -8,6 +8,8 @@
 #include "operation_warning.hpp"
 #include <fmt/format.h>
 
+#include "passo/interpreter/plane_axes.hpp"
+
 namespace passo {
 namespace {
 
@@ -18,9 +20,21 @@ bool is_in_milliseconds(Seconds time) {
   return time >= suspicious_dwell && std::fmod(time.value(), 10.0) == 0;
 }
 
-template <class... Whats>
-bool is_any_of(const OperationKind& what) {
-  return (std::holds_alternative<Whats>(what) || ...);
+// An arc whose ends are closer than this is a full circle that misses its start, or a short arc the wrong way round.
+constexpr Mm nearly_closed{0.05};
+
+// True: the arc goes round nearly once, and not nearly not at all.
+bool is_nearly_circle(const operation::ArcFeed& arc, const Point& from) {
+  if (std::abs(arc.turns) != 1) return false;
+  const PlaneAxes axes = axes_of(arc.plane);
+  const double first = from[axes.first] - arc.first_center.value();
+  const double second = from[axes.second] - arc.second_center.value();
+  const double end_first = arc.end[axes.first] - arc.first_center.value();
+  const double end_second = arc.end[axes.second] - arc.second_center.value();
+  const double gap = std::hypot(end_first - first, end_second - second);
+  if (gap == 0 || gap > nearly_closed.value() || gap > std::hypot(first, second) / 4) return false;
+  const double counterclockwise = first * end_second - second * end_first;
+  return counterclockwise * arc.turns < 0;
 }
 
 }  // namespace
@@ -32,15 +46,20 @@ UsualMistakes::UsualMistakes(const MachineDescription& machine, LengthUnits unit
       diagnostics_(diagnostics),
       knows_units_(units == LengthUnits::inch) {}
 
-void UsualMistakes::watch(const Operation& operation) {
+void UsualMistakes::watch(const Operation& operation, const ToolTrack& track) {
   using namespace passo::operation;
   const OperationKind& what = operation.what;
-  if (is_any_of<StraightFeed, ArcFeed, NurbsFeed, RigidTap>(what)) return feed(operation);
-  if (is_any_of<StraightTraverse, StraightProbe>(what)) {
-    probes_ |= is_any_of<StraightProbe>(what);
+  if (is_any_of<StraightFeed, ArcFeed, NurbsFeed, RigidTap>(operation)) {
+    if (!track.moves()) return;
+    if (const auto* round = std::get_if<ArcFeed>(&what)) arc(operation, *round, track.from());
+    return feed(operation);
+  }
+  if (is_any_of<StraightTraverse, StraightProbe>(operation)) {
+    probes_ |= is_any_of<StraightProbe>(operation);
     return move(operation);
   }
-  if (is_any_of<ChangeTool, SetToolNumber>(what)) change_tool();
+  if (is_any_of<ChangeTool, SetToolNumber>(operation)) change_tool();
+  if (is_any_of<Finish>(operation) && left_on_) diagnostics_.add_certain(*std::exchange(left_on_, std::nullopt));
   if (const auto* tool = std::get_if<SelectTool>(&what)) return select(operation, tool->tool);
   if (const auto* turn = std::get_if<TurnSpindle>(&what)) return turn_spindle(operation, turn->direction);
   if (const auto* pause = std::get_if<Dwell>(&what)) return dwell(operation, pause->time);
@@ -48,17 +67,15 @@ void UsualMistakes::watch(const Operation& operation) {
     speed_ = speed->revolutions_per_minute;
     if (speed_ > 0) turned_at_zero_.reset();
     if (speed_ > 0 && !has_spindle_) idle_speed(operation);
-  } else if (is_any_of<SetLengthUnits>(what) && operation.source.line > 0) {
+  } else if (is_any_of<SetLengthUnits>(operation) && operation.source.line > 0) {
     knows_units_ = true;  // line 0: the interpreter says its own units before the program begins
   }
 }
 
 // A speed has no effect on a spindle that is switched on and off.
 void UsualMistakes::idle_speed(const Operation& operation) {
-  if (std::exchange(told_idle_speed_, true)) return;
-  diagnostics_.add_certain(warning(operation, "path.idle-speed",
-                                   "S has no effect here: the machine only switches its spindle on and off",
-                                   "tool.max_rpm in the machine file, if the machine sets the spindle's speed"));
+  warn(operation, "path.idle-speed", "S has no effect here: the machine only switches its spindle on and off",
+       "tool.max_rpm in the machine file, if the machine sets the spindle's speed");
 }
 
 void UsualMistakes::change_tool() {
@@ -69,7 +86,8 @@ void UsualMistakes::change_tool() {
 
 // T alone selects a tool. Programs often select the next tool early, so only a program without any change is wrong.
 void UsualMistakes::select(const Operation& operation, std::int32_t tool) {
-  if (changes_tools_ || idle_tool_ || tool == 0) return;
+  if (changes_tools_ || tool == 0) return;
+  if (idle_tool_) return idle_tool_->note_line(operation.source.line);
   idle_tool_ =
       warning(operation, "path.idle-tool", fmt::format("T{} has no effect: the program never changes its tool", tool),
               "M6 after the T word");
@@ -80,7 +98,7 @@ void UsualMistakes::finish() {
 }
 
 void UsualMistakes::dwell(const Operation& operation, Seconds time) {
-  if (!is_in_milliseconds(time) || std::exchange(told_dwell_, true)) return;
+  if (!is_in_milliseconds(time) || is_noted(operation, "path.long-dwell")) return;
   diagnostics_.add_certain(
       warning(operation, "path.long-dwell",
               fmt::format("this dwell takes {0:g} seconds; were {0:g} milliseconds meant?", time.value()),
@@ -90,7 +108,11 @@ void UsualMistakes::dwell(const Operation& operation, Seconds time) {
 void UsualMistakes::turn_spindle(const Operation& operation, SpindleDirection direction) {
   spindle_ = direction;
   turned_at_zero_.reset();
-  if (direction == SpindleDirection::off || speed_ > 0) return;
+  left_on_.reset();
+  if (direction == SpindleDirection::off) return;
+  left_on_ = warning(operation, "path.spindle-left-on", "the spindle is still on where '%' ends the program",
+                     "M5, and M2 or M30, before '%'");
+  if (speed_ > 0) return;
   turned_at_zero_ = warning(operation, "path.spindle-at-zero", "the spindle is switched on at S0, so it stands",
                             "S above 0 before the next feed move");
 }
@@ -104,15 +126,33 @@ void UsualMistakes::move(const Operation& operation) {
 
 void UsualMistakes::feed(const Operation& operation) {
   move(operation);
-  if (!has_spindle_ || told_spindle_) return;
+  if (!has_spindle_) return;
   if (turned_at_zero_) {
     diagnostics_.add_certain(*std::exchange(turned_at_zero_, std::nullopt));
-    told_spindle_ = true;
   } else if (spindle_ == SpindleDirection::off && !probes_) {
-    diagnostics_.add_certain(warning(operation, "path.spindle-off-in-feed", "the tool is fed while the spindle stands",
-                                     "S and M3 before the move; a machine file without tool.max_rpm has no spindle"));
-    told_spindle_ = true;
+    warn(operation, "path.spindle-off-in-feed", "the tool is fed while the spindle stands",
+         "S and M3 before the move; a machine file without tool.max_rpm has no spindle");
   }
+}
+
+void UsualMistakes::arc(const Operation& operation, const operation::ArcFeed& arc, const Point& from) {
+  if (!is_nearly_circle(arc, from) || is_noted(operation, "path.nearly-circle")) return;
+  const PlaneAxes axes = axes_of(arc.plane);
+  const double gap = std::hypot(arc.end[axes.first] - from[axes.first], arc.end[axes.second] - from[axes.second]);
+  diagnostics_.add_certain(
+      warning(operation, "path.nearly-circle",
+              fmt::format("this arc goes round nearly a full circle, and ends {:.2g} mm before its start", gap),
+              "the start as the end for a full circle; the other direction (G2, G3) or G1 for a short way"));
+}
+
+bool UsualMistakes::is_noted(const Operation& operation, std::string_view code) {
+  return diagnostics_.note_again(code, operation.file.empty() ? file_ : operation.file, operation.source.line);
+}
+
+void UsualMistakes::warn(const Operation& operation, std::string_view code, std::string_view message,
+                         std::string_view expected) {
+  if (is_noted(operation, code)) return;
+  diagnostics_.add_certain(warning(operation, std::string(code), std::string(message), std::string(expected)));
 }
 
 Diagnostic UsualMistakes::warning(const Operation& operation, std::string code, std::string message,

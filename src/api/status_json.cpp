@@ -229,7 +229,8 @@ Json as_json(const Diagnostics& findings) {
                     {"line", one.place.line},
                     {"column", one.place.column},
                     {"message", one.message},
-                    {"expected", one.expected}});
+                    {"expected", one.expected},
+                    {"more_lines", one.more_lines}});
   }
   return list;
 }

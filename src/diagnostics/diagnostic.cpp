@@ -14,6 +14,8 @@ constexpr std::size_t window_before = 60;
 constexpr std::size_t window_after = 40;
 // Calls shown at each end of a long stack of calls.
 constexpr std::size_t calls_shown = 4;
+// Of the lines with the same finding.
+constexpr std::size_t lines_shown = 3;
 
 struct Window {
   std::string text;       // without control characters
@@ -87,6 +89,22 @@ SourcePlace shown_place(const Diagnostic& diagnostic) {
   return place;
 }
 
+void Diagnostic::note_line(std::uint32_t line) {
+  if (line == place.line || more_lines.size() >= most_lines) return;
+  const auto after = std::ranges::lower_bound(more_lines, line);
+  if (after == more_lines.end() || *after != line) more_lines.insert(after, line);
+}
+
+std::string more_lines_in_words(const Diagnostic& diagnostic) {
+  const std::vector<std::uint32_t>& lines = diagnostic.more_lines;
+  if (lines.empty()) return {};
+  const std::size_t shown = std::min(lines.size(), lines_shown);
+  return fmt::format("and {}{} more, line{} {}{}", lines.size(), lines.size() == Diagnostic::most_lines ? " or" : "",
+                     lines.size() == 1 ? "" : "s",
+                     fmt::join(lines.begin(), lines.begin() + static_cast<long>(shown), ", "),
+                     shown < lines.size() ? ", ..." : "");
+}
+
 void Diagnostics::add(Diagnostic diagnostic) {
   if (!doubt_.empty() && diagnostic.severity == Severity::error) {
     diagnostic.severity = Severity::warning;
@@ -101,10 +119,26 @@ void Diagnostics::add_certain(Diagnostic diagnostic) {
     return other.place == diagnostic.place && other.code == diagnostic.code && other.file == diagnostic.file;
   };
   if (diagnostic.place.line > 0 && std::ranges::any_of(all_, is_same)) return;
+  if (diagnostic.severity == Severity::warning && diagnostic.place.line > 0) {
+    const auto again = std::ranges::find_if(all_, [&](const Diagnostic& other) {
+      return other.severity == Severity::warning && other.code == diagnostic.code && other.file == diagnostic.file &&
+             other.message == diagnostic.message;
+    });
+    if (again != all_.end()) return again->note_line(diagnostic.place.line);
+  }
   if (diagnostic.severity == Severity::error && ++errors_ > limit_) return;
   if (diagnostic.severity == Severity::warning && all_.size() >= 4 * limit_) return;
   if (diagnostic.rule.empty() && rule_of_ != nullptr) diagnostic.rule = rule_of_(diagnostic);
   all_.push_back(std::move(diagnostic));
+}
+
+bool Diagnostics::note_again(std::string_view code, std::string_view file, std::uint32_t line) {
+  const auto found = std::ranges::find_if(all_, [&](const Diagnostic& kept) {
+    return kept.severity == Severity::warning && kept.code == code && kept.file == file;
+  });
+  if (found == all_.end()) return false;
+  found->note_line(line);
+  return true;
 }
 
 std::string render(const Diagnostic& diagnostic, bool colour) {
@@ -132,6 +166,7 @@ std::string render(const Diagnostic& diagnostic, bool colour) {
   if (!diagnostic.expected.empty()) out += fmt::format("      = expected: {}\n", diagnostic.expected);
   if (!diagnostic.rule.empty()) out += fmt::format("      = rule: {}\n", diagnostic.rule);
   append_calls(diagnostic.calls, out);
+  if (!diagnostic.more_lines.empty()) out += fmt::format("      = {}\n", more_lines_in_words(diagnostic));
   return out;
 }
 

@@ -10,6 +10,7 @@ void Block::clear() {
   block_delete = false;
   percent = false;
   line_number.reset();
+  spaced_number.reset();
   words.clear();
   assignments.clear();
   comments.clear();

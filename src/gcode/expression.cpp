@@ -119,7 +119,8 @@ bool has_two_operands(ExpressionOp op) {
 
 }  // namespace
 
-Evaluation evaluate(const Block& block, const Expression& expression, const ParameterValues& parameters) {
+Evaluation evaluate(const Block& block, const Expression& expression, const ParameterValues& parameters,
+                    UnsetParameter* unset) {
   assert(expression.count > 0 && expression.first + expression.count <= block.code.size());
   const Instruction* instruction = block.code.data() + expression.first;
   if (expression.count == 1 && instruction->op == ExpressionOp::number) return instruction->number;
@@ -132,7 +133,14 @@ Evaluation evaluate(const Block& block, const Expression& expression, const Para
       case ExpressionOp::number: outcome = {instruction->number}; break;
       case ExpressionOp::named_parameter: outcome = named(parameters, instruction->symbol, false); break;
       case ExpressionOp::exists_named: outcome = named(parameters, instruction->symbol, true); break;
-      case ExpressionOp::parameter: outcome = numbered(parameters, stack[--depth], false); break;
+      case ExpressionOp::parameter: {
+        const double number = stack[--depth];
+        outcome = numbered(parameters, number, false);
+        if (unset == nullptr || unset->number != 0 || outcome.failed) break;
+        const auto whole = static_cast<std::int64_t>(std::round(number));
+        if (!parameters.was_set(whole)) *unset = {whole, instruction->span};
+        break;
+      }
       case ExpressionOp::exists_parameter: outcome = numbered(parameters, stack[--depth], true); break;
       default:
         if (has_two_operands(instruction->op)) {

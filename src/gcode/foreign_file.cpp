@@ -27,6 +27,8 @@ constexpr std::string_view of_model = "G-code, which a CAM program makes of the 
 constexpr std::string_view of_circuit = "G-code, which passo cam isolate or passo cam outline makes of the layer";
 constexpr std::string_view of_board = "G-code, which passo cam board makes of the board";
 constexpr std::string_view of_archive = "the program itself, unpacked";
+constexpr std::string_view of_printer =
+    "G-code for a machine that cuts, from a CAM program; nothing here heats or extrudes";
 constexpr std::string_view of_program = "G-code, which is text";
 
 constexpr ForeignFile png{"a PNG picture", of_png};
@@ -55,6 +57,7 @@ constexpr ForeignFile step{"a STEP model", of_model};
 constexpr ForeignFile gzip{"a gzip archive", of_archive};
 constexpr ForeignFile zip{"a ZIP archive", of_archive};
 constexpr ForeignFile elf{"a program for a computer or a board (ELF)", of_program};
+constexpr ForeignFile printer{"a program for a 3D printer", of_printer};
 constexpr ForeignFile xml{"an XML file", of_program};
 
 // "dxf" of "Part.DXF"; empty: none.
@@ -207,6 +210,24 @@ bool is_triangles(std::string_view first, std::string_view line, const std::stri
   return ending == "obj" && (first.find("\nv ") != std::string_view::npos || line.starts_with("v "));
 }
 
+// What slicers write at the top, or a code that heats. A code of the user's own with its number has no S.
+bool is_for_a_printer(std::string_view first) {
+  for (std::string_view rest = first; !rest.empty();) {
+    const std::string_view line = take_line(rest);
+    if (line.starts_with(';')) {
+      for (const std::string_view slicer : {";FLAVOR:", "PrusaSlicer", "OrcaSlicer", "SuperSlicer", "BambuStudio",
+                                            "Slic3r", "Cura", "Simplify3D", "ideaMaker"}) {
+        if (line.find(slicer) != std::string_view::npos) return true;
+      }
+      continue;
+    }
+    for (const std::string_view heats : {"M104 S", "M109 S", "M140 S", "M190 S"}) {
+      if (line.starts_with(heats)) return true;
+    }
+  }
+  return false;
+}
+
 ForeignFile by_text(std::string_view first, const std::string& ending) {
   std::string_view rest = first;
   const std::string_view line = take_line(rest);
@@ -223,6 +244,7 @@ ForeignFile by_text(std::string_view first, const std::string& ending) {
   if (is_triangles(first, line, ending)) return model;
   if (is_toml(first, ending)) return description;
   if (const ForeignFile of_numbers = by_numbers(line, rest, ending); !of_numbers.kind.empty()) return of_numbers;
+  if (is_for_a_printer(first)) return printer;
   if (line == "999" && ending == "dxf") return dxf;
   return line == "0" && take_line(rest) == "SECTION" ? dxf : ForeignFile{};
 }

@@ -97,6 +97,9 @@ bool LineParser::fail_unexpected() {
     case 'N':
       return fail("gcode.unexpected-text", at_, 1, "a line number that is not at the start of its line",
                   "N as the first word, after '/' if there is one");
+    case ':':
+      return fail("gcode.unexpected-text", at_, 1, "':' where a word should start",
+                  "O for ':', as in O0491; on some controls ':' begins the number of a program");
     case ')':
       return fail("gcode.unexpected-text", at_, 1, "')' without a comment before it", "'(' where the comment starts");
     case ',':
@@ -151,6 +154,28 @@ bool LineParser::fail_in_brackets(const char* open) {
   const bool is_plain = static_cast<unsigned char>(c) > 0x20 && static_cast<unsigned char>(c) < 0x7F;
   return fail(is_plain ? "gcode.unexpected-text" : "gcode.bad-character", at_, found.length,
               fmt::format("{} inside an expression", found.name), std::move(expected));
+}
+
+// Fanuc's macros have other words for the flow of control. What is wrong with their letters helps nobody.
+bool LineParser::fail_foreign_word(const char* start) {
+  struct Macro {
+    std::string_view name;
+    const char* expected;
+  };
+  constexpr Macro macros[] = {{"WHILE", "o1 while [...] on one line, and o1 endwhile where END stands"},
+                              {"GOTO", "o1 if [...] and o1 endif around what is passed over; there are no jumps"},
+                              {"THEN", "o1 if [...], the assignment on the next line, and o1 endif"},
+                              {"END", "o1 endwhile, with the label of its o1 while"},
+                              {"IF", "o1 if [...] on one line, and o1 endif after the last line that it guards"}};
+  std::string letters;
+  for (const char* at = start; at != end_ && letters.size() < 5 && (is_letter(*at) || is_blank(*at)); ++at) {
+    if (is_letter(*at)) letters += to_upper(*at);
+  }
+  const auto* const found =
+      std::ranges::find_if(macros, [&](const Macro& macro) { return letters.starts_with(macro.name); });
+  if (found == std::end(macros)) return false;
+  return fail("gcode.fanuc-macro", start, found->name.size(),
+              fmt::format("{} is a word of Fanuc's macros", found->name), found->expected);
 }
 
 bool LineParser::fail_function(const char* name_start, std::string_view name) {

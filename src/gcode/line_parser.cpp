@@ -143,7 +143,7 @@ bool LineParser::parse_items() {
       case 'O': return fail_unexpected();
       default:
         if (!is_letter(c) && c != '@' && c != '^' && c != '$') return fail_unexpected();
-        if (!parse_word(c)) return false;
+        if (const char* const start = at_; !parse_word(c)) return fail_foreign_word(start);
     }
   }
 }

@@ -81,8 +81,9 @@ class LineParser {
   bool fail(const char* code, const char* from, std::size_t length, std::string message, std::string expected);
   bool fail_missing_value(const char* owner);
   bool is_digit_alike() const;
-  bool fail_unexpected();                   // at_ is at a place where no item can start
-  bool fail_in_brackets(const char* open);  // at_ is at a place that needs an operator or ']'
+  bool fail_unexpected();                     // at_ is at a place where no item can start
+  bool fail_in_brackets(const char* open);    // at_ is at a place that needs an operator or ']'
+  bool fail_foreign_word(const char* start);  // a word that is wrong: it may be one of Fanuc's macros
   bool fail_function(const char* name_start, std::string_view name);
   bool fail_assignment(const char* target);  // no '=' after the parameter
   bool fail_letter_o(const char* o);         // an O that is not the first item of its line; a zero may be meant

@@ -48,11 +48,12 @@ struct Digits {
   std::size_t count = 0;
   std::size_t decimals = 0;
   const char* end = nullptr;  // after the last digit or the decimal point
+  bool spaced = false;
 };
 
 // Digits with blanks between them.
 Digits read_spaced_digits(const char* at, const char* end) {
-  Digits digits{.end = at};
+  Digits digits{.end = at, .spaced = true};
   bool point = false;
   for (; at != end; ++at) {
     if (is_digit(*at)) {
@@ -102,9 +103,11 @@ NumberReading read_number(const char* at, const char* end) {
   if (digits.count <= most_digits_of_mantissa && digits.mantissa <= largest_exact_integer &&
       digits.decimals < powers_of_ten.size()) {
     const double value = static_cast<double>(digits.mantissa) / powers_of_ten[digits.decimals];
-    return {negative ? -value : value, digits.end, NumberStatus::good};
+    return {negative ? -value : value, digits.end, NumberStatus::good, digits.spaced};
   }
-  return read_long_number(at, digits.end, negative);
+  NumberReading reading = read_long_number(at, digits.end, negative);
+  reading.spaced = digits.spaced;
+  return reading;
 }
 
 std::string format_number(double value) {

@@ -20,6 +20,7 @@ struct NumberReading {
   double value = 0;
   const char* end = nullptr;  // after the last digit or the decimal point
   NumberStatus status = NumberStatus::good;
+  bool spaced = false;  // blanks stand between its digits
 };
 
 // Reads the longest number that starts at `at`, correctly rounded. Takes a few nanoseconds for up to 15 digits.

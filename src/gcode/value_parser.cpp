@@ -133,6 +133,7 @@ bool LineParser::parse_number(const char* owner) {
   const NumberReading reading = read_number(at_, end_);
   if (reading.status == NumberStatus::no_digits) return fail_missing_value(owner);
   token_end_ = at_ = reading.end;
+  if (reading.spaced && !block_.spaced_number) block_.spaced_number = span_from(start);
   if (reading.status == NumberStatus::good) return emit(ExpressionOp::number, start, reading.value);
   const bool too_long = reading.status == NumberStatus::too_long;
   return fail("gcode.number-out-of-range", start, span_from(start).length,

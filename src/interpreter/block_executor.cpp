@@ -137,12 +137,15 @@ void BlockExecutor::execute(const Block& block) {
   state_.line = block.line;
   block_.source = {block.line, line_number_of(block)};
   block_.word = place_of_words(block);
+  if (block.spaced_number) warn_of_blank(*block.spaced_number);
   const bool readable = words_.read(block, parameters_, reporter_);
   if (words_.calls_macro()) return subprograms_.call_macro(readable);
   if (!readable) return;
   words_.find_axes(block_.axis_words);
   if (words_.has_code(non_modal, code(4)) && !words_.has('P')) {
-    fail("gcode.missing-word", words_.span(non_modal), "G4 without P", "P, the seconds to wait");
+    fail("gcode.missing-word", words_.span(non_modal), "G4 without P",
+         words_.has('X') || words_.has('U') ? "P, the seconds to wait: X and U of other controls are P here"
+                                            : "P, the seconds to wait");
     return;
   }
   if (!resolve_motion() || (!speaks_grbl() && !check_words_used()) || !check_words_shared() || !cutter_codes_.check()) {
@@ -159,6 +162,15 @@ void BlockExecutor::execute(const Block& block) {
   if (speaks_grbl() && !check_words_used()) return;
   go_on();
   subprograms_.call_modal_macro();
+}
+
+// RS274/NGC allows blanks in a number. It is nearly always the letter of a word that is missing.
+void BlockExecutor::warn_of_blank(Span span) {
+  const std::string written = reporter_.quote(span);
+  std::string read = written;
+  std::erase_if(read, [](char c) { return c == ' ' || c == '\t'; });
+  reporter_.warning("gcode.blank-in-number", span, fmt::format("{} is read as {}", written, read),
+                    fmt::format("{} without a blank, or a letter before each number", read));
 }
 
 // A cycle gives as many operations at a time as the queue takes, and the rest of its block comes behind it.
@@ -303,6 +315,8 @@ bool BlockExecutor::resolve_motion() {
 
   const bool any_axis = words_.any_axis();
   if (block_.motion != nullptr && block_.motion->axes != AxisUse::none && taker != nullptr) {
+    const bool homes = taker->number == code(28) || taker->number == code(30);
+    if (homes && block_.motion->number == code(0) && !speaks_grbl()) return go_home_beside_g0(*taker);
     return fail(
         "gcode.axis-conflict", words_.span(taker_group),
         fmt::format("{} and {} both use the axis words of the block", spelling(*taker), spelling(*block_.motion)),
@@ -324,6 +338,16 @@ bool BlockExecutor::resolve_motion() {
     }
     block_.motion = find_code('G', active);
   }
+  return true;
+}
+
+// `G0 G91 G28 Z0`, as Fanuc's programs have it: the axis words are G28's, and G0 stays in force.
+bool BlockExecutor::go_home_beside_g0(const CodeEntry& taker) {
+  reporter_.warning("gcode.g0-with-home", words_.span(motion),
+                    fmt::format("{} takes the axis words of the block; G0 only stays in force", spelling(taker)),
+                    fmt::format("{} in a block without G0", spelling(taker)));
+  state_.modal.set(motion, code(0));
+  block_.motion = nullptr;
   return true;
 }
 

@@ -69,7 +69,9 @@ inline bool value_of(const Block& block, const Expression& expression, const Par
     value = first.number;
     return true;
   }
-  const Evaluation evaluation = evaluate(block, expression, parameters);
+  UnsetParameter unset;
+  const Evaluation evaluation = evaluate(block, expression, parameters, &unset);
+  if (unset.number != 0) reporter.warn_of(unset);
   if (evaluation) {
     value = *evaluation;
     return true;

@@ -71,11 +71,17 @@ class CodeFamily {
   // LinuxCNC reports changes of its own modes as comments. Its canonical calls are what other programs compare with.
   void note(std::string_view text) { emit(operation::Comment{text}); }
   Operation operation_of(const OperationKind& what) const {
-    return {what, block_.source, block_.word, &block_.axis_words};
+    return {what, block_.source, block_.word, &block_.axis_words, goes_to_machine()};
   }
   // An operation that is held back while other lines are read. So it carries the text of its own line.
   Operation kept_operation(const OperationKind& what = operation::Comment{}) const {
-    return {what, block_.source, block_.word, &block_.axis_words, reporter_.file(), reporter_.block().text};
+    return {what,
+            block_.source,
+            block_.word,
+            &block_.axis_words,
+            goes_to_machine(),
+            reporter_.file(),
+            reporter_.block().text};
   }
 
   BlockContext& block_;
@@ -87,6 +93,10 @@ class CodeFamily {
   BlockWords& words_;
 
  private:
+  bool goes_to_machine() const {
+    const CodeEntry* const entry = words_.code(ModalGroup::non_modal);
+    return entry != nullptr && (entry->number == code(53) || entry->number == code(28) || entry->number == code(30));
+  }
   bool machine_end_point(Point& end);
   bool apply_polar(Point& end);
 };

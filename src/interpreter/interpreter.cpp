@@ -168,7 +168,10 @@ class Interpreter::Implementation {
       reporter_.warning("gcode.no-end", {1, 1}, "the program ends without M2, M30 or '%'", "M2 in its last line");
     }
     if (executor_.ended()) {
-      if (!executor_.gave_up()) flow_.report_never_closed();
+      if (!executor_.gave_up()) {
+        flow_.report_never_closed();
+        flow_.report_moves_after_end();
+      }
       executor_.finish(flow_.lacks_closing_percent() ? BlockExecutor::Closing::missing : BlockExecutor::Closing::none);
     } else {
       const bool at_percent = flow_.end() == ProgramFlow::End::percent;

@@ -137,6 +137,9 @@ bool MotionCodes::find_arc_center(bool clockwise, const Point& end, ArcCenter& f
     PlanePoint center;
     if (!center_words(from, center)) return false;
     found = check_center(from, to, center, tolerance);
+    if (found.fault == ArcFault::radii_differ && !starts_in_doubt() && fits_other_distance(from, to, tolerance)) {
+      return false;
+    }
   } else {
     const std::string letters =
         fmt::format("{} and {}", center_letter(plane_axes.first), center_letter(plane_axes.second));
@@ -153,8 +156,9 @@ bool MotionCodes::center_words(PlanePoint start, PlanePoint& center) {
   if (const char wrong = center_letter(plane_axes.normal); words_.has(wrong)) {
     return fail("gcode.wrong-center", words_.span(wrong),
                 fmt::format("{} is not in the plane {}", wrong, name_of(state_.modal.plane())),
-                fmt::format("{} and {}, or the plane's code before", center_letter(plane_axes.first),
-                            center_letter(plane_axes.second)));
+                fmt::format("{} and {}, or the plane's code before{}", center_letter(plane_axes.first),
+                            center_letter(plane_axes.second),
+                            words_[wrong] == 0 ? "; grbl ignores the word: --dialect grbl" : ""));
   }
   const bool absolute = state_.modal[arc_distance] == code(90, 1);
   const double unit = state_.length_unit();
@@ -170,6 +174,24 @@ bool MotionCodes::center_words(PlanePoint start, PlanePoint& center) {
                   fmt::format("{} and {}", center_letter(plane_axes.first), center_letter(plane_axes.second)));
     }
   }
+  return true;
+}
+
+// The commonest reason why radii differ: I J K are meant the other way. True: they are, and this is reported.
+bool MotionCodes::fits_other_distance(PlanePoint from, PlanePoint to, const ArcTolerance& tolerance) {
+  const PlaneAxes plane_axes = axes_of(state_.modal.plane());
+  const bool absolute = state_.modal[arc_distance] == code(90, 1);
+  PlanePoint center = absolute ? from : PlanePoint{};
+  for (const auto& [axis, value] : {std::pair{plane_axes.first, &center.first}, {plane_axes.second, &center.second}}) {
+    const char letter = center_letter(axis);
+    if (words_.has(letter)) *value += words_[letter] * state_.length_unit();
+  }
+  if (check_center(from, to, center, tolerance).fault != ArcFault::none) return false;
+  fail("gcode.arc-radii-differ", motion_span(),
+       fmt::format("the arc's start and end are not equally far from its centre, which is {} here",
+                   absolute ? "a position (G90.1)" : "a distance from the start (G91.1)"),
+       absolute ? "G91.1 before the arc: as distances from the start, the words fit"
+                : "G90.1 before the arc: as the position of the centre, the words fit");
   return true;
 }
 

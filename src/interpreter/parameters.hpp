@@ -9,7 +9,9 @@
 // Looking up a name is an index. A sub that sets a local name first puts the name's old value on an undo list.
 #pragma once
 
+#include <algorithm>
 #include <array>
+#include <bitset>
 #include <cstdint>
 #include <memory>
 #include <span>
@@ -64,6 +66,11 @@ class Parameters final : public ParameterValues {
 
   bool numbered(std::int64_t number, double& value) const override;
   bool named(Symbol name, double& value) const override;
+  // What the interpreter itself sets counts as set, and so do the arguments of a sub.
+  bool was_set(std::int64_t number) const override {
+    return number < 1 || number >= machine_position_parameter || set_[static_cast<std::size_t>(number)] ||
+           is_of_sub(number);
+  }
 
   // False: this name cannot be set.
   [[nodiscard]] bool set_named(Symbol name, double value);
@@ -77,6 +84,7 @@ class Parameters final : public ParameterValues {
     double& parameter = numbers_[static_cast<std::size_t>(number)];
     if (keeps_) kept_numbers_.emplace_back(number, parameter);
     parameter = value;
+    if (!is_of_sub(number)) set_[static_cast<std::size_t>(number)] = true;
   }
   double get(int number) const { return numbers_[static_cast<std::size_t>(number)]; }
 
@@ -114,6 +122,10 @@ class Parameters final : public ParameterValues {
   };
   Named& at(Symbol name);
   double of_tool(int number) const;
+  // A parameter of the sub that runs: an argument that is not given is 0.
+  bool is_of_sub(std::int64_t number) const {
+    return number <= static_cast<int>(sub_parameters) && !std::ranges::all_of(callers_, &Caller::shares_numbers);
+  }
   bool forgets(int number) const;
   double unit_of(Axis axis) const { return is_rotary(axis) ? 1 : machine_unit_; }
 
@@ -122,7 +134,8 @@ class Parameters final : public ParameterValues {
   double machine_unit_;  // in millimetres
   std::shared_ptr<const SettingsFile> settings_;
   std::array<double, highest_parameter + 1> numbers_{};
-  std::vector<Named> names_;  // by symbol
+  std::bitset<highest_parameter + 1> set_;  // once set, also by a line that was taken back
+  std::vector<Named> names_;                // by symbol
   std::vector<Undo> undo_;
   std::vector<Caller> callers_;
   bool keeps_ = false;

@@ -90,6 +90,8 @@ class ProgramFlow final : public CallStack {
 
   // Called after M2. Reports the constructs around M2 whose end comes nowhere in the file.
   void report_never_closed();
+  // Warns of moves that come after the end of the program.
+  void report_moves_after_end();
   // Called after M2. True: the program began with '%', and the rest of the file has no closing '%'.
   bool lacks_closing_percent();
 

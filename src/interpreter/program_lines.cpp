@@ -147,6 +147,36 @@ bool ProgramFlow::closes_program(std::string_view text) {
   return std::exchange(file_->seen_percent, true);
 }
 
+// Subs and numbered programs may stand behind the end. Nothing that is read is executed, and so nothing else is
+// reported.
+void ProgramFlow::report_moves_after_end() {
+  if (options_.open_ended || !frames_.empty()) return;
+  const ReaderPosition here = file_->reader.position();
+  Block block;
+  Diagnostics unheeded;
+  std::string_view text;
+  std::uint32_t line = 0;
+  int subs = 0;
+  bool numbered = false;
+  while (file_->reader.next_line(text, line, unheeded) && !is_percent(text)) {
+    if ((options_.block_delete && is_deleted(text)) || !file_->parser.parse(text, line, block, unheeded)) continue;
+    if (block.control) {
+      if (block.control->kind == ControlKind::sub) ++subs;
+      if (block.control->kind == ControlKind::endsub) --subs;
+      if (block.control->kind == ControlKind::program) numbered = true;
+      continue;
+    }
+    if (subs > 0 || numbered) continue;
+    const auto axis_word =
+        std::ranges::find_if(block.words, [](const Word& word) { return axis_letters.has(word.letter); });
+    if (axis_word == block.words.end()) continue;
+    reporter_.warning_at("gcode.move-after-end", line, text, axis_word->span,
+                         "this move comes after the end of the program, and is never made",
+                         "M2 or M30 in the last line");
+  }
+  file_->reader.seek(here);
+}
+
 bool ProgramFlow::lacks_closing_percent() {
   if (!opened_percent_) return false;
   ProgramReader& reader = files_.front()->reader;

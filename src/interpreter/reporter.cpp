@@ -38,6 +38,11 @@ void Reporter::error_at(std::string_view code, std::uint32_t line, std::string_v
   add(Severity::error, code, line, text, span, std::move(message), std::move(expected));
 }
 
+void Reporter::warning_at(std::string_view code, std::uint32_t line, std::string_view text, Span span,
+                          std::string message, std::string expected) {
+  add(Severity::warning, code, line, text, span, std::move(message), std::move(expected));
+}
+
 void Reporter::error(const EvaluationError& error) {
   using Kind = EvaluationError::Kind;
   const std::string what = quote(error.span);
@@ -69,6 +74,11 @@ void Reporter::error(const EvaluationError& error) {
       return this->error("gcode.too-deep", error.span, "the expression is nested too deep",
                          fmt::format("at most {} values waiting for their operator", deepest_expression));
   }
+}
+
+void Reporter::warn_of(const UnsetParameter& unset) {
+  warning("gcode.unset-parameter", unset.span, fmt::format("#{} was never set, and is 0", unset.number),
+          fmt::format("#{} = ... before this line", unset.number));
 }
 
 std::string Reporter::quote(Span span) const {

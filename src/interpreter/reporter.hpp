@@ -40,11 +40,14 @@ class Reporter {
 
   void error(std::string_view code, Span span, std::string message, std::string expected = {});
   void warning(std::string_view code, Span span, std::string message, std::string expected = {});
-  // Reports about a line other than the block's own.
+  // Report about a line other than the block's own.
   void error_at(std::string_view code, std::uint32_t line, std::string_view text, Span span, std::string message,
                 std::string expected);
+  void warning_at(std::string_view code, std::uint32_t line, std::string_view text, Span span, std::string message,
+                  std::string expected);
   // Reports an expression that has no value.
   void error(const EvaluationError& error);
+  void warn_of(const UnsetParameter& unset);
 
   // Reports what was found while the line was read.
   void pass_on(Diagnostics& faults);

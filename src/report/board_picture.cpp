@@ -6,6 +6,7 @@
 #include "sheet.hpp"
 #include <fmt/format.h>
 
+#include "passo/base/counted.hpp"
 #include "passo/cam/edge_loops.hpp"
 
 namespace passo {
@@ -163,7 +164,7 @@ Status<OutputError> draw_board(const BoardJob& job, const PictureOptions& option
   const Region face = board_face(job);
   const std::vector<Side> sides = sides_of(job, face);
   const std::optional<DrawnBox> box = box_of(job, face, sides);
-  std::string words = fmt::format("{} files", job.files.size());
+  std::string words = counted(job.files.size(), "file");
   if (box) {
     words += fmt::format("   \u00B7   {:.2f} x {:.2f} mm", to_mm(box->most.x - box->least.x).value(),
                          to_mm(box->most.y - box->least.y).value());

@@ -229,6 +229,7 @@ export const en = {
   'files.findings': 'What the check has found',
   'files.findings.none': 'The check has found nothing to complain about.',
   'files.expected': 'Expected: {expected}',
+  'files.more.lines': 'And {count} more: lines {lines}.',
   'files.check': 'Check again',
   'files.show': 'Open',
   'files.shown': 'Open now',

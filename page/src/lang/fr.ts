@@ -221,6 +221,7 @@ export const fr: Words = {
   'files.findings': 'Ce que la vérification a trouvé',
   'files.findings.none': 'La vérification n’a rien trouvé à redire.',
   'files.expected': 'Attendu : {expected}',
+  'files.more.lines': 'Et {count} autres : lignes {lines}.',
   'files.check': 'Revérifier',
   'files.show': 'Ouvrir',
   'files.shown': 'Ouvert',

@@ -221,6 +221,7 @@ export const it: Words = {
   'files.findings': 'Cosa ha trovato il controllo',
   'files.findings.none': 'Il controllo non ha trovato nulla da segnalare.',
   'files.expected': 'Atteso: {expected}',
+  'files.more.lines': 'E altri {count}: righe {lines}.',
   'files.check': 'Controlla di nuovo',
   'files.show': 'Apri',
   'files.shown': 'Aperto',

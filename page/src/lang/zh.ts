@@ -221,6 +221,7 @@ export const zh: Words = {
   'files.findings': '检查结果',
   'files.findings.none': '检查没有发现问题。',
   'files.expected': '应为:{expected}',
+  'files.more.lines': '另有 {count} 处：第 {lines} 行。',
   'files.check': '重新检查',
   'files.show': '打开',
   'files.shown': '已打开',

@@ -83,6 +83,7 @@ export interface Finding {
   column: number;
   message: string;
   expected: string;
+  more_lines: number[];
 }
 export interface Program {
   id: number;

@@ -25,6 +25,7 @@ import { isDrawing } from './make_forms';
 import { takeDrawings } from './make_order';
 
 const mostFindings = 100;
+const linesShown = 3; // of the other lines with the same warning
 
 async function take(files: readonly File[]): Promise<void> {
   const drawings = files.filter((file) => isDrawing(file.name));
@@ -143,6 +144,14 @@ function Findings({ program }: { program: Program }) {
               <span>
                 <b>{say('run.line', { line: one.line })}</b> {toldOr(one.message)}.{' '}
                 {one.expected !== '' && <span class="dim">{say('files.expected', { expected: toldOr(one.expected) })}</span>}{' '}
+                {one.more_lines.length > 0 && (
+                  <span class="dim">
+                    {say('files.more.lines', {
+                      count: one.more_lines.length,
+                      lines: one.more_lines.slice(0, linesShown).join(', ') + (one.more_lines.length > linesShown ? ', …' : ''),
+                    })}
+                  </span>
+                )}{' '}
                 <code class="dim">{one.code}</code>
               </span>
             </button>

@@ -271,6 +271,7 @@ std::string findings(const CheckReport& report) {
                         finding.place.line > 0 ? fmt::format(", line {}", finding.place.line) : "",
                         html_text(finding.message), html_text(finding.code), marked_line(finding));
     if (!finding.expected.empty()) html += fmt::format("expected: {}", html_text(finding.expected));
+    if (!finding.more_lines.empty()) html += fmt::format("<br>{}", more_lines_in_words(finding));
     html += "</li>\n";
   }
   return html + "</ul>\n";

@@ -26,7 +26,8 @@ inline nlohmann::ordered_json as_json(std::span<const Diagnostic> findings) {
                     {"message", finding.message},
                     {"expected", finding.expected},
                     {"rule", finding.rule},
-                    {"calls", std::move(calls)}});
+                    {"calls", std::move(calls)},
+                    {"more_lines", finding.more_lines}});
   }
   return list;
 }

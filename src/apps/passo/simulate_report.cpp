@@ -5,6 +5,8 @@
 #include "findings_json.hpp"
 #include <fmt/format.h>
 
+#include "passo/base/counted.hpp"
+
 namespace passo {
 namespace {
 
@@ -115,8 +117,8 @@ std::string to_text(const Simulation& simulation) {
   const CutSummary& summary = simulation.summary;
   const HeightField& field = simulation.field;
   const StockBlock& block = field.block();
-  std::string text =
-      fmt::format("{}: {} moves, {} of them cut\n", simulation.program, summary.moves(), summary.cutting_moves());
+  std::string text = fmt::format("{}: {}, {} of them cut\n", simulation.program, counted(summary.moves(), "move"),
+                                 summary.cutting_moves());
   const auto add = [&](const char* name, const std::string& words) { text += fmt::format("{:<16}{}\n", name, words); };
   add("stock",
       fmt::format("X {:g} to {:g}, Y {:g} to {:g}, Z {:g} to {:g}; {} x {} cells of {:g} mm", block.low.x, block.high.x,

@@ -16,6 +16,7 @@
 #include "wire_kerfs.hpp"
 #include <fmt/format.h>
 
+#include "passo/base/counted.hpp"
 #include "passo/report/foam_body.hpp"
 #include "passo/report/foam_picture.hpp"
 #include "passo/stock/foam_comparison.hpp"
@@ -199,7 +200,8 @@ std::size_t pieces_that_count(const FoamPieces& pieces) {
 std::string to_text(const FoamSimulation& done) {
   const FoamBlock& foam = done.foam;
   const StockBlock& block = foam.block();
-  std::string text = fmt::format("{}: {} moves, {} of them cut\n", done.program, done.look.moves, done.moves.cutting);
+  std::string text =
+      fmt::format("{}: {}, {} of them cut\n", done.program, counted(done.look.moves, "move"), done.moves.cutting);
   const auto add = [&](const char* name, const std::string& words) { text += fmt::format("{:<16}{}\n", name, words); };
   add("foam", fmt::format("X {:g} to {:g}, Y {:g} to {:g}, Z {:g} to {:g}; {} slices of {} x {} cells of {:g} mm",
                           block.low.x, block.high.x, block.low.y, block.high.y, block.low.z, block.high.z,

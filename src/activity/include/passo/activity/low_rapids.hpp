@@ -8,14 +8,19 @@
 //   top |....\___ feed ____....                 \ feed
 //       |                  \ feed              . \___ ...
 //
-// Two rapids are reported: one that goes sideways and ends at the top or below it, and one that goes straight down
-// below all feeds so far. Each is reported once, where the program makes it first. Heights are work coordinates; a
-// change of the work frame begins anew. Only for machines with X, Y and Z: on a lathe Z is no height.
+// Rapids are reported that go sideways and end at the top or below it, that go straight down below all feeds so far,
+// and that go down below zero before the program has given X or Y. So are programs whose feeds go down, and never below
+// Z0. Each is reported once, where the program makes it first, with the other lines that make it. Heights are work
+// coordinates; a change of the work frame begins anew. G53, G28 and G30 count where the zero of the work is known. Only
+// for machines with X, Y and Z: on a lathe Z is no height.
 #pragma once
 
+#include <limits>
 #include <optional>
 #include <string>
+#include <string_view>
 
+#include "passo/activity/tool_track.hpp"
 #include "passo/diagnostics/diagnostic.hpp"
 #include "passo/interpreter/operation.hpp"
 #include "passo/machine_file/machine_description.hpp"
@@ -24,27 +29,35 @@ namespace passo {
 
 class LowRapids {
  public:
-  // `diagnostics` outlives this.
-  LowRapids(const MachineDescription& machine, std::string file, Diagnostics& diagnostics);
+  // `zero_is_known`: where the zero of the work is on the machine, before the program says so. `diagnostics` outlives
+  // this.
+  LowRapids(const MachineDescription& machine, bool zero_is_known, std::string file, Diagnostics& diagnostics);
 
   // Call it for each operation of the program, in order.
-  void watch(const Operation& operation);
+  void watch(const Operation& operation, const ToolTrack& track);
+  // Call it after the last operation.
+  void finish();
 
  private:
-  void feed_to(const Point& end);
-  void rapid_to(const Operation& operation, const Point& end);
-  void end_descent();
+  void know_place(const Operation& operation);
+  void feed(const Operation& operation, const ToolTrack& track, bool knew_z);
+  void rapid(const Operation& operation, const ToolTrack& track, bool knew_z);
+  void end_descent(const Point& end);
   void forget_heights();
+  bool is_noted(const Operation& operation, std::string_view code);
 
   bool has_height_;
+  bool has_spindle_;  // with a speed
+  bool zero_is_known_;
   std::string file_;
   Diagnostics& diagnostics_;
-  std::optional<Point> place_;     // empty: unknown in the present frame
-  bool descends_ = false;          // the last feed went down
-  std::optional<double> top_;      // Z; empty: nothing is known to be cut
-  std::optional<double> deepest_;  // the lowest Z of a feed
-  bool told_sideways_ = false;
-  bool told_down_ = false;
+  bool knows_z_ = false;                                     // the tool's height in the work
+  bool knows_xy_ = false;                                    // the program has said where it begins
+  bool descends_ = false;                                    // the last feed went down
+  std::optional<double> top_;                                // Z; empty: nothing is known to be cut
+  std::optional<double> deepest_;                            // the lowest Z of a feed
+  double lowest_ = std::numeric_limits<double>::infinity();  // the same in all frames
+  std::optional<Diagnostic> no_depth_;                       // at the first feed that goes down
 };
 
 }  // namespace passo

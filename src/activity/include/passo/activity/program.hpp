@@ -14,6 +14,7 @@
 #include "passo/activity/low_rapids.hpp"
 #include "passo/activity/program_stages.hpp"
 #include "passo/activity/spindle_mistakes.hpp"
+#include "passo/activity/tool_track.hpp"
 #include "passo/activity/usual_mistakes.hpp"
 #include "passo/base/tap.hpp"
 #include "passo/diagnostics/diagnostic.hpp"
@@ -64,6 +65,7 @@ class ProgramChecker {
   MotionLimits limits_;
   ToolTable tools_;  // the tools before the check
   Interpreter interpreter_;
+  ToolTrack track_;
   UsualMistakes mistakes_;
   LowRapids low_rapids_;
   SpindleMistakes spindle_mistakes_;

@@ -8,8 +8,8 @@
 #include <cstdint>
 #include <optional>
 #include <string>
-#include <vector>
 
+#include "passo/activity/tool_track.hpp"
 #include "passo/diagnostics/diagnostic.hpp"
 #include "passo/interpreter/operation.hpp"
 #include "passo/machine_file/machine_description.hpp"
@@ -22,7 +22,7 @@ class SpindleMistakes {
   SpindleMistakes(const MachineDescription& machine, std::string file, Diagnostics& diagnostics);
 
   // Call it for each operation of the program, in order.
-  void watch(const Operation& operation);
+  void watch(const Operation& operation, const ToolTrack& track);
   // Call it after the last operation.
   void finish();
 
@@ -39,7 +39,6 @@ class SpindleMistakes {
 
   SpindleDirection direction_ = SpindleDirection::off;
   double speed_ = 0;       // S
-  Point place_;            // where the last line ended
   bool taps_ = false;      // amid a cycle that taps, which reverses the spindle at the bottom of the hole
   bool fed_last_ = false;  // the last motion was a feed, and nothing has rested since
 
@@ -50,7 +49,6 @@ class SpindleMistakes {
   std::uint64_t places_ = 0;              // feeds as a laser has them
   bool any_changes_ = false;              // of S
   bool any_backwards_ = false;            // M4
-  std::vector<std::uint32_t> lines_;      // of the first places, and one more
   std::optional<Diagnostic> laser_;       // at the first place
 };
 

@@ -41,10 +41,17 @@ struct Diagnostic {
   std::string text;       // the source line, for the caret; may be empty
   std::string rule = {};  // the document that makes this wrong, or another program's number for it; may be empty
   std::vector<CallPlace> calls = {};  // the subs that were running, the innermost first
+  // Of a warning that a program earns more than once: the other lines of the file, rising.
+  std::vector<std::uint32_t> more_lines = {};
+
+  static constexpr std::size_t most_lines = 1000;  // beyond that, lines are not noted
+  // The same was found in this line, too.
+  void note_line(std::uint32_t line);
 };
 
 // Collects diagnostics up to a limit of errors. Errors above the limit are counted, not kept. The same finding at the
-// same place (a line in a loop) is kept and counted once.
+// same place (a line in a loop) is kept and counted once. A warning that says the same of other lines is kept once, and
+// notes those lines.
 class Diagnostics {
  public:
   explicit Diagnostics(std::size_t limit = 20) : limit_(limit) {}
@@ -54,6 +61,9 @@ class Diagnostics {
   // add_certain() stay errors. An empty reason ends this.
   void doubt_errors(std::string reason) { doubt_ = std::move(reason); }
   void add_certain(Diagnostic diagnostic);
+  // True: a warning of this code and file is kept already, and gets the line as one more. A program may earn a warning
+  // a million times: it is kept where it was earned first, and nobody puts words together for the others.
+  bool note_again(std::string_view code, std::string_view file, std::uint32_t line);
   // Gives the rule of a diagnostic that comes without one. The stage that knows the rules sets it.
   using RuleOf = std::string (*)(const Diagnostic& diagnostic);
   void look_up_rules_with(RuleOf rule_of) { rule_of_ = rule_of; }
@@ -84,11 +94,15 @@ class Diagnostics {
 //         = expected: F before the first feed move, or on it
 //         = rule: RS274/NGC 3.5.2, G1
 //         = in o<slot>, called at part.ngc:9
+//         = and 12 more, lines 40, 52, 66, ...
 //
 // Of a long stack of calls, only the innermost and the outermost are shown.
 std::string render(const Diagnostic& diagnostic, bool colour);
 // All diagnostics, each as above, and a last line with their number ("2 errors").
 std::string render(const Diagnostics& diagnostics, bool colour);
+
+// "and 12 more, lines 40, 52, 66, ...": the other lines with the same finding. Empty: there are none.
+std::string more_lines_in_words(const Diagnostic& diagnostic);
 
 // The word of `candidates` nearest to `word` (edit distance, at most a third of its length), or an empty view.
 std::string_view nearest(std::string_view word, const std::vector<std::string_view>& candidates);

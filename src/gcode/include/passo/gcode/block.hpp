@@ -148,8 +148,9 @@ struct Block {
   std::vector<Assignment> assignments;
   std::vector<BlockComment> comments;
   std::optional<Control> control;
-  std::vector<Instruction> code;  // all expressions above are slices of it
-  std::vector<Expression> spare;  // keeps the capacity of control->arguments for later blocks with a control
+  std::optional<Span> spaced_number;  // the first number with blanks between its digits, as in "X20 5"
+  std::vector<Instruction> code;      // all expressions above are slices of it
+  std::vector<Expression> spare;      // keeps the capacity of control->arguments for later blocks with a control
 
   bool empty() const { return words.empty() && assignments.empty() && comments.empty() && !control && !percent; }
   // Empties the block and keeps the capacity.

@@ -19,6 +19,14 @@ class ParameterValues {
   // Both return false where there is no such parameter.
   virtual bool numbered(std::int64_t number, double& value) const = 0;
   virtual bool named(Symbol name, double& value) const = 0;
+  // False: the number has the value 0 because nobody gave it one.
+  virtual bool was_set(std::int64_t /*number*/) const { return true; }
+};
+
+// A numbered parameter that an expression has read and nobody has set. Number 0: there is none.
+struct UnsetParameter {
+  std::int64_t number = 0;
+  Span span;
 };
 
 // Why an expression has no value, and what to point at.
@@ -46,6 +54,8 @@ inline constexpr double equality_tolerance = 1e-6;
 inline constexpr double whole_number_tolerance = 1e-4;
 
 using Evaluation = Result<double, EvaluationError>;
-Evaluation evaluate(const Block& block, const Expression& expression, const ParameterValues& parameters);
+// `unset`: gets the first such parameter, if the caller wants to know of it.
+Evaluation evaluate(const Block& block, const Expression& expression, const ParameterValues& parameters,
+                    UnsetParameter* unset = nullptr);
 
 }  // namespace passo

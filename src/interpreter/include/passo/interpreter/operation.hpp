@@ -264,6 +264,7 @@ struct Operation {
   // (borrowed until the next operation is pulled; null: there are none).
   WordPlace word{};
   const AxisWords* axis_words = nullptr;
+  bool in_machine = false;  // a move to a place of the machine, by G53, G28 or G30
   // The file and the text of the line that the operation comes from, for diagnostics. Borrowed until the next operation
   // is pulled.
   std::string_view file{};
