@@ -240,7 +240,7 @@ void MotionDrive::end_probe(const Action& action) {
 }
 
 void MotionDrive::await_index(const Action& action) {
-  if (!spindle_.exists()) return;
+  if (!spindle_.exists()) return hold_speed(action);
   awaits_index_ = true;
   spindle_.begin_await(action.outputs.revolutions_per_minute);
   script_.until([this] { return spindle_.await_index(); });
