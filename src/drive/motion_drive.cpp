@@ -145,6 +145,7 @@ void MotionDrive::watch_tap(const PlannedMove& move) {
 
 MotionDrive::Turn MotionDrive::advance() {
   if (state_ == State::ended) return Turn::ended;
+  if (board_.standstill()) stop();
   if (!script_.go_on()) return Turn::waits;
   if (state_ == State::ended) return Turn::ended;
   if (state_ == State::held) return board_.error() ? end() : Turn::waits;
@@ -335,7 +336,7 @@ void MotionDrive::rest_in_hold() {
     state_ = State::held;
     return;
   }
-  switch_off_and_end(spindle_.trouble());
+  switch_off_and_end(board_.standstill() ? LinkError::stood_still : spindle_.trouble());
   if (state_ == State::held) state_ = State::holding;
 }
 
