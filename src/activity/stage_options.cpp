@@ -19,6 +19,7 @@ PathOptions path_options(const MachineDescription& machine, const std::string& p
   options.tolerance = machine.path_tolerance;
   options.spindle_limit = machine.tool.highest_rpm;
   options.spindle_run_up = machine.spindle.run_up;
+  options.threads_hold_speed = machine.spindle.counts_per_turn == 0;
   options.file = program;
   options.start = start;
   return options;

@@ -197,7 +197,10 @@ WebAnswer MachineApi::level_program(const StoredProgram& program, std::string_vi
     }
   }
   const StoredProgram* const levelled = programs_.add("level " + program.name, Dialect::linuxcnc, std::move(text));
-  return levelled != nullptr ? json_answer(201, as_json(*levelled, false)) : no_room();
+  if (levelled == nullptr) return no_room();
+  Json answer = as_json(*levelled, false);
+  answer["findings"] = as_json(findings);
+  return json_answer(201, std::move(answer));
 }
 
 }  // namespace passo

@@ -17,6 +17,17 @@ void MotionDrive::wait_for_operator(const Action& action) {
   });
 }
 
+// At rest before a thread that no encoder guides: the spindle turns as the program says when the thread begins.
+void MotionDrive::hold_speed(const Action& action) {
+  outputs_.heed_override(action.heeds.spindle_override);
+  if (!outputs_.is_news()) return;
+  const Seconds wait = spindle_run_up_ * (outputs_.change_of_speed() / 1000);
+  script_.then([this] { feed_->switch_outputs(outputs_.tell()); });
+  script_.until([this] { return feed_->settled(); });
+  script_.then([this, wait] { pause_end_ = now() + wait; });
+  await_pause_end();
+}
+
 void MotionDrive::done() {
   if (!waits_for_) return;
   const bool was_tool = waits_for_->kind == Action::Kind::tool_change;

@@ -145,6 +145,7 @@ void MotionDrive::watch_tap(const PlannedMove& move) {
 
 MotionDrive::Turn MotionDrive::advance() {
   if (state_ == State::ended) return Turn::ended;
+  if (board_.standstill()) stop();
   if (!script_.go_on()) return Turn::waits;
   if (state_ == State::ended) return Turn::ended;
   if (state_ == State::held) return board_.error() ? end() : Turn::waits;
@@ -240,7 +241,7 @@ void MotionDrive::end_probe(const Action& action) {
 }
 
 void MotionDrive::await_index(const Action& action) {
-  if (!spindle_.exists()) return;
+  if (!spindle_.exists()) return hold_speed(action);
   awaits_index_ = true;
   spindle_.begin_await(action.outputs.revolutions_per_minute);
   script_.until([this] { return spindle_.await_index(); });
@@ -335,7 +336,7 @@ void MotionDrive::rest_in_hold() {
     state_ = State::held;
     return;
   }
-  switch_off_and_end(spindle_.trouble());
+  switch_off_and_end(board_.standstill() ? LinkError::stood_still : spindle_.trouble());
   if (state_ == State::held) state_ = State::holding;
 }
 

@@ -55,6 +55,8 @@ void EmulatedUart::send(std::span<const std::uint8_t> bytes) {
 }
 
 void EmulatedUart::note_look() {
+  constexpr std::uint8_t receives = 1 << 4;
+  if ((avr_.data[ucsr0b] & receives) == 0) return;  // the program has not opened the line yet
   if (looked_ != 0) longest_unwatched_ = std::max(longest_unwatched_, avr_.cycle - looked_);
   looked_ = avr_.cycle;
 }

@@ -45,6 +45,7 @@ void BoardSession::forget_what_was() {
   kept_.clear();
   burst_ = 0;
   time_a_frame_ = Seconds(0);
+  standstill_.reset();
   probe_ = {};
   usual_question_ = last_question_ = Question::status;
   answered_ = true;

@@ -321,11 +321,15 @@ void BoardSession::take(const BoardStatus& status) {
   const bool is_known = session_ != 0 && status.session == session_;
   // Before the board has heard of the session it is no wonder.
   if (!is_known && session_ != 0 && phase_ == Phase::ready) return doubt(LinkError::was_reset);
-  if (is_known && (status.state & board_slipped) != 0) return doubt(LinkError::stood_still);
+  const bool slipped = is_known && (status.state & board_slipped) != 0;
+  if (slipped && !standstill_ && !note_standstill(status)) return;
   if (is_known && (status.state & board_trusted) == 0) {
     if ((status.inputs & drivers_timed_out) != 0) return doubt(LinkError::drivers_off);
-    stopped_by_ = inputs_ & stopping_inputs;
-    return doubt(LinkError::stopped);
+    // A board that has stood still is not trusted either, and goes on. One that stops forgets that it stood still.
+    if (!slipped) {
+      stopped_by_ = inputs_ & stopping_inputs;
+      return doubt(LinkError::stopped);
+    }
   }
   // What is in doubt answers nothing: the counts of a board that was reset are not those of the motors.
   if (status.answers == question_) settle(Question::status);
@@ -363,6 +367,17 @@ void BoardSession::doubt(LinkError error, Question again) {
   } else {
     ask(again);
   }
+}
+
+// False: not sure yet.
+bool BoardSession::note_standstill(const BoardStatus& status) {
+  if (++doubts_ < sure_of_status) {
+    ask(Question::status);
+    return false;
+  }
+  standstill_ = status;
+  news_ = true;
+  return true;
 }
 
 void BoardSession::take(const Captured& captured) {

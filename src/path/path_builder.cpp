@@ -399,8 +399,10 @@ OutputState PathBuilder::outputs() const {
 // A thread heeds no factor on the feed and no feed hold.
 Heeds PathBuilder::heeds() const {
   if (!synchronised_pitch_) return heeds_;
-  return {
-      .feed_override = false, .spindle_override = heeds_.spindle_override, .adaptive_feed = false, .feed_hold = false};
+  return {.feed_override = false,
+          .spindle_override = heeds_.spindle_override && !options_.threads_hold_speed,
+          .adaptive_feed = false,
+          .feed_hold = false};
 }
 
 // A tap that does not follow the spindle through the reversal (expand()) is locked to the speed alone: its way down

@@ -200,6 +200,15 @@ void Leveller::take_move(const Operation& operation) {
   take_straight(operation, end, rapid != nullptr);
 }
 
+// The end of a program switches off what the program has switched off, and M9 stands for two operations.
+bool Leveller::is_off_already(std::string_view line) {
+  if (line == "M5") return std::exchange(spindle_is_off_, true);
+  if (line == "M9") return std::exchange(coolant_is_off_, true);
+  if (line == "M3" || line == "M4") spindle_is_off_ = false;
+  if (line == "M7" || line == "M8") coolant_is_off_ = false;
+  return false;
+}
+
 bool Leveller::take(const Operation& operation) {
   if (cycle_.block != blocks_.last().number) end_cycle();
   for (const FrameBlock& block : blocks_.take()) take_block(block);
@@ -223,7 +232,7 @@ bool Leveller::take(const Operation& operation) {
   } else if (const auto* merge = std::get_if<operation::SetMergeTolerance>(&operation.what)) {
     if (merge->tolerance != path_mode_.tolerance) add_line(path_mode_line(path_mode_, merge->tolerance));
   } else if (auto line = plain_line_of(operation)) {
-    if (!line->empty()) add_line(std::move(*line));
+    if (!line->empty() && !is_off_already(*line)) add_line(std::move(*line));
   } else {
     refuse(operation, "level.cannot", "this cannot be written as moves that are levelled",
            "lines, arcs, cycles and what is between them; no probing, threads, taps, splines, inputs");

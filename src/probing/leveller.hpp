@@ -90,6 +90,7 @@ class Leveller {
   void take_tool_entry(const FrameBlock& block);
   void store_home(const FrameBlock& block);
   bool follow_frame(const Operation& operation);
+  bool is_off_already(std::string_view line);
   void write_frame(const Operation& operation, const Frame& before);
   void write_tool_offset();
   void stand_in_machine(const Point& end, AxisSet axes);
@@ -142,6 +143,8 @@ class Leveller {
   // Moves straight up and down, and what is between them, until it is known whether they are a hole.
   std::vector<Item> run_;
   bool any_levelled_ = false;
+  bool spindle_is_off_ = false;  // false at the start: nobody knows
+  bool coolant_is_off_ = false;
   bool told_height_ = false;
   bool told_place_ = false;
   LevelCount count_;

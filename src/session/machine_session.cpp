@@ -261,6 +261,9 @@ void MachineSession::finish_work() {
 }
 
 void MachineSession::end_work() {
+  // The standstill may have been heard of when the drive had ended already.
+  note_standstill();
+  if (board_.standstill()) board_.fail(LinkError::stood_still);
   work_->ended = true;
   Outcome outcome = Outcome::done;
   std::optional<ActivityFault> fault;
@@ -348,8 +351,17 @@ bool MachineSession::counts_agree() {
   return true;
 }
 
+// The drive brakes and switches the outputs off before it fails the link, so the line is noted now.
+void MachineSession::note_standstill() {
+  if (!board_.standstill() || board_.error()) return;
+  if (!busy()) return board_.fail(LinkError::stood_still);
+  if (!work_->is_program() || work_->checker || work_->standstill_line) return;
+  work_->standstill_line = work_->lines_ahead.at(clock_of(*work_)).line;
+}
+
 // An error of the board ends what is going on. The machine is then in alarm or in fault until a reset.
 void MachineSession::mind_board() {
+  note_standstill();
   if (!board_.error() || state_ == MachineState::alarm || state_ == MachineState::fault) return;
   const LinkError error = *board_.error();
   if (busy() && is_of_work(error)) return;  // the drive ends by itself

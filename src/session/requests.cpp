@@ -97,8 +97,8 @@ std::string MachineSession::words_of(LinkError error) const {
            words_of_timing(board_.timing(), board_.wanted_timing(), machine_.board.clock.value());
   }
   if (error == LinkError::stopped) return words_of_stop();
-  if (error != LinkError::stood_still || !busy() || !work_->is_program()) return words;
-  const std::uint32_t line = work_->lines_ahead.at(clock_of(*work_)).line;
+  if (error != LinkError::stood_still || !work_) return words;
+  const std::uint32_t line = work_->standstill_line.value_or(0);
   return line == 0 ? words : words + "; that was near line " + std::to_string(line) + " of the program";
 }
 

@@ -54,6 +54,7 @@ class MachineSession::Work {
   bool rest_told = false;      // the rest of the current hold has been reported
   bool stops_outputs = false;  // at rest in the hold for a door, the outputs are to be switched off
   int recoveries_told = 0;
+  std::optional<std::uint32_t> standstill_line;  // of the program, when a standstill amid motion was heard of
 
   // For a jog: when the lease is over, and how long each renewal lasts.
   std::optional<Seconds> lease_end;

@@ -215,7 +215,19 @@ SegmentFitter::Timing SegmentFitter::fit_quadratic(const EventBuffer& events, st
         .interval = static_cast<std::uint32_t>(interval), .change = static_cast<std::int32_t>(change), .events = n};
     if (times_hold(events, now, timing)) return timing;
   }
-  return single;
+  return first < shortest_interval_ ? fit_late(events, now, most) : single;
+}
+
+// The board is late, and no event may come sooner after the one before it: one segment of the shortest intervals up to
+// the first event that is in time again. At the highest rate that takes many events, and a segment for each of them
+// would be more than a chip has time for.
+SegmentFitter::Timing SegmentFitter::fit_late(const EventBuffer& events, std::int64_t now, unsigned most) const {
+  Timing timing{.interval = static_cast<std::uint32_t>(shortest_interval_), .events = 1};
+  for (; timing.events < most; ++timing.events) {
+    now += shortest_interval_;
+    if (now <= events.time(timing.events - 1)) break;
+  }
+  return timing;
 }
 
 SegmentFitter::Advance SegmentFitter::advance_master(const Stretch& stretch, std::int64_t position, double first_target,

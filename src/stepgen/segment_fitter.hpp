@@ -59,6 +59,7 @@ class SegmentFitter {
 
   Timing fit_time(const EventBuffer& events, std::int64_t now, unsigned most);
   Timing fit_quadratic(const EventBuffer& events, std::int64_t now, unsigned most);
+  Timing fit_late(const EventBuffer& events, std::int64_t now, unsigned most) const;
   Timing fit_root(const EventBuffer& events, std::int64_t now, unsigned most, unsigned least) const;
   double least_events_of_part(double interval) const;
   bool root_holds(const EventBuffer& events, std::int64_t now, const Timing& root) const;

@@ -3,6 +3,7 @@
 #include <cstdio>
 
 #include "emulator/streamed_run.hpp"
+#include "kit/in_full.hpp"
 #include "kit/seed.hpp"
 #include <gtest/gtest.h>
 
@@ -59,11 +60,15 @@ class FilteredBench : public BoardBench {
     run(60'000);
   }
   // A pin is pulled low for 1 to 25 us, after up to 200 us.
-  void spike(Pin pin) {
+  void spike(Pin pin) { spike(pin, 1 + random_() % 25); }
+  void spike(Pin pin, std::uint64_t microseconds) {
     run(random_() % (200 * cycles_a_microsecond));
     ports().set_input(pin.port, pin.bit, false);
-    run((1 + random_() % 25) * cycles_a_microsecond);
+    run(microseconds * cycles_a_microsecond);
     ports().set_input(pin.port, pin.bit, true);
+  }
+  EdgeCheck play_random(const StreamKind& kind) {
+    return play(random_stream(random_, static_cast<std::uint8_t>(kind_.board.motors.size()), kind));
   }
   Pin any_of(const std::vector<Pin>& pins) { return pins[random_() % pins.size()]; }
   std::vector<std::uint64_t> edges() const {
@@ -98,6 +103,42 @@ void expect_a_stop_by_spikes_without_a_filter(const NoisyBoard& kind) {
   bench.start_long_run();
   for (int i = 0; i < 100 && !bench.fault(); ++i) bench.spike(bench.any_of(kind.stops));
   EXPECT_TRUE(bench.fault()) << "else the spikes prove nothing";
+}
+
+// Spikes of 3 and 25 us, one after the other, while a long stream comes as fast as the board plays it: each step is
+// made in time. Then a switch truly closes.
+void expect_no_standstill_by_spikes(NoisyBoard kind) {
+  FilteredBench bench(kind);
+  std::uint64_t spikes = 0;
+  bench.before_item = [&](std::span<const std::uint8_t>) {
+    bench.spike(bench.any_of(kind.stops), spikes++ % 2 == 0 ? 3 : 25);
+  };
+  const int segments_of_stream = test::in_full() == 1 ? 400 : 40;
+  const EdgeCheck check = bench.play_random({.shortest_interval = kind.interval,
+                                             .longest_interval = kind.interval,
+                                             .shortest_segment = 200,
+                                             .segments = segments_of_stream,
+                                             .ramp = 20});
+  EXPECT_TRUE(check.exact());
+  EXPECT_FALSE(bench.fault());
+  bench.before_item = {};
+  bench.ask();
+  bench.run(100'000);
+  ASSERT_TRUE(bench.status());
+  EXPECT_EQ(bench.status()->state & board_slipped, 0) << "it never stood still";
+  std::printf("%llu spikes, error %lld cycles, unwatched %llu\n", static_cast<unsigned long long>(spikes),
+              static_cast<long long>(check.error), static_cast<unsigned long long>(check.unwatched));
+  bench.set_up({.filter = filter});
+  bench.run(50'000);
+  bench.ports().forget_changes();
+  bench.start_long_run();
+  const Pin limit = kind.stops.front();
+  const std::uint64_t pressed = bench.cycles();
+  bench.ports().set_input(limit.port, limit.bit, false);
+  bench.run(100'000);
+  ASSERT_TRUE(bench.fault());
+  EXPECT_EQ(bench.fault()->reason, FaultReason::limit);
+  EXPECT_LE(bench.edges().back(), pressed + 2'000 * cycles_a_microsecond);
 }
 
 // The longest way of a press to the last step: the filter, and a turn of the board's loop.
@@ -144,6 +185,42 @@ void expect_exact_touches_amid_spikes(const NoisyBoard& kind) {
   }
 }
 
+// While a switch stops the motors nobody but the main loop reads the line, which holds two bytes: a third one comes 640
+// cycles after the first. At each rate, with a filter and without one, in motion and at rest.
+void expect_no_byte_lost_at_a_stop(NoisyBoard kind) {
+  constexpr std::uint64_t most_unwatched = 600;
+  std::uint64_t longest = 0;
+  for (const std::uint32_t interval : {170U, 400U, 700U, 3'000U}) {
+    kind.interval = interval;
+    for (const std::uint8_t time : {std::uint8_t{0}, filter}) {
+      for (std::size_t trial = 0; trial < 2 * kind.stops.size(); ++trial) {
+        FilteredBench bench(kind, {.filter = time});
+        const bool moves = trial < kind.stops.size();
+        if (moves) {
+          bench.start_long_run();
+        } else {
+          bench.start({});
+        }
+        const Pin pin = kind.stops[trial % kind.stops.size()];
+        bench.run(60'000 + 31 * trial);
+        bench.ports().set_input(pin.port, pin.bit, false);
+        bench.run(100'000);
+        bench.ask();
+        bench.run(300'000);
+        if (moves) {
+          ASSERT_TRUE(bench.fault());
+        }
+        EXPECT_LE(bench.uart().longest_unwatched(), most_unwatched)
+            << interval << " ticks, filter " << int{time} << ", pin " << pin.port << int{pin.bit} << ", moves "
+            << moves;
+        longest = std::max(longest, bench.uart().longest_unwatched());
+      }
+    }
+  }
+  std::printf("at a stop: %llu cycles between two looks at the line at the most\n",
+              static_cast<unsigned long long>(longest));
+}
+
 void expect_alarm(const NoisyBoard& kind) {
   for (const bool moves : {true, false}) {
     FilteredBench bench(kind, {.alarms = input_start, .filter = filter});
@@ -176,8 +253,16 @@ TEST(UnoFilter, lets_no_spike_stop_the_motors) {
   expect_a_stop_by_spikes_without_a_filter(noisy_uno());
   expect_no_stop_by_spikes(noisy_uno());
 }
+TEST(UnoFilter, lets_no_spike_delay_a_step_at_the_highest_rate) {
+  NoisyBoard kind = noisy_uno();
+  kind.interval = 106;
+  expect_no_standstill_by_spikes(kind);
+}
 TEST(UnoFilter, delays_a_stop_by_its_time_and_a_turn_of_the_loop) {
   expect_a_stop_within(2'000, noisy_uno());
+}
+TEST(UnoFilter, reads_its_line_while_a_switch_stops_the_motors) {
+  expect_no_byte_lost_at_a_stop(noisy_uno());
 }
 TEST(UnoFilter, leaves_touches_exact_to_the_step) {
   expect_exact_touches_amid_spikes(noisy_uno());
@@ -190,8 +275,16 @@ TEST(MegaFilter, lets_no_spike_stop_the_motors) {
   expect_a_stop_by_spikes_without_a_filter(noisy_mega());
   expect_no_stop_by_spikes(noisy_mega());
 }
+TEST(MegaFilter, lets_no_spike_delay_a_step_at_the_highest_rate) {
+  NoisyBoard kind = noisy_mega();
+  kind.interval = 145;
+  expect_no_standstill_by_spikes(kind);
+}
 TEST(MegaFilter, delays_a_stop_by_its_time_and_a_turn_of_the_loop) {
   expect_a_stop_within(2'000, noisy_mega());
+}
+TEST(MegaFilter, reads_its_line_while_a_switch_stops_the_motors) {
+  expect_no_byte_lost_at_a_stop(noisy_mega());
 }
 TEST(MegaFilter, leaves_touches_exact_to_the_step) {
   expect_exact_touches_amid_spikes(noisy_mega());

@@ -133,12 +133,16 @@ void expect_no_harm(const BoardUnderTest& board) {
 }
 
 // More questions than there is room for answers, and answers longer than what the board says otherwise, because they
-// tell of more motors than it has: what it says is whole frames, and afterwards it answers as ever. It may complain:
-// bytes that come faster than it can take them get lost.
-void expect_whole_answers(const BoardUnderTest& board) {
+// tell of more motors than it has: what it says is whole frames, and afterwards it answers as ever.
+//
+// A Mega takes some 3,700 cycles for such a question, and the line brings one in 2,880. The 900 bytes of a hundred are
+// more than the 256 that it can keep, and no host has so many under way (decision 0126). So its memory for received
+// bytes overflows once, and it complains once. The UART itself loses nothing.
+void expect_whole_answers(const BoardUnderTest& board, int most_complaints) {
   BoardBench bench(board);
   bench.start({});
   int answers = 0;
+  int complaints = 0;
   int refused = 0;
   Decoder decoder;
   decoder.set_motors(max_motors);
@@ -146,9 +150,14 @@ void expect_whole_answers(const BoardUnderTest& board) {
     const Decoded told = decoder.feed(byte);
     refused += told == Decoded::refused ? 1 : 0;
     if (told != Decoded::frame) return;
-    const MessageType type = decoder.frame().type;
-    EXPECT_TRUE(type == MessageType::status || type == MessageType::error);
-    answers += type == MessageType::status ? 1 : 0;
+    if (decoder.frame().type == MessageType::error) {
+      ++complaints;
+      return;
+    }
+    BoardStatus status;
+    decode(decoder.frame(), max_motors, status);
+    EXPECT_EQ(decoder.frame().type, MessageType::status);
+    ++answers;
   };
   constexpr int questions = 100;
   const auto ask = [&bench](int number) {
@@ -168,13 +177,15 @@ void expect_whole_answers(const BoardUnderTest& board) {
     EXPECT_EQ(answers, before + 1);
   }
   EXPECT_EQ(refused, 0);
+  EXPECT_LE(complaints, most_complaints);
+  EXPECT_EQ(bench.uart().overruns(), 0U);
 }
 
 TEST(UnoNoise, answers_a_flood_of_questions_with_whole_frames) {
-  expect_whole_answers(uno_under_test(PASSO_MOTION_UNO));
+  expect_whole_answers(uno_under_test(PASSO_MOTION_UNO), 0);
 }
 TEST(MegaNoise, answers_a_flood_of_questions_with_whole_frames) {
-  expect_whole_answers(mega_under_test(PASSO_MOTION_MEGA, 4));
+  expect_whole_answers(mega_under_test(PASSO_MOTION_MEGA, 4), 1);
 }
 
 TEST(UnoNoise, moves_nothing_and_is_forgotten_with_the_next_frame) {

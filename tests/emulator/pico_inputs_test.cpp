@@ -94,6 +94,45 @@ TEST_F(PicoInputs, limits_and_the_emergency_stop_stop_before_the_next_step) {
   for (int i = 0; i < 3; ++i) expect_stop(bench, random, pico_bare.emergency_stop, FaultReason::emergency_stop);
 }
 
+// Spikes of 3 and 25 us at the switches, in motion: they stop the motors only without a filter. A switch that truly
+// closes stops them after the filter's time, and at most a quarter of a millisecond later.
+void expect_spikes(std::mt19937_64& random, std::uint8_t filter) {
+  constexpr std::uint64_t microsecond = pico_clock_rate / 1'000'000;
+  const std::uint32_t pins[] = {gpio_bit(pico_bare.limits[0]), gpio_bit(pico_bare.limits[2]),
+                                gpio_bit(pico_bare.emergency_stop)};
+  PicoBench bench(PASSO_MOTION_PICO, motors);
+  bench.set_up({.filter = filter});
+  bench.start(long_run(20));
+  bench.run(pico_clock_rate / 50, gpio_bit(pico_bare.motor[0].step), 3'000);
+  for (int i = 0; i < 60; ++i) {
+    bench.run(random() % (200 * microsecond));
+    bench.press(pins[random() % std::size(pins)]);
+    bench.run((i % 2 == 0 ? 3 : 25) * microsecond);
+    bench.press(0);
+  }
+  bench.run(500 * microsecond);
+  if (filter == 0) {
+    EXPECT_TRUE(bench.fault().has_value()) << "else the spikes prove nothing";
+    return;
+  }
+  ASSERT_FALSE(bench.fault().has_value());
+  const std::uint64_t closed = bench.pico().cycle();
+  bench.press(pins[0]);
+  bench.run(2'000 * microsecond);
+  ASSERT_TRUE(bench.fault().has_value());
+  EXPECT_EQ(bench.fault()->reason, FaultReason::limit);
+  EdgeCheck ignored;
+  const std::uint64_t last = last_step(bench.seen(ignored));
+  EXPECT_GE(last, closed + (filter - 20U) * microsecond);
+  EXPECT_LE(last, closed + (filter + 250U) * microsecond);
+}
+
+TEST_F(PicoInputs, a_filter_lets_spikes_pass_and_a_switch_stop_the_motors) {
+  std::mt19937_64 random(test::seed());
+  expect_spikes(random, 0);
+  expect_spikes(random, 100);
+}
+
 // Everything that can be the other way round.
 constexpr PinSetup inverted{.inputs = input_limit * 7 | input_probe | input_emergency_stop | input_hold | input_start,
                             .steps = 0x3f,

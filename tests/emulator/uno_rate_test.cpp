@@ -130,10 +130,10 @@ void expect_no_standstill(const LongProgram& program, const StepTiming& wanted) 
               played.size());
 }
 
-// The length of the pulses: 1 and 2.5 microseconds.
+// The length of the pulses: 1, 2.5, 5 and 10 microseconds.
 constexpr std::uint8_t shortest = 16;
 class UnoRate : public testing::TestWithParam<std::uint8_t> {};
-INSTANTIATE_TEST_SUITE_P(pulses, UnoRate, testing::Values(shortest, 40),
+INSTANTIATE_TEST_SUITE_P(pulses, UnoRate, testing::Values(shortest, 40, 80, 160),
                          [](const auto& pulse) { return "of_" + std::to_string(pulse.param) + "_ticks"; });
 
 // All programs with PASSO_IN_FULL=1. Else a few of them, with the shortest pulses only.

@@ -150,6 +150,7 @@ class DrivenProgram {
  private:
   DriveOptions drive_options(const MachineDescription& machine) const {
     DriveOptions options{.live = on_.live,
+                         .spindle_run_up = machine.spindle.run_up,
                          .counts_per_turn = machine.spindle.counts_per_turn,
                          .guards_by_probe = machine.probe.guards && on_.answers_probes,
                          .waits_for_operator = on_.waits_for_operator};

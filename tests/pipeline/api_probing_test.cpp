@@ -131,6 +131,21 @@ TEST(ApiProbing, a_height_map_is_stored_with_its_program_and_levels_it) {
               {.method = "GET", .path = fmt::format("/api/v1/programs/{}/text", levelled["id"].get<std::uint64_t>())})
           .body;
   EXPECT_THAT(text, testing::HasSubstr("Z-2.25"));
+  EXPECT_EQ(levelled["findings"], Json::array());
+}
+
+// As the command warns.
+TEST(ApiProbing, a_levelled_program_comes_with_the_warnings) {
+  ApiRun run;
+  run.own();
+  const std::string of_it = fmt::format("/programs/{}", run.upload("G21 G90 F100\nG1 X3\nG91 G1 Z1\nM2\n"));
+  run.post(of_it + "/height-map", "0,0,1\n0,9,1\n9,0,1\n9,9,1\n");
+  const Json levelled = run.post(of_it + "/level");
+  ASSERT_EQ(run.status, 201U) << levelled;
+  std::vector<std::string> codes;
+  for (const Json& one : levelled["findings"])
+    codes.push_back(fmt::format("{} {}", one["line"].get<int>(), one["code"].get<std::string>()));
+  EXPECT_EQ(codes, (std::vector<std::string>{"2 level.height", "3 level.place"})) << levelled;
 }
 
 TEST(ApiProbing, refuses_what_is_no_cycle_no_map_and_no_wish) {

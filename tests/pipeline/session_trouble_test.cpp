@@ -1,6 +1,8 @@
 // What a machine session does when something breaks: the line, the board, the counts; and how it gets up again.
 #include <cmath>
+#include <cstdint>
 #include <cstdio>
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -151,8 +153,10 @@ TEST(LineTrouble, a_standstill_amid_motion_is_an_alarm_and_the_place_is_not_trus
     run.to_end();
     const Ticket program = run.taken(start_of(along));
     run.pass(Seconds(at));
+    ASSERT_EQ(run.board().counts().outputs.switches, unsigned{spindle_on});
     run.board().stand_still(Ticks{2000});
-    ASSERT_TRUE(run.turn_until(MachineState::alarm, Seconds(3)));
+    // From here on run.turn() sees neither a step nor an output that is on.
+    ASSERT_TRUE(run.turn_until(MachineState::alarm, Seconds(0.7)));
     EXPECT_EQ(run.session().status().trouble, LinkError::stood_still);
     EXPECT_EQ(run.outcome(program), Outcome::failed);
     EXPECT_EQ(run.answer(program)->fault->code, "board.slipped");
@@ -160,15 +164,37 @@ TEST(LineTrouble, a_standstill_amid_motion_is_an_alarm_and_the_place_is_not_trus
               std::string::npos)
         << run.session().status().trouble_words;
     run.pass(Seconds(4));
-    const std::int64_t steps = run.steps_made();
-    run.pass(Seconds(0.5));
-    EXPECT_EQ(run.steps_made(), steps) << "what it holds ends at rest";
-    EXPECT_EQ(run.board().counts().outputs.switches, 0) << "its host is silent";
     expect_refuses_all_but_a_reset(run);
     run.taken(request::ResetMachine{});
     ASSERT_TRUE(run.turn_until(MachineState::idle, Seconds(1)));
     EXPECT_EQ(run.session().status().position.trust, Trust::unknown) << "steps may be lost";
     expect_works(run);
+  }
+}
+
+// Whatever moves: the drive brakes, and nothing moves or is switched on in the alarm.
+TEST(LineTrouble, a_standstill_ends_a_jog_a_homing_cycle_a_probe_move_and_a_stream_at_rest) {
+  const std::vector<std::function<void(SessionRun&)>> works{
+      [](SessionRun& run) {
+        run.taken(request::Jog{.way = {.direction = xyz(1, 0), .speed = MmPerSecond(20)}, .lease = Seconds(10)});
+      },
+      [](SessionRun& run) { run.taken(request::Home{}); },
+      [](SessionRun& run) { run.taken(request::Probe{.target = Point{xyz(40, 0)}, .speed = MmPerSecond(10)}); },
+      [](SessionRun& run) { run.stream("G21 G90 M3 S1000 G1 F1200 X30"); }};
+  for (std::size_t i = 0; i < works.size(); ++i) {
+    SCOPED_TRACE(i);
+    SessionRun run(test::short_router(), {.line = true, .start = {.place = Point(), .trust = Trust::commanded}});
+    run.make_ready();
+    works[i](run);
+    run.pass(Seconds(0.5));
+    const std::int64_t steps = run.steps_made();
+    ASSERT_GT(steps, 0);
+    run.board().stand_still(Ticks{2000});
+    ASSERT_TRUE(run.turn_until(MachineState::alarm, Seconds(0.7)));
+    EXPECT_EQ(run.session().status().trouble, LinkError::stood_still);
+    EXPECT_GT(run.steps_made(), steps) << "it braked";
+    run.pass(Seconds(2));
+    expect_refuses_all_but_a_reset(run);
   }
 }
 

@@ -138,6 +138,36 @@ TEST(SpindleFollowing, a_machine_without_an_encoder_takes_the_speed_as_commanded
   EXPECT_NEAR(run("G21 S600 M3\nG33 Z-15 K1.5\nM2\n", lathe({})).time, 1, 0.05);
 }
 
+// Nothing follows the spindle, so its override waits for the thread's end. By the spindle's true angle, with its
+// run-up.
+TEST(SpindleFollowing, a_thread_without_an_encoder_keeps_its_pitch_whatever_the_override) {
+  const MachineDescription machine = lathe({.run_up = Seconds(0.5)});
+  for (const bool over_a_line : {false, true}) {
+    for (const double factor : {0.5, 1.5}) {
+      Diagnostics diagnostics;
+      IdealPlant plant = plant_of(machine);
+      const std::string program = "G21 S600 M3\nG4 P1\nG1 X2 F600\nG33 Z-15 K1.5\nG1 X8 F600\nG4 P0.5\nX9\nM5\nM2\n";
+      test::DrivenProgram job(ProgramReader::from_text("t", program), machine, InterpreterOptions(), diagnostics,
+                              {.line = over_a_line ? std::optional(LineOptions()) : std::nullopt, .plant = &plant});
+      test::Thread thread(machine, plant);
+      job.machine().add_observer(thread);
+      job.drive().set_spindle_override(factor);
+      bool was_overridden = false;
+      bool is_overridden = false;
+      do {
+        const BoardOutputs outputs = job.machine().counts().outputs;
+        const bool is = outputs.spindle_rpm == std::lround(600 * factor);
+        (thread.cuts.empty() ? was_overridden : is_overridden) |= is;
+      } while (job.advance());
+      const double off = spread(thread.cuts, 1.5, -2, -14).mm(1.5);
+      std::printf("override %g%s: the groove wanders %.4f mm\n", factor, over_a_line ? " over a line" : "", off);
+      EXPECT_LT(off, 0.02);
+      EXPECT_TRUE(was_overridden) << "before the thread";
+      EXPECT_TRUE(is_overridden) << "behind the thread";
+    }
+  }
+}
+
 // Twice as fast as the program says, a thread of 37.5 mm/s needs 75 of Z, whose limit is 50.
 void expect_outrun(const std::optional<LineOptions>& line, double override_at) {
   const MachineDescription machine = lathe(ideal);

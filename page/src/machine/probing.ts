@@ -1,10 +1,11 @@
 // The probing cycles of the daemon: what each one asks for, and what it will do.
 import { signal } from '@preact/signals';
-import { attempt } from '../core/notices';
+import { attempt, notify } from '../core/notices';
 import { kept } from '../core/kept';
 import { confirm } from '../core/question';
 import { language, say, type Key } from '../core/language';
 import { lengthText, lengthUnit, speedText, speedUnit } from '../core/units';
+import { toldOr } from '../core/told';
 import { get, post, type Program } from './api';
 import { beOwner } from './owner';
 import { placeWords, workPlace } from './place';
@@ -152,6 +153,7 @@ export async function lookForMap(program: number | null): Promise<void> {
 export async function level(program: Program): Promise<void> {
   await attempt(async () => {
     const made = await post<Program>(`/programs/${program.id}/level`);
+    for (const one of made.findings ?? []) notify('refused', `${say('run.line', { line: one.line })}: ${toldOr(one.message)}`);
     chosen.value = made.id;
     await post(`/programs/${made.id}/check`);
     await refreshPrograms();

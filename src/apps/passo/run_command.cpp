@@ -107,12 +107,12 @@ void tell_tails(const MachineSession& session) {
 }
 
 // A board that cannot make its events in time lets the motors stand still amid motion, without braking. The time up to
-// that counts all standstills.
+// the rest counts all standstills.
 void note_slip(RunSummary& summary, OpenedMachine& opened, const MachineDescription& machine,
                const LatestMotion& motion, Seconds began) {
   if (opened.session().status().trouble != LinkError::stood_still) return;
   summary.board->stood_still = true;
-  summary.board->stood_still_line = line_of_stop(opened, machine, motion);
+  summary.board->stood_still_line = line_of_standstill(opened, machine, motion);
   summary.board->end = opened.session().now() - began;
   summary.board->without_line.reset();
 }

@@ -26,10 +26,10 @@ double distance_to(const Point& from, const Point& to, const Point& place) {
   return distance(place, from + way * share);
 }
 
-// Where the motors stand by the board's counts.
-Point counted_place(OpenedMachine& opened, const MachineDescription& machine) {
+// Where the motors were by the board's counts when it said `status`.
+Point counted_place(OpenedMachine& opened, const MachineDescription& machine,
+                    const std::optional<BoardStatus>& status) {
   const MachineSession& session = opened.session();
-  const auto& status = session.board().status();
   const StepOptions steps = step_options(machine);
   const MachineCounts counts = opened.machine().counts();
   Point place;
@@ -103,7 +103,7 @@ std::string stop_words(OpenedMachine& opened, const MachineDescription& machine,
   const std::string closed = closed_switches(opened.session().board());
   const auto& status = opened.session().board().status();
   if (!status) return std::string(message_of(LinkError::stopped)) + " [board.stopped]";
-  const Point place = counted_place(opened, machine);
+  const Point place = counted_place(opened, machine, status);
   const std::uint32_t line = known_line != 0 ? known_line : motion.line_at(place);
   const std::optional<StopCause> following = following_error(opened, machine);
   StopCause cause = following.value_or(stop_cause(stopped_by != 0 ? stopped_by : status->inputs, machine));
@@ -120,12 +120,13 @@ std::string slip_words(OpenedMachine& opened, const MachineDescription& machine,
   return fmt::format(
       "it stood still amid motion{}: it could not make its events in time, and steps may be lost. It "
       "was near {}. To go on, lower max_event_rate_hz of the machine file, {} [board.slipped]",
-      line_words(line, program), place_words(machine, counted_place(opened, machine)),
+      line_words(line, program),
+      place_words(machine, counted_place(opened, machine, opened.session().board().standstill())),
       remedy_for_place(machine, program));
 }
 
-std::uint32_t line_of_stop(OpenedMachine& opened, const MachineDescription& machine, const LatestMotion& motion) {
-  return motion.line_at(counted_place(opened, machine));
+std::uint32_t line_of_standstill(OpenedMachine& opened, const MachineDescription& machine, const LatestMotion& motion) {
+  return motion.line_at(counted_place(opened, machine, opened.session().board().standstill()));
 }
 
 }  // namespace passo

@@ -39,7 +39,7 @@ std::string stop_words(OpenedMachine& opened, const MachineDescription& machine,
 // The same for a board that has stood still amid motion. `line` as known_line.
 std::string slip_words(OpenedMachine& opened, const MachineDescription& machine, const std::string& program = {},
                        std::uint32_t line = 0);
-// Near which line of the program the motors stand now by the board's counts. 0: not known.
-std::uint32_t line_of_stop(OpenedMachine& opened, const MachineDescription& machine, const LatestMotion& motion);
+// Near which line of the program the board told that the motors have stood still. 0: not known.
+std::uint32_t line_of_standstill(OpenedMachine& opened, const MachineDescription& machine, const LatestMotion& motion);
 
 }  // namespace passo

@@ -9,32 +9,17 @@
 // one, and all of it is static: data at a fixed address costs half as much as data behind a pointer.
 #pragma once
 
+#include "begun_items.hpp"
 #include "event_ring.hpp"
 #include "output_actions.hpp"
-#include "products.hpp"
 #include "registers.hpp"
 #include "serial_line.hpp"
 #include "step_interrupt.hpp"
-#ifdef PASSO_WINDINGS
-#include "winding_pins.hpp"
-#else
-#include "step_pins.hpp"
-#endif
-#if defined PASSO_WINDINGS || defined __AVR_ATmega2560__
-#include "long_times.hpp"
-#else
-#include "short_times.hpp"
-#endif
+#include "turn_queue.hpp"
 
 #include "passo/wire/board_segment.hpp"
 
 namespace passo::chip {
-
-#ifdef PASSO_WINDINGS
-using MotorOutputs = WindingPins;
-#else
-using MotorOutputs = StepPins;
-#endif
 
 class ChipPlayer {
  public:
@@ -43,6 +28,7 @@ class ChipPlayer {
   // Breaks off at once whatever it played. Motors without pins stand still: the board refuses a host with more motors.
   static void restart(uint8_t motors) {
     halt();
+    if (step_port_count > 1) SerialLine::breathe();
     if (!RingTimes::are_short) slow_end_ = 0;
     head_ = fetched_entry();
     flagged_byte(head_) = flag_special | flag_stop;
@@ -56,16 +42,19 @@ class ChipPlayer {
     expansion.motors = motors;
     RingTimes::restart();
     OutputActions::clear();
-    turns_head_ = turns_tail;
+    TurnQueue::clear();
     turns_ = left_ = 0;
-    turning_ = fresh_ = slipped_ = over_ = false;
+    turning_ = fresh_ = slipped_ = false;
     made_ = 0;
-    oldest_ = begun_ = 0;
-    for (uint16_t& accumulator : expansion.accumulators) accumulator = 0x8000;
-    for (uint16_t& accumulator : at_start_) accumulator = 0x8000;
+    BegunItems::clear();
     // The last host may have driven more motors.
-    for (uint16_t& increment : expansion.increments) increment = 0;
+#pragma clang loop unroll(disable)
+    for (uint8_t m = 0; m < pins.motors; ++m) {
+      expansion.accumulators[m] = 0x8000;
+      expansion.increments[m] = 0;
+    }
     expansion.time = 0x8000;
+    SerialLine::poll();
   }
 
   // Stops at once: no further event is played, and motors stand where the pins say.
@@ -85,20 +74,26 @@ class ChipPlayer {
 
   // Whether it can take the next item.
   static bool ready() {
-    if (left_ != 0 || begun_ >= most_begun || OutputActions::full()) return false;
-    return begun_ < few_begun || waiting() < worth_more_begun;
+    if (left_ != 0 || BegunItems::count() >= most_begun || OutputActions::full()) return false;
+    return BegunItems::count() < few_begun || waiting() < worth_more_begun;
   }
   // True if more short items can begin while the oldest ones wait to be counted.
-  static constexpr bool begins_many() { return most_begun > few_begun; }
+  static constexpr bool begins_many() {
+    return most_begun > few_begun;
+  }
   // True when nothing is played and nothing waits to be played.
-  static bool done() { return left_ == 0 && rests(); }
+  static bool done() {
+    return left_ == 0 && rests();
+  }
 
   using Segment = SegmentFor<pins.motors>;
 
   // The motors rest before the segment that is loaded next, so nothing is late if the ring is empty until then.
-  static void begin_from_rest() { fresh_ = true; }
+  static void begin_from_rest() {
+    fresh_ = true;
+  }
   static void load(const Segment& segment) {
-    for (uint8_t m = 0; m < motors(); ++m) expansion.increments[m] = segment.increments[m];
+    for (uint8_t m = 0; m < BegunItems::motors(); ++m) expansion.increments[m] = segment.increments[m];
     expansion.interval = segment.interval;
     expansion.change = segment.change;
     MotorOutputs::load(segment.flips, segment.directions);
@@ -118,7 +113,7 @@ class ChipPlayer {
       plan_watch(segment);
     }
     SerialLine::breathe();
-    remember(segment);
+    BegunItems::add(segment, static_cast<uint16_t>(made_ + left_));
     if (step_port_count > 1) SerialLine::breathe();
   }
   // Finds how far ahead events may be made, and whether the interrupt will see every byte.
@@ -143,69 +138,32 @@ class ChipPlayer {
     SerialLine::breathe();
     OutputActions::put(outputs, rests);
     SerialLine::breathe();
-    ++begun_;
-    const uint8_t place = newest();
-    ends_[place] = made_;
-    lasts_[place].note();
-    items_[place].events = 0;
-  }
-
-  [[gnu::noinline]] static void remember(const Segment& segment) {
-    ++begun_;
-    const uint8_t place = newest();
-    ends_[place] = static_cast<uint16_t>(made_ + left_);
-    Item& item = items_[place];
-    item.events = segment.events;
-    item.directions = segment.directions & motors_mask;
-    item.flips = segment.flips & motors_mask;
-    for (uint8_t m = 0; m < motors(); ++m) item.increments[m] = segment.increments[m];
+    BegunItems::add_outputs(made_);
   }
 
   // Whether the oldest item is done.
   static bool finished() {
-    over_ = begun_ != 0 && is_over();
-    return over_;
+    return BegunItems::note_over(BegunItems::count() != 0 && is_over());
   }
-  // Forgets the oldest item after its steps were counted. Its fractions are in `at_start_`.
+  // Forgets the oldest item after its steps were counted.
   static void forget() {
-    if (items_[oldest_].events == 0) OutputActions::forget();
-    over_ = false;
-    --begun_;
-    oldest_ = oldest_ == most_begun - 1 ? uint8_t{0} : static_cast<uint8_t>(oldest_ + 1);
+    if (BegunItems::events() == 0) OutputActions::forget();
+    BegunItems::forget();
     if (step_port_count > 1) SerialLine::breathe();
   }
   // For the oldest item: the events played, and the steps that a motor has made in them, down or up.
   static uint8_t played() {
-    const uint8_t events = items_[oldest_].events;
-    if (over_) return events;
+    const uint8_t events = BegunItems::events();
+    if (BegunItems::is_over()) return events;
     const int16_t left = left_of_oldest();
     return left <= 0 ? events : left > events ? uint8_t{0} : static_cast<uint8_t>(events - left);
   }
-  static int16_t steps(uint8_t motor) { return steps(items_[oldest_], played(), motor); }
-  // Adds them to the motors' positions, and is done with the item. Every part is counted so, and all motors in one go
-  // take half as long. With the Mega's interrupt there are too few registers for that.
-  [[gnu::noinline]] static void add_steps(int32_t* positions) {
-    if (step_port_count > 1) {
-      for (uint8_t m = 0; m < motors(); ++m) positions[m] += steps(m);
-      return;
-    }
-    const Item& item = items_[oldest_];
-    const uint8_t events = played();
-    const uint16_t* increments = item.increments;
-    uint16_t* starts = at_start_;
-    uint8_t flips = item.flips;
-    uint8_t directions = item.directions;
-    for (uint8_t left = motors(); left != 0; --left) {
-      uint8_t steps = carries(*starts, *increments, events);
-      if ((flips & 1) != 0) steps = static_cast<uint8_t>(events - steps);
-      *positions += (directions & 1) != 0 ? -int32_t{steps} : int32_t{steps};
-      SerialLine::breathe();
-      flips >>= 1;
-      directions >>= 1;
-      ++starts;
-      ++increments;
-      ++positions;
-    }
+  static int16_t steps(uint8_t motor) {
+    return BegunItems::steps(played(), motor);
+  }
+  // Adds them to the motors' positions, and is done with the item.
+  static void add_steps(int32_t* positions) {
+    BegunItems::add_steps(played(), positions);
   }
 
   // Makes some events, and starts the timer if it stands still. `follows`: another item, or part of one, is there.
@@ -223,15 +181,25 @@ class ChipPlayer {
   }
 
   // True if all events of the segment are made and another can come.
-  static bool wants_more() { return left_ == 0; }
+  static bool wants_more() {
+    return left_ == 0;
+  }
   // True if there is room for events that are worth the work.
-  static bool is_low() { return static_cast<uint8_t>(most_ahead_ - waiting()) >= least_room_; }
+  static bool is_low() {
+    return static_cast<uint8_t>(most_ahead_ - waiting()) >= least_room_;
+  }
   // True if the interrupt could reach the end of the ring before the other work of the loop is done.
-  static bool is_short() { return running != 0 && waiting() < most_ahead_ / 4; }
+  static bool is_short() {
+    return running != 0 && waiting() < most_ahead_ / 4;
+  }
   // True if the watched input has changed, at an event at which the interrupt looked. Until watch() is called again,
   // everything reported of the oldest item is as it was at that event.
-  static bool captured() { return watching_ && armed == 0; }
-  static bool watches() { return watching_; }
+  static bool captured() {
+    return watching_ && armed == 0;
+  }
+  static bool watches() {
+    return watching_;
+  }
   // Waits for the next change of the watched pins.
   static void watch(bool on) {
     armed = on ? 1 : 0;
@@ -240,7 +208,9 @@ class ChipPlayer {
   }
 
   // Whether the ring ran dry while there was something to play, so that the machine stood still for a moment.
-  static bool slipped() { return slipped_; }
+  static bool slipped() {
+    return slipped_;
+  }
 
  private:
   // An item that has begun cannot be replaced, so a few are enough, but for short ones: they may have one event.
@@ -260,39 +230,14 @@ class ChipPlayer {
   // The interrupt may miss an alarm that is nearer than this.
   static constexpr uint16_t least_lead = 150;
 
-  static constexpr uint8_t motors_mask = (1U << pins.motors) - 1;
-  static constexpr unsigned bits_of_motors = pins.motors > 4 ? 8 : 4;
-  // An item that was begun and is not finished.
-  struct Item {
-    uint8_t events;
-    uint8_t directions : bits_of_motors;
-    uint8_t flips : bits_of_motors;
-    uint16_t increments[pins.motors];
-  };
-
-  // On the Uno a loop less is worth more than a motor less.
-  static uint8_t motors() { return pins.motors > 3 ? expansion.motors : pins.motors; }
-  // The steps of a motor in the first events of the oldest item.
-  [[gnu::noinline]] static int16_t steps(const Item& item, uint8_t events, uint8_t motor) {
-    const uint8_t bit = static_cast<uint8_t>(1U << motor);
-    const bool is_flipped = (item.flips & bit) != 0;
-    const bool goes_down = (item.directions & bit) != 0;
-    uint16_t accumulator = at_start_[motor];
-    int16_t steps = carries(accumulator, item.increments[motor], events);
-    if (over_) at_start_[motor] = accumulator;  // reported once, then forgotten
-    SerialLine::breathe();
-    if (is_flipped) steps = static_cast<int16_t>(events - steps);
-    return goes_down ? static_cast<int16_t>(-steps) : steps;
-  }
   // Whether all events of the oldest item are played.
   static bool is_over() {
-    const uint8_t oldest = oldest_;
     const uint8_t ahead = waiting();
     if (captured()) note_capture();  // after the look at the ring, because a capture may come at any time
-    const uint16_t end = ends_[oldest];
+    const uint16_t end = BegunItems::end();
     if (noted_) return static_cast<int16_t>(end - captured_at_) <= 0;
     const int16_t since = static_cast<int16_t>(made_ - end);
-    return since >= 0 && lasts_[oldest].is_played(ahead, static_cast<uint16_t>(since));
+    return since >= 0 && BegunItems::last().is_played(ahead, static_cast<uint16_t>(since));
   }
   // Events of the oldest item that are not played yet.
   static int16_t left_of_oldest() {
@@ -300,7 +245,7 @@ class ChipPlayer {
     uint16_t played = RingTimes::played(now, (head_ - now) & ring_mask, made_);
     if (captured()) note_capture();  // after the look at the ring, because a capture may come at any time
     if (noted_) played = captured_at_;
-    return static_cast<int16_t>(ends_[oldest_] - played);
+    return static_cast<int16_t>(BegunItems::end() - played);
   }
   // Notes the event of a capture, which follows from the ring's entry. This must be done before the interrupt has gone
   // round the ring once more.
@@ -310,13 +255,12 @@ class ChipPlayer {
     captured_at_ = RingTimes::played(then, (head_ - then) & ring_mask, made_);
     noted_ = true;
   }
-  // The place of the item begun last.
-  static uint8_t newest() {
-    const uint8_t place = static_cast<uint8_t>(oldest_ + begun_ - 1);
-    return place >= most_begun ? static_cast<uint8_t>(place - most_begun) : place;
+  static bool rests() {
+    return running == 0 && waiting() == 0;
   }
-  static bool rests() { return running == 0 && waiting() == 0; }
-  static uint8_t waiting() { return static_cast<uint8_t>((head_ - fetched_entry()) & ring_mask); }
+  static uint8_t waiting() {
+    return static_cast<uint8_t>((head_ - fetched_entry()) & ring_mask);
+  }
 
   static uint16_t now() {
     const uint8_t low = Tcnt1l::read();
@@ -383,7 +327,7 @@ class ChipPlayer {
     expansion.address = entry_address(first);
     made_ = static_cast<uint16_t>(made_ + count);
     RingTimes::make_near(count);
-    if (left_ == 0) lasts_[newest()].note();
+    if (left_ == 0) BegunItems::note_last();
     finish_piece(first, count);
   }
   [[gnu::always_inline]] static void finish_piece(uint8_t first, uint8_t count) {
@@ -429,24 +373,19 @@ class ChipPlayer {
     count = RingTimes::make(count, left_);
     SerialLine::breathe();
     made_ = static_cast<uint16_t>(made_ - left_);
-    if (left_ == 0) lasts_[newest()].note();
+    if (left_ == 0) BegunItems::note_last();
     finish_piece(first, count);
   }
 
-  static uint8_t turn_behind(uint8_t turn) {
-    const uint8_t low = static_cast<uint8_t>(turns_address & 0xff);
-    return static_cast<uint8_t>((turn + MotorOutputs::turn_bytes) & (low + turns_mask));
-  }
   static bool queue_turn() {
-    const uint8_t head = turn_behind(turns_head_);
-    if (head == turns_tail) return false;
-    volatile uint8_t* const turn = reinterpret_cast<volatile uint8_t*>((turns_address & 0xff00) | turns_head_);
-    MotorOutputs::queue(turn, turns_);
-    turn[0] = static_cast<uint8_t>(turn[0] | OutputActions::riding());
-    turns_head_ = head;
+    if (!TurnQueue::put(turns_)) return false;
     turns_ = 0;
     turning_ = true;
     return true;
+  }
+  [[gnu::noinline]] static void turn_now(uint8_t toggles) {
+    TurnQueue::make_next();
+    set_fetched_toggles(RingTimes::toggles_of(toggles));
   }
 
   static void start() {
@@ -475,15 +414,6 @@ class ChipPlayer {
     while (RingTimes::are_short && static_cast<uint16_t>(due - now()) > 240) SerialLine::breathe();
     RingTimes::enable(first);
   }
-  static void turn_now(uint8_t toggles) {
-    const uint8_t tail = turns_tail;
-    const volatile uint8_t* const turn = reinterpret_cast<volatile uint8_t*>((turns_address & 0xff00) | tail);
-    MotorOutputs::make(turn);
-    if ((turn[0] & action_bits) != 0) OutputActions::act(turn[0] & action_bits);
-    turns_tail = turn_behind(tail);
-    set_fetched_toggles(RingTimes::toggles_of(toggles));
-  }
-
   // Whether an entry at which the interrupt stopped is still to come. `gap`: ticks from the entry before.
   static bool is_in_time(uint16_t due, uint16_t gap) {
     const uint16_t ahead = static_cast<uint16_t>(due - now());
@@ -514,7 +444,6 @@ class ChipPlayer {
   static inline uint8_t turns_ = 0;                 // motors that reverse before its first event
   static inline bool turning_ = false;  // the reversals are in the queue of turns, but the event is not flagged yet
   static inline uint8_t directions_ = 0;
-  static inline uint8_t turns_head_ = turns_address & 0xff;
   static inline bool fresh_ = false;  // the clock was set for the events in the ring
   static inline bool noted_ = false;  // a capture was noted, with its event in `captured_at_`
   static inline uint16_t captured_at_ = 0;
@@ -522,14 +451,6 @@ class ChipPlayer {
   static inline bool slipped_ = false;
   static inline uint16_t slow_end_ = 0;  // `made_` after the last slow events
   static inline uint16_t made_ = 0;      // events ever made
-  static inline uint8_t oldest_ = 0;     // the place of the oldest item
-  static inline uint8_t begun_ = 0;      // items begun and not forgotten
-  static inline bool over_ = false;      // the oldest item is known to be done
-
-  static inline Item items_[most_begun];
-  static inline uint16_t ends_[most_begun];  // of each, the value of `made_` with its last event
-  static inline RingTimes::Last lasts_[most_begun];
-  static inline uint16_t at_start_[pins.motors] = {};  // the accumulators at the start of the oldest item
 };
 
 }  // namespace passo::chip

@@ -1,5 +1,6 @@
 // The two pieces that decide how fast the Mega steps: the interrupt that plays an event, and the expander that makes
-// events. Like uno_events.cpp, but for four step ports. Cycles are in the margin; docs/boards.md has their sums.
+// events. Like uno_events.cpp and uno_expander.cpp, but for four step ports. Cycles are in the margin; docs/boards.md
+// has their sums.
 #include "event_ring.hpp"
 #include "registers.hpp"
 #include "step_interrupt.hpp"
@@ -11,9 +12,6 @@ constexpr uint8_t toggle_f = 0x0f;  // the numbers of PINF, PINA, PINC for `out`
 constexpr uint8_t toggle_a = 0x00;
 constexpr uint8_t toggle_c = 0x06;
 constexpr uint16_t toggle_l = 0x109;
-constexpr uint8_t io(uint16_t address) {
-  return static_cast<uint8_t>(address - io_base);
-}
 constexpr uint8_t page(uint16_t address) {
   return static_cast<uint8_t>(address >> 8);
 }

@@ -59,9 +59,10 @@ Hardware hardware;
 ResetCause cause_of_reset() {
   const uint8_t flags = Mcusr::read();
   Mcusr::write(0);
-  if ((flags & 1 << 3) != 0) return ResetCause::watchdog;
-  if ((flags & 1 << 0) != 0) return ResetCause::power_on;
-  if ((flags & 1 << 2) != 0) return ResetCause::brown_out;
+  const auto has = [flags](uint8_t bit) { return static_cast<uint8_t>(flags & bit) != 0; };
+  if (has(1 << 3)) return ResetCause::watchdog;
+  if (has(1 << 0)) return ResetCause::power_on;
+  if (has(1 << 2)) return ResetCause::brown_out;
   return ResetCause::button;
 }
 
@@ -104,10 +105,14 @@ void start_watchdog() {
   const uint16_t inputs = on | Wiring::inputs();
   ChipPlayer::halt();
   OutputActions::make_safe();
+  // From here on the interrupt reads no byte, and all of this is long.
+  SerialLine::poll();
   if ((inputs & input_emergency_stop) != 0) Wiring::enable_motors(false);
   board.stop_at_once(inputs);
+  SerialLine::poll();
   manual.stopped();
   halted = 0;
+  Eecr::write(static_cast<uint8_t>(Eecr::read() & ~(1 << halted_bit)));
 }
 
 // Watches for the next change. A change that came already (a bounce) is found only by looking.
@@ -115,29 +120,29 @@ void start_watchdog() {
   const uint16_t watched = board.watched();
   const bool closed = (reader.inputs() & watched) != 0;
   choose_watch(watched, closed);
-  SerialLine::breathe();
+  SerialLine::poll();
   ChipPlayer::watch(true);
   if (((Wiring::inputs() & watched) != 0) != closed && !ChipPlayer::captured()) ChipPlayer::watch(false);
 }
 
 // Another input is watched; called at rest.
 [[gnu::noinline]] void Hardware::watch() {
-  SerialLine::breathe();
+  SerialLine::poll();
   ChipPlayer::watch(false);
   stop_on(board.watched(), Wiring::alarms());
-  SerialLine::breathe();
+  SerialLine::poll();
   watch_input();
-  SerialLine::breathe();
+  SerialLine::poll();
 }
 
 // Called at rest. What the switches are under the new setup is known at once, because a hello may follow.
 [[gnu::noinline]] PinSetup Hardware::set_up(const PinSetup& wanted) {
-  SerialLine::breathe();
+  SerialLine::poll();
   PinSetup done = Wiring::set_up(wanted);
-  SerialLine::breathe();
+  SerialLine::poll();
   done.steps = MotorOutputs::set_idle(wanted.steps);
   done.timing = MotorOutputs::set_timing(wanted.timing);
-  SerialLine::breathe();
+  SerialLine::poll();
   reader.look(Wiring::inputs(), false, pressed_by_people(Wiring::alarms()));
   board.set_inputs(reader.inputs());
   watch();
@@ -157,9 +162,9 @@ bool take_tick() {
   static uint8_t ticks = ticks_a_tenth;
   if (--ticks != 0) return;
   ticks = ticks_a_tenth;
-  SerialLine::breathe();
+  SerialLine::poll();
   board.count_silence();
-  SerialLine::breathe();
+  SerialLine::poll();
 }
 
 // The watched inputs while the motors turn. The interrupt tells a change, and which pins made it (`changed`). Several
@@ -241,6 +246,7 @@ constexpr uint8_t most_parts = 3;
 [[gnu::noinline]] void keep_up() {
   ChipPlayer::refill(ring_is_short && board.has_more());
   uint8_t parts = most_parts;
+#pragma clang loop unroll(disable)
   do {
     if (!ChipPlayer::wants_more() || !board.has_more()) return;
     if (ChipPlayer::begins_many()) {
@@ -284,6 +290,7 @@ void Hardware::keep_up() {
     looked = taken;
     SpindleCounter::look();
     // A question's answer takes as long as several short parts.
+#pragma clang loop unroll(disable)
     for (uint8_t parts = ChipPlayer::begins_many() ? 3 : 1; parts != 0 && ChipPlayer::is_low(); --parts) {
       keep_up();
       if (ChipPlayer::begins_many()) line.poll();

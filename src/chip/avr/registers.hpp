@@ -7,8 +7,10 @@
 
 namespace passo::chip {
 
-// `in`, `out` and `sbic` use numbers that are lower than the addresses by this.
-inline constexpr uint8_t io_base = 0x20;
+// The number of a register for `in`, `out` and `sbic`.
+constexpr uint8_t io(uint16_t address) {
+  return static_cast<uint8_t>(address - 0x20);
+}
 
 template <uint16_t address>
 struct Register {

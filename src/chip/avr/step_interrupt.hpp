@@ -54,6 +54,8 @@ extern volatile uint16_t captured_entry;  // the ring's register when it changed
 // A pin that stops the motion went on. Without a filter the motion has stopped; otherwise the loop looks whether the
 // pin stays on.
 extern volatile uint8_t halted;
+// In EECR: the interrupt has stopped for good, amid the expander's work perhaps. So the expander reads the line.
+inline constexpr uint8_t halted_bit = 5;
 // The watched pins of one port: the address of its PINx, the pins, and their levels until they change. At the first
 // change the interrupt leaves in `watch_pins` those that changed.
 extern volatile uint16_t watch_port;

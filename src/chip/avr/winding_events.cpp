@@ -1,6 +1,6 @@
-// Does the work of uno_events.cpp and mega_events.cpp for boards that switch windings themselves: the interrupt that
-// plays an event, and the expander that makes one. Motors without drivers turn slowly, so both are in C++, for any pin
-// map. docs/boards.md has the sums of their cycles.
+// Does the work of uno_events.cpp, uno_expander.cpp and mega_events.cpp for boards that switch windings themselves: the
+// interrupt that plays an event, and the expander that makes one. Motors without drivers turn slowly, so both are in
+// C++, for any pin map. docs/boards.md has the sums of their cycles.
 #include "event_ring.hpp"
 #include "long_times.hpp"
 #include "registers.hpp"

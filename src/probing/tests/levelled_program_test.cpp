@@ -50,6 +50,13 @@ TEST(LevelledProgram, keeps_what_happens_between_the_moves) {
   }
 }
 
+TEST(LevelledProgram, switches_off_once) {
+  const std::string moves = "G0 X10 Y0 Z5\nG1 Z0.1 F100\n";
+  EXPECT_THAT(level("M3 S100 M8\nG0 X10 Y0 Z5\nG1 Z0 F100\nM5\nM9\nM2\n").text, HasSubstr(moves + "M5\nM9\nM2\n"));
+  EXPECT_THAT(level("M3 S100\nM5\nM4\nG0 X10 Y0 Z5\nG1 Z0 F100\nM2\n").text,
+              HasSubstr("M3\nM5\nM4\n" + moves + "M5\nM2\n"));
+}
+
 TEST(LevelledProgram, an_arc_stays_an_arc) {
   const Levelled it = level("G90 F100\nG0 X10 Y0 Z0\nG3 X10 Y0 I10 J0\nM2\n", slope(), {.tolerance = 0.1});
   EXPECT_EQ(it.words, "");

@@ -168,6 +168,7 @@ class MotionDrive {
   void begin_probe(const Action& action);
   void end_probe(const Action& action);
   void await_index(const Action& action);
+  void hold_speed(const Action& action);
   void turn_tap(const Action& action);
   void wait_for_operator(const Action& action);
   void await_line();

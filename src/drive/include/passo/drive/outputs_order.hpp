@@ -1,6 +1,7 @@
 // OutputsOrder: the outputs as the program has ordered them, with the operator's override of the spindle.
 #pragma once
 
+#include <cstdlib>
 #include <optional>
 
 #include "passo/path/segment.hpp"
@@ -52,6 +53,10 @@ class OutputsOrder {
     const BoardOutputs wanted = for_board();
     const bool same = told_ && told_->switches == wanted.switches && told_->spindle_rpm == wanted.spindle_rpm;
     return in_force().spindle != SpindleDirection::off && !same;
+  }
+  // How far the spindle's speed is from what the board was told, revolutions a minute.
+  double change_of_speed() const {
+    return told_ ? std::abs(for_board().spindle_rpm - told_->spindle_rpm) : 0;
   }
   // The message for the board. The caller sends it.
   BoardOutputs tell() { return *(told_ = for_board()); }

@@ -16,29 +16,31 @@
 
 #include "passo/firmware/board_hardware.hpp"
 #include "passo/firmware/board_identity.hpp"
-#include "passo/firmware/board_voice.hpp"
 #include "passo/firmware/drive_alarms.hpp"
 #include "passo/firmware/host_silence.hpp"
 #include "passo/firmware/input_watch.hpp"
-#include "passo/firmware/part_taker.hpp"
-#include "passo/firmware/play_list.hpp"
+#include "passo/firmware/item_player.hpp"
 #include "passo/firmware/player.hpp"
 #include "passo/wire/decoder.hpp"
 #include "passo/wire/message.hpp"
-#include "passo/wire/segment_parts.hpp"
 
 namespace passo {
 
 // `most_motors` is the number of motors that a place for an item has room for.
 template <class Hardware, size_t queue_capacity = 32, class SegmentPlayer = Player, uint8_t most_motors = max_motors>
-class Board : private BoardVoice<Hardware> {
-  using BoardVoice<Hardware>::hardware_, BoardVoice<Hardware>::has_room;
-  using BoardVoice<Hardware>::send, BoardVoice<Hardware>::send_for_motors;
+class Board : private ItemPlayer<Hardware, queue_capacity, SegmentPlayer, most_motors> {
+  using Items = ItemPlayer<Hardware, queue_capacity, SegmentPlayer, most_motors>;
+  using Items::begun_, Items::executed_, Items::from_rest_, Items::identity_, Items::list_, Items::motors_,
+      Items::owed_;
+  using Items::drop_all, Items::places, Items::played, Items::player_, Items::position, Items::positions_;
+  using Items::hardware_, Items::has_room, Items::send, Items::send_for_motors;
 
  public:
-  Board(Hardware& hardware, const BoardIdentity& identity) : BoardVoice<Hardware>(hardware), identity_(identity) {
-    list_.clear(places());
-  }
+  using Items::breathe, Items::feed, Items::has_more, Items::idle, Items::on_event, Items::player, Items::settle;
+  using Items::slice, Items::ticks_to_next_event;
+  using typename Items::Breath, typename Items::Segment;
+
+  Board(Hardware& hardware, const BoardIdentity& identity) : Items(hardware, identity) { list_.clear(places()); }
 
   // The main loop's side. Takes a byte off the wire: by two halves, of which the first also takes several (Decoder).
   void receive(uint8_t byte) {
@@ -114,7 +116,6 @@ class Board : private BoardVoice<Hardware> {
   uint8_t size() const { return list_.size(); }
   uint16_t inputs() const { return inputs_; }
   // Adds a segment in manual mode, after everything in the list.
-  using Segment = SegmentFor<most_motors>;
   void jog(const Segment& segment) {
     list_.space().segment = segment;
     append_by_hand();
@@ -123,41 +124,6 @@ class Board : private BoardVoice<Hardware> {
     list_.space().keep(outputs);
     append_by_hand();
   }
-
-  using Breath = BreathOf<Hardware>;
-  static void breathe() { Breath{}(); }
-  static void slice() { SliceOf<Hardware>{}(); }
-
-  // The timer's side. True if there is nothing to play: no event will come.
-  bool idle() const { return player_.done(); }
-  // Ticks from the last event to the next. Only when not idle, once for each event.
-  uint32_t ticks_to_next_event() { return player_.wait(); }
-  void on_event() {
-    const uint8_t stepped = player_.play();
-    if (stepped != 0) hardware_.step(stepped, player_.directions());
-    if (player_.done()) settle();
-  }
-
-  // Removes items that the player has finished, and gives it those that it can take. On a chip the main loop calls it.
-  void settle() {
-    for (;; load()) {
-      breathe();
-      while (player_.finished()) {
-        retire_one();
-        slice();
-      }
-      if (!player_.ready() || !has_more()) return;
-    }
-  }
-  // Gives the player one item, and removes no more than one for that: where events are short, they come first.
-  void feed() {
-    breathe();
-    if (!player_.ready() && player_.finished()) retire_one();
-    if (player_.ready() && has_more()) load();
-  }
-  // Whether there is an item, or a part of one, that the player has not begun.
-  bool has_more() const { return !parts_.are_done() || begun_ != list_.size(); }
-  SegmentPlayer& player() { return player_; }
 
  private:
   // over: no host knows the machine's place until the next hello.
@@ -389,7 +355,7 @@ class Board : private BoardVoice<Hardware> {
       breathe();
       decode(frame, motors_, item.segment);
       breathe();
-      if (!identity_.can_play<Breath>(item.segment, motors_)) return complain(WireError::bad_value);
+      if (!identity_.template can_play<Breath>(item.segment, motors_)) return complain(WireError::bad_value);
     } else {
       BoardOutputs outputs;
       decode(frame, outputs);
@@ -429,79 +395,13 @@ class Board : private BoardVoice<Hardware> {
       list_.drop_replacement();
       return wrong;
     }
-    return list_.template complete<Breath>(executed_, begun_, from_rest_) ? no_error : WireError::too_late;
+    return list_.complete(executed_, begun_, from_rest_) ? no_error : WireError::too_late;
   }
   void accept() {
     ++expected_;
     complained_ = false;
   }
 
-  // Loads the next part of the item begun last, or the first of the item after it. To the player a part is a segment.
-  [[gnu::noinline]] void load() {
-    const bool begins = parts_.are_done();
-    if (begins) ++begun_;
-    breathe();
-    auto& item = list_.at(static_cast<uint8_t>(begun_ - 1));
-    const uint16_t events = item.segment.events;
-    if (begins && static_cast<uint8_t>(item.number) == from_rest_) begin_from_rest(events);
-    if (events == 0) return player_.pass(item.outputs());
-    if (item.segment.form == 0 && item.segment.bend == 0 && events <= longest_part) return player_.load(item.segment);
-    load_part(item.segment, begins);
-  }
-  // The motors rest before the item begun last. Outputs need no time: the motors rest before the item after them, too.
-  void begin_from_rest(uint16_t events) {
-    if (events == 0) {
-      ++from_rest_;
-    } else if constexpr (requires { player_.begin_from_rest(); }) {
-      player_.begin_from_rest();
-    }
-  }
-  [[gnu::noinline]] void load_part(Segment& segment, bool begins) {
-    parts_.take(segment, begins);
-    if (is_root(segment.form)) identity_.template keep_playable<Breath>(parts_.part(), motors_);
-    player_.load(parts_.part());
-  }
-
-  void retire_one() {
-    retire();
-    player_.forget();
-    breathe();
-  }
-  // The oldest item, or a part of it, is done. Outputs are switched here, at the event before them.
-  [[gnu::noinline]] void retire() {
-    const auto& item = list_.front();
-    if (item.is_segment()) {
-      player_.add_steps(positions_);
-      const uint16_t left = static_cast<uint16_t>(item.segment.events - done_of_front_);
-      const uint8_t length = part_length(item.segment.form);
-      done_of_front_ = static_cast<uint16_t>(done_of_front_ + length);
-      if (left > length) return;
-    } else {
-      hardware_.outputs(item.outputs());
-    }
-    done_of_front_ = 0;
-    executed_ = item.number;
-    list_.pop();
-    --begun_;
-    ++owed_;
-  }
-  // Events played of the present item.
-  uint16_t played() const {
-    return begun_ == 0 ? uint16_t{0} : static_cast<uint16_t>(done_of_front_ + player_.played());
-  }
-
-  void drop_all() {
-    list_.template clear<Breath>(places());
-    begun_ = 0;
-    parts_.drop();
-    done_of_front_ = 0;
-  }
-  uint8_t places() const { return identity_.places < queue_capacity ? identity_.places : uint8_t{queue_capacity}; }
-
-  [[gnu::noinline]] int32_t position(uint8_t motor) const {
-    if (motor >= most_motors) return 0;
-    return positions_[motor] + (begun_ == 0 || motor >= motors_ ? int16_t{0} : player_.steps(motor));
-  }
   uint8_t taken() const { return static_cast<uint8_t>(expected_ - 1); }
   Credit progress() const { return {.executed = executed_, .taken = taken(), .free = list_.free()}; }
 
@@ -512,26 +412,15 @@ class Board : private BoardVoice<Hardware> {
     send(ErrorReport{.reason = reason, .expected = static_cast<uint8_t>(expected_)});
   }
 
-  BoardIdentity identity_;
   Decoder decoder_;
-  SegmentPlayer player_{0};
-  PlayList<queue_capacity, most_motors> list_;  // its front is being played
-  uint8_t begun_ = 0;                     // items at the front that the player has; the last one may be there in part
-  uint16_t done_of_front_ = 0;            // events of the front item in parts that are done
-  PartTaker<most_motors, Breath> parts_;  // of that last item
-  uint8_t motors_ = 0;                    // as agreed with the host
   uint16_t session_ = 0;
   uint16_t expected_ = 0;  // number of the next frame; the wire has its low byte
-  uint16_t executed_ = 0;  // number of the last item done
-  uint8_t owed_ = 0;       // items executed and other news since the last report
-  uint8_t from_rest_ = 0;  // low byte of the number of the item that came last behind an item after which motors rest
   ItemSums sums_;          // of the replacement being gathered, so far
   HostSilence silence_;
   // In one byte: a chip has none to spare.
   bool complained_ : 1 = false, trusted_ : 1 = true, is_set_up_ : 1 = false;
   Manual manual_ : 2 = Manual::off;
   uint16_t inputs_ = 0;
-  int32_t positions_[most_motors] = {};  // at the end of the last segment
   InputWatch<most_motors> watch_;
 };
 

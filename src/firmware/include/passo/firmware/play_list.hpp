@@ -39,7 +39,8 @@ struct BoardItemSlot {
   }
 };
 
-template <size_t slot_count, uint8_t motors = max_motors>
+// Pause{}() is called amid long work.
+template <size_t slot_count, uint8_t motors = max_motors, class Pause = NoPause>
 class PlayList {
   static constexpr uint8_t none = 0xFF;
   static_assert(slot_count > 0 && slot_count < none);
@@ -50,7 +51,6 @@ class PlayList {
   PlayList() { clear(); }
 
   // Empties the list. From now on it has no more than `places` places.
-  template <class Pause = NoPause>
   void clear(uint8_t places = slot_count) {
     unused_ = none;
     for (uint8_t i = places; i-- != 0;) {
@@ -118,7 +118,6 @@ class PlayList {
   // played or prepared for the timer, and stay. Returns false and changes nothing if an item after the one to replace
   // after has begun. What the list holds ends at rest: if nothing is replaced, `from_rest` becomes the low byte of the
   // number of the first new item. This is the longest work of all, so Pause{}() is called between its parts.
-  template <class Pause = NoPause>
   bool complete(uint16_t executed, uint8_t begun, uint8_t& from_rest) {
     uint8_t slot = front_;
     uint8_t place = 1;

@@ -118,6 +118,10 @@ class BoardSession final : public Link {
   std::uint16_t inputs() const { return inputs_; }
   // After LinkError::stopped: the inputs that stopped the motors, as bits of BoardInput. 0: the board does not know.
   std::uint16_t stopped_by() const { return stopped_by_; }
+  // The status that first told that the motors have stood still amid motion since the hello, because the board could
+  // not make its events in time. The board goes on with what it holds, so this is no error of the link: whoever drives
+  // the machine brakes, and then fails the link.
+  const std::optional<BoardStatus>& standstill() const { return standstill_; }
   Seconds now() const override { return port_.elapsed(); }
   std::optional<LinkError> error() const override { return error_; }
   void fail(LinkError error) override { error_ = error_.value_or(error); }
@@ -189,6 +193,7 @@ class BoardSession final : public Link {
   void note_progress(const Credit& credit, std::uint8_t answers);
   bool holds_nothing_of(const Credit& credit) const;
   void doubt(LinkError error, Question again = Question::status);
+  [[nodiscard]] bool note_standstill(const BoardStatus& status);
   void note_inputs(const BoardStatus& status);
   void note_timeout(const BoardStatus& status);
   void note_probe(ProbeWatch::News news);
@@ -245,6 +250,7 @@ class BoardSession final : public Link {
   int free_ = 0;                      // the room that the board last told
   bool rests_ = false;
   bool outputs_timed_out_ = false;  // as the board last told, and no outputs were sent since
+  std::optional<BoardStatus> standstill_;
   ProbeWatch probe_;
   SentSegments sent_segments_;
   bool answered_ = true;  // the board has answered since the last frame was sent

@@ -46,6 +46,9 @@ struct PathOptions {
   bool open_ended = false;
   // From rest to 1000 turns a minute. Motion waits for the spindle, and a tap has room to reverse.
   Seconds spindle_run_up{0};
+  // True: in a thread the spindle turns as fast as the program says, whatever its override. Without an encoder nothing
+  // follows the spindle, and another speed would be another pitch.
+  bool threads_hold_speed = false;
   std::string file;  // names the program in diagnostics
 };
 

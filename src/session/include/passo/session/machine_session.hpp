@@ -161,6 +161,7 @@ class MachineSession {
   void mind_door();
   void put_overrides_on(MotionDrive& drive) const;
   void note_tails();
+  void note_standstill();
   void mind_board();
   std::string words_of(LinkError error) const;
   void look_at_panel();

@@ -49,6 +49,14 @@ class Encoder {
     for (uint8_t left = 4; left != 0; --left, value >>= 8) put8(static_cast<uint8_t>(value));
   }
 
+  // A loop is small; clang would write it out.
+  void put_text(const char* text, uint8_t size) {
+#ifdef __clang__
+#pragma clang loop unroll(disable)
+#endif
+    for (; size != 0; --size) put8(static_cast<uint8_t>(*text++));
+  }
+
   // Closes the frame and returns its size. Call it once.
   uint8_t finish() {
     // The CRC covers the bytes as they are on the wire, links included. So a flipped bit is exactly one wrong bit to

@@ -345,7 +345,7 @@ uint8_t encode(const About& about, uint8_t sequence, uint8_t* frame) {
   encoder.put16(about.firmware);
   encoder.put32(about.highest_event_rate);
   encoder.put32(about.baud);
-  for (const char letter : about.name) encoder.put8(static_cast<uint8_t>(letter));
+  encoder.put_text(about.name, sizeof about.name);
   encoder.put8(about.step_pulse);
   return encoder.finish();
 }

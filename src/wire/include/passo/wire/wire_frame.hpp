@@ -53,7 +53,7 @@ inline constexpr uint8_t largest_frame = frame_overhead + largest_payload;
 struct WireFrame {
   MessageType type = MessageType::hello;
   uint8_t sequence = 0;
-  uint8_t payload[largest_payload] = {};
+  uint8_t payload[largest_payload];  // as much of it as the type has
 };
 
 // Bytes of payload, or 0 for an unknown type. With 0 motors, messages that repeat a part for each motor are unknown
