@@ -5,7 +5,6 @@
 #include <utility>
 #include <variant>
 
-#include "operation_warning.hpp"
 #include <fmt/format.h>
 
 namespace passo {
@@ -16,13 +15,10 @@ constexpr double nothing = 1e-3;  // mm: less is rounding in programs
 }  // namespace
 
 LowRapids::LowRapids(const MachineDescription& machine, std::string file, Diagnostics& diagnostics)
-    : has_height_(std::ranges::all_of(std::array{Axis::x, Axis::y, Axis::z},
-                                      [&](Axis axis) {
-                                        return std::ranges::find(machine.axes, axis, &AxisDescription::axis) !=
-                                               machine.axes.end();
-                                      })),
-      file_(std::move(file)),
-      diagnostics_(diagnostics) {}
+    : OperationWatcher(std::move(file), diagnostics),
+      has_height_(std::ranges::all_of(std::array{Axis::x, Axis::y, Axis::z}, [&](Axis axis) {
+        return std::ranges::find(machine.axes, axis, &AxisDescription::axis) != machine.axes.end();
+      })) {}
 
 void LowRapids::watch(const Operation& operation) {
   using namespace passo::operation;
@@ -71,16 +67,16 @@ void LowRapids::rapid_to(const Operation& operation, const Point& end) {
   const bool sideways = std::hypot(end[Axis::x] - (*from)[Axis::x], end[Axis::y] - (*from)[Axis::y]) > nothing;
   if (sideways && top_ && z <= *top_ + nothing && !std::exchange(told_sideways_, true)) {
     diagnostics_.add_certain(
-        operation_warning(operation, file_, "path.low-rapid",
-                          fmt::format("a rapid goes sideways at Z{:.6g}, and the program has cut at Z{:.6g}", z, *top_),
-                          "Z above the work before a rapid goes sideways, or a feed (G1)"));
+        warning(operation, "path.low-rapid",
+                fmt::format("a rapid goes sideways at Z{:.6g}, and the program has cut at Z{:.6g}", z, *top_),
+                "Z above the work before a rapid goes sideways, or a feed (G1)"));
   }
   const bool down = z < (*from)[Axis::z] - nothing;
   if (!sideways && down && deepest_ && z < *deepest_ - nothing && !std::exchange(told_down_, true)) {
-    diagnostics_.add_certain(operation_warning(
-        operation, file_, "path.rapid-plunge",
-        fmt::format("a rapid goes down to Z{:.6g}, deeper than all feeds before it (Z{:.6g})", z, *deepest_),
-        "a feed (G1) where there may be material"));
+    diagnostics_.add_certain(
+        warning(operation, "path.rapid-plunge",
+                fmt::format("a rapid goes down to Z{:.6g}, deeper than all feeds before it (Z{:.6g})", z, *deepest_),
+                "a feed (G1) where there may be material"));
   }
 }
 

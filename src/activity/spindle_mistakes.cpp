@@ -4,7 +4,6 @@
 #include <utility>
 #include <variant>
 
-#include "operation_warning.hpp"
 #include <fmt/format.h>
 
 namespace passo {
@@ -12,18 +11,12 @@ namespace {
 
 constexpr std::size_t most_named_lines = 3;
 
-template <class... Whats>
-bool asks_for(const Operation& operation) {
-  return (std::holds_alternative<Whats>(operation.what) || ...);
-}
-
 }  // namespace
 
 SpindleMistakes::SpindleMistakes(const MachineDescription& machine, std::string file, Diagnostics& diagnostics)
-    : may_be_early_(machine.tool.highest_rpm > 0 && !machine.spindle.run_up_is_given),
-      is_lathe_(std::ranges::find(machine.axes, Axis::y, &AxisDescription::axis) == machine.axes.end()),
-      file_(std::move(file)),
-      diagnostics_(diagnostics) {}
+    : OperationWatcher(std::move(file), diagnostics),
+      may_be_early_(machine.tool.highest_rpm > 0 && !machine.spindle.run_up_is_given),
+      is_lathe_(std::ranges::find(machine.axes, Axis::y, &AxisDescription::axis) == machine.axes.end()) {}
 
 void SpindleMistakes::watch(const Operation& operation) {
   using namespace passo::operation;
@@ -38,11 +31,11 @@ void SpindleMistakes::watch(const Operation& operation) {
   const auto* rapid = std::get_if<StraightTraverse>(&operation.what);
   if (line != nullptr && line->end == place_) return;
   if (line != nullptr || rapid != nullptr) place_ = line != nullptr ? line->end : rapid->end;
-  if (asks_for<StraightFeed, ArcFeed, NurbsFeed>(operation)) return feed(operation);
-  if (!asks_for<StraightTraverse, Dwell, ProgramStop, OptionalProgramStop, ChangeTool>(operation)) return;
+  if (is_any_of<StraightFeed, ArcFeed, NurbsFeed>(operation)) return feed(operation);
+  if (!is_any_of<StraightTraverse, Dwell, ProgramStop, OptionalProgramStop, ChangeTool>(operation)) return;
   fed_last_ = false;
   changed_.reset();
-  if (!asks_for<StraightTraverse>(operation)) sped_up_.reset();
+  if (!is_any_of<StraightTraverse>(operation)) sped_up_.reset();
 }
 
 void SpindleMistakes::turn(const Operation& operation, SpindleDirection direction) {
@@ -63,9 +56,9 @@ void SpindleMistakes::set_speed(const Operation& operation, double speed) {
 
 void SpindleMistakes::note_speed_up(const Operation& operation) {
   if (!may_be_early_ || early_ || sped_up_) return;
-  sped_up_ = operation_warning(operation, file_, "path.spindle-early",
-                               "a cut follows at once, and nothing waits until the spindle is at its speed",
-                               "run_up_s in the table [spindle] of the machine file, or a dwell (G4) before the cut");
+  sped_up_ = warning(operation, "path.spindle-early",
+                     "a cut follows at once, and nothing waits until the spindle is at its speed",
+                     "run_up_s in the table [spindle] of the machine file, or a dwell (G4) before the cut");
 }
 
 void SpindleMistakes::feed(const Operation& operation) {
@@ -80,7 +73,7 @@ void SpindleMistakes::feed(const Operation& operation) {
   ++places_;
   const std::uint32_t line = operation.source.line;
   if (lines_.size() <= most_named_lines && (lines_.empty() || lines_.back() != line)) lines_.push_back(line);
-  if (!laser_) laser_ = operation_warning(operation, file_, "path.laser", {}, "a program for a spindle");
+  if (!laser_) laser_ = warning(operation, "path.laser", {}, "a program for a spindle");
 }
 
 void SpindleMistakes::finish() {

@@ -5,7 +5,6 @@
 #include <utility>
 #include <variant>
 
-#include "operation_warning.hpp"
 #include <fmt/format.h>
 
 namespace passo {
@@ -18,29 +17,23 @@ bool is_in_milliseconds(Seconds time) {
   return time >= suspicious_dwell && std::fmod(time.value(), 10.0) == 0;
 }
 
-template <class... Whats>
-bool is_any_of(const OperationKind& what) {
-  return (std::holds_alternative<Whats>(what) || ...);
-}
-
 }  // namespace
 
 UsualMistakes::UsualMistakes(const MachineDescription& machine, LengthUnits units, std::string file,
                              Diagnostics& diagnostics)
-    : has_spindle_(machine.tool.highest_rpm > 0),
-      file_(std::move(file)),
-      diagnostics_(diagnostics),
+    : OperationWatcher(std::move(file), diagnostics),
+      has_spindle_(machine.tool.highest_rpm > 0),
       knows_units_(units == LengthUnits::inch) {}
 
 void UsualMistakes::watch(const Operation& operation) {
   using namespace passo::operation;
   const OperationKind& what = operation.what;
-  if (is_any_of<StraightFeed, ArcFeed, NurbsFeed, RigidTap>(what)) return feed(operation);
-  if (is_any_of<StraightTraverse, StraightProbe>(what)) {
-    probes_ |= is_any_of<StraightProbe>(what);
+  if (is_any_of<StraightFeed, ArcFeed, NurbsFeed, RigidTap>(operation)) return feed(operation);
+  if (is_any_of<StraightTraverse, StraightProbe>(operation)) {
+    probes_ |= is_any_of<StraightProbe>(operation);
     return move(operation);
   }
-  if (is_any_of<ChangeTool, SetToolNumber>(what)) change_tool();
+  if (is_any_of<ChangeTool, SetToolNumber>(operation)) change_tool();
   if (const auto* tool = std::get_if<SelectTool>(&what)) return select(operation, tool->tool);
   if (const auto* turn = std::get_if<TurnSpindle>(&what)) return turn_spindle(operation, turn->direction);
   if (const auto* pause = std::get_if<Dwell>(&what)) return dwell(operation, pause->time);
@@ -48,7 +41,7 @@ void UsualMistakes::watch(const Operation& operation) {
     speed_ = speed->revolutions_per_minute;
     if (speed_ > 0) turned_at_zero_.reset();
     if (speed_ > 0 && !has_spindle_) idle_speed(operation);
-  } else if (is_any_of<SetLengthUnits>(what) && operation.source.line > 0) {
+  } else if (is_any_of<SetLengthUnits>(operation) && operation.source.line > 0) {
     knows_units_ = true;  // line 0: the interpreter says its own units before the program begins
   }
 }
@@ -113,11 +106,6 @@ void UsualMistakes::feed(const Operation& operation) {
                                      "S and M3 before the move; a machine file without tool.max_rpm has no spindle"));
     told_spindle_ = true;
   }
-}
-
-Diagnostic UsualMistakes::warning(const Operation& operation, std::string code, std::string message,
-                                  std::string expected) const {
-  return operation_warning(operation, file_, std::move(code), std::move(message), std::move(expected));
 }
 
 }  // namespace passo

@@ -14,17 +14,13 @@
 #pragma once
 
 #include <optional>
-#include <string>
 
-#include "passo/diagnostics/diagnostic.hpp"
-#include "passo/interpreter/operation.hpp"
-#include "passo/machine_file/machine_description.hpp"
+#include "passo/activity/operation_watcher.hpp"
 
 namespace passo {
 
-class LowRapids {
+class LowRapids : OperationWatcher {
  public:
-  // `diagnostics` outlives this.
   LowRapids(const MachineDescription& machine, std::string file, Diagnostics& diagnostics);
 
   // Call it for each operation of the program, in order.
@@ -37,8 +33,6 @@ class LowRapids {
   void forget_heights();
 
   bool has_height_;
-  std::string file_;
-  Diagnostics& diagnostics_;
   std::optional<Point> place_;     // empty: unknown in the present frame
   bool descends_ = false;          // the last feed went down
   std::optional<double> top_;      // Z; empty: nothing is known to be cut
