@@ -1,18 +1,10 @@
 // The lab in the real browser: what a teacher and a class do with it.
-import type { Browser, Page } from 'playwright-core';
-import { afterAll, beforeAll, describe, expect, it } from 'vitest';
-import { Daemon, openBrowser, visit } from './kit';
+import type { Page } from 'playwright-core';
+import { describe, expect, it } from 'vitest';
+import { visit } from './kit';
+import { beginStage, browser, daemon } from './stage';
 
-let daemon: Daemon;
-let browser: Browser;
-beforeAll(async () => {
-  daemon = await Daemon.start();
-  browser = await openBrowser();
-});
-afterAll(async () => {
-  await browser.close();
-  await daemon.end();
-});
+beginStage();
 
 const query = (page: Page): URLSearchParams => new URLSearchParams(page.url().split('?')[1] ?? '');
 const judgement = async (page: Page): Promise<string> => (await page.locator('.lab-judgement').innerText()).replace(/\s+/g, ' ');

@@ -1,18 +1,9 @@
 // Drawings become programs, with a picture that follows the form.
-import type { Browser } from 'playwright-core';
-import { afterAll, beforeAll, describe, expect, it } from 'vitest';
-import { Daemon, example, openBrowser, visit } from './kit';
+import { describe, expect, it } from 'vitest';
+import { example, visit } from './kit';
+import { beginStage, browser, daemon } from './stage';
 
-let browser: Browser;
-let daemon: Daemon;
-beforeAll(async () => {
-  browser = await openBrowser();
-  daemon = await Daemon.start();
-});
-afterAll(async () => {
-  await browser?.close();
-  await daemon?.end();
-});
+beginStage();
 
 const holes = 'M48\nMETRIC\nT1C0.800\n%\nT1\nX10.0Y10.0\nX20.0Y10.0\nX20.0Y25.0\nM30\n';
 

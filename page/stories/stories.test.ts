@@ -1,22 +1,14 @@
 // Whole stories, in the real browser, against the real daemon and its virtual machine. What has moved is asked of the
 // daemon.
-import type { Browser, Page } from 'playwright-core';
+import type { Page } from 'playwright-core';
 import { afterAll, afterEach, beforeAll, beforeEach, describe, expect, it } from 'vitest';
-import { Daemon, openBrowser, sleep, violations, visit } from './kit';
+import { Daemon, sleep, violations, visit } from './kit';
+import { beginStage, browser, daemon } from './stage';
 
-let browser: Browser;
-let daemon: Daemon;
-beforeAll(async () => {
-  browser = await openBrowser();
-  daemon = await Daemon.start();
-});
+beginStage();
 // What a story that failed has left must not spoil the next.
 beforeEach(async () => {
   if ((await daemon.status()).state !== 'Idle') await rest();
-});
-afterAll(async () => {
-  await browser?.close();
-  await daemon?.end();
 });
 
 const part = 'G21 G90 G17\nF1200\nG0 Z5\nG0 X10 Y10\nG1 Z-1\nG1 X60\nG2 X60 Y40 J15\nG1 X10\nG1 Y10\nG0 Z5\nM2\n';

@@ -5,7 +5,6 @@
 #include <utility>
 #include <variant>
 
-#include "operation_warning.hpp"
 #include <fmt/format.h>
 
 namespace passo {
@@ -16,15 +15,14 @@ constexpr double nothing = 1e-3;  // mm: less is rounding in programs
 }  // namespace
 
 LowRapids::LowRapids(const MachineDescription& machine, bool zero_is_known, std::string file, Diagnostics& diagnostics)
-    : has_height_(std::ranges::all_of(std::array{Axis::x, Axis::y, Axis::z},
+    : OperationWatcher(std::move(file), diagnostics),
+      has_height_(std::ranges::all_of(std::array{Axis::x, Axis::y, Axis::z},
                                       [&](Axis axis) {
                                         return std::ranges::find(machine.axes, axis, &AxisDescription::axis) !=
                                                machine.axes.end();
                                       })),
       has_spindle_(machine.tool.highest_rpm > 0),
-      zero_is_known_(zero_is_known),
-      file_(std::move(file)),
-      diagnostics_(diagnostics) {}
+      zero_is_known_(zero_is_known) {}
 
 void LowRapids::watch(const Operation& operation, const ToolTrack& track) {
   using namespace passo::operation;
@@ -66,10 +64,9 @@ void LowRapids::know_place(const Operation& operation) {
   knows_xy_ = has(Axis::x) || has(Axis::y);
   const double z = std::get<operation::StraightTraverse>(operation.what).end[Axis::z];
   if (knows_xy_ || !has(Axis::z) || z >= -nothing || is_noted(operation, "path.blind-plunge")) return;
-  diagnostics_.add_certain(
-      operation_warning(operation, file_, "path.blind-plunge",
-                        fmt::format("a rapid goes down to Z{:.6g} before the program has given X or Y", z),
-                        "X and Y first, at a Z above the work"));
+  diagnostics_.add_certain(warning(operation, "path.blind-plunge",
+                                   fmt::format("a rapid goes down to Z{:.6g} before the program has given X or Y", z),
+                                   "X and Y first, at a Z above the work"));
 }
 
 void LowRapids::feed(const Operation& operation, const ToolTrack& track, bool knew_z) {
@@ -77,8 +74,7 @@ void LowRapids::feed(const Operation& operation, const ToolTrack& track, bool kn
   if (knew_z && z < track.from()[Axis::z] - nothing) {
     descends_ = true;
     if (has_spindle_ && !no_depth_ && lowest_ > nothing) {
-      no_depth_ = operation_warning(operation, file_, "path.no-depth", {},
-                                    "a minus sign, if the zero of the work is at its top");
+      no_depth_ = warning(operation, "path.no-depth", {}, "a minus sign, if the zero of the work is at its top");
     }
   } else {
     end_descent(track.from());
@@ -99,21 +95,17 @@ void LowRapids::rapid(const Operation& operation, const ToolTrack& track, bool k
   const bool sideways = std::hypot(track.to()[Axis::x] - from[Axis::x], track.to()[Axis::y] - from[Axis::y]) > nothing;
   if (sideways && top_ && z <= *top_ + nothing && !is_noted(operation, "path.low-rapid")) {
     diagnostics_.add_certain(
-        operation_warning(operation, file_, "path.low-rapid",
-                          fmt::format("a rapid goes sideways at Z{:.6g}, and the program has cut at Z{:.6g}", z, *top_),
-                          "Z above the work before a rapid goes sideways, or a feed (G1)"));
+        warning(operation, "path.low-rapid",
+                fmt::format("a rapid goes sideways at Z{:.6g}, and the program has cut at Z{:.6g}", z, *top_),
+                "Z above the work before a rapid goes sideways, or a feed (G1)"));
   }
   const bool down = knew_z && z < from[Axis::z] - nothing;
   if (!sideways && down && deepest_ && z < *deepest_ - nothing && !is_noted(operation, "path.rapid-plunge")) {
-    diagnostics_.add_certain(operation_warning(
-        operation, file_, "path.rapid-plunge",
-        fmt::format("a rapid goes down to Z{:.6g}, deeper than all feeds before it (Z{:.6g})", z, *deepest_),
-        "a feed (G1) where there may be material"));
+    diagnostics_.add_certain(
+        warning(operation, "path.rapid-plunge",
+                fmt::format("a rapid goes down to Z{:.6g}, deeper than all feeds before it (Z{:.6g})", z, *deepest_),
+                "a feed (G1) where there may be material"));
   }
-}
-
-bool LowRapids::is_noted(const Operation& operation, std::string_view code) {
-  return diagnostics_.note_again(code, operation.file.empty() ? file_ : operation.file, operation.source.line);
 }
 
 void LowRapids::forget_heights() {

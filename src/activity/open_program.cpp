@@ -21,6 +21,11 @@ bool is_kind(const PathItem& item, Action::Kind kind) {
   return action != nullptr && action->kind == kind;
 }
 
+// As in grbl, a probe move of check mode is touched at its end.
+ProbeOutcome touched_at(const Point& place) {
+  return {.refused = false, .touched = true, .contact = place, .rest = place};
+}
+
 // The first error. Warnings do not stop a line.
 std::optional<Diagnostic> first_error(const Diagnostics& diagnostics) {
   for (const Diagnostic& one : diagnostics.all()) {
@@ -123,7 +128,9 @@ std::optional<Diagnostic> OpenProgram::take_jog(std::string_view words, Seconds 
 std::optional<Diagnostic> OpenProgram::check(std::string_view line) {
   const std::size_t kept = queue_.size();
   auto answer = read(line);
+  answers_.note({});
   for (PathItem item; pull_answer(item);) {
+    if (is_kind(item, Action::Kind::probe_end)) answers_.note(touched_at(std::get<Action>(item).place));
   }
   queue_.resize(kept);
   if (interpreter_->ended()) begin_after_end();
@@ -228,9 +235,8 @@ bool OpenProgram::next(PathItem& item) {
 // What comes after a question, once it is answered.
 bool OpenProgram::pull_answer(PathItem& item) {
   if (!asks_) return false;
-  if (builder_->next(item) && !diagnostics_.any_error()) {
-    return true;
-  }
+  const bool has_end = interpreter_->ended();  // M2 stands in the line of the question
+  if (builder_->next(item) && !diagnostics_.any_error()) return true;
   asks_ = false;
   answer_fault_ = first_error(diagnostics_);
   // A probe move that has met nothing ends a program in a file. Whoever has sent it decides what comes next, with all
@@ -239,12 +245,11 @@ bool OpenProgram::pull_answer(PathItem& item) {
   }
   diagnostics_.clear();
   if (!interpreter_->ended()) return false;
-  if (answer_fault_) {
+  if (answer_fault_ && !has_end) {
     interpreter_->reopen();
     interpreter_->stand_at(builder_->position());
   } else {
     begin_after_end();
-    ended_ = false;
   }
   return false;
 }

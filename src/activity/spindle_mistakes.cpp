@@ -4,16 +4,14 @@
 #include <utility>
 #include <variant>
 
-#include "operation_warning.hpp"
 #include <fmt/format.h>
 
 namespace passo {
 
 SpindleMistakes::SpindleMistakes(const MachineDescription& machine, std::string file, Diagnostics& diagnostics)
-    : may_be_early_(machine.tool.highest_rpm > 0 && !machine.spindle.run_up_is_given),
-      is_lathe_(std::ranges::find(machine.axes, Axis::y, &AxisDescription::axis) == machine.axes.end()),
-      file_(std::move(file)),
-      diagnostics_(diagnostics) {}
+    : OperationWatcher(std::move(file), diagnostics),
+      may_be_early_(machine.tool.highest_rpm > 0 && !machine.spindle.run_up_is_given),
+      is_lathe_(std::ranges::find(machine.axes, Axis::y, &AxisDescription::axis) == machine.axes.end()) {}
 
 void SpindleMistakes::watch(const Operation& operation, const ToolTrack& track) {
   using namespace passo::operation;
@@ -51,9 +49,9 @@ void SpindleMistakes::set_speed(const Operation& operation, double speed) {
 
 void SpindleMistakes::note_speed_up(const Operation& operation) {
   if (!may_be_early_ || early_ || sped_up_) return;
-  sped_up_ = operation_warning(operation, file_, "path.spindle-early",
-                               "a cut follows at once, and nothing waits until the spindle is at its speed",
-                               "run_up_s in the table [spindle] of the machine file, or a dwell (G4) before the cut");
+  sped_up_ = warning(operation, "path.spindle-early",
+                     "a cut follows at once, and nothing waits until the spindle is at its speed",
+                     "run_up_s in the table [spindle] of the machine file, or a dwell (G4) before the cut");
 }
 
 void SpindleMistakes::feed(const Operation& operation) {
@@ -67,7 +65,7 @@ void SpindleMistakes::feed(const Operation& operation) {
   any_backwards_ |= backwards;
   ++places_;
   if (laser_) return laser_->note_line(operation.source.line);
-  laser_ = operation_warning(operation, file_, "path.laser", {}, "a program for a spindle");
+  laser_ = warning(operation, "path.laser", {}, "a program for a spindle");
 }
 
 void SpindleMistakes::finish() {

@@ -5,7 +5,6 @@
 #include <utility>
 #include <variant>
 
-#include "operation_warning.hpp"
 #include <fmt/format.h>
 
 #include "passo/interpreter/plane_axes.hpp"
@@ -41,9 +40,8 @@ bool is_nearly_circle(const operation::ArcFeed& arc, const Point& from) {
 
 UsualMistakes::UsualMistakes(const MachineDescription& machine, LengthUnits units, std::string file,
                              Diagnostics& diagnostics)
-    : has_spindle_(machine.tool.highest_rpm > 0),
-      file_(std::move(file)),
-      diagnostics_(diagnostics),
+    : OperationWatcher(std::move(file), diagnostics),
+      has_spindle_(machine.tool.highest_rpm > 0),
       knows_units_(units == LengthUnits::inch) {}
 
 void UsualMistakes::watch(const Operation& operation, const ToolTrack& track) {
@@ -143,21 +141,6 @@ void UsualMistakes::arc(const Operation& operation, const operation::ArcFeed& ar
       warning(operation, "path.nearly-circle",
               fmt::format("this arc goes round nearly a full circle, and ends {:.2g} mm before its start", gap),
               "the start as the end for a full circle; the other direction (G2, G3) or G1 for a short way"));
-}
-
-bool UsualMistakes::is_noted(const Operation& operation, std::string_view code) {
-  return diagnostics_.note_again(code, operation.file.empty() ? file_ : operation.file, operation.source.line);
-}
-
-void UsualMistakes::warn(const Operation& operation, std::string_view code, std::string_view message,
-                         std::string_view expected) {
-  if (is_noted(operation, code)) return;
-  diagnostics_.add_certain(warning(operation, std::string(code), std::string(message), std::string(expected)));
-}
-
-Diagnostic UsualMistakes::warning(const Operation& operation, std::string code, std::string message,
-                                  std::string expected) const {
-  return operation_warning(operation, file_, std::move(code), std::move(message), std::move(expected));
 }
 
 }  // namespace passo

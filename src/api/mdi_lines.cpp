@@ -97,7 +97,7 @@ MdiLines::Answer MdiLines::take_code(std::string_view line) {
     return refused("machine.busy", fmt::format("the machine is not idle: {}", name_of(state)));
   }
   if (streams() && (stops_ || !program_->room())) {
-    return refused("machine.busy", "the lines before this one still run: wait");
+    return refused("machine.busy", "earlier lines are still running: wait");
   }
   if (const auto closed = session_.closed_limit()) return refused(std::string(code_of(closed->code)), closed->message);
   if (!streams()) program_->drop(session_.status().position.place);
@@ -139,13 +139,13 @@ MdiLines::Answer MdiLines::take_command(const std::string& text) {
     if (state != MachineState::alarm && state != MachineState::fault) return told("[MSG:Nothing is locked]");
     return ask(request::ResetMachine{});
   }
-  if (text.starts_with("$J=")) return refused("mdi.unsupported", "the console does not jog: use the page Set up");
-  if (text == "$C") return refused("mdi.unsupported", "the console does not check: open the program in Files");
+  if (text.starts_with("$J=")) return refused("mdi.unsupported", "the console cannot jog: use the page Set up");
+  if (text == "$C") return refused("mdi.unsupported", "the console has no check mode: open the program in Files");
   if (text.size() > 1 && text[1] >= '0' && text[1] <= '9') {
-    return refused("mdi.unsupported", "settings are in the machine file: change them on the page Machine");
+    return refused("mdi.unsupported", "settings are kept in the machine file: change them on the page Machine");
   }
-  return refused("mdi.unsupported",
-                 fmt::format("the console does not know {}: it knows $$ $# $G $I $H $X $SLP", text.substr(0, 20)));
+  return refused("mdi.unsupported", fmt::format("the console does not support {}: it supports $$ $# $G $I $H $X $SLP",
+                                                text.substr(0, 20)));
 }
 
 MdiLines::Answer MdiLines::ask(Request wanted) {

@@ -167,6 +167,7 @@ void GrblController::end_probe() {
   const bool failed = program_.answer_fault().has_value();
   if (failed) raise(probe_ && probe_->refused ? GrblAlarm::probe_before : GrblAlarm::probe_untouched);
   if (!probe_ || !probe_->refused) say(probe_text(probe_, units()));
+  tell_end();
   answer(GrblError::none);
 }
 
@@ -230,9 +231,13 @@ void GrblController::take_code(const std::string& text) {
     waits_ = Waits::probe;
     return begin_stream();
   }
-  if (program_.take_ended()) say("[MSG:Pgm End]\r\n");
+  tell_end();
   begin_stream();
   answer(GrblError::none);
+}
+
+void GrblController::tell_end() {
+  if (program_.take_ended()) say("[MSG:Pgm End]\r\n");
 }
 
 void GrblController::answer(int error) {

@@ -1,7 +1,7 @@
 // Where an arc's centre is, and whether there is such an arc. Pure geometry in the plane's own two axes.
 //
 // The limits are LinuxCNC's (interp_arc.cc): program coordinates are rounded, so start and end may lie on slightly
-// different radii, and a radius may be slightly too small.
+// different radii, and a radius may be slightly too small. grbl allows less.
 #pragma once
 
 #include <cstdint>
@@ -27,6 +27,7 @@ struct ArcTolerance {
 inline constexpr double square_root_of_two = 1.41421356237309504880;
 inline constexpr ArcTolerance arc_tolerance_mm{0.00127, 0.02 * square_root_of_two};
 inline constexpr ArcTolerance arc_tolerance_inch{0.00127, 25.4 * 0.002 * square_root_of_two};  // in millimetres
+inline constexpr ArcTolerance arc_tolerance_grbl{5e-7, 0.005};  // R as grbl's single precision tells it
 
 enum class ArcFault : std::uint8_t { none, zero_radius, radii_differ, radius_too_small, ends_at_start };
 

@@ -330,7 +330,8 @@ bool BlockExecutor::resolve_motion() {
   if (block_.motion != nullptr || taker != nullptr) return true;
 
   const CodeNumber active = state_.modal[motion];
-  const bool arc_words = words_.present().bits() != 0 && (words_.present() & LetterSet("IJK")).any();
+  // In grbl only axis words move.
+  const bool arc_words = !speaks_grbl() && (words_.present() & LetterSet("IJK")).any();
   if (any_axis || (arc_words && (active == code(2) || active == code(3)))) {
     if (active == code(80)) {
       return fail("gcode.missing-motion", motion_span(), "axis words, and no code that moves is active",
@@ -358,7 +359,7 @@ bool BlockExecutor::check_words_used() {
   bool axes = false;
   const auto add = [&](const CodeEntry* entry) {
     if (entry == nullptr) return;
-    used = used | entry->letters;
+    used = used | (speaks_grbl() ? letters_of(*entry) : entry->letters);
     axes |= entry->axes != AxisUse::none;
   };
   for (std::uint32_t groups = words_.groups(); groups != 0; groups &= groups - 1) {
@@ -383,8 +384,12 @@ bool BlockExecutor::check_words_used() {
   return false;
 }
 
-// The words that a code takes. Those of G10 depend on its L.
+// The words that a code takes. Those of G10 depend on its L. grbl's arcs make no turns (P), and have a radius or a
+// centre.
 LetterSet BlockExecutor::letters_of(const CodeEntry& entry) const {
+  if (speaks_grbl() && entry.group == motion && (entry.number == code(2) || entry.number == code(3))) {
+    return words_.has('R') ? "R" : "IJK";
+  }
   if (entry.group != non_modal || entry.number != code(10) || !words_.has('L')) return entry.letters;
   if (words_['L'] == 2) return "LPR";
   return words_['L'] == 20 || words_['L'] == 0 ? "LP" : entry.letters;

@@ -190,8 +190,8 @@ bool CodeFamily::report_arc(const ArcCenter& arc) {
           fmt::format("no arc with a radius of {} reaches from the start to the end", plain_number(words_['R'])),
           "half the distance at least");
     case ArcFault::ends_at_start:
-      return fail("gcode.impossible-arc", words_.span('R'), "an arc with R that ends where it starts",
-                  "a full circle is written with I J K");
+      return fail(speaks_grbl() ? "gcode.zero-arc" : "gcode.impossible-arc", words_.span('R'),
+                  "an arc with R that ends where it starts", "a full circle is written with I J K");
   }
   return true;
 }

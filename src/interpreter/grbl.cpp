@@ -96,15 +96,14 @@ struct Translation {
   int number;
 };
 constexpr Translation translations[] = {
-    {"gcode.unexpected-text", 1}, {"gcode.bad-character", 1},       {"gcode.unknown-word", 1},
-    {"gcode.missing-value", 2},   {"gcode.number-out-of-range", 2}, {"gcode.negative-word", 4},
-    {"gcode.line-too-long", 11},  {"gcode.unknown-code", 20},       {"gcode.modal-conflict", 21},
-    {"gcode.missing-feed", 22},   {"gcode.not-whole", 23},          {"gcode.axis-conflict", 24},
-    {"gcode.ambiguous-word", 36}, {"gcode.repeated-word", 25},      {"gcode.missing-axis", 26},
-    {"gcode.missing-word", 28},   {"gcode.g53-without-move", 30},   {"gcode.missing-motion", 31},
-    {"gcode.wrong-center", 36},   {"gcode.arc-radii-differ", 33},   {"gcode.zero-arc", 33},
-    {"gcode.impossible-arc", 34}, {"gcode.missing-center", 35},     {"gcode.mixed-arc", 36},
-    {"gcode.unused-word", 36},
+    {"gcode.unexpected-text", 1},   {"gcode.bad-character", 1},       {"gcode.unknown-word", 1},
+    {"gcode.missing-value", 2},     {"gcode.number-out-of-range", 2}, {"gcode.negative-word", 4},
+    {"gcode.line-too-long", 11},    {"gcode.unknown-code", 20},       {"gcode.modal-conflict", 21},
+    {"gcode.missing-feed", 22},     {"gcode.not-whole", 23},          {"gcode.axis-conflict", 24},
+    {"gcode.ambiguous-word", 36},   {"gcode.repeated-word", 25},      {"gcode.missing-axis", 26},
+    {"gcode.missing-word", 28},     {"gcode.g53-without-move", 30},   {"gcode.missing-motion", 31},
+    {"gcode.arc-radii-differ", 33}, {"gcode.zero-arc", 33},           {"gcode.impossible-arc", 34},
+    {"gcode.missing-center", 35},   {"gcode.unused-word", 36},        {"gcode.probe-too-short", 33},
 };
 
 const Error& error_of(int number) {
@@ -139,6 +138,7 @@ class GrblCheck {
                    "such commands outside programs");
     }
     for (const Word& word : block_.words) {
+      if (is_no_letter(word)) return !take(word);
       if (word.value.count == 0) return false;  // here reading ended
       if (!take(word)) return true;
     }
@@ -177,9 +177,6 @@ class GrblCheck {
     if (!block_.assignments.empty()) {
       return fail(1, block_.assignments.front().span, "grbl knows no parameters", "a program without them");
     }
-    if (block_.line_number && line_number() > highest_line_number) {
-      return fail(27, {1, 1}, fmt::format("grbl takes no line number N{}", *block_.line_number), "N10000000 at most");
-    }
     return true;
   }
   static std::size_t end_of(Span span) { return std::size_t{span.column} - 1 + span.length; }
@@ -192,15 +189,19 @@ class GrblCheck {
     return number;
   }
 
+  static bool is_no_letter(const Word& word) { return word.letter == '@' || word.letter == '^' || word.letter == '$'; }
   bool take(const Word& word) {
-    if (word.letter == '@' || word.letter == '^' || word.letter == '$') {
+    if (is_no_letter(word)) {
       return fail(1, word.span, fmt::format("grbl knows no {}", word.letter), "letters");
     }
     const Instruction& value = block_.code[word.value.first];
-    if (word.value.count != 1 || value.op != ExpressionOp::number) {
+    const std::string_view text = block_.text.substr(word.span.column - 1, word.span.length);
+    if (word.value.count != 1 || value.op != ExpressionOp::number || text.find('[') != std::string_view::npos) {
       return fail(2, word.span, "grbl knows no parameters and expressions", "a number");
     }
-    if (signs_in(word) > 1) return fail(2, word.span, "grbl takes one sign before a number", "a number");
+    const auto is_sign = [](char c) { return c == '-' || c == '+'; };
+    if (std::ranges::count_if(text, is_sign) > 1)
+      return fail(2, word.span, "grbl takes one sign before a number", "a number");
     if (!(accepted_letters | axes_).has(word.letter)) {
       return fail(20, word.span, fmt::format("grbl knows no word {}", word.letter), "F I J K L N P R S T X Y Z");
     }
@@ -208,40 +209,32 @@ class GrblCheck {
     return take_value(word, value.number);
   }
 
-  std::ptrdiff_t signs_in(const Word& word) const {
-    const std::string_view text = block_.text.substr(word.span.column - 1, word.span.length);
-    return std::ranges::count_if(text, [](char c) { return c == '-' || c == '+'; });
-  }
-
+  // grbl keeps the whole part in a byte, and what is left in hundredths.
   bool take_code(const Word& word, double value) {
-    const double tenths = std::round(value * 10);
-    const bool readable = value >= 0 && value < 1000;
-    const auto number = readable ? static_cast<CodeNumber>(tenths) : CodeNumber{-1};
+    const int whole = static_cast<std::uint8_t>(static_cast<int>(std::fmod(value, 256)));
+    const double hundredths = whole == 49 ? 0 : std::round(100 * (value - whole));
+    const bool claims = word.letter == 'G' && claims_axes(whole, hundredths);
+    if (claims && axis_user_ != nullptr) {
+      return fail(24, word.span,
+                  fmt::format("{} and G{} both use the axis words", spelling(*axis_user_), plain_number(value)),
+                  "two blocks");
+    }
+    const bool readable = hundredths >= 0 && hundredths < 100 && std::fmod(hundredths, 10) == 0;
+    const CodeNumber number = readable ? code(whole, static_cast<int>(hundredths / 10)) : CodeNumber{-1};
     bool known = false;
     (void)use_of(word.letter, number, known);
-    if (word.letter == 'G' && number == code(43) && axis_user_ != nullptr) {
-      return fail(24, word.span, "G43 and another code use the axis words", "two blocks");
-    }
-    if (!readable || std::abs(value * 10 - tenths) > 1e-3 || !known) {
+    if (!known) {
+      // G54.1 is a G54 with too many digits, and G64 is an unknown code.
       bool whole_known = false;
-      (void)use_of(word.letter, static_cast<CodeNumber>(readable ? std::floor(value) * 10 : -1), whole_known);
-      // grbl looks at the whole number first. So G54.1 is a G54 with too many digits, and G64 is an unknown code.
-      const bool fraction = readable && std::abs(value - std::round(value)) > 1e-3;
-      const bool digits_too_many =
-          fraction && (word.letter == 'M' || (whole_known && !has_fractions(word.letter, static_cast<int>(value))));
+      (void)use_of(word.letter, code(whole), whole_known);
+      const bool digits_too_many = hundredths != 0 && (word.letter == 'M' || (whole_known && !has_fractions(whole)));
       return fail(digits_too_many ? 23 : 20, word.span,
                   fmt::format("grbl does not know {}{}", word.letter, plain_number(value)),
                   "a code of grbl 1.1, docs/gcode.md lists them");
     }
     const CodeEntry* const entry = find_code(word.letter, number);
     const std::size_t group = index_of(entry->group);
-    // G49 counts as a user of the axis words too, though it uses none.
-    if (entry->axes != AxisUse::none || entry->group == ModalGroup::tool_length) {
-      if (axis_user_ != nullptr) {
-        return fail(24, word.span,
-                    fmt::format("{} and {} both use the axis words", spelling(*axis_user_), spelling(*entry)),
-                    "two blocks");
-      }
+    if (claims) {
       axis_user_ = entry;
       code_span_ = word.span;
     }
@@ -254,10 +247,16 @@ class GrblCheck {
     codes_[group] = entry;
     return true;
   }
+  // Which code takes the axis words is what grbl looks at first, before the digits behind the point. G49 counts, though
+  // it uses none.
+  static bool claims_axes(int whole, double hundredths) {
+    if (whole == 10 || whole == 28 || whole == 30 || whole == 92) return hundredths == 0;
+    return whole <= 3 || whole == 38 || whole == 43 || whole == 49;
+  }
   // G codes where grbl expects digits behind the point.
-  static bool has_fractions(char letter, int whole) {
-    return letter == 'G' && (whole == 28 || whole == 30 || whole == 38 || whole == 43 || whole == 61 || whole == 90 ||
-                             whole == 91 || whole == 92);
+  static bool has_fractions(int whole) {
+    return whole == 28 || whole == 30 || whole == 38 || whole == 43 || whole == 61 || whole == 90 || whole == 91 ||
+           whole == 92;
   }
 
   bool take_value(const Word& word, double value) {
@@ -288,8 +287,11 @@ class GrblCheck {
     return entry != nullptr && entry->axes != AxisUse::none;
   }
 
-  // In grbl's order.
+  // In grbl's order. Words without use come last of all: BlockExecutor finds them.
   bool words_suffice() {
+    if (block_.line_number && line_number() > highest_line_number) {
+      return fail(27, {1, 1}, fmt::format("grbl takes no line number N{}", *block_.line_number), "N10000000 at most");
+    }
     const CodeNumber motion = motion_of_block();
     if (is_inverse_time() && moves() && needs_feed(motion) && !has('F')) return fail_feed();
     const CodeEntry* const non_modal = code_of(ModalGroup::non_modal);
@@ -355,7 +357,7 @@ class GrblCheck {
     if (kind != 2 && kind != 20) {
       return fail(20, has('L') ? span('L') : code_span_, "grbl knows G10 L2 and L20", "L2 or L20");
     }
-    if (has('R')) return fail(kind == 2 ? 20 : 36, span('R'), "grbl does not turn work systems", "no R");
+    if (kind == 2 && has('R')) return fail(20, span('R'), "grbl does not turn work systems", "no R");
     return true;
   }
 
@@ -363,13 +365,9 @@ class GrblCheck {
   bool arc_suffices(CodeNumber motion) {
     const CodeEntry* const written = code_of(ModalGroup::motion);
     if (motion != code(2) && motion != code(3)) return true;
-    const bool center = (present_ & LetterSet("IJKR")).any();
-    if (written == nullptr && !any_axis() && !center) return true;
+    if (written == nullptr && !any_axis()) return true;
     const Span at = written != nullptr ? code_span_ : block_.words.front().span;
-    if (!any_axis()) {
-      return written == nullptr ? fail(36, at, "centre words without axis words", "the end of the arc")
-                                : fail(26, at, "an arc without axis words", "the end of the arc");
-    }
+    if (!any_axis()) return fail(26, at, "an arc without axis words", "the end of the arc");
     const CodeEntry* const new_plane = code_of(ModalGroup::plane);
     const CodeNumber plane = new_plane != nullptr ? new_plane->number : state_.modal[ModalGroup::plane];
     const LetterSet in_plane = plane == code(17) ? "XY" : plane == code(18) ? "XZ" : "YZ";
@@ -379,9 +377,6 @@ class GrblCheck {
       return fail(35, at, "no centre in the arc's plane", "R, or one of I J K of the plane");
     }
     if (!has('R')) idle_letters_ = LetterSet("IJK") - offsets;
-    if (has('P') && code_of(ModalGroup::non_modal) == nullptr) {
-      return fail(36, span('P'), "grbl's arcs have no P", "one block for each turn");
-    }
     return true;
   }
   Span first_axis_span() const {
@@ -411,15 +406,17 @@ bool is_without_effect(const Block& block, const Word& word) {
   return use_of(word.letter, static_cast<CodeNumber>(std::lround(value * 10)), known) == Use::without_effect;
 }
 
-// Of T, L and P of G10, grbl takes the whole part.
+// Of T, L and P of G10, grbl takes the whole part; of G and M the digits that it has looked at.
 void drop_decimals(Block& block) {
   const auto number_of = [&block](const Word& word) -> double& { return block.code[word.value.first].number; };
   const bool sets_offset = std::ranges::any_of(block.words, [&](const Word& word) {
     return word.letter == 'G' && std::lround(number_of(word) * 10) == code(10);
   });
   for (const Word& word : block.words) {
-    if (word.letter == 'T' || word.letter == 'L' || (word.letter == 'P' && sets_offset)) {
-      number_of(word) = std::trunc(number_of(word));
+    double& number = number_of(word);
+    if (word.letter == 'T' || word.letter == 'L' || (word.letter == 'P' && sets_offset)) number = std::trunc(number);
+    if (word.letter == 'G' || word.letter == 'M') {
+      number = std::trunc(number) == 49 ? 49 : std::round(number * 10) / 10;
     }
   }
 }
@@ -433,11 +430,11 @@ bool refuse_as_grbl(const Block& block, const ProgramState& state, Reporter& rep
 bool accept_as_grbl(Block& block, const ProgramState& state, Reporter& reporter, LetterSet more_axes) {
   GrblCheck check(block, state, reporter, more_axes);
   if (!check.passes()) return false;
+  drop_decimals(block);
   std::erase_if(block.words, [&](const Word& word) {
     const bool idle = word.letter != 'G' && word.letter != 'M' && check.idle_letters().has(word.letter);
     return idle || is_without_effect(block, word);
   });
-  drop_decimals(block);
   for (BlockComment& comment : block.comments) comment.kind = BlockComment::Kind::plain;
   return true;
 }

@@ -124,8 +124,11 @@ bool MotionCodes::find_arc_center(bool clockwise, const Point& end, ArcCenter& f
   const PlaneAxes plane_axes = axes_of(state_.modal.plane());
   const PlanePoint from{state_.position[plane_axes.first], state_.position[plane_axes.second]};
   const PlanePoint to{end[plane_axes.first], end[plane_axes.second]};
-  const ArcTolerance& tolerance = state_.modal.inches() ? arc_tolerance_inch : arc_tolerance_mm;
-  const bool by_center = (words_.present() & LetterSet("IJK")).any();
+  const ArcTolerance& tolerance = speaks_grbl()           ? arc_tolerance_grbl
+                                  : state_.modal.inches() ? arc_tolerance_inch
+                                                          : arc_tolerance_mm;
+  // In grbl R comes first. Which words of an arc have no use is looked at behind its place.
+  const bool by_center = (words_.present() & LetterSet("IJK")).any() && !(speaks_grbl() && words_.has('R'));
 
   if (by_center && words_.has('R')) {
     return fail("gcode.mixed-arc", words_.span('R'), "an arc with a radius and a centre", "R, or I J K");
@@ -196,7 +199,7 @@ bool MotionCodes::fits_other_distance(PlanePoint from, PlanePoint to, const ArcT
 }
 
 bool MotionCodes::arc_turns(std::int32_t& turns) {
-  return !words_.has('P') || whole_word('P', 1, highest_turns, turns);
+  return speaks_grbl() || !words_.has('P') || whole_word('P', 1, highest_turns, turns);
 }
 
 bool MotionCodes::straight(bool rapid, const Point& start) {

@@ -34,7 +34,7 @@ bool ProbeCodes::probe(CodeNumber number) {
   if (!end_point(end)) return false;
   state_.position = end;
   if (!check(number)) return false;
-  if (must_touch(number) && end == start) {
+  if ((must_touch(number) || speaks_grbl()) && end == start) {
     return fail("gcode.probe-too-short", motion_span(), "the probe move ends where it starts",
                 "an end away from here, in the direction in which to probe");
   }

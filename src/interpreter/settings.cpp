@@ -100,7 +100,7 @@ bool BlockExecutor::switch_overrides(CodeNumber number) {
 
 bool BlockExecutor::dwell(CodeNumber number) {
   if (number != code(4)) return true;
-  if (block_.motion != nullptr && block_.motion->letters.has('P')) {
+  if (block_.motion != nullptr && letters_of(*block_.motion).has('P')) {
     return fail("gcode.ambiguous-word", words_.span('P'),
                 fmt::format("P belongs to G4 or to {}, which both use it", spelling(*block_.motion)), "two blocks");
   }

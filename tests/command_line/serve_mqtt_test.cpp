@@ -107,6 +107,29 @@ TEST_F(ServeMqtt, tells_its_status_to_a_broker_that_comes_later) {
   EXPECT_TRUE(becomes("shop/router/online", "0"));
 }
 
+// Whatever others publish there.
+TEST_F(ServeMqtt, obeys_no_message) {
+  start({"/usr/sbin/mosquitto", "-p", std::to_string(port_)}, "broker");
+  start({PASSO_PROGRAM, "serve", "--grbl-pty", path("tty"), "--mqtt", "127.0.0.1:" + std::to_string(port_),
+         "--mqtt-topic", "shop/router"},
+        "said");
+  ASSERT_TRUE(becomes("shop/router/state", "Idle")) << passo::test::read(path("said"));
+  mosquitto* const other = mosquitto_new(nullptr, true, nullptr);
+  ASSERT_EQ(mosquitto_connect(other, "127.0.0.1", static_cast<int>(port_), 10), MOSQ_ERR_SUCCESS);
+  const std::string line = "G91 G0 X30\n";
+  for (const char* const topic :
+       {"shop/router", "shop/router/command", "shop/router/gcode", "shop/router/status/set"}) {
+    mosquitto_publish(other, nullptr, topic, static_cast<int>(line.size()), line.data(), 1, true);
+    mosquitto_loop(other, 100, 1);
+  }
+  mosquitto_disconnect(other);
+  mosquitto_destroy(other);
+  EXPECT_EQ(kept("shop/router/gcode"), line) << "the broker has them";
+  usleep(1'100'000);  // the status is told once a second
+  EXPECT_EQ(kept("shop/router/state"), "Idle");
+  EXPECT_EQ(nlohmann::json::parse(kept("shop/router/status"), nullptr, false)["position"]["X"], 0.0);
+}
+
 TEST_F(ServeMqtt, wants_a_good_address_topic_and_login) {
   EXPECT_THAT(passo("serve --check --mqtt :0").err, HasSubstr("--mqtt: expected HOST or HOST:PORT"));
   EXPECT_THAT(passo("serve --check --mqtt a --mqtt-topic 'a/#'").err, HasSubstr("--mqtt-topic"));

@@ -134,6 +134,38 @@ TEST(GrblAlarms, tell_what_a_probe_move_has_met) {
   EXPECT_EQ(next_alarm(nothing), "ALARM:5");
 }
 
+// As in grbl: M2 in the line of a probe move ends the program, whatever the probe has met.
+TEST(GrblAlarms, let_the_end_of_a_program_behind_a_probe_move_take_effect) {
+  GrblRun run;
+  run.send("M3 S5000 G55\n");
+  EXPECT_EQ(run.reply(), "ok");
+  run.send("G38.2 Z-1 F600 M2\n");
+  EXPECT_EQ(run.reply(), "ALARM:5");
+  EXPECT_TRUE(run.reply().starts_with("[PRB:"));
+  EXPECT_EQ(run.reply(), "[MSG:Pgm End]");
+  EXPECT_EQ(run.reply(), "ok");
+  run.send("$G\n");
+  EXPECT_EQ(run.reply(), "[GC:G1 G54 G17 G21 G90 G94 M5 M9 T0 F600 S5000]");
+  run.pass(Seconds(0.5));
+  EXPECT_EQ(run.board().counts().outputs.switches & spindle_on, 0);
+}
+
+TEST(GrblCheckMode, touches_at_the_end_of_each_probe_move) {
+  GrblRun run;
+  run.send("$C\n");
+  while (run.reply() != "ok") continue;
+  run.send("M8\nG38.4 X5 F100\n");
+  EXPECT_EQ(run.reply(), "ok");
+  EXPECT_EQ(run.reply(), "ok");
+  run.send("G38.3 X5\n");
+  EXPECT_EQ(run.reply(), "error:33") << "it is there already";
+  run.send("G38.2 X0 M30\n");
+  EXPECT_EQ(run.reply(), "[MSG:Pgm End]");
+  EXPECT_EQ(run.reply(), "ok");
+  run.send("$G\n");
+  EXPECT_EQ(run.reply(), "[GC:G1 G54 G17 G21 G90 G94 M5 M9 T0 F100 S0]");
+}
+
 TEST(GrblAlarms, tell_why_homing_has_ended) {
   const KnownPosition nowhere{.place = Point(), .trust = Trust::unknown};
   GrblRun stopped(example_machine("router"), nowhere);

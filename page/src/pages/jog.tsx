@@ -98,6 +98,8 @@ function JogPanel() {
   const speed = jogSpeed({ x: 1 });
   const steps = stepsOf[units.value];
   const keysMove = windowHasFocus.value && !fieldHasKeys.value;
+  const keysState = keysMove ? 'jog.keys.on' : windowHasFocus.value ? 'jog.keys.field' : 'jog.keys.off';
+  const keysHelp = keysState === 'jog.keys.field' ? 'jog.keys.leave' : jogStep.value === 0 ? 'jog.keys' : 'jog.keys.step';
   const known = jogStep.value === 0 || steps.some((one) => one === jogStep.value);
   return (
     <section class="panel jog" aria-label={say('jog.title')}>
@@ -121,7 +123,7 @@ function JogPanel() {
       <p class={`keys-state ${keysMove ? 'on' : ''}`}>
         <Icon name={keysMove ? 'jog' : 'close'} />
         <span>
-          <b>{say(keysMove ? 'jog.keys.on' : windowHasFocus.value ? 'jog.keys.field' : 'jog.keys.off')}</b> <span class="dim">{say('jog.keys')}</span>
+          <b>{say(keysState)}</b> <span class="dim">{say(keysHelp)}</span>
           {gamepad.value !== '' && <span> {say('jog.gamepad', { name: gamepad.value })}</span>}
         </span>
       </p>

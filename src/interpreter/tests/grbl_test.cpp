@@ -61,7 +61,37 @@ INSTANTIATE_TEST_SUITE_P(GrblFirst, GrblRefuses,
                                          Refusal{"S-1 S-1\nM2", 4}, Refusal{"G1 X1 K1\nM2", 22},
                                          Refusal{"G2 X1\nM2", 22}, Refusal{"G2\nM2", 22},
                                          Refusal{"G93 G2 X1 F0\nM2", 22}, Refusal{"G38.2 Z-1\nM2", 22},
-                                         Refusal{"F9 G2 K1\nM2", 26}, Refusal{"M3 M4 X\nM2", 21}));
+                                         Refusal{"F9 G2 K1\nM2", 26}, Refusal{"M3 M4 X\nM2", 21},
+                                         Refusal{"N10000001 G7\nM2", 20}, Refusal{"N10000001 G4\nM2", 27},
+                                         Refusal{"G10 G0.5\nM2", 24}, Refusal{"G1 G38.7\nM2", 24},
+                                         Refusal{"G-.5\nM2", 23}, Refusal{"G-1\nM2", 20}, Refusal{"M-1\nM2", 23},
+                                         Refusal{"G257\nM2", 23}, Refusal{"G0 X[1]\nM2", 2}, Refusal{"N5 $G\nM2", 1}));
+
+// Last of all it looks for words without use: behind the place of an arc and of a probe move.
+INSTANTIATE_TEST_SUITE_P(GrblLast, GrblRefuses,
+                         testing::Values(Refusal{"F9 G2 X1 Y9 I1 P2\nM2", 33}, Refusal{"F9 G2 X9 R1 P2\nM2", 34},
+                                         Refusal{"F9 G2 X9 R1 I1\nM2", 34}, Refusal{"F9 G2 X9 R5 I1\nM2", 36},
+                                         Refusal{"F9 G2 X0 R5 P1\nM2", 33}, Refusal{"F9 G38.3 X0 P1\nM2", 33},
+                                         Refusal{"F9 G38.3 X1 P1\nM2", 36}, Refusal{"G80 G10 L20 P1 X1 R2\nM2", 31},
+                                         Refusal{"G10 L20 P1 X1 R2\nM2", 36}, Refusal{"F9 G2 X1 I1 L1\nM2", 33},
+                                         Refusal{"F9 G2 X2 I1\nI1\nM2", 36}, Refusal{"F9 G2 X2 I1\nG49 I1\nM2", 36},
+                                         Refusal{"F9 G2 X2 I1\nG49 X5 I1\nM2", 36}));
+
+// In grbl radii may differ by 0.005 mm, or by a thousandth of the radius up to 0.5 mm, in inches too.
+INSTANTIATE_TEST_SUITE_P(GrblArcs, GrblRefuses,
+                         testing::Values(Refusal{"F9 G2 X2.006 I1\nM2", 33}, Refusal{"F9 G2 X2000.6 I1000\nM2", 33},
+                                         Refusal{"F9 G20 G2 X.2003 I.1\nM2", 33}, Refusal{"F9 G2 X2 R.999\nM2", 34}));
+
+TEST(Grbl, counts_the_hundredths_of_a_code) {
+  EXPECT_EQ(as_grbl("G0.004 X1\nG49.5\nM2.004").calls(), as_grbl("G0 X1\nG49\nM2").calls());
+}
+
+TEST(Grbl, takes_the_dwell_of_an_arc_by_its_p) {
+  const Interpreted result = as_grbl("F9 G4 P2 G2 X2 I1\nG2 X4 I1.002\nM2");
+  EXPECT_FALSE(result.diagnostics.any_error()) << result.rendered();
+  EXPECT_EQ(result.all<operation::Dwell>().front().time, Seconds(2));
+  EXPECT_EQ(result.all<operation::ArcFeed>().front().turns, -1);
+}
 
 TEST(Grbl, accepts_what_it_knows) {
   const Interpreted result = as_grbl(

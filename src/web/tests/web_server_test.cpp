@@ -150,6 +150,20 @@ TEST_F(WebServerTest, refuses_what_is_not_for_it_before_the_body_is_read) {
   EXPECT_EQ(echo.answered, 0);
 }
 
+// A browser opens a WebSocket to any server for any page, and tells whose page it is.
+TEST_F(WebServerTest, opens_no_stream_for_a_page_of_another_server) {
+  const std::string upgrade =
+      "Upgrade: websocket\r\nConnection: Upgrade\r\nSec-WebSocket-Version: 13\r\n"
+      "Sec-WebSocket-Key: dGhlIHNhbXBsZSBub25jZQ==\r\n";
+  for (const char* const of : {"Origin: http://evil.example\r\n", "Origin: null\r\n"}) {
+    EXPECT_EQ(status_of(answer_to(get("/stream", of + upgrade) + frame("hi"))), "HTTP/1.1 403 Forbidden") << of;
+  }
+  const std::string rebound = "GET /stream HTTP/1.1\r\nHost: evil.example\r\n" + upgrade + "\r\n";
+  EXPECT_EQ(status_of(answer_to(rebound + frame("hi"))), "HTTP/1.1 403 Forbidden");
+  EXPECT_EQ(server->watchers(), 0U);
+  EXPECT_EQ(echo.answered, 0);
+}
+
 TEST_F(WebServerTest, takes_few_large_bodies_at_once) {
   const std::string upload = "POST /upload HTTP/1.1\r\nHost: localhost\r\nContent-Length: 900000\r\n\r\n";
   std::vector<std::unique_ptr<Caller>> callers;

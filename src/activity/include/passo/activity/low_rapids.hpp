@@ -17,20 +17,15 @@
 
 #include <limits>
 #include <optional>
-#include <string>
-#include <string_view>
 
+#include "passo/activity/operation_watcher.hpp"
 #include "passo/activity/tool_track.hpp"
-#include "passo/diagnostics/diagnostic.hpp"
-#include "passo/interpreter/operation.hpp"
-#include "passo/machine_file/machine_description.hpp"
 
 namespace passo {
 
-class LowRapids {
+class LowRapids : OperationWatcher {
  public:
-  // `zero_is_known`: where the zero of the work is on the machine, before the program says so. `diagnostics` outlives
-  // this.
+  // `zero_is_known`: where the zero of the work is on the machine, before the program says so.
   LowRapids(const MachineDescription& machine, bool zero_is_known, std::string file, Diagnostics& diagnostics);
 
   // Call it for each operation of the program, in order.
@@ -44,13 +39,10 @@ class LowRapids {
   void rapid(const Operation& operation, const ToolTrack& track, bool knew_z);
   void end_descent(const Point& end);
   void forget_heights();
-  bool is_noted(const Operation& operation, std::string_view code);
 
   bool has_height_;
   bool has_spindle_;  // with a speed
   bool zero_is_known_;
-  std::string file_;
-  Diagnostics& diagnostics_;
   bool knows_z_ = false;                                     // the tool's height in the work
   bool knows_xy_ = false;                                    // the program has said where it begins
   bool descends_ = false;                                    // the last feed went down

@@ -7,18 +7,14 @@
 
 #include <cstdint>
 #include <optional>
-#include <string>
 
+#include "passo/activity/operation_watcher.hpp"
 #include "passo/activity/tool_track.hpp"
-#include "passo/diagnostics/diagnostic.hpp"
-#include "passo/interpreter/operation.hpp"
-#include "passo/machine_file/machine_description.hpp"
 
 namespace passo {
 
-class SpindleMistakes {
+class SpindleMistakes : OperationWatcher {
  public:
-  // `diagnostics` outlives this.
   SpindleMistakes(const MachineDescription& machine, std::string file, Diagnostics& diagnostics);
 
   // Call it for each operation of the program, in order.
@@ -34,8 +30,6 @@ class SpindleMistakes {
 
   bool may_be_early_;  // the spindle has a speed, and the machine file does not say how long it runs up
   bool is_lathe_;
-  std::string file_;
-  Diagnostics& diagnostics_;
 
   SpindleDirection direction_ = SpindleDirection::off;
   double speed_ = 0;       // S

@@ -8,19 +8,15 @@
 #pragma once
 
 #include <optional>
-#include <string>
-#include <string_view>
 
+#include "passo/activity/operation_watcher.hpp"
 #include "passo/activity/tool_track.hpp"
-#include "passo/diagnostics/diagnostic.hpp"
-#include "passo/interpreter/operation.hpp"
-#include "passo/machine_file/machine_description.hpp"
 
 namespace passo {
 
-class UsualMistakes {
+class UsualMistakes : OperationWatcher {
  public:
-  // `units`: the units before the program says any; inches were then chosen by the user. `diagnostics` outlives this.
+  // `units`: the units before the program says any; inches were then chosen by the user.
   UsualMistakes(const MachineDescription& machine, LengthUnits units, std::string file, Diagnostics& diagnostics);
 
   // Call it for each operation of the program, in order.
@@ -37,14 +33,8 @@ class UsualMistakes {
   void change_tool();
   void select(const Operation& operation, std::int32_t tool);
   void turn_spindle(const Operation& operation, SpindleDirection direction);
-  // True: a warning of this kind is kept already, and this line is noted with it.
-  bool is_noted(const Operation& operation, std::string_view code);
-  void warn(const Operation& operation, std::string_view code, std::string_view message, std::string_view expected);
-  Diagnostic warning(const Operation& operation, std::string code, std::string message, std::string expected) const;
 
   bool has_spindle_;
-  std::string file_;
-  Diagnostics& diagnostics_;
   bool knows_units_;
   SpindleDirection spindle_ = SpindleDirection::off;
   double speed_ = 0;  // S

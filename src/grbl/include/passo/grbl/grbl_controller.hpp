@@ -148,6 +148,7 @@ class GrblController {
   // What has happened.
   void heed(const MachineChange& change);
   void end_probe();
+  void tell_end();
   void begin_homing();
   void end_reset();
   void raise_alarm_of_board();
