@@ -78,7 +78,7 @@ void Refiller::watch(const MotionItem& motion) {
   given_time_ += time;
   given_in_all_ += time;
   if (move == nullptr || move->phase_count == 0) return;
-  speed_.note_speed(move->exit_velocity());
+  speed_.note_given(*move);
 }
 
 Refiller::Turn Refiller::advance() {
@@ -286,8 +286,11 @@ void Refiller::take_up() {
 
 // The machine rests, and no refill fits into the board. False: the path cannot begin more slowly.
 bool Refiller::begin_more_slowly() {
-  MmPerSecond highest{0};
-  for (const Pulled& pulled : pulled_) highest = std::max(highest, pulled.speed);
+  SpeedForTails::Speed highest;
+  for (const Pulled& pulled : pulled_) {
+    highest.on_path = std::max(highest.on_path, pulled.speed.on_path);
+    highest.of_axis = std::max(highest.of_axis, pulled.speed.of_axis);
+  }
   if (!speed_.begin_more_slowly(highest)) return false;
   take_up();
   return !(guards_threads_ && stages_.path.is_in_thread());

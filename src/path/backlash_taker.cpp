@@ -166,7 +166,7 @@ void BacklashTaker::take_up(const Point& at, AxisSet turned, PathItem& item) {
   segment.rapid = true;
   segment.mode = PathMode::exact_stop;
   segment.tolerance = segment.merge = Mm(0);
-  segment.heeds.feed_override = segment.heeds.adaptive_feed = segment.heeds.feed_hold = false;
+  segment.heeds.feed_override = segment.heeds.adaptive_feed = false;
   segment.lock = SpindleLock::none;
   segment.pitch = segment.reverse_at = Mm(0);
   segment.downs = downs_;

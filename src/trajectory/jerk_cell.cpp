@@ -29,6 +29,7 @@ void JerkCutter::begin(const Segment& segment, const Cut& cut) {
   at_ = from_ = cut.from;
   const Curve& curve = segment.curve;
   length_ = curve.length().value();
+  end_ = std::min(length_, cut.to);
   const Point steepest = curve.steepest();
   speed_ = std::min(cut.feed, fastest);
   top_ = speed_;
@@ -52,7 +53,7 @@ void JerkCutter::begin(const Segment& segment, const Cut& cut) {
   // A slow feed is reached before the acceleration is at its limit. Cells need not be finer than the usual ones.
   const double rise_to_top = std::max(std::min(rise, std::sqrt(top_ / jerk_)), std::min(rise, usual_rise));
   tick_ = std::max({rise_to_top / cells_a_ramp, top_ / acceleration_ / cells_a_braking, shortest_tick});
-  const double left = length_ - from_;
+  const double left = end_ - from_;
   longest_ = left;
   const double turn = curve.turning(steepest);
   if (turn > turn_a_cell) longest_ = length_ * turn_a_cell / turn;
@@ -73,12 +74,12 @@ double JerkCutter::speed_estimate(double s) const {
     const double by_acceleration = std::sqrt(squared + 2 * acceleration_ * way);
     return std::min(by_acceleration, std::sqrt(squared) + std::cbrt(jerk_ * way * way * 4.5));
   };
-  return std::min({top_, from(entry_, s - from_), from(exit_, std::max(length_ - s, 0.0))});
+  return std::min({top_, from(entry_, s - from_), from(exit_, std::max(end_ - s, 0.0))});
 }
 
 bool JerkCutter::next(JerkCell& cell, AxisShape* shapes) {
-  if (!(at_ < length_)) return false;
-  const double left = length_ - at_;
+  if (!(at_ < end_)) return false;
+  const double left = end_ - at_;
   double size = std::clamp(tick_ * speed_estimate(at_), shortest_, longest_);
   size = std::clamp(tick_ * speed_estimate(at_ + std::min(size, left) / 2), shortest_, longest_);
   // Far from both ends nothing makes the speed change.
@@ -89,7 +90,7 @@ bool JerkCutter::next(JerkCell& cell, AxisShape* shapes) {
   } else if (left < 2.5 * size) {
     size = left / 2;
   }
-  const double to = left - size < 1e-6 * size ? length_ : at_ + size;
+  const double to = left - size < 1e-6 * size ? end_ : at_ + size;
   const Derivatives there = derivatives(segment_->curve, to);
   cell = {.start = at_,
           .length = to - at_,

@@ -8,6 +8,7 @@
 // Cells are so short that about ten of them pass while the acceleration rises from 0 to its limit.
 #pragma once
 
+#include <limits>
 #include <vector>
 
 #include "limited_axis.hpp"
@@ -53,6 +54,7 @@ class JerkCutter {
   // The part of a segment to cut, and the highest speeds at its start and end. Cells are shorter where motion is slow.
   struct Cut {
     double from = 0;  // s
+    double to = std::numeric_limits<double>::infinity();
     double entry_squared = 0;
     double exit_squared = 0;
     double feed = 0;  // mm/s
@@ -81,7 +83,8 @@ class JerkCutter {
   const Segment* segment_ = nullptr;
   double from_ = 0;
   double at_ = 0;
-  double length_ = 0;
+  double length_ = 0;  // of the whole segment
+  double end_ = 0;
   double speed_ = 0;  // the programmed one
   double top_ = 0;
   double acceleration_ = 0;

@@ -10,7 +10,7 @@
 #include "emergency_brake.hpp"
 #include "jerk_window.hpp"
 #include "shorten.hpp"
-#include "slowed_plan.hpp"
+#include "soonest_stop.hpp"
 #include "speed_change.hpp"
 #include "speed_law.hpp"
 
@@ -20,9 +20,8 @@ namespace {
 // In seconds, between two places from which braking is tried. A braking plan begins so much too late at most.
 constexpr double between_trials = 0.003;
 
-// After each trial the next one waits for so many times the way so far, until the plan is slower than this share.
-constexpr double later = 1.1;
-constexpr double least_factor = 0.1;
+// Times the shortest stop. A later one is compared with the soonest that can be planned.
+constexpr double late = 1.3;
 
 // A share of the time to rest. Another stop must be sooner by this factor, or stops of rounding would replace each
 // other at every move.
@@ -189,34 +188,21 @@ class JerkLaw final : public SpeedLaw {
     }
   }
 
-  std::optional<SpeedChange> plan_stop(const PathState& state) {
-    return SpeedChange::plan(path_, state, {.axes = axes_, .feeds = fastest_, .exit = 0});
-  }
+  SpeedChange::Request to_rest() const { return {.axes = axes_, .feeds = fastest_, .exit = 0}; }
 
-  // Where no stop is possible at once: along a plan that gets ever slower, until one is.
-  std::optional<SpeedChange> plan_late_stop() {
-    Outlook outlook{.pieces = given_pieces_};
-    SlowedPlan slowed(axes_, now_);
-    PathState planned = now_;
-    Seconds next_trial(between_trials);
-    PlannedMove move;
-    while (slowed.factor() > least_factor && look_ahead(outlook, planned.segment, move)) {
-      if (move.ends_at_rest() || !slowed.add(move, planned.segment)) break;
-      planned = PathState::behind(move, planned.segment);
-      if (slowed.duration() < next_trial) continue;
-      next_trial = Seconds(slowed.duration().value() * later + between_trials);
-      std::optional<SpeedChange> stop = plan_stop(slowed.state());
-      if (!stop) continue;
-      if (stop->lead_by(slowed.pieces(), path_, {.axes = axes_, .feeds = fastest_, .exit = 0})) return stop;
-      break;
-    }
-    return std::nullopt;
+  // The soonest stop that is found.
+  std::optional<SpeedChange> plan_stop(const PathState& state) {
+    std::optional<SpeedChange> stop = SpeedChange::plan(path_, state, to_rest(), SpeedChange::Way::of_one_strength);
+    if (stop && stop->duration_from(0) < late * SpeedChange::shortest_stop(path_, state, axes_)) return stop;
+    std::optional<SpeedChange> soonest = soonest_stop(path_, state, axes_, fastest_);
+    if (soonest && !(stop && stop->duration_from(0) < soonest->duration_from(0))) return soonest;
+    return stop ? stop : SpeedChange::plan(path_, state, to_rest(), SpeedChange::Way::in_steps);
   }
 
   void stop_sooner() {
     const bool stops = change_ && change_->end().speed == 0;
-    std::optional<SpeedChange> stop = plan_stop(now_);
-    if (!stop && !stops) stop = plan_late_stop();
+    std::optional<SpeedChange> stop =
+        stops ? SpeedChange::plan(path_, now_, to_rest(), SpeedChange::Way::of_one_strength) : plan_stop(now_);
     if (!stop) return;
     if (stops) {
       const Seconds left = (rest_ ? rest_->duration() : Seconds(0)) + change_->duration_from(given_pieces_);

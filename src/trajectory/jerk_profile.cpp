@@ -24,8 +24,7 @@ constexpr double rises_to_settle = 1;  // times the rise of the acceleration fro
 constexpr double room_to_lift = 0.5;   // for squares of speeds: with that all limits have room
 constexpr int most_lifts = 8;
 constexpr std::size_t wider = 32;  // nodes on each side, where a part between steady nodes cannot be lifted
-constexpr int most_attempts = 6;
-constexpr double worth = 0.98;  // of the time: a further lift is worth it
+constexpr double worth = 0.98;     // of the time: a further lift is worth it
 
 // Where a cell exceeds a limit, the share is lowered to what would have been right, in these bounds.
 constexpr double least_lowering = 0.995;
@@ -69,8 +68,8 @@ double JerkProfile::constant_speed_cap(std::size_t node) const {
   return cap;
 }
 
-void JerkProfile::begin_in_motion(double speed) {
-  states_.assign(1, {.speed = speed, .acceleration = 0});
+void JerkProfile::begin_in_motion(const NodeState& state) {
+  states_.assign(1, state);
   in_motion_ = true;
   planned_ = 0;
 }
@@ -264,7 +263,7 @@ bool JerkProfile::mend() {
     exceeded_.clear();
     for (const Stretch& lifted : again_) find_exceeded(lifted);
     if (exceeded_.empty()) return true;
-    if (round >= most_rounds_) return false;
+    if (round >= effort_.rounds) return false;
     again_.clear();
     const std::size_t beside = round < rounds_nearby ? nearby : 4 * nearby;
     for (std::size_t k = 0; k < exceeded_.size();) {
@@ -367,7 +366,7 @@ bool JerkProfile::lift_wider(Stretch& part) {
 // Finds a motion over all cells that keeps the limits.
 bool JerkProfile::find_motion() {
   find_steady();
-  for (int attempt = 0; attempt < most_attempts; ++attempt) {
+  for (int attempt = 0; attempt < effort_.attempts; ++attempt) {
     begin_with_guess();
     const bool is_lifted = attempt == 0 ? lift_between_steady() : lift({.first = 0, .last = cells_.size()});
     if (is_lifted && mend()) return true;

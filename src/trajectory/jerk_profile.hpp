@@ -30,20 +30,25 @@
 
 namespace passo {
 
+// How much is tried before the motion is slowed as a whole.
+struct PlanEffort {
+  int rounds = 10;   // cells that exceed a limit are lifted again so often
+  int attempts = 6;  // each with more cells
+};
+
 class JerkProfile {
  public:
-  // `most_rounds` times cells that exceed a limit are lifted again before the motion is slowed as a whole.
-  explicit JerkProfile(const std::vector<LimitedAxis>& axes, int most_rounds = 10)
+  explicit JerkProfile(const std::vector<LimitedAxis>& axes, const PlanEffort& effort = {})
       : axes_(axes),
         any_falls_(std::ranges::any_of(axes, [](const LimitedAxis& axis) { return axis.falling != nullptr; })),
-        most_rounds_(most_rounds),
+        effort_(effort),
         lift_(axes) {}
 
   std::size_t size() const { return cells_.size(); }
   const JerkCell& cell(std::size_t i) const { return cells_[i]; }
 
-  // Makes an empty profile begin at that speed, without acceleration.
-  void begin_in_motion(double speed);
+  // Makes an empty profile begin in that state, in motion.
+  void begin_in_motion(const NodeState& state);
   // Adds a cell, which takes one shape for each axis.
   void push(const JerkCell& cell, const AxisShape* shapes);
   // The square of the highest speed at which the last cell may be entered.
@@ -124,7 +129,7 @@ class JerkProfile {
 
   std::vector<LimitedAxis> axes_;
   bool any_falls_;
-  int most_rounds_;
+  PlanEffort effort_;
   std::vector<JerkCell> cells_;
   std::vector<AxisShape> shapes_;
   std::vector<double> entry_cap_;  // for each cell, squared: for a guess

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "speed_change.hpp"
+
 namespace passo {
 namespace {
 
@@ -18,27 +20,36 @@ constexpr std::size_t fewest_in_motion = 32;
 }  // namespace
 
 JerkWindow::JerkWindow(const std::vector<LimitedAxis>& axes, PathAhead& path, const FeedFactors& feeds,
-                       std::size_t most_queued)
+                       std::size_t most_queued, const PlanEffort& effort)
     : path_(path),
       feeds_(feeds),
       cutter_(axes),
-      profile_(axes),
+      profile_(axes, effort),
       most_queued_(std::max(most_queued, fewest_queued)),
       shapes_(axes.size()) {}
 
 void JerkWindow::begin_at(const PathState& start) {
   profile_.drop(profile_.size());
-  if (start.speed > 0) profile_.begin_in_motion(start.speed);
+  if (start.speed > 0) profile_.begin_in_motion({.speed = start.speed, .acceleration = start.acceleration});
   start_ = start;
   cut_ = start.segment;
   started_ = cutting_ = closed_ = false;
   length_ = 0;
+  way_to_rest_ = std::numeric_limits<double>::infinity();
   given_ = decided_ = 0;
 }
 
 bool JerkWindow::can_go_on(double way) {
   while (!closed_ && profile_.size() < most_queued_ && (length_ < way || profile_.size() < fewest_in_motion)) pull();
   if (profile_.size() == 0) return false;
+  decided_ = profile_.plan(closed_);
+  return !profile_.fell_back();
+}
+
+bool JerkWindow::can_rest_after(double way) {
+  way_to_rest_ = way;
+  while (!closed_ && profile_.size() < most_queued_) pull();
+  if (!closed_ || profile_.size() == 0) return false;
   decided_ = profile_.plan(closed_);
   return !profile_.fell_back();
 }
@@ -112,10 +123,18 @@ void JerkWindow::pull() {
   }
   if (cutting_) ++cut_;
   cutting_ = false;
-  const Segment* segment = started_ ? path_.after(cut_ - 1) : path_.at(cut_);
+  const bool rested = way_to_rest_ <= length_;
+  const Segment* segment = rested ? nullptr : started_ ? path_.after(cut_ - 1) : path_.at(cut_);
   closed_ = segment == nullptr;
   if (closed_) return;
-  const Segment* after = path_.after(cut_);
+  const double from = started_ ? 0 : start_.s;
+  const double length = segment->curve.length().value();
+  // A rest near the segment's end is moved there.
+  const double rest = from + way_to_rest_ - length_;
+  const double least = least_rest(segment->curve, start_.speed);
+  const bool rests = rest < length + least;
+  if (rests) way_to_rest_ = length_;
+  const Segment* after = rests ? nullptr : path_.after(cut_);
   const double exit = after == nullptr ? 0 : cutter_.joint_cap(*segment, *after);
   if (!started_) {
     estimate_ = start_.speed * start_.speed;
@@ -123,7 +142,8 @@ void JerkWindow::pull() {
     const Segment& before = *path_.at(cut_ - 1);
     estimate_ = std::min(estimate_, cutter_.joint_cap(before, *segment));
   }
-  cutter_.begin(*segment, {.from = started_ ? 0 : start_.s,
+  cutter_.begin(*segment, {.from = from,
+                           .to = rest < length - least ? rest : length,
                            .entry_squared = estimate_,
                            .exit_squared = exit,
                            .feed = feeds_.speed_on(*segment)});

@@ -64,12 +64,6 @@ constexpr double most_unseen_jump = 4;
 // Even if all steps were halvings, about 53 would exhaust the digits of a double.
 constexpr int most_steps = 100;
 
-double least_rest(const Curve& curve, double speed) {
-  const Point steepest = curve.steepest();
-  const double most = std::ranges::max(steepest.values);
-  return std::min({smallest_rest / std::max(most, 1.0), smallest_part * curve.length().value(), shortest_rest * speed});
-}
-
 // The time within the phase at which the motion is at s.
 double time_at(const Phase& phase, double s) {
   double low = 0;
@@ -87,6 +81,12 @@ double time_at(const Phase& phase, double s) {
 }
 
 }  // namespace
+
+double least_rest(const Curve& curve, double speed) {
+  const Point steepest = curve.steepest();
+  const double most = std::ranges::max(steepest.values);
+  return std::min({smallest_rest / std::max(most, 1.0), smallest_part * curve.length().value(), shortest_rest * speed});
+}
 
 std::optional<SpeedChange> SpeedChange::plan(PathAhead& path, const PathState& state, const Request& request) {
   std::optional<SpeedChange> change = plan(path, state, request, Way::of_one_strength);
@@ -130,10 +130,14 @@ std::optional<SpeedChange> SpeedChange::plan(PathAhead& path, const PathState& s
   return std::nullopt;
 }
 
-bool SpeedChange::lead_by(const std::vector<Piece>& pieces, PathAhead& path, const Request& request) {
-  pieces_.insert(pieces_.begin(), pieces.begin(), pieces.end());
-  const Demand worst = excess(path, request);
-  return worst.speed <= 1 && worst.force <= accepted && worst.jolt <= accepted;
+std::optional<SpeedChange> SpeedChange::to_rest(const std::vector<Piece>& pieces, const PathState& end, PathAhead& path,
+                                                const Request& request) {
+  SpeedChange change;
+  change.pieces_ = pieces;
+  change.end_ = {.segment = end.segment, .s = end.s};
+  const Demand worst = change.excess(path, request);
+  if (worst.speed > 1 || worst.force > accepted || worst.jolt > accepted) return std::nullopt;
+  return change;
 }
 
 SpeedChange::Strength SpeedChange::strength_at(const Segment& segment, const PathState& state,
@@ -148,6 +152,16 @@ SpeedChange::Strength SpeedChange::strength_at(const Segment& segment, const Pat
     strength.jerk = std::min(strength.jerk, axis.jerk / part);
   }
   return strength;
+}
+
+Seconds SpeedChange::shortest_stop(PathAhead& path, const PathState& state, const std::vector<LimitedAxis>& axes) {
+  const Segment* const segment = path.at(state.segment);
+  if (segment == nullptr) return Seconds(0);
+  const auto [acceleration, jerk] = strength_at(*segment, state, axes);
+  const double rise = acceleration / jerk;
+  // Where the acceleration does not rise to the strongest.
+  const bool is_slow = state.speed < acceleration * rise;
+  return Seconds(is_slow ? 2 * std::sqrt(state.speed / jerk) : state.speed / acceleration + rise);
 }
 
 void SpeedChange::add(double duration, double jerk) {
@@ -225,7 +239,7 @@ SpeedChange::Demand SpeedChange::excess(PathAhead& path, const Request& request)
   for (const Piece& piece : pieces_) {
     const Segment& segment = *path.at(piece.segment);
     look_over(piece, piece.phase.duration / whole, segment, request, worst);
-    if (!piece.ends_segment) continue;
+    if (!piece.ends_segment || &piece == &pieces_.back()) continue;  // the last one ends at rest
     // The profile passes a place slowly where the path's bend jumps. So does the change.
     const Segment& after = *path.at(piece.segment + 1);
     const Point jump = after.curve.second_derivative(Mm(0)) - segment.curve.second_derivative(segment.curve.length());
@@ -248,19 +262,21 @@ void SpeedChange::look_over(const Piece& piece, double part, const Segment& segm
   if (falls || segment.curve.shape() != Curve::Shape::line) {
     const double by_turn = std::ceil(way * segment.curve.curvature() / turn_a_look);
     const int fewest = falls ? fewest_of_falling : fewest_looks;
-    const double of_part = std::clamp<double>(whole_pieces * part * fewest, fewest_of_short, fewest);
+    // A planned piece is a whole cell, in which the acceleration may change a lot.
+    const double of_part =
+        request.planned ? fewest : std::clamp<double>(whole_pieces * part * fewest, fewest_of_short, fewest);
     count = static_cast<int>(std::clamp<double>(by_turn, std::ceil(of_part), most_looks));
   }
   std::array<Look, 3> looks;
   for (std::size_t k = 0; k <= static_cast<std::size_t>(count); ++k) {
-    looks[k % looks.size()] = look_at(piece, segment, request.axes, time * static_cast<double>(k) / count);
+    looks[k % looks.size()] = look_at(piece, segment, request, time * static_cast<double>(k) / count);
     worst.raise(looks[k % looks.size()]);
     if (k >= 2) worst.raise_between(looks, k % looks.size());
   }
   // The speed is highest where it stops rising.
   const double turn = phase.jerk.value() < 0 ? phase.acceleration.value() / -phase.jerk.value() : -1;
   const bool turns = turn > 0 && turn < time;
-  if (turns) worst.raise(look_at(piece, segment, request.axes, turn));
+  if (turns) worst.raise(look_at(piece, segment, request, turn));
   const double fastest_here = std::max({phase.velocity.value(), phase.velocity_at(phase.duration).value(),
                                         turns ? phase.velocity_at(Seconds(turn)).value() : 0});
   worst.most.speed = std::max(worst.most.speed, fastest_here / request.feeds.speed_on(segment) * (1 - rounding));
@@ -286,7 +302,7 @@ void SpeedChange::Excess::raise_between(const std::array<Look, 3>& looks, std::s
   }
 }
 
-SpeedChange::Look SpeedChange::look_at(const Piece& piece, const Segment& segment, const std::vector<LimitedAxis>& axes,
+SpeedChange::Look SpeedChange::look_at(const Piece& piece, const Segment& segment, const Request& request,
                                        double time) {
   const Phase& phase = piece.phase;
   const Seconds t(time);
@@ -299,13 +315,13 @@ SpeedChange::Look SpeedChange::look_at(const Piece& piece, const Segment& segmen
   const Point third = segment.curve.third_derivative(s);
   const bool is_line = segment.curve.shape() == Curve::Shape::line;
   Look look;
-  look.count = axes.size();
-  for (std::size_t k = 0; k < axes.size(); ++k) {
-    const LimitedAxis& axis = axes[k];
+  look.count = request.axes.size();
+  for (std::size_t k = 0; k < look.count; ++k) {
+    const LimitedAxis& axis = request.axes[k];
     const double q1 = first.values[axis.index];
     const double q2 = second.values[axis.index];
     const double q3 = third.values[axis.index];
-    const double seen = axis.falling != nullptr ? looked_at_of_falling : looked_at;
+    const double seen = axis.falling != nullptr && !request.planned ? looked_at_of_falling : looked_at;
     const double share = is_line ? 1 + rounding : seen;
     look.axes[k] = {.speed = q1 * v / axis.velocity * (1 - rounding),
                     .force = (q1 * a + q2 * v * v) / (axis.acceleration_at(q1 * q1 * v * v) * share),

@@ -24,6 +24,9 @@
 
 namespace passo {
 
+// After a rest amid a segment, at least so much of it is left. `speed`: from which the motion has come to rest.
+double least_rest(const Curve& curve, double speed);
+
 class SpeedChange {
  public:
   struct Piece {
@@ -34,14 +37,22 @@ class SpeedChange {
 
   struct Request {
     const std::vector<LimitedAxis>& axes;
-    FeedFactors feeds;  // the change keeps to these feeds
-    double exit = 0;    // the wanted speed; at most the speed that remains when the acceleration just goes to 0
+    FeedFactors feeds;     // the change keeps to these feeds
+    double exit = 0;       // the wanted speed; at most the speed that remains when the acceleration just goes to 0
+    bool planned = false;  // the profile has looked at the change already, also at kinks of limits that fall
   };
   // Plans the change from `state` on. Returns nothing where the limits do not allow one.
   static std::optional<SpeedChange> plan(PathAhead& path, const PathState& state, const Request& request);
+  // The same in one way only.
+  enum class Way : std::uint8_t { of_one_strength, in_steps };
+  static std::optional<SpeedChange> plan(PathAhead& path, const PathState& state, const Request& request, Way way);
 
-  // Lets these pieces go before. Returns whether all of it keeps the limits.
-  [[nodiscard]] bool lead_by(const std::vector<Piece>& pieces, PathAhead& path, const Request& request);
+  // The change in these pieces, which end at rest there. Returns nothing where they do not keep the limits.
+  static std::optional<SpeedChange> to_rest(const std::vector<Piece>& pieces, const PathState& end, PathAhead& path,
+                                            const Request& request);
+
+  // How long a stop would take without acceleration at its start, if the path went on straight.
+  static Seconds shortest_stop(PathAhead& path, const PathState& state, const std::vector<LimitedAxis>& axes);
 
   const std::vector<Piece>& pieces() const { return pieces_; }
   // The time of the pieces from that one on.
@@ -56,6 +67,7 @@ class SpeedChange {
     double acceleration = 0;
     double jerk = 0;
   };
+  static Strength strength_at(const Segment& segment, const PathState& state, const std::vector<LimitedAxis>& axes);
   struct Rooms;    // what the axes leave at a place
   struct Demand {  // as multiples of the limits
     double speed = 0;
@@ -71,13 +83,10 @@ class SpeedChange {
     void raise(const Look& look);
     void raise_between(const std::array<Look, 3>& looks, std::size_t newest);
   };
-  static Strength strength_at(const Segment& segment, const PathState& state, const std::vector<LimitedAxis>& axes);
   [[nodiscard]] bool shape(const PathState& state, double exit, const Strength& strength);
   // `share`: the strength as shares of the limits.
   [[nodiscard]] bool shape_in_steps(PathAhead& path, const PathState& state, const Request& request,
                                     const Strength& strength, const Strength& share);
-  enum class Way : std::uint8_t { of_one_strength, in_steps };
-  static std::optional<SpeedChange> plan(PathAhead& path, const PathState& state, const Request& request, Way way);
   void add(double duration, double jerk);
   enum class Laid : std::uint8_t {
     whole,
@@ -88,7 +97,7 @@ class SpeedChange {
   Demand excess(PathAhead& path, const Request& request) const;
   // `part`: of the time of the whole change.
   static void look_over(const Piece& piece, double part, const Segment& segment, const Request& request, Excess& worst);
-  static Look look_at(const Piece& piece, const Segment& segment, const std::vector<LimitedAxis>& axes, double time);
+  static Look look_at(const Piece& piece, const Segment& segment, const Request& request, double time);
 
   std::vector<Phase> phases_;  // starts count from the start of the change
   std::vector<Piece> pieces_;  // the same phases, cut where segments end

@@ -119,9 +119,9 @@ Segment line(double from, double to, double speed) {
   return {.curve = Curve::line(xyz(from, 0), xyz(to, 0)), .speed = MmPerSecond(speed), .mode = PathMode::continuous};
 }
 
-StepOptions steps() {
+StepOptions steps(Axis first) {
   StepOptions options;
-  options.motors[0] = {.axis = Axis::x, .steps_per_unit = 100};
+  options.motors[0] = {.axis = first, .steps_per_unit = 100};
   options.motors[1] = {.axis = Axis::y, .steps_per_unit = 100};
   options.motor_count = 2;
   options.clock = {.tick_rate = Hertz(1e6), .highest_event_rate = Hertz(50e3)};
@@ -130,7 +130,7 @@ StepOptions steps() {
 
 MotionLimits limits(double jerk) {
   MotionLimits limits;
-  for (const Axis axis : {Axis::x, Axis::y, Axis::z}) {
+  for (const Axis axis : {Axis::x, Axis::y, Axis::z, Axis::a}) {
     limits.velocity[axis] = MmPerSecond(100);
     limits.acceleration[axis] = MmPerSecond2(500);
     limits.jerk[axis] = MmPerSecond3(jerk);
@@ -142,8 +142,12 @@ class RefillerTest : public testing::TestWithParam<double> {
  protected:
   // Plays the path; `each` may do something before each turn, and tells whether to go on.
   struct Street {
-    Street(const std::vector<PathItem>& items, std::size_t places)
-        : source(items), board(places), watched(planner), refiller(stages(), steps(), {}) {
+    Street(const std::vector<PathItem>& items, std::size_t places, Axis first = Axis::x)
+        : source(items),
+          board(places),
+          watched(planner),
+          generator(watched, steps(first)),
+          refiller(stages(), steps(first), {}) {
       watched.watch([this](const MotionItem& item) { refiller.watch(item); });
     }
     Refiller::Stages stages() {
@@ -159,7 +163,7 @@ class RefillerTest : public testing::TestWithParam<double> {
     Planner planner{path, limits(GetParam())};
     ListedBoard board;
     Tap<MotionItem> watched;
-    StepGenerator generator{watched, steps()};
+    StepGenerator generator;
     OutputsOrder outputs;
     Refiller refiller;
   };
@@ -227,6 +231,27 @@ TEST_P(RefillerTest, goes_slower_where_tails_are_long) {
   EXPECT_EQ(play(street), Feed::Turn::ended);
   EXPECT_FALSE(street.board.error());
   EXPECT_EQ(street.board.steps(), 0);
+  EXPECT_GT(street.refiller.slowdowns(), 0);
+}
+
+// Over many short lines too. Here A turns a degree for each 10 nm of the path, which has 1 µm/s then: what is slow was
+// measured in mm of the path, so the path never went slower.
+TEST_P(RefillerTest, goes_slower_where_tails_are_long_and_an_axis_mostly_turns) {
+  std::vector<PathItem> lines;
+  const auto place = [](int i) {
+    Point at = xyz(1e-5 * i, 0);
+    at[Axis::a] = i;
+    return at;
+  };
+  for (int i = 0; i < 300; ++i) {
+    Segment turn = line(0, 1, 80);
+    turn.curve = Curve::line(place(i), place(i + 1));
+    lines.emplace_back(turn);
+  }
+  Street street(lines, 14, Axis::a);
+  EXPECT_EQ(play(street), Feed::Turn::ended);
+  EXPECT_FALSE(street.board.error());
+  EXPECT_EQ(street.board.steps(), 30'000);
   EXPECT_GT(street.refiller.slowdowns(), 0);
 }
 

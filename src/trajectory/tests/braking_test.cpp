@@ -166,14 +166,14 @@ TEST(HardBraking, comes_to_rest_as_soon_as_without_limits_of_jerk) {
 
 // On a circle that is passed as fast as the limits allow, some axis has nothing left for braking in most places. But a
 // moment later another place, or a little less speed, leaves room. In the last case only the latter helps. Changes of
-// one strength went round to the end.
+// one strength went round to the end, and changes in steps took up to twice as long.
 TEST(GentleBraking, comes_to_rest_soon_on_a_circle_at_the_limits) {
   struct Case {
     double radius, velocity, acceleration, jerk;
     double most;  // times a straight line and a quarter of a turn
   };
   for (const Case& one :
-       {Case{8, 500, 800, 10'000, 1.8}, Case{20, 500, 800, 10'000, 1.5}, Case{8, 500, 800, 500'000, 2.2}}) {
+       {Case{8, 500, 800, 10'000, 1.15}, Case{20, 500, 800, 10'000, 1.05}, Case{8, 500, 800, 500'000, 0.9}}) {
     const double sweep = 16 * std::numbers::pi;
     const std::vector<PathItem> path{
         segment_of(Curve::arc(xyz(one.radius, 0), xyz(one.radius, 0), Axis::x, Axis::y, 0, 0, sweep), one.velocity)};
@@ -209,7 +209,8 @@ TEST(GentleBraking, comes_to_rest_soon_on_a_circle_at_the_limits) {
   }
 }
 
-// Here jerk alone bounds the whole arc: no place leaves room, and only a plan that gets ever slower does.
+// Here jerk alone bounds the whole arc. Neither a change of one strength nor one in steps leads to rest, and a plan
+// that got ever slower took 1.7 s. The soonest stop takes 0.6 to 0.9 s.
 TEST(Hold, comes_to_rest_on_an_arc_that_uses_up_the_jerk) {
   const double sweep = 24 * std::numbers::pi;
   const std::vector<PathItem> path{segment_of(Curve::arc(xyz(30, 0), xyz(30, 0), Axis::x, Axis::y, 0, 0, sweep), 500)};
@@ -228,7 +229,7 @@ TEST(Hold, comes_to_rest_on_an_arc_that_uses_up_the_jerk) {
     }
     EXPECT_TRUE(std::holds_alternative<Action>(item) && std::get<Action>(item).kind == Action::Kind::feed_hold);
     std::printf("held at %g s: rests %.3f s later\n", begin, time - begin);
-    EXPECT_LT(time - begin, 3.5);
+    EXPECT_LT(time - begin, 0.9);
     expect_within_limits(motion, limits);
   }
 }

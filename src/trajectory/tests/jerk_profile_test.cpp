@@ -8,7 +8,7 @@ namespace {
 
 std::vector<MotionItem> planned_with(int rounds, const std::vector<PathItem>& path, const MotionLimits& limits) {
   const std::vector<LimitedAxis> axes = axes_with_limits(limits);
-  JerkProfile profile(axes, rounds);
+  JerkProfile profile(axes, {.rounds = rounds});
   JerkCutter cutter(axes);
   std::vector<AxisShape> shapes(axes.size());
   std::vector<Segment> segments;

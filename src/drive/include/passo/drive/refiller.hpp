@@ -161,8 +161,8 @@ class Refiller final : public Feed {
   struct Pulled {
     LinkItem item;
     Seconds time{0};
-    MmPerSecond speed{0};           // about the speed at its end
-    std::optional<Tail> tail = {};  // after the item; empty: no refill may end here
+    SpeedForTails::Speed speed = {};  // about the speed at its end
+    std::optional<Tail> tail = {};    // after the item; empty: no refill may end here
   };
 
   void commit();
