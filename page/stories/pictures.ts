@@ -73,6 +73,17 @@ async function pulses(page: import('playwright-core').Page, daemon: Daemon): Pro
   await strip.screenshot({ path: join(folder, 'page-pulses.png'), timeout: patience });
 }
 
+// Some lines of a person, and what came of them.
+async function typeLines(page: import('playwright-core').Page, daemon: Daemon): Promise<void> {
+  const field = page.getByPlaceholder('A line of G-code');
+  for (const line of ['G91', 'G0 Z-1', 'G0 Z1', '$G', 'M3 S12000', 'M5', 'G90']) {
+    await field.fill(line);
+    await page.keyboard.press('Enter');
+    await sleep(300);
+    await daemon.until(({ state }) => state === 'Idle' || state === 'Line');
+  }
+}
+
 // A probing cycle, and the height map of the program that is open.
 async function probe(page: import('playwright-core').Page, daemon: Daemon): Promise<void> {
   const { programs } = await daemon.get<{ programs: { id: number }[] }>('/programs');
@@ -123,6 +134,7 @@ for (const theme of ['dark', 'light'] as const) {
       await page.goto(`${daemon.address}#/${path === 'probe' ? 'jog' : path}`);
       await sleep(900);
       if (path === 'make') await make(page);
+      if (path === 'console') await typeLines(page, daemon);
       if (path === 'probe') await probe(page, daemon);
       if (path === 'files') await page.getByTestId('torque').getByText('%').waitFor({ timeout: patience });
       if (path === 'run') {

@@ -263,7 +263,7 @@ export const en = {
   'console.empty': 'Nothing yet.',
   'console.nothing': 'Nothing in the log has these words.',
   'console.modes': 'Active modes',
-  'console.help': 'Modes stay active from line to line until a program runs or the machine is reset. $G, $#, $$, $H and $X work as in Grbl; ! holds, ~ resumes. Arrow up recalls earlier lines.',
+  'console.help': 'Modes stay active from line to line until a program runs or the machine is reset. $G, $#, $$, $H and $X work as in Grbl; !\u00a0holds, ~\u00a0resumes. Arrow up recalls earlier lines.',
   // Machine
   'machine.title': 'Machine',
   'machine.axis': 'Axis',

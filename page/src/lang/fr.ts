@@ -254,7 +254,7 @@ export const fr: Words = {
   'console.empty': 'Rien encore.',
   'console.nothing': 'Rien dans le journal ne contient ces mots.',
   'console.modes': 'Modes actifs',
-  'console.help': 'Les modes restent actifs d’une ligne à l’autre, jusqu’à l’exécution d’un programme ou la réinitialisation de la machine. $G, $#, $$, $H et $X fonctionnent comme dans Grbl ; ! met en pause, ~ reprend. Flèche haut rappelle les lignes précédentes.',
+  'console.help': 'Les modes restent actifs d’une ligne à l’autre, jusqu’à l’exécution d’un programme ou la réinitialisation de la machine. $G, $#, $$, $H et $X fonctionnent comme dans Grbl\u00a0; !\u00a0met en pause, ~\u00a0reprend. Flèche haut rappelle les lignes précédentes.',
   'machine.title': 'Machine',
   'machine.axis': 'Axe',
   'machine.from': 'De',

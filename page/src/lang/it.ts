@@ -254,7 +254,7 @@ export const it: Words = {
   'console.empty': 'Ancora nulla.',
   'console.nothing': 'Nel registro non ci sono queste parole.',
   'console.modes': 'Modi attivi',
-  'console.help': 'I modi restano attivi da una riga all’altra, finché non si esegue un programma o non si ripristina la macchina. $G, $#, $$, $H e $X funzionano come in Grbl; ! mette in pausa, ~ riprende. Freccia su richiama le righe precedenti.',
+  'console.help': 'I modi restano attivi da una riga all’altra, finché non si esegue un programma o non si ripristina la macchina. $G, $#, $$, $H e $X funzionano come in Grbl; !\u00a0mette in pausa, ~\u00a0riprende. Freccia su richiama le righe precedenti.',
   'machine.title': 'Macchina',
   'machine.axis': 'Asse',
   'machine.from': 'Da',

@@ -254,7 +254,7 @@ export const zh: Words = {
   'console.empty': '还没有内容。',
   'console.nothing': '日志中没有这些文字。',
   'console.modes': '当前模态',
-  'console.help': '模态在各行之间一直有效，直到运行程序或复位机床。$G、$#、$$、$H 和 $X 的用法与 Grbl 相同；! 暂停，~ 继续。向上键调出以前的行。',
+  'console.help': '模态在各行之间一直有效，直到运行程序或复位机床。$G、$#、$$、$H 和 $X 的用法与 Grbl 相同；!\u00a0暂停，~\u00a0继续。向上键调出以前的行。',
   'machine.title': '机床',
   'machine.axis': '轴',
   'machine.from': '从',
