@@ -4,6 +4,7 @@
 // speed from which a new plan goes on. The old plan stays until both are found. At rest everything may change.
 #include <algorithm>
 #include <array>
+#include <limits>
 #include <optional>
 #include <utility>
 
@@ -190,25 +191,33 @@ class JerkLaw final : public SpeedLaw {
 
   SpeedChange::Request to_rest() const { return {.axes = axes_, .feeds = fastest_, .exit = 0}; }
 
-  // The soonest stop that is found.
+  bool is_late(const SpeedChange& stop, const PathState& state) const {
+    return stop.duration_from(0) > late * SpeedChange::shortest_stop(path_, state, axes_);
+  }
+
+  // The soonest stop that is found: the simplest one that is not late, or the best of all.
   std::optional<SpeedChange> plan_stop(const PathState& state) {
-    std::optional<SpeedChange> stop = SpeedChange::plan(path_, state, to_rest(), SpeedChange::Way::of_one_strength);
-    if (stop && stop->duration_from(0) < late * SpeedChange::shortest_stop(path_, state, axes_)) return stop;
-    std::optional<SpeedChange> soonest = soonest_stop(path_, state, axes_, fastest_);
-    if (soonest && !(stop && stop->duration_from(0) < soonest->duration_from(0))) return soonest;
-    return stop ? stop : SpeedChange::plan(path_, state, to_rest(), SpeedChange::Way::in_steps);
+    std::optional<SpeedChange> best;
+    const auto is_soon = [&](std::optional<SpeedChange> stop) {
+      if (stop && !(best && best->duration_from(0) <= stop->duration_from(0))) best = std::move(stop);
+      return best && !is_late(*best, state);
+    };
+    const auto of_way = [&](SpeedChange::Way way) {
+      return SpeedChange::plan(path_, state, {.axes = axes_, .feeds = fastest_, .exit = 0}, way);
+    };
+    static_cast<void>(is_soon(of_way(SpeedChange::Way::of_one_strength)) ||
+                      is_soon(soonest_stop(path_, state, axes_, fastest_)) ||
+                      is_soon(of_way(SpeedChange::Way::in_steps)));
+    return best;
   }
 
   void stop_sooner() {
     const bool stops = change_ && change_->end().speed == 0;
-    std::optional<SpeedChange> stop =
-        stops ? SpeedChange::plan(path_, now_, to_rest(), SpeedChange::Way::of_one_strength) : plan_stop(now_);
-    if (!stop) return;
-    if (stops) {
-      const Seconds left = (rest_ ? rest_->duration() : Seconds(0)) + change_->duration_from(given_pieces_);
-      if (stop->duration_from(0) > left * worth) return;
-    }
-    lead_off(std::move(stop));
+    const Seconds left = stops ? (rest_ ? rest_->duration() : Seconds(0)) + change_->duration_from(given_pieces_)
+                               : Seconds(std::numeric_limits<double>::infinity());
+    if (left <= late * SpeedChange::shortest_stop(path_, now_, axes_)) return;
+    std::optional<SpeedChange> stop = plan_stop(now_);
+    if (stop && stop->duration_from(0) <= left * worth) lead_off(std::move(stop));
   }
 
   void lead_off(std::optional<SpeedChange> change) {

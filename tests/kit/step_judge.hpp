@@ -8,6 +8,7 @@
 #include <cstdint>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "kit/step_log.hpp"
@@ -22,7 +23,13 @@ namespace passo::test {
 // long one a small excess, because whole steps disturb it less.
 class StepJudge {
  public:
-  StepJudge(const MachineDescription& machine, const StepLog::Steps& steps) : machine_(machine), steps_(steps) {
+  // The board played what it held for a lost line, and then rested.
+  struct Tail {
+    double from = 0;  // in seconds, as all times
+    double to = 0;
+  };
+  StepJudge(const MachineDescription& machine, const StepLog::Steps& steps, std::vector<Tail> tails = {})
+      : machine_(machine), steps_(steps), tails_(std::move(tails)) {
     for (unsigned m = 0; m < machine.axes.size(); ++m) {
       if (steps[m].empty()) continue;
       const double end = static_cast<double>(steps[m].back().tick) / machine.board.clock.value();
@@ -44,17 +51,16 @@ class StepJudge {
     return {};
   }
 
-  // How long it takes at most to come to rest from what the motors do between these times, as if each axis were alone:
-  // to brake; and for each axis that moves until `rested`, to turn its acceleration round and to let it go.
-  double braking(double from, double to, double rested) const {
+  // How long it takes at most to come to rest from these speeds of the axes, as if each axis were alone: to brake; and
+  // for each axis that makes a step between these times, to turn its acceleration round and to let it go.
+  double braking(const std::vector<double>& speeds, double from, double rested) const {
     double most = 0;
     double longest_rise = 0;
     for (unsigned m = 0; m < machine_.axes.size(); ++m) {
       const AxisDescription& axis = machine_.axes[m];
-      if (fastest(m, from, rested) == 0) continue;
-      const double speed = std::min(fastest(m, from, to), axis.velocity.value());
-      most = std::max(most, speed / axis.acceleration_at(MmPerSecond(speed)).value());
-      if (axis.jerk.value() > 0) longest_rise = std::max(longest_rise, axis.acceleration.value() / axis.jerk.value());
+      most = std::max(most, speeds[m] / axis.acceleration_at(MmPerSecond(speeds[m])).value());
+      if (axis.jerk.value() == 0 || !steps_between(m, from, rested)) continue;
+      longest_rise = std::max(longest_rise, axis.acceleration.value() / axis.jerk.value());
     }
     return most + 2.5 * longest_rise;
   }
@@ -74,11 +80,14 @@ class StepJudge {
  private:
   static constexpr double apart = 0.00125;  // seconds
   // In steps. Whole steps make less than 2 in an acceleration and 4 in a jerk. Events of another motor, at most one
-  // step off each, make as much again. What a small board holds ends in tails whose events may come late, without
-  // limits of jerk (decisions 0129 and 0108).
-  double slack() const { return machine_.board.held_items < 100 ? 8 : 4; }
-  bool has_gentle_tails() const { return machine_.board.held_items >= 200; }
+  // step off each, make as much again.
+  static constexpr double slack = 4;
   static constexpr double slack_of_jerk = 8;
+  // The tails of a small board have no limits of jerk (decision 0108).
+  bool is_in_small_tail(double from, double to) const {
+    if (machine_.board.held_items >= 200) return false;
+    return std::ranges::any_of(tails_, [&](const Tail& tail) { return from < tail.to && tail.from < to; });
+  }
   static constexpr double tolerated = 1.02;
 
   double at(unsigned motor, std::int64_t sample) const {
@@ -86,14 +95,12 @@ class StepJudge {
     if (places.empty() || sample < 0) return 0;
     return places[std::min(static_cast<std::size_t>(sample), places.size() - 1)];
   }
-  // In mm a second.
-  double fastest(unsigned motor, double from, double to) const {
-    constexpr int samples = 8;
-    double most = 0;
-    for (auto k = static_cast<std::int64_t>(from / apart); k <= static_cast<std::int64_t>(to / apart) + samples; ++k) {
-      most = std::max(most, std::abs(at(motor, k) - at(motor, k - samples)));
-    }
-    return most / (samples * apart) / machine_.axes[motor].steps_per_unit;
+  bool steps_between(unsigned motor, double from, double to) const {
+    const double clock = machine_.board.clock.value();
+    return std::ranges::any_of(steps_[motor], [&](const StepLog::Step& step) {
+      const double time = static_cast<double>(step.tick) / clock;
+      return from <= time && time <= to;
+    });
   }
 
   std::optional<std::string> fault_of(unsigned motor, int samples) const {
@@ -108,30 +115,33 @@ class StepJudge {
       const double second = at(motor, k - samples);
       const double third = at(motor, k - 2 * samples);
       const double fourth = at(motor, k - 3 * samples);
+      const double now = static_cast<double>(k) * apart;
       const auto told = [&](const char* what, double value, double most) {
         return fmt::format("{} of {} over {} ms at {:.4f} s: {:.1f} steps, at most {:.1f}", what, letter_of(axis.axis),
-                           window * 1e3, static_cast<double>(k) * apart, value, most);
+                           window * 1e3, now, value, most);
       };
       const double way = std::abs(newest - second);
       if (way > farthest) return told("way", way, farthest);
       const double bend = std::abs(newest - 2 * second + third);
-      const double most = axis.acceleration.value() * window * window * steps * tolerated + slack();
+      const double most = axis.acceleration.value() * window * window * steps * tolerated + slack;
       if (bend > most) return told("bend", bend, most);
       if (axis.follows_torque()) {
         // The torque is the greatest where the motor was slowest. It was hardly slower than on the mean of both halves.
         const double mean = (newest - second) * (second - third) > 0 ? std::min(way, std::abs(second - third)) - 2 : 0;
         const double slowest = std::max(mean / window / steps - axis.acceleration.value() * window, 0.0);
         const double left = axis.acceleration_at(MmPerSecond(slowest)).value() * window * window * steps * tolerated;
-        if (bend > left + slack()) return told("bend at speed", bend, left + slack());
+        if (bend > left + slack) return told("bend at speed", bend, left + slack);
       }
       const double change = std::abs(newest - 3 * second + 3 * third - fourth);
-      if (axis.jerk.value() > 0 && has_gentle_tails() && change > jolt) return told("change of bend", change, jolt);
+      if (axis.jerk.value() > 0 && change > jolt && !is_in_small_tail(now - 3 * window, now))
+        return told("change of bend", change, jolt);
     }
     return {};
   }
 
   const MachineDescription& machine_;
   const StepLog::Steps& steps_;
+  std::vector<Tail> tails_;
   std::array<std::vector<double>, StepLog::motors> places_;
 };
 

@@ -1,10 +1,12 @@
 // Holds, resumes, overrides, stops and lost lines at random instants of random programs, on machines with every mixture
-// of limits: judged from the steps. No axis exceeds a limit, and the machine comes to rest about as soon as it can.
+// of limits: judged from the steps. No axis exceeds a limit, and the machine comes to rest within its braking time and
+// 0.1 s.
 //
 // PASSO_SEED=S PASSO_RUNS=N random_halt_tests takes the programs S to S + N - 1. Each has some eight such instants.
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <deque>
 #include <fstream>
 #include <iterator>
 #include <string>
@@ -19,11 +21,7 @@
 namespace passo {
 namespace {
 
-// Seconds after the braking time. Where the path uses up the jerk of an axis, no stop begins at once, and about one
-// halt in a hundred comes later than the first value.
-constexpr double soon = 0.1;
-constexpr double latest = 0.5;
-constexpr double most_late = 0.02;  // share of all halts
+constexpr double soon = 0.1;  // seconds after the braking time
 constexpr int most_instants = 12;
 constexpr int most_cuts = 3;
 constexpr Seconds most_time{60};
@@ -32,9 +30,46 @@ constexpr Seconds cut_for{8};  // longer than any machine brakes
 // A halt that was asked for at `asked`, while motion was committed up to `from`.
 struct Halt {
   const char* what = "";
+  bool is_tail = false;  // the board plays what it holds
   double asked = 0;
   double from = 0;
-  double rested = 0;  // no step came from then on
+  double rested = 0;                // no step came from then on
+  std::vector<double> speeds = {};  // of each axis: the highest from `asked` to `from`
+};
+
+// How fast the axes were in the motion given last.
+class LastSpeeds {
+ public:
+  explicit LastSpeeds(const MachineDescription& machine) : machine_(machine) {}
+
+  void note(const MotionItem& item) {
+    const auto* move = std::get_if<PlannedMove>(&item);
+    if (move == nullptr || move->phase_count == 0) return;
+    const Point slope = move->segment.curve.tangent(move->to);
+    given_.push_back({.time = move->duration().value(), .speeds = {}});
+    for (const AxisDescription& axis : machine_.axes) {
+      given_.back().speeds.push_back(std::abs(slope[axis.axis]) * move->exit_velocity().value());
+    }
+    while (given_.size() > most) given_.pop_front();
+  }
+  // The highest of each axis in that time. At least at the end of the motion.
+  std::vector<double> in_the_last(double time) const {
+    std::vector<double> highest(machine_.axes.size(), 0.0);
+    for (auto one = given_.rbegin(); one != given_.rend(); time -= one->time, ++one) {
+      if (one != given_.rbegin() && time < 0) break;
+      for (std::size_t k = 0; k < highest.size(); ++k) highest[k] = std::max(highest[k], one->speeds[k]);
+    }
+    return highest;
+  }
+
+ private:
+  static constexpr std::size_t most = 1000;
+  struct Given {
+    double time = 0;
+    std::vector<double> speeds;  // at its end
+  };
+  const MachineDescription& machine_;
+  std::deque<Given> given_;
 };
 
 // What all runs together had.
@@ -45,13 +80,12 @@ struct Tally {
   int stops = 0;
   int cuts = 0;
   int halts = 0;
-  int late = 0;
-  double latest = 0;  // of a rest, in seconds after the braking time
+  double latest = -1;  // of a rest, in seconds after the braking time
   std::uint64_t latest_number = 0;
   int instants() const { return holds + resumes + overrides + stops + cuts; }
   void print() const {
-    std::printf("%d instants: %d holds, %d resumes, %d overrides, %d stops, %d lost lines; %d of %d rests late\n",
-                instants(), holds, resumes, overrides, stops, cuts, late, halts);
+    std::printf("%d instants: %d holds, %d resumes, %d overrides, %d stops, %d lost lines; %d rests\n", instants(),
+                holds, resumes, overrides, stops, cuts, halts);
     std::printf("the latest %.4f s after its braking time (%llu)\n", latest,
                 static_cast<unsigned long long>(latest_number));
   }
@@ -59,32 +93,31 @@ struct Tally {
 
 void judge(const MachineDescription& machine, const test::StepLog::Steps& steps, const std::vector<Halt>& halts,
            std::uint64_t number, Tally& tally) {
-  const test::StepJudge judge(machine, steps);
+  std::vector<test::StepJudge::Tail> tails;
+  for (const Halt& halt : halts) {
+    if (halt.is_tail) tails.push_back({.from = halt.asked, .to = halt.rested});
+  }
+  const test::StepJudge judge(machine, steps, std::move(tails));
   if (const auto fault = judge.fault()) ADD_FAILURE() << *fault;
   for (const Halt& halt : halts) {
     const double rested = judge.last_step_before(halt.rested);
-    const double braking = judge.braking(halt.asked, halt.from, rested);
+    const double braking = judge.braking(halt.speeds, halt.asked, rested);
     const double late = rested - halt.from - braking;
     ++tally.halts;
-    if (late > soon) {
-      ++tally.late;
-      std::printf("late: number %llu, %s from %.4f s on, braking %.4f s, rests at %.4f s: %.4f s late\n",
-                  static_cast<unsigned long long>(number), halt.what, halt.from, braking, rested, late);
-    }
     if (late > tally.latest) {
       tally.latest = late;
       tally.latest_number = number;
     }
-    EXPECT_LE(late, latest) << halt.what << " from " << halt.from << " s on, with a braking time of " << braking
-                            << " s, rests at " << rested << " s";
+    EXPECT_LE(late, soon) << halt.what << " from " << halt.from << " s on, with a braking time of " << braking
+                          << " s, rests at " << rested << " s";
   }
 }
 
 // Acts at random instants on one run.
 class RandomActs {
  public:
-  RandomActs(test::DrivenProgram& job, test::Random& random, Tally& tally)
-      : drive_(job.drive()), random_(random), tally_(tally), next_(gap()) {}
+  RandomActs(test::DrivenProgram& job, const LastSpeeds& speeds, test::Random& random, Tally& tally)
+      : drive_(job.drive()), speeds_(speeds), random_(random), tally_(tally), next_(gap()) {}
 
   const std::vector<Halt>& halts() const { return halts_; }
 
@@ -136,7 +169,7 @@ class RandomActs {
   void begin_halt(const char* what) {
     halting_ = true;
     const double from = (drive_.now() + drive_.committed()).value();
-    halts_.push_back({.what = what, .asked = from, .from = from});
+    halts_.push_back({.what = what, .asked = from, .from = from, .speeds = speeds_.in_the_last(0)});
   }
   void rest() {
     halting_ = false;
@@ -144,6 +177,7 @@ class RandomActs {
   }
 
   MotionDrive& drive_;
+  const LastSpeeds& speeds_;
   test::Random& random_;
   Tally& tally_;
   Seconds next_;
@@ -158,7 +192,9 @@ void act_at_random(std::uint64_t number, const test::RandomJob& job, test::Rando
                               diagnostics, {.live = live_commitment});
   test::StepLog log;
   running.machine().add_observer(log);
-  RandomActs acts(running, random, tally);
+  LastSpeeds speeds(job.machine);
+  running.motion().watch([&](const MotionItem& item) { speeds.note(item); });
+  RandomActs acts(running, speeds, random, tally);
   while (running.advance()) acts.act();
   acts.end();
   EXPECT_FALSE(diagnostics.any_error()) << render(diagnostics, false);
@@ -177,6 +213,8 @@ void cut_at_random(std::uint64_t number, test::RandomJob job, test::Random& rand
                               diagnostics, {.line = LineOptions{}});
   test::StepLog log;
   running.machine().add_observer(log);
+  LastSpeeds speeds(job.machine);
+  running.motion().watch([&](const MotionItem& item) { speeds.note(item); });
   std::vector<Halt> halts;
   const auto gap = [&] { return Seconds(std::exp(random.between(-3, 0.5))); };
   Seconds next = running.machine().elapsed() + gap();
@@ -189,10 +227,13 @@ void cut_at_random(std::uint64_t number, test::RandomJob job, test::Random& rand
     }
     running.line().cut(now, cut_for);
     next = now + cut_for + gap();
+    const Seconds committed = running.drive().committed();
     halts.push_back({.what = "lost line",
+                     .is_tail = true,
                      .asked = now.value(),
-                     .from = (now + running.drive().committed()).value(),
-                     .rested = (now + cut_for).value()});
+                     .from = (now + committed).value(),
+                     .rested = (now + cut_for).value(),
+                     .speeds = speeds.in_the_last(committed.value())});
     ++tally.cuts;
   }
   EXPECT_FALSE(diagnostics.any_error()) << render(diagnostics, false);
@@ -208,7 +249,6 @@ void for_each_mixture(int runs, const Act& act) {
       [&](std::uint64_t number, const test::RandomJob& job, test::Random& random) { act(number, job, random, tally); },
       test::Machines::of_all_mixtures);
   tally.print();
-  EXPECT_LE(tally.late, most_late * tally.halts + 1);
 }
 
 TEST(RandomHalt, keeps_limits_and_rests_soon_on_machines_of_all_mixtures) {
@@ -219,6 +259,50 @@ TEST(RandomHalt, of_a_lost_line_keeps_limits_and_rests_soon_on_machines_of_all_m
   for_each_mixture(30, cut_at_random);
 }
 
+// Holds at that time, and goes on after a moment.
+void hold_program_at(const MachineDescription& machine, const std::string& program, Seconds at) {
+  SCOPED_TRACE("hold at " + std::to_string(at.value()));
+  Diagnostics diagnostics;
+  test::DrivenProgram running(ProgramReader::from_text("t", program), machine, InterpreterOptions(), diagnostics,
+                              {.live = live_commitment});
+  test::StepLog log;
+  running.machine().add_observer(log);
+  LastSpeeds speeds(machine);
+  running.motion().watch([&](const MotionItem& item) { speeds.note(item); });
+  std::vector<Halt> halts;
+  while (running.advance()) {
+    MotionDrive& drive = running.drive();
+    if (drive.state() == MotionDrive::State::held) {
+      halts.back().rested = drive.now().value();
+      drive.resume();
+    } else if (halts.empty() && drive.now() >= at) {
+      const double from = (drive.now() + drive.committed()).value();
+      halts.push_back({.what = "hold", .asked = from, .from = from, .rested = 1e9, .speeds = speeds.in_the_last(0)});
+      drive.hold();
+    }
+  }
+  EXPECT_FALSE(diagnostics.any_error()) << render(diagnostics, false);
+  Tally tally;
+  judge(machine, log.steps, halts, 0, tally);
+}
+
+// X turns back with 5 mm of backlash, which takes 0.7 s. A hold meanwhile was obeyed after that.
+TEST(Halt, comes_soon_while_backlash_is_taken_up) {
+  MachineDescription machine;
+  machine.path_tolerance = Mm(0.01);
+  AxisDescription axis;
+  axis.axis = Axis::x;
+  axis.steps_per_unit = 100;
+  axis.velocity = MmPerSecond(50);
+  axis.acceleration = MmPerSecond2(50);
+  axis.jerk = MmPerSecond3(2'000);
+  axis.screw = ScrewDescription{.backlash = 5};
+  axis.travel_low = -1e5;
+  axis.travel_high = 1e5;
+  machine.axes.push_back(axis);
+  for (double at = 0.05; at < 3; at += 0.15) hold_program_at(machine, "G1 X10 F3000\nX0\nM2\n", Seconds(at));
+}
+
 // Programs in which a hold once made an axis jump, or was ignored.
 class HaltCase : public testing::Test {
  protected:
@@ -226,33 +310,13 @@ class HaltCase : public testing::Test {
   void SetUp() override {
     if (!std::ifstream(folder + std::string("README.tsv"))) GTEST_SKIP() << "no ../shared/cases beside this checkout";
   }
-  // Holds at that time, and goes on after a moment.
   static void hold_at(const std::string& name, Seconds at) {
-    SCOPED_TRACE(name + ", hold at " + std::to_string(at.value()));
+    SCOPED_TRACE(name);
     Diagnostics diagnostics;
     const auto machine = load_machine_file(folder + name + ".toml", diagnostics);
     ASSERT_TRUE(machine) << render(diagnostics, false);
     std::ifstream file(folder + name + ".ngc");
-    const std::string program{std::istreambuf_iterator<char>(file), {}};
-    test::DrivenProgram running(ProgramReader::from_text(name, program), *machine, InterpreterOptions(), diagnostics,
-                                {.live = live_commitment});
-    test::StepLog log;
-    running.machine().add_observer(log);
-    std::vector<Halt> halts;
-    while (running.advance()) {
-      MotionDrive& drive = running.drive();
-      if (drive.state() == MotionDrive::State::held) {
-        halts.back().rested = drive.now().value();
-        drive.resume();
-      } else if (halts.empty() && drive.now() >= at) {
-        const double from = (drive.now() + drive.committed()).value();
-        halts.push_back({.what = "hold", .asked = from, .from = from, .rested = 1e9});
-        drive.hold();
-      }
-    }
-    Tally tally;
-    judge(*machine, log.steps, halts, 0, tally);
-    EXPECT_LE(tally.latest, soon);
+    hold_program_at(*machine, {std::istreambuf_iterator<char>(file), {}}, at);
   }
   // At instants over all of the program.
   static void hold_everywhere(const std::string& name, Seconds whole, int instants) {
