@@ -95,6 +95,7 @@ WebAnswer MachineApi::begin_job(const StoredProgram& program, std::int64_t histo
     return error_answer(409, "machine.busy", fmt::format("the machine is not idle: {}", name_of(session_.state())));
   }
   if (const auto refused = session_.closed_limit()) return error_answer(409, code_of(refused->code), refused->message);
+  if (const auto refused = session_.lost_place()) return error_answer(409, code_of(refused->code), refused->message);
   if (kept_ && kept_->interrupted() != nullptr) {
     return error_answer(409, "jobs.interrupted", "a job was broken off: resume it or drop it first");
   }

@@ -100,6 +100,7 @@ MdiLines::Answer MdiLines::take_code(std::string_view line) {
     return refused("machine.busy", "earlier lines are still running: wait");
   }
   if (const auto closed = session_.closed_limit()) return refused(std::string(code_of(closed->code)), closed->message);
+  if (const auto lost = session_.lost_place()) return refused(std::string(code_of(lost->code)), lost->message);
   if (!streams()) program_->drop(session_.status().position.place);
   if (auto wrong = program_->take(line, session_.now())) {
     const std::string expected = wrong->expected.empty() ? "" : fmt::format(". {}", wrong->expected);
@@ -136,6 +137,9 @@ MdiLines::Answer MdiLines::take_command(const std::string& text) {
   if (text == "$SLP") return ask(request::Sleep{});
   if (text == "$X") {
     const MachineState state = session_.state();
+    if (session_.lost_place()) {
+      return ask(request::SetPosition{{.place = session_.status().position.place, .trust = Trust::commanded}});
+    }
     if (state != MachineState::alarm && state != MachineState::fault) return told("[MSG:Nothing is locked]");
     return ask(request::ResetMachine{});
   }

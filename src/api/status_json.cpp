@@ -123,6 +123,7 @@ Json as_json(const MachineDescription& machine, const MachineStatus& status) {
       {"rests", status.rests},
       {"holds", names_of(status.holds)},
       {"trust", name_of(status.position.trust)},
+      {"lost_place", status.lost_place},
       {"place", as_json(machine, status.now_at)},
       {"speed", rounded(status.speed_now.value() * a_minute)},
       {"line", status.executes.line},

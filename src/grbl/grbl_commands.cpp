@@ -74,10 +74,17 @@ void GrblController::unlock() {
     const MachineState state = session_.state();
     if (state == MachineState::alarm || state == MachineState::fault) return answer(GrblError::locked);
     if (is_door_open()) return answer(GrblError::door_open);
+    if (session_.lost_place() && !state_place()) return answer(GrblError::locked);
     alarm_ = false;
     say("[MSG:Caution: Unlocked]\r\n");
   }
   answer(GrblError::none);
+}
+
+// The machine stands where it is shown.
+bool GrblController::state_place() {
+  const Point place = session_.status().position.place;
+  return session_.request(request::SetPosition{{.place = place, .trust = Trust::commanded}}).has_value();
 }
 
 void GrblController::toggle_check() {

@@ -34,7 +34,7 @@ bool is_question(const std::string& line) {
 
 GrblController::GrblController(const MachineDescription& machine, MachineSession& session, OpenProgram& program)
     : machine_(machine), session_(session), program_(program) {
-  alarm_ = !machine.homing.empty() && session.status().position.trust == Trust::unknown;
+  alarm_ = has_lost_place();
 }
 
 void GrblController::connect() {
@@ -97,9 +97,8 @@ void GrblController::let_drive(bool drives) {
   after_stop_ = nullptr;
   homing_.reset();
   checks_ = resets_ = false;
-  const KnownPosition position = session_.status().position;
-  alarm_ = !machine_.homing.empty() && position.trust == Trust::unknown;
-  if (!session_.busy()) program_.go_on_at(position.place);
+  alarm_ = has_lost_place();
+  if (!session_.busy()) program_.go_on_at(session_.status().position.place);
   say(drives ? "[MSG:This sender drives the machine]\r\n" : "[MSG:Another client drives the machine]\r\n");
 }
 
@@ -153,7 +152,7 @@ void GrblController::heed(const MachineChange& change) {
   waits_ = Waits::none;
   program_.go_on_at(session_.status().position.place);
   if (change.outcome == Outcome::done) {
-    alarm_ = false;
+    alarm_ = session_.lost_place().has_value();  // the axes without a switch
     run_startup();
     return answer(GrblError::none);
   }
@@ -176,6 +175,12 @@ void GrblController::raise_alarm_of_board() {
   const bool is_drive = (session_.board().stopped_by() & pin_setup(machine_).alarms) != 0;
   raise(is_drive ? GrblAlarm::motor_fault : GrblAlarm::hard_limit);
   say("[MSG:" + session_.trouble_words() + "]\r\n");
+}
+
+// Then a sender has to home the machine or, by $X, to state that it stands where it is shown.
+bool GrblController::has_lost_place() const {
+  return session_.lost_place().has_value() ||
+         (!machine_.homing.empty() && session_.status().position.trust == Trust::unknown);
 }
 
 void GrblController::raise(GrblAlarm alarm) {

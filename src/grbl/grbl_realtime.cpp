@@ -174,6 +174,7 @@ void GrblController::end_reset() {
   feed_override_ = rapid_override_ = spindle_override_ = 100;
   send_overrides();
   program_.restart(session_.status().position.place);
+  alarm_ = alarm_ || session_.lost_place().has_value();
   has_started_ = false;
   connect();
   start_up();

@@ -15,6 +15,16 @@ constexpr Seconds between_places_over_a_line{0.05};
 
 }  // namespace
 
+std::optional<Refusal> MachineSession::lost_place() const {
+  if (!options_.needs_place || position_.trust != Trust::unknown) return {};
+  const bool homes_all_axes = machine_.homing.size() == machine_.axes.size();
+  if (!homes_all_axes && !position_.is_lost) return {};
+  return Refusal{.code = RefusalCode::place_unknown,
+                 .message = homes_all_axes
+                                ? "where the machine stands is not known: home it first"
+                                : "where the machine stands is not known: jog it to a known place, and confirm it"};
+}
+
 Point MachineSession::place_of(const BoardPlace& place, AxisSet downs) const {
   Point point = position_.place;
   const StepOptions steps = passo::step_options(machine_);

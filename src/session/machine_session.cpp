@@ -115,6 +115,7 @@ void MachineSession::go_online(Seconds most) {
 void MachineSession::stand_at(const KnownPosition& position) {
   position_ = position;
   trust_before_ = position.trust;
+  lost_before_ = position.is_lost;
   mismatch_.reset();
   if (place_) {
     const MotorSteps steps = steps_at(machine_, position.place, position.downs);
@@ -143,7 +144,9 @@ MotorSteps MachineSession::steps_of(const BoardPlace& place) const {
 // the place, also after a reset that fails.
 void MachineSession::doubt_place() {
   if (position_.trust != Trust::unknown) trust_before_ = position_.trust;
+  if (!position_.is_lost) lost_before_ = false;
   position_.trust = Trust::unknown;
+  position_.is_lost = true;
 }
 
 void MachineSession::begin_reset() {
@@ -169,6 +172,7 @@ void MachineSession::find_place_again() {
     return;
   }
   position_.trust = trust_before_;
+  position_.is_lost = lost_before_;
   const StepOptions steps = passo::step_options(machine_);
   for (std::size_t m = 0; m < machine_.axes.size(); ++m) {
     const auto counted = static_cast<double>(status.positions[m] - (*zero_counts_)[m]);
@@ -314,7 +318,10 @@ void MachineSession::note_place() {
   // The path is done when the last pull-off has been planned: it may have been stopped since.
   if (!is_homed) return;
   position_.place = home_place();
-  if (position_.trust != Trust::unknown || homes_all_axes(machine_)) position_.trust = Trust::homed;
+  if (position_.trust != Trust::unknown || homes_all_axes(machine_)) {
+    position_.trust = Trust::homed;
+    position_.is_lost = false;
+  }
   mismatch_.reset();
   count_from_here();
 }
@@ -343,6 +350,7 @@ bool MachineSession::counts_agree() {
     if (counted == place_->steps(m)) continue;
     mismatch_ = CountMismatch{.motor = m, .counted = counted, .commanded = place_->steps(m)};
     position_.trust = Trust::unknown;
+    position_.is_lost = true;
     note({.kind = MachineChange::Kind::position_lost});
     count_from_here();
     return false;
@@ -439,6 +447,7 @@ MachineStatus MachineSession::status() const {
   status.time = now();
   status.state = state_;
   status.position = position_;
+  status.lost_place = lost_place().has_value();
   status.now_at = now_at_;
   status.speed_now = speed_now_;
   status.ahead = position_.place;

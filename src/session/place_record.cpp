@@ -64,6 +64,7 @@ std::string text_of(const PlaceRecord& record) {
   const SessionNumbers& numbers = record.numbers;
   text += fmt::format("\nbefore {} {}\nsession {} {}\n", numbers.session_before, numbers.executed_before,
                       numbers.greeting, numbers.session);
+  if (record.is_lost) text += "lost\n";
   end_record(text);
   return text;
 }
@@ -88,6 +89,8 @@ std::optional<PlaceRecord> read_place_record(std::string_view text) {
   words.expect("session");
   record.numbers.greeting = words.number<std::uint8_t>();
   record.numbers.session = words.number<std::uint16_t>();
+  record.is_lost = words.good() && !words.at_end();
+  if (record.is_lost) words.expect("lost");
   if (!words.good() || !words.at_end() || record.numbers.session == 0) return {};
   return record;
 }

@@ -61,6 +61,7 @@ std::string_view code_of(RefusalCode code) {
     case RefusalCode::no_switches: return "machine.no-switches";
     case RefusalCode::bad_value: return "machine.bad-value";
     case RefusalCode::limit_closed: return "machine.limit-closed";
+    case RefusalCode::place_unknown: return "run.place-unknown";
   }
   return "machine";
 }
@@ -82,6 +83,9 @@ Refusal MachineSession::why_not() const {
     case MachineState::fault: return {RefusalCode::alarm, "the board was lost: reset the machine first"};
     case MachineState::sleep: return {RefusalCode::asleep, "the machine sleeps: wake it first"};
     case MachineState::door: return {RefusalCode::door_open, "the door is open"};
+    case MachineState::await_line:
+      return {RefusalCode::busy,
+              "the lines before have left the spindle or the coolant on, or go on: send M5 M9, or stop, first"};
     default: break;
   }
   if (busy()) return {RefusalCode::busy, "the machine is busy"};
@@ -176,6 +180,8 @@ DriveOptions MachineSession::drive_options() const {
 MachineSession::Answer MachineSession::take(request::Start& start) {
   if (auto refused = refuse(MachineEvent::begin_run)) return Failure{*refused};
   if (auto refused = closed_limit()) return Failure{*refused};
+  // A journal knows where its job was broken off.
+  if (auto refused = lost_place(); refused && !start.from) return Failure{*refused};
   auto work = std::make_unique<Work>();
   if (start.from && start.lead_in.empty()) start.stands = start.from->point;
   const bool is_on_path = start.from && start.stands;
@@ -219,6 +225,7 @@ MachineSession::Answer MachineSession::take(request::Start& start) {
 MachineSession::Answer MachineSession::take(request::Stream& stream) {
   if (auto refused = refuse(MachineEvent::begin_run)) return Failure{*refused};
   if (auto refused = closed_limit(); refused && !stream.program->jogs()) return Failure{*refused};
+  if (auto refused = lost_place(); refused && !stream.program->jogs()) return Failure{*refused};
   auto work = std::make_unique<Work>();
   work->lines = stream.program;
   work->activity = std::make_unique<OpenRun>(*stream.program, machine_);
@@ -395,8 +402,7 @@ MachineSession::Answer MachineSession::take(request::Resume&) {
 
 MachineSession::Answer MachineSession::take(request::Stop&) {
   if (!busy()) return refusal(RefusalCode::nothing_runs, "nothing is going on");
-  const Ticket ticket = ++last_ticket_;
-  waiting_holds_.push_back(ticket);
+  const Ticket ticket = waiting_holds_.emplace_back(++last_ticket_);
   work_->stopped = true;
   if (work_->drive) work_->drive->stop();
   return ticket;

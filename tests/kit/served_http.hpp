@@ -37,11 +37,8 @@ class ServedHttp : public ServedBoard {
       _exit(1);
     }
     for (int i = 0; i < 1000 && read(said).find("Ctrl-C") == std::string::npos; ++i) usleep(10'000);
-    const std::string text = read(said);
-    const std::string before = "http://127.0.0.1:";
-    const std::size_t at = text.find(before);
-    ASSERT_NE(at, std::string::npos) << text;
-    port_ = std::stoi(text.substr(at + before.size()));
+    port_ = port_behind("http://127.0.0.1:");
+    ASSERT_NE(port_, 0) << read(said);
   }
   int end(int signal = SIGTERM) {
     if (server_ <= 0) return 0;
@@ -52,12 +49,12 @@ class ServedHttp : public ServedBoard {
     return WIFEXITED(status) ? WEXITSTATUS(status) : -WTERMSIG(status);
   }
 
-  // A socket that is connected to the daemon, or -1.
-  int connected() const {
+  // A socket that is connected to the daemon, or -1. `door`: what the daemon writes before the port.
+  int connected(const std::string& door = "http://127.0.0.1:") const {
     const int line = socket(AF_INET, SOCK_STREAM, 0);
     sockaddr_in address{};
     address.sin_family = AF_INET;
-    address.sin_port = htons(static_cast<std::uint16_t>(port_));
+    address.sin_port = htons(static_cast<std::uint16_t>(door.starts_with("http") ? port_ : port_behind(door)));
     address.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
     if (connect(line, reinterpret_cast<const sockaddr*>(&address), sizeof address) == 0) return line;
     close(line);
@@ -95,6 +92,12 @@ class ServedHttp : public ServedBoard {
   }
 
  private:
+  int port_behind(const std::string& words) const {
+    const std::string text = read(path("http-said"));
+    const std::size_t at = text.find(words);
+    return at == std::string::npos ? 0 : std::stoi(text.substr(at + words.size()));
+  }
+
   pid_t server_ = 0;
   int port_ = 0;
 };

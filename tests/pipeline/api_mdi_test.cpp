@@ -176,6 +176,33 @@ TEST_F(Mdi, knows_words_with_dollar) {
   EXPECT_TRUE(run.turn_until_state("Sleep"));
 }
 
+// As a sender does it by $X.
+TEST(MdiPlace, takes_lines_where_the_place_is_known_or_a_person_vouches_for_it) {
+  ApiRun run(KnownPosition{.place = Point(), .trust = Trust::unknown});
+  run.own();
+  const auto take = [&](const char* line) { return run.post("/mdi", Json({{"line", line}}).dump()); };
+  EXPECT_EQ(take("G0 X1")["error"]["code"], "run.place-unknown");
+  EXPECT_EQ(run.post(fmt::format("/programs/{}/run", run.upload("G0 X1\nM2\n")))["error"]["code"], "run.place-unknown");
+  run.pass(Seconds(1));
+  EXPECT_EQ(run.get("/status")["place"]["x"], 0.0);
+  run.post("/jog", R"({"direction": {"x": 1}, "speed": 600, "distance": 2})");
+  EXPECT_EQ(run.status, 200U) << "a jog needs no place";
+  ASSERT_TRUE(run.turn_until([&] { return run.get("/status")["place"]["x"] == 2.0; }));
+  ASSERT_TRUE(run.turn_until_state("Idle"));
+  take("$X");
+  EXPECT_EQ(run.get("/status")["trust"], "commanded");
+  take("G0 X1");
+  EXPECT_EQ(run.status, 200U);
+  EXPECT_TRUE(run.turn_until([&] { return run.get("/status")["place"]["x"] == 1.0; }));
+}
+
+TEST_F(Mdi, says_why_nothing_jogs_while_it_has_the_spindle_on) {
+  line("M3 S9000");
+  const Json answer = run.post("/jog", R"({"direction": {"x": 1}, "speed": 600, "distance": 2})");
+  EXPECT_EQ(run.status, 409U);
+  EXPECT_NE(answer["error"]["message"].get<std::string>().find("M5 M9"), std::string::npos) << answer;
+}
+
 TEST_F(Mdi, tells_of_a_probe_that_has_touched_nothing) {
   line("G38.2 X5 F600");
   EXPECT_NE(run.get("/status")["mdi"]["trouble"], "");

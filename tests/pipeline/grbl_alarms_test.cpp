@@ -187,6 +187,33 @@ TEST(GrblAlarms, tell_why_homing_has_ended) {
   EXPECT_EQ(next_alarm(missed), "ALARM:9");
 }
 
+// A machine that has no switches for homing, either: its work zeros were measured from the place that is lost. Where
+// the board has counted on, it goes on as a controller does that was never homed.
+TEST(GrblAlarms, lock_a_machine_that_has_lost_its_place) {
+  MachineDescription bare = example_machine("router");
+  bare.homing.clear();
+  for (AxisDescription& axis : bare.axes) axis.home.reset();
+  GrblRun counted(bare, {.place = Point(), .trust = Trust::unknown});
+  EXPECT_TRUE(counted.is("Idle"));
+  GrblRun run(bare, {.place = Point(), .trust = Trust::unknown, .is_lost = true});
+  run.grbl().connect();
+  EXPECT_EQ(run.reply(), "Grbl 1.1h ['$' for help]");
+  EXPECT_EQ(run.reply(), "[MSG:'$H'|'$X' to unlock]");
+  EXPECT_TRUE(run.is("Alarm"));
+  run.send("G0X1\n");
+  EXPECT_EQ(run.reply(), "error:9");
+  run.send("\x18");
+  EXPECT_EQ(run.reply(), "Grbl 1.1h ['$' for help]");
+  EXPECT_EQ(run.reply(), "[MSG:'$H'|'$X' to unlock]") << "a reset finds no place";
+  run.send("$X\n");
+  EXPECT_EQ(run.reply(), "[MSG:Caution: Unlocked]");
+  EXPECT_EQ(run.reply(), "ok");
+  run.send("G0X1\n");
+  EXPECT_EQ(run.reply(), "ok");
+  run.pass(Seconds(1));
+  EXPECT_NEAR(run.session().status().now_at[Axis::x], 1, 0.01);
+}
+
 // A start line that leaves the travel stops as any other line does.
 TEST(GrblAlarms, a_start_line_beyond_the_travel_is_an_alarm) {
   GrblRun run;

@@ -39,7 +39,7 @@ class GrblRun {
         board_(machine.motor_count(), machine.board.clock, machine.board.highest_event_rate,
                static_cast<std::size_t>(machine.board.held_items)),
         plant_(plant_of(machine, start.place, touchables)),
-        session_(description_, board_, {.tells_place = true, .start = start}),
+        session_(description_, board_, {.tells_place = true, .start = start, .needs_place = true}),
         program_(description_, in_grbl(description_), start.place),
         grbl_(description_, session_, program_) {
     board_.connect(plant_);

@@ -46,6 +46,7 @@ export const en = {
   'state.Idle.open': 'Open a program, or jog.',
   'state.Idle.bad': 'The program has errors: Files tells which.',
   'state.Idle.home': 'Home the machine, or go on if it stands where it should.',
+  'state.Idle.unknown': 'Nobody knows where the machine stands. Home it, or jog it to a known place and confirm that on Set up.',
   'state.Idle.job.done': 'The program has ended.',
   'state.Idle.job.failed': 'The last job has failed: {why}',
   'job.checking': 'being checked',
@@ -213,7 +214,9 @@ export const en = {
   'jog.home.ask': 'Home the machine?',
   'jog.home.facts': 'The axes {axes} search their switches. Nobody may be near, and nothing may be in the way.',
   'jog.home.none': 'This machine has no switches for homing',
-  'jog.here': 'Set the machine’s place …',
+  'jog.here': 'The place is right',
+  'jog.here.ask': 'Is the place right?',
+  'jog.here.facts': 'The machine is taken to stand at {place} (machine coordinates). All work zeros count from there.',
   // Files and jobs
   'files.drop': 'Drop a G-code file here',
   'files.choose': 'Choose a file',

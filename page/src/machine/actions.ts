@@ -14,6 +14,7 @@ import { shown, timeOf } from './programs';
 import { placeWords, workPlace } from './place';
 
 const stateWhy = (): string => {
+  if (status.value?.state === 'Line' && status.value.mdi.streams) return say('state.Line.console');
   const state = status.value?.state;
   return state === undefined ? say('why.lost') : say('why.state', { state: say(`state.${state}`) });
 };
@@ -32,6 +33,7 @@ export const whyNoStart = computed(() => {
   const why = whyNot('Idle');
   if (why !== '') return why;
   if (interrupted.value !== null) return say('why.broken');
+  if (status.value?.lost_place === true) return say('state.Idle.unknown');
   if (shown.value === null) return say('why.none');
   if (shown.value.state === 'bad') return say('why.bad');
   return shown.value.state === 'checking' || status.value?.job?.state === 'checking' ? say('why.checking') : '';

@@ -29,6 +29,7 @@ export interface Status {
   rests: boolean;
   holds: string[];
   trust: 'unknown' | 'commanded' | 'counted' | 'homed';
+  lost_place: boolean; // no program starts
   place: Place;
   work_offset?: Place;
   work_rotation?: number; // degrees about Z

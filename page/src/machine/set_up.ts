@@ -3,7 +3,7 @@ import { say } from '../core/language';
 import { confirm } from '../core/question';
 import { lengthText, lengthUnit } from '../core/units';
 import { moveAs } from './actions';
-import { machine } from './connection';
+import { machine, status } from './connection';
 import { runLine } from './console';
 import { needFile, usualClearance } from './machine_file';
 import { placeWords, workPlace } from './place';
@@ -49,4 +49,17 @@ export async function home(): Promise<void> {
     kind: 'go',
   });
   if (yes) await moveAs('/home');
+}
+
+// Nobody knows where the machine stands, so nothing but a jog or homing moves it until a person vouches for the place.
+export async function vouchForPlace(): Promise<void> {
+  const place = status.value?.place;
+  if (place === undefined) return;
+  const yes = await confirm({
+    title: say('jog.here.ask'),
+    facts: [say('jog.here.facts', { place: placeWords(place) })],
+    yes: say('jog.here'),
+    kind: 'plain',
+  });
+  if (yes) await moveAs('/position', { place });
 }

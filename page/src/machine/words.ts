@@ -42,6 +42,7 @@ function nextOf({ status, program, canHome }: Facts): string {
   if (state === 'Idle') {
     // The console itself has told why a line was refused.
     if (status.job?.state === 'failed' && status.job.name !== consoleName) return say('state.Idle.job.failed', { why: toldOr(status.job.why) });
+    if (status.lost_place) return say('state.Idle.unknown');
     if (canHome && status.trust !== 'homed' && program === 'none') return say('state.Idle.home');
     return say(program === 'none' ? 'state.Idle.open' : program === 'bad' ? 'state.Idle.bad' : 'state.Idle.next');
   }

@@ -8,7 +8,7 @@ import { machine, status } from '../machine/connection';
 import { gamepad } from '../machine/gamepad';
 import { fieldHasKeys, jogShare, jogSpeed, jogStep, movesNow, pressByPointer, windowHasFocus, type Direction } from '../machine/jog';
 import { axes } from '../machine/place';
-import { goToZero, home, makeZero } from '../machine/set_up';
+import { goToZero, home, makeZero, vouchForPlace } from '../machine/set_up';
 import { Button } from '../parts/button';
 import { Icon } from '../parts/icon';
 import { Position } from '../parts/position';
@@ -161,6 +161,11 @@ function SetUpPanel() {
         >
           {say('jog.home')}
         </Button>
+        {status.value?.lost_place === true && (
+          <Button icon="done" why={why} onClick={vouchForPlace}>
+            {say('jog.here')}
+          </Button>
+        )}
       </div>
     </section>
   );

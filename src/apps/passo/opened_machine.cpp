@@ -79,7 +79,8 @@ std::unique_ptr<OpenedMachine> OpenedMachine::open(const MachineDescription& mac
     const KnownPosition at_zero{.place = Point(), .trust = Trust::commanded};
     if (!wish.over_a_line) {
       opened->session_ = std::make_unique<MachineSession>(
-          machine, opened->machine_, SessionOptions{.tells_place = wish.tells_place, .start = at_zero});
+          machine, opened->machine_,
+          SessionOptions{.tells_place = wish.tells_place, .start = at_zero, .needs_place = wish.needs_place});
       // For its switches. Over a line, the greeting asks.
       static_cast<void>(ask_status(opened->session_->board(), answer).has_value());
       return opened;
@@ -91,7 +92,8 @@ std::unique_ptr<OpenedMachine> OpenedMachine::open(const MachineDescription& mac
                                                                        .care = virtual_line,
                                                                        .greeting = {.session = 1},
                                                                        .tells_place = wish.tells_place,
-                                                                       .start = at_zero});
+                                                                       .start = at_zero,
+                                                                       .needs_place = wish.needs_place});
     return opened;
   }
   const auto address = parse_board_address(wish.board);
@@ -122,7 +124,8 @@ std::unique_ptr<OpenedMachine> OpenedMachine::open(const MachineDescription& mac
                                                                      .care = real_line,
                                                                      .greeting = {.session = 1},
                                                                      .tells_place = wish.tells_place,
-                                                                     .start = {}});
+                                                                     .start = {},
+                                                                     .needs_place = wish.needs_place});
   if (!opened->ask_first(wish.board, wish.may_move, code)) return nullptr;
   opened->stand_as_counted();
   return opened;
@@ -139,9 +142,9 @@ Result<KnownPosition, PlaceDoubt> OpenedMachine::place() const {
 
 void OpenedMachine::stand_as_counted() {
   if (const auto known = place()) return start_at(*known);
-  if (const auto counted = counted_place(record_, description_, before_)) {
-    start_at({.place = *counted, .trust = Trust::unknown});
-  }
+  const auto counted = counted_place(record_, description_, before_);
+  const bool counts_on = counted && !record_->is_lost && (before_.state & board_trusted) != 0;
+  start_at({.place = counted.value_or(Point()), .trust = Trust::unknown, .is_lost = record_.has_value() && !counts_on});
 }
 
 // Greeting and session number differ from those of the board's last session, and mean nothing else: 1 is every
@@ -170,8 +173,11 @@ void OpenedMachine::stand_in_truth_at(const Point& place) {
 void OpenedMachine::write_down(const KnownPosition& position, const MotorSteps& zero_counts,
                                const SessionNumbers& numbers) {
   if (!place_file_) return;
-  PlaceRecord record{
-      .machine = place_fingerprint(description_), .trust = position.trust, .zero_counts = {}, .numbers = numbers};
+  PlaceRecord record{.machine = place_fingerprint(description_),
+                     .trust = position.trust,
+                     .zero_counts = {},
+                     .numbers = numbers,
+                     .is_lost = position.is_lost};
   for (std::size_t m = 0; m < description_.axes.size(); ++m) {
     record.zero_counts.push_back(static_cast<int>(zero_counts[m]));
   }

@@ -30,6 +30,7 @@ struct MachineWish {
   bool physics = false;                        // the motors of a virtual or emulated machine obey physics
   std::vector<Disturbance> disturbances = {};  // only with physics
   bool tells_place = false;                    // see SessionOptions
+  bool needs_place = false;                    // the same
   bool may_move = false;                       // another host may have left the board in motion
 };
 

@@ -121,7 +121,7 @@ std::unique_ptr<ServedJournal> open_journal(const std::string& folder, OpenedMac
   auto journal = ServedJournal::open(folder, opened);
   if (!journal || !journal->take_up(greeting)) return nullptr;
   if (!opened.is_on_a_line() && journal->found()) {
-    opened.start_at({.place = Point(), .trust = Trust::unknown});
+    opened.start_at({.place = Point(), .trust = Trust::unknown, .is_lost = true});
   } else {
     opened.stand_as_counted();
   }
@@ -156,6 +156,7 @@ int serve(const ServeArguments& given) {
                                            .over_a_line = keeps && arguments.board == "virtual",
                                            .touchables = *things,
                                            .tells_place = true,
+                                           .needs_place = true,
                                            .may_move = keeps},
                                           code);
   if (!opened) return code;

@@ -32,13 +32,16 @@ class PlaceRecords : public testing::Test {
 };
 
 TEST_F(PlaceRecords, are_read_as_they_were_written_and_not_when_they_are_torn) {
-  const std::string text = text_of(record_);
-  EXPECT_EQ(read_place_record(text), record_);
-  for (std::size_t size = 0; size < text.size(); ++size) EXPECT_FALSE(read_place_record(text.substr(0, size)));
-  for (std::size_t at = 0; at < text.size(); ++at) {
-    std::string other = text;
-    other[at] = other[at] == '7' ? '8' : '7';
-    EXPECT_FALSE(read_place_record(other)) << at;
+  for (const bool is_lost : {false, true}) {
+    record_.is_lost = is_lost;
+    const std::string text = text_of(record_);
+    EXPECT_EQ(read_place_record(text), record_);
+    for (std::size_t size = 0; size < text.size(); ++size) EXPECT_FALSE(read_place_record(text.substr(0, size)));
+    for (std::size_t at = 0; at < text.size(); ++at) {
+      std::string other = text;
+      other[at] = other[at] == '7' ? '8' : '7';
+      EXPECT_FALSE(read_place_record(other)) << at;
+    }
   }
 }
 

@@ -14,6 +14,8 @@ export const machine: readonly Saying[] = [
   saying('the machine sleeps: wake it first', 'la machine dort : réveillez-la d’abord', 'la macchina dorme: prima svegliala', '机床已休眠：请先唤醒'),
   saying('the door is open', 'la porte est ouverte', 'lo sportello è aperto', '防护门已打开'),
   saying('the machine is busy', 'la machine est occupée', 'la macchina è occupata', '机床正忙'),
+  saying('the lines before have left the spindle or the coolant on, or go on: send M5 M9, or stop, first', 'les lignes précédentes ont laissé la broche ou l’arrosage en marche, ou continuent : envoyez d’abord M5 M9, ou arrêtez', 'le righe precedenti hanno lasciato acceso il mandrino o il refrigerante, o continuano: prima manda M5 M9, o ferma', '之前的程序行让主轴或冷却液保持开启，或尚未结束：请先发送 M5 M9 或停止'),
+  saying('where the machine stands is not known: jog it to a known place, and confirm it', 'la place de la machine n’est pas connue : amenez-la à une position connue, et confirmez-la', 'la posizione della macchina non è nota: portala in un posto noto e confermalo', '机床位置未知：请点动到已知位置并确认'),
   saying('nothing is going on', 'rien n’est en cours', 'non è in corso nulla', '没有正在进行的操作'),
   saying('nothing moves', 'rien ne bouge', 'nulla si muove', '没有运动'),
   saying('the limit switch {name} is closed: jog away from it, or home the machine, first', 'le fin de course {name} est fermé : éloignez-vous-en d’abord, ou faites l’origine machine', 'il finecorsa {name} è chiuso: prima allontanati, o azzera la macchina', '限位开关 {name} 已闭合：请先点动离开，或回零'),

@@ -141,6 +141,8 @@ class GrblController {
   void restore(const std::string& text);
   void toggle_check();
   void unlock();
+  bool state_place();
+  bool has_lost_place() const;
   void home();
   void sleep();
   void begin_stream();

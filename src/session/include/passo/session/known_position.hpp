@@ -28,6 +28,9 @@ struct KnownPosition {
   Point place;  // machine coordinates
   Trust trust = Trust::unknown;
   AxisSet downs = {};  // the axes whose backlash is taken up for motion down; none, unless a motion was stopped
+  // With Trust::unknown: counting has been broken off, so work offsets of before are wrong. False: nobody has ever
+  // known where machine zero is, and the counts have gone on.
+  bool is_lost = false;
   friend bool operator==(const KnownPosition&, const KnownPosition&) = default;
 };
 

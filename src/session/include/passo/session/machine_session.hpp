@@ -38,6 +38,8 @@ struct SessionOptions {
   Greeting greeting = {};    // the session sets `motors`
   bool tells_place = false;  // the board is asked where it stands, also in motion, for MachineStatus::now_at
   KnownPosition start = {};  // where the machine stands, as far as the owner knows
+  // No program begins where the place is lost or, on a machine that can home all axes, not known.
+  bool needs_place = false;
 };
 
 class MachineSession {
@@ -98,6 +100,8 @@ class MachineSession {
   // Why no program may begin, as far as the board's switches tell: a limit switch is closed, so the board would not
   // stop at that end any more. Empty: nothing is in the way.
   std::optional<Refusal> closed_limit() const;
+  // The same, where a program needs to know where the machine stands (SessionOptions::needs_place). A jog is possible.
+  std::optional<Refusal> lost_place() const;
 
  private:
   class Work;
@@ -185,6 +189,7 @@ class MachineSession {
   bool switches_off_ = false;  // after another hello: what was going on may have left something on
   KnownPosition position_;
   Trust trust_before_ = Trust::unknown;    // the trust before the place was doubted
+  bool lost_before_ = false;               // and whether it was lost then
   std::optional<BoardPlace> place_;        // where the board stands, exact below a step; empty: as after a hello
   std::optional<MotorSteps> zero_counts_;  // the board's counts at machine zero
   std::optional<CountMismatch> mismatch_;

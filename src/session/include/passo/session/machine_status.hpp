@@ -46,6 +46,7 @@ struct MachineStatus {
   HoldReasons holds;         // why the machine rests or brakes
   bool rests = true;         // no motion is under way
   KnownPosition position;    // at rest: where the machine stands; in motion: where it last rested
+  bool lost_place = false;   // MachineSession::lost_place(): no program begins
   Point now_at;              // with SessionOptions::tells_place: where the board has last told that it is
   MmPerSecond speed_now{0};  // along the path, between the last two such places
   Point ahead;               // in motion: the end of what has been planned

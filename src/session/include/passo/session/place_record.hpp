@@ -24,6 +24,7 @@ struct PlaceRecord {
   Trust trust = Trust::unknown;  // unknown: nobody knows where machine zero is, and the counts go on all the same
   std::vector<int> zero_counts;  // the board's count of each motor at machine zero
   SessionNumbers numbers;
+  bool is_lost = false;  // as in KnownPosition
   friend bool operator==(const PlaceRecord&, const PlaceRecord&) = default;
 };
 
