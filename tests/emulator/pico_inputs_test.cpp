@@ -104,7 +104,7 @@ void expect_spikes(std::mt19937_64& random, std::uint8_t filter) {
   bench.set_up({.filter = filter});
   bench.start(long_run(20));
   bench.run(pico_clock_rate / 50, gpio_bit(pico_bare.motor[0].step), 3'000);
-  for (int i = 0; i < 60; ++i) {
+  for (int i = 0; i < 40 && !bench.fault(); ++i) {
     bench.run(random() % (200 * microsecond));
     bench.press(pins[random() % std::size(pins)]);
     bench.run((i % 2 == 0 ? 3 : 25) * microsecond);

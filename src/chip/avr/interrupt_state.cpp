@@ -8,7 +8,8 @@ extern "C" {
 
 Expansion expansion;
 volatile uint8_t running;
-volatile uint8_t line_is_watched;
+// At first nobody looks: fetch() waits for timers that do not run yet. restart() sets it to 0.
+volatile uint8_t line_is_watched = 1;
 volatile uint8_t turns_tail = turns_address & 0xff;
 volatile uint8_t action_at_end;
 volatile uint8_t received_head;
