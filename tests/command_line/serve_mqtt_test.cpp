@@ -116,11 +116,15 @@ TEST_F(ServeMqtt, obeys_no_message) {
   ASSERT_TRUE(becomes("shop/router/state", "Idle")) << passo::test::read(path("said"));
   mosquitto* const other = mosquitto_new(nullptr, true, nullptr);
   ASSERT_EQ(mosquitto_connect(other, "127.0.0.1", static_cast<int>(port_), 10), MOSQ_ERR_SUCCESS);
+  const auto turn = [other] {
+    for (int i = 0; i < 10; ++i) mosquitto_loop(other, 20, 1);
+  };
+  turn();
   const std::string line = "G91 G0 X30\n";
   for (const char* const topic :
        {"shop/router", "shop/router/command", "shop/router/gcode", "shop/router/status/set"}) {
     mosquitto_publish(other, nullptr, topic, static_cast<int>(line.size()), line.data(), 1, true);
-    mosquitto_loop(other, 100, 1);
+    turn();
   }
   mosquitto_disconnect(other);
   mosquitto_destroy(other);
