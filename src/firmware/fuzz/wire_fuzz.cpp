@@ -81,7 +81,7 @@ void check_bytes(const std::uint8_t* data, std::size_t size) {
 std::vector<WireFrame> frames_in(const std::uint8_t* data, std::size_t size) {
   std::vector<WireFrame> frames;
   for (std::size_t at = 0; at + 2 <= size;) {
-    WireFrame frame{.type = static_cast<MessageType>(data[at]), .sequence = data[at + 1]};
+    WireFrame frame{.type = static_cast<MessageType>(data[at]), .sequence = data[at + 1], .payload = {}};
     const std::uint8_t payload = payload_size(data[at], motors);
     at += 2;
     if (payload == 0 || at + payload > size) continue;
