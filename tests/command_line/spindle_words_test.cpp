@@ -109,7 +109,8 @@ TEST_F(SpindleWords, a_program_for_a_laser_is_warned_of_with_its_places) {
   const Outcome backwards = check("G21 G91 F4000\nM4 S100\nG1 X1\nG1 X1 S50\nM5\nM2\n", mill);
   EXPECT_TRUE(contains(backwards.err, "S changes, or M4 is on in 2 feeds, as in")) << backwards.err;
   EXPECT_TRUE(contains(backwards.err, "= and 1 more, line 4\n")) << backwards.err;
-  EXPECT_TRUE(contains(check("G21 G91 F4000\nM4 S100\nG1 X1\nM5\nM2\n", mill).err, "p.ngc:3:1: warning: M4 is on in 1 feed, as in"));
+  EXPECT_TRUE(contains(check("G21 G91 F4000\nM4 S100\nG1 X1\nM5\nM2\n", mill).err,
+                       "p.ngc:3:1: warning: M4 is on in 1 feed, as in"));
   const auto is_warned = [&](const std::string& program, const std::string& file) {
     return contains(check(program, file).err, "path.laser");
   };
