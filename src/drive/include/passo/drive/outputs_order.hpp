@@ -55,9 +55,7 @@ class OutputsOrder {
     return in_force().spindle != SpindleDirection::off && !same;
   }
   // How far the spindle's speed is from what the board was told, revolutions a minute.
-  double change_of_speed() const {
-    return told_ ? std::abs(for_board().spindle_rpm - told_->spindle_rpm) : 0;
-  }
+  double change_of_speed() const { return told_ ? std::abs(for_board().spindle_rpm - told_->spindle_rpm) : 0; }
   // The message for the board. The caller sends it.
   BoardOutputs tell() { return *(told_ = for_board()); }
 
