@@ -137,7 +137,7 @@ void BlockExecutor::execute(const Block& block) {
   state_.line = block.line;
   block_.source = {block.line, line_number_of(block)};
   block_.word = place_of_words(block);
-  if (block.spaced_number) warn_of_blank(*block.spaced_number);
+  if (block.spaced_number) reporter_.warn_of_blank(*block.spaced_number);
   const bool readable = words_.read(block, parameters_, reporter_);
   if (words_.calls_macro()) return subprograms_.call_macro(readable);
   if (!readable) return;
@@ -162,15 +162,6 @@ void BlockExecutor::execute(const Block& block) {
   if (speaks_grbl() && !check_words_used()) return;
   go_on();
   subprograms_.call_modal_macro();
-}
-
-// RS274/NGC allows blanks in a number. It is nearly always the letter of a word that is missing.
-void BlockExecutor::warn_of_blank(Span span) {
-  const std::string written = reporter_.quote(span);
-  std::string read = written;
-  std::erase_if(read, [](char c) { return c == ' ' || c == '\t'; });
-  reporter_.warning("gcode.blank-in-number", span, fmt::format("{} is read as {}", written, read),
-                    fmt::format("{} without a blank, or a letter before each number", read));
 }
 
 // A cycle gives as many operations at a time as the queue takes, and the rest of its block comes behind it.

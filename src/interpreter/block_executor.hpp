@@ -75,7 +75,6 @@ class BlockExecutor : private CodeFamily {
   void end_contour();
 
  private:
-  void warn_of_blank(Span span);
   bool go_home_beside_g0(const CodeEntry& taker);
   // Each function executes a group's code. False: the code failed, and the rest of the block is not executed.
   using GroupFunction = bool (*)(BlockExecutor& executor, CodeNumber code);

@@ -81,6 +81,15 @@ void Reporter::warn_of(const UnsetParameter& unset) {
           fmt::format("#{} = ... before this line", unset.number));
 }
 
+// RS274/NGC allows blanks in a number. It is nearly always the letter of a word that is missing.
+void Reporter::warn_of_blank(Span number) {
+  const std::string written = quote(number);
+  std::string read = written;
+  std::erase_if(read, [](char c) { return c == ' ' || c == '\t'; });
+  warning("gcode.blank-in-number", number, fmt::format("{} is read as {}", written, read),
+          fmt::format("{} without a blank, or a letter before each number", read));
+}
+
 std::string Reporter::quote(Span span) const {
   constexpr std::size_t longest_quote = 40;
   if (span.column == 0 || span.column > block_->text.size()) return {};
