@@ -48,7 +48,7 @@ std::string text_of_case(const std::string& name) {
 
 TEST(LevelledFrames, a_place_of_the_machine_stays_one) {
   const Written it =
-      levelled("G90 F100\nG0 X10 Y10 Z5\nG1 Z-1\nX20\nG53 G0 Z-4\nG53 G0 X0 Y0\nG53 G1 X#5 Z[-2-1]\nM2\n");
+      levelled("#5=0\nG90 F100\nG0 X10 Y10 Z5\nG1 Z-1\nX20\nG53 G0 Z-4\nG53 G0 X0 Y0\nG53 G1 X#5 Z[-2-1]\nM2\n");
   EXPECT_EQ(it.words, "");
   EXPECT_EQ(it.text,
             head + "G0 X10 Y10 Z5\nG1 Z-0.9 F100\nX20 Z-0.8\nG53 G0 Z-4\nG53 G0 X0 Y0\nG53 G1 X0 Z-3\nM5\nM2\n");
