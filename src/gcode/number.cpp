@@ -53,9 +53,11 @@ struct Digits {
 
 // Digits with blanks between them.
 Digits read_spaced_digits(const char* at, const char* end) {
-  Digits digits{.end = at, .spaced = true};
+  Digits digits{.end = at};
   bool point = false;
+  bool after_blank = false;  // a blank has come since the last digit or point
   for (; at != end; ++at) {
+    if ((is_digit(*at) || (*at == '.' && !point)) && after_blank) digits.spaced = true;
     if (is_digit(*at)) {
       digits.mantissa = digits.mantissa * 10 + static_cast<std::uint64_t>(*at - '0');
       ++digits.count;
@@ -63,6 +65,7 @@ Digits read_spaced_digits(const char* at, const char* end) {
     } else if (*at == '.' && !point) {
       point = true;
     } else if (is_blank(*at)) {
+      after_blank = digits.count > 0 || point;
       continue;
     } else {
       break;

@@ -212,7 +212,7 @@ TEST_F(Boards, that_stand_still_amid_motion_are_told_of) {
       "name = 'six'\n[board]\nclock_hz = 16e6\nmax_event_rate_hz = 110e3\nstep_pulse_us = 1\nheld_items = 100\n";
   for (const std::string letter : {"X", "Y", "Z", "U", "V", "W"}) {
     machine += "[axis." + letter +
-               "]\nsteps_per_mm = 640\nmax_velocity_mm_s = 171.7\nmax_acceleration_mm_s2 = 2000\ntravel_mm = [0, 99]\n";
+               "]\nsteps_per_mm = 640\nmax_velocity_mm_s = 171.8\nmax_acceleration_mm_s2 = 2000\ntravel_mm = [0, 99]\n";
   }
   const std::string files =
       write("p.ngc", "G21 G90\nG0 X80 Y79 Z78 U77 V76 W75\nM2\n") + " -m " + write("m.toml", machine);

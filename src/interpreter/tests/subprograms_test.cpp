@@ -53,8 +53,8 @@ TEST(Subprograms, a_main_program_without_end_and_without_motion_is_stopped) {
   options.idle_passes = 50;
   const Interpreted result = interpret_text("#1=[#1+1]\nM99\n", options);
   ASSERT_EQ(result.diagnostics.errors(), 1U);
-  EXPECT_EQ(result.diagnostics.all().front().code, "gcode.endless-loop");
-  EXPECT_EQ(result.diagnostics.all().front().place.line, 2U);
+  EXPECT_EQ(result.diagnostics.all().back().code, "gcode.endless-loop");
+  EXPECT_EQ(result.diagnostics.all().back().place.line, 2U);
 }
 
 // What (PRINT,…) said.
