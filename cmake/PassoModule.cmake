@@ -96,12 +96,14 @@ function(passo_test_headers)
 endfunction()
 
 
-# passo_test(NAME SOURCES file… LIBRARIES target… [LABELS label…] [DEFINITIONS name=value…] [ONE_IN number] [COST seconds])
+# passo_test(NAME SOURCES file… LIBRARIES target… [LABELS label…] [DEFINITIONS name=value…] [ONE_IN number] [COST seconds]
+#            [ALONE])
 #
 # A GoogleTest program. Tests without a label are fast: a developer runs them at every change. ONE_IN: of the trials of
 # random tests they make one in so many (tests/kit/in_full.hpp). COST: how long they take, as for passo_slow_test.
+# ALONE: no other test runs beside it.
 function(passo_test name)
-  cmake_parse_arguments(ARG "" "ONE_IN;COST" "SOURCES;LIBRARIES;LABELS;DEFINITIONS" ${ARGN})
+  cmake_parse_arguments(ARG "ALONE" "ONE_IN;COST" "SOURCES;LIBRARIES;LABELS;DEFINITIONS" ${ARGN})
   if(PASSO_SANITIZE)
     set(ARG_ONE_IN 8)  # a trial takes ten times as long
   elseif(PASSO_TESTS_IN_FULL OR NOT ARG_ONE_IN)
@@ -124,6 +126,9 @@ function(passo_test name)
   endif()
   if(ARG_COST)
     list(APPEND properties COST ${ARG_COST})
+  endif()
+  if(ARG_ALONE)
+    list(APPEND properties RUN_SERIAL ON)
   endif()
   if(PASSO_SANITIZE)
     # One process a program: under sanitizers half of a short test's time is its process's start.
