@@ -48,8 +48,7 @@ class ChipPlayer {
     made_ = 0;
     BegunItems::clear();
     // The last host may have driven more motors.
-#pragma clang loop unroll(disable)
-    for (uint8_t m = 0; m < pins.motors; ++m) {
+    _Pragma("clang loop unroll(disable)") for (uint8_t m = 0; m < pins.motors; ++m) {
       expansion.accumulators[m] = 0x8000;
       expansion.increments[m] = 0;
     }
@@ -78,20 +77,14 @@ class ChipPlayer {
     return BegunItems::count() < few_begun || waiting() < worth_more_begun;
   }
   // True if more short items can begin while the oldest ones wait to be counted.
-  static constexpr bool begins_many() {
-    return most_begun > few_begun;
-  }
+  static constexpr bool begins_many() { return most_begun > few_begun; }
   // True when nothing is played and nothing waits to be played.
-  static bool done() {
-    return left_ == 0 && rests();
-  }
+  static bool done() { return left_ == 0 && rests(); }
 
   using Segment = SegmentFor<pins.motors>;
 
   // The motors rest before the segment that is loaded next, so nothing is late if the ring is empty until then.
-  static void begin_from_rest() {
-    fresh_ = true;
-  }
+  static void begin_from_rest() { fresh_ = true; }
   static void load(const Segment& segment) {
     for (uint8_t m = 0; m < BegunItems::motors(); ++m) expansion.increments[m] = segment.increments[m];
     expansion.interval = segment.interval;
@@ -142,9 +135,7 @@ class ChipPlayer {
   }
 
   // Whether the oldest item is done.
-  static bool finished() {
-    return BegunItems::note_over(BegunItems::count() != 0 && is_over());
-  }
+  static bool finished() { return BegunItems::note_over(BegunItems::count() != 0 && is_over()); }
   // Forgets the oldest item after its steps were counted.
   static void forget() {
     if (BegunItems::events() == 0) OutputActions::forget();
@@ -158,13 +149,9 @@ class ChipPlayer {
     const int16_t left = left_of_oldest();
     return left <= 0 ? events : left > events ? uint8_t{0} : static_cast<uint8_t>(events - left);
   }
-  static int16_t steps(uint8_t motor) {
-    return BegunItems::steps(played(), motor);
-  }
+  static int16_t steps(uint8_t motor) { return BegunItems::steps(played(), motor); }
   // Adds them to the motors' positions, and is done with the item.
-  static void add_steps(int32_t* positions) {
-    BegunItems::add_steps(played(), positions);
-  }
+  static void add_steps(int32_t* positions) { BegunItems::add_steps(played(), positions); }
 
   // Makes some events, and starts the timer if it stands still. `follows`: another item, or part of one, is there.
   // Behind a standstill on the Uno half of the ring is made first: else the next one would follow at once.
@@ -181,25 +168,15 @@ class ChipPlayer {
   }
 
   // True if all events of the segment are made and another can come.
-  static bool wants_more() {
-    return left_ == 0;
-  }
+  static bool wants_more() { return left_ == 0; }
   // True if there is room for events that are worth the work.
-  static bool is_low() {
-    return static_cast<uint8_t>(most_ahead_ - waiting()) >= least_room_;
-  }
+  static bool is_low() { return static_cast<uint8_t>(most_ahead_ - waiting()) >= least_room_; }
   // True if the interrupt could reach the end of the ring before the other work of the loop is done.
-  static bool is_short() {
-    return running != 0 && waiting() < most_ahead_ / 4;
-  }
+  static bool is_short() { return running != 0 && waiting() < most_ahead_ / 4; }
   // True if the watched input has changed, at an event at which the interrupt looked. Until watch() is called again,
   // everything reported of the oldest item is as it was at that event.
-  static bool captured() {
-    return watching_ && armed == 0;
-  }
-  static bool watches() {
-    return watching_;
-  }
+  static bool captured() { return watching_ && armed == 0; }
+  static bool watches() { return watching_; }
   // Waits for the next change of the watched pins.
   static void watch(bool on) {
     armed = on ? 1 : 0;
@@ -208,9 +185,7 @@ class ChipPlayer {
   }
 
   // Whether the ring ran dry while there was something to play, so that the machine stood still for a moment.
-  static bool slipped() {
-    return slipped_;
-  }
+  static bool slipped() { return slipped_; }
 
  private:
   // An item that has begun cannot be replaced, so a few are enough, but for short ones: they may have one event.
@@ -255,12 +230,8 @@ class ChipPlayer {
     captured_at_ = RingTimes::played(then, (head_ - then) & ring_mask, made_);
     noted_ = true;
   }
-  static bool rests() {
-    return running == 0 && waiting() == 0;
-  }
-  static uint8_t waiting() {
-    return static_cast<uint8_t>((head_ - fetched_entry()) & ring_mask);
-  }
+  static bool rests() { return running == 0 && waiting() == 0; }
+  static uint8_t waiting() { return static_cast<uint8_t>((head_ - fetched_entry()) & ring_mask); }
 
   static uint16_t now() {
     const uint8_t low = Tcnt1l::read();

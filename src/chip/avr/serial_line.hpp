@@ -88,18 +88,8 @@ class SerialLine {
           lds r25, %[tcnt]
           sub r24, r25
           cpi r24, 34
-          brlo 1b
-          lds r24, %[ucsra]           ; from the second line to here 7 cycles, from here to the last store 13
-          sbrs r24, 7
-          rjmp 2f
-          lds r30, received_head
-          ldi r31, hi8(%[received])
-          lds r24, %[udr]
-          st Z+, r24
-          sts received_head, r30
-          rjmp 1b
-      2:
-    )" ::[ocr] "n"(StepAlarm::where),
+          brlo 1b                     ; from the second line to here 7 cycles
+    )" PASSO_TAKE_BYTE "2:\n" ::[ocr] "n"(StepAlarm::where),
         [tcnt] "n"(StepCount::where), [ucsra] "n"(Ucsr0a::where), [udr] "n"(Udr0::where),
         [received] "n"(received_address)
         : "r24", "r25", "r30", "r31", "memory");

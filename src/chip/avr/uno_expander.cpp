@@ -94,15 +94,8 @@ void read_line_in_its_place() {
       push r24
       push r30
       push r31
-  1:  lds r30, %[ucsra]
-      sbrs r30, 7
-      rjmp 2f
-      lds r30, received_head
-      ldi r31, hi8(%[received])
-      lds r24, %[udr]
-      st Z+, r24
-      sts received_head, r30
-      rjmp 1b
+  1:
+  )" PASSO_TAKE_BYTE R"(
   2:  pop r31
       pop r30
       pop r24
