@@ -216,7 +216,7 @@ bool is_for_a_printer(std::string_view first) {
     const std::string_view line = take_line(rest);
     if (line.starts_with(';')) {
       for (const std::string_view slicer : {";FLAVOR:", "PrusaSlicer", "OrcaSlicer", "SuperSlicer", "BambuStudio",
-                                            "Slic3r", "Cura", "Simplify3D", "ideaMaker"}) {
+                                            "Slic3r", "Cura_SteamEngine", "Simplify3D", "ideaMaker"}) {
         if (line.find(slicer) != std::string_view::npos) return true;
       }
       continue;

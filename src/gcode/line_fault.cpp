@@ -161,18 +161,21 @@ bool LineParser::fail_foreign_word(const char* start) {
   struct Macro {
     std::string_view name;
     const char* expected;
+    bool has_condition = false;
   };
-  constexpr Macro macros[] = {{"WHILE", "o1 while [...] on one line, and o1 endwhile where END stands"},
+  constexpr Macro macros[] = {{"WHILE", "o1 while [...] on one line, and o1 endwhile where END stands", true},
                               {"GOTO", "o1 if [...] and o1 endif around what is passed over; there are no jumps"},
                               {"THEN", "o1 if [...], the assignment on the next line, and o1 endif"},
                               {"END", "o1 endwhile, with the label of its o1 while"},
-                              {"IF", "o1 if [...] on one line, and o1 endif after the last line that it guards"}};
-  std::string letters;
-  for (const char* at = start; at != end_ && letters.size() < 5 && (is_letter(*at) || is_blank(*at)); ++at) {
-    if (is_letter(*at)) letters += to_upper(*at);
-  }
-  const auto* const found =
-      std::ranges::find_if(macros, [&](const Macro& macro) { return letters.starts_with(macro.name); });
+                              {"IF", "o1 if [...] on one line, and o1 endif after the last line that it guards", true}};
+  // `I F100` is an I that lacks its value.
+  std::string name;
+  const char* at = start;
+  while (at != end_ && is_letter(*at)) name += to_upper(*at++);
+  while (at != end_ && is_blank(*at)) ++at;
+  const bool has_condition = at != end_ && *at == '[';
+  const auto* const found = std::ranges::find_if(
+      macros, [&](const Macro& macro) { return name == macro.name && (has_condition || !macro.has_condition); });
   if (found == std::end(macros)) return false;
   return fail("gcode.fanuc-macro", start, found->name.size(),
               fmt::format("{} is a word of Fanuc's macros", found->name), found->expected);

@@ -157,6 +157,8 @@ TEST_F(Warnings, words_of_other_controls_are_named) {
   EXPECT_TRUE(contains(macro.err, "p.ngc:5:1: error: IF is")) << macro.err;
   EXPECT_TRUE(contains(macro.err, "o1 endwhile"));
   EXPECT_TRUE(contains(check("GOTO 10\nM2\n").err, "GOTO is a word"));
+  EXPECT_TRUE(contains(check("G2 X10 I F100\nM2\n").err, "'I' has no value"));
+  EXPECT_FALSE(contains(check("; Curated by hand\nG21 G0 X1\nM2\n").err, "printer"));
   EXPECT_TRUE(contains(check(":0491\nM2\n").err, "O for ':'"));
   EXPECT_TRUE(contains(check("G4 X2\nM2\n").err, "X and U of other controls are P here"));
   EXPECT_TRUE(contains(check("G17 G21 F400\nG0 X10\nG2 X0 Y-10 I-10 J0 K0.000\nM2\n").err, "--dialect grbl"));
