@@ -7,6 +7,8 @@
 
 #include <fmt/format.h>
 
+#include "passo/interpreter/is_any_of.hpp"
+
 namespace passo {
 namespace {
 
@@ -31,7 +33,9 @@ void LowRapids::watch(const Operation& operation, const ToolTrack& track) {
     end_descent(track.from());
     zero_is_known_ |= operation.source.line > 0;
     knows_z_ = false;
-    if (!is_any_of<SetToolOffset>(operation)) forget_heights();
+    if (is_any_of<SetToolOffset>(operation)) return;
+    top_.reset();
+    deepest_.reset();
     return;
   }
   if (!is_any_of<StraightTraverse, StraightFeed, ArcFeed, NurbsFeed, StraightProbe>(operation)) return;
@@ -56,8 +60,8 @@ void LowRapids::know_place(const Operation& operation) {
     knows_z_ = knows_z_ && zero_is_known_;
     return;
   }
-  knows_z_ |= has(Axis::z) || std::holds_alternative<operation::StraightProbe>(operation.what);
-  if (!std::holds_alternative<operation::StraightTraverse>(operation.what) || knows_xy_) {
+  knows_z_ |= has(Axis::z) || is_any_of<operation::StraightProbe>(operation);
+  if (!is_any_of<operation::StraightTraverse>(operation) || knows_xy_) {
     knows_xy_ = true;
     return;
   }
@@ -106,11 +110,6 @@ void LowRapids::rapid(const Operation& operation, const ToolTrack& track, bool k
                 fmt::format("a rapid goes down to Z{:.6g}, deeper than all feeds before it (Z{:.6g})", z, *deepest_),
                 "a feed (G1) where there may be material"));
   }
-}
-
-void LowRapids::forget_heights() {
-  top_.reset();
-  deepest_.reset();
 }
 
 void LowRapids::finish() {

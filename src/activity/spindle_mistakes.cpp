@@ -6,6 +6,8 @@
 
 #include <fmt/format.h>
 
+#include "passo/interpreter/is_any_of.hpp"
+
 namespace passo {
 
 SpindleMistakes::SpindleMistakes(const MachineDescription& machine, std::string file, Diagnostics& diagnostics)

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <optional>
 
+#include "passo/interpreter/is_any_of.hpp"
+
 namespace passo {
 namespace {
 
@@ -38,8 +40,11 @@ std::optional<Point> end_of(const OperationKind& what, const Point& from) {
 void ToolTrack::follow(const Operation& operation) {
   from_ = to_;
   frame_changed_ = false;
-  const Frame before = frame_;
-  if (frame_.follow(operation)) {
+  // A frame is large, and few operations move it.
+  if (is_any_of<operation::SetWorkOffset, operation::SetG92Offset, operation::SetRotation, operation::SetToolOffset>(
+          operation)) {
+    const Frame before = frame_;
+    frame_.follow(operation);
     frame_changed_ = differ(before, frame_);
     to_ = from_ = frame_.work_from_machine(before.machine_from_work(to_));
   }

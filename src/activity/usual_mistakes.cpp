@@ -7,6 +7,7 @@
 
 #include <fmt/format.h>
 
+#include "passo/interpreter/is_any_of.hpp"
 #include "passo/interpreter/plane_axes.hpp"
 
 namespace passo {

@@ -164,32 +164,32 @@ bool MotionCodes::center_words(PlanePoint start, PlanePoint& center) {
                             words_[wrong] == 0 ? "; grbl ignores the word: --dialect grbl" : ""));
   }
   const bool absolute = state_.modal[arc_distance] == code(90, 1);
-  const double unit = state_.length_unit();
-  center = absolute ? PlanePoint{} : start;
+  for (const char letter : {center_letter(plane_axes.first), center_letter(plane_axes.second)}) {
+    if (!absolute || words_.has(letter)) continue;
+    return fail("gcode.missing-center", motion_span(),
+                fmt::format("an arc with an absolute centre (G90.1) without {}", letter),
+                fmt::format("{} and {}", center_letter(plane_axes.first), center_letter(plane_axes.second)));
+  }
+  center = center_by_words(start, absolute);
+  return true;
+}
+
+PlanePoint MotionCodes::center_by_words(PlanePoint start, bool absolute) const {
+  const PlaneAxes plane_axes = axes_of(state_.modal.plane());
+  PlanePoint center = absolute ? PlanePoint{} : start;
   for (const auto& [axis, value] : {std::pair{plane_axes.first, &center.first}, {plane_axes.second, &center.second}}) {
     const char letter = center_letter(axis);
-    if (words_.has(letter)) {
-      const double word = words_[letter] * unit;
-      *value = absolute ? scaled_place(axis, word) : *value + scaled_way(axis, word);
-    } else if (absolute) {
-      return fail("gcode.missing-center", motion_span(),
-                  fmt::format("an arc with an absolute centre (G90.1) without {}", letter),
-                  fmt::format("{} and {}", center_letter(plane_axes.first), center_letter(plane_axes.second)));
-    }
+    if (!words_.has(letter)) continue;
+    const double word = words_[letter] * state_.length_unit();
+    *value = absolute ? scaled_place(axis, word) : *value + scaled_way(axis, word);
   }
-  return true;
+  return center;
 }
 
 // The commonest reason why radii differ: I J K are meant the other way. True: they are, and this is reported.
 bool MotionCodes::fits_other_distance(PlanePoint from, PlanePoint to, const ArcTolerance& tolerance) {
-  const PlaneAxes plane_axes = axes_of(state_.modal.plane());
   const bool absolute = state_.modal[arc_distance] == code(90, 1);
-  PlanePoint center = absolute ? from : PlanePoint{};
-  for (const auto& [axis, value] : {std::pair{plane_axes.first, &center.first}, {plane_axes.second, &center.second}}) {
-    const char letter = center_letter(axis);
-    if (words_.has(letter)) *value += words_[letter] * state_.length_unit();
-  }
-  if (check_center(from, to, center, tolerance).fault != ArcFault::none) return false;
+  if (check_center(from, to, center_by_words(from, !absolute), tolerance).fault != ArcFault::none) return false;
   fail("gcode.arc-radii-differ", motion_span(),
        fmt::format("the arc's start and end are not equally far from its centre, which is {} here",
                    absolute ? "a position (G90.1)" : "a distance from the start (G91.1)"),

@@ -22,6 +22,7 @@ class MotionCodes : private CodeFamily {
   bool arc_beside(const Point& start, PlanePoint center, std::int32_t turns);
   bool find_arc_center(bool clockwise, const Point& end, ArcCenter& found);
   bool center_words(PlanePoint start, PlanePoint& center);
+  PlanePoint center_by_words(PlanePoint start, bool absolute) const;
   bool fits_other_distance(PlanePoint from, PlanePoint to, const ArcTolerance& tolerance);
   bool arc_turns(std::int32_t& turns);
 

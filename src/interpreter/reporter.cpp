@@ -1,5 +1,7 @@
 #include "reporter.hpp"
 
+#include <algorithm>
+
 #include <fmt/format.h>
 
 namespace passo {
@@ -18,6 +20,10 @@ std::string_view domain_of(std::string_view text) {
   if (name == "ASIN") return "ASIN of -1 to 1";
   if (name == "ACOS") return "ACOS of -1 to 1";
   return "a whole exponent: a negative number has no other powers";
+}
+
+SourcePlace place_of(std::uint32_t line, Span span) {
+  return {line, span.column, span.length == 0 ? 1 : span.length};
 }
 
 }  // namespace
@@ -77,12 +83,14 @@ void Reporter::error(const EvaluationError& error) {
 }
 
 void Reporter::warn_of(const UnsetParameter& unset) {
+  if (is_kept("gcode.unset-parameter", block_->line, unset.span)) return;
   warning("gcode.unset-parameter", unset.span, fmt::format("#{} was never set, and is 0", unset.number),
           fmt::format("#{} = ... before this line", unset.number));
 }
 
 // RS274/NGC allows blanks in a number. It is nearly always the letter of a word that is missing.
 void Reporter::warn_of_blank(Span number) {
+  if (is_kept("gcode.blank-in-number", block_->line, number)) return;
   const std::string written = quote(number);
   std::string read = written;
   std::erase_if(read, [](char c) { return c == ' ' || c == '\t'; });
@@ -97,18 +105,22 @@ std::string Reporter::quote(Span span) const {
   return text.size() <= longest_quote ? std::string(text) : std::string(text.substr(0, longest_quote)) + "...";
 }
 
+// A wrong line in a loop is wrong in every pass, but is reported once.
+bool Reporter::is_kept(std::string_view code, std::uint32_t line, Span span) const {
+  const SourcePlace place = place_of(line, span);
+  return std::ranges::any_of(diagnostics_.all(), [&](const Diagnostic& kept) {
+    return kept.place == place && kept.code == code && kept.file == *file_;
+  });
+}
+
 void Reporter::add(Severity severity, std::string_view code, std::uint32_t line, std::string_view text, Span span,
                    std::string message, std::string expected) {
   if (severity == Severity::error) ++errors_;
-  // A wrong line in a loop is wrong in every pass, but is reported once.
-  const SourcePlace place{line, span.column, span.length == 0 ? 1 : span.length};
-  for (const Diagnostic& told : diagnostics_.all()) {
-    if (told.place == place && told.code == code && told.file == *file_) return;
-  }
+  if (is_kept(code, line, span)) return;
   diagnostics_.add({.severity = severity,
                     .code = std::string(code),
                     .file = *file_,
-                    .place = place,
+                    .place = place_of(line, span),
                     .message = std::move(message),
                     .expected = std::move(expected),
                     .text = std::string(text),

@@ -76,6 +76,7 @@ class Reporter {
  private:
   void add(Severity severity, std::string_view code, std::uint32_t line, std::string_view text, Span span,
            std::string message, std::string expected);
+  bool is_kept(std::string_view code, std::uint32_t line, Span span) const;
   std::vector<CallPlace> calls() const;
 
   Diagnostics& diagnostics_;

@@ -7,6 +7,8 @@
 #include "leveller.hpp"
 #include <fmt/format.h>
 
+#include "passo/interpreter/is_any_of.hpp"
+
 namespace passo {
 namespace {
 
@@ -23,9 +25,7 @@ const Point* end_of(const Operation& operation) {
 
 // What a cycle is made of, beside its moves.
 bool is_part_of_cycle(const Operation& operation) {
-  return std::holds_alternative<operation::Dwell>(operation.what) ||
-         std::holds_alternative<operation::SetPathMode>(operation.what) ||
-         std::holds_alternative<operation::SetMergeTolerance>(operation.what);
+  return is_any_of<operation::Dwell, operation::SetPathMode, operation::SetMergeTolerance>(operation);
 }
 
 }  // namespace

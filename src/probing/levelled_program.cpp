@@ -7,6 +7,8 @@
 
 #include "leveller.hpp"
 
+#include "passo/interpreter/is_any_of.hpp"
+
 namespace passo {
 namespace {
 
@@ -219,9 +221,7 @@ bool Leveller::take(const Operation& operation) {
   }
   if (keeps_cycle(operation)) return true;
   if (follow_frame(operation)) return true;
-  if (std::holds_alternative<operation::StraightTraverse>(operation.what) ||
-      std::holds_alternative<operation::StraightFeed>(operation.what) ||
-      std::holds_alternative<operation::ArcFeed>(operation.what)) {
+  if (is_any_of<operation::StraightTraverse, operation::StraightFeed, operation::ArcFeed>(operation)) {
     take_move(operation);
   } else if (const auto* rate = std::get_if<operation::SetFeedRate>(&operation.what)) {
     feed_ = rate->rate * 60;

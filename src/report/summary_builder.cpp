@@ -6,6 +6,7 @@
 #include "axis_peaks.hpp"
 
 #include "passo/interpreter/frame.hpp"
+#include "passo/interpreter/is_any_of.hpp"
 
 namespace passo {
 namespace {
@@ -39,11 +40,6 @@ void widen(std::optional<Range>& range, double value) {
   range->high = std::max(range->high, value);
 }
 
-template <class... Whats>
-bool is_any_of(const OperationKind& what) {
-  return (std::holds_alternative<Whats>(what) || ...);
-}
-
 }  // namespace
 
 class SummaryBuilder::Implementation {
@@ -53,10 +49,10 @@ class SummaryBuilder::Implementation {
   void watch(const Operation& operation) {
     using namespace passo::operation;
     const OperationKind& what = operation.what;
-    if (is_any_of<StraightTraverse, StraightFeed, ArcFeed, NurbsFeed, RigidTap, StraightProbe>(what)) {
+    if (is_any_of<StraightTraverse, StraightFeed, ArcFeed, NurbsFeed, RigidTap, StraightProbe>(operation)) {
       if (sum_.moves++ == 0) sum_.units = units_;
-      if (is_any_of<StraightTraverse>(what)) ++sum_.rapids;
-      if (is_any_of<ArcFeed>(what)) ++sum_.arcs;
+      if (is_any_of<StraightTraverse>(operation)) ++sum_.rapids;
+      if (is_any_of<ArcFeed>(operation)) ++sum_.arcs;
     } else if (const auto* units = std::get_if<SetLengthUnits>(&what)) {
       units_ = units->units;
     } else if (frame_.follow(operation)) {

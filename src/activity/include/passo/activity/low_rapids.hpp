@@ -38,7 +38,6 @@ class LowRapids : OperationWatcher {
   void feed(const Operation& operation, const ToolTrack& track, bool knew_z);
   void rapid(const Operation& operation, const ToolTrack& track, bool knew_z);
   void end_descent(const Point& end);
-  void forget_heights();
 
   bool has_height_;
   bool has_spindle_;  // with a speed

@@ -4,8 +4,6 @@
 // set to what it is already does not move.
 #pragma once
 
-#include <variant>
-
 #include "passo/interpreter/frame.hpp"
 #include "passo/interpreter/operation.hpp"
 
@@ -34,11 +32,5 @@ class ToolTrack {
   bool moves_ = false;
   bool frame_changed_ = false;
 };
-
-// True: the operation is one of these kinds.
-template <class... Whats>
-bool is_any_of(const Operation& operation) {
-  return (std::holds_alternative<Whats>(operation.what) || ...);
-}
 
 }  // namespace passo
