@@ -50,10 +50,15 @@ class AskedJogs {
   }
   // Whether what moves now moves only as long as it is held, and no step explains it.
   isHold(version: number): boolean {
-    return this.begun.filter((one) => one.version <= version).at(-1)?.distance === 0;
+    return this.begunBy(version)?.distance === 0;
   }
-  stepsSince(version: number): number {
-    return this.begun.filter((one) => one.version > version).reduce((sum, one) => sum + one.distance, 0);
+  // The step that is under way at this version, and those after it.
+  stepsFrom(version: number): number {
+    const later = this.begun.filter((one) => one.version > version);
+    return later.reduce((sum, one) => sum + one.distance, this.begunBy(version)?.distance ?? 0);
+  }
+  private begunBy(version: number): { distance: number } | undefined {
+    return this.begun.filter((one) => one.version <= version).at(-1);
   }
 }
 
@@ -178,7 +183,7 @@ async function play(page: Page, jogs: AskedJogs, seed: number): Promise<{ after:
   // Only now all answers are there, which tell what was a hold and what a step.
   const held = moving.filter(({ version }) => jogs.isHold(version)).at(-1);
   const rest = held ?? moving[0] ?? was;
-  expect(way(rest.place, was.place), `farther than its steps: ${told}`).toBeLessThan(jogs.stepsSince(rest.version) + 0.05);
+  expect(way(rest.place, was.place), `farther than its steps: ${told}`).toBeLessThan(jogs.stepsFrom(rest.version) + 0.05);
   return { after: held === undefined ? 0 : held.time - from, told };
 }
 
