@@ -3,10 +3,16 @@
 # One module of the street: a static library passo_NAME with its public headers under
 # include/passo/NAME/. What it may use is read from docs/layers.txt, the only place where that is written.
 # TESTS become one test program NAME_tests. They are compiled several at a time (a unity build); those whose own names
-# clash with the others' are TESTS_APART. With TOGETHER Release and sanitized builds do the same with SOURCES, except APART.
-# Other builds, clang's look among them, see each file alone, so each includes what it uses.
+# clash with the others' are TESTS_APART. With TOGETHER and PASSO_TOGETHER the same is done with SOURCES, except APART.
+# The presets dev and clang compile each file alone, so each includes what it uses.
 file(STRINGS "${PROJECT_SOURCE_DIR}/docs/layers.txt" PASSO_LAYER_LINES REGEX "^[a-z_]+\\*?:")
 set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS "${PROJECT_SOURCE_DIR}/docs/layers.txt")
+
+set(together OFF)
+if(PASSO_SANITIZE OR CMAKE_BUILD_TYPE STREQUAL "Release")
+  set(together ON)
+endif()
+option(PASSO_TOGETHER "Compile several sources of a module at a time" ${together})
 
 # Files that are compiled together may shadow one another's names. Each alone may not: clang looks at them so.
 add_library(passo_together INTERFACE)
@@ -32,7 +38,7 @@ function(passo_module module)
     add_library(passo_${module} STATIC ${ARG_SOURCES} ${ARG_APART})
     target_include_directories(passo_${module} PUBLIC include)
     target_link_libraries(passo_${module} PUBLIC ${layers} PRIVATE ${ARG_LIBRARIES} passo_compiler)
-    if(ARG_TOGETHER AND (PASSO_SANITIZE OR CMAKE_BUILD_TYPE STREQUAL "Release"))
+    if(ARG_TOGETHER AND PASSO_TOGETHER)
       set_target_properties(passo_${module} PROPERTIES UNITY_BUILD ON UNITY_BUILD_BATCH_SIZE 6)
       set_source_files_properties(${ARG_APART} PROPERTIES SKIP_UNITY_BUILD_INCLUSION ON)
       target_link_libraries(passo_${module} PRIVATE passo_together)

@@ -4,8 +4,8 @@
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
 
-cmake --preset clang >/dev/null
-cmake --build build/clang --parallel "$(nproc)" --target passo_test_headers passo_standard_headers
+cmake --preset look >/dev/null
+cmake --build build/look --parallel "$(nproc)" --target passo_test_headers passo_standard_headers
 tests=no
 [[ ${1-} == --tests ]] && tests=yes
 # An object has one name in both builds.
@@ -13,7 +13,7 @@ commands=()
 while read -r object && read -r command; do
   [[ $object != *.pch ]] || continue
   [[ -e build/sanitize/$object || ($tests == no && $object =~ (_tests|_replay)\.dir/) ]] || commands+=("$command -fsyntax-only")
-done < <(jq -r '.[].command | capture(" -o (?<object>\\S+) ").object, .' build/clang/compile_commands.json)
+done < <(jq -r '.[].command | capture(" -o (?<object>\\S+) ").object, .' build/look/compile_commands.json)
 echo "clang looks at ${#commands[@]} sources"
-cd build/clang
+cd build/look
 printf '%s\0' "${commands[@]}" | xargs -0 -r -n 1 -P "$(nproc)" bash -c
