@@ -269,9 +269,9 @@ WebAnswer MachineApi::ask(Request wanted) {
   return ticket_answer(*ticket);
 }
 
-// A client tells by the version which statuses are older than its request.
+// A client tells by the change which statuses are older than its request.
 WebAnswer MachineApi::ticket_answer(Ticket ticket) const {
-  return json_answer(200, {{"ticket", ticket}, {"version", session_.status().version}});
+  return json_answer(200, {{"ticket", ticket}, {"change", session_.status().version}});
 }
 
 // The machine rests, and nothing moves it without somebody's wish.

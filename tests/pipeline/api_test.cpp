@@ -214,11 +214,11 @@ TEST(Api, a_motion_begins_with_a_version_of_the_status) {
   run.own();
   const Json before = run.get("/status");
   const Json taken = run.post("/jog", R"({"direction": {"x": 1}, "speed": 600, "distance": 1, "lease": 5})");
-  EXPECT_GT(taken["version"], before["version"]);
+  EXPECT_GT(taken["change"], before["change"]);
   EXPECT_EQ(run.get("/status")["state"], "Jog");
-  EXPECT_EQ(run.get("/status")["version"], taken["version"]);
+  EXPECT_EQ(run.get("/status")["change"], taken["change"]);
   ASSERT_TRUE(run.turn_until_state("Idle"));
-  EXPECT_GT(run.get("/status")["version"], taken["version"]);
+  EXPECT_GT(run.get("/status")["change"], taken["change"]);
 }
 
 TEST(Api, a_jog_ends_with_its_lease) {

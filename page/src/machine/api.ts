@@ -16,14 +16,14 @@ export interface Job {
   history: number;
 }
 
-// What a request is answered that the machine has taken: statuses of a smaller version are from before it.
+// What a request is answered that the machine has taken: statuses of a smaller change are from before it.
 export interface Taken {
   ticket: number;
-  version: number;
+  change: number;
 }
 
 export interface Status {
-  version: number;
+  change: number;
   time: number;
   state: MachineState;
   rests: boolean;
