@@ -27,9 +27,9 @@ function randomOf(seed: number): () => number {
   return () => (state = (state * 48271) % 2147483647) / 2147483647;
 }
 
-// The jogs that a page has asked for. The status of a jog, and of each moment until the next one, has its version or a later one.
+// The jogs that a page has asked for. The status of a jog, and of each moment until the next one, has its change or a later one.
 class AskedJogs {
-  private readonly begun: { distance: number; version: number }[] = [];
+  private readonly begun: { distance: number; change: number }[] = [];
   private waiting = 0;
   constructor(page: Page) {
     page.on('request', (request) => {
@@ -37,8 +37,8 @@ class AskedJogs {
       const { distance } = request.postDataJSON() as { distance: number };
       this.waiting += 1;
       const answered = async (): Promise<void> => {
-        const { version } = (await (await request.response())?.json()) as { version?: number };
-        if (version !== undefined) this.begun.push({ distance, version });
+        const { change } = (await (await request.response())?.json()) as { change?: number };
+        if (change !== undefined) this.begun.push({ distance, change });
       };
       void answered()
         .catch(() => undefined)
@@ -49,16 +49,16 @@ class AskedJogs {
     return this.waiting === 0;
   }
   // Whether what moves now moves only as long as it is held, and no step explains it.
-  isHold(version: number): boolean {
-    return this.begunBy(version)?.distance === 0;
+  isHold(change: number): boolean {
+    return this.begunBy(change)?.distance === 0;
   }
-  // The step that is under way at this version, and those after it.
-  stepsFrom(version: number): number {
-    const later = this.begun.filter((one) => one.version > version);
-    return later.reduce((sum, one) => sum + one.distance, this.begunBy(version)?.distance ?? 0);
+  // The step that is under way at this change, and those after it.
+  stepsFrom(change: number): number {
+    const later = this.begun.filter((one) => one.change > change);
+    return later.reduce((sum, one) => sum + one.distance, this.begunBy(change)?.distance ?? 0);
   }
-  private begunBy(version: number): { distance: number } | undefined {
-    return this.begun.filter((one) => one.version <= version).at(-1);
+  private begunBy(change: number): { distance: number } | undefined {
+    return this.begun.filter((one) => one.change <= change).at(-1);
   }
 }
 
@@ -181,9 +181,9 @@ async function play(page: Page, jogs: AskedJogs, seed: number): Promise<{ after:
     was = now;
   }
   // Only now all answers are there, which tell what was a hold and what a step.
-  const held = moving.filter(({ version }) => jogs.isHold(version)).at(-1);
+  const held = moving.filter(({ change }) => jogs.isHold(change)).at(-1);
   const rest = held ?? moving[0] ?? was;
-  expect(way(rest.place, was.place), `farther than its steps: ${told}`).toBeLessThan(jogs.stepsFrom(rest.version) + 0.05);
+  expect(way(rest.place, was.place), `farther than its steps: ${told}`).toBeLessThan(jogs.stepsFrom(rest.change) + 0.05);
   return { after: held === undefined ? 0 : held.time - from, told };
 }
 

@@ -15,7 +15,7 @@ const mostDelay = 15; // ms, one way
 
 export class Daemon {
   state = 'Idle';
-  version = 1;
+  changes = 1;
   moves: { direction: Record<string, number>; lasts: boolean } | null = null;
   stepsBegun = 0;
   cut = false; // the network carries nothing
@@ -44,9 +44,9 @@ export class Daemon {
       this.change('Jog');
     }
     if (to === '/stop') this.brake();
-    const version = this.version;
+    const change = this.changes;
     await this.network();
-    return to === '/owner' ? { key: 'key' } : { ticket: 1, version };
+    return to === '/owner' ? { key: 'key' } : { ticket: 1, change };
   }
   private async network(): Promise<void> {
     const cut = this.cut;
@@ -67,7 +67,7 @@ export class Daemon {
 
   private change(state: string): void {
     this.state = state;
-    ++this.version;
+    ++this.changes;
   }
   private brake(): void {
     if (this.moves === null || this.braking) return;
@@ -90,7 +90,7 @@ export class Daemon {
   // The page loses a connection that has been silent for a while, as connection.ts does.
   publish(): void {
     if (this.cut || connection.value !== 'live') return;
-    const told = { version: this.version, state: this.state, place: {}, owner: { kind: 'nobody', name: '' } };
+    const told = { change: this.changes, state: this.state, place: {}, owner: { kind: 'nobody', name: '' } };
     this.toldUntil = Math.max(Date.now() + this.delay(), this.toldUntil);
     setTimeout(() => void (status.value = told), this.toldUntil - Date.now());
   }

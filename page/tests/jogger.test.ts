@@ -6,10 +6,10 @@ const right: JogWay = { direction: { x: 1 }, speed: 600, distance: 0 };
 const up: JogWay = { direction: { y: 1 }, speed: 600, distance: 0 };
 const step: JogWay = { direction: { x: 1 }, speed: 600, distance: 1 };
 
-// A daemon that does as it is told, at once. Its status has a new version with each change.
+// A daemon that does as it is told, at once. Its status has a new number with each change.
 class Machine {
   said: string[] = [];
-  version = 7;
+  change = 7;
   hears = true;
   refuses = false;
   errors: unknown[] = [];
@@ -19,7 +19,7 @@ class Machine {
         this.said.push(`begin ${Object.keys(way.direction).join('')}${way.distance > 0 ? way.distance : ''}`);
         await Promise.resolve();
         if (this.refuses) throw new Error('no');
-        return ++this.version;
+        return ++this.change;
       },
       renew: () => {
         this.said.push('renew');
@@ -30,8 +30,8 @@ class Machine {
     (error) => this.errors.push(error),
   );
   tells(state: string): void {
-    if (state !== 'Jog') ++this.version;
-    this.jogger.heard(state, this.version);
+    if (state !== 'Jog') ++this.change;
+    this.jogger.heard(state, this.change);
   }
   async settle(): Promise<void> {
     await vi.advanceTimersByTimeAsync(0);
@@ -138,7 +138,7 @@ describe('Jogger', () => {
   it('ends a short step whose end was told before its answer came', async () => {
     const m = new Machine();
     m.jogger.step(step);
-    m.jogger.heard('Idle', m.version + 2);
+    m.jogger.heard('Idle', m.change + 2);
     await m.settle();
     expect(m.jogger.rests).toBe(true);
   });
@@ -148,7 +148,7 @@ describe('Jogger', () => {
     m.jogger.hold(right);
     await m.settle();
     for (let i = 0; i < 30; ++i) {
-      m.jogger.heard('Idle', m.version - 1);
+      m.jogger.heard('Idle', m.change - 1);
       await vi.advanceTimersByTimeAsync(renewEvery);
     }
     expect(m.said).toEqual(['begin x', ...Array<string>(30).fill('renew')]);
@@ -162,7 +162,7 @@ describe('Jogger', () => {
     m.jogger.hold(right);
     await m.settle();
     m.jogger.hold(up);
-    m.jogger.heard('Idle', m.version - 1);
+    m.jogger.heard('Idle', m.change - 1);
     await m.settle();
     expect(m.said).toEqual(['begin x', 'stop']);
     m.tells('Idle');

@@ -21,14 +21,22 @@ WebAnswer error_answer(unsigned status, std::string_view code, std::string_view 
 // 400: what the body should have been.
 WebAnswer bad_body(std::string_view message);
 
-// What a query says. A name is for people: what could do harm in a terminal or a page is left out.
-std::string name_from(std::string_view text, std::string_view otherwise);
+// What a query says. A name keeps its own letters. It may become a file's name, and stand in a terminal or a page: one
+// that could do harm there is refused. `otherwise`: where the query has none.
+Result<std::string, WebAnswer> name_from(std::string_view query, std::string_view otherwise);
+// A person's words for others, without control characters, and at most 200 bytes of them.
+std::string words_from(std::string_view text, std::string_view otherwise);
 std::optional<Dialect> dialect_from(std::string_view query);
+
+// Why a request cannot have this body: its type (415) or its shape (400). Empty: it can.
+std::optional<WebAnswer> wrong_body(BodyKind kind, const WebRequest& request);
 
 // The refusals of more than one file.
 WebAnswer no_history();
 WebAnswer no_place();
 WebAnswer no_room();
+// 507: the disk is full, or refuses for another reason.
+WebAnswer unwritten(std::string_view what, std::string_view why);
 
 // Six decimals: a tenth of a step of a fine machine.
 double rounded(double value);

@@ -15,8 +15,8 @@ namespace {
 
 constexpr std::size_t small_body = std::size_t{1} << 16;
 constexpr std::size_t longest_map = std::size_t{1} << 22;
-constexpr std::size_t longest_name = 200;
 constexpr std::string_view programs_path = "/api/v1/programs";
+constexpr std::string_view owner_path = "/api/v1/owner";
 constexpr std::string_view queue_path = "/api/v1/queue";
 constexpr std::string_view history_path = "/api/v1/history";
 constexpr std::string_view machine_file_path = "/api/v1/machine/file";
@@ -34,16 +34,6 @@ unsigned status_of(RefusalCode code) {
 }
 
 }  // namespace
-
-std::string name_from(std::string_view text, std::string_view otherwise) {
-  std::string name;
-  for (const char c : text.substr(0, longest_name)) {
-    const bool is_plain = (c >= '0' && c <= '9') || (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') ||
-                          std::string_view(" ._-()").find(c) != std::string_view::npos;
-    if (is_plain) name += c;
-  }
-  return name.empty() ? std::string(otherwise) : name;
-}
 
 std::optional<Dialect> dialect_from(std::string_view query) {
   const std::string_view dialect = query_value(query, "dialect");
@@ -121,21 +111,8 @@ WebAnswer MachineApi::answer(const WebRequest& request) {
         "only the owner of motion may do this: take ownership by POST /api/v1/owner, and send its key in "
         "X-Passo-Key");
   }
+  if (auto wrong = wrong_body(found.route->body, request)) return std::move(*wrong);
   return request.method == "GET" ? look(found, request) : change(found, request);
-}
-
-std::string MachineApi::hear(std::string_view message) {
-  const Json said = Json::parse(message, nullptr, false);
-  const auto text = [&](const char* key) {
-    const auto found = said.is_object() ? said.find(key) : said.end();
-    return said.is_object() && found != said.end() && found->is_string() ? found->get<std::string>() : std::string();
-  };
-  const std::string path = text("do");
-  const bool has_body = said.is_object() && said.contains("body");
-  const WebAnswer answer = this->answer(
-      {.method = "POST", .path = path, .key = text("key"), .body = has_body ? said["body"].dump() : std::string()});
-  return Json({{"do", path}, {"status", answer.status}, {"body", Json::parse(answer.body, nullptr, false)}})
-      .dump(-1, ' ', false, Json::error_handler_t::replace);
 }
 
 WebAnswer MachineApi::look(const FoundRoute& found, const WebRequest& request) {
@@ -191,12 +168,7 @@ WebAnswer MachineApi::change(const FoundRoute& found, const WebRequest& request)
   if (path == study_path) return begin_study(request.body);
   if (path.starts_with(interrupted_path)) return change_interrupted(found);
   if (path.starts_with(machine_file_path)) return change_machine_file(found, request);
-  if (path == "/api/v1/owner") {
-    if (request.method == "POST") return take_ownership(request);
-    if (!owner_.is_client(request.key)) return error_answer(403, "owner.not-you", "somebody else owns the motion");
-    owner_.give_back();
-    return json_answer(200, as_json(owner_));
-  }
+  if (path.starts_with(owner_path)) return change_owner(found, request);
   const Json body = request.body.empty() ? Json::object() : Json::parse(request.body, nullptr, false);
   if (path == "/api/v1/work") return set_work_zero(request.body);
   if (path == "/api/v1/mdi") return take_mdi(request.body);
@@ -228,7 +200,8 @@ WebAnswer MachineApi::change_machine_file(const FoundRoute& found, const WebRequ
 WebAnswer MachineApi::change_making(const FoundRoute& found, const WebRequest& request) {
   if (found.route->path == make_path) return begin_making(request.body);
   if (request.method == "DELETE") return clear_make_files();
-  return keep_make_file(name_from(query_value(request.query, "name"), ""), request.body);
+  const auto name = name_from(request.query, "");
+  return name ? keep_make_file(*name, request.body) : name.error();
 }
 
 // The tool stands at this place of the work.
@@ -248,9 +221,16 @@ WebAnswer MachineApi::set_work_zero(std::string_view body) {
   if (!place) return bad_body(reason);
   const auto is_far = [](double value) { return std::abs(value) > farthest_zero; };
   if (std::ranges::any_of(place->values, is_far)) return bad_body("the place is too far away");
+  const SavedParameters before = programs_.parameters();
   programs_.set_work_zero(at - (frame.machine_from_work(*place) - frame.work_offset()));
+  keep_offsets();
+  if (!offsets_trouble_.empty()) {
+    WebAnswer refused = unwritten("the zero of the work", offsets_trouble_);
+    programs_.set_offsets(before, programs_.tools());
+    keep_offsets();
+    return refused;
+  }
   mdi_.take_offsets();
-  if (options_.keep_offsets) options_.keep_offsets(programs_.parameters(), programs_.tools());
   return json_answer(200, {{"work_offset", as_json(machine_, programs_.work_zero())}});
 }
 
@@ -269,45 +249,18 @@ WebAnswer MachineApi::ask(Request wanted) {
   return ticket_answer(*ticket);
 }
 
-// A client tells by the version which statuses are older than its request.
+// A client tells by the change which statuses are older than its request.
 WebAnswer MachineApi::ticket_answer(Ticket ticket) const {
-  return json_answer(200, {{"ticket", ticket}, {"version", session_.status().version}});
-}
-
-// The machine rests, and nothing moves it without somebody's wish.
-bool MachineApi::may_pass_on() const {
-  if (owner_.kind() == MotionOwner::Kind::nobody || !session_.busy()) return true;
-  const MachineState state = session_.state();
-  const bool rests = session_.status().rests;
-  return rests && (state == MachineState::await_line || state == MachineState::hold || state == MachineState::door);
-}
-
-// A sender's program that waits for its next line ends here.
-WebAnswer MachineApi::take_ownership(const WebRequest& request) {
-  const Json body = request.body.empty() ? Json::object() : Json::parse(request.body, nullptr, false);
-  if (!body.is_object()) return bad_body("the body is no JSON object");
-  if (!may_pass_on() || job_.state == JobState::checking) {
-    return error_answer(409, "owner.moves",
-                        fmt::format("the machine moves for {}: hold it first, or wait", owner_.name()));
-  }
-  owner_heard_ = session_.now();
-  const auto name = body.find("name");
-  const bool was_sender = owner_.is_sender();
-  std::string key = options_.make_key();
-  owner_.take_for_client(name_from(name != body.end() && name->is_string() ? name->get<std::string>() : "", "client"),
-                         key);
-  if (was_sender && session_.busy()) static_cast<void>(session_.request(request::Stop{}).has_value());
-  Json answer = as_json(owner_);
-  answer["key"] = std::move(key);
-  return json_answer(200, answer);
+  return json_answer(200, {{"ticket", ticket}, {"change", session_.status().version}});
 }
 
 WebAnswer MachineApi::change_programs(const FoundRoute& found, const WebRequest& request) {
   if (found.route->path == programs_path) {
     const auto dialect = dialect_from(request.query);
     if (!dialect) return bad_body("the dialect is linuxcnc or grbl");
-    const StoredProgram* const program =
-        programs_.add(name_from(query_value(request.query, "name"), "program"), *dialect, request.body);
+    auto name = name_from(request.query, "program");
+    if (!name) return name.error();
+    const StoredProgram* const program = programs_.add(std::move(*name), *dialect, request.body);
     return program != nullptr ? json_answer(201, as_json(*program, false)) : no_room();
   }
   const StoredProgram* const program = programs_.find(found.id);
@@ -369,18 +322,18 @@ WebAnswer MachineApi::change_queue(const FoundRoute& found, const WebRequest& re
     const auto dialect = dialect_from(request.query);
     if (!dialect) return bad_body("the dialect is linuxcnc or grbl");
     const bool leaves_out = *dialect != Dialect::grbl && query_value(request.query, "block_delete") == "true";
-    const auto id = history->add(name_from(query_value(request.query, "name"), "program"),
-                                 *dialect == Dialect::grbl ? "grbl" : "linuxcnc",
+    const auto name = name_from(request.query, "program");
+    if (!name) return name.error();
+    const auto id = history->add(*name, *dialect == Dialect::grbl ? "grbl" : "linuxcnc",
                                  leaves_out ? with_deleted_lines_as_comments(request.body) : request.body, wall_time());
-    return id ? json_answer(201, as_json(*history->find(*id))) : no_room();
+    return id ? json_answer(201, as_json(*history->find(*id))) : no_room_in_history();
   }
   const auto id = static_cast<std::int64_t>(std::min<std::uint64_t>(found.id, INT64_MAX));
   const auto job = history->find(id);
   if (!job || job->state != HistoryState::queued) return refusal(404);
   if (job_.state == JobState::checking) return error_answer(409, "machine.busy", "a job is about to begin");
   if (request.method == "DELETE") {
-    history->remove(id);
-    return json_answer(200, Json::object());
+    return history->remove(id) ? json_answer(200, Json::object()) : no_room_in_history();
   }
   const StoredProgram* const program = programs_.add(
       job->name, job->dialect == "grbl" ? Dialect::grbl : Dialect::linuxcnc, history->program_of(id).value_or(""));
@@ -397,16 +350,40 @@ void MachineApi::note_alarm() {
 }
 
 void MachineApi::turn() {
-  const bool is_silent = session_.now() - owner_heard_ > silent_owner;
-  if (owner_.kind() == MotionOwner::Kind::client && is_silent && !session_.busy()) owner_.give_back();
+  mind_owner();
   programs_.turn();
   heed_maker();
   mind_times();
   mind_mdi();
   if (kept_) kept_->look();
   if (job_.state == JobState::checking && !programs_.checks()) begin_checked_job();
-  // The disk may take its time while nothing moves.
-  if (options_.history != nullptr && !session_.busy()) options_.history->keep();
+  if (!session_.busy()) keep_all();
+}
+
+// The disk may take its time while nothing moves. What it refuses is tried again each second.
+void MachineApi::keep_all() {
+  constexpr Seconds between_attempts{1};
+  if (session_.now() < keeps_again_) return;
+  const bool is_kept = options_.history == nullptr || options_.history->keep();
+  if (!offsets_trouble_.empty()) keep_offsets();
+  if (!is_kept || !offsets_trouble_.empty()) keeps_again_ = session_.now() + between_attempts;
+}
+
+void MachineApi::keep_offsets() {
+  if (options_.keep_offsets) offsets_trouble_ = options_.keep_offsets(programs_.parameters(), programs_.tools());
+}
+
+// What has happened and is not on the disk. Empty: all is.
+std::string MachineApi::unkept() const {
+  std::string words;
+  const auto add = [&words](std::string_view what, std::string_view why) {
+    if (!words.empty()) words += "; ";
+    words += fmt::format("{} cannot be written: {}", what, why);
+  };
+  if (options_.history != nullptr && options_.history->is_behind()) add("the history", options_.history->trouble());
+  if (!offsets_trouble_.empty()) add("the offsets", offsets_trouble_);
+  if (named_ && !kept_->is_written()) add("the journal of the job", options_.keeper->trouble());
+  return words;
 }
 
 std::string MachineApi::status_text() const {
@@ -419,6 +396,7 @@ std::string MachineApi::status_text() const {
   json["work_rotation"] = frame.rotation_degrees();
   json["owner"] = as_json(owner_);
   json["job"] = as_json(job_);
+  json["unkept"] = unkept();
   json["mdi"] = as_json(machine_, mdi_, status.now_at);
   return json.dump() + "\n";
 }

@@ -138,8 +138,8 @@ WebAnswer write_machine_file(const MachineFileAccess& file, const FileStamp& in_
     const std::string why = findings.all().empty() ? "it has errors" : findings.all().front().message;
     return error_answer(409, "machine-file.unsound", fmt::format("this is no sound machine: {}", why));
   }
-  if (!file.write(*before, text)) {
-    return error_answer(409, "machine-file.unwritten", fmt::format("{} cannot be written", file.name));
+  if (const std::string why = file.write(*before, text); !why.empty()) {
+    return error_answer(507, "machine-file.unwritten", fmt::format("{} cannot be written: {}", file.name, why));
   }
   return machine_file_answer(file, in_force);
 }

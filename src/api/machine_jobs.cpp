@@ -37,6 +37,15 @@ WebAnswer no_room() {
   return error_answer(507, "programs.no-room", "there are too many programs: delete some first");
 }
 
+WebAnswer unwritten(std::string_view what, std::string_view why) {
+  return error_answer(507, "data.unwritten", fmt::format("{} cannot be written: {}", what, why));
+}
+
+WebAnswer MachineApi::no_room_in_history() const {
+  const std::string& trouble = options_.history->trouble();
+  return trouble.empty() ? no_room() : unwritten("the job", trouble);
+}
+
 WebAnswer no_place() {
   return bad_body(
       "from_line: expected the number of a line, 1 or more; pass: a number, 1 or more; after: millimetres, 0 or more");
@@ -99,10 +108,13 @@ WebAnswer MachineApi::begin_job(const StoredProgram& program, std::int64_t histo
   if (kept_ && kept_->interrupted() != nullptr) {
     return error_answer(409, "jobs.interrupted", "a job was broken off: resume it or drop it first");
   }
-  if (options_.history != nullptr && history == 0) {
+  // A job that cannot be noted does not begin.
+  if (history != 0) {
+    if (!options_.history->begin(history, wall_time())) return no_room_in_history();
+  } else if (options_.history != nullptr) {
     const char* const dialect = program.dialect == Dialect::grbl ? "grbl" : "linuxcnc";
-    history = options_.history->add(program.name, dialect, program.text_to_keep(), wall_time()).value_or(0);
-    if (history == 0) return no_room();
+    history = options_.history->add_running(program.name, dialect, program.text_to_keep(), wall_time()).value_or(0);
+    if (history == 0) return no_room_in_history();
   }
   resumes_ = reenters_ = named_ = false;
   from_.reset();
@@ -113,7 +125,6 @@ WebAnswer MachineApi::begin_job(const StoredProgram& program, std::int64_t histo
           .state = JobState::checking,
           .why = {},
           .history = history};
-  if (history != 0) options_.history->begin(history, wall_time());
   job_owner_ = owner_.changes();
   programs_.check(program.id, machine_, session_.status().position.place);
   return json_answer(202, as_json(job_));
@@ -149,6 +160,10 @@ WebAnswer MachineApi::resume_job(bool by_a_way_back) {
   const InterpreterOptions options = kept_->options();
   const StoredProgram* const program = programs_.add(broken.job.name, options.dialect, kept_->program());
   if (program == nullptr) return no_room();
+  if (!options_.history->begin(broken.job.id, wall_time())) {
+    programs_.remove(program->id);
+    return no_room_in_history();
+  }
   resumes_ = true;
   reenters_ = by_a_way_back;
   from_.reset();
@@ -159,7 +174,6 @@ WebAnswer MachineApi::resume_job(bool by_a_way_back) {
           .state = JobState::checking,
           .why = {},
           .history = broken.job.id};
-  options_.history->begin(broken.job.id, wall_time());
   job_owner_ = owner_.changes();
   programs_.check(program->id, machine_, options.start);
   return json_answer(202, as_json(job_));
@@ -195,7 +209,7 @@ void MachineApi::name_job() {
   } else if (const InterruptedJob* const broken = kept_->interrupted(); resumes_ && broken != nullptr) {
     end_job(JobState::interrupted, broken->why);
   } else {
-    end_job(JobState::failed, "the journal of the job cannot be written");
+    end_job(JobState::failed, "the journal of the job cannot be written: " + options_.keeper->trouble());
   }
 }
 

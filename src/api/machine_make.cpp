@@ -165,9 +165,10 @@ WebAnswer MachineApi::made_page() const {
 
 WebAnswer MachineApi::keep_make_file(std::string_view name, std::string_view bytes) {
   if (options_.maker == nullptr) return no_maker();
-  if (name.empty() || name.front() == '.' || name.front() == '-') return bad_body("the file has no name");
+  if (name.empty() || name.front() == '-') return bad_body("the file has no name");
   if (!options_.maker->keep(std::string(name), bytes)) {
-    return error_answer(507, "make.no-room", "there is no room for this file: clear the others first");
+    return error_answer(507, "make.no-room",
+                        "there is no room for this file: clear the others first, or make room on the disk");
   }
   return make_answer();
 }
@@ -218,7 +219,11 @@ WebAnswer MachineApi::begin_making(std::string_view body) {
   } else if (said.contains("profile")) {
     return bad_body("\"profile\": only a board has one");
   }
-  if (!options_.maker->begin(order)) return error_answer(409, "make.busy", "another program is being made");
+  if (!options_.maker->begin(order)) {
+    if (options_.maker->look().state == MakeResult::State::running)
+      return error_answer(409, "make.busy", "another program is being made");
+    return error_answer(507, "make.no-room", "there is no room for what is to be made: make room on the disk");
+  }
   made_.clear();
   making_ = order.job + "/" + (order.files.empty() ? std::string() : order.files.front());
   WebAnswer answer = make_answer();

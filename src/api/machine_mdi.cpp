@@ -26,7 +26,7 @@ WebAnswer MachineApi::take_mdi(std::string_view text) {
   }
   MdiLines::Answer answer = mdi_.take(*line);
   if (!answer.code.empty()) return error_answer(409, answer.code, answer.message);
-  return json_answer(200, {{"words", std::move(answer.words)}, {"version", session_.status().version}});
+  return json_answer(200, {{"words", std::move(answer.words)}, {"change", session_.status().version}});
 }
 
 // One set of offsets and tools for lines and programs. Whoever owns the motion no longer leaves nothing on.

@@ -41,11 +41,11 @@ WebAnswer MachineApi::begin_upload(const WebRequest& request) {
     return bad_body("bytes: expected how long the program is, 1 or more");
   }
   if (*bytes > ProgramStore::longest_program) return refusal(413);
+  auto name = name_from(request.query, "program");
+  if (!name) return name.error();
   const bool has_room = programs_.all().size() < ProgramStore::most_programs;
   const ProgramUpload* const upload =
-      has_room
-          ? uploads_.begin(name_from(query_value(request.query, "name"), "program"), *dialect, *bytes, session_.now())
-          : nullptr;
+      has_room ? uploads_.begin(std::move(*name), *dialect, *bytes, session_.now()) : nullptr;
   return upload != nullptr ? json_answer(201, upload_json(*upload)) : no_room();
 }
 

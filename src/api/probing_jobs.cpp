@@ -106,7 +106,7 @@ void MachineApi::keep_results(const SavedParameters& parameters, const ToolTable
   const ToolTable& tools = programs_.tools().name.empty() ? programs_.tools() : all_tools;
   const bool changed = parameters != programs_.parameters() || tools != programs_.tools();
   programs_.set_offsets(parameters, ToolTable(tools));
-  if (changed && options_.keep_offsets) options_.keep_offsets(programs_.parameters(), programs_.tools());
+  if (changed) keep_offsets();
 }
 
 void MachineApi::keep_results() {

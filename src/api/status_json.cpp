@@ -117,7 +117,7 @@ Json as_json(const MachineDescription& machine, const Point& place) {
 
 Json as_json(const MachineDescription& machine, const MachineStatus& status) {
   Json json = {
-      {"version", status.version},
+      {"change", status.version},
       {"time", rounded(status.time.value())},
       {"state", name_of(status.state)},
       {"rests", status.rests},

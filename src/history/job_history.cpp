@@ -1,5 +1,6 @@
 #include "passo/history/job_history.hpp"
 
+#include <algorithm>
 #include <utility>
 
 #include "sqlite_library.hpp"
@@ -131,18 +132,34 @@ bool JobHistory::run(const char* sql) const {
   return sqlite().sqlite3_exec(database_, sql, nullptr, nullptr, nullptr) == SQLITE_OK;
 }
 
+bool JobHistory::judge(bool done) {
+  trouble_ = done ? std::string() : sqlite().sqlite3_errmsg(database_);
+  return done;
+}
+
+std::optional<std::int64_t> JobHistory::insert(HistoryState state, std::string_view name, std::string_view dialect,
+                                               std::string_view program, double now) {
+  Statement insert(database_,
+                   "INSERT INTO jobs (name, dialect, bytes, state, queued_at, begun_at, program)"
+                   " VALUES (?, ?, ?, ?, ?, ?, ?)");
+  insert.with(name).with(dialect).with(static_cast<std::int64_t>(program.size())).with(number_of(state)).with(now);
+  insert.with(state == HistoryState::running ? now : 0.0).with_bytes(program);
+  is_kept_ = false;
+  if (!judge(insert.run())) return {};
+  return sqlite().sqlite3_last_insert_rowid(database_);
+}
+
 std::optional<std::int64_t> JobHistory::add(std::string_view name, std::string_view dialect, std::string_view program,
                                             double now) {
   Statement count(database_, "SELECT count(*) FROM jobs WHERE state = ?");
   count.with(number_of(HistoryState::queued));
-  if (!count.step() || count.number() >= static_cast<std::int64_t>(most_queued)) return {};
-  Statement insert(database_,
-                   "INSERT INTO jobs (name, dialect, bytes, state, queued_at, program) VALUES (?, ?, ?, ?, ?, ?)");
-  insert.with(name).with(dialect).with(static_cast<std::int64_t>(program.size()));
-  insert.with(number_of(HistoryState::queued)).with(now).with_bytes(program);
-  if (!insert.run()) return {};
-  is_kept_ = false;
-  return sqlite().sqlite3_last_insert_rowid(database_);
+  if (!judge(count.step()) || count.number() >= static_cast<std::int64_t>(most_queued)) return {};
+  return insert(HistoryState::queued, name, dialect, program, now);
+}
+
+std::optional<std::int64_t> JobHistory::add_running(std::string_view name, std::string_view dialect,
+                                                    std::string_view program, double now) {
+  return insert(HistoryState::running, name, dialect, program, now);
 }
 
 std::vector<HistoryJob> JobHistory::jobs(const char* where, std::int64_t value) const {
@@ -164,6 +181,11 @@ std::vector<HistoryJob> JobHistory::jobs(const char* where, std::int64_t value) 
     job.queued_at = select.real();
     job.begun_at = select.real();
     job.ended_at = select.real();
+    const auto end = std::ranges::find(unwritten_, job.id, &End::id);
+    if (end == unwritten_.end()) continue;
+    job.state = end->state;
+    job.why = end->why;
+    job.ended_at = end->at;
   }
   return found;
 }
@@ -183,46 +205,75 @@ bool JobHistory::begin(std::int64_t id, double now) {
   is_kept_ = false;
   Statement update(database_, "UPDATE jobs SET state = ?, begun_at = ?, why = '', ended_at = 0 WHERE id = ?");
   update.with(number_of(HistoryState::running)).with(now).with(id);
-  return update.run() && sqlite().sqlite3_changes(database_) == 1;
+  if (!judge(update.run())) return false;
+  std::erase_if(unwritten_, [id](const End& one) { return one.id == id; });
+  return sqlite().sqlite3_changes(database_) == 1;
 }
 
 bool JobHistory::end(std::int64_t id, HistoryState state, std::string_view why, double now) {
+  if (!find(id)) return false;
+  End end{.id = id, .state = state, .why = std::string(why), .at = now};
+  if (write(end)) return true;
+  unwritten_.push_back(std::move(end));
+  return false;
+}
+
+bool JobHistory::write(const End& end) {
   is_kept_ = false;
   Statement update(database_,
                    "UPDATE jobs SET state = ?1, why = ?2, ended_at = ?3,"
                    " program = CASE WHEN ?1 = ?4 THEN NULL ELSE program END WHERE id = ?5");
-  update.with(number_of(state)).with(why).with(now).with(number_of(HistoryState::done)).with(id);
-  const bool good = update.run() && sqlite().sqlite3_changes(database_) == 1;
+  update.with(number_of(end.state)).with(end.why).with(end.at).with(number_of(HistoryState::done)).with(end.id);
+  if (!judge(update.run())) return false;
+  // What is too old is forgotten the next time, if not now.
   Statement forget(database_, "DELETE FROM jobs WHERE state > 1 AND id <= (SELECT max(id) FROM jobs) - ?");
-  return forget.with(most_ended).run() && good;
+  static_cast<void>(forget.with(most_ended).run());
+  return true;
 }
 
 bool JobHistory::remove(std::int64_t id) {
   is_kept_ = false;
   Statement gone(database_, "DELETE FROM jobs WHERE id = ? AND state = ?");
-  return gone.with(id).with(number_of(HistoryState::queued)).run() && sqlite().sqlite3_changes(database_) == 1;
+  gone.with(id).with(number_of(HistoryState::queued));
+  return judge(gone.run()) && sqlite().sqlite3_changes(database_) == 1;
 }
 
 bool JobHistory::note_alarm(std::string_view words, double now) {
+  HistoryAlarm alarm{.at = now, .words = std::string(words)};
+  if (write(alarm)) return true;
+  constexpr std::size_t most_unwritten = 1000;
+  if (unwritten_alarms_.size() < most_unwritten) unwritten_alarms_.push_back(std::move(alarm));
+  return false;
+}
+
+bool JobHistory::write(const HistoryAlarm& alarm) {
   is_kept_ = false;
   Statement insert(database_, "INSERT INTO alarms (at, words) VALUES (?, ?)");
-  const bool good = insert.with(now).with(words).run();
+  if (!judge(insert.with(alarm.at).with(alarm.words).run())) return false;
   Statement forget(database_, "DELETE FROM alarms WHERE id <= (SELECT max(id) FROM alarms) - ?");
-  return forget.with(most_alarms).run() && good;
+  static_cast<void>(forget.with(most_alarms).run());
+  return true;
 }
 
 std::vector<HistoryJob> JobHistory::queue() const {
   return jobs("WHERE state = ? ORDER BY id", number_of(HistoryState::queued));
 }
 
+// A job that a kill has broken off has no end: it counts from its beginning.
 std::vector<HistoryJob> JobHistory::ended(std::int64_t most) const {
-  return jobs("WHERE state > 1 ORDER BY ended_at DESC, id DESC LIMIT ?", most);
+  std::vector<HistoryJob> found = jobs("WHERE state > 1 ORDER BY max(ended_at, begun_at) DESC, id DESC LIMIT ?", most);
+  for (const End& one : unwritten_) {
+    if (auto job = find(one.id)) found.insert(found.begin(), std::move(*job));
+  }
+  if (found.size() > static_cast<std::size_t>(most)) found.resize(static_cast<std::size_t>(most));
+  return found;
 }
 
 std::vector<HistoryAlarm> JobHistory::alarms(std::int64_t most) const {
   Statement select(database_, "SELECT at, words FROM alarms ORDER BY id DESC LIMIT ?");
   select.with(most);
-  std::vector<HistoryAlarm> found;
+  // Newest first, also those that are not written yet.
+  std::vector<HistoryAlarm> found(unwritten_alarms_.rbegin(), unwritten_alarms_.rend());
   while (select.step()) {
     HistoryAlarm& alarm = found.emplace_back();
     alarm.at = select.real();
@@ -231,9 +282,15 @@ std::vector<HistoryAlarm> JobHistory::alarms(std::int64_t most) const {
   return found;
 }
 
-void JobHistory::keep() {
-  if (std::exchange(is_kept_, true)) return;
-  sqlite().sqlite3_wal_checkpoint_v2(database_, nullptr, SQLITE_CHECKPOINT_TRUNCATE, nullptr, nullptr);
+bool JobHistory::keep() {
+  while (!unwritten_.empty() && write(unwritten_.front())) unwritten_.erase(unwritten_.begin());
+  while (!unwritten_alarms_.empty() && write(unwritten_alarms_.front())) {
+    unwritten_alarms_.erase(unwritten_alarms_.begin());
+  }
+  if (is_kept_) return !is_behind();
+  is_kept_ =
+      sqlite().sqlite3_wal_checkpoint_v2(database_, nullptr, SQLITE_CHECKPOINT_TRUNCATE, nullptr, nullptr) == SQLITE_OK;
+  return is_kept_ && !is_behind();
 }
 
 }  // namespace passo

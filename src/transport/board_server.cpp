@@ -50,7 +50,9 @@ BoardServer::~BoardServer() {
 }
 
 void BoardServer::wait(Seconds most) const {
-  std::vector<pollfd> all = {{.fd = listening_, .events = POLLIN, .revents = 0}};
+  std::vector<pollfd> all;
+  // A caller who cannot be let in yet would let nobody sleep.
+  if (Clock::now() >= accepts_at_) all.push_back({.fd = listening_, .events = POLLIN, .revents = 0});
   for (const auto& client : clients_) all.push_back({.fd = client->descriptor, .events = POLLIN, .revents = 0});
   static_cast<void>(poll(all.data(), all.size(), static_cast<int>(std::ceil(most.value() * 1e3))));
 }
@@ -64,9 +66,14 @@ void BoardServer::attend(BoardPort& board) {
 }
 
 void BoardServer::take_callers() {
-  for (;;) {
+  constexpr std::chrono::milliseconds before_next(50);
+  while (Clock::now() >= accepts_at_) {
     const int descriptor = accept4(listening_, nullptr, nullptr, SOCK_CLOEXEC | SOCK_NONBLOCK);
-    if (descriptor < 0) return;
+    if (descriptor < 0) {
+      // For instance too many open files: that may pass.
+      if (errno != EAGAIN && errno != EINTR) accepts_at_ = Clock::now() + before_next;
+      return;
+    }
     if (clients_.size() == most_clients) {
       close(descriptor);
       continue;

@@ -20,6 +20,8 @@ namespace passo {
 namespace {
 
 constexpr std::size_t most_at_once = 4096;
+// So long a port waits that had no room for a caller: too many files are open, or memory is short.
+constexpr std::chrono::milliseconds before_next_accept(50);
 constexpr std::string_view busy_words = "[MSG:Another sender is connected]\r\n";
 
 void set_flags(int descriptor) {
@@ -133,7 +135,8 @@ bool SenderLine::has_reader() const {
 }
 
 void SenderLine::add_to(std::vector<pollfd>& all, bool reads) const {
-  if (listening_ >= 0) all.push_back({.fd = listening_, .events = POLLIN, .revents = 0});
+  // A caller who cannot be let in yet would let nobody sleep.
+  if (listening_ >= 0 && Clock::now() >= accepts_at_) all.push_back({.fd = listening_, .events = POLLIN, .revents = 0});
   // A terminal without a reader is always ready, and would not let anybody sleep.
   if (sender_ < 0 || (kind_ == Kind::terminal && !connected_)) return;
   short events = reads ? POLLIN : short{0};
@@ -185,8 +188,12 @@ void SenderLine::hear_serial(News& news, bool reads) {
 }
 
 void SenderLine::take_caller(News& news) {
+  if (Clock::now() < accepts_at_) return;
   const int descriptor = accept4(listening_, nullptr, nullptr, SOCK_CLOEXEC | SOCK_NONBLOCK);
-  if (descriptor < 0) return;
+  if (descriptor < 0) {
+    if (errno != EAGAIN && errno != EINTR) accepts_at_ = Clock::now() + before_next_accept;
+    return;
+  }
   if (connected_) {
     static_cast<void>(::send(descriptor, busy_words.data(), busy_words.size(), MSG_NOSIGNAL));
     close(descriptor);

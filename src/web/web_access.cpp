@@ -26,7 +26,29 @@ std::string_view without_port(std::string_view host) {
   return is_port ? host.substr(0, colon) : host;
 }
 
+int digit_of(char c) {
+  if (c >= '0' && c <= '9') return c - '0';
+  const char low = static_cast<char>(c | 0x20);
+  return low >= 'a' && low <= 'f' ? low - 'a' + 10 : -1;
+}
+
 }  // namespace
+
+std::optional<std::string> percent_decoded(std::string_view text) {
+  std::string decoded;
+  for (std::size_t i = 0; i < text.size(); ++i) {
+    if (text[i] != '%') {
+      decoded += text[i];
+      continue;
+    }
+    const int high = text.size() - i > 2 ? digit_of(text[i + 1]) : -1;
+    const int low = high >= 0 ? digit_of(text[i + 2]) : -1;
+    if (low < 0) return {};
+    decoded += static_cast<char>(high * 16 + low);
+    i += 2;
+  }
+  return decoded;
+}
 
 bool equal_in_steady_time(std::string_view a, std::string_view b) {
   unsigned differing = a.size() == b.size() ? 0 : 1;
@@ -55,7 +77,10 @@ std::optional<unsigned> WebAccess::refuse(const WebCaller& caller) const {
     if (origin != "http://" + host && origin != "https://" + host) return forbidden;
   }
   if (token.empty()) return {};
-  std::string_view given = query_value(caller.query, "token");
+  // As it was written into the query, or encoded.
+  const std::string_view written = query_value(caller.query, "token");
+  const std::string decoded = percent_decoded(written).value_or(std::string());
+  std::string_view given = equal_in_steady_time(decoded, token) ? decoded : written;
   if (caller.authorization.starts_with(bearer)) given = caller.authorization.substr(bearer.size());
   if (!equal_in_steady_time(given, token)) return unauthorized;
   return {};

@@ -77,6 +77,8 @@ class WebServer::Implementation {
   std::uint64_t requests = 0;
   std::uint64_t refused = 0;
   std::uint64_t skipped = 0;
+  std::uint64_t watchers_ever = 0;
+  bool accepts = false;  // false: it waits until a newcomer can be let in again
 };
 
 // A client of the stream.
@@ -86,7 +88,10 @@ class WebServer::Implementation::Watcher : public std::enable_shared_from_this<W
       : server_(server), stream_(std::move(stream)), pace_(pace) {
     server_.watching.insert(this);
   }
-  ~Watcher() { server_.watching.erase(this); }
+  ~Watcher() {
+    server_.watching.erase(this);
+    server_.handler.gone(number_);
+  }
 
   void start(const http::request<http::string_body>& request) {
     beast::get_lowest_layer(stream_).expires_never();
@@ -128,7 +133,7 @@ class WebServer::Implementation::Watcher : public std::enable_shared_from_this<W
   }
 
   void hear() {
-    std::string answer = server_.handler.hear(beast::buffers_to_string(buffer_.data()));
+    std::string answer = server_.handler.hear(beast::buffers_to_string(buffer_.data()), number_);
     buffer_.consume(buffer_.size());
     if (!answer.empty()) answers_.push_back(std::make_shared<const std::string>(std::move(answer)));
     if (answers_.size() > most_answers) return close();  // it asks, and does not read
@@ -157,6 +162,7 @@ class WebServer::Implementation::Watcher : public std::enable_shared_from_this<W
   }
 
   Implementation& server_;
+  std::uint64_t number_ = ++server_.watchers_ever;
   websocket::stream<beast::tcp_stream> stream_;
   std::chrono::steady_clock::duration pace_;
   std::chrono::steady_clock::time_point sent_at_;
@@ -218,6 +224,7 @@ class WebServer::Implementation::Connection : public std::enable_shared_from_thi
                           .key = std::string(view(header["X-Passo-Key"])),
                           .encodings = std::string(view(header[http::field::accept_encoding])),
                           .known = std::string(view(header[http::field::if_none_match])),
+                          .type = std::string(view(header[http::field::content_type])),
                           .body = {}};
     const WebCaller caller{.host = view(header[http::field::host]),
                            .origin = view(header[http::field::origin]),
@@ -343,9 +350,11 @@ void WebServer::Implementation::make_room() {
 }
 
 void WebServer::Implementation::accept() {
+  accepts = true;
   acceptor.async_accept([this](Error error, tcp::socket socket) {
     if (error == asio::error::operation_aborted) return;
     if (error) {  // for instance too many open files: that may pass
+      accepts = false;
       if (error == asio::error::no_descriptors) make_room();
       pause.expires_after(before_next_accept);
       pause.async_wait([this](Error cancelled) {
@@ -399,7 +408,8 @@ void WebServer::add_to(std::vector<pollfd>& all) const {
   const auto add = [&all](pollfd one) {
     if (one.fd >= 0) all.push_back(one);
   };
-  add({.fd = implementation_->acceptor.native_handle(), .events = POLLIN, .revents = 0});
+  // A newcomer who cannot be let in yet would let nobody sleep.
+  if (implementation_->accepts) add({.fd = implementation_->acceptor.native_handle(), .events = POLLIN, .revents = 0});
   for (Implementation::Connection* const one : implementation_->open) add(one->awaited());
   for (Implementation::Watcher* const one : implementation_->watching) add(one->awaited());
 }

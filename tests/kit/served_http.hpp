@@ -83,6 +83,7 @@ class ServedHttp : public ServedBoard {
     const std::string answer = ask(method, "/api/v1" + path, body, headers);
     return nlohmann::json::parse(answer.substr(std::min(answer.find("\r\n\r\n"), answer.size())), nullptr, false);
   }
+  pid_t pid() const { return server_; }
   // The header of an owner of the motion.
   std::string new_key() const { return "X-Passo-Key: " + json("POST", "/owner", "{}").value("key", "") + "\r\n"; }
   template <class Condition>

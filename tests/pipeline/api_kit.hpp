@@ -48,17 +48,19 @@ class ApiRun {
              .keep_offsets =
                  [this](const SavedParameters& parameters, const ToolTable& tools) {
                    if (keep) keep(parameters, tools);
+                   return disk_trouble;
                  },
              .studies = studies,
              .timer = &timer_}) {}
 
-  Json ask(const std::string& method, const std::string& path, const std::string& body = "",
-           const std::string& by = "") {
+  Json ask(const std::string& method, const std::string& path, const std::string& body = "", const std::string& by = "",
+           const std::string& type = "") {
     const std::size_t mark = std::min(path.find('?'), path.size());
     const WebAnswer answer = api.answer({.method = method,
                                          .path = "/api/v1" + path.substr(0, mark),
                                          .query = path.substr(std::min(mark + 1, path.size())),
                                          .key = by.empty() ? key : by,
+                                         .type = type,
                                          .body = body});
     status = answer.status;
     return Json::parse(answer.body, nullptr, false);
@@ -101,6 +103,7 @@ class ApiRun {
 
   GrblRun run;
   std::function<void(const SavedParameters&, const ToolTable&)> keep;
+  std::string disk_trouble;  // why offsets cannot be kept
   MotionOwner owner;
   MachineApi api;
   std::string key;

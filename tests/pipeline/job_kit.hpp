@@ -187,6 +187,7 @@ class JobServer final : public JobKeeper {
     options.keep_offsets = [this](const SavedParameters& parameters, const ToolTable& tools) {
       bench_.parameters = parameters;
       bench_.tools = tools;
+      return std::string();
     };
     return options;
   }

@@ -16,14 +16,14 @@ export interface Job {
   history: number;
 }
 
-// What a request is answered that the machine has taken: statuses of a smaller version are from before it.
+// What a request is answered that the machine has taken: statuses of a smaller change are from before it.
 export interface Taken {
   ticket: number;
-  version: number;
+  change: number;
 }
 
 export interface Status {
-  version: number;
+  change: number;
   time: number;
   state: MachineState;
   rests: boolean;
@@ -147,12 +147,13 @@ async function refusalOf(answer: Response): Promise<Refused> {
   }
 }
 
-export async function ask(method: string, path: string, body?: BodyInit, within = 5000): Promise<Response> {
+// `type`: of the body. A browser would tell the type that it guesses by the file's ending; .ngc is a game's to some.
+export async function ask(method: string, path: string, body?: BodyInit, within = 5000, type = 'application/json'): Promise<Response> {
   let answer: Response;
   try {
     answer = await fetch(`${base}${path}`, {
       method,
-      headers: headers(),
+      headers: body === undefined ? headers() : { ...headers(), 'Content-Type': type },
       ...(body === undefined ? {} : { body }),
       signal: AbortSignal.timeout(within),
     });
@@ -169,7 +170,4 @@ export const post = async <T>(path: string, body?: object): Promise<T> =>
 export const remove = async (path: string): Promise<unknown> => (await ask('DELETE', path)).json();
 
 export const upload = async <T>(path: string, name: string, text: BodyInit, more = ''): Promise<T> =>
-  (await (await ask('POST', `${path}?name=${encodeName(name)}${more}`, text, 120_000)).json()) as T;
-
-// Names reach the server as they are: it decodes nothing.
-export const encodeName = (name: string): string => name.replace(/[^A-Za-z0-9._-]+/g, '_').slice(0, 200);
+  (await (await ask('POST', `${path}?name=${encodeURIComponent(name)}${more}`, text, 120_000, 'application/octet-stream')).json()) as T;

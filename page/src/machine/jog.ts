@@ -22,7 +22,7 @@ export const jogger = new Jogger(
   {
     begin: async (way, lease) => {
       await beOwner();
-      return (await post<Taken>('/jog', { ...way, lease })).version;
+      return (await post<Taken>('/jog', { ...way, lease })).change;
     },
     renew: () => tell('/jog/renew'),
     stop: () => {
@@ -191,7 +191,7 @@ export function followJog(): void {
   followFocus();
   windowHasFocus.value = document.hasFocus();
   effect(() => {
-    if (status.value !== null) jogger.heard(status.value.state, status.value.version);
+    if (status.value !== null) jogger.heard(status.value.state, status.value.change);
   });
   const goesElse = (): boolean => status.value !== null && !['Idle', 'Jog'].includes(status.value.state);
   effect(() => {

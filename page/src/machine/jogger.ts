@@ -9,7 +9,7 @@ export interface JogWay {
 }
 
 export interface JogLine {
-  begin: (way: JogWay, lease: number) => Promise<number>; // the version of the status with which the motion began
+  begin: (way: JogWay, lease: number) => Promise<number>; // the change of the status with which the motion began
   renew: () => boolean; // false: nobody hears
   stop: () => void;
 }
@@ -27,8 +27,8 @@ export class Jogger {
   private phase: Phase = 'rest';
   private current: JogWay | null = null;
   private cancelled = false;
-  private begunWith = 0; // a status of a smaller version is from before the motion
-  private newest = { state: '', version: 0 };
+  private begunWith = 0; // a status of a smaller change is from before the motion
+  private newest = { state: '', change: 0 };
   private timer: ReturnType<typeof setInterval> | undefined;
 
   constructor(
@@ -75,10 +75,10 @@ export class Jogger {
 
   // The daemon tells the machine's state. A busy computer may tell late what was before the motion, and a short step may
   // begin and end between two messages.
-  heard(state: string, version: number): void {
-    this.newest = { state, version };
+  heard(state: string, change: number): void {
+    this.newest = { state, change };
     if (this.phase !== 'moving' && this.phase !== 'braking') return;
-    if (state === 'Jog' || version < this.begunWith) return;
+    if (state === 'Jog' || change < this.begunWith) return;
     // A hold that ended by itself, at the end of the travel, does not begin again.
     if (this.want === this.current) this.want = null;
     this.rest();
@@ -110,7 +110,7 @@ export class Jogger {
     this.phase = 'moving';
     if (this.cancelled) this.brake();
     else this.kick();
-    this.heard(this.newest.state, this.newest.version); // the end may have been told before the answer came
+    this.heard(this.newest.state, this.newest.change); // the end may have been told before the answer came
   }
 
   private brake(): void {

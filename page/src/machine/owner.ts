@@ -1,7 +1,7 @@
 // Who may move the machine: one client at a time. This page takes the ownership when its person first wants motion.
-import { computed } from '@preact/signals';
+import { computed, effect, untracked } from '@preact/signals';
 import { headers, post, remove } from './api';
-import { connection, status } from './connection';
+import { connection, status, tell } from './connection';
 import { ownerKey, pageName } from './owner_key';
 
 export type Ownership = 'mine' | 'free' | 'other';
@@ -14,7 +14,16 @@ export const ownership = computed<Ownership>(() => {
 
 export async function takeOwnership(): Promise<void> {
   ownerKey.value = (await post<{ key: string }>('/owner', { name: pageName() })).key;
+  stayOwner();
 }
+
+// Binds the ownership to the connection. A page that dies without a word then owns the motion for some seconds only.
+function stayOwner(): void {
+  if (ownerKey.value !== '') tell('/owner/renew');
+}
+effect(() => {
+  if (connection.value === 'live') untracked(stayOwner);
+});
 
 // Before a request that moves.
 export async function beOwner(): Promise<void> {

@@ -77,6 +77,7 @@ int exit_of_signal() {
 
 void outlive_readers() {
   std::signal(SIGPIPE, SIG_IGN);
+  std::signal(SIGXFSZ, SIG_IGN);  // a file that may not grow is an error of its write
 }
 
 }  // namespace passo

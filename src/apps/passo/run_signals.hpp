@@ -19,7 +19,8 @@ int interrupted_by();
 // What a command returns that a signal has ended: 128 and its number. If no signal has come, shows that as an error, so
 // that no command ends without a word.
 int exit_of_signal();
-// For a program without such signals: a reader that goes away is no reason to end.
+// For a program without such signals: a reader that goes away is no reason to end, and a file that may not grow is
+// none.
 void outlive_readers();
 
 }  // namespace passo

@@ -65,24 +65,27 @@ std::optional<MachineDescription> described(const std::string& text, const std::
   return machine;
 }
 
-bool write_file(const std::string& file, const std::string& text) {
+// Returns why it cannot be written; empty: it is.
+std::string write_file(const std::string& file, const std::string& text) {
   Result<OutputFile, OutputError> output = OutputFile::open(file);
-  if (!output) return false;
+  if (!output) return output.error().message;
   output->write(text);
-  return output->commit().has_value();
+  const auto done = output->commit();
+  return done ? std::string() : done.error().message;
 }
 
 // Whoever has changed the file meanwhile is not overwritten.
-bool replace_file(const std::string& file, const std::string& before, const std::string& after) {
+std::string replace_file(const std::string& file, const std::string& before, const std::string& after) {
   Diagnostics ignored;
-  return machine_file_text(file, ignored) == before && write_file(file, after);
+  if (machine_file_text(file, ignored) != before) return "somebody has changed the file meanwhile";
+  return write_file(file, after);
 }
 
 // What senders have set outlives the daemon, as it outlives a reset of a controller's board.
 void remember(GrblController& grbl, const std::string& folder) {
   const std::string file = (std::filesystem::path(folder) / "grbl.txt").string();
   grbl.remember(read_grbl_memory(read_state_file(file).value_or("")),
-                [file](const GrblMemory& memory) { return write_file(file, grbl_memory_text(memory)); });
+                [file](const GrblMemory& memory) { return write_file(file, grbl_memory_text(memory)).empty(); });
 }
 
 MachineFileAccess access_to(const std::string& file) {
@@ -176,7 +179,7 @@ int serve(const ServeArguments& given) {
   GrblController grbl(*machine, opened->session(), program);
   if (!arguments.machine.empty()) {
     grbl.keep_settings(*text, [&](const std::string& before, const std::string& after) {
-      return replace_file(arguments.machine, before, after);
+      return replace_file(arguments.machine, before, after).empty();
     });
   }
   MotionOwner owner;

@@ -8,6 +8,7 @@
 
 #include "program_input.hpp"
 #include <fmt/format.h>
+#include <sys/resource.h>
 
 namespace passo {
 namespace {
@@ -33,7 +34,7 @@ double seconds_since_1970() {
 
 ApiOptions api_options(const PageFolder* page, JobHistory* history, ServedOffsets* offsets, const ServedJobs& jobs,
                        Maker& maker, Studies& studies, MotionTimer& timer,
-                       std::function<void(const SavedParameters&, const ToolTable&)> keep) {
+                       std::function<std::string(const SavedParameters&, const ToolTable&)> keep) {
   ApiOptions options{.version = PASSO_VERSION, .openapi = openapi_text, .make_key = new_key};
   options.history = history;
   options.keep_offsets = std::move(keep);
@@ -57,6 +58,22 @@ ApiOptions api_options(const PageFolder* page, JobHistory* history, ServedOffset
   return options;
 }
 
+// As many connections as files may be open, and some files left: for the board, for what is kept, and for a newcomer. A
+// server that accepts none because all files are open would let nobody hold the machine.
+WebLimits web_limits() {
+  constexpr rlim_t other_files = 48;
+  constexpr rlim_t least_connections = 8;
+  WebLimits limits;
+  rlimit files{};
+  if (getrlimit(RLIMIT_NOFILE, &files) != 0) return limits;
+  files.rlim_cur = std::max(files.rlim_cur, std::min<rlim_t>(files.rlim_max, limits.connections + other_files));
+  static_cast<void>(setrlimit(RLIMIT_NOFILE, &files));
+  const rlim_t left = files.rlim_cur > other_files ? files.rlim_cur - other_files : 0;
+  limits.connections = std::min<std::size_t>(limits.connections, std::max(left, least_connections));
+  limits.watchers = std::min(limits.watchers, limits.connections * 6 / 7);
+  return limits;
+}
+
 }  // namespace
 
 ServedWeb::ServedWeb(const ServeArguments& arguments, const MachineDescription& machine, MachineSession& session,
@@ -72,7 +89,7 @@ ServedWeb::ServedWeb(const ServeArguments& arguments, const MachineDescription& 
       api_(machine, session, owner,
            api_options(arguments.page.empty() ? nullptr : &page_, history_.get(), offsets_.get(), jobs, maker_,
                        studies_, timer_, [this](const SavedParameters& parameters, const ToolTable& tools) {
-                         keep(parameters, tools);
+                         return keep(parameters, tools);
                        })) {}
 
 std::unique_ptr<ServedWeb> ServedWeb::open(const ServeArguments& arguments, const MachineDescription& machine,
@@ -99,7 +116,7 @@ std::unique_ptr<ServedWeb> ServedWeb::open(const ServeArguments& arguments, cons
   }
   std::unique_ptr<ServedWeb> web(
       new ServedWeb(arguments, machine, session, owner, std::move(history), std::move(offsets), jobs));
-  auto server = WebServer::listen(place->address.host, place->address.port, place->access, web->api_);
+  auto server = WebServer::listen(place->address.host, place->address.port, place->access, web->api_, web_limits());
   if (!server) {
     code = fail(exit_failed, server.error());
     return nullptr;
@@ -146,13 +163,13 @@ void ServedWeb::share_offsets(GrblController& grbl) {
   grbl.take_offsets(api_.parameters());
   grbl.share_offsets([this](const SavedParameters& parameters) {
     api_.take_offsets(parameters);
-    if (offsets_) offsets_->keep(api_.parameters(), api_.tools());
+    if (offsets_) api_.note_unkept_offsets(offsets_->keep(api_.parameters(), api_.tools()));
   });
 }
 
-void ServedWeb::keep(const SavedParameters& parameters, const ToolTable& tools) {
-  if (offsets_) offsets_->keep(parameters, tools);
+std::string ServedWeb::keep(const SavedParameters& parameters, const ToolTable& tools) {
   if (grbl_ != nullptr) grbl_->take_offsets(parameters);
+  return offsets_ ? offsets_->keep(parameters, tools) : std::string();
 }
 
 }  // namespace passo

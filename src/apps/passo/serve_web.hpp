@@ -57,7 +57,7 @@ class ServedWeb {
             MotionOwner& owner, std::unique_ptr<JobHistory> history, std::unique_ptr<ServedOffsets> offsets,
             const ServedJobs& jobs);
   void publish();
-  void keep(const SavedParameters& parameters, const ToolTable& tools);
+  std::string keep(const SavedParameters& parameters, const ToolTable& tools);
 
   MachineSession& session_;
   MotionOwner& owner_;

@@ -24,6 +24,7 @@ class ServedJournal final : public JobKeeper {
 
   JournalStore& store() override { return file_; }
   std::string read() override { return read_state_file(file_.path()).value_or(""); }
+  std::string trouble() override { return file_.trouble(); }
   double noted_at() override;
   void remove() override { file_.remove(); }
   std::uint16_t new_number() override { return machine_.new_session_number(); }

@@ -42,7 +42,13 @@ bool ServedMaker::keep(const std::string& name, std::string_view bytes) {
   for (const Kept& one : kept_) all += one.name == name ? 0 : one.bytes;
   const auto same = std::ranges::find(kept_, name, &Kept::name);
   if (all > most_bytes || (same == kept_.end() && kept_.size() >= most_files)) return false;
-  if (!folder_.make() || !write_content(folder_.path(name), bytes)) return false;
+  if (!folder_.make()) return false;
+  if (!write_content(folder_.path(name), bytes)) {  // half a drawing is none
+    std::error_code none;
+    fs::remove(folder_.path(name), none);
+    std::erase_if(kept_, [&](const Kept& one) { return one.name == name; });
+    return false;
+  }
   if (same != kept_.end()) {
     same->bytes = bytes.size();
   } else {
@@ -69,14 +75,18 @@ bool ServedMaker::begin(const MakeOrder& order) {
   words.insert(words.end(), order.options.begin(), order.options.end());
   result_ = {.state = MakeResult::State::running, .job = order.job};
   made_.clear();
+  const auto failed = [this] {
+    result_ = {};
+    return false;
+  };
   const auto add_file = [&](const char* option, const char* name, const std::string& text) {
     words.insert(words.end(), {option, name});
     return write_content(folder_.path(name), text);
   };
   if (order.job == board_job) {
     words.insert(words.end(), {"--output", made_folder, "--json"});
-    if (!order.profile.empty() && !add_file("--profile", board_profile, order.profile)) return false;
-    if (!order.machine.empty() && !add_file("--machine", board_machine, order.machine)) return false;
+    if (!order.profile.empty() && !add_file("--profile", board_profile, order.profile)) return failed();
+    if (!order.machine.empty() && !add_file("--machine", board_machine, order.machine)) return failed();
   } else {
     result_.names = {stem_ + "-" + order.job + ".ngc"};
     made_ = {program_file(result_.names.front())};
@@ -84,7 +94,7 @@ bool ServedMaker::begin(const MakeOrder& order) {
   }
   words.emplace_back("--");
   words.insert(words.end(), order.files.begin(), order.files.end());
-  return process_.begin(folder_.name(), words);
+  return process_.begin(folder_.name(), words) || failed();
 }
 
 const MakeResult& ServedMaker::look() {

@@ -3,6 +3,7 @@
 #include <filesystem>
 #include <fstream>
 #include <iterator>
+#include <utility>
 
 #include "program_input.hpp"
 #include <fmt/format.h>
@@ -13,14 +14,15 @@
 namespace passo {
 namespace {
 
-void replace(const std::string& path, const std::string& text) {
+// Returns why it cannot be; empty: it is.
+std::string replace(const std::string& path, const std::string& text) {
   Result<OutputFile, OutputError> file = OutputFile::open(path);
   Status<OutputError> done = file ? Status<OutputError>(Unit{}) : Status<OutputError>(Failure{file.error()});
   if (file) {
     file->write(text);
     done = file->commit();
   }
-  if (!done) note(done.error().message);
+  return done ? std::string() : done.error().message;
 }
 
 }  // namespace
@@ -45,18 +47,23 @@ bool ServedOffsets::read() {
   return !diagnostics.any_error();
 }
 
-void ServedOffsets::keep(const SavedParameters& parameters, const ToolTable& tools) {
-  if (parameters != parameters_) replace(parameter_file_, parameter_file_text(parameters));
-  parameters_ = parameters;
-  if (tools == tools_) return;
+std::string ServedOffsets::keep(const SavedParameters& parameters, const ToolTable& tools) {
+  if (parameters != parameters_) {
+    if (std::string why = replace(parameter_file_, parameter_file_text(parameters)); !why.empty()) return why;
+    parameters_ = parameters;
+  }
+  if (tools == tools_) return {};
+  std::string lines = tool_lines_;
   for (const auto& [number, tool] : tools.all()) {
     if (tools_.find(number) != nullptr) continue;
-    if (!tool_lines_.empty() && tool_lines_.back() != '\n') tool_lines_ += '\n';
-    tool_lines_ += fmt::format("T{} P{}\n", number, tool.pocket);
+    if (!lines.empty() && lines.back() != '\n') lines += '\n';
+    lines += fmt::format("T{} P{}\n", number, tool.pocket);
   }
+  lines = tool_table_text(lines, LengthUnits::mm, tools);
+  if (std::string why = replace(tool_file_, lines); !why.empty()) return why;
   tools_ = tools;
-  tool_lines_ = tool_table_text(tool_lines_, LengthUnits::mm, tools_);
-  replace(tool_file_, tool_lines_);
+  tool_lines_ = std::move(lines);
+  return {};
 }
 
 }  // namespace passo

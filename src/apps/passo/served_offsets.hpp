@@ -15,8 +15,8 @@ class ServedOffsets {
 
   // False, with a message: a file is there and cannot be read.
   [[nodiscard]] bool read();
-  // Says on standard error if a file cannot be written.
-  void keep(const SavedParameters& parameters, const ToolTable& tools);
+  // Returns why a file cannot be written; empty: all is written. What is not is written with the next call.
+  std::string keep(const SavedParameters& parameters, const ToolTable& tools);
 
   const SavedParameters& parameters() const { return parameters_; }
   const ToolTable& tools() const { return tools_; }

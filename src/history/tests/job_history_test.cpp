@@ -7,6 +7,7 @@
 
 #include "kit/seed.hpp"
 #include <gtest/gtest.h>
+#include <sys/resource.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -143,6 +144,76 @@ TEST_F(JobHistoryTest, a_killed_program_loses_nothing) {
     }
     for (const HistoryJob& job : history->queue()) EXPECT_EQ(history->program_of(job.id)->size(), 2000U);
   }
+}
+
+// A job that a kill has broken off has no time of its end. It stands where it began, however many are shown.
+TEST_F(JobHistoryTest, shows_the_newest_first_also_those_broken_off) {
+  {
+    const auto history = open();
+    for (int i = 1; i <= 5; ++i) {
+      EXPECT_EQ(history->add_running("part", "grbl", "M2\n", 10.0 * i), i);
+      if (i != 4) history->end(i, HistoryState::done, "", 10.0 * i + 5);
+    }
+    EXPECT_EQ(history->find(4)->state, HistoryState::running);
+    EXPECT_EQ(history->find(4)->begun_at, 40);
+  }
+  const auto history = open();
+  std::vector<std::int64_t> shown;
+  for (const HistoryJob& job : history->ended(2)) shown.push_back(job.id);
+  EXPECT_EQ(shown, (std::vector<std::int64_t>{5, 4}));
+}
+
+// Each file may have no more bytes than it has: a disk that is full, for this program alone.
+class FullDisk {
+ public:
+  FullDisk() : handler_(std::signal(SIGXFSZ, SIG_IGN)) {
+    getrlimit(RLIMIT_FSIZE, &before_);
+    rlimit none = before_;
+    none.rlim_cur = 0;
+    setrlimit(RLIMIT_FSIZE, &none);
+  }
+  FullDisk(const FullDisk&) = delete;
+  FullDisk& operator=(const FullDisk&) = delete;
+  ~FullDisk() {
+    setrlimit(RLIMIT_FSIZE, &before_);
+    std::signal(SIGXFSZ, handler_);
+  }
+
+ private:
+  rlimit before_{};
+  void (*handler_)(int);
+};
+
+TEST_F(JobHistoryTest, writes_what_has_happened_when_the_disk_has_room_again) {
+  auto history = open();
+  const auto first = history->add_running("a", "grbl", "M2\n", 1);
+  const auto second = history->add("b", "grbl", "M2\n", 1);
+  ASSERT_TRUE(first && second);
+  {
+    const FullDisk full;
+    EXPECT_FALSE(history->add("c", "grbl", "M2\n", 2));
+    EXPECT_NE(history->trouble(), "");
+    EXPECT_FALSE(history->add_running("c", "grbl", "M2\n", 2));
+    EXPECT_FALSE(history->begin(*second, 2));
+    EXPECT_FALSE(history->remove(*second));
+    EXPECT_FALSE(history->end(*first, HistoryState::failed, "why", 3));
+    EXPECT_FALSE(history->note_alarm("lost", 3));
+    EXPECT_FALSE(history->keep());
+    EXPECT_TRUE(history->is_behind());
+    ASSERT_EQ(history->ended(1).size(), 1U) << "it is shown meanwhile";
+    EXPECT_EQ(history->ended(1)[0].why, "why");
+    EXPECT_EQ(history->alarms(1)[0].words, "lost");
+  }
+  EXPECT_TRUE(history->keep());
+  EXPECT_FALSE(history->is_behind());
+  EXPECT_EQ(history->trouble(), "");
+  history.reset();
+  history = open();
+  EXPECT_EQ(history->find(*first)->state, HistoryState::failed);
+  EXPECT_EQ(history->find(*first)->ended_at, 3);
+  EXPECT_EQ(history->find(*second)->state, HistoryState::queued);
+  EXPECT_EQ(history->alarms(9).size(), 1U);
+  EXPECT_EQ(history->ended(9).size(), 1U);
 }
 
 }  // namespace

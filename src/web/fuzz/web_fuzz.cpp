@@ -32,7 +32,7 @@ class Echo final : public WebHandler {
   std::size_t longest_body(const WebRequest& request) override { return request.path == "/upload" ? 100'000 : 100; }
   bool is_public(const WebRequest& request) override { return request.path == "/"; }
   bool is_stream(std::string_view path) override { return path == "/stream"; }
-  std::string hear(std::string_view message) override { return std::string(message); }
+  std::string hear(std::string_view message, std::uint64_t) override { return std::string(message); }
 };
 
 // A client that sends bytes, and leaves without a word.

@@ -41,6 +41,8 @@ TEST(WebAccess, asks_for_the_token_where_there_is_one) {
     EXPECT_EQ(access.refuse({.host = "shop", .authorization = given}), 401U) << given;
   }
   EXPECT_EQ(access.refuse({.host = "other", .authorization = "Bearer s3cret"}), 403U) << "the name counts first";
+  EXPECT_EQ(access.refuse({.host = "shop", .query = "token=s3cre%74"}), no) << "percent-encoded";
+  EXPECT_EQ((WebAccess{.names = {"shop"}, .token = "a%zz"}.refuse({.host = "shop", .query = "token=a%zz"})), no);
 }
 
 TEST(QueryValue, finds_whole_keys) {
@@ -50,6 +52,9 @@ TEST(QueryValue, finds_whole_keys) {
   EXPECT_EQ(query_value("hz=", "hz"), "");
   EXPECT_EQ(query_value("&&&", "hz"), "");
   EXPECT_EQ(query_value("", "hz"), "");
+  EXPECT_EQ(percent_decoded("a%20b%2fc%2Bd+%E9%9B%B6"), "a b/c+d+零");
+  EXPECT_EQ(percent_decoded(""), "");
+  for (const char* text : {"%", "a%4", "%zz", "%4g", "%%41"}) EXPECT_EQ(percent_decoded(text), std::nullopt) << text;
 }
 
 }  // namespace

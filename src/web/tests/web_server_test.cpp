@@ -4,12 +4,15 @@
 #include <cerrno>
 #include <memory>
 #include <random>
+#include <vector>
 
 #include "kit/seed.hpp"
 #include <arpa/inet.h>
 #include <fcntl.h>
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <netinet/in.h>
+#include <sys/resource.h>
 #include <sys/socket.h>
 #include <unistd.h>
 
@@ -27,14 +30,18 @@ class Echo final : public WebHandler {
   WebAnswer refusal(unsigned status) override { return {.status = status, .type = "text/plain", .body = "refused"}; }
   std::size_t longest_body(const WebRequest& request) override { return request.path == "/upload" ? 1'000'000 : 100; }
   bool is_stream(std::string_view path) override { return path == "/stream"; }
-  std::string hear(std::string_view message) override {
+  void gone(std::uint64_t client) override { left.push_back(client); }
+  std::string hear(std::string_view message, std::uint64_t client) override {
     ++heard;
+    speaker = client;
     return "heard " + std::string(message);
   }
 
   WebRequest last;
   int answered = 0;
   int heard = 0;
+  std::uint64_t speaker = 0;
+  std::vector<std::uint64_t> left;
 };
 
 // A client, which waits for nothing either.
@@ -325,6 +332,52 @@ TEST_F(WebServerTest, outlives_random_bytes) {
     }
   }
   EXPECT_EQ(status_of(answer_to(get("/"))), "HTTP/1.1 200 OK");
+}
+
+class ShortPatience : public WebServerTest {
+ protected:
+  ShortPatience() : WebServerTest({.stream_dead_after = std::chrono::seconds(1)}) {}
+};
+
+// A client that answers no ping is gone, though its connection was never closed, and whether it reads or not. Its owner
+// hears which one it was.
+TEST_F(ShortPatience, sends_away_a_watcher_that_answers_no_more) {
+  const auto reads = watcher();
+  const auto sleeps = watcher();
+  reads->send(frame("hi"));
+  ASSERT_TRUE(turn_until([&] { return echo.speaker != 0; }, {reads.get()}));
+  const std::uint64_t first = echo.speaker;
+  sleeps->send(frame("hi"));
+  ASSERT_TRUE(turn_until([&] { return echo.speaker != first; }, {sleeps.get()}));
+  EXPECT_TRUE(turn_until([&] { return echo.left.size() == 2; }, {reads.get()}));
+  EXPECT_THAT(echo.left, testing::UnorderedElementsAre(first, echo.speaker));
+  EXPECT_EQ(server->connections(), 0U);
+}
+
+// Nobody can be let in: the server waits, and lets its owner sleep meanwhile.
+TEST_F(WebServerTest, does_not_wake_its_owner_for_a_newcomer_it_cannot_let_in) {
+  const auto page = watcher();
+  rlimit before{};
+  getrlimit(RLIMIT_NOFILE, &before);
+  std::vector<int> taken;
+  Caller newcomer(server->port());
+  taken.push_back(dup(0));
+  rlimit none = before;
+  none.rlim_cur = static_cast<rlim_t>(taken.back()) + 1;
+  setrlimit(RLIMIT_NOFILE, &none);
+  server->turn();
+  std::vector<pollfd> all;
+  server->add_to(all);
+  const int ready = poll(all.data(), all.size(), 0);
+  EXPECT_EQ(ready, 0) << "the owner would spin";
+  EXPECT_EQ(server->connections(), 1U);
+  page->send(frame("hi"));
+  EXPECT_TRUE(turn_until([&] { return !page->heard.empty(); }, {page.get()})) << "who is there goes on";
+  setrlimit(RLIMIT_NOFILE, &before);
+  newcomer.send(get("/"));
+  EXPECT_TRUE(turn_until([&] { return newcomer.closed; }, {&newcomer}));
+  EXPECT_EQ(status_of(newcomer.heard), "HTTP/1.1 200 OK");
+  for (const int one : taken) close(one);
 }
 
 class FewConnections : public WebServerTest {

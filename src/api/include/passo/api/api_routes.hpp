@@ -7,10 +7,14 @@
 
 namespace passo {
 
+// What a request's body is. `bytes`: of any file but JSON.
+enum class BodyKind : std::uint8_t { none, json, program, table, bytes };
+
 struct ApiRoute {
   std::string_view method;
   std::string_view path;  // with {id} for a number
   bool moves = false;     // only for the owner of motion
+  BodyKind body = BodyKind::none;
 };
 
 std::span<const ApiRoute> api_routes();

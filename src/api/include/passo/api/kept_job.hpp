@@ -27,6 +27,8 @@ class JobKeeper {
   virtual JournalStore& store() = 0;
   // The journal's text. Empty: there is none.
   virtual std::string read() = 0;
+  // Why the journal could not be written last.
+  virtual std::string trouble() { return {}; }
   virtual double noted_at() = 0;  // when it was last written; seconds since 1970
   // Removes the journal.
   virtual void remove() = 0;
@@ -101,6 +103,8 @@ class KeptJob {
   [[nodiscard]] bool reenter(std::uint64_t path);
   // True: the board has heard the number, so the job may begin.
   bool is_named() const { return session_.board().ready(); }
+  // False: the journal of the job cannot be written any more, so it could not be resumed.
+  bool is_written() const { return !writer_.failed(); }
   // For the job that is about to begin. Once it has begun, no other job is broken off.
   void add_to(request::Start& start);
   void forget_interrupted() { interrupted_.reset(); }

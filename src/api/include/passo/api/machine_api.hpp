@@ -16,6 +16,7 @@
 #include <map>
 #include <memory>
 #include <optional>
+#include <set>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -55,8 +56,9 @@ struct ApiJob {
 struct MachineFileAccess {
   std::string name;  // for people
   std::function<std::optional<std::string>()> read = {};
-  // Writes `after`, if the file is still as `before`. Null: the machine is no file.
-  std::function<bool(const std::string& before, const std::string& after)> write = {};
+  // Writes `after`, if the file is still as `before`. Returns why it could not; empty: it is written. Null: the machine
+  // is no file.
+  std::function<std::string(const std::string& before, const std::string& after)> write = {};
 };
 
 struct ApiOptions {
@@ -72,10 +74,11 @@ struct ApiOptions {
   JobKeeper* keeper = nullptr;
   FileStamp machine_file = {};            // as it was read
   MachineFileAccess machine_access = {};  // for an editor
-  // The offsets and tools of the programs at the beginning, and what keeps them when they have changed.
+  // The offsets and tools of the programs at the beginning, and what keeps them when they have changed: it returns why
+  // it could not, or an empty text.
   SavedParameters parameters = {};
   ToolTable tools = {};
-  std::function<void(const SavedParameters&, const ToolTable&)> keep_offsets = {};
+  std::function<std::string(const SavedParameters&, const ToolTable&)> keep_offsets = {};
   std::optional<BrokenOff> broken_off = {};  // the job of an earlier program
   // Makes programs of drawings; outlives this. Null: nobody does.
   Maker* maker = nullptr;
@@ -112,7 +115,8 @@ class MachineApi final : public WebHandler {
   }
   bool is_stream(std::string_view path) override { return path == "/api/v1/stream"; }
   // {"do": "/api/v1/jog/renew", "key": "…", "body": {…}} is a POST; the answer has "do", "status" and "body".
-  std::string hear(std::string_view message) override;
+  std::string hear(std::string_view message, std::uint64_t client) override;
+  void gone(std::uint64_t client) override;
 
   // Heeds what has happened. `changes`: the session's, since the last call. Call after each turn of the session.
   void heed(const std::vector<MachineChange>& changes);
@@ -127,6 +131,8 @@ class MachineApi final : public WebHandler {
   const SavedParameters& parameters() const { return programs_.parameters(); }
   const ToolTable& tools() const { return programs_.tools(); }
   void take_offsets(const SavedParameters& parameters);
+  // A sender's offsets could not be kept, for this reason. Empty: they are.
+  void note_unkept_offsets(std::string why) { offsets_trouble_ = std::move(why); }
   // Where the motors of the job that was broken off were last, as far as that is sure. Empty: there is none.
   std::optional<Point> broken_off_at();
   // What web servers count, for the metrics.
@@ -139,6 +145,8 @@ class MachineApi final : public WebHandler {
 
   // A client that owns the motion, and was not heard for so long while nothing moved, owns it no longer.
   static constexpr Seconds silent_owner{300};
+  // One whose streams have all ended may come back so long.
+  static constexpr Seconds owner_returns_within{5};
 
  private:
   WebAnswer look(const FoundRoute& found, const WebRequest& request);
@@ -151,6 +159,9 @@ class MachineApi final : public WebHandler {
   WebAnswer look_at_history(const FoundRoute& found, const WebRequest& request);
   WebAnswer change_queue(const FoundRoute& found, const WebRequest& request);
   WebAnswer take_ownership(const WebRequest& request);
+  WebAnswer change_owner(const FoundRoute& found, const WebRequest& request);
+  bool is_owner_gone() const;
+  void mind_owner();
   WebAnswer ask(Request wanted);
   WebAnswer ticket_answer(Ticket ticket) const;
   WebAnswer set_work_zero(std::string_view body);
@@ -163,6 +174,10 @@ class MachineApi final : public WebHandler {
   void note_words(const Operation& operation);
   void heed_state(MachineState state);
   void keep_results();
+  void keep_offsets();
+  void keep_all();
+  std::string unkept() const;
+  WebAnswer no_room_in_history() const;
   void keep_results(const SavedParameters& parameters, const ToolTable& tools);
   WebAnswer change_machine_file(const FoundRoute& found, const WebRequest& request);
   WebAnswer change_interrupted(const FoundRoute& found);
@@ -202,6 +217,8 @@ class MachineApi final : public WebHandler {
   ProgramUploads uploads_;
   ApiJob job_;
   Seconds owner_heard_{0};
+  std::set<std::uint64_t> owner_streams_;  // clients of the stream that have shown the owner's key
+  std::optional<Seconds> stream_lost_;     // when the last of them went; empty: none has gone
   std::uint64_t job_owner_ = 0;    // MotionOwner::changes() when the job was asked for
   std::unique_ptr<KeptJob> kept_;  // null: no journal is kept
   bool resumes_ = false;           // the job was broken off, and goes on
@@ -211,6 +228,8 @@ class MachineApi final : public WebHandler {
   std::optional<Reentry> way_;     // the way there
   std::string stopped_by_;         // who has asked to stop the job
   bool leaves_ = false;
+  std::string offsets_trouble_;      // why the offsets are not kept; empty: they are
+  Seconds keeps_again_{0};           // what could not be written is tried again then
   std::string making_;               // what is made of what, as "board/a.gbr"; empty: no order runs
   std::vector<std::uint64_t> made_;  // the programs of the last order
   std::map<std::string, std::vector<std::uint64_t>, std::less<>> made_of_;

@@ -7,6 +7,9 @@
 // `interrupted` after the next open(). A killed program loses nothing: each call is one transaction, in a write-ahead
 // log. The log reaches the disk with keep(), which takes as long as the disk takes: call it while the machine rests. So
 // a power cut may lose what came since the last keep(), and never leaves half a job.
+//
+// A job whose beginning cannot be written does not begin. What has happened anyway, the end of a job or an alarm, is
+// kept in memory until the disk has room, and is told meanwhile.
 #pragma once
 
 #include <cstdint>
@@ -56,13 +59,16 @@ class JobHistory {
   JobHistory(const JobHistory&) = delete;
   JobHistory& operator=(const JobHistory&) = delete;
 
-  // Queues a job at the end. Empty: too many wait, or the disk is full.
+  // Queues a job at the end. Empty: too many wait, or trouble() tells why it cannot be written.
   std::optional<std::int64_t> add(std::string_view name, std::string_view dialect, std::string_view program,
                                   double now);
+  // A job that runs at once. Empty: it cannot be written.
+  std::optional<std::int64_t> add_running(std::string_view name, std::string_view dialect, std::string_view program,
+                                          double now);
   std::optional<HistoryJob> find(std::int64_t id) const;
   // Empty: there is no such job, or its program was forgotten when it ended.
   std::optional<std::string> program_of(std::int64_t id) const;
-  // False: the file cannot be written. The program of a job that is done is forgotten.
+  // False: there is no such job, or it cannot be written; an end is then kept in memory. The program of a job that is done is forgotten.
   bool begin(std::int64_t id, double now);
   bool end(std::int64_t id, HistoryState state, std::string_view why, double now);
   // Takes a job that waits out of the queue. False: it does not wait.
@@ -75,16 +81,35 @@ class JobHistory {
   std::vector<HistoryJob> ended(std::int64_t most) const;
   std::vector<HistoryAlarm> alarms(std::int64_t most) const;
 
-  // Brings all to the disk.
-  void keep();
+  // Brings all to the disk. False: not all of it is there; try again.
+  bool keep();
+  // Why the last call could not write. Empty: it could.
+  const std::string& trouble() const { return trouble_; }
+  // True: something has happened that is not written yet.
+  bool is_behind() const { return !unwritten_.empty() || !unwritten_alarms_.empty(); }
 
  private:
   explicit JobHistory(sqlite3* database) : database_(database) {}
   bool run(const char* sql) const;
   std::vector<HistoryJob> jobs(const char* where, std::int64_t value) const;
+  struct End {
+    std::int64_t id = 0;
+    HistoryState state = HistoryState::done;
+    std::string why;
+    double at = 0;
+  };
+  // Notes the trouble, if `done` is false.
+  bool judge(bool done);
+  bool write(const End& end);
+  bool write(const HistoryAlarm& alarm);
+  std::optional<std::int64_t> insert(HistoryState state, std::string_view name, std::string_view dialect,
+                                     std::string_view program, double now);
 
   sqlite3* database_;
   bool is_kept_ = true;
+  std::string trouble_;
+  std::vector<End> unwritten_;
+  std::vector<HistoryAlarm> unwritten_alarms_;
 };
 
 }  // namespace passo

@@ -73,6 +73,7 @@ class BoardServer {
   Client* host_ = nullptr;
   std::uint8_t motors_ = 0;  // of the last hello: a host whose line was broken says none
   bool anybody_came_ = false;
+  Clock::time_point accepts_at_;  // not before: there was no room for a caller
 };
 
 }  // namespace passo

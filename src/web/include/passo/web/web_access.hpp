@@ -29,6 +29,9 @@ struct WebAccess {
   std::optional<unsigned> refuse(const WebCaller& caller) const;
 };
 
+// What %41 stands for (RFC 3986); a "+" is a plus. Empty: a "%" without two hexadecimal digits.
+std::optional<std::string> percent_decoded(std::string_view text);
+
 // The value of a key in "a=1&b=2", without decoding. Empty: it is missing or empty.
 std::string_view query_value(std::string_view query, std::string_view key);
 

@@ -34,6 +34,7 @@ struct WebRequest {
   std::string key = {};        // the header X-Passo-Key
   std::string encodings = {};  // the header Accept-Encoding
   std::string known = {};      // the header If-None-Match
+  std::string type = {};       // the header Content-Type
   std::string body = {};
 };
 
@@ -61,7 +62,9 @@ class WebHandler {
   // True: at this path is the stream, for WebSocket clients.
   virtual bool is_stream(std::string_view path) = 0;
   // A client of the stream has sent a message. Returns the answer; empty: none.
-  virtual std::string hear(std::string_view message) = 0;
+  virtual std::string hear(std::string_view message, std::uint64_t client) = 0;
+  // A client of the stream has left, or has not answered for `stream_dead_after`. Its number is never used again.
+  virtual void gone(std::uint64_t) {}
 };
 
 struct WebLimits {
@@ -73,7 +76,7 @@ struct WebLimits {
   std::chrono::seconds header_within{10};
   std::chrono::seconds body_within{120};
   std::chrono::seconds answer_read_within{30};
-  std::chrono::seconds stream_dead_after{20};  // without an answer to a ping
+  std::chrono::seconds stream_dead_after{10};  // without an answer to a ping
 };
 
 class WebServer {
