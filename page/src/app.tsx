@@ -12,6 +12,7 @@ import { Icon } from './parts/icon';
 import { InterruptedBanner } from './parts/interrupted_card';
 import { StartDialog } from './parts/start_dialog';
 import { OwnerBanner, StateBanner } from './parts/state_banner';
+import { WaitBanner } from './parts/wait_banner';
 import { openDialog, ViewDialogs } from './parts/view_dialog';
 
 function Navigation() {
@@ -73,6 +74,7 @@ export function App() {
       <div class="banners">
         <ConnectionBanner />
         <OwnerBanner />
+        <WaitBanner />
         <InterruptedBanner />
       </div>
       <Shown />

@@ -12,7 +12,7 @@ import { followJog } from './machine/jog';
 import { followGamepad } from './machine/gamepad';
 import { followLog } from './machine/log';
 import { followPins } from './machine/pins';
-import { followPrograms } from './machine/programs';
+import { followPrograms, rememberOpenProgram } from './machine/programs';
 import { followStudies } from './machine/studies';
 import { followPath } from './scene/path_loader';
 import { readToken } from './machine/token';
@@ -24,6 +24,7 @@ import './style/small.css';
 
 readToken();
 rememberOwnerKey();
+rememberOpenProgram();
 followTheme();
 followLanguage();
 followRoute('run');

@@ -67,6 +67,33 @@ describe('first start to first cut', () => {
   });
 });
 
+describe('the question before a start', () => {
+  it('names the limits of all moves, rapids and G53 included, in work and machine coordinates, from where the tool is now', async () => {
+    const { page, context, errors } = await visit(browser, daemon, 'files');
+    await takeOver(page);
+    const { key } = (await daemon.post('/owner', '{"name": "story"}')) as { key: string };
+    await send(page, 'far.ngc', 'G21 G90 F600\nG0 X60 Y-50\nG1 X0 Y0\nX5\nG53 G0 Z-1\nG91 G0 X-7\nM2\n');
+    await expect.poll(() => page.getByTestId('verdict').innerText()).toContain('Good');
+    // The tool is moved after the check.
+    await daemon.post('/jog', '{"direction": {"y": 1}, "speed": 3000, "distance": 3, "lease": 5}', key);
+    const { place, work_offset: offset = {} } = await daemon.until((status) => status.state === 'Idle' && status.rests);
+    await fetch(`${daemon.address}api/v1/owner`, { method: 'DELETE', headers: { 'X-Passo-Key': key } });
+    await page.locator('.owner').waitFor({ state: 'detached' });
+    await click(page, 'Start');
+    const row = async (axis: string): Promise<number[]> =>
+      [...(await page.getByRole('dialog').getByRole('row', { name: axis }).innerText()).matchAll(/-?\d+\.\d+/g)].map(Number);
+    const near = (axis: string, low: number, high: number): Promise<void> =>
+      expect.poll(() => row(axis)).toEqual([low, high, low + (offset[axis.toLowerCase()] ?? 0), high + (offset[axis.toLowerCase()] ?? 0)].map((one) => expect.closeTo(one, 2)));
+    const at = (axis: string): number => (place[axis] ?? 0) - (offset[axis] ?? 0);
+    await near('X', Math.min(-2, at('x')), Math.max(60, at('x')));
+    await near('Y', Math.min(-50, at('y')), Math.max(0, at('y')));
+    await near('Z', Math.min(-1 - (offset.z ?? 0), at('z')), Math.max(-1 - (offset.z ?? 0), at('z')));
+    await page.getByRole('dialog').getByRole('button', { name: 'Cancel' }).click();
+    expect(errors).toEqual([]);
+    await context.close();
+  });
+});
+
 describe('a program on its way', () => {
   it('is held, overridden, seen by another page, and finished', async () => {
     const first = await visit(browser, daemon, 'files');

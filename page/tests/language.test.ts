@@ -1,5 +1,5 @@
 import { describe, expect, it } from 'vitest';
-import { fill, languageOf } from '../src/core/language';
+import { fill, language, languageOf, sayCount } from '../src/core/language';
 import { en } from '../src/lang/en';
 import { fr } from '../src/lang/fr';
 import { it as italian } from '../src/lang/it';
@@ -31,6 +31,20 @@ describe('languages', () => {
 
   it('fills in values, and leaves what it does not know', () => {
     expect(fill('Line {line} of {lines}', { line: 3 })).toBe('Line 3 of {lines}');
+  });
+
+  it('counts one thing and several', () => {
+    const lines = (count: number): string => sayCount('files.lines', count);
+    expect([lines(1), lines(0), lines(2)]).toEqual(['1 line', '0 lines', '2 lines']);
+    expect(sayCount('stock.file.read', 1, { name: 'a.toml' })).toBe('a.toml: 1 tool.');
+    language.value = 'fr';
+    expect([lines(1), lines(2)]).toEqual(['1 ligne', '2 lignes']);
+    language.value = 'it';
+    expect([lines(1), lines(2)]).toEqual(['1 riga', '2 righe']);
+    expect(sayCount('files.more.lines', 1, { lines: '4' })).toBe('E 1 altra: riga 4.');
+    language.value = 'zh';
+    expect(lines(1)).toBe('1 行');
+    language.value = 'en';
   });
 
   it('finds a language among those that a browser prefers', () => {

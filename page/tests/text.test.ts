@@ -18,7 +18,7 @@ describe('a long text in a window', () => {
 
 describe('the log', () => {
   it('finds lines that have all the words', () => {
-    const line = (id: number, words: string): LogLine => ({ id, at: new Date(0), kind: 'state', words });
+    const line = (id: number, words: string): LogLine => ({ id, at: new Date(0), kind: 'state', words, hint: '' });
     const lines = [line(1, 'part.ngc: done'), line(2, 'Ready'), line(3, 'part.ngc: failed')];
     expect(search(lines, 'DONE part').map((one) => one.id)).toEqual([1]);
     expect(search(lines, '').length).toBe(3);

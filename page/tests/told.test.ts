@@ -34,6 +34,22 @@ describe('a sentence of the daemon', () => {
     expect(wrong).toEqual([]);
   });
 
+  it('has all that the check finds of other controls and of frequent mistakes', () => {
+    language.value = 'fr';
+    const all = [
+      'X20 5 is read as X205', '#101 was never set, and is 0', 'this move comes after the end of the program, and is never made',
+      'G28 takes the axis words of the block; G0 only stays in force', 'G28 in a block without G0', "the spindle is still on where '%' ends the program",
+      'a rapid goes down to Z-5 before the program has given X or Y', 'no feed goes below Z0: the lowest is Z2',
+      'this arc goes round nearly a full circle, and ends 0.01 mm before its start', "WHILE is a word of Fanuc's macros", "GOTO is a word of Fanuc's macros",
+      'o1 while [...] on one line, and o1 endwhile where END stands', "':' where a word should start",
+      "O for ':', as in O0491; on some controls ':' begins the number of a program", 'there is no G68', 'G10 L2 with R, which turns a work system',
+      'this is a program for a 3D printer, not G-code', "the arc's start and end are not equally far from its centre, which is a distance from the start (G91.1) here",
+      "I and J, or the plane's code before; grbl ignores the word: --dialect grbl",
+    ];
+    expect(all.filter((words) => told(words) === null)).toEqual([]);
+    expect(told('this is a program for a 3D printer, not G-code')).toBe('ceci est un programme pour une imprimante 3D, pas du G-code');
+  });
+
   it('is said in the language of the page, with its values', () => {
     language.value = 'it';
     expect(told('line 7: X would reach 9.000 (work 9.000), 1.000 mm beyond its travel\'s end at 8.000 [travel.exceeded]')).toBe(

@@ -52,7 +52,8 @@ Json as_json(const HistoryJob& job);
 // What the last homing has found, and how well all homings agree.
 Json as_json(const std::vector<HomedAxis>& homed, const HomingRepeats& repeats);
 // What viewers ask of a program.
-WebAnswer path_answer(const StoredProgram& program, const ToolTable& tools, std::string_view query);
+WebAnswer path_answer(const StoredProgram& program, const MachineDescription& machine, const ToolTable& tools,
+                      std::string_view query);
 WebAnswer text_answer(const StoredProgram& program, std::string_view query);
 WebAnswer height_map_answer(const StoredProgram& program, std::string_view query);
 

@@ -149,7 +149,7 @@ WebAnswer MachineApi::look(const FoundRoute& found, const WebRequest& request) {
   if (path.starts_with(uploads_path)) return look_at_uploads(found);
   const StoredProgram* const program = programs_.find(found.id);
   if (program == nullptr) return refusal(404);
-  if (path.ends_with("/path")) return path_answer(*program, programs_.tools(), request.query);
+  if (path.ends_with("/path")) return path_answer(*program, machine_, programs_.tools(), request.query);
   if (path.ends_with("/text")) return text_answer(*program, request.query);
   if (path.ends_with("/height-map")) return height_map_answer(*program, request.query);
   if (path.ends_with("/way")) {

@@ -25,7 +25,10 @@ WebAnswer MachineApi::take_mdi(std::string_view text) {
     return error_answer(409, "jobs.interrupted", "a job was broken off: resume it or drop it first");
   }
   MdiLines::Answer answer = mdi_.take(*line);
-  if (!answer.code.empty()) return error_answer(409, answer.code, answer.message);
+  if (!answer.code.empty()) {
+    const Json error = {{"code", answer.code}, {"message", answer.message}, {"expected", answer.expected}};
+    return json_answer(409, {{"error", error}});
+  }
   return json_answer(200, {{"words", std::move(answer.words)}, {"change", session_.status().version}});
 }
 

@@ -34,11 +34,11 @@ std::vector<std::string> lines_of(std::string_view text) {
 }
 
 MdiLines::Answer refused(std::string code, std::string message) {
-  return {.code = std::move(code), .message = std::move(message), .words = {}};
+  return {.code = std::move(code), .message = std::move(message), .expected = {}, .words = {}};
 }
 
 MdiLines::Answer told(std::string_view text) {
-  return {.code = {}, .message = {}, .words = lines_of(text)};
+  return {.code = {}, .message = {}, .expected = {}, .words = lines_of(text)};
 }
 
 }  // namespace
@@ -103,8 +103,10 @@ MdiLines::Answer MdiLines::take_code(std::string_view line) {
   if (const auto lost = session_.lost_place()) return refused(std::string(code_of(lost->code)), lost->message);
   if (!streams()) program_->drop(session_.status().position.place);
   if (auto wrong = program_->take(line, session_.now())) {
-    const std::string expected = wrong->expected.empty() ? "" : fmt::format(". {}", wrong->expected);
-    return refused(std::move(wrong->code), wrong->message + expected);
+    return {.code = std::move(wrong->code),
+            .message = std::move(wrong->message),
+            .expected = std::move(wrong->expected),
+            .words = {}};
   }
   trouble_.clear();
   changed_ = true;

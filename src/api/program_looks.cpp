@@ -25,17 +25,26 @@ Json as_json(const ProgramPath::Range& range) {
   return {{"low", range.low}, {"high", range.high}};
 }
 
+Json as_json(const MachineDescription& machine, const std::optional<ProgramPath::Reach>& reach) {
+  if (!reach) return Json();
+  const auto box = [&machine](const Box& one) {
+    return Json{{"low", as_json(machine, one.low)}, {"high", as_json(machine, one.high)}};
+  };
+  return {{"machine", box(reach->machine)}, {"work", box(reach->work)}};
+}
+
 Json as_json(const ProgramPath::Speeds& speeds) {
   if (speeds.empty()) return Json();
   return {{"low", speeds.low.value() * a_minute}, {"high", speeds.high.value() * a_minute}};
 }
 
-// The diameter is that of the tool table; null: unknown.
-Json tools_json(const ProgramPath& path, const ToolTable& tools) {
+// The diameter is that of the tool table, else that of the machine file's tool; null: unknown.
+Json tools_json(const ProgramPath& path, const MachineDescription& machine, const ToolTable& tools) {
   Json list = Json::array();
   for (const ProgramPath::UsedTool& used : path.tools()) {
     const Tool* const tool = tools.find(used.number);
-    const double diameter = tool == nullptr ? 0 : std::abs(tool->diameter.value());
+    const double by_table = tool == nullptr ? 0 : std::abs(tool->diameter.value());
+    const double diameter = by_table > 0 ? by_table : machine.tool.diameter.value();
     list.push_back({{"tool", used.number},
                     {"diameter", diameter > 0 ? Json(diameter) : Json()},
                     {"zero_z", used.zero_z},
@@ -50,7 +59,8 @@ WebAnswer bad_number(const std::string& what) {
 
 }  // namespace
 
-WebAnswer path_answer(const StoredProgram& program, const ToolTable& tools, std::string_view query) {
+WebAnswer path_answer(const StoredProgram& program, const MachineDescription& machine, const ToolTable& tools,
+                      std::string_view query) {
   const ProgramPath& path = program.path_points;
   if (query_value(query, "chunk").empty()) {
     return json_answer(200, {{"program", program.id},
@@ -64,8 +74,9 @@ WebAnswer path_answer(const StoredProgram& program, const ToolTable& tools, std:
                              {"all", as_json(path.all())},
                              {"cuts", as_json(path.cuts())},
                              {"work", as_json(path.work())},
+                             {"reach", as_json(machine, path.reach())},
                              {"speeds", as_json(path.speeds())},
-                             {"tools", tools_json(path, tools)}});
+                             {"tools", tools_json(path, machine, tools)}});
   }
   const auto chunk = number_of(query, "chunk");
   const auto level = query_value(query, "level").empty() ? std::optional<std::uint64_t>(0) : number_of(query, "level");

@@ -121,6 +121,8 @@ void ProgramPath::add(const PathItem& item, const Frame& frame) {
   if (action != nullptr && action->kind == Action::Kind::tool_change) tool_ = action->tool;
   const auto* const segment = std::get_if<Segment>(&item);
   if (segment == nullptr || segment->takes_up_backlash || !segment->curve.has_length()) return;
+  const Box box = frame.work_extents(segment->curve);
+  add_reach(segment->curve.extents(), box);
   const int chords = chords_of(segment->curve, chord_error);
   if (points_ + static_cast<std::size_t>(chords) > most_points) {
     cut_off_ = true;
@@ -138,7 +140,6 @@ void ProgramPath::add(const PathItem& item, const Frame& frame) {
     if (!segment->rapid) cuts_.add(place);
   };
   if (!segment->rapid) {
-    const Box box = frame.work_extents(segment->curve);
     work_.add(place_of(box.low));
     work_.add(place_of(box.high));
   }
@@ -151,6 +152,18 @@ void ProgramPath::add(const PathItem& item, const Frame& frame) {
     note(place);
     add_point(place, line, flags);
   }
+}
+
+void ProgramPath::add_reach(const Box& machine, const Box& work) {
+  const auto widen = [](Box& box, const Box& by) {
+    for (std::size_t i = 0; i < axis_count; ++i) {
+      box.low.values[i] = std::min(box.low.values[i], by.low.values[i]);
+      box.high.values[i] = std::max(box.high.values[i], by.high.values[i]);
+    }
+  };
+  if (!reach_) reach_ = Reach{.machine = machine, .work = work};
+  widen(reach_->machine, machine);
+  widen(reach_->work, work);
 }
 
 std::uint16_t ProgramPath::tool_flags(double zero_z, bool feeds) {

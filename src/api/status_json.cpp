@@ -155,7 +155,7 @@ Json as_json(const MachineDescription& machine, const MachineStatus& status) {
 
 Json as_json(const MotionOwner& owner) {
   static constexpr const char* kinds[] = {"nobody", "sender", "client"};
-  return {{"kind", kinds[static_cast<std::size_t>(owner.kind())]}, {"name", owner.name()}};
+  return {{"kind", kinds[static_cast<std::size_t>(owner.kind())]}, {"name", owner.name()}, {"taken", owner.changes()}};
 }
 
 Json as_json(const ApiJob& job) {

@@ -196,6 +196,13 @@ TEST(MdiPlace, takes_lines_where_the_place_is_known_or_a_person_vouches_for_it) 
   EXPECT_TRUE(run.turn_until([&] { return run.get("/status")["place"]["x"] == 1.0; }));
 }
 
+TEST_F(Mdi, tells_what_is_wrong_apart_from_what_was_expected) {
+  const Json error = run.post("/mdi", R"({"line": "G1 X1"})")["error"];
+  EXPECT_EQ(error["code"], "gcode.missing-feed");
+  EXPECT_EQ(error["message"], "no feed rate is set");
+  EXPECT_NE(error["expected"], "");
+}
+
 TEST_F(Mdi, says_why_nothing_jogs_while_it_has_the_spindle_on) {
   line("M3 S9000");
   const Json answer = run.post("/jog", R"({"direction": {"x": 1}, "speed": 600, "distance": 2})");

@@ -65,5 +65,15 @@ TEST(ApiUploads, are_bounded_and_may_be_dropped) {
   EXPECT_EQ(uploads.find(silent), nullptr);
 }
 
+TEST(ApiPath, has_the_tool_of_the_machine_file_where_no_tool_table_has_one) {
+  ApiRun run;
+  const std::string id = fmt::format("/programs/{}", run.upload("G1 X5 F600\nM2\n"));
+  run.post(id + "/check");
+  ASSERT_TRUE(run.turn_until([&] { return run.get(id)["state"] == "good"; }));
+  const double diameter = run.run.description().tool.diameter.value();
+  ASSERT_GT(diameter, 0);
+  EXPECT_EQ(run.get(id + "/path")["tools"][0]["diameter"], diameter);
+}
+
 }  // namespace
 }  // namespace passo::test

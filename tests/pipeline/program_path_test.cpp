@@ -93,6 +93,23 @@ TEST(ProgramPath, tells_the_box_along_the_axes_of_a_turned_work) {
       << "the box on the machine is larger";
 }
 
+TEST(ProgramPath, tells_how_far_all_moves_reach_rapids_and_g53_too) {
+  ProgramStore store;
+  store.set_offsets({{5220, 1}, {5221, 7}}, {});
+  const std::string_view text = "G0 X100 Y-50\nG53 G0 Z30\nG1 X0 Y0 F600\nX5\nG0 A90\nM2\n";
+  const std::uint64_t id = store.add("far", Dialect::linuxcnc, text)->id;
+  store.check(id, MachineDescription(), Point());
+  for (int i = 0; i < 100; ++i) store.turn();
+  const ProgramPath& path = store.find(id)->path_points;
+  ASSERT_TRUE(path.complete() && path.reach());
+  EXPECT_NEAR(path.reach()->work.high[Axis::x], 100, 1e-9) << "a rapid is a move";
+  EXPECT_NEAR(path.reach()->machine.high[Axis::x], 107, 1e-9);
+  EXPECT_NEAR(path.reach()->work.low[Axis::x], -7, 1e-9) << "the first one begins where the machine stands";
+  EXPECT_NEAR(path.reach()->machine.low[Axis::y], -50, 1e-9);
+  EXPECT_NEAR(path.reach()->machine.high[Axis::z], 30, 1e-9);
+  EXPECT_NEAR(path.reach()->machine.high[Axis::a], 90, 1e-9);
+}
+
 TEST(ProgramPath, tells_how_far_an_arc_bulges_along_the_axes_of_a_turned_work) {
   ProgramStore store;
   store.set_offsets({{5220, 1}, {5221, 7}, {5230, 30}}, {});

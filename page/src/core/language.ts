@@ -44,6 +44,13 @@ export function say(key: Key, values: Record<string, string | number> = {}): str
   return fill(table.value[key], values);
 }
 
+// One thing, or several: where a language says both alike, so do its two texts.
+type Counted = { [K in Key]: `${K}.one` extends Key ? K : never }[Key];
+export function sayCount(key: Counted, count: number, values: Record<string, string | number> = {}): string {
+  const isOne = new Intl.PluralRules(language.value).select(count) === 'one';
+  return say(isOne ? `${key}.one` : key, { ...values, count: count.toLocaleString(language.value) });
+}
+
 export function fill(words: string, values: Record<string, string | number>): string {
   return words.replace(/\{(\w+)\}/g, (all, name: string) => String(values[name] ?? all));
 }

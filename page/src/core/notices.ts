@@ -6,14 +6,15 @@ export interface Notice {
   id: number;
   kind: 'done' | 'refused';
   words: string;
+  hint: string; // what would have been right, for the log
 }
 export const notices = signal<Notice[]>([]);
 const most = 3;
 const shownFor = 7000; // ms
 let last = 0;
 
-export function notify(kind: Notice['kind'], words: string): void {
-  const notice = { id: ++last, kind, words };
+export function notify(kind: Notice['kind'], words: string, hint = ''): void {
+  const notice = { id: ++last, kind, words, hint };
   notices.value = [...notices.peek().filter((one) => one.words !== words), notice].slice(-most);
   setTimeout(() => dismiss(notice.id), shownFor);
 }
@@ -23,6 +24,8 @@ export function dismiss(id: number): void {
 }
 
 export const wordsOfError = (error: unknown): string => toldOr(error instanceof Error ? error.message : String(error));
+const hintOfError = (error: unknown): string =>
+  error instanceof Error && 'expected' in error && typeof error.expected === 'string' ? toldOr(error.expected) : '';
 
 // Does what a button asks, and tells why it was refused.
 export async function attempt(what: () => Promise<unknown>): Promise<boolean> {
@@ -30,7 +33,7 @@ export async function attempt(what: () => Promise<unknown>): Promise<boolean> {
     await what();
     return true;
   } catch (error) {
-    notify('refused', wordsOfError(error));
+    notify('refused', wordsOfError(error), hintOfError(error));
     return false;
   }
 }

@@ -4,7 +4,8 @@ import { signal } from '@preact/signals';
 export interface Question {
   title: string;
   facts: string[];
-  rows?: [string, string][];
+  columns?: string[]; // the names above the rows; the first column has none
+  rows?: string[][]; // a name, and its values
   steps?: string[]; // what happens, in this order; the daemon's words
   yes: string;
   kind: 'go' | 'stop' | 'plain';

@@ -1,12 +1,13 @@
 // What the daemon says, in the language of the page. The daemon speaks English; a sentence is known by its pieces.
 import { file } from '../lang/told/file';
+import { foreign } from '../lang/told/foreign';
 import { machine } from '../lang/told/machine';
 import { program } from '../lang/told/program';
 import type { Saying } from '../lang/told/saying';
 import { fill, language, say, type Key } from './language';
 import { placeText, speedText, speedUnit, units } from './units';
 
-export const sayings: readonly Saying[] = [...machine, ...program, ...file];
+export const sayings: readonly Saying[] = [...machine, ...program, ...file, ...foreign];
 
 interface Pattern {
   saying: Saying;

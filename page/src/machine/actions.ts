@@ -4,14 +4,15 @@ import { attempt } from '../core/notices';
 import { confirm } from '../core/question';
 import { say } from '../core/language';
 import { durationText } from '../core/time';
-import { lengthText, lengthUnit } from '../core/units';
-import { post } from './api';
+import { lengthUnit } from '../core/units';
+import { post, type Program } from './api';
 import { connection, status } from './connection';
 import { interrupted } from './interrupted';
 import { beOwner, ownership } from './owner';
-import { pathBox } from './path_index';
-import { shown, timeOf } from './programs';
+import { rowsOfReach, type PathIndex, type Reach } from './path_index';
+import { checkedFromHere, shown, timeOf } from './programs';
 import { placeWords, workPlace } from './place';
+import { isAtWait, isFree, waits } from './waits';
 
 const stateWhy = (): string => {
   if (status.value?.state === 'Line' && status.value.mdi.streams) return say('state.Line.console');
@@ -29,8 +30,21 @@ export function whyNot(...states: string[]): string {
   return why !== '' || is(...states) ? why : stateWhy();
 }
 
-export const whyNoStart = computed(() => {
+// Jog, zero, probe, home: also while a program waits for a person.
+export function whyNoSetUp(...also: string[]): string {
+  const why = whyNotOurs();
+  if (why !== '' || isFree.value || is(...also)) return why;
+  return waits.value.now !== null && is('Tool', 'Hold') ? say('wait.outputs') : stateWhy();
+}
+// What begins a job.
+export const whyNoJob = computed(() => {
   const why = whyNot('Idle');
+  return why === '' && waits.value.now !== null ? say('why.waits') : why;
+});
+export const whyNoDone = computed(() => (status.value !== null && isAtWait(status.value) ? whyNotOurs() : whyNot()));
+
+export const whyNoStart = computed(() => {
+  const why = whyNoJob.value;
   if (why !== '') return why;
   if (interrupted.value !== null) return say('why.broken');
   if (status.value?.lost_place === true) return say('state.Idle.unknown');
@@ -42,7 +56,7 @@ export const whyNoResume = computed(() => whyNot('Hold', 'Door'));
 const moving = ['Run', 'Jog', 'Home', 'Probe', 'Tool', 'Line'];
 export const whyNoHold = computed(() => (isLost() ? say('why.lost') : is(...moving) || checksJob() ? '' : say('why.still')));
 export const whyNoStop = computed(() =>
-  isLost() ? say('why.lost') : is(...moving, 'Hold', 'Door', 'Check') || checksJob() ? '' : say('why.still'),
+  isLost() ? say('why.lost') : is(...moving, 'Hold', 'Door', 'Check') || checksJob() || waits.value.now !== null ? '' : say('why.still'),
 );
 const checksJob = (): boolean => status.value?.job?.state === 'checking';
 
@@ -60,20 +74,21 @@ export const wake = (): Promise<boolean> => moveAs('/wake');
 
 export async function start(): Promise<void> {
   const program = shown.value;
-  const now = status.value;
-  if (program === null || now === null) return;
-  const box = pathBox.value;
-  const rows: [string, string][] = (box === null ? [] : ['x', 'y', 'z']).map((axis, i) => [
-    axis.toUpperCase(),
-    `${lengthText(box?.low[i] ?? 0)} … ${lengthText(box?.high[i] ?? 0)} ${lengthUnit()}`,
-  ]);
+  if (program === null || status.value === null) return;
+  let index = null as PathIndex | null;
+  await attempt(async () => (index = await checkedFromHere(program.id)));
+  if (index !== null) await startAsked(program, index.reach);
+}
+
+async function startAsked(program: Program, reach: Reach | null): Promise<void> {
   const yes = await confirm({
     title: say('do.start.ask', { name: program.name }),
     facts: [
-      say('do.start.facts', { time: durationText(timeOf(program)) }),
+      say(reach === null ? 'do.start.still' : 'do.start.facts', { time: durationText(timeOf(program)) }),
       say('do.start.from', { place: placeWords(workPlace.value) }),
     ],
-    rows,
+    columns: [`${say('run.work')}, ${lengthUnit()}`, `${say('run.machine')}, ${lengthUnit()}`],
+    rows: reach === null ? [] : rowsOfReach(reach),
     yes: say('do.start'),
     kind: 'go',
   });
@@ -83,7 +98,7 @@ export async function start(): Promise<void> {
 // A stop is asked about only where it loses something: a program that rests in a hold. What moves stops at once.
 export async function stop(): Promise<void> {
   const now = status.value;
-  if (now !== null && now.state === 'Hold' && now.rests) {
+  if (now !== null && now.rests && (now.state === 'Hold' || isAtWait(now))) {
     const yes = await confirm({
       title: say('do.stop.ask'),
       facts: [say('do.stop.facts', { progress: Math.floor((now.progress ?? 0) * 100) })],

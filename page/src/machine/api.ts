@@ -22,6 +22,15 @@ export interface Taken {
   change: number;
 }
 
+// Where a program waits for a person.
+export interface Waits {
+  for: 'M0' | 'M1' | 'M6';
+  line: number; // 0: not known
+  tool: number | null; // for M6 alone
+  message: string; // what the program says there; lines apart
+  free: boolean; // the machine may be jogged, probed, zeroed and homed meanwhile
+}
+
 export interface Status {
   change: number;
   time: number;
@@ -43,8 +52,9 @@ export interface Status {
   inputs: { probe: boolean; door: boolean; hold: boolean; start: boolean; emergency_stop: boolean; limits: number[] };
   waits_for_tool: number | null;
   waits_for_operator: boolean;
+  waits?: Waits | null;
   trouble: string;
-  owner: { kind: 'nobody' | 'sender' | 'client'; name: string };
+  owner: { kind: 'nobody' | 'sender' | 'client'; name: string; taken: number };
   job: Job | null;
   // The lines of the console: the modes in force, and where the tool is by them.
   mdi: { codes: string[]; feed: number; speed: number; tool: number; place: Place; streams: boolean; trouble: string };
@@ -112,6 +122,7 @@ export interface HistoryJob {
   queued_at: number;
   begun_at: number;
   ended_at: number;
+  waits?: (Omit<Waits, 'free'> & { at: number })[];
 }
 export interface Alarm {
   at: number;
@@ -124,6 +135,7 @@ export class Refused extends Error {
     readonly status: number,
     readonly code: string,
     message: string,
+    readonly expected = '', // what would have been right
   ) {
     super(message);
   }
@@ -140,8 +152,8 @@ export function headers(): Record<string, string> {
 
 async function refusalOf(answer: Response): Promise<Refused> {
   try {
-    const said = (await answer.json()) as { error: { code: string; message: string } };
-    return new Refused(answer.status, said.error.code, said.error.message);
+    const { error } = (await answer.json()) as { error: { code: string; message: string; expected?: string } };
+    return new Refused(answer.status, error.code, error.message, error.expected);
   } catch {
     return new Refused(answer.status, 'http.error', answer.statusText);
   }

@@ -1,9 +1,9 @@
 // Lines that a person types, whose modes last from line to line; and short programs of the page's own.
 import { kept } from '../core/kept';
-import { attempt, wordsOfError } from '../core/notices';
+import { attempt } from '../core/notices';
 import { toldOr } from '../core/told';
 import type { Program } from './api';
-import { get, post, remove, upload } from './api';
+import { get, post, Refused, remove, upload } from './api';
 import { hold, resume } from './actions';
 import { status } from './connection';
 import { note } from './log';
@@ -28,10 +28,7 @@ export async function typeLine(text: string): Promise<boolean> {
   if (text === '~') return resume();
   return attempt(async () => {
     await beOwner();
-    const { words } = await post<{ words: string[] }>('/mdi', { line: text }).catch((error: unknown) => {
-      // What is wrong, and what would have been right: two sentences.
-      throw new Error(wordsOfError(error).split('. ').map(toldOr).join('. '));
-    });
+    const { words } = await post<{ words: string[] }>('/mdi', { line: text });
     for (const one of words) note('done', one);
   });
 }
@@ -54,11 +51,13 @@ async function tellFindings(id: number): Promise<void> {
   for (let looks = 0; looks < most; ++looks) {
     const program = await get<Program>(`/programs/${id}`);
     if (program.state !== 'checking' && status.value?.job?.state !== 'checking') {
-      for (const one of program.findings ?? []) {
-        if (!ofPrograms.includes(one.code)) note(one.severity === 'error' ? 'refused' : 'warning', `${toldOr(one.message)}. ${toldOr(one.expected)} [${one.code}]`);
+      const found = (program.findings ?? []).filter((one) => !ofPrograms.includes(one.code));
+      const first = found.find((one) => one.severity === 'error');
+      for (const one of found) {
+        if (one !== first) note(one.severity === 'error' ? 'refused' : 'warning', toldOr(one.message), toldOr(one.expected));
       }
-      const first = program.findings?.find((one) => one.severity === 'error');
-      if (first !== undefined) throw new Error(first.message);
+      // Whoever has asked tells the first error.
+      if (first !== undefined) throw new Refused(409, first.code, first.message, first.expected);
       return;
     }
     await new Promise((resolve) => setTimeout(resolve, lookEvery));

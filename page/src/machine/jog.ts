@@ -10,6 +10,7 @@ import { post, type Taken } from './api';
 import { connection, machine, status, tell } from './connection';
 import { Jogger, type JogWay } from './jogger';
 import { beOwner, mayMove } from './owner';
+import { isFree } from './waits';
 
 const isNumber = (value: unknown): value is number => typeof value === 'number' && Number.isFinite(value);
 export const jogStep = kept('jog-step', 0, isNumber); // mm; 0: continuous
@@ -52,7 +53,7 @@ function wayOf(direction: Direction, distance: number): JogWay {
 }
 
 const canJog = (): boolean =>
-  path.value === 'jog' && mayMove.value && asked.value === null && (status.value?.state === 'Idle' || status.value?.state === 'Jog');
+  path.value === 'jog' && mayMove.value && asked.value === null && (isFree.value || status.value?.state === 'Jog');
 
 // What is held: by a key, by a pointer on the pad, by a gamepad. Whether the machine moves until it is let go or makes
 // one step is settled when it is pressed: the choice of steps may change while it is held.
@@ -193,7 +194,7 @@ export function followJog(): void {
   effect(() => {
     if (status.value !== null) jogger.heard(status.value.state, status.value.change);
   });
-  const goesElse = (): boolean => status.value !== null && !['Idle', 'Jog'].includes(status.value.state);
+  const goesElse = (): boolean => status.value !== null && !isFree.value && status.value.state !== 'Jog';
   effect(() => {
     if (path.value !== 'jog' || connection.value !== 'live' || asked.value !== null || goesElse()) endAll();
   });

@@ -4,6 +4,7 @@ import { say } from '../core/language';
 import { notices } from '../core/notices';
 import { toldOr } from '../core/told';
 import { connection, status } from './connection';
+import { waits, wordsOfWait } from './waits';
 import { consoleName } from './words';
 
 export type LogKind = 'state' | 'asked' | 'done' | 'refused' | 'warning' | 'alarm';
@@ -12,25 +13,27 @@ export interface LogLine {
   at: Date;
   kind: LogKind;
   words: string;
+  hint: string; // what would have been right
 }
 const most = 1000;
 let last = 0;
 export const log = signal<LogLine[]>([]);
 
-export function note(kind: LogKind, words: string): void {
-  log.value = [...log.peek().slice(1 - most), { id: ++last, at: new Date(), kind, words }];
+export function note(kind: LogKind, words: string, hint = ''): void {
+  log.value = [...log.peek().slice(1 - most), { id: ++last, at: new Date(), kind, words, hint }];
 }
 
 // Lines that have all the words, in any order and case.
 export function search(lines: readonly LogLine[], text: string): LogLine[] {
   const words = text.toLowerCase().split(/\s+/).filter((word) => word !== '');
-  return lines.filter((line) => words.every((word) => `${line.kind} ${line.words}`.toLowerCase().includes(word)));
+  return lines.filter((line) => words.every((word) => `${line.kind} ${line.words} ${line.hint}`.toLowerCase().includes(word)));
 }
 
 export function followLog(): void {
   let state = '';
   let job = '';
   let trouble = '';
+  let waiting = '';
   let noticed = 0;
   effect(() => {
     const now = status.value;
@@ -42,7 +45,13 @@ export function followLog(): void {
       if (!isBetween) note(isBad ? 'alarm' : 'state', `${say(`state.${now.state}`)}${isBad && now.trouble !== '' ? `: ${toldOr(now.trouble)}` : ''}`);
       state = now.state;
     }
-    const words = now.job === null ? '' : `${now.job.name}: ${say(`job.${now.job.state}`)}${now.job.why === '' ? '' : `, ${toldOr(now.job.why)}`}`;
+    const { now: wait } = waits.value;
+    const waited = wait === null ? '' : `${wordsOfWait(wait)}${wait.message === '' ? '' : `: ${wait.message.replaceAll('\n', ' · ')}`}`;
+    if (waited !== waiting && waited !== '') note('state', waited);
+    waiting = waited;
+    // What has ended the job may be the trouble that was just told.
+    const why = now.job === null || now.job.why === '' || now.job.why === now.trouble ? '' : `, ${toldOr(now.job.why)}`;
+    const words = now.job === null ? '' : `${now.job.name}: ${say(`job.${now.job.state}`)}${why}`;
     // Why a line of the console was refused is told by the console.
     const isTold = now.job?.state === 'failed' && now.job.name === consoleName;
     if (words !== job && words !== '' && !isTold) note(now.job?.state === 'failed' ? 'refused' : 'done', words);
@@ -55,7 +64,7 @@ export function followLog(): void {
   });
   effect(() => {
     for (const one of notices.value) {
-      if (one.id > noticed) note(one.kind === 'refused' ? 'refused' : 'done', one.words);
+      if (one.id > noticed) note(one.kind === 'refused' ? 'refused' : 'done', one.words, one.hint);
       noticed = Math.max(noticed, one.id);
     }
   });

@@ -1,19 +1,24 @@
 // Who may move the machine: one client at a time. This page takes the ownership when its person first wants motion.
-import { computed, effect, untracked } from '@preact/signals';
+import { batch, computed, effect, untracked } from '@preact/signals';
 import { headers, post, remove } from './api';
 import { connection, status, tell } from './connection';
-import { ownerKey, pageName } from './owner_key';
+import { ownerKey, ownerTaken } from './owner_key';
+import { pageName } from './page_name';
 
 export type Ownership = 'mine' | 'free' | 'other';
 
 export const ownership = computed<Ownership>(() => {
   const owner = status.value?.owner;
   if (owner === undefined || owner.kind === 'nobody') return 'free';
-  return owner.kind === 'client' && ownerKey.value !== '' && owner.name === pageName() ? 'mine' : 'other';
+  return owner.kind === 'client' && ownerKey.value !== '' && owner.taken === ownerTaken.value ? 'mine' : 'other';
 });
 
 export async function takeOwnership(): Promise<void> {
-  ownerKey.value = (await post<{ key: string }>('/owner', { name: pageName() })).key;
+  const { key, taken } = await post<{ key: string; taken: number }>('/owner', { name: pageName() });
+  batch(() => {
+    ownerKey.value = key;
+    ownerTaken.value = taken;
+  });
   stayOwner();
 }
 
@@ -38,7 +43,7 @@ export async function giveUpOwnership(): Promise<void> {
 // A page that goes gives back what nobody moves with. A job keeps its owner: another page takes over.
 export function giveBackAtTheEnd(): void {
   addEventListener('pagehide', () => {
-    if (ownership.value !== 'mine' || status.value?.state !== 'Idle') return;
+    if (ownership.value !== 'mine' || status.value?.state !== 'Idle' || (status.value.waits ?? null) !== null) return;
     void fetch('api/v1/owner', { method: 'DELETE', headers: headers(), keepalive: true }).catch(() => undefined);
     ownerKey.value = '';
   });

@@ -1,30 +1,21 @@
-// The key of the ownership of motion, if this page has it. It outlives a reload of the tab, and nothing else.
+// The key of the ownership of motion, if this page has it, and which ownership it is for: others may have the same name. It
+// outlives a reload of the tab, and nothing else.
 import { effect, signal } from '@preact/signals';
 
 const place = 'passo.owner-key';
-const nameKey = 'passo.page-name';
+const takenPlace = 'passo.owner-taken';
 export const ownerKey = signal('');
+export const ownerTaken = signal(0);
 
 export function rememberOwnerKey(): void {
   try {
     ownerKey.value = sessionStorage.getItem(place) ?? '';
-    effect(() => sessionStorage.setItem(place, ownerKey.value));
+    ownerTaken.value = Number(sessionStorage.getItem(takenPlace));
+    effect(() => {
+      sessionStorage.setItem(place, ownerKey.value);
+      sessionStorage.setItem(takenPlace, String(ownerTaken.value));
+    });
   } catch {
     // A reload then asks for the ownership again.
   }
-}
-
-let name = '';
-
-// Tells this tab from others: a short number that lasts as long as the tab.
-export function pageName(): string {
-  if (name !== '') return name;
-  name = `page ${Math.floor(Math.random() * 9000) + 1000}`;
-  try {
-    name = sessionStorage.getItem(nameKey) ?? name;
-    sessionStorage.setItem(nameKey, name);
-  } catch {
-    // Then a reload is another page.
-  }
-  return name;
 }

@@ -3,10 +3,36 @@ import { computed, effect, signal } from '@preact/signals';
 import type { Program } from './api';
 import { get, post, remove, upload } from './api';
 import { isLive, status } from './connection';
+import type { PathIndex } from './path_index';
 import { consoleName, isUnderWay } from './words';
 
 export const programs = signal<Program[]>([]);
 export const chosen = signal<number | null>(null);
+// What is open stays open over a reload of the tab. The daemon begins to count anew when it starts: so the name counts, too.
+const openPlace = 'passo.open-program';
+export function rememberOpenProgram(): void {
+  try {
+    const before: unknown = JSON.parse(sessionStorage.getItem(openPlace) ?? 'null');
+    if (isOpen(before)) opened = before;
+    effect(() => {
+      const now = programs.value.find((one) => one.id === chosen.value);
+      if (now !== undefined) sessionStorage.setItem(openPlace, JSON.stringify({ id: now.id, name: now.name }));
+    });
+  } catch {
+    // Then a reload opens the newest one.
+  }
+}
+interface Open {
+  id: number;
+  name: string;
+}
+const isOpen = (value: unknown): value is Open => typeof value === 'object' && value !== null && 'id' in value && 'name' in value;
+let opened: Open | null = null;
+
+// Once the programs are known.
+export function reopen(all: readonly Program[], before: Open | null): void {
+  if (before !== null && chosen.value === null) chosen.value = all.find((one) => one.id === before.id && one.name === before.name)?.id ?? null;
+}
 export const sending = signal<string | null>(null);
 // Lines that the console runs are programs too, and so is the set-up mode of the outputs; nobody wants to see them in a
 // list.
@@ -51,7 +77,10 @@ export async function refreshPrograms(): Promise<void> {
   }
   refreshing = true;
   try {
-    programs.value = (await get<{ programs: Program[] }>('/programs')).programs;
+    const all = (await get<{ programs: Program[] }>('/programs')).programs;
+    reopen(all, opened);
+    opened = null;
+    programs.value = all;
     const id = shownId.value;
     shown.value = id === null ? null : await get<Program>(`/programs/${id}`);
   } catch {
@@ -80,6 +109,22 @@ export async function sendProgram(file: File): Promise<void> {
 export async function checkProgram(id: number): Promise<void> {
   await post(`/programs/${id}/check`);
   await refreshPrograms();
+}
+
+// Checked from where the machine stands now: where the tool has been moved since, a program of relative moves goes elsewhere.
+// Null: the program is not good, or somebody has had another one checked meanwhile.
+export async function checkedFromHere(id: number): Promise<PathIndex | null> {
+  await post(`/programs/${id}/check`);
+  await refreshPrograms();
+  for (;;) {
+    const index = await get<PathIndex>(`/programs/${id}/path`);
+    if (index.complete || !index.growing) {
+      await refreshPrograms();
+      const isGood = programs.value.find((one) => one.id === id)?.state === 'good';
+      return index.complete && isGood ? index : null;
+    }
+    await new Promise((resolve) => setTimeout(resolve, whileChecking));
+  }
 }
 
 // Lines that begin with /.

@@ -2,6 +2,7 @@
 import { say } from '../core/language';
 import { toldOr } from '../core/told';
 import type { Job, Status } from './api';
+import { isAtWait, waitsOf } from './waits';
 
 // What the console runs.
 export const consoleName = 'console.ngc';
@@ -35,11 +36,16 @@ export interface Facts {
   status: Status;
   program: 'none' | 'bad' | 'open';
   canHome: boolean;
+  broken: string; // what to do with a job that was broken off; empty: there is none
 }
 
-function nextOf({ status, program, canHome }: Facts): string {
+const toolOf = (status: Status): number | null => waitsOf(status)?.tool ?? status.waits_for_tool;
+
+function nextOf({ status, program, canHome, broken }: Facts): string {
   const { state } = status;
+  if (isAtWait(status)) return toolOf(status) === null ? say('state.Tool.next') : say('state.Tool.tool', { tool: toolOf(status) ?? 0 });
   if (state === 'Idle') {
+    if (broken !== '') return broken;
     // The console itself has told why a line was refused.
     if (status.job?.state === 'failed' && status.job.name !== consoleName) return say('state.Idle.job.failed', { why: toldOr(status.job.why) });
     if (status.lost_place) return say('state.Idle.unknown');
@@ -48,23 +54,15 @@ function nextOf({ status, program, canHome }: Facts): string {
   }
   if (state === 'Run') return say('state.Run.next', { line: status.line });
   if (state === 'Line' && status.mdi.streams) return say('state.Line.console');
-  if (state === 'Hold' && waitsForPerson(status)) return say('state.Tool.next');
   if (state === 'Hold' && status.rests && status.holds.includes('line-end')) return say('state.Hold.line');
-  if (state === 'Tool') {
-    return status.waits_for_tool === null ? say('state.Tool.next') : say('state.Tool.tool', { tool: status.waits_for_tool });
-  }
   const next = say(`state.${state}.next`);
   const trouble = toldOr(status.trouble);
   return trouble === '' || (state !== 'Alarm' && state !== 'Fault') ? next : `${trouble}. ${next}`;
 }
 
-// At M0 and M1, where nobody holds the program besides.
-export const waitsForPerson = ({ holds }: Status): boolean =>
-  holds.includes('program') && !['operator', 'door', 'line-end'].some((reason) => holds.includes(reason));
-
 export function stateWords(facts: Facts): StateWords {
   const { state, rests } = facts.status;
-  if (state === 'Hold' && waitsForPerson(facts.status)) return { title: say('state.Tool'), next: nextOf(facts), tone: tones.Tool };
+  if (isAtWait(facts.status)) return { title: say('state.Tool'), next: nextOf(facts), tone: tones.Tool };
   const title = state === 'Hold' && !rests ? say('state.Hold.braking') : say(`state.${state}`);
   return { title, next: nextOf(facts), tone: tones[state] };
 }

@@ -96,7 +96,10 @@ export function ConsolePage() {
             <div class={`log-line ${line.kind === 'state' ? '' : line.kind}`} key={line.id}>
               <time>{line.at.toLocaleTimeString(language.value)}</time>
               <Icon name={icons[line.kind]} />
-              <span>{line.words}</span>
+              <span>
+                {line.words}
+                {line.hint !== '' && <span class="dim log-hint">{say('files.expected', { expected: line.hint })}</span>}
+              </span>
             </div>
           ))}
           <div ref={end} />

@@ -1,13 +1,13 @@
 // Files and jobs: programs with what their check has found, the queue, the history.
 import { useEffect } from 'preact/hooks';
-import { language, say } from '../core/language';
+import { language, say, sayCount } from '../core/language';
 import { attempt } from '../core/notices';
 import { confirm } from '../core/question';
 import { toldOr } from '../core/told';
 import { goTo } from '../core/route';
-import { durationText, momentText } from '../core/time';
+import { clockText, durationText, momentText } from '../core/time';
 import { lengthText, lengthUnit } from '../core/units';
-import { whyNot } from '../machine/actions';
+import { whyNoJob, whyNot } from '../machine/actions';
 import type { HistoryJob, Program } from '../machine/api';
 import { ask, post, remove, upload } from '../machine/api';
 import { isLive, status } from '../machine/connection';
@@ -15,6 +15,7 @@ import { alarms, ended, keeps, queue, refreshHistory } from '../machine/history'
 import { beOwner } from '../machine/owner';
 import { pathBox, pathIndex } from '../machine/path_index';
 import { checkProgram, chosen, deleteProgram, isListed, leaveOut, programs, sending, sendProgram, shown, shownId, timeOf } from '../machine/programs';
+import { wordsOfWait } from '../machine/waits';
 import { isUnderWay } from '../machine/words';
 import { Button } from '../parts/button';
 import { DropZone } from '../parts/drop_zone';
@@ -78,8 +79,8 @@ function ShownProgram() {
         <div>
           <dt>{say('run.program')}</dt>
           <dd>
-            {say('files.lines', { lines: program.lines.toLocaleString(language.value) })},{' '}
-            {say('files.moves', { moves: program.moves.toLocaleString(language.value) })}
+            {sayCount('files.lines', program.lines)},{' '}
+            {sayCount('files.moves', program.moves)}
           </dd>
         </div>
         {work !== null && (
@@ -146,8 +147,7 @@ function Findings({ program }: { program: Program }) {
                 {one.expected !== '' && <span class="dim">{say('files.expected', { expected: toldOr(one.expected) })}</span>}{' '}
                 {one.more_lines.length > 0 && (
                   <span class="dim">
-                    {say('files.more.lines', {
-                      count: one.more_lines.length,
+                    {sayCount('files.more.lines', one.more_lines.length, {
                       lines: one.more_lines.slice(0, linesShown).join(', ') + (one.more_lines.length > linesShown ? ', …' : ''),
                     })}
                   </span>
@@ -207,9 +207,15 @@ function JobList({ jobs, none, queued }: { jobs: readonly HistoryJob[]; none: st
             {job.why === '' ? '' : `: ${toldOr(job.why)}`}
           </span>
           <span class="dim">{momentText(queued ? job.queued_at : job.ended_at, language.value)}</span>
+          {(job.waits ?? []).map((one, i) => (
+            <span class="dim job-wait" key={i}>
+              {clockText(new Date(one.at * 1000), language.value)} {wordsOfWait(one)}
+              {one.message === '' ? '' : `: ${one.message.replaceAll('\n', ' · ')}`}
+            </span>
+          ))}
           {queued && (
             <span class="row">
-              <Button icon="run" why={whyNot('Idle')} onClick={() => runQueued(job)}>
+              <Button icon="run" why={whyNoJob.value} onClick={() => runQueued(job)}>
                 {say('files.run')}
               </Button>
               <Button

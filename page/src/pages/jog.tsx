@@ -3,7 +3,7 @@ import type { ComponentChildren } from 'preact';
 import { say } from '../core/language';
 import { notify } from '../core/notices';
 import { fromMm, lengthText, lengthUnit, speedText, speedUnit, units } from '../core/units';
-import { whyNot } from '../machine/actions';
+import { whyNoJob, whyNoSetUp } from '../machine/actions';
 import { machine, status } from '../machine/connection';
 import { gamepad } from '../machine/gamepad';
 import { fieldHasKeys, jogShare, jogSpeed, jogStep, movesNow, pressByPointer, windowHasFocus, type Direction } from '../machine/jog';
@@ -28,7 +28,7 @@ const keyOf = (direction: Direction): string =>
 // Moves while a finger or a mouse button holds it.
 function PadButton({ direction, turn, children }: { direction: Direction; turn?: number; children?: ComponentChildren }) {
   const name = nameOf(direction);
-  const why = whyNot('Idle', 'Jog');
+  const why = whyNoSetUp('Jog');
   const begin = (event: PointerEvent): void => {
     if (why !== '') notify('refused', why);
     pressByPointer(event, direction);
@@ -132,7 +132,7 @@ function JogPanel() {
 }
 
 function SetUpPanel() {
-  const why = whyNot('Idle');
+  const why = whyNoSetUp();
   const canHome = machine.value?.axes.some((one) => one.homes) ?? false;
   const hasXy = ['x', 'y'].every((axis) => axes.value.includes(axis));
   const xyz = axes.value.filter((axis) => 'xyz'.includes(axis));
@@ -149,7 +149,7 @@ function SetUpPanel() {
           {say('jog.zero.all')}
         </Button>
         {hasXy && (
-          <Button icon="zero" why={why} onClick={goToZero}>
+          <Button icon="zero" why={why === '' ? whyNoJob.value : why} onClick={goToZero}>
             {say('jog.goto')}
           </Button>
         )}

@@ -5,7 +5,7 @@ import { language, say } from '../core/language';
 import { letterScale } from '../core/letters';
 import { confirm } from '../core/question';
 import { theme, themeColour } from '../core/theme';
-import { moveAs, whyNot } from '../machine/actions';
+import { moveAs, whyNoJob, whyNot } from '../machine/actions';
 import { machine, status } from '../machine/connection';
 import { changedAt, isOn, levelOf, pins, samples, shownFor, type Pin, type Sample } from '../machine/pins';
 import { endSetUp, isSetUp, setUp, type Turn } from '../machine/set_up_mode';
@@ -156,7 +156,7 @@ function Outputs() {
             </Button>
           </>
         ) : (
-          <Button kind="accent" icon="pins" why={whyNot('Idle')} onClick={begin}>
+          <Button kind="accent" icon="pins" why={whyNoJob.value} onClick={begin}>
             {say('outputs.begin')} …
           </Button>
         )}

@@ -1,24 +1,24 @@
 // Start or go on, hold, stop: always at the same places, on each page.
 import { say } from '../core/language';
-import { done, hold, reset, resume, start, stop, wake, whyNoHold, whyNoResume, whyNoStart, whyNoStop, whyNot } from '../machine/actions';
+import { done, hold, reset, resume, start, stop, wake, whyNoDone, whyNoHold, whyNoResume, whyNoStart, whyNoStop, whyNot } from '../machine/actions';
 import { isLive, status } from '../machine/connection';
 import { axes, workPlace } from '../machine/place';
-import { waitsForPerson } from '../machine/words';
+import { isAtWait, waits } from '../machine/waits';
 import { path } from '../core/route';
 import { placeText } from '../core/units';
 import { Button } from './button';
 
 function GoButton() {
   const now = status.value;
-  if (now?.state === 'Hold' && waitsForPerson(now)) {
-    return <Button class="act" kind="go" icon="done" why={whyNot('Hold')} onClick={done} children={say('do.done')} />;
+  // Also while the machine is jogged or probed meanwhile.
+  const goesOn = waits.value.now !== null && now !== null && !['Hold', 'Door', 'Alarm', 'Fault', 'Sleep'].includes(now.state);
+  if (now !== null && (goesOn || isAtWait(now))) {
+    return <Button class="act" kind="go" icon="done" why={whyNoDone.value} onClick={done} children={say('do.done')} />;
   }
   switch (now?.state) {
     case 'Hold':
     case 'Door':
       return <Button class="act" kind="go" icon="resume" why={whyNoResume.value} onClick={resume} children={say('do.resume')} />;
-    case 'Tool':
-      return <Button class="act" kind="go" icon="done" why={whyNot('Tool')} onClick={done} children={say('do.done')} />;
     case 'Alarm':
     case 'Fault':
       return <Button class="act" kind="go" icon="reset" why={whyNot('Alarm', 'Fault')} onClick={reset} children={say('do.reset')} />;

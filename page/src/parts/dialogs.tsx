@@ -37,11 +37,25 @@ export function QuestionDialog() {
       {question.facts[0] !== undefined && <p>{question.facts[0]}</p>}
       {question.rows !== undefined && question.rows.length > 0 && (
         <table class="facts">
+          {question.columns !== undefined && (
+            <thead>
+              <tr>
+                <td />
+                {question.columns.map((name) => (
+                  <th scope="col" key={name}>
+                    {name}
+                  </th>
+                ))}
+              </tr>
+            </thead>
+          )}
           <tbody>
-            {question.rows.map(([name, value]) => (
+            {question.rows.map(([name, ...values]) => (
               <tr key={name}>
                 <th scope="row">{name}</th>
-                <td>{value}</td>
+                {values.map((value, i) => (
+                  <td key={i}>{value}</td>
+                ))}
               </tr>
             ))}
           </tbody>

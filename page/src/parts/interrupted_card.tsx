@@ -4,9 +4,10 @@ import { path, goTo } from '../core/route';
 import { toldOr } from '../core/told';
 import { momentText } from '../core/time';
 import { whyNot } from '../machine/actions';
+import { advice, adviceWords } from '../machine/advice';
 import { status } from '../machine/connection';
 import { interrupted } from '../machine/interrupted';
-import { placeWords } from '../machine/place';
+import { machinePlace, placeWords } from '../machine/place';
 import { home } from '../machine/set_up';
 import { dropInterrupted, reenterInterrupted, resumeInterrupted } from '../machine/way_back';
 import { Button } from './button';
@@ -29,7 +30,7 @@ export function InterruptedCard() {
   if (broken === null) return null;
   const { reentry } = broken;
   const why = whyNot('Idle');
-  const needsHome = !broken.goes_on && status.value?.trust !== 'homed';
+  const next = advice.value;
   const place = broken.place ?? reentry.place;
   return (
     <section class="panel broken" aria-label={say('broken.title')}>
@@ -40,8 +41,14 @@ export function InterruptedCard() {
         <tbody>
           <Fact name={say('broken.begun')} words={momentText(broken.job.begun_at, language.value)} />
           <Fact name={say('broken.noted')} words={momentText(broken.noted_at, language.value)} />
-          <Fact name={say('broken.where')} words={say('run.line', { line: broken.line ?? reentry.line ?? '?' })} />
-          {place !== null && <Fact name={say('run.machine')} words={placeWords(place)} />}
+          <Fact
+            name={say('broken.where')}
+            words={`${say('run.line', { line: broken.line ?? reentry.line ?? '?' })}${place === null ? '' : `, ${placeWords(place)} (${say('run.machine')})`}`}
+          />
+          <Fact
+            name={say('broken.stands')}
+            words={status.value === null || status.value.trust === 'unknown' ? say('run.trust.unknown') : `${placeWords(machinePlace.value)} (${say('run.machine')})`}
+          />
           {broken.job.why !== '' && <Fact name={say('broken.why')} words={toldOr(broken.job.why)} />}
           <Fact name={say('broken.goes')} words={broken.goes_on ? say('broken.goes.exactly') : `${toldOr(broken.why)}.`} code={broken.code} />
           {!broken.goes_on && reentry.code !== '' && <Fact name={say('broken.back')} words={`${toldOr(reentry.why)}.`} code={reentry.code} />}
@@ -59,24 +66,26 @@ export function InterruptedCard() {
             {say('broken.resume')}
           </Button>
         )}
-        {needsHome && (
+        {next === 'home' && (
           <Button kind="accent" icon="home" why={why} onClick={home}>
             {say('jog.home')}
           </Button>
         )}
         <Button
-          kind={broken.goes_on || needsHome ? 'plain' : 'go'}
+          kind={next === 'reenter' ? 'go' : 'plain'}
           icon="resume"
           why={why !== '' ? why : toldOr(reentry.why)}
           onClick={() => reenterInterrupted(broken)}
         >
           {say('broken.reenter')}
         </Button>
-        <Button icon="trash" why={why} onClick={() => dropInterrupted(broken)}>
+        <Button kind={next === 'drop' ? 'accent' : 'plain'} icon="trash" why={why} onClick={() => dropInterrupted(broken)}>
           {say('broken.drop')}
         </Button>
       </div>
-      <p class="dim">{say('broken.nothing')}</p>
+      <p>
+        <b>{adviceWords.value}</b> <span class="dim">{say('broken.nothing')}</span>
+      </p>
     </section>
   );
 }

@@ -1,6 +1,6 @@
 // The program, how far it is, and when it ends.
 import { computed } from '@preact/signals';
-import { language, say } from '../core/language';
+import { language, say, sayCount } from '../core/language';
 import { clockText, durationText } from '../core/time';
 import { goTo } from '../core/route';
 import { status } from '../machine/connection';
@@ -70,7 +70,7 @@ export function JobProgress() {
       </div>
       <p class="dim job-line">
         {now === null
-          ? say('files.lines', { lines: program.lines.toLocaleString(language.value) })
+          ? sayCount('files.lines', program.lines)
           : say('run.of.lines', { line: now.line, lines: program.lines.toLocaleString(language.value) })}
       </p>
     </section>

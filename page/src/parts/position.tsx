@@ -24,7 +24,7 @@ export function Position() {
         )}
         <span class="unit">{say('run.machine')}</span>
       </div>
-      <div class="axes">
+      <div class={`axes ${trust === 'unknown' ? 'unsure' : ''}`} title={trust === 'unknown' ? say('run.trust.unknown') : undefined}>
         {axes.value.map((axis) => (
           <div class="axis" key={axis} data-axis={axis}>
             <span class="axis-name">{axis.toUpperCase()}</span>

@@ -2,7 +2,7 @@
 import { useEffect, useRef } from 'preact/hooks';
 import { say } from '../core/language';
 import { fromMm, lengthText, lengthUnit, speedUnit, toMm, units } from '../core/units';
-import { whyNot } from '../machine/actions';
+import { whyNoSetUp, whyNot } from '../machine/actions';
 import { isLive, status } from '../machine/connection';
 import {
   fieldsOf, figure, heightMap, kind, kinds, level, lookForMap, probe, setValue, side, sideOf, stepsOf, valueOf, valuesOf, waysOf,
@@ -141,7 +141,7 @@ export function Probing() {
               ))}
             </div>
           </details>
-          <Button kind="accent" icon="probe" why={whyNot('Idle')} onClick={() => probe(of, programForMap.value)}>
+          <Button kind="accent" icon="probe" why={whyNoSetUp()} onClick={() => probe(of, programForMap.value)}>
             {say('probe.begin')} …
           </Button>
         </div>

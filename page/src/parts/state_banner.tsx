@@ -3,8 +3,10 @@ import { computed } from '@preact/signals';
 import { say } from '../core/language';
 import { attempt } from '../core/notices';
 import { confirm } from '../core/question';
+import { adviceWords } from '../machine/advice';
 import { connection, machine, status } from '../machine/connection';
 import { ownership, takeOwnership } from '../machine/owner';
+import { nameInWords } from '../machine/page_name';
 import { shown } from '../machine/programs';
 import { stateWords, type Tone } from '../machine/words';
 import { Button } from './button';
@@ -16,7 +18,7 @@ const words = computed(() => {
   const now = status.value;
   if (now === null) return null;
   const canHome = machine.value?.axes.some((one) => one.homes) ?? false;
-  return stateWords({ status: now, program: shown.value === null ? 'none' : shown.value.state === 'bad' ? 'bad' : 'open', canHome });
+  return stateWords({ status: now, program: shown.value === null ? 'none' : shown.value.state === 'bad' ? 'bad' : 'open', canHome, broken: adviceWords.value });
 });
 
 export function StateBanner() {
@@ -47,7 +49,7 @@ export function StateBanner() {
 
 const nameOfOwner = (): string => {
   const owner = status.value?.owner;
-  return owner?.kind === 'sender' ? say('owner.sender') : (owner?.name ?? '');
+  return owner?.kind === 'sender' ? say('owner.sender') : nameInWords(owner?.name ?? '');
 };
 
 async function takeOver(): Promise<void> {

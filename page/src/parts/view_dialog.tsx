@@ -3,11 +3,14 @@ import { signal } from '@preact/signals';
 import { language, languages, say, type Key, type Language } from '../core/language';
 import { themeChoice } from '../core/theme';
 import { units } from '../core/units';
-import { giveUpOwnership, ownership } from '../machine/owner';
+import { status } from '../machine/connection';
+import { giveUpOwnership, ownership, takeOwnership } from '../machine/owner';
+import { givenName, longestName, ownDevice } from '../machine/page_name';
 import { attempt } from '../core/notices';
 import { pages } from '../pages/pages';
 import { Button } from './button';
 import { Dialog } from './dialogs';
+import { Typed } from './typed';
 
 export const openDialog = signal<'view' | 'shortcuts' | null>(null);
 const close = (): void => void (openDialog.value = null);
@@ -34,6 +37,11 @@ export function Choice<T extends string>({ title, value, all, set }: ChoiceProps
   );
 }
 
+async function rename(to: string): Promise<void> {
+  givenName.value = to.trim().slice(0, longestName);
+  if (ownership.value === 'mine' && status.value?.state === 'Idle') await attempt(takeOwnership);
+}
+
 function ViewDialog() {
   return (
     <Dialog title={say('frame.settings')} onClose={close}>
@@ -55,6 +63,11 @@ function ViewDialog() {
         all={Object.entries(languages) as [Language, string][]}
         set={(to) => (language.value = to)}
       />
+      <label class="make-field">
+        <span>{say('view.name')}</span>
+        <Typed value={givenName.value} placeholder={ownDevice()} take={rename} />
+        <span class="dim">{say('view.name.what')}</span>
+      </label>
       {ownership.value === 'mine' && (
         <p class="row">
           {say('owner.mine')} <Button onClick={() => attempt(giveUpOwnership)}>{say('owner.give')}</Button>

@@ -1,6 +1,6 @@
 // The tools that cut the stock, one for each that the program puts in: from a file of tools, or as somebody says.
 import { useRef, useState } from 'preact/hooks';
-import { say } from '../core/language';
+import { say, sayCount } from '../core/language';
 import { fromMm, lengthUnit, toMm } from '../core/units';
 import type { UsedTool } from '../machine/path_index';
 import type { StockTool, ToolKind } from './stock_cutter';
@@ -67,7 +67,7 @@ export function StockTools() {
     const tools = readToolFile(await file.text());
     toolShapes.value = { ...toolShapes.value, ...tools };
     const count = Object.keys(tools).length;
-    setSaid(count === 0 ? say('stock.file.none', { name: file.name }) : say('stock.file.read', { name: file.name, count }));
+    setSaid(count === 0 ? say('stock.file.none', { name: file.name }) : sayCount('stock.file.read', count, { name: file.name }));
   };
   return (
     <div class="scene-stock" role="group" aria-label={say('stock.tools')}>

@@ -1,5 +1,21 @@
 // English: probing, torque, tuning, the stock, and the later jobs of Make.
 export const en = {
+  // A job that was broken off, and the name of the page
+  'broken.stands': 'Machine stands at',
+  'broken.next.resume': '{name} was broken off. Press Resume here on Run, or drop the job.',
+  'broken.next.home': '{name} was broken off. Home the machine; then the job can go on.',
+  'broken.next.place': '{name} was broken off. Jog the machine to a known place and confirm it on Set up; then the job can go on.',
+  'broken.next.reenter': '{name} was broken off. Press Back by a safe way on Run, or drop the job.',
+  'broken.next.drop': '{name} was broken off and cannot go on. Drop the job.',
+  'owner.device': '{browser} on {device}',
+  'view.name': 'Name of this page',
+  'view.name.what': 'Others read it while this page has the motion.',
+  // Where a program waits for a person
+  'wait.line': 'line {line}',
+  'wait.tool': 'tool {tool}',
+  'wait.free': 'Meanwhile you can jog, probe, set zeros and home, on Set up.',
+  'wait.outputs': 'The spindle or the coolant is on, so nothing can be jogged here.',
+  'why.waits': 'A program waits: go on with Done, or end it with Stop first',
   // Make: a whole board, foam, and what few need
   'make.board': 'A whole circuit board',
   'make.board.margin': 'Lower left corner at X and Y',
@@ -236,6 +252,7 @@ export const en = {
   'stock.tool.number': 'Tool {number}',
   'stock.file': 'Tool file …',
   'stock.file.read': '{name}: {count} tools.',
+  'stock.file.read.one': '{name}: {count} tool.',
   'stock.file.none': '{name} describes no tool: it needs tables [tool.1] with shape and diameter_mm.',
   // Limits for the motors
   'tune.title': 'Limits for the motors',

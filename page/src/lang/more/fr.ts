@@ -1,6 +1,22 @@
 import type { MoreWords } from './words';
 
 export const fr: MoreWords = {
+  // A job that was broken off, and the name of the page
+  'broken.stands': 'La machine est à',
+  'broken.next.resume': '{name} a été interrompu. Appuyer sur « Reprendre ici » dans Usinage, ou abandonner le travail.',
+  'broken.next.home': '{name} a été interrompu. Faire la prise d’origine ; le travail peut ensuite continuer.',
+  'broken.next.place': '{name} a été interrompu. Amener la machine à un endroit connu et le confirmer dans Réglage ; le travail peut ensuite continuer.',
+  'broken.next.reenter': '{name} a été interrompu. Appuyer sur « Retour par un chemin sûr » dans Usinage, ou abandonner le travail.',
+  'broken.next.drop': '{name} a été interrompu et ne peut pas continuer. Abandonner le travail.',
+  'owner.device': '{browser} sur {device}',
+  'view.name': 'Nom de cette page',
+  'view.name.what': 'Les autres le lisent tant que cette page commande les mouvements.',
+  // Where a program waits for a person
+  'wait.line': 'ligne {line}',
+  'wait.tool': 'outil {tool}',
+  'wait.free': 'Entre-temps, le déplacement manuel, le palpage, les zéros et la prise d’origine sont possibles dans Réglage.',
+  'wait.outputs': 'La broche ou l’arrosage est en marche : aucun déplacement manuel n’est possible ici.',
+  'why.waits': 'Un programme attend : continuer par Fait, ou le terminer d’abord par Arrêter',
   'make.board': 'Un circuit imprimé entier',
   'make.board.margin': 'Coin inférieur gauche à X et Y',
   'make.board.pins': 'Goupilles depuis le bord ; 0 : aucune',
@@ -233,6 +249,7 @@ export const fr: MoreWords = {
   'stock.tool.number': 'Outil {number}',
   'stock.file': 'Fichier d’outils …',
   'stock.file.read': '{name} : {count} outils.',
+  'stock.file.read.one': '{name} : {count} outil.',
   'stock.file.none': '{name} ne décrit aucun outil : il faut des tables [tool.1] avec shape et diameter_mm.',
   'tune.title': 'Limites pour les moteurs',
   'tune.what': 'D’après les moteurs : les vitesses, accélérations et à-coups possibles, avec le couple selon la vitesse. Rien ne change sans votre accord.',

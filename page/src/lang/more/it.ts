@@ -1,6 +1,22 @@
 import type { MoreWords } from './words';
 
 export const it: MoreWords = {
+  // A job that was broken off, and the name of the page
+  'broken.stands': 'La macchina è a',
+  'broken.next.resume': '{name} è stato interrotto. Premere «Riprendi qui» in Lavoro, o scartare il lavoro.',
+  'broken.next.home': '{name} è stato interrotto. Azzerare la macchina; poi il lavoro può continuare.',
+  'broken.next.place': '{name} è stato interrotto. Portare la macchina in un punto noto e confermarlo in Preparazione; poi il lavoro può continuare.',
+  'broken.next.reenter': '{name} è stato interrotto. Premere «Ritorno per via sicura» in Lavoro, o scartare il lavoro.',
+  'broken.next.drop': '{name} è stato interrotto e non può continuare. Scartare il lavoro.',
+  'owner.device': '{browser} su {device}',
+  'view.name': 'Nome di questa pagina',
+  'view.name.what': 'Gli altri lo leggono finché questa pagina ha i comandi.',
+  // Where a program waits for a person
+  'wait.line': 'riga {line}',
+  'wait.tool': 'utensile {tool}',
+  'wait.free': 'Intanto si può muovere a mano, tastare, mettere gli zeri e azzerare la macchina, in Preparazione.',
+  'wait.outputs': 'Il mandrino o il refrigerante è acceso: qui non si può muovere a mano.',
+  'why.waits': 'Un programma aspetta: continuare con Fatto, o terminarlo prima con Ferma',
   'make.board': 'Una scheda intera',
   'make.board.margin': 'Angolo in basso a sinistra a X e Y',
   'make.board.pins': 'Spine dal bordo; 0: nessuna',
@@ -233,6 +249,7 @@ export const it: MoreWords = {
   'stock.tool.number': 'Utensile {number}',
   'stock.file': 'File utensili …',
   'stock.file.read': '{name}: {count} utensili.',
+  'stock.file.read.one': '{name}: {count} utensile.',
   'stock.file.none': '{name} non descrive utensili: servono tabelle [tool.1] con shape e diameter_mm.',
   'tune.title': 'Limiti per i motori',
   'tune.what': 'Dai dati dei motori: velocità, accelerazioni e strappi che possono fare, con la coppia sulla velocità. Nulla cambia prima del tuo consenso.',

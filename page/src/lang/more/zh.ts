@@ -1,6 +1,22 @@
 import type { MoreWords } from './words';
 
 export const zh: MoreWords = {
+  // A job that was broken off, and the name of the page
+  'broken.stands': '机床当前位置',
+  'broken.next.resume': '{name} 已中断。请在“加工”页按“从这里恢复”，或放弃该作业。',
+  'broken.next.home': '{name} 已中断。请先回原点，然后作业可以继续。',
+  'broken.next.place': '{name} 已中断。请将机床点动到已知位置并在“对刀”页确认，然后作业可以继续。',
+  'broken.next.reenter': '{name} 已中断。请在“加工”页按“经安全路线返回”，或放弃该作业。',
+  'broken.next.drop': '{name} 已中断且无法继续。请放弃该作业。',
+  'owner.device': '{device} 上的 {browser}',
+  'view.name': '本页名称',
+  'view.name.what': '本页掌握运动权时，其他人会看到它。',
+  // Where a program waits for a person
+  'wait.line': '第 {line} 行',
+  'wait.tool': '{tool} 号刀具',
+  'wait.free': '此时可在“对刀”页点动、探测、设零点和回原点。',
+  'wait.outputs': '主轴或冷却仍开着，此处不能点动。',
+  'why.waits': '有程序在等待:请按“完成”继续，或先按“停止”结束它',
   'make.board': '整块电路板',
   'make.board.margin': '左下角的 X 和 Y',
   'make.board.pins': '销钉离板边；0：没有',
@@ -233,6 +249,7 @@ export const zh: MoreWords = {
   'stock.tool.number': '刀具 {number}',
   'stock.file': '刀具文件 …',
   'stock.file.read': '{name}：{count} 把刀具。',
+  'stock.file.read.one': '{name}：{count} 把刀具。',
   'stock.file.none': '{name} 中没有刀具：需要带 shape 和 diameter_mm 的 [tool.1] 表。',
   'tune.title': '电机的极限',
   'tune.what': '根据电机数据得出可用的速度、加速度和加加速度，并给出扭矩随速度的曲线。未经同意不会更改任何内容。',

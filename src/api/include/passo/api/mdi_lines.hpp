@@ -34,6 +34,7 @@ class MdiLines {
   struct Answer {
     std::string code;  // empty: the line was taken
     std::string message;
+    std::string expected;            // what would have been right; may be empty
     std::vector<std::string> words;  // what a line with $ asks for
   };
   Answer take(std::string_view line);

@@ -11,9 +11,11 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
+#include "passo/geometry/curve.hpp"
 #include "passo/interpreter/frame.hpp"
 #include "passo/path/segment.hpp"
 
@@ -66,6 +68,12 @@ class ProgramPath {
   // The tools that are used, by their first motion. Beyond most_tools, the last one stands for all others.
   const std::vector<UsedTool>& tools() const { return tools_; }
   const Range& work() const { return work_; }  // feeds alone, along the axes of the work that were in force
+  // Of all motions, rapids too, on each axis. Empty: nothing moves.
+  struct Reach {
+    Box machine;
+    Box work;  // along the axes of the work that were in force
+  };
+  const std::optional<Reach>& reach() const { return reach_; }
   std::size_t bytes() const { return points_ * (sizeof(Packed) + sizeof(std::uint32_t)); }
 
   // A chunk as docs/api/openapi.json describes it, little-endian. `chunk` < chunks(), `level` < levels.
@@ -92,6 +100,7 @@ class ProgramPath {
 
   void add_point(const Coordinates& place, std::uint32_t line, std::uint16_t flags);
   void close_chunk();
+  void add_reach(const Box& machine, const Box& work);
   std::uint16_t tool_flags(double zero_z, bool feeds);
 
   std::vector<Chunk> chunks_;
@@ -102,6 +111,7 @@ class ProgramPath {
   Range all_;
   Range cuts_;
   Range work_;
+  std::optional<Reach> reach_;
   Speeds speeds_;
   bool complete_ = false;
   bool cut_off_ = false;

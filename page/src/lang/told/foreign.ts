@@ -1,0 +1,35 @@
+// What the check says of what other controls and other programs write.
+import { saying, type Saying } from './saying';
+
+export const foreign: readonly Saying[] = [
+  // What other controls write
+  saying('{name} is a word of Fanuc’s macros', '{name} est un mot des macros de Fanuc', '{name} è una parola delle macro di Fanuc', '{name} 是 Fanuc 宏程序的语句'),
+  saying('o1 while [...] on one line, and o1 endwhile where END stands', 'o1 while [...] sur une ligne, et o1 endwhile à la place de END', 'o1 while [...] su una riga, e o1 endwhile al posto di END', '写成一行 o1 while [...]，并在 END 处写 o1 endwhile'),
+  saying('o1 if [...] and o1 endif around what is passed over; there are no jumps', 'o1 if [...] et o1 endif autour de ce qui est sauté ; il n’y a pas de sauts', 'o1 if [...] e o1 endif intorno a ciò che si salta; non ci sono salti', '在要跳过的部分前后写 o1 if [...] 和 o1 endif；没有跳转语句'),
+  saying('o1 if [...], the assignment on the next line, and o1 endif', 'o1 if [...], l’affectation à la ligne suivante, et o1 endif', 'o1 if [...], l’assegnazione nella riga dopo, e o1 endif', 'o1 if [...]，下一行写赋值，然后 o1 endif'),
+  saying('o1 endwhile, with the label of its o1 while', 'o1 endwhile, avec l’étiquette de son o1 while', 'o1 endwhile, con l’etichetta del suo o1 while', 'o1 endwhile，标号与其 o1 while 相同'),
+  saying('o1 if [...] on one line, and o1 endif after the last line that it guards', 'o1 if [...] sur une ligne, et o1 endif après la dernière ligne concernée', 'o1 if [...] su una riga, e o1 endif dopo l’ultima riga interessata', '写成一行 o1 if [...]，并在其最后一行之后写 o1 endif'),
+  saying('O for ’:’, as in O0491; on some controls ’:’ begins the number of a program', 'O au lieu de ’:’, comme O0491 ; sur certaines commandes ’:’ commence le numéro d’un programme', 'O al posto di ’:’, come O0491; su alcuni controlli ’:’ comincia il numero di un programma', '用 O 代替 ’:’，如 O0491；在某些数控系统上 ’:’ 是程序号的开头'),
+  saying('{code} takes the axis words of the block; G0 only stays in force', '{code} prend les axes du bloc ; G0 reste seulement actif', '{code} prende gli assi del blocco; G0 resta soltanto attivo', '{code} 使用本段的轴字；G0 仅保持有效'),
+  saying('{code} in a block without G0', '{code} dans un bloc sans G0', '{code} in un blocco senza G0', '{code} 写在没有 G0 的程序段'),
+  saying('G10 L2 with R, which turns a work system', 'G10 L2 avec R, qui tourne un système de coordonnées pièce', 'G10 L2 con R, che ruota un sistema di coordinate pezzo', 'G10 L2 加 R，用于旋转工件坐标系'),
+  saying('G10 L2 with R0, which ends the turning of a work system', 'G10 L2 avec R0, qui annule la rotation d’un système de coordonnées pièce', 'G10 L2 con R0, che annulla la rotazione di un sistema di coordinate pezzo', 'G10 L2 加 R0，用于取消工件坐标系的旋转'),
+  saying('G2 or G3 with I and J, a full circle', 'G2 ou G3 avec I et J, un cercle complet', 'G2 o G3 con I e J, un cerchio completo', '用 G2 或 G3 加 I、J 写整圆'),
+  saying('X and Y, or @ and ^ for polar coordinates', 'X et Y, ou @ et ^ pour des coordonnées polaires', 'X e Y, oppure @ e ^ per coordinate polari', 'X 和 Y，或用 @ 和 ^ 写极坐标'),
+  saying('@ and ^ for polar coordinates', '@ et ^ pour des coordonnées polaires', '@ e ^ per coordinate polari', '用 @ 和 ^ 写极坐标'),
+  saying('G38.2 to G38.5, which probe', 'G38.2 à G38.5, qui palpent', 'da G38.2 a G38.5, che tastano', 'G38.2 至 G38.5，用于探测'),
+  saying('G38.2 and G10 L10, which measure a tool', 'G38.2 et G10 L10, qui mesurent un outil', 'G38.2 e G10 L10, che misurano un utensile', 'G38.2 和 G10 L10，用于测量刀具'),
+  saying('G43 with the offset’s other sign', 'G43 avec l’autre signe de la correction', 'G43 con il segno opposto della correzione', 'G43 并改变补偿值的符号'),
+  saying('M3 and M8: on other controls this is both at once', 'M3 et M8 : sur d’autres commandes, ceci est les deux à la fois', 'M3 e M8: su altri controlli questo è entrambi insieme', 'M3 和 M8：在其他数控系统上此代码为两者合一'),
+  saying('M4 and M8: on other controls this is both at once', 'M4 et M8 : sur d’autres commandes, ceci est les deux à la fois', 'M4 e M8: su altri controlli questo è entrambi insieme', 'M4 和 M8：在其他数控系统上此代码为两者合一'),
+  saying('G33.1: on other controls this announces rigid tapping', 'G33.1 : sur d’autres commandes, ceci annonce le taraudage rigide', 'G33.1: su altri controlli questo annuncia la maschiatura rigida', 'G33.1：在其他数控系统上此代码表示刚性攻丝'),
+  saying('M62 to M65, which switch a digital output', 'M62 à M65, qui commutent une sortie numérique', 'da M62 a M65, che commutano un’uscita digitale', 'M62 至 M65，用于切换数字输出'),
+  saying('the arc’s start and end are not equally far from its centre, which is |a position (G90.1)| here', 'le début et la fin de l’arc ne sont pas à la même distance de son centre, qui est ici une position (G90.1)', 'l’inizio e la fine dell’arco non sono ugualmente lontani dal centro, che qui è una posizione (G90.1)', '圆弧起点和终点到圆心的距离不等，此处圆心是 绝对位置（G90.1）'),
+  saying('the arc’s start and end are not equally far from its centre, which is |a distance from the start (G91.1)| here', 'le début et la fin de l’arc ne sont pas à la même distance de son centre, qui est ici une distance depuis le début (G91.1)', 'l’inizio e la fine dell’arco non sono ugualmente lontani dal centro, che qui è una distanza dall’inizio (G91.1)', '圆弧起点和终点到圆心的距离不等，此处圆心是 到起点的距离（G91.1）'),
+  saying('G91.1 before the arc: as distances from the start, the words fit', 'G91.1 avant l’arc : comme distances depuis le début, les mots conviennent', 'G91.1 prima dell’arco: come distanze dall’inizio, le parole vanno bene', '在圆弧前写 G91.1：作为到起点的距离，这些值是吻合的'),
+  saying('G90.1 before the arc: as the position of the centre, the words fit', 'G90.1 avant l’arc : comme position du centre, les mots conviennent', 'G90.1 prima dell’arco: come posizione del centro, le parole vanno bene', '在圆弧前写 G90.1：作为圆心位置，这些值是吻合的'),
+  saying('G-code for a machine that cuts, from a CAM program; nothing here heats or extrudes', 'du G-code pour une machine qui usine, d’un logiciel de FAO ; rien ici ne chauffe ni n’extrude', 'G-code per una macchina che lavora per asportazione, da un programma CAM; qui nulla scalda o estrude', '由 CAM 软件为切削机床生成的 G 代码；此处没有加热和挤出'),
+  saying('this is |a program for a 3D printer|, not G-code', 'ceci est un programme pour une imprimante 3D, pas du G-code', 'questo è un programma per una stampante 3D, non G-code', '这是 3D 打印机的程序，不是切削 G 代码'),
+  saying('{first} and {second}, or the plane’s code before', '{first} et {second}, ou avant lui le code du plan', '{first} e {second}, o prima il codice del piano', '{first} 和 {second}，或先写平面代码'),
+  saying('{first} and {second}, or the plane’s code before|; grbl ignores the word: --dialect grbl', '{first} et {second}, ou avant lui le code du plan ; grbl ignore ce mot : --dialect grbl', '{first} e {second}, o prima il codice del piano; grbl ignora la parola: --dialect grbl', '{first} 和 {second}，或先写平面代码；grbl 忽略此字：--dialect grbl'),
+];
