@@ -51,7 +51,9 @@ void OpenProgram::begin(const Point& start) {
   options_.start = path_options_.start = start;
   diagnostics_.clear();
   interpreter_ = std::make_unique<Interpreter>(ProgramReader::from_lines("line"), options_, diagnostics_, answers_);
-  builder_ = std::make_unique<PathBuilder>(*interpreter_, path_options_, diagnostics_, answers_);
+  operations_ = std::make_unique<Tap<Operation>>(*interpreter_);
+  operations_->watch([this](const Operation& operation) { wait_words_.watch(operation, interpreter_->tools()); });
+  builder_ = std::make_unique<PathBuilder>(*operations_, path_options_, diagnostics_, answers_);
   asks_ = false;
 }
 
@@ -77,6 +79,7 @@ void OpenProgram::take_offsets(const SavedParameters& parameters, const Point& p
 }
 
 void OpenProgram::forget_queue() {
+  wait_words_ = {};
   queue_.clear();
   queued_time_ = Seconds(0);
   jogs_ = false;
@@ -167,6 +170,7 @@ std::optional<Diagnostic> OpenProgram::read(std::string_view line) {
   const std::size_t kept = queue_.size();
   interpreter_->keep();
   builder_->keep();
+  kept_words_ = wait_words_;
   diagnostics_.clear();
   interpreter_->give_line(line);
   for (PathItem item; builder_->next(item);) {
@@ -193,6 +197,7 @@ void OpenProgram::take_back(std::size_t kept) {
   diagnostics_.clear();
   interpreter_->take_back();
   builder_->take_back();
+  wait_words_ = kept_words_;
 }
 
 void OpenProgram::push(const PathItem& item) {
@@ -255,6 +260,7 @@ bool OpenProgram::pull_answer(PathItem& item) {
 }
 
 void OpenProgram::drop(const Point& place) {
+  wait_words_ = {};
   queue_.clear();
   queued_time_ = Seconds(0);
   asks_ = false;

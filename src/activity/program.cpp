@@ -102,6 +102,7 @@ Program::Program(ProgramReader program, const MachineDescription& machine, const
     : limits_(motion_limits(machine)),
       stages_(std::move(program), machine, options, answers, diagnostics, std::move(known_probes)),
       whole_(whole) {
+  stages_.operations().watch([this](const Operation& operation) { wait_words_.watch(operation, tools()); });
   stages_.path().watch([this](const PathItem& item) { nominal_time_ += nominal_time_of(item, limits_); });
 }
 

@@ -178,21 +178,22 @@ bool KeptJob::write(const JournalHead& head) {
   return true;
 }
 
-bool KeptJob::begin(std::int64_t history, std::string_view text, std::uint64_t path, const PathPlace& place) {
+bool KeptJob::begin(Beginning job) {
   resumes_ = false;
   const auto& status = session_.board().status();
   if (!status || !session_.zero_counts()) return false;
   JournalHead head{.made_by = names_.made_by,
-                   .program = stamp_of(history, text),
+                   .program = stamp_of(job.history, job.text),
                    .machine = names_.machine,
-                   .path = path,
+                   .path = job.path,
                    .job_counts = {},
-                   .start = session_.status().position.place,
+                   .start = job.start,
                    .numbers = {.session_before = status->session,
                                .executed_before = status->executed,
                                .greeting = 0,
                                .session = keeper_.new_number()},
-                   .place = place};
+                   .place = job.place,
+                   .probes = std::move(job.probes)};
   for (std::size_t m = 0; m < machine_.axes.size(); ++m) {
     head.job_counts.push_back(static_cast<int>((*session_.zero_counts())[m]));
   }

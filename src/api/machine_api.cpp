@@ -170,6 +170,8 @@ WebAnswer MachineApi::change(const FoundRoute& found, const WebRequest& request)
   if (path.starts_with(machine_file_path)) return change_machine_file(found, request);
   if (path.starts_with(owner_path)) return change_owner(found, request);
   const Json body = request.body.empty() ? Json::object() : Json::parse(request.body, nullptr, false);
+  const bool frees = path == "/api/v1/work" || path == "/api/v1/mdi" || path == "/api/v1/probe";
+  if (frees) step_aside();
   if (path == "/api/v1/work") return set_work_zero(request.body);
   if (path == "/api/v1/mdi") return take_mdi(request.body);
   if (path == "/api/v1/probe") return begin_probing(request.body);
@@ -184,7 +186,10 @@ WebAnswer MachineApi::change(const FoundRoute& found, const WebRequest& request)
   }
   if (path == "/api/v1/stop") {
     stopped_by_ = owner_.is_client(request.key) ? owner_.name() : "somebody who does not own the motion";
+    if (parked_ && !session_.busy()) return stop_parked_job();
   }
+  if (path == "/api/v1/operator-done" && parked_ && !session_.status().waits_for) return go_on_behind_stop();
+  if (path == "/api/v1/jog" || path == "/api/v1/home") step_aside();
   return ask(std::move(*wanted));
 }
 
@@ -269,7 +274,8 @@ WebAnswer MachineApi::change_programs(const FoundRoute& found, const WebRequest&
   if (found.route->path.ends_with("/level")) return level_program(*program, request.query);
   const bool is_checked_for_job = job_.state == JobState::checking;
   if (request.method == "DELETE") {
-    if (is_checked_for_job && job_.program == found.id) {
+    const bool is_parked = parked_ && parked_->job.program == found.id;
+    if (is_parked || (is_checked_for_job && job_.program == found.id)) {
       return error_answer(409, "programs.in-use", "the program is about to run");
     }
     programs_.remove(found.id);
@@ -277,7 +283,7 @@ WebAnswer MachineApi::change_programs(const FoundRoute& found, const WebRequest&
   }
   if (is_checked_for_job) return error_answer(409, "machine.busy", "a job is about to begin");
   if (found.route->path.ends_with("/block-delete")) return choose_lines(*program, request.body);
-  if (found.route->path.ends_with("/run")) return run_program(*program, request.query);
+  if (found.route->path.ends_with("/run")) return parked_ ? parked_refusal() : run_program(*program, request.query);
   programs_.check(found.id, machine_, session_.status().position.place);
   return json_answer(202, as_json(*program, false));
 }
@@ -335,6 +341,7 @@ WebAnswer MachineApi::change_queue(const FoundRoute& found, const WebRequest& re
   if (request.method == "DELETE") {
     return history->remove(id) ? json_answer(200, Json::object()) : no_room_in_history();
   }
+  if (parked_) return parked_refusal();
   const StoredProgram* const program = programs_.add(
       job->name, job->dialect == "grbl" ? Dialect::grbl : Dialect::linuxcnc, history->program_of(id).value_or(""));
   if (program == nullptr) return no_room();
@@ -387,8 +394,11 @@ std::string MachineApi::unkept() const {
 }
 
 std::string MachineApi::status_text() const {
-  const MachineStatus status = session_.status();
+  MachineStatus status = session_.status();
+  const bool is_free = parked_ ? !status.waits_for : is_free_to_move(status);
+  if (parked_ && is_free && !goes_on_) status.waits_for = parked_->wait;
   Json json = as_json(machine_, status);
+  if (status.waits_for) json["waits"]["free"] = is_free;
   const std::optional<Seconds> left = time_left(status);
   json["left"] = left ? Json(rounded(left->value())) : Json();
   const Frame frame = programs_.work_frame();

@@ -119,7 +119,7 @@ WebAnswer MachineApi::begin_job(const StoredProgram& program, std::int64_t histo
   resumes_ = reenters_ = named_ = false;
   from_.reset();
   map_for_ = 0;
-  job_ = {.id = job_.id + 1,
+  job_ = {.id = ++last_job_,
           .program = program.id,
           .name = program.name,
           .state = JobState::checking,
@@ -168,7 +168,7 @@ WebAnswer MachineApi::resume_job(bool by_a_way_back) {
   reenters_ = by_a_way_back;
   from_.reset();
   named_ = false;
-  job_ = {.id = job_.id + 1,
+  job_ = {.id = ++last_job_,
           .program = program->id,
           .name = program->name,
           .state = JobState::checking,
@@ -193,6 +193,11 @@ void MachineApi::name_job() {
     return end_job(JobState::failed, words_of_error(program.findings, "the program has errors: see its findings"));
   }
   way_.reset();
+  if (goes_on_) {
+    auto way = way_behind_stop();
+    if (!way) return end_job(JobState::failed, way.error().why);
+    way_ = std::move(*way);
+  }
   if (from_) {
     auto way = way_to(program, *from_);
     if (!way) return end_job(JobState::failed, way.error().why);
@@ -202,8 +207,12 @@ void MachineApi::name_job() {
   if (session_.state() != MachineState::idle) return end_job(JobState::failed, "the machine is not idle any more");
   const bool begun = reenters_  ? kept_->reenter(program.path)
                      : resumes_ ? kept_->resume(program.path)
-                                : kept_->begin(job_.history, program.text_to_keep(), program.path,
-                                               way_ ? way_->at.place : PathPlace());
+                                : kept_->begin({.history = job_.history,
+                                                .text = program.text_to_keep(),
+                                                .path = program.path,
+                                                .place = way_ ? way_->at.place : PathPlace(),
+                                                .start = goes_on_ ? job_start_ : session_.status().position.place,
+                                                .probes = goes_on_ ? probes_ : std::vector<ProbeOutcome>()});
   if (begun) {
     named_ = true;
   } else if (const InterruptedJob* const broken = kept_->interrupted(); resumes_ && broken != nullptr) {
@@ -222,14 +231,20 @@ void MachineApi::start_job() {
   start.findings = &findings_;
   words_.clear();
   start.watchers.operations = [this](const Operation& operation) { note_words(operation); };
+  start.options.start = goes_on_ ? job_start_ : session_.status().position.place;
   if (way_) {
     start.from = way_->at;
     start.lead_in = way_->lead_in;
-    start.options.start = session_.status().position.place;
   }
+  if (goes_on_) start.known_probes = probes_;
   if (named_) kept_->add_to(start);
+  const Point begins_at = start.options.start;
+  std::vector<ProbeOutcome> probes = start.known_probes;
   const auto ticket = session_.request(std::move(start));
   if (!ticket) return end_job(JobState::failed, ticket.error().message);
+  job_start_ = begins_at;
+  probes_ = std::move(probes);
+  if (std::exchange(goes_on_, false)) parked_.reset();
   if (named_) kept_->forget_interrupted();
   ticket_ = *ticket;
   job_.state = JobState::running;
@@ -238,6 +253,14 @@ void MachineApi::start_job() {
 
 // A job that was broken off and did not begin again stays broken off.
 void MachineApi::end_job(JobState state, std::string why) {
+  // What could not go on waits as before.
+  if (std::exchange(goes_on_, false) && state == JobState::failed) {
+    if (std::exchange(named_, false)) kept_->end(false);
+    job_.state = JobState::running;
+    job_.why = std::move(why);
+    return;
+  }
+  if (parked_ && parked_->job.id == job_.id) parked_.reset();
   if (resumes_ && kept_->interrupted() != nullptr) state = JobState::interrupted;
   if (job_.state == JobState::running) mdi_.begin_anew();
   job_.state = state;
@@ -250,7 +273,20 @@ void MachineApi::end_job(JobState state, std::string why) {
   if (job_.history != 0) options_.history->end(job_.history, history_state_of(state), job_.why, wall_time());
 }
 
+// A hold amid the wait is no second one.
+void MachineApi::note_wait() {
+  const auto wait = session_.status().waits_for;
+  if (job_.history == 0 || !ticket_ || !wait || std::exchange(wait_noted_, true)) return;
+  const bool is_tool = wait->kind == Action::Kind::tool_change;
+  options_.history->note_wait(job_.history, {.at = wall_time(),
+                                             .code = code_of(*wait),
+                                             .line = wait->line,
+                                             .tool = is_tool ? std::optional(wait->tool) : std::nullopt,
+                                             .words = wait->words});
+}
+
 void MachineApi::heed_state(MachineState state) {
+  if (state == MachineState::run) wait_noted_ = false;
   if (state == MachineState::alarm || state == MachineState::fault) note_alarm();
   const HomingPath* const homing = session_.homing();
   if (state == MachineState::home && homing != nullptr) {
@@ -268,6 +304,8 @@ void MachineApi::heed(const std::vector<MachineChange>& changes) {
     mdi_.heed(change);
     if (change.kind == MachineChange::Kind::rested_by_tail) ++late_;
     if (change.kind == MachineChange::Kind::state) heed_state(change.state);
+    if (change.kind == MachineChange::Kind::came_to_rest) note_wait();
+    if (change.kind == MachineChange::Kind::probed && ticket_) probes_.push_back(*change.probe);
     if (change.kind != MachineChange::Kind::answered || !ticket_ || change.ticket != *ticket_) continue;
     // What was broken off by the board, or because the program ends, may go on.
     const bool is_broken_off =

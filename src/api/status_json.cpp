@@ -89,6 +89,15 @@ const char* name_of(SpindleDirection direction) {
   return "off";
 }
 
+Json waits_json(const OperatorWait& wait) {
+  const bool is_tool = wait.kind == Action::Kind::tool_change;
+  return {{"for", code_of(wait)},
+          {"line", wait.line},
+          {"tool", is_tool ? Json(wait.tool) : Json()},
+          {"message", wait.words},
+          {"free", false}};
+}
+
 }  // namespace
 
 double rounded(double value) {
@@ -146,6 +155,7 @@ Json as_json(const MachineDescription& machine, const MachineStatus& status) {
         {"drive_alarms", drive_alarms(machine, status.inputs)}}},
       {"waits_for_tool", Json()},
       {"waits_for_operator", status.waits_for.has_value()},
+      {"waits", status.waits_for ? waits_json(*status.waits_for) : Json()},
       {"trouble", status.trouble_words}};
   if (status.waits_for && status.waits_for->kind == Action::Kind::tool_change) {
     json["waits_for_tool"] = status.waits_for->tool;
@@ -165,6 +175,14 @@ Json as_json(const ApiJob& job) {
 }
 
 Json as_json(const HistoryJob& job) {
+  Json waits = Json::array();
+  for (const HistoryWait& wait : job.waits) {
+    waits.push_back({{"at", wait.at},
+                     {"for", wait.code},
+                     {"line", wait.line},
+                     {"tool", wait.tool ? Json(*wait.tool) : Json()},
+                     {"message", wait.words}});
+  }
   return {{"id", job.id},
           {"name", job.name},
           {"dialect", job.dialect},
@@ -173,7 +191,8 @@ Json as_json(const HistoryJob& job) {
           {"why", job.why},
           {"queued_at", job.queued_at},
           {"begun_at", job.begun_at},
-          {"ended_at", job.ended_at}};
+          {"ended_at", job.ended_at},
+          {"waits", std::move(waits)}};
 }
 
 Json as_json(const std::vector<HomedAxis>& homed, const HomingRepeats& repeats) {

@@ -13,6 +13,7 @@ constexpr double least_feed = 0.01;
 }  // namespace
 
 bool MachineApi::runs(const StoredProgram& program) const {
+  if (parked_ && parked_->job.program == program.id) return true;
   return job_.state == JobState::running && job_.program == program.id;
 }
 

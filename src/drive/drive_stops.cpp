@@ -6,6 +6,7 @@
 namespace passo {
 
 void MotionDrive::wait_for_operator(const Action& action) {
+  ++stops_;
   outputs_.take_over(action);
   script_.then([this] { feed_->switch_outputs(outputs_.tell()); });
   script_.until([this] { return feed_->settled(); });

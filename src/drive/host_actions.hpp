@@ -1,14 +1,9 @@
 // Which actions of a path the drive carries out at rest, before the path goes on. Private to drive/.
 #pragma once
 
-#include "passo/path/segment.hpp"
+#include "passo/drive/program_stop.hpp"
 
 namespace passo {
-
-constexpr bool is_program_stop(const Action& action) {
-  using Kind = Action::Kind;
-  return action.kind == Kind::program_stop || action.kind == Kind::optional_stop || action.kind == Kind::tool_change;
-}
 
 // True: the action only changes outputs, which the board switches in passing.
 constexpr bool is_for_outputs(const Action& action, bool waits_for_operator) {

@@ -276,8 +276,8 @@ bool MotionDrive::pass_await_line(PathMode last) {
 }
 
 void MotionDrive::drop() {
-  if (state_ != State::running && state_ != State::holding) return;
   dropped_to_.reset();
+  if (state_ != State::running && state_ != State::holding) return;
   feed_->brake();
   change_holds(HoldReason::drop, true);
 }

@@ -12,7 +12,6 @@
 namespace passo {
 namespace {
 
-constexpr std::size_t jog_words_from = 3;    // after "$J="
 constexpr std::size_t build_words_from = 3;  // after "$I="
 
 // Units, distances and places: no other code belongs into a jog.
@@ -39,7 +38,7 @@ void GrblController::take_command(const std::string& text) {
   }
   if (text == "$X") return unlock();
   if (text == "$C") return toggle_check();
-  if (text.starts_with("$J=")) return take_jog(text.substr(jog_words_from));
+  if (text.starts_with(jog_begins)) return take_jog(text.substr(jog_begins.size()));
   // All others only at rest, as in grbl. Settings are shown in check mode and asleep too.
   const bool stands = !session_.busy() || session_.state() == MachineState::await_line;
   const bool at_rest = is_idle() || (alarm_ && stands);

@@ -2,6 +2,7 @@
 #include "passo/grbl/grbl_controller.hpp"
 
 #include <algorithm>
+#include <sstream>
 #include <utility>
 
 #include <fmt/format.h>
@@ -16,6 +17,13 @@ namespace {
 bool changes_offsets(const std::string& line) {
   return line.find("G10") != std::string::npos || line.find("G28.1") != std::string::npos ||
          line.find("G30.1") != std::string::npos;
+}
+
+// A stream whose lines are done ends when nothing has come for so long.
+constexpr Seconds longest_rest{1};
+
+bool is_off(const OutputState& outputs) {
+  return outputs.spindle == SpindleDirection::off && !outputs.mist && !outputs.flood;
 }
 
 GrblAlarm alarm_of_homing(const MachineChange& change) {
@@ -38,6 +46,7 @@ GrblController::GrblController(const MachineDescription& machine, MachineSession
 }
 
 void GrblController::connect() {
+  is_here_ = true;
   input_.clear();
   offset_in_ = 0;
   overrides_in_ = 1;
@@ -103,6 +112,7 @@ void GrblController::let_drive(bool drives) {
 }
 
 void GrblController::disconnect() {
+  is_here_ = false;
   input_.clear();
   if (!drives_) return;
   if (jogs()) {
@@ -134,6 +144,7 @@ void GrblController::turn(const std::vector<MachineChange>& changes) {
   mind_jog_lease();
   begin_stream();
   take_lines();
+  end_stream();
 }
 
 void GrblController::heed(const MachineChange& change) {
@@ -141,12 +152,16 @@ void GrblController::heed(const MachineChange& change) {
     case MachineChange::Kind::state:
       if (change.state == MachineState::alarm) raise_alarm_of_board();
       if (change.state == MachineState::fault) raise(GrblAlarm::lost_place);
+      if (change.state == MachineState::run) wait_told_ = false;
+      if (change.state == MachineState::await_line) rests_since_ = change.time;
       return;
+    case MachineChange::Kind::came_to_rest: return tell_wait();
     case MachineChange::Kind::position_lost: return raise(GrblAlarm::lost_place);
     case MachineChange::Kind::probed: probe_ = change.probe; return;
     case MachineChange::Kind::answered: break;
     default: return;
   }
+  if (stream_ == change.ticket) stream_.reset();
   if (waits_ != Waits::homing || homing_ != change.ticket) return;
   homing_.reset();
   waits_ = Waits::none;
@@ -158,6 +173,15 @@ void GrblController::heed(const MachineChange& change) {
   }
   raise(alarm_of_homing(change));
   answer(GrblError::locked);
+}
+
+// What the program says where it waits for a person, once.
+void GrblController::tell_wait() {
+  const auto wait = session_.status().waits_for;
+  if (!wait || std::exchange(wait_told_, true)) return;
+  if (wait->kind == Action::Kind::tool_change) say(fmt::format("[MSG:Tool {}]\r\n", wait->tool));
+  std::istringstream lines(wait->words);
+  for (std::string words; std::getline(lines, words);) say(fmt::format("[MSG:{}]\r\n", words));
 }
 
 // The probe move is done, and its line can be answered.
@@ -197,7 +221,22 @@ void GrblController::stop_for(Waits waits) {
 // The program's place is the machine's whenever a stream begins.
 void GrblController::begin_stream() {
   if (session_.state() != MachineState::idle || resets_ || waits_ == Waits::homing || !drives_) return;
-  if (program_.is_to_begin(session_.now())) ask(request::Stream{.program = &program_});
+  if (program_.is_to_begin(session_.now())) request_stream();
+}
+
+void GrblController::request_stream() {
+  const auto ticket = session_.request(request::Stream{.program = &program_});
+  if (ticket) stream_ = *ticket;
+  stream_ends_ = false;
+}
+
+// The lines are done, and have left nothing on: the machine is idle, for others too. A sender that answers within a
+// second goes on with the same stream.
+void GrblController::end_stream() {
+  if (!stream_ || stream_ends_ || session_.state() != MachineState::await_line) return;
+  if (program_.queued() > 0 || program_.asks() || !is_off(session_.drive()->outputs())) return;
+  if (is_here_ && session_.now() - rests_since_ < longest_rest) return;
+  stream_ends_ = ask(request::Stop{});
 }
 
 bool GrblController::may_take_line() const {
@@ -216,11 +255,17 @@ void GrblController::take_lines() {
 
 void GrblController::take(const GrblInput::Line& line) {
   if (line.too_long) return answer(GrblError::line_overflow);
-  if (line.text.empty()) return answer(GrblError::none);
+  const bool may_act = drives_ && !alarm_ && !jogs() && session_.state() != MachineState::sleep;
+  const std::string message = line.message.empty() ? "" : "(MSG," + line.message + ")";
+  if (line.text.empty()) {
+    if (may_act && !checks_ && !message.empty()) static_cast<void>(program_.take(message, session_.now()));
+    return answer(GrblError::none);
+  }
   if (!drives_ && !is_question(line.text)) return answer(GrblError::locked);
+  if (line.cancelled && line.text.starts_with(jog_begins)) return answer(GrblError::none);
   if (line.text[0] == '$') return take_command(line.text);
-  if (alarm_ || jogs() || session_.state() == MachineState::sleep) return answer(GrblError::locked);
-  take_code(line.text);
+  if (!may_act) return answer(GrblError::locked);
+  take_code(line.text + message);
 }
 
 void GrblController::take_code(const std::string& text) {

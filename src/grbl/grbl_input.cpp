@@ -6,6 +6,7 @@ namespace passo {
 namespace {
 
 constexpr std::uint8_t first_high = 0x80;
+constexpr std::uint8_t command_follows = 0xC2;  // in UTF-8
 
 bool is_low_command(std::uint8_t byte) {
   return byte == '?' || byte == '!' || byte == '~' || byte == 0x18;
@@ -17,6 +18,18 @@ bool ends_line(char c) {
 
 char capital(char c) {
   return c >= 'a' && c <= 'z' ? static_cast<char>(c - 'a' + 'A') : c;
+}
+
+// The words of a comment "MSG,words". Empty: it is another comment.
+std::string_view message_in(std::string_view comment) {
+  constexpr std::string_view keyword = "MSG,";
+  std::size_t found = 0;
+  for (std::size_t i = 0; i < comment.size(); ++i) {
+    if (comment[i] == ' ') continue;
+    if (capital(comment[i]) != keyword[found]) return {};
+    if (++found == keyword.size()) return comment.substr(i + 1);
+  }
+  return {};
 }
 
 // How many bytes follow a byte that begins a character of UTF-8.
@@ -37,7 +50,7 @@ std::optional<std::uint8_t> GrblInput::command(std::uint8_t byte) {
   const bool continues = byte < 0xC0;
   if (!continues) {
     text_bytes_ = following(byte);
-    command_next_ = byte == 0xC2;
+    command_next_ = byte == command_follows;
     return {};
   }
   const bool is_text = text_bytes_ > 0 && !command_next_;
@@ -53,7 +66,7 @@ void GrblInput::receive(std::string_view bytes, const std::function<void(std::ui
       act(*found);
       continue;
     }
-    if (byte >= first_high) continue;  // text that is no G-code
+    if (byte == command_follows) continue;
     const bool is_second = c == '\n' && after_return_;
     after_return_ = c == '\r';
     if (is_second) continue;
@@ -66,13 +79,19 @@ std::optional<GrblInput::Line> GrblInput::take_line() {
   if (ends_ == 0) return {};
   const std::size_t end = waiting_.find_first_of("\r\n");
   Line line;
-  bool in_comment = false;
-  for (const char c : std::string_view(waiting_).substr(0, end)) {
+  const std::string_view all = std::string_view(waiting_).substr(0, end);
+  std::size_t comment_from = std::string_view::npos;
+  for (std::size_t at = 0; at < all.size(); ++at) {
+    const char c = all[at];
+    const bool in_comment = comment_from != std::string_view::npos;
     if (c == ';' && !in_comment) break;
-    if (c == '(') in_comment = true;
-    const bool counts = !in_comment && c > ' ' && c != '/' && c != 0x7F;
-    if (c == ')') in_comment = false;
-    if (!counts || c == ')') continue;
+    if (c == '(' && !in_comment) comment_from = at + 1;
+    if (c == ')' && in_comment) {
+      line.message = message_in(all.substr(comment_from, at - comment_from));
+      comment_from = std::string_view::npos;
+    }
+    const bool counts = c > ' ' && c < 0x7F && c != '/' && c != '(' && c != ')';
+    if (in_comment || !counts) continue;
     if (line.text.size() == longest_stripped) {
       line.too_long = true;
       break;
@@ -81,12 +100,19 @@ std::optional<GrblInput::Line> GrblInput::take_line() {
   }
   waiting_.erase(0, end + 1);
   --ends_;
+  line.cancelled = cancelled_ > 0;
+  if (line.cancelled) --cancelled_;
   return line;
+}
+
+void GrblInput::cancel_jogs() {
+  const bool has_begun = !waiting_.empty() && !ends_line(waiting_.back());
+  cancelled_ = ends_ + (has_begun ? 1 : 0);
 }
 
 void GrblInput::clear() {
   waiting_.clear();
-  ends_ = 0;
+  ends_ = cancelled_ = 0;
 }
 
 }  // namespace passo

@@ -18,8 +18,17 @@ constexpr int overrides_each = 20;
 constexpr Seconds jog_lease{0.25};
 constexpr Seconds slowest_pace{1};
 
+int percent(double factor) {
+  return static_cast<int>(std::lround(factor * 100));
+}
+
 constexpr int least_override = 10;
 constexpr int most_override = 200;
+
+// A factor changed by so many percent. 0: back to 100 %.
+double changed(double factor, int by) {
+  return by == 0 ? 1 : std::clamp(percent(factor) + by, least_override, most_override) / 100.0;
+}
 
 }  // namespace
 
@@ -32,19 +41,19 @@ void GrblController::act(std::uint8_t byte) {
     case 0x18: return reset();
     case 0x84: return open_door();
     case 0x85: return cancel_jog();
-    case 0x90: return change_feed(100);
-    case 0x91: return change_feed(feed_override_ + 10);
-    case 0x92: return change_feed(feed_override_ - 10);
-    case 0x93: return change_feed(feed_override_ + 1);
-    case 0x94: return change_feed(feed_override_ - 1);
+    case 0x90: return change_feed(0);
+    case 0x91: return change_feed(10);
+    case 0x92: return change_feed(-10);
+    case 0x93: return change_feed(1);
+    case 0x94: return change_feed(-1);
     case 0x95: return change_rapids(100);
     case 0x96: return change_rapids(50);
     case 0x97: return change_rapids(25);
-    case 0x99: return change_spindle(100);
-    case 0x9A: return change_spindle(spindle_override_ + 10);
-    case 0x9B: return change_spindle(spindle_override_ - 10);
-    case 0x9C: return change_spindle(spindle_override_ + 1);
-    case 0x9D: return change_spindle(spindle_override_ - 1);
+    case 0x99: return change_spindle(0);
+    case 0x9A: return change_spindle(10);
+    case 0x9B: return change_spindle(-10);
+    case 0x9C: return change_spindle(1);
+    case 0x9D: return change_spindle(-1);
     case 0x9E: return stop_spindle();
     case 0xA0: return switch_coolant(true);
     case 0xA1: return switch_coolant(false);
@@ -95,12 +104,18 @@ void GrblController::report_status() {
   report.pins = pins();
   if (is_executing()) report.line_number = status.executes.line_number;
   report.outputs = status.outputs;
-  report.feed_override = feed_override_;
-  report.rapid_override = rapid_override_;
-  report.spindle_override = spindle_override_;
-  if (report.work_offset != told_offset_) offset_in_ = 0;
-  report.shows_offset = offset_in_ <= 0;
-  report.shows_overrides = !report.shows_offset && overrides_in_ <= 0;
+  report.feed_override = percent(status.overrides.feed);
+  report.rapid_override = percent(status.overrides.rapids);
+  report.spindle_override = percent(status.overrides.spindle);
+  // What has changed is shown at once, the offset first. Else the two take turns, as in grbl.
+  const bool has_moved = report.work_offset != told_offset_;
+  const bool is_news = status.outputs != told_outputs_ || status.overrides != told_overrides_;
+  report.shows_offset = has_moved || (offset_in_ <= 0 && !is_news);
+  report.shows_overrides = !report.shows_offset && (is_news || overrides_in_ <= 0);
+  if (report.shows_overrides) {
+    told_outputs_ = status.outputs;
+    told_overrides_ = status.overrides;
+  }
   offset_in_ = report.shows_offset ? (rests ? offset_each_at_rest : offset_each) - 1 : offset_in_ - 1;
   overrides_in_ = report.shows_overrides ? (rests ? overrides_each_at_rest : overrides_each) - 1 : overrides_in_ - 1;
   if (report.shows_offset) told_offset_ = report.work_offset;
@@ -110,7 +125,7 @@ void GrblController::report_status() {
 // At rest too: then the next motion waits for a resume.
 void GrblController::hold() {
   if (alarm_ || checks_ || resets_) return;
-  if (session_.state() == MachineState::idle) ask(request::Stream{.program = &program_});
+  if (session_.state() == MachineState::idle) request_stream();
   ask(request::Hold{});
 }
 
@@ -118,16 +133,14 @@ void GrblController::hold() {
 void GrblController::open_door() {
   if (alarm_ || checks_ || resets_ || waits_ == Waits::homing) return;
   cancel_jog();
-  if (session_.state() == MachineState::idle) ask(request::Stream{.program = &program_});
+  if (session_.state() == MachineState::idle) request_stream();
   ask(request::Hold{.for_door = true});
 }
 
 // Only in a hold, at rest. The resume lets the spindle turn again.
 void GrblController::stop_spindle() {
   const OutputState outputs = session_.status().outputs;
-  const bool turns = outputs.spindle != SpindleDirection::off;
-  overrides_in_ = 0;
-  if (ask(request::SwitchOutputs{.spindle_stands = turns})) return;
+  ask(request::SwitchOutputs{.spindle_stands = outputs.spindle != SpindleDirection::off});
 }
 
 // While nothing is going on, the program switches the coolant itself, as by M7, M8 and M9. Amid the program the coolant
@@ -135,7 +148,6 @@ void GrblController::stop_spindle() {
 void GrblController::switch_coolant(bool flood) {
   const MachineState state = session_.state();
   if (alarm_ || checks_ || resets_ || jogs() || state == MachineState::home) return;
-  overrides_in_ = 0;
   const OutputState outputs = session_.status().outputs;
   const bool on = !(flood ? outputs.flood : outputs.mist);
   if (session_.busy()) {
@@ -153,8 +165,10 @@ void GrblController::resume() {
   ask(request::Resume{});
 }
 
+// The jog may have come with the cancel, and wait as a line or in the queue.
 void GrblController::cancel_jog() {
-  if (jogs()) ask(request::DropLines{});
+  input_.cancel_jogs();
+  if (jogs() && !ask(request::DropLines{})) program_.drop(session_.status().position.place);
 }
 
 // Brakes on the path. The answer, the banner, comes when the machine rests.
@@ -171,8 +185,7 @@ void GrblController::reset() {
 
 void GrblController::end_reset() {
   resets_ = checks_ = false;
-  feed_override_ = rapid_override_ = spindle_override_ = 100;
-  send_overrides();
+  ask(request::Override{.feed = 1, .adaptive_feed = {}, .spindle = 1, .rapids = 1});
   program_.restart(session_.status().position.place);
   alarm_ = alarm_ || session_.lost_place().has_value();
   has_started_ = false;
@@ -180,27 +193,16 @@ void GrblController::end_reset() {
   start_up();
 }
 
-void GrblController::change_feed(int percent) {
-  feed_override_ = std::clamp(percent, least_override, most_override);
-  send_overrides();
+void GrblController::change_feed(int by) {
+  ask(request::Override{.feed = changed(session_.status().overrides.feed, by)});
 }
 
-void GrblController::change_rapids(int percent) {
-  rapid_override_ = percent;
-  send_overrides();
+void GrblController::change_rapids(int to) {
+  ask(request::Override{.rapids = to / 100.0});
 }
 
-void GrblController::change_spindle(int percent) {
-  spindle_override_ = std::clamp(percent, least_override, most_override);
-  send_overrides();
-}
-
-void GrblController::send_overrides() {
-  overrides_in_ = 0;
-  ask(request::Override{.feed = feed_override_ / 100.0,
-                        .adaptive_feed = {},
-                        .spindle = spindle_override_ / 100.0,
-                        .rapids = rapid_override_ / 100.0});
+void GrblController::change_spindle(int by) {
+  ask(request::Override{.spindle = changed(session_.status().overrides.spindle, by)});
 }
 
 }  // namespace passo

@@ -18,6 +18,12 @@ constexpr const char* tables = R"(
   CREATE INDEX jobs_by_state ON jobs (state, id);
   CREATE TABLE alarms (id INTEGER PRIMARY KEY AUTOINCREMENT, at REAL NOT NULL, words TEXT NOT NULL);
   PRAGMA user_version = 1;)";
+// Younger than the others, and of no use to older programs: the version stays.
+constexpr const char* table_of_waits = R"(
+  CREATE TABLE IF NOT EXISTS waits (
+    job INTEGER NOT NULL, number INTEGER NOT NULL, at REAL NOT NULL, code TEXT NOT NULL, line INTEGER NOT NULL,
+    tool INTEGER NOT NULL, words TEXT NOT NULL, PRIMARY KEY (job, number)) WITHOUT ROWID;)";
+constexpr std::int64_t no_tool = -1;
 
 // Only after open() has found it: whoever has a JobHistory has the library.
 const SqliteLibrary& sqlite() {
@@ -115,6 +121,7 @@ Result<std::unique_ptr<JobHistory>, std::string> JobHistory::open(const std::str
   }
   if (known > version) return failed(fmt::format("it is of version {}, and this program knows {}", known, version));
   if (known == 0 && !history->run(fmt::format("BEGIN;{}COMMIT;", tables).c_str())) return failed(reason());
+  if (!history->run(table_of_waits)) return failed(reason());
   Statement interrupt(database,
                       "UPDATE jobs SET state = ?, why = 'passo serve was killed, or its computer lost its power'"
                       " WHERE state = ?");
@@ -181,6 +188,7 @@ std::vector<HistoryJob> JobHistory::jobs(const char* where, std::int64_t value) 
     job.queued_at = select.real();
     job.begun_at = select.real();
     job.ended_at = select.real();
+    job.waits = waits_of(job.id);
     const auto end = std::ranges::find(unwritten_, job.id, &End::id);
     if (end == unwritten_.end()) continue;
     job.state = end->state;
@@ -227,8 +235,36 @@ bool JobHistory::write(const End& end) {
   if (!judge(update.run())) return false;
   // What is too old is forgotten the next time, if not now.
   Statement forget(database_, "DELETE FROM jobs WHERE state > 1 AND id <= (SELECT max(id) FROM jobs) - ?");
-  static_cast<void>(forget.with(most_ended).run());
+  Statement forget_waits(database_, "DELETE FROM waits WHERE job < (SELECT min(id) FROM jobs)");
+  static_cast<void>(forget.with(most_ended).run() && forget_waits.run());
   return true;
+}
+
+bool JobHistory::note_wait(std::int64_t id, const HistoryWait& wait) {
+  is_kept_ = false;
+  Statement count(database_, "SELECT count(*) FROM waits WHERE job = ?");
+  const std::int64_t noted = count.with(id).step() ? count.number() : most_waits;
+  if (noted >= most_waits) return false;
+  Statement insert(database_,
+                   "INSERT INTO waits (job, number, at, code, line, tool, words) VALUES (?, ?, ?, ?, ?, ?, ?)");
+  insert.with(id).with(noted).with(wait.at).with(wait.code).with(std::int64_t{wait.line});
+  return judge(insert.with(std::int64_t{wait.tool.value_or(no_tool)}).with(wait.words).run());
+}
+
+std::vector<HistoryWait> JobHistory::waits_of(std::int64_t id) const {
+  Statement select(database_, "SELECT at, code, line, tool, words FROM waits WHERE job = ? ORDER BY number");
+  select.with(id);
+  std::vector<HistoryWait> found;
+  while (select.step()) {
+    HistoryWait& wait = found.emplace_back();
+    wait.at = select.real();
+    wait.code = select.text();
+    wait.line = static_cast<std::uint32_t>(select.number());
+    const std::int64_t tool = select.number();
+    if (tool != no_tool) wait.tool = static_cast<std::int32_t>(tool);
+    wait.words = select.text();
+  }
+  return found;
 }
 
 bool JobHistory::remove(std::int64_t id) {

@@ -435,7 +435,10 @@ bool accept_as_grbl(Block& block, const ProgramState& state, Reporter& reporter,
     const bool idle = word.letter != 'G' && word.letter != 'M' && check.idle_letters().has(word.letter);
     return idle || is_without_effect(block, word);
   });
-  for (BlockComment& comment : block.comments) comment.kind = BlockComment::Kind::plain;
+  // As grblHAL does, messages reach the operator. grbl itself obeys no comment.
+  for (BlockComment& comment : block.comments) {
+    if (comment.kind != BlockComment::Kind::message) comment.kind = BlockComment::Kind::plain;
+  }
   return true;
 }
 

@@ -34,11 +34,18 @@ class TableReader {
     Tool tool;
     Field field;
     Field number;
+    std::string words;
     seen_ = {};
     bool good = true;
     while (fields_.next_field(field)) {
       const std::size_t remark = field.text.find(';');
-      if (remark != std::string_view::npos) field.text = field.text.substr(0, remark);
+      if (remark != std::string_view::npos) {
+        words = field.text.substr(remark + 1);
+        if (const Field rest = fields_.rest(); !rest.text.empty()) {
+          words += (words.empty() ? "" : " ") + std::string(rest.text);
+        }
+        field.text = field.text.substr(0, remark);
+      }
       if (!field.text.empty()) {
         if (upper(field.text.front()) == 'T') number = field;
         good = read_word(field, tool) && good;
@@ -51,11 +58,11 @@ class TableReader {
                     "T and P in each line, as in T1 P1 Z0.5 D3");
       return;
     }
-    add(tool, number);
+    if (add(tool, number) && !words.empty()) table_.remarks[tool.number] = std::move(words);
   }
 
-  void add(const Tool& tool, const Field& number) {
-    if (table_.add(tool)) return;
+  bool add(const Tool& tool, const Field& number) {
+    if (table_.add(tool)) return true;
     if (table_.find(tool.number) != nullptr) {
       fields_.error("tools.repeated-tool", number, fmt::format("a second tool {}", tool.number),
                     "each number once in a table");
@@ -63,6 +70,7 @@ class TableReader {
       fields_.error("tools.too-many", number, fmt::format("more than {} tools", ToolTable::most_tools),
                     "a shorter table");
     }
+    return false;
   }
 
   bool read_word(const Field& field, Tool& tool) {

@@ -7,6 +7,8 @@
 
 #include "path_of_program.hpp"
 
+#include "passo/drive/program_stop.hpp"
+
 namespace passo {
 namespace {
 
@@ -59,6 +61,7 @@ class Passed {
     }
     point_.outputs = action.outputs;
     if (action.kind == Action::Kind::tool_change) point_.tool = action.tool;
+    if (is_program_stop(action)) ++point_.stops;
   }
 
  private:

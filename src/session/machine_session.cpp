@@ -198,61 +198,13 @@ void MachineSession::turn_work(Seconds most) {
   if (mind_lines(most)) return;
   const MotionDrive::Turn turn = work_->drive->advance();
   if (turn == MotionDrive::Turn::ended) return finish_work();
+  if (work_->program_ends && clock_of(*work_) >= *work_->program_ends) end_overrides();
   mind_holds();
   mind_door();
   if (turn != MotionDrive::Turn::waits) return;
   const bool held = work_->drive->state() == MotionDrive::State::held;
   if (held && options_.over_a_line) most = std::min(most, Panel::in_a_hold);
   work_->drive->wait(most);
-}
-
-// Stops the jog in time. The moves that one step commits may not end after the lease.
-void MachineSession::mind_lease() {
-  if (!work_->lease_end) return;
-  const Seconds pulled = 3 * live_commitment.longest_move;
-  if (now() + work_->drive->committed() + pulled > *work_->lease_end) work_->drive->stop();
-}
-
-// Sets the state of a program by its strongest reason to rest.
-void MachineSession::mind_holds() {
-  if (!work_->is_program() || !work_->drive) return;
-  const MotionDrive& drive = *work_->drive;
-  const HoldReasons holds = drive.holds();
-  const bool held = drive.state() == MotionDrive::State::held;
-  note_tails();
-  if (holds.has(HoldReason::door)) {
-    if (state_ != MachineState::door) move_to(MachineEvent::open_door);
-  } else if (holds.any_of({HoldReason::operator_hold, HoldReason::program_stop, HoldReason::line_end}) ||
-             (held && holds.has(HoldReason::zero_feed) &&
-              !holds.any_of({HoldReason::tool_change, HoldReason::await_line}))) {
-    if (state_ != MachineState::hold) move_to(MachineEvent::hold);
-  } else if (holds.has(HoldReason::tool_change)) {
-    if (state_ != MachineState::tool_change) move_to(MachineEvent::want_tool);
-  } else if (holds.has(HoldReason::await_line)) {
-    if (state_ != MachineState::await_line) move_to(MachineEvent::want_line);
-  } else if (state_ != MachineState::run && !drive.stopped()) {
-    move_to(MachineEvent::resume);
-  }
-  if (!held) {
-    work_->rest_told = false;
-  } else if (!std::exchange(work_->rest_told, true)) {
-    note({.kind = MachineChange::Kind::came_to_rest});
-    answer_holds(Outcome::done);
-  }
-}
-
-// A hold as for a door: at rest, spindle and coolant are off.
-void MachineSession::mind_door() {
-  if (!work_->stops_outputs || work_->drive->state() != MotionDrive::State::held) return;
-  work_->stops_outputs = false;
-  work_->drive->stop_outputs();
-}
-
-void MachineSession::note_tails() {
-  const Refiller* const tails = work_->drive->refiller();
-  for (; tails != nullptr && work_->recoveries_told < tails->recoveries(); ++work_->recoveries_told) {
-    note({.kind = MachineChange::Kind::rested_by_tail});
-  }
 }
 
 // The drive has ended. Over a line, the board is asked where it stands. A limit switch that was closed may be open now.
@@ -269,6 +221,7 @@ void MachineSession::end_work() {
   note_standstill();
   if (board_.standstill()) board_.fail(LinkError::stood_still);
   work_->ended = true;
+  if (work_->program_ends) end_overrides();
   Outcome outcome = Outcome::done;
   std::optional<ActivityFault> fault;
   if (work_->checker) {
@@ -471,7 +424,11 @@ MachineStatus MachineSession::status() const {
   status.outputs = drive.outputs();
   status.executes = work_->lines_ahead.at(clock_of(*work_));
   if (const auto& wait = drive.waits_for()) {
-    status.waits_for = OperatorWait{.kind = wait->kind, .tool = wait->tool, .line = wait->source.line};
+    status.waits_for = OperatorWait{.kind = wait->kind,
+                                    .tool = wait->tool,
+                                    .line = wait->source.line,
+                                    .number = work_->stops_before + drive.stops(),
+                                    .words = work_->words_at(wait->source.line)};
   }
   if (work_->homing != nullptr && !work_->homing->done()) {
     status.homing = work_->homing->stage();

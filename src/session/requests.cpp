@@ -208,7 +208,10 @@ MachineSession::Answer MachineSession::take(request::Start& start) {
   options.stops_at_lines = start.live && stops_.single_block;
   options.may_stop_at_lines = start.live;
   if (!start.live && !options.guards_by_probe) options.live = endless_commitment;
-  if (start.from) options.begin_at = start.from->place;
+  if (start.from) {
+    options.begin_at = start.from->place;
+    work->stops_before = start.from->stops;
+  }
   options.lead_in = std::move(start.lead_in);
   if (!options.lead_in.empty() && work->watchers.rests) {
     work->watchers.rests = [from = *start.from, lead_in = options.lead_in.size(), tell = work->watchers.rests](
@@ -270,6 +273,7 @@ void MachineSession::put_on_drive(Work& work, const DriveOptions& options, bool 
       const Seconds begins = ends - time;
       if (move == nullptr) {
         if (time > Seconds(0)) work.progress_ahead.plan(time, begins, ends, clock_of(work));
+        if (std::get<Action>(item).kind == Action::Kind::program_end) work.program_ends = ends;
         return;
       }
       work.ahead = move->segment.tool_at(move->to);
@@ -291,15 +295,7 @@ void MachineSession::put_on_drive(Work& work, const DriveOptions& options, bool 
     if (watchers.executed) refiller->watch_executed(watchers.executed);
     if (watchers.rests) refiller->watch_rests(watchers.rests);
   }
-  if (!work.is_program()) return;
-  put_overrides_on(drive);
-}
-
-void MachineSession::put_overrides_on(MotionDrive& drive) const {
-  if (overrides_.feed != 1) drive.set_feed_override(overrides_.feed);
-  if (overrides_.adaptive_feed != 1) drive.set_adaptive_feed(overrides_.adaptive_feed);
-  if (overrides_.spindle != 1) drive.set_spindle_override(overrides_.spindle);
-  if (overrides_.rapids != 1) drive.set_rapid_override(overrides_.rapids);
+  if (work.is_program() && overrides_ != Overrides()) put_overrides_on(drive);
 }
 
 MachineSession::Answer MachineSession::take(request::Jog& jog) {
@@ -465,6 +461,7 @@ MachineSession::Answer MachineSession::take(request::OperatorDone&) {
   if (!busy() || !work_->drive || !work_->drive->waits_for()) {
     return refusal(RefusalCode::not_waiting, "the program does not wait for the operator");
   }
+  if (WaitWords* const words = work_->wait_words()) words->pass(work_->drive->waits_for()->source.line);
   work_->drive->done();
   mind_holds();
   return at_once();

@@ -4,6 +4,7 @@
 #include <deque>
 #include <memory>
 #include <optional>
+#include <string>
 #include <utility>
 
 #include "progress_ahead.hpp"
@@ -47,12 +48,21 @@ class MachineSession::Work {
   // Whether this is a program, which may be held and goes on.
   bool is_program() const { return program != nullptr || lines != nullptr; }
 
+  WaitWords* wait_words() const {
+    return program != nullptr ? &program->wait_words() : lines != nullptr ? &lines->wait_words() : nullptr;
+  }
+  std::string words_at(std::uint32_t line) const {
+    const WaitWords* const words = wait_words();
+    return words != nullptr ? words->at(line) : std::string();
+  }
+
   Ticket ticket = 0;
   bool ended = false;
-  bool stopped = false;        // somebody asked to stop
-  bool finishing = false;      // the drive has ended, and the board is asked for its counts
-  bool rest_told = false;      // the rest of the current hold has been reported
-  bool stops_outputs = false;  // at rest in the hold for a door, the outputs are to be switched off
+  std::uint64_t stops_before = 0;  // of the program, where it was taken up amid its path
+  bool stopped = false;            // somebody asked to stop
+  bool finishing = false;          // the drive has ended, and the board is asked for its counts
+  bool rest_told = false;          // the rest of the current hold has been reported
+  bool stops_outputs = false;      // at rest in the hold for a door, the outputs are to be switched off
   int recoveries_told = 0;
   std::optional<std::uint32_t> standstill_line;  // of the program, when a standstill amid motion was heard of
 
@@ -76,6 +86,7 @@ class MachineSession::Work {
   Point ahead;                              // the end of the planned path, for live motion
   LinesAhead lines_ahead;                   // the same
   ProgressAhead progress_ahead;             // the same
+  std::optional<Seconds> program_ends;      // when the motion before an M2 or M30 that was planned last ends
   Seconds whole{0};                         // the nominal time of a program that tells its progress
 };
 

@@ -100,7 +100,7 @@ TEST_F(ServeMqtt, tells_its_status_to_a_broker_that_comes_later) {
   const auto status = nlohmann::json::parse(kept("shop/router/status"), nullptr, false);
   ASSERT_TRUE(status.is_object());
   EXPECT_EQ(status["state"], "Idle");
-  EXPECT_EQ(status["position"]["X"], 0.0);
+  EXPECT_EQ(status["position"]["x"], 0.0);
   kill(daemon, SIGKILL);
   waitpid(daemon, nullptr, 0);
   std::erase(started_, daemon);
@@ -131,7 +131,31 @@ TEST_F(ServeMqtt, obeys_no_message) {
   EXPECT_EQ(kept("shop/router/gcode"), line) << "the broker has them";
   usleep(1'100'000);  // the status is told once a second
   EXPECT_EQ(kept("shop/router/state"), "Idle");
-  EXPECT_EQ(nlohmann::json::parse(kept("shop/router/status"), nullptr, false)["position"]["X"], 0.0);
+  EXPECT_EQ(nlohmann::json::parse(kept("shop/router/status"), nullptr, false)["position"]["x"], 0.0);
+}
+
+TEST_F(ServeMqtt, tells_the_job_and_the_time_left) {
+  if (std::system("command -v jq curl >/dev/null") != 0) GTEST_SKIP() << "jq or curl is not there";
+  start({"/usr/sbin/mosquitto", "-p", std::to_string(port_)}, "broker");
+  const std::string http = "127.0.0.1:" + std::to_string(free_port());
+  start(
+      {PASSO_PROGRAM, "serve", "--http", http, "--mqtt", "127.0.0.1:" + std::to_string(port_), "--mqtt-topic", "shop"},
+      "said");
+  ASSERT_TRUE(becomes("shop/state", "Idle")) << passo::test::read(path("said"));
+  EXPECT_THAT(kept("shop/status"), testing::Not(HasSubstr("\"job\"")));
+  const std::string program = write("part.ngc", "G21 G90 G1 X-30 F300\nM2\n");
+  const std::string api = http + "/api/v1";
+  const std::string commands = "key=$(curl -s -X POST -d '{}' " + api +
+                               "/owner | jq -r .key); id=$(curl -s --data-binary @" + program + " '" + api +
+                               "/programs?name=part.ngc' | jq .id); curl -s -X POST -H " + "\"X-Passo-Key: $key\" " +
+                               api + "/programs/$id/run >/dev/null";
+  EXPECT_EQ(std::system(commands.c_str()), 0);
+  ASSERT_TRUE(becomes("shop/status", "\"left\"")) << kept("shop/status");
+  const auto status = nlohmann::json::parse(kept("shop/status"), nullptr, false);
+  EXPECT_EQ(status["job"], "part.ngc");
+  EXPECT_GT(status["left"], 0);
+  EXPECT_LE(status["left"], 7);
+  EXPECT_TRUE(status["position"].contains("x"));
 }
 
 TEST_F(ServeMqtt, wants_a_good_address_topic_and_login) {

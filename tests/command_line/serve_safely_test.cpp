@@ -203,4 +203,17 @@ TEST_F(ServeSafely, shared_case_of_the_restart) {
   EXPECT_THAT(last, HasSubstr("[32000,")) << said;
 }
 
+TEST_F(ServeSafely, shared_case_of_the_sender_that_has_left) {
+  const std::string file = std::string(PASSO_SOURCE_DIR) + "/../shared/cases/serve/line-state.sh";
+  if (!std::filesystem::exists(file)) GTEST_SKIP() << file << " is not there";
+  if (std::system("command -v jq curl nc >/dev/null") != 0) GTEST_SKIP() << "jq, curl or nc is not there";
+  const std::string out = path("out");
+  const std::string command = "cd " PASSO_SOURCE_DIR " && PASSO=" PASSO_PROGRAM " XDG_STATE_HOME=" + path("state") +
+                              " bash " + file + " >" + out + " 2>&1";
+  EXPECT_EQ(std::system(command.c_str()) & 0x7F, 0);
+  const std::string said = passo::test::read(out);
+  EXPECT_THAT(said, testing::StartsWith("[\"Idle\",")) << said;
+  EXPECT_THAT(said, HasSubstr("\"ticket\"")) << "a jog begins";
+}
+
 }  // namespace

@@ -77,6 +77,24 @@ TEST_F(Waiting, a_check_says_where_a_program_waits) {
   EXPECT_EQ(json["waits_first_at"][1]["tool"], 2);
 }
 
+TEST_F(Waiting, what_the_program_says_is_told_where_it_waits) {
+  const std::string tools = " --tools " + write("tools.tbl", "T2 P2 D3 ; 3 mm, two flutes\nT3 P3 D3\n");
+  const std::string program =
+      write("p.ngc", "G21 G90 F3000\n(MSG, Turn the plate)\n(MSG,and clamp it)\nM0\nG1 X3\nT2 M6\nT3 M6 (spare)\nM2\n");
+  const std::string words =
+      "line 4: the operator (M0): Turn the plate, and clamp it; line 6: tool 2 (M6): 3 mm, two flutes; "
+      "line 7: tool 3 (M6): spare";
+  EXPECT_THAT(passo("check " + program + router + tools).out, HasSubstr("waits for somebody at " + words + "\n"));
+  const auto json = nlohmann::json::parse(passo("check --json " + program + router + tools).out);
+  EXPECT_EQ(json["waits_first_at"][0]["message"], "Turn the plate\nand clamp it");
+  EXPECT_THAT(passo("run " + program + router + tools).err, HasSubstr("would wait for " + words));
+  const Outcome outcome =
+      type("for i in 1 2 3; do sleep 0.5; echo; done; sleep 0.5", "run " + program + router + tools);
+  EXPECT_EQ(outcome.code, 0) << screen();
+  EXPECT_THAT(screen(), HasSubstr("waits at line 4: the operator (M0): Turn the plate, and clamp it. Press Enter"));
+  EXPECT_THAT(screen(), HasSubstr("waits at line 6: tool 2 (M6): 3 mm, two flutes. Press Enter"));
+}
+
 // The first loop is never through the check; the second one is, and runs for days.
 TEST_F(Waiting, a_program_without_end_is_ended_by_ctrl_c_at_rest_and_writes_nothing) {
   for (const std::string endless : {"o1 while [1]\nG1 X1 F600\nX0\no1 endwhile\nM2\n", "G1 X1 F6\nX0\nM99\n"}) {

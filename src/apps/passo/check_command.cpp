@@ -33,16 +33,12 @@
 namespace passo {
 namespace {
 
-const char* name_of(Action::Kind kind) {
-  if (kind == Action::Kind::tool_change) return "M6";
-  return kind == Action::Kind::optional_stop ? "M1" : "M0";
-}
-
 nlohmann::ordered_json as_json(const Diagnostics& findings, const ProgramStops& stops) {
   nlohmann::ordered_json waits = nlohmann::ordered_json::array();
   for (const OperatorWait& stop : stops.first()) {
-    waits.push_back({{"line", stop.line}, {"for", name_of(stop.kind)}});
+    waits.push_back({{"line", stop.line}, {"for", code_of(stop)}});
     if (stop.kind == Action::Kind::tool_change) waits.back()["tool"] = stop.tool;
+    if (!stop.words.empty()) waits.back()["message"] = stop.words;
   }
   return {{"good", !findings.any_error()},
           {"errors", findings.errors()},
@@ -204,6 +200,7 @@ void look(const CheckArguments& arguments, const MachineDescription& machine, co
   };
   const auto watch_operations = [&](const Operation& operation) {
     read.watch(operation);
+    first.stops.watch(operation, options.tools);
     messages.show(operation, [&] { progress.clear(); });
   };
   first.result = check_program(program.again(), machine, options, first.findings, watch_path, watch_operations);

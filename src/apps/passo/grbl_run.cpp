@@ -105,7 +105,8 @@ class GrblProgram {
         checker_(program_.again(), machine, options, unheard_),
         messages_(arguments.program.program, !arguments.quiet) {
     checker_.watch([this](const PathItem& item) { take(item); });
-    checker_.watch_operations([this](const Operation& operation) {
+    checker_.watch_operations([this, tools = options.tools](const Operation& operation) {
+      words_.watch(operation, tools);
       if (from_line_ == 0) messages_.show(operation, before_words);
     });
   }
@@ -167,7 +168,9 @@ class GrblProgram {
     const Seconds silence = action != nullptr && action->kind == Action::Kind::dwell ? action->dwell : Seconds(0);
     for (std::string& text : lines) ready_.push_back({std::move(text), line_of(item), silence, {}});
     if (action == nullptr || !is_stop(*action) || arguments_.yes) return;
-    const OperatorWait wait{.kind = action->kind, .tool = action->tool, .line = action->source.line};
+    const std::uint32_t line = action->source.line;
+    const OperatorWait wait{.kind = action->kind, .tool = action->tool, .line = line, .words = words_.at(line)};
+    words_.pass(line);
     ready_.push_back({"G4P0", action->source.line, Seconds(0), wait});
   }
 
@@ -177,6 +180,7 @@ class GrblProgram {
   Diagnostics unheard_;
   ProgramChecker checker_;
   ProgramMessages messages_;
+  WaitWords words_;
   std::deque<Ready> ready_;
   std::optional<OperatorWait> stop_;
   std::uint32_t from_line_ = 0;

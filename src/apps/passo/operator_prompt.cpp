@@ -41,7 +41,11 @@ bool asks_operator() {
 }
 
 std::string words_of(const OperatorWait& wait) {
-  return fmt::format("line {}: {}", wait.line, what(wait));
+  std::string words = fmt::format("line {}: {}", wait.line, what(wait));
+  if (wait.words.empty()) return words;
+  words += ": " + wait.words;
+  for (std::size_t end = 0; (end = words.find('\n', end)) != std::string::npos;) words.replace(end, 1, ", ");
+  return words;
 }
 
 void ProgramStops::watch(const PathItem& item) {
@@ -50,8 +54,12 @@ void ProgramStops::watch(const PathItem& item) {
   using Kind = Action::Kind;
   const bool stops =
       action->kind == Kind::program_stop || action->kind == Kind::optional_stop || action->kind == Kind::tool_change;
-  if (!stops || ++count_ > most_told) return;
-  stops_.push_back({.kind = action->kind, .tool = action->tool, .line = action->source.line});
+  if (!stops) return;
+  const std::uint32_t line = action->source.line;
+  if (++count_ <= most_told) {
+    stops_.push_back({.kind = action->kind, .tool = action->tool, .line = line, .words = words_.at(line)});
+  }
+  words_.pass(line);
 }
 
 std::string ProgramStops::words() const {

@@ -15,13 +15,14 @@ namespace passo {
 
 // Whether somebody can be asked: standard input and standard error are a terminal.
 bool asks_operator();
-// "line 12: tool 2 (M6)".
+// "line 12: tool 2 (M6): 6 mm drill".
 std::string words_of(const OperatorWait& wait);
 
 // The stops of a program, reported by a check, and before a run that asks nobody.
 class ProgramStops {
  public:
-  // Call it for each item of the path.
+  // Call the first for each operation, and the second for each item of the path.
+  void watch(const Operation& operation, const ToolTable& tools) { words_.watch(operation, tools); }
   void watch(const PathItem& item);
   // All stops: count() is how many there are, words() names the first ones, and first() has them.
   std::uint64_t count() const { return count_; }
@@ -33,6 +34,7 @@ class ProgramStops {
  private:
   std::vector<OperatorWait> stops_;  // the first stops
   std::uint64_t count_ = 0;
+  WaitWords words_;
 };
 
 class OperatorPrompt {

@@ -410,10 +410,12 @@ int run_program(const RunArguments& arguments, const MachineDescription& machine
   Diagnostics findings;
   PathFingerprint path;
   ProgramStops stops;
-  const ProgramCheck check = check_program(program.again(), machine, options, findings, [&](const PathItem& item) {
+  const auto watch_path = [&](const PathItem& item) {
     if (resumable) path.add(item);
     stops.watch(item);
-  });
+  };
+  const auto watch_operations = [&](const Operation& operation) { stops.watch(operation, options.tools); };
+  const ProgramCheck check = check_program(program.again(), machine, options, findings, watch_path, watch_operations);
   show(findings);
   if (!check.good) return exit_bad_program;
   std::optional<Reentry> way;

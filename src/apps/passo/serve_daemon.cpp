@@ -36,7 +36,7 @@ void ServeDaemon::serve() {
     turn();
     mind_place();
     reply();
-    if (status_ != nullptr) status_->turn(session_);
+    if (status_ != nullptr) status_->turn(session_, web_ != nullptr ? &web_->api() : nullptr);
     service_.alive();
   }
 }

@@ -47,6 +47,7 @@ class ServedWeb {
   std::optional<Point> broken_off_at() { return api_.broken_off_at(); }
   // A job that is stopped from now on can go on when the program runs again.
   void leave() { api_.leave(); }
+  const MachineApi& api() const { return api_; }
   // From now on senders and programs have the same offsets. `grbl` outlives this.
   void share_offsets(GrblController& grbl);
   // Hears the clients, and tells those who watch what is new.

@@ -63,26 +63,32 @@ std::unique_ptr<ServedStatus> ServedStatus::open(const ServeArguments& arguments
   return std::unique_ptr<ServedStatus>(new ServedStatus(std::move(*broker), machine, std::move(name)));
 }
 
-std::string ServedStatus::text_of(const MachineStatus& status) const {
+// Axes are named as by HTTP.
+std::string ServedStatus::text_of(const MachineStatus& status, const MachineApi* api) const {
   nlohmann::ordered_json place = nlohmann::ordered_json::object();
   for (const AxisDescription& axis : machine_.axes) {
-    place[std::string{letter_of(axis.axis)}] = std::round(status.now_at[axis.axis] * 1e4) / 1e4;
+    const char name = static_cast<char>(letter_of(axis.axis) - 'A' + 'a');
+    place[std::string{name}] = std::round(status.now_at[axis.axis] * 1e4) / 1e4;
   }
   nlohmann::ordered_json all = {{"machine", machine_.name}, {"state", name_of(status.state)}, {"position", place}};
   if (status.executes.line != 0) all["line"] = status.executes.line;
   if (status.progress) all["progress"] = std::round(*status.progress * 1e3) / 1e3;
+  if (api != nullptr && api->job().state == JobState::running) {
+    all["job"] = api->job().name;
+    if (const auto left = api->time_left()) all["left"] = std::round(left->value());
+  }
   if (!status.trouble_words.empty()) all["trouble"] = status.trouble_words;
   return all.dump(-1, ' ', false, nlohmann::ordered_json::error_handler_t::replace);
 }
 
-void ServedStatus::turn(const MachineSession& session) {
+void ServedStatus::turn(const MachineSession& session, const MachineApi* api) {
   const auto now = std::chrono::steady_clock::now();
   if (now - told_at_ < between_messages) return;
   told_at_ = now;
   if (std::exchange(connections_, broker_->connections()) != broker_->connections()) told_.clear();
   if (connections_ == 0) return;
   const MachineStatus status = session.status();
-  std::string text = text_of(status);
+  std::string text = text_of(status, api);
   if (text == told_) return;
   broker_->tell("state", name_of(status.state));
   broker_->tell("status", text);

@@ -32,6 +32,24 @@ class JobHistoryTest : public testing::Test {
   fs::path folder_ = fs::temp_directory_path() / ("passo-history-" + std::to_string(getpid()));
 };
 
+TEST_F(JobHistoryTest, keeps_where_a_job_has_waited) {
+  const HistoryWait tool{.at = 21, .code = "M6", .line = 12, .tool = 0, .words = "6 mm\ndrill"};
+  const HistoryWait stop{.at = 22, .code = "M0", .line = 13, .tool = {}, .words = ""};
+  {
+    const auto history = open();
+    history->add("a.ngc", "linuxcnc", "M2\n", 10);
+    history->add("b.ngc", "linuxcnc", "M2\n", 10);
+    history->begin(1, 20);
+    EXPECT_TRUE(history->note_wait(1, tool));
+    EXPECT_TRUE(history->note_wait(1, stop));
+    for (int i = 0; i < 40; ++i) history->note_wait(2, stop);
+    history->end(1, HistoryState::done, "", 30);
+  }
+  const auto history = open();
+  EXPECT_EQ(history->find(1)->waits, (std::vector<HistoryWait>{tool, stop}));
+  EXPECT_EQ(history->find(2)->waits.size(), std::size_t{JobHistory::most_waits});
+}
+
 TEST_F(JobHistoryTest, keeps_what_waits_and_what_has_ended) {
   {
     const auto history = open();

@@ -23,6 +23,8 @@
 #include <utility>
 
 #include "passo/activity/activity.hpp"
+#include "passo/activity/wait_words.hpp"
+#include "passo/base/tap.hpp"
 #include "passo/diagnostics/diagnostic.hpp"
 #include "passo/interpreter/interpreter.hpp"
 #include "passo/interpreter/machine_answers.hpp"
@@ -92,6 +94,7 @@ class OpenProgram final : public Source<PathItem> {
   ModesInForce modes() const { return interpreter_->modes(); }
   SavedParameters parameters() const { return interpreter_->saved_parameters(); }
   const ToolTable& tools() const { return interpreter_->tools(); }
+  WaitWords& wait_words() { return wait_words_; }
   // The source line of the item that was pulled last: the value of its N word, below 0: none.
   std::int64_t line_number() const { return line_number_; }
 
@@ -112,6 +115,7 @@ class OpenProgram final : public Source<PathItem> {
   Diagnostics diagnostics_;
   AnswerBook answers_;
   std::unique_ptr<Interpreter> interpreter_;
+  std::unique_ptr<Tap<Operation>> operations_;
   std::unique_ptr<PathBuilder> builder_;
   std::deque<PathItem> queue_;
   Seconds queued_time_{0};
@@ -121,7 +125,9 @@ class OpenProgram final : public Source<PathItem> {
   bool ended_ = false;
   bool jogs_ = false;
   std::optional<Diagnostic> answer_fault_;
-  OutputState outputs_;  // after the last item pulled
+  WaitWords wait_words_;
+  WaitWords kept_words_;  // before the line that was read last
+  OutputState outputs_;   // after the last item pulled
   std::int64_t line_number_ = -1;
   PathMode last_mode_ = PathMode::exact_stop;
 };

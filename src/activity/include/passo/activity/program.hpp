@@ -16,6 +16,7 @@
 #include "passo/activity/spindle_mistakes.hpp"
 #include "passo/activity/tool_track.hpp"
 #include "passo/activity/usual_mistakes.hpp"
+#include "passo/activity/wait_words.hpp"
 #include "passo/base/tap.hpp"
 #include "passo/diagnostics/diagnostic.hpp"
 #include "passo/gcode/program_reader.hpp"
@@ -104,12 +105,14 @@ class Program final : public Activity {
   const Frame& frame() const { return stages_.path_builder().frame(); }
   SavedParameters saved_parameters() const { return stages_.interpreter().saved_parameters(); }
   const ToolTable& tools() const { return stages_.interpreter().tools(); }
+  WaitWords& wait_words() { return wait_words_; }
   // The nominal time of the path planned so far.
   Seconds nominal_time() const { return nominal_time_; }
 
  private:
   MotionLimits limits_;
   ProgramStages stages_;
+  WaitWords wait_words_;
   Seconds whole_;
   Seconds nominal_time_{0};
 };

@@ -91,10 +91,17 @@ class KeptJob {
   InterpreterOptions options() const;
   void drop();
 
+  struct Beginning {
+    std::int64_t history = 0;
+    std::string text;
+    std::uint64_t path = 0;            // the fingerprint of the job's path
+    PathPlace place;                   // where on its path it begins
+    Point start;                       // where its path begins
+    std::vector<ProbeOutcome> probes;  // what the probe moves before that place have found
+  };
   // Begins the journal of a job: writes its head, and gives the board a new number. False: the journal cannot be
-  // written. `path`: the fingerprint of the job's path from where the machine stands.
-  // `place`: where on its path it begins.
-  [[nodiscard]] bool begin(std::int64_t history, std::string_view text, std::uint64_t path, const PathPlace& place);
+  // written.
+  [[nodiscard]] bool begin(Beginning job);
   // The same, to go on with the job that was broken off. False, with the reason in interrupted(): it cannot go on.
   [[nodiscard]] bool resume(std::uint64_t path);
   // The way back onto the path of the job, from where the machine stands now.

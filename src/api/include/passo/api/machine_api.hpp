@@ -138,10 +138,12 @@ class MachineApi final : public WebHandler {
   // What web servers count, for the metrics.
   void watch(const WebServer& server) { server_ = &server; }
   const ApiJob& job() const { return job_; }
+  // Of the job that runs, as far as it is known.
+  std::optional<Seconds> time_left() const { return time_left(session_.status()); }
   // Grows when the modes of the lines that a person types have changed.
   std::uint64_t mdi_version() const { return mdi_.version(); }
   // From now on a job that is stopped was broken off: the program is about to end.
-  void leave() { leaves_ = true; }
+  void leave();
 
   // A client that owns the motion, and was not heard for so long while nothing moved, owns it no longer.
   static constexpr Seconds silent_owner{300};
@@ -173,6 +175,13 @@ class MachineApi final : public WebHandler {
   WebAnswer words_answer() const;
   void note_words(const Operation& operation);
   void heed_state(MachineState state);
+  void note_wait();
+  bool is_free_to_move(const MachineStatus& status) const;
+  void step_aside();
+  Result<Reentry, ReentryProblem> way_behind_stop() const;
+  WebAnswer go_on_behind_stop();
+  WebAnswer stop_parked_job();
+  WebAnswer parked_refusal() const;
   void keep_results();
   void keep_offsets();
   void keep_all();
@@ -236,7 +245,20 @@ class MachineApi final : public WebHandler {
   std::string study_;          // the last one that was ordered
   std::uint64_t studied_ = 0;  // its program; 0: none
   std::optional<Ticket> ticket_;
-  Diagnostics findings_;  // of the run
+  // A job that waits for a person, whose motion has ended so that the person may move the machine.
+  struct ParkedJob {
+    ApiJob job;
+    OperatorWait wait;
+    SavedParameters parameters;  // of then
+    ToolTable tools;
+  };
+  std::optional<ParkedJob> parked_;
+  bool goes_on_ = false;              // the parked job is about to begin behind its stop
+  Point job_start_;                   // where the path of the job begins
+  std::vector<ProbeOutcome> probes_;  // what the job has probed
+  std::uint64_t last_job_ = 0;
+  bool wait_noted_ = false;  // where the job waits for a person now
+  Diagnostics findings_;     // of the run
   std::vector<JobWords> words_;
   // The program that is timed or was timed last, and its times, as far as they are known.
   std::uint64_t timed_ = 0;

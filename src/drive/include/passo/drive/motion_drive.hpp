@@ -99,6 +99,8 @@ class MotionDrive {
   void resume(HoldReason reason = HoldReason::operator_hold);
   // The stop or tool change that the program waits at, if any. done() lets the program go on.
   const std::optional<Action>& waits_for() const { return waits_for_; }
+  // How many stops and tool changes the motion has come to, those at which nobody was waited for too.
+  std::uint64_t stops() const { return stops_; }
   void done();
   // From now on the program waits at M1, or rests there for a moment only.
   void wait_at_optional(bool waits) { waits_at_optional_ = waits; }
@@ -217,6 +219,7 @@ class MotionDrive {
   bool planner_holds_ = false;  // what the planner was told last
   bool planner_stops_ = false;
   std::optional<Action> waits_for_;
+  std::uint64_t stops_ = 0;
   bool waits_at_optional_;
   bool reads_again_ = false;  // at the next rest, because lines were planned ahead
   double feed_override_ = 1;

@@ -50,6 +50,8 @@ enum class GrblError : int {
   invalid_target = 33,
 };
 
+inline constexpr std::string_view jog_begins = "$J=";
+
 enum class GrblAlarm : int {
   none = 0,
   hard_limit = 1,
@@ -117,10 +119,9 @@ class GrblController {
   void open_door();
   void stop_spindle();
   void switch_coolant(bool flood);
-  void change_feed(int percent);
-  void change_rapids(int percent);
-  void change_spindle(int percent);
-  void send_overrides();
+  void change_feed(int by);
+  void change_rapids(int to);
+  void change_spindle(int by);
 
   // Lines.
   void take_lines();
@@ -146,11 +147,14 @@ class GrblController {
   void home();
   void sleep();
   void begin_stream();
+  void request_stream();
+  void end_stream();
 
   // What has happened.
   void heed(const MachineChange& change);
   void end_probe();
   void tell_end();
+  void tell_wait();
   void begin_homing();
   void end_reset();
   void raise_alarm_of_board();
@@ -185,6 +189,10 @@ class GrblController {
   Waits waits_ = Waits::none;
   std::function<void()> after_stop_;
   std::optional<Ticket> homing_;
+  std::optional<Ticket> stream_;  // of the lines
+  bool stream_ends_ = false;      // it was asked to end
+  Seconds rests_since_{0};        // it has waited for a line since then
+  bool is_here_ = true;           // the sender
   std::optional<ProbeOutcome> probe_;
   bool alarm_ = false;   // locked, until $X, $H
   bool checks_ = false;  // $C
@@ -193,9 +201,9 @@ class GrblController {
   int offset_in_ = 0;    // reports until the work offset is shown again; 0: in the next
   int overrides_in_ = 1;
   Point told_offset_;
-  int feed_override_ = 100;
-  int rapid_override_ = 100;
-  int spindle_override_ = 100;
+  OutputState told_outputs_;
+  Overrides told_overrides_;
+  bool wait_told_ = false;        // where the program waits for a person now
   bool has_started_ = false;      // the start lines have had their turn
   bool offsets_changed_ = false;  // a sender has changed them, and nobody has heard of it
   Seconds heard_at_{0};           // any byte of the sender

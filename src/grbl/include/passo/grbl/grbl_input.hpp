@@ -9,7 +9,7 @@
 // same bytes inside: "Ä" is C3 84. So a byte that belongs to a character of UTF-8 text is no command.
 //
 // A line ends with LF, CR or CR LF. Like grbl, the input takes blanks, comments and '/' out, and makes letters
-// capital.
+// capital. The text of a comment (MSG,…) is kept beside the line.
 #pragma once
 
 #include <cstddef>
@@ -28,8 +28,10 @@ class GrblInput {
   static constexpr std::size_t longest_stripped = 255;
 
   struct Line {
-    std::string text;       // without blanks and comments, in capital letters
-    bool too_long = false;  // the rest is missing
+    std::string text;        // without blanks and comments, in capital letters
+    std::string message;     // of its last comment (MSG,…), as written
+    bool too_long = false;   // the rest is missing
+    bool cancelled = false;  // a jog cancel came after it: as a jog it has no effect
   };
 
   // Takes bytes as they came. Each real-time command goes to `act` at its place among the bytes.
@@ -37,6 +39,8 @@ class GrblInput {
   // Takes the next whole line, if there is one.
   std::optional<Line> take_line();
   bool has_line() const { return ends_ > 0; }
+  // Jogs among the lines that wait, also in a line that has only begun, are not to move.
+  void cancel_jogs();
   // Drops all that waits.
   void clear();
 
@@ -49,6 +53,7 @@ class GrblInput {
 
   std::string waiting_;
   std::size_t ends_ = 0;       // line ends in waiting_
+  std::size_t cancelled_ = 0;  // lines from the first one on
   int text_bytes_ = 0;         // how many bytes of a UTF-8 character are still to come
   bool command_next_ = false;  // after C2
   bool after_return_ = false;

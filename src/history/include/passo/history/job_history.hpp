@@ -28,6 +28,16 @@ namespace passo {
 enum class HistoryState : std::uint8_t { queued, running, done, stopped, failed, interrupted };
 std::string_view name_of(HistoryState state);
 
+// Where a job has waited for a person.
+struct HistoryWait {
+  double at = 0;
+  std::string code;  // M0, M1 or M6
+  std::uint32_t line = 0;
+  std::optional<std::int32_t> tool = {};  // of M6
+  std::string words;                      // of the program, line by line
+  friend bool operator==(const HistoryWait&, const HistoryWait&) = default;
+};
+
 struct HistoryJob {
   std::int64_t id = 0;
   std::string name;
@@ -39,6 +49,7 @@ struct HistoryJob {
   double queued_at = 0;
   double begun_at = 0;
   double ended_at = 0;
+  std::vector<HistoryWait> waits;
 };
 
 struct HistoryAlarm {
@@ -51,6 +62,7 @@ class JobHistory {
   static constexpr std::size_t most_queued = 256;
   static constexpr std::int64_t most_ended = 10'000;  // older ones are forgotten
   static constexpr std::int64_t most_alarms = 10'000;
+  static constexpr std::int64_t most_waits = 32;  // of a job; later ones are not noted
 
   // Opens or makes the file. The error is a sentence with the reason: the file is damaged, of a newer version, or
   // another program has it.
@@ -71,6 +83,7 @@ class JobHistory {
   // False: there is no such job, or it cannot be written; an end is then kept in memory. The program of a job that is done is forgotten.
   bool begin(std::int64_t id, double now);
   bool end(std::int64_t id, HistoryState state, std::string_view why, double now);
+  bool note_wait(std::int64_t id, const HistoryWait& wait);
   // Takes a job that waits out of the queue. False: it does not wait.
   bool remove(std::int64_t id);
   bool note_alarm(std::string_view words, double now);
@@ -92,6 +105,7 @@ class JobHistory {
   explicit JobHistory(sqlite3* database) : database_(database) {}
   bool run(const char* sql) const;
   std::vector<HistoryJob> jobs(const char* where, std::int64_t value) const;
+  std::vector<HistoryWait> waits_of(std::int64_t id) const;
   struct End {
     std::int64_t id = 0;
     HistoryState state = HistoryState::done;

@@ -51,6 +51,8 @@ class ToolTable {
 
   // Where the table came from, for messages. Empty: nobody gave a table.
   std::string name;
+  // What the table says of its tools, in words.
+  std::map<std::int32_t, std::string> remarks;
 
  private:
   std::map<std::int32_t, Tool> tools_;

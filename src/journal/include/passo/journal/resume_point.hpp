@@ -38,6 +38,7 @@ struct ResumePoint {
   std::int32_t tool = 0;                   // of its last tool change; 0: there was none
   MmPerSecond feed{0};                     // 0: nothing was fed
   std::optional<double> clearance = {};    // the height of its last rapid across, machine coordinates
+  std::uint64_t stops = 0;                 // stops and tool changes before the place
   std::size_t probes = 0;                  // probe moves before the place; what they have found counts
   std::optional<UnknownProbe> probe = {};  // the point is the beginning of this one
 };

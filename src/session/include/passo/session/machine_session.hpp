@@ -163,6 +163,7 @@ class MachineSession {
   void mind_lease();
   void mind_holds();
   void mind_door();
+  void end_overrides();
   void put_overrides_on(MotionDrive& drive) const;
   void note_tails();
   void note_standstill();

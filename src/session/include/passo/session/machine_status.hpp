@@ -36,8 +36,15 @@ struct OperatorWait {
   Action::Kind kind = Action::Kind::program_stop;
   std::int32_t tool = 0;   // the tool, for a tool change
   std::uint32_t line = 0;  // the program's line
+  // Which of the program's stops and tool changes, from 1; 0: not known.
+  std::uint64_t number = 0;
+  std::string words = {};  // what the program says there, line by line; empty: nothing
   friend bool operator==(const OperatorWait&, const OperatorWait&) = default;
 };
+constexpr const char* code_of(const OperatorWait& wait) {
+  if (wait.kind == Action::Kind::tool_change) return "M6";
+  return wait.kind == Action::Kind::optional_stop ? "M1" : "M0";
+}
 
 struct MachineStatus {
   std::uint64_t version = 0;  // grows with each change

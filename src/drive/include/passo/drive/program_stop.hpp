@@ -1,0 +1,13 @@
+// is_program_stop(action): a program waits there for a person, if it waits for persons at all: M0, M1, M6.
+#pragma once
+
+#include "passo/path/segment.hpp"
+
+namespace passo {
+
+constexpr bool is_program_stop(const Action& action) {
+  using Kind = Action::Kind;
+  return action.kind == Kind::program_stop || action.kind == Kind::optional_stop || action.kind == Kind::tool_change;
+}
+
+}  // namespace passo

@@ -1,0 +1,72 @@
+// MachineSession: why a program rests, and what a person changes meanwhile.
+#include <utility>
+
+#include "work.hpp"
+
+namespace passo {
+
+// Stops the jog in time. The moves that one step commits may not end after the lease.
+void MachineSession::mind_lease() {
+  if (!work_->lease_end) return;
+  const Seconds pulled = 3 * live_commitment.longest_move;
+  if (now() + work_->drive->committed() + pulled > *work_->lease_end) work_->drive->stop();
+}
+
+// As in grbl, the operator's factors are 100 % again after M2 and M30.
+void MachineSession::end_overrides() {
+  work_->program_ends.reset();
+  overrides_ = {.adaptive_feed = overrides_.adaptive_feed};
+  ++version_;
+  if (!work_->ended) put_overrides_on(*work_->drive);
+}
+
+// Sets the state of a program by its strongest reason to rest.
+void MachineSession::mind_holds() {
+  if (!work_->is_program() || !work_->drive) return;
+  const MotionDrive& drive = *work_->drive;
+  const HoldReasons holds = drive.holds();
+  const bool held = drive.state() == MotionDrive::State::held;
+  note_tails();
+  if (holds.has(HoldReason::door)) {
+    if (state_ != MachineState::door) move_to(MachineEvent::open_door);
+  } else if (holds.any_of({HoldReason::operator_hold, HoldReason::program_stop, HoldReason::line_end}) ||
+             (held && holds.has(HoldReason::zero_feed) &&
+              !holds.any_of({HoldReason::tool_change, HoldReason::await_line}))) {
+    if (state_ != MachineState::hold) move_to(MachineEvent::hold);
+  } else if (holds.has(HoldReason::tool_change)) {
+    if (state_ != MachineState::tool_change) move_to(MachineEvent::want_tool);
+  } else if (holds.has(HoldReason::await_line)) {
+    if (state_ != MachineState::await_line) move_to(MachineEvent::want_line);
+  } else if (state_ != MachineState::run && !drive.stopped()) {
+    move_to(MachineEvent::resume);
+  }
+  if (!held) {
+    work_->rest_told = false;
+  } else if (!std::exchange(work_->rest_told, true)) {
+    note({.kind = MachineChange::Kind::came_to_rest});
+    answer_holds(Outcome::done);
+  }
+}
+
+// A hold as for a door: at rest, spindle and coolant are off.
+void MachineSession::mind_door() {
+  if (!work_->stops_outputs || work_->drive->state() != MotionDrive::State::held) return;
+  work_->stops_outputs = false;
+  work_->drive->stop_outputs();
+}
+
+void MachineSession::note_tails() {
+  const Refiller* const tails = work_->drive->refiller();
+  for (; tails != nullptr && work_->recoveries_told < tails->recoveries(); ++work_->recoveries_told) {
+    note({.kind = MachineChange::Kind::rested_by_tail});
+  }
+}
+
+void MachineSession::put_overrides_on(MotionDrive& drive) const {
+  drive.set_feed_override(overrides_.feed);
+  drive.set_adaptive_feed(overrides_.adaptive_feed);
+  drive.set_spindle_override(overrides_.spindle);
+  drive.set_rapid_override(overrides_.rapids);
+}
+
+}  // namespace passo
