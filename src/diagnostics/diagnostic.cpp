@@ -4,6 +4,7 @@
 
 #include <fmt/format.h>
 
+#include "passo/base/counted.hpp"
 #include "passo/diagnostics/shown_place.hpp"
 
 namespace passo {
@@ -100,7 +101,7 @@ std::string more_lines_in_words(const Diagnostic& diagnostic) {
   if (lines.empty()) return {};
   const std::size_t shown = std::min(lines.size(), lines_shown);
   return fmt::format("and {}{} more, line{} {}{}", lines.size(), lines.size() == Diagnostic::most_lines ? " or" : "",
-                     lines.size() == 1 ? "" : "s",
+                     plural_end(lines.size() == 1),
                      fmt::join(lines.begin(), lines.begin() + static_cast<long>(shown), ", "),
                      shown < lines.size() ? ", ..." : "");
 }
@@ -152,9 +153,9 @@ std::string render(const Diagnostic& diagnostic, bool colour) {
   if (place.line > 0) where += fmt::format(":{}", place.line);
   if (place.line > 0 && place.column > 0) where += fmt::format(":{}", shown_place(diagnostic).column);
 
-  std::string out =
-      fmt::format("{}: {}: {} [{}]\n", paint("1", where), is_error ? paint("1;31", "error") : paint("1;35", "warning"),
-                  paint("1", diagnostic.message), diagnostic.code);
+  std::string out = where.empty() ? std::string() : paint("1", where) + ": ";
+  out += fmt::format("{}: {} [{}]\n", is_error ? paint("1;31", "error") : paint("1;35", "warning"),
+                     paint("1", diagnostic.message), diagnostic.code);
   if (place.line > 0 && place.column > 0 && !diagnostic.text.empty()) {
     const Window window = window_around(diagnostic.text, place.column - 1, place.length);
     const std::size_t room = characters(window.text) > window.caret ? characters(window.text) - window.caret : 1;
@@ -177,7 +178,7 @@ std::string render(const Diagnostics& diagnostics, bool colour) {
   if (errors == 0) return out;
   const auto kept = static_cast<std::size_t>(std::ranges::count_if(
       diagnostics.all(), [](const Diagnostic& diagnostic) { return diagnostic.severity == Severity::error; }));
-  out += fmt::format("{} error{}", errors, errors == 1 ? "" : "s");
+  out += counted(errors, "error");
   if (kept < errors) out += fmt::format(", the first {} shown", kept);
   return out + "\n";
 }

@@ -29,6 +29,7 @@ constexpr std::string_view of_board = "G-code, which passo cam board makes of th
 constexpr std::string_view of_archive = "the program itself, unpacked";
 constexpr std::string_view of_printer =
     "G-code for a machine that cuts, from a CAM program; nothing here heats or extrudes";
+constexpr std::string_view of_settings = "G-code; a sender gives such settings to a Grbl machine";
 constexpr std::string_view of_program = "G-code, which is text";
 
 constexpr ForeignFile png{"a PNG picture", of_png};
@@ -58,6 +59,7 @@ constexpr ForeignFile gzip{"a gzip archive", of_archive};
 constexpr ForeignFile zip{"a ZIP archive", of_archive};
 constexpr ForeignFile elf{"a program for a computer or a board (ELF)", of_program};
 constexpr ForeignFile printer{"a program for a 3D printer", of_printer};
+constexpr ForeignFile settings{"a list of settings of Grbl", of_settings};
 constexpr ForeignFile xml{"an XML file", of_program};
 
 // "dxf" of "Part.DXF"; empty: none.
@@ -228,6 +230,16 @@ bool is_for_a_printer(std::string_view first) {
   return false;
 }
 
+// Lines like "$100=250.000 (x, step/mm)". A program with one of them has it for another reason.
+bool is_list_of_settings(std::string_view line, std::string_view rest) {
+  const auto is_setting = [](std::string_view text) {
+    const std::size_t equals = text.find('=');
+    return text.starts_with('$') && equals != std::string_view::npos && is_count(text.substr(1, equals - 1));
+  };
+  const std::string_view second = take_line(rest);
+  return is_setting(line) && is_setting(second) && is_setting(take_line(rest));
+}
+
 ForeignFile by_text(std::string_view first, const std::string& ending) {
   std::string_view rest = first;
   const std::string_view line = take_line(rest);
@@ -245,6 +257,7 @@ ForeignFile by_text(std::string_view first, const std::string& ending) {
   if (is_toml(first, ending)) return description;
   if (const ForeignFile of_numbers = by_numbers(line, rest, ending); !of_numbers.kind.empty()) return of_numbers;
   if (is_for_a_printer(first)) return printer;
+  if (is_list_of_settings(line, rest)) return settings;
   if (line == "999" && ending == "dxf") return dxf;
   return line == "0" && take_line(rest) == "SECTION" ? dxf : ForeignFile{};
 }

@@ -2,8 +2,11 @@
 
 #include <array>
 #include <cmath>
+#include <optional>
+#include <utility>
 
 #include "passo/gcode/expression.hpp"
+#include "passo/gcode/grbl_command.hpp"
 
 namespace passo {
 namespace {
@@ -104,6 +107,12 @@ ArgumentCount arguments_of(ControlKind kind) {
 
 bool LineParser::parse() {
   char c = peek();
+  if (c == '$') {
+    if (std::optional<GrblCommand> command = grbl_command_in(rest(at_))) {
+      return fail("gcode.grbl-command", at_, rest(at_).size(), std::move(command->message),
+                  std::move(command->expected));
+    }
+  }
   if (c == '%') {
     take();
     block_.percent = true;

@@ -9,7 +9,7 @@
 namespace passo {
 namespace {
 
-enum class Quantity : std::uint8_t { number, length, degrees, seconds, speed };
+enum class Quantity : std::uint8_t { number, turns, times, length, degrees, seconds, speed };
 
 // What a letter means with a code. For a code without a line here, the text is "a value of" and the code.
 struct LetterMeaning {
@@ -21,7 +21,7 @@ struct LetterMeaning {
 };
 constexpr LetterMeaning g_letters[] = {
     {"R", code(2), code(3), Quantity::length, "the arc's radius is {}"},
-    {"P", code(2), code(3), Quantity::number, "{} turns, the last one a part of one perhaps"},
+    {"P", code(2), code(3), Quantity::turns, "{}, the last one a part of one perhaps"},
     {"P", code(4), code(4), Quantity::seconds, "wait {}"},
     {"P", code(10), code(10), Quantity::number, "number {} of what G10 sets"},
     {"K", code(33), code(33, 1), Quantity::length, "{} along for each turn of the spindle"},
@@ -33,10 +33,12 @@ constexpr LetterMeaning g_letters[] = {
     {"Q", code(64), code(64), Quantity::length, "merge moves that are straight within {}"},
     {"R", code(73), code(74), Quantity::length, "the retract plane is at {}"},
     {"R", code(81), code(89), Quantity::length, "the retract plane is at {}"},
-    {"L", code(73), code(74), Quantity::number, "{} times"},
-    {"L", code(81), code(89), Quantity::number, "{} times"},
+    {"L", code(73), code(74), Quantity::times, "{}"},
+    {"L", code(81), code(89), Quantity::times, "{}"},
     {"Q", code(73), code(73), Quantity::length, "{} deeper with each peck"},
     {"Q", code(83), code(83), Quantity::length, "{} deeper with each peck"},
+    {"D", code(73), code(73), Quantity::length, "{} back after each peck"},
+    {"D", code(83), code(83), Quantity::length, "by rapid to {} above the depth so far"},
     {"P", code(74), code(74), Quantity::seconds, "wait {} at the bottom"},
     {"P", code(81), code(89), Quantity::seconds, "wait {} at the bottom"},
     {"D", code(96), code(96), Quantity::speed, "{} at most"},
@@ -50,7 +52,7 @@ constexpr LetterMeaning m_letters[] = {
     {"Q", code(66), code(66), Quantity::seconds, "for {} at most"},
     {"Q", code(67), code(68), Quantity::number, "to {}"},
     {"P", code(98), code(98), Quantity::number, "of subprogram {}"},
-    {"L", code(98), code(98), Quantity::number, "{} times"},
+    {"L", code(98), code(98), Quantity::times, "{}"},
 };
 
 std::string rounded(double value) {
@@ -62,7 +64,9 @@ std::string quantity_in_words(double value, Quantity quantity, const ProgramStat
     case Quantity::length:
       return state.modal.inches() ? fmt::format("{} in ({} mm)", plain_number(value), rounded(value * mm_per_inch))
                                   : fmt::format("{} mm", plain_number(value));
-    case Quantity::degrees: return fmt::format("{} degrees", plain_number(value));
+    case Quantity::turns: return number_and_noun(value, "turn");
+    case Quantity::times: return number_and_noun(value, "time");
+    case Quantity::degrees: return number_and_noun(value, "degree");
     case Quantity::seconds: return fmt::format("{} s", plain_number(value));
     case Quantity::speed: return fmt::format("{} rev/min", plain_number(value));
     default: return plain_number(value);
@@ -70,7 +74,8 @@ std::string quantity_in_words(double value, Quantity quantity, const ProgramStat
 }
 
 std::string on_axis(double millimetres_or_degrees, Axis axis) {
-  return fmt::format("{} {}", rounded(millimetres_or_degrees), is_rotary(axis) ? "degrees" : "mm");
+  const double value = std::round(millimetres_or_degrees * 1e6) / 1e6 + 0.0;
+  return is_rotary(axis) ? number_and_noun(value, "degree") : plain_number(value) + " mm";
 }
 
 // The words of one block, and their meanings with its codes.

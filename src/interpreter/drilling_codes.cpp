@@ -105,12 +105,16 @@ bool DrillingCodes::check_words(CodeNumber number, bool first, std::int32_t& hol
     }
   }
   if (takes('P') && is_negative('P')) {
-    return fail("gcode.negative-word", words_.span('P'),
-                fmt::format("a dwell of {} seconds", plain_number(words_['P'])), "P of 0 or more");
+    return fail("gcode.negative-word", words_.span('P'), "a dwell of " + number_and_noun(words_['P'], "second"),
+                "P of 0 or more");
   }
   if (takes('Q') && words_['Q'] <= 0) {
     return fail("gcode.negative-word", words_.span('Q'), fmt::format("a peck of {}", plain_number(words_['Q'])),
                 "Q above 0");
+  }
+  if (takes('D') && is_negative('D')) {
+    return fail("gcode.negative-word", words_.span('D'),
+                fmt::format("a peck that goes back by {}", plain_number(words_['D'])), "D of 0 or more");
   }
   return !words_.has('L') || whole_word('L', 1, most_repeats, holes);
 }
@@ -142,6 +146,7 @@ DrillingPlan DrillingCodes::plan_of(CodeNumber number, const Point& hole) const 
   plan.aside = kept_.aside;
   plan.dwell = kept_.dwell;
   plan.peck = kept_.peck;
+  if (takes('D')) plan.clearance = never_negative('D') * state_.length_unit();
   plan.spindle = state_.spindles[0].direction;
   plan.feed_override = state_.feed_override;
   plan.speed_override = state_.spindles[0].speed_override;

@@ -68,7 +68,7 @@ bool DrillingCycle::peck() {
   if (reached_ <= plan_.bottom + at_bottom) return false;
   feed_to(reached_);
   if (plan_.code == code(83)) traverse_to(plan_.retract);
-  traverse_to(reached_ + peck_clearance);
+  traverse_to(reached_ + plan_.clearance.value_or(peck_clearance));
   return true;
 }
 

@@ -32,10 +32,11 @@ struct DrillingPlan {
   bool returns_to_initial = false;     // G98: the tool goes to this height between holes, not only to `retract`
   double retract = 0;                  // R: the height where the feed begins
   double bottom = 0;
-  double top = 0;    // the top of a back bore
-  Point aside = {};  // G87: how far the tool goes aside, in the plane
-  double dwell = 0;  // P, seconds
-  double peck = 0;   // Q
+  double top = 0;                        // the top of a back bore
+  Point aside = {};                      // G87: how far the tool goes aside, in the plane
+  double dwell = 0;                      // P, seconds
+  double peck = 0;                       // Q
+  std::optional<double> clearance = {};  // D: how far a peck goes back; empty: LinuxCNC's 0.254 mm
   SpindleDirection spindle = SpindleDirection::off;
   bool feed_override = true;  // whether the override was on: it is switched on again after a tap
   bool speed_override = true;

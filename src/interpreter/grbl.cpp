@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 
 #include "passo/gcode/expression.hpp"
+#include "passo/gcode/grbl_command.hpp"
 #include "passo/interpreter/grbl_errors.hpp"
 
 namespace passo {
@@ -104,6 +105,7 @@ constexpr Translation translations[] = {
     {"gcode.missing-word", 28},     {"gcode.g53-without-move", 30},   {"gcode.missing-motion", 31},
     {"gcode.arc-radii-differ", 33}, {"gcode.zero-arc", 33},           {"gcode.impossible-arc", 34},
     {"gcode.missing-center", 35},   {"gcode.unused-word", 36},        {"gcode.probe-too-short", 33},
+    {"gcode.grbl-command", 3},
 };
 
 const Error& error_of(int number) {
@@ -134,8 +136,9 @@ class GrblCheck {
   // For a line that cannot be read to its end. True: grbl finds something else before, which is reported.
   bool refuses_before_fault() {
     if (is_system_command()) {
-      return !fail(3, {1, 1}, "a line with $ is a command to grbl itself, not G-code",
-                   "such commands outside programs");
+      const std::optional<GrblCommand> command = grbl_command_in(block_.text);
+      return !fail(3, {1, 1}, command ? command->message : "a line with $ is a command to grbl itself, not G-code",
+                   command ? command->expected : "such commands outside programs");
     }
     for (const Word& word : block_.words) {
       if (is_no_letter(word)) return !take(word);
@@ -161,7 +164,7 @@ class GrblCheck {
 
   bool lines_shape() {
     if (is_system_command()) return !refuses_before_fault();
-    if (block_.percent) return fail(1, {1, 1}, "grbl knows no '%'", "no '%': the sender takes it out");
+    if (block_.percent) return fail(1, {1, 1}, "grbl knows no '%'", "no '%': a sender takes it out");
     std::size_t length = 0;
     std::size_t comment_at = 0;
     for (std::size_t i = 0; i < block_.text.size(); ++i) {

@@ -165,7 +165,10 @@ class Interpreter::Implementation {
     text_ = {};
     finished_ = true;
     if (!executor_.ended() && flow_.end() == ProgramFlow::End::file && !reporter_.full()) {
-      reporter_.warning("gcode.no-end", {1, 1}, "the program ends without M2, M30 or '%'", "M2 in its last line");
+      const bool is_for_grbl = block_.options.dialect == Dialect::grbl;
+      reporter_.warning("gcode.no-end", {1, 1},
+                        is_for_grbl ? "the program ends without M2 or M30" : "the program ends without M2, M30 or '%'",
+                        "M2 in its last line");
     }
     if (executor_.ended()) {
       if (!executor_.gave_up()) {

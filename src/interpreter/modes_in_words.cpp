@@ -63,7 +63,7 @@ std::string overrides_of(const ProgramState& state) {
 }
 
 std::string rotation_of(const ProgramState& state) {
-  return fmt::format("{} degrees", plain_number(state.frame.rotation_degrees()));
+  return number_and_noun(state.frame.rotation_degrees(), "degree");
 }
 
 // The settings that no code of a modal group tells.
@@ -93,7 +93,8 @@ std::string in_words(const Point& point) {
     const double value = std::round(point[axis] * 1e6) / 1e6 + 0.0;  // no "-0", no rounding errors
     if (axis > Axis::z && value == 0) continue;
     if (!text.empty()) text += ", ";
-    text += fmt::format("{} {} {}", letter_of(axis), plain_number(value), is_rotary(axis) ? "degrees" : "mm");
+    text += fmt::format("{} {}", letter_of(axis),
+                        is_rotary(axis) ? number_and_noun(value, "degree") : plain_number(value) + " mm");
   }
   return text;
 }

@@ -9,6 +9,10 @@ namespace {
 
 constexpr int last_position_parameter = position_parameter + static_cast<int>(axis_count) - 1;
 
+bool is_used_offset(std::int64_t number) {
+  return number >= used_offset_parameter && number < used_offset_parameter + static_cast<int>(axis_count);
+}
+
 }  // namespace
 
 Parameters::Parameters(SymbolTable& symbols, const ProgramState& state, LengthUnits machine_units,
@@ -35,6 +39,9 @@ bool Parameters::numbered(std::int64_t number, double& value) const {
   } else if (is_machine_position(number)) {
     const Axis axis = all_axes[static_cast<std::size_t>(number - machine_position_parameter)];
     value = state_.machine_position()[axis] / state_.units_of(axis);
+  } else if (is_used_offset(number)) {
+    const Axis axis = all_axes[static_cast<std::size_t>(number - used_offset_parameter)];
+    value = state_.frame.tool_offset()[axis] / unit_of(axis);
   } else if (number >= tool_parameter && number <= last_tool_parameter) {
     value = of_tool(static_cast<int>(number));
   } else {
@@ -79,7 +86,7 @@ bool Parameters::forgets(int number) const {
 
 bool Parameters::is_settable(std::int64_t number) {
   if (number < 1 || number > highest_parameter) return false;
-  return !(number >= tool_parameter && number <= last_tool_parameter) &&
+  return !(number >= tool_parameter && number <= last_tool_parameter) && !is_used_offset(number) &&
          !(number >= position_parameter && number <= last_position_parameter);
 }
 

@@ -36,6 +36,7 @@ inline constexpr int second_home_parameter = 5181;
 inline constexpr int machine_position_parameter = 5021;
 inline constexpr int probe_parameter = 5061;
 inline constexpr int probe_success_parameter = 5070;
+inline constexpr int used_offset_parameter = 5081;  // the tool offset in effect
 inline constexpr int input_parameter = 5399;
 inline constexpr int show_debug_parameter = 5599;
 inline constexpr int g92_active_parameter = 5210;

@@ -6,6 +6,8 @@
 #include "whole_number.hpp"
 #include <fmt/format.h>
 
+#include "passo/base/counted.hpp"
+
 namespace passo {
 namespace {
 
@@ -247,12 +249,13 @@ void ProgramFlow::end_do(Symbol label, const Control& control) {
   }
 }
 
+// Halves are rounded to even, as in LinuxCNC: 2.5 is 2 passes.
 void ProgramFlow::begin_repeat(Symbol label, const Control& control) {
   constexpr double most_passes = 1e15;
   Open& open = push(repeat, label);
   double passes = 0;
-  if (argument(control, passes) && std::round(passes) >= 1) {
-    open.passes_left = static_cast<std::uint64_t>(std::min(std::round(passes), most_passes));
+  if (argument(control, passes) && std::nearbyint(passes) >= 1) {
+    open.passes_left = static_cast<std::uint64_t>(std::min(std::nearbyint(passes), most_passes));
   } else if (skip_to(open, kinds({endrepeat}))) {
     open_.pop_back();
   }
@@ -343,10 +346,11 @@ bool ProgramFlow::may_go_round(const Open& loop) {
   if (!idles && ++steps_ <= options_.repeated_steps) return true;
   file_->reader.seek(loop.at);
   (void)read();
-  reporter_.error("gcode.endless-loop", block_->control ? block_->control->span : Span{1, 1},
-                  idles ? fmt::format("the loop went round {} times, and the machine did nothing", options_.idle_passes)
-                        : fmt::format("the loop came to {} passes, calls and operations", options_.repeated_steps),
-                  idles ? "a loop that ends, or that moves" : "a loop that ends; or a higher --step-limit");
+  reporter_.error(
+      "gcode.endless-loop", block_->control ? block_->control->span : Span{1, 1},
+      idles ? fmt::format("the loop went round {}, and the machine did nothing", counted(options_.idle_passes, "time"))
+            : fmt::format("the loop came to {} passes, calls and operations", options_.repeated_steps),
+      idles ? "a loop that ends, or that moves" : "a loop that ends; or a higher --step-limit");
   finish(End::error);
   return false;
 }

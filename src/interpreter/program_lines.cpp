@@ -111,6 +111,8 @@ void ProgramFlow::look_at(Block& block) {
 bool ProgramFlow::is_readable(std::string_view text, std::uint32_t line) {
   const bool good = file_->parser.parse(text, line, *block_, faults_);
   if (options_.dialect == Dialect::linuxcnc) return good;
+  // Senders send no '%' of a file.
+  if (good && !options_.open_ended) block_->percent = false;
   if (good) return accept_as_grbl(*block_, state_, reporter_, options_.more_grbl_axes);
   if (refuse_as_grbl(*block_, state_, reporter_, options_.more_grbl_axes)) faults_ = Diagnostics();
   return false;

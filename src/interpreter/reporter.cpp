@@ -1,8 +1,11 @@
 #include "reporter.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 #include <fmt/format.h>
+
+#include "passo/base/counted.hpp"
 
 namespace passo {
 namespace {
@@ -140,8 +143,17 @@ std::vector<CallPlace> Reporter::calls() const {
   return stack_ == nullptr ? std::vector<CallPlace>() : stack_->calls();
 }
 
+// Six decimals, as LinuxCNC prints, and ten digits at most. What is smaller keeps six digits.
 std::string plain_number(double value) {
+  const double size = std::abs(value);
+  if (size > 0 && size < 1e-3) return fmt::format("{:.6g}", value);
+  if (size < 1e9) value = std::round(value * 1e6) / 1e6;
   return fmt::format("{:.10g}", value);
+}
+
+std::string number_and_noun(double value, std::string_view noun) {
+  const std::string number = plain_number(value);
+  return fmt::format("{} {}{}", number, noun, plural_end(number == "1" || number == "-1"));
 }
 
 }  // namespace passo

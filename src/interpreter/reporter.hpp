@@ -90,5 +90,7 @@ class Reporter {
 
 // A number as a person writes it: "2.5", not "2.500000".
 std::string plain_number(double value);
+// "1 degree", "2.5 degrees".
+std::string number_and_noun(double value, std::string_view noun);
 
 }  // namespace passo

@@ -47,6 +47,7 @@ constexpr Rule table[] = {
     {"gcode.g0-with-home", "RS274/NGC 3.4, modal groups"},
     {"gcode.g53-incremental", "RS274/NGC 3.5.12, move in absolute coordinates"},
     {"gcode.g53-without-move", "RS274/NGC 3.5.12, move in absolute coordinates"},
+    {"gcode.grbl-command", "Passo, docs/gcode.md: Differences from grbl"},
     {"gcode.hidden-comment", "RS274/NGC 3.3.5, item repeats"},
     {"gcode.impossible-arc", "RS274/NGC 3.5.3.1, radius format arc"},
     {"gcode.line-too-long", "Passo, docs/gcode.md: Limits"},

@@ -105,8 +105,8 @@ bool BlockExecutor::dwell(CodeNumber number) {
                 fmt::format("P belongs to G4 or to {}, which both use it", spelling(*block_.motion)), "two blocks");
   }
   if (is_negative('P')) {
-    return fail("gcode.negative-word", words_.span('P'),
-                fmt::format("a dwell of {} seconds", plain_number(words_['P'])), "P of 0 or more");
+    return fail("gcode.negative-word", words_.span('P'), "a dwell of " + number_and_noun(words_['P'], "second"),
+                "P of 0 or more");
   }
   emit(operation::Dwell{Seconds(never_negative('P'))});
   return true;
@@ -248,8 +248,11 @@ bool BlockExecutor::stop(CodeNumber number) {
 
 // M2 and M30 put the machine back into the state that programs may expect.
 void BlockExecutor::end_program(bool pallet) {
-  const bool keeps_system = block_.options.settings && block_.options.settings->is_on("RS274NGC", "DISABLE_AUTO_G54");
-  if (!keeps_system) frame_.activate_system(1, false);
+  const auto is_on = [&](std::string_view name) {
+    return block_.options.settings && block_.options.settings->is_on("RS274NGC", name);
+  };
+  if (!is_on("DISABLE_AUTO_G54")) frame_.activate_system(1, false);
+  if (is_on("DISABLE_G92_PERSISTENCE")) (void)frame_.set_g92(code(92, 1));
   if (state_.modal.plane() != Plane::xy) emit(operation::SelectPlane{Plane::xy});
   emit(operation::SetFeedMode{});
   emit(operation::SetFeedRate{});

@@ -83,7 +83,7 @@ bool SpindleCodes::orient() {
   std::int32_t way = 0;
   if (words_.has('P') && !whole_word('P', 0, 2, way)) return false;
   if (words_.has('Q') && words_['Q'] <= 0) {
-    return fail("gcode.negative-word", words_.span('Q'), fmt::format("M19 waits {} seconds", plain_number(words_['Q'])),
+    return fail("gcode.negative-word", words_.span('Q'), "M19 waits " + number_and_noun(words_['Q'], "second"),
                 "Q above 0, or no Q: no wait");
   }
   state_.spindles[range.first].direction = SpindleDirection::off;

@@ -4,6 +4,7 @@
 
 #include <fmt/format.h>
 
+#include "passo/base/counted.hpp"
 #include "passo/geometry/bezier.hpp"
 
 namespace passo {
@@ -200,9 +201,10 @@ bool SplineCodes::end_nurbs() {
   close_nurbs();
   if (nurbs_.wrong) return false;  // which was reported
   if (nurbs_.points.size() < static_cast<std::size_t>(nurbs_.order)) {
-    return fail("gcode.too-few-points", motion_span(),
-                fmt::format("a NURBS of order {} with {} control points", nurbs_.order, nurbs_.points.size()),
-                fmt::format("{} at least; the start is the first, and a lower L needs fewer", nurbs_.order));
+    return fail(
+        "gcode.too-few-points", motion_span(),
+        fmt::format("a NURBS of order {} with {}", nurbs_.order, counted(nurbs_.points.size(), "control point")),
+        fmt::format("{} at least; the start is the first, and a lower L needs fewer", nurbs_.order));
   }
   if (!check_nurbs_feed()) return false;
   emit(operation::NurbsFeed{nurbs_.points, nurbs_.order});

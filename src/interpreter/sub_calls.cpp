@@ -4,6 +4,8 @@
 #include "program_flow.hpp"
 #include <fmt/format.h>
 
+#include "passo/base/counted.hpp"
+
 namespace passo {
 
 void ProgramFlow::call(Symbol label, const Control& control) {
@@ -35,13 +37,13 @@ bool ProgramFlow::may_call(Span span) {
     reporter_.error("gcode.calls-too-deep", span, fmt::format("calls are nested more than {} deep", deepest_call),
                     "a sub that does not call itself for ever");
   } else if (idles || ++steps_ > options_.repeated_steps) {
-    reporter_.error("gcode.endless-calls", span,
-                    idles
-                        ? fmt::format("the program called {} times, and the machine did nothing", options_.idle_passes)
-                        : fmt::format("the call from line {} came to {} passes, calls and operations",
-                                      frames_.empty() ? block_at_.line : frames_.front().return_to.line - 1,
-                                      options_.repeated_steps),
-                    "a sub that does not call itself again and again");
+    reporter_.error(
+        "gcode.endless-calls", span,
+        idles ? fmt::format("the program called {}, and the machine did nothing", counted(options_.idle_passes, "time"))
+              : fmt::format("the call from line {} came to {} passes, calls and operations",
+                            frames_.empty() ? block_at_.line : frames_.front().return_to.line - 1,
+                            options_.repeated_steps),
+        "a sub that does not call itself again and again");
   } else {
     return true;
   }

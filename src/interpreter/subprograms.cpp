@@ -8,6 +8,8 @@
 #include "program_flow.hpp"
 #include <fmt/format.h>
 
+#include "passo/base/counted.hpp"
+
 namespace passo {
 
 ProgramFlow::Followed ProgramFlow::follow(const SubprogramJump& jump) {
@@ -81,9 +83,10 @@ ProgramFlow::Followed ProgramFlow::end_program(const SubprogramJump& jump) {
 bool ProgramFlow::restart_main(const SubprogramJump& jump) {
   if (++main_passes_ == options_.main_passes || reporter_.errors() > 0) return false;
   if (++idle_passes_ > options_.idle_passes) {
-    reporter_.error("gcode.endless-loop", jump.span,
-                    fmt::format("the program began again {} times, and the machine did nothing", options_.idle_passes),
-                    "a program that moves, or M2 in place of M99");
+    reporter_.error(
+        "gcode.endless-loop", jump.span,
+        fmt::format("the program began again {}, and the machine did nothing", counted(options_.idle_passes, "time")),
+        "a program that moves, or M2 in place of M99");
     finish(End::error);
     return true;
   }

@@ -64,11 +64,14 @@ bool Leveller::keeps_cycle(const Operation& operation) {
   return true;
 }
 
+// D counts in its own block alone.
 void Leveller::take_cycle_words(const FrameBlock& block) {
-  for (const char letter : {'Z', 'R', 'P', 'Q'}) {
-    if (!block.has(letter)) continue;
-    const double unit = letter == 'R' || letter == 'Q' ? block.length_unit : 1;
+  for (const char letter : {'Z', 'R', 'P', 'Q', 'D'}) {
+    const bool is_given = block.has(letter);
+    if (!is_given && letter != 'D') continue;
+    const double unit = letter == 'Z' || letter == 'P' ? 1 : block.length_unit;
     std::erase_if(cycle_.words, [letter](const auto& word) { return word.first == letter; });
+    if (!is_given) continue;
     cycle_.words.emplace_back(letter, block.value(letter) * unit);
   }
 }

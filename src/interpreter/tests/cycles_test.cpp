@@ -2,6 +2,7 @@
 #include <cmath>
 
 #include "interpreted.hpp"
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -18,6 +19,25 @@ TEST(DrillingCycles, any_number_of_holes_and_pecks_fits) {
   const Interpreted pecks = interpret_text("G21 F100\nG83 X1 Z-10 R0 Q.01\nM2\n");
   EXPECT_EQ(pecks.all<operation::StraightFeed>().size(), 1000U);
   EXPECT_NEAR(pecks.last<operation::StraightFeed>().end[Axis::z], -10, 1e-9);
+}
+
+// As in LinuxCNC 2.10. D is in the program's units, and counts in its own block alone.
+TEST(DrillingCycles, the_word_d_says_how_far_a_peck_goes_back) {
+  const auto heights = [](const std::string& program) {
+    std::string text;
+    for (const auto& rapid : interpret_text(program).all<operation::StraightTraverse>()) {
+      text += fmt::format(" {:g}", rapid.end[Axis::z]);
+    }
+    return text;
+  };
+  EXPECT_EQ(heights("G21 F100 G0 Z5\nG99 G73 X1 Z-6 R1 Q3 D0.5\nX2\nX3 D1\nM2\n"),
+            " 5 5 1 -1.5 -4.5 1 1 -1.746 -4.746 1 1 -1 -4 1");
+  EXPECT_EQ(heights("G20 F100 G0 Z1\nG99 G73 X1 Z-1 R0 Q0.5 D0.1\nM2\n"), " 25.4 25.4 0 -10.16 0");
+  EXPECT_EQ(heights("G21 F100 G0 Z5\nG99 G83 X1 Z-6 R1 Q3 D0.5\nM2\n"), " 5 5 1 1 -1.5 1 -4.5 1");
+  for (const char* const words : {"G73 X1 Z-6 R1 Q3 D-1", "G81 X1 Z-6 R1 D1", "G1 X1 D1"}) {
+    const Interpreted result = interpret_text(std::string("G21 F100\n") + words + "\nM2\n");
+    EXPECT_EQ(result.diagnostics.errors(), 1U) << words << result.rendered();
+  }
 }
 
 TEST(DrillingCycles, what_stops_the_program_comes_behind_the_last_hole) {

@@ -31,7 +31,7 @@ TEST_P(GrblRefuses, with_its_own_number) {
 INSTANTIATE_TEST_SUITE_P(
     Grbl, GrblRefuses,
     testing::Values(
-        Refusal{"%\nG0 X1\nM2", 1}, Refusal{"#1=5\nM2", 1}, Refusal{"@5\nM2", 1}, Refusal{"G0 X[1+2]\nM2", 2},
+        Refusal{"% G0 X1\nM2", 1}, Refusal{"#1=5\nM2", 1}, Refusal{"@5\nM2", 1}, Refusal{"G0 X[1+2]\nM2", 2},
         Refusal{"G0 X#1\nM2", 2}, Refusal{"G0 X\nM2", 2}, Refusal{"G4 P-1\nM2", 4}, Refusal{"S-5\nM2", 4},
         Refusal{"G1 F-5\nM2", 4}, Refusal{"T-1\nM2", 4},
         Refusal{"G0 X1.00000000000000000000 Y1.00000000000000000000 Z1.00000000000000000000 F1.000000000\nM2", 11},
@@ -100,6 +100,30 @@ TEST(Grbl, accepts_what_it_knows) {
       "G28 Z1\nG28.1\nG30\nG30.1\nG43.1 Z2\nG53 G0 Z0\nG55\nG59\nG92 X0\nG92.1\nG93 G1 X1 F2\nG94\nG4 P.1\n"
       "M3 S1000\nM4\nM5\nM8\nM9\nM0\nT255\nG91\nG20\nN10000000 G0 X1\nM30\n");
   EXPECT_TRUE(result.diagnostics.all().empty()) << result.rendered();
+}
+
+// A sender takes them out. To grbl itself a '%' is error 1, which a sender is told line by line.
+TEST(Grbl, passes_over_a_percent_sign_that_stands_alone) {
+  const Interpreted result = as_grbl("%\nG0 X1\n %\nG0 X2\nM30\n%\n");
+  EXPECT_TRUE(result.diagnostics.all().empty()) << result.rendered();
+  EXPECT_EQ(result.all<operation::StraightTraverse>().size(), 2U);
+  InterpreterOptions options;
+  options.dialect = Dialect::grbl;
+  options.open_ended = true;
+  const Interpreted line = interpret_text("%\n", options);
+  EXPECT_EQ(line.diagnostics.all().front().code, "grbl.expected-letter") << line.rendered();
+}
+
+TEST(Grbl, names_a_command_to_grbl_itself_in_every_dialect) {
+  for (const char* const program : {"$H\nG0 X1\nM2\n", "G0 X1\n$32=1\nM2\n", "$X\n%\nG0 X1\nM2\n%\n"}) {
+    const Interpreted grbl = as_grbl(program);
+    ASSERT_EQ(grbl.diagnostics.errors(), 1U) << program << grbl.rendered();
+    EXPECT_EQ(grbl.diagnostics.all().front().code, "grbl.system-command");
+    const Interpreted linuxcnc = interpret_text(program);
+    ASSERT_EQ(linuxcnc.diagnostics.errors(), 1U) << program << linuxcnc.rendered();
+    EXPECT_EQ(linuxcnc.diagnostics.all().front().code, "gcode.grbl-command");
+    EXPECT_EQ(grbl.diagnostics.all().front().message, linuxcnc.diagnostics.all().front().message);
+  }
 }
 
 TEST(Grbl, begins_with_rapids) {

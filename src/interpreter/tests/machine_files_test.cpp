@@ -339,6 +339,18 @@ TEST(SettingsFile, the_offset_of_g92_outlives_the_run_unless_that_is_forbidden) 
   EXPECT_EQ(saved.at(5211), 0);
 }
 
+// LinuxCNC 2.10 clears the offset at the program's end too. 2.9 clears its parameters, but the offset stays in effect.
+TEST(SettingsFile, the_program_end_clears_g92_where_it_does_not_outlive_the_run) {
+  const auto offset_after = [](const char* program, const InterpreterOptions& options) {
+    return interpret_text(program, options).last<operation::SetG92Offset>().offset[Axis::x];
+  };
+  const InterpreterOptions forgets = with_settings("[RS274NGC]\nDISABLE_G92_PERSISTENCE = 1\n");
+  for (const char* const program : {"G21 G92 X5\nM2\n", "G21 G92 X5\nM30\n", "G21 G52 X-5\nG55\nM2\n"}) {
+    EXPECT_EQ(std::abs(offset_after(program, {})), 5) << program;
+    EXPECT_EQ(offset_after(program, forgets), 0) << program;
+  }
+}
+
 TEST(SettingsFile, numbered_programs_may_be_forbidden) {
   const InterpreterOptions options = with_settings("[RS274NGC]\nDISABLE_FANUC_STYLE_SUB = 1\n");
   for (const char* const program : {"M98 P1\nM2\nO1\nM99\n", "O1\nG0 X1\nM2\n", "G0 X1\nM99\n"}) {

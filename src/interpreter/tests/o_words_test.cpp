@@ -48,7 +48,11 @@ TEST(OWords, a_while_may_stand_in_a_do) {
       "xx-xx-");
 }
 
+// Halves to even, as LinuxCNC rounds them.
 TEST(OWords, repeat_counts_rounded) {
+  EXPECT_EQ(path("o1 repeat [2.5]\n(x)\no1 endrepeat\n"), "xx");
+  EXPECT_EQ(path("o1 repeat [3.5]\n(x)\no1 endrepeat\n"), "xxxx");
+  EXPECT_EQ(path("o1 repeat [0.5]\n(x)\no1 endrepeat\n"), "");
   EXPECT_EQ(path("o1 repeat [2.6]\n(x)\no1 endrepeat\n"), "xxx");
   EXPECT_EQ(path("o1 repeat [0]\n(x)\no1 endrepeat\n"), "");
   EXPECT_EQ(path("o1 repeat [-2]\n(x)\no1 endrepeat\n"), "");

@@ -1,4 +1,6 @@
 // Tools of the table in a program: selecting them, changing them, their offsets, and G10.
+#include <sstream>
+
 #include "interpreted.hpp"
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -49,6 +51,29 @@ TEST(Tools, m61_brings_what_the_table_says_of_the_tool) {
   const Interpreted result = interpret_text("M61 Q8\n(debug,#5400 #5401 #5410 #5411 #5413)\nG43\nM2\n", with_tools());
   EXPECT_THAT(result.calls(), HasSubstr("MESSAGE(\"8.000000 -3.000000 0.800000 95.000000 2.000000\")"));
   EXPECT_EQ(result.last<operation::SetToolOffset>().offset[Axis::z], 11);
+}
+
+// #5401 … are of the tool in the spindle, in LinuxCNC 2.10 as in 2.9; #5081 … are 2.10's, for the offset in effect.
+TEST(Tools, numbers_5081_on_are_the_offset_in_effect) {
+  const auto messages = [](const std::string& program, const InterpreterOptions& options) {
+    std::string text;
+    std::istringstream calls(interpret_text(program + "M2\n", options).calls());
+    for (std::string call; std::getline(calls, call);) {
+      const std::size_t begin = call.find("MESSAGE(\"");
+      if (begin != std::string::npos) text += call.substr(begin + 9, call.rfind('"') - begin - 9) + '\n';
+    }
+    return text;
+  };
+  const std::string look = "(debug,%d#5403 #5083)\n";
+  EXPECT_EQ(messages("T3 M6\n" + look + "G43\n" + look + "G43 H8\n" + look + "G43.2 Z1\n" + look + "G43.1 Z5\n" + look +
+                         "G10 L1 P3 Z7\n" + look + "G49\n" + look,
+                     with_tools()),
+            "40 0\n40 40\n40 11\n40 12\n40 5\n7 5\n7 0\n");
+  InterpreterOptions inches = with_tools();
+  inches.machine_units = LengthUnits::inch;
+  EXPECT_EQ(messages("G21 G43.1 Z25.4 A3\n(debug,%d#5083 #5084)\n", inches), "1 3\n");
+  const Interpreted set = interpret_text("#5083=2\nM2\n");
+  EXPECT_EQ(set.diagnostics.all().front().code, "gcode.read-only-parameter") << set.rendered();
 }
 
 TEST(Tools, an_offset_moves_the_numbers_and_not_the_tool) {

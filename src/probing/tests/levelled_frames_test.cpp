@@ -113,6 +113,10 @@ TEST(LevelledFrames, a_cycle_from_an_unknown_height_stays_a_cycle) {
   EXPECT_EQ(it.words, "");
   EXPECT_THAT(it.text, HasSubstr("G53 G0 Z0\nG98 G81 X50 Y10 Z-1.50000 R1.00000 F100\n"));
   EXPECT_THAT(it.text, HasSubstr("F100\nG98 G81 X20 Y10 Z-1.80000 R0.70000\nG0 X0\n"));
+  const Written pecks =
+      levelled("G90 F100\nG53 G0 Z0\nG98 G83 X50 Y10 Z-2 R0.5 Q1 D.3\nX20\nG80\nM2\n", {.holes = true});
+  EXPECT_THAT(pecks.text, HasSubstr("G98 G83 X50 Y10 Z-1.50000 R1.00000 Q1.00000 D0.30000 F100\n"));
+  EXPECT_THAT(pecks.text, HasSubstr("G98 G83 X20 Y10 Z-1.80000 R0.70000 Q1.00000\n")) << "D is of its own block";
 }
 
 // G30 stands where no rounded number is: with its end written, the circle might be a millionth of a degree.

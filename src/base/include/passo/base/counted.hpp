@@ -1,9 +1,11 @@
-// counted: a number and its noun, as messages and programs say it: "1 hole", "2 holes", "1 234 holes".
+// counted: a number and its noun, as messages and programs say it: "1 hole", "2 holes", "1 234 holes", "2 entries".
 #pragma once
 
 #include <cstdint>
 #include <string>
 #include <string_view>
+
+#include "passo/base/counted.hpp"
 
 namespace passo {
 
@@ -18,8 +20,20 @@ inline std::string grouped(std::uint64_t number) {
   return grouped(static_cast<std::int64_t>(number));
 }
 
+// The end of a noun, where its number is written in another way.
+inline std::string_view plural_end(bool is_one) {
+  return is_one ? "" : "s";
+}
+
 inline std::string counted(std::uint64_t number, std::string_view noun) {
-  return grouped(number).append(" ").append(noun).append(number == 1 ? "" : "s");
+  return grouped(number).append(" ").append(noun).append(plural_end(number == 1));
+}
+inline std::string counted(std::uint64_t number, std::string_view noun, std::string_view nouns) {
+  return grouped(number).append(" ").append(number == 1 ? noun : nouns);
+}
+// With a minus before what is below zero, as of a place in steps.
+inline std::string signed_count(std::int64_t number, std::string_view noun) {
+  return grouped(number).append(" ").append(noun).append(plural_end(number == 1 || number == -1));
 }
 
 }  // namespace passo
