@@ -67,12 +67,10 @@ std::optional<WebAnswer> wrong_body(BodyKind kind, const WebRequest& request) {
   if (!fits(kind, type)) return wrong_type(type.substr(0, 60));
   if (request.body.empty()) return {};
   if (kind == BodyKind::program && is_json_text(request.body)) return wrong_type("JSON");
-  if (kind == BodyKind::json && !Json::parse(request.body, nullptr, false).is_object()) {
-    return bad_body("the body is no JSON object");
-  }
-  if (kind == BodyKind::none && Json::parse(request.body, nullptr, false) != Json::object()) {
-    return bad_body("this request has no body");
-  }
+  if (kind != BodyKind::json && kind != BodyKind::none) return {};
+  const Json said = Json::parse(request.body, nullptr, false);
+  if (kind == BodyKind::none && !(said.is_object() && said.empty())) return bad_body("this request has no body");
+  if (!said.is_object()) return bad_body("the body is no JSON object");
   return {};
 }
 

@@ -34,6 +34,8 @@ constexpr std::size_t most_answers = 16;
 constexpr int usual_rate = 10;
 constexpr int highest_rate = 60;
 constexpr auto before_next_accept = std::chrono::milliseconds(20);
+// Where no file is left, newcomers would push one another out before they are heard.
+constexpr auto time_to_ask = std::chrono::milliseconds(50);
 
 std::string_view view(beast::string_view text) {
   return {text.data(), text.size()};
@@ -60,7 +62,7 @@ class WebServer::Implementation {
   ~Implementation();
 
   void accept();
-  void make_room();
+  void make_room(std::chrono::steady_clock::duration after = {});
 
   // All of them, for the end: a connection keeps itself alive by what it waits for in the context. So these outlive the
   // context.
@@ -340,10 +342,11 @@ WebServer::Implementation::~Implementation() {
 }
 
 // Whoever comes may want to hold the machine. So a newcomer never waits for those who keep connections open: watchers
-// have a limit of their own, and of the others one goes.
-void WebServer::Implementation::make_room() {
+// have a limit of their own, and of the others one goes, if it has waited for `after`.
+void WebServer::Implementation::make_room(std::chrono::steady_clock::duration after) {
   if (open.empty()) return;
   Connection* const first = *std::ranges::min_element(open, {}, [](const Connection* one) { return one->standing(); });
+  if (std::chrono::steady_clock::now() - first->standing().second < after) return;
   ++refused;
   open.erase(first);  // it lives until what it waits for has ended
   first->close();
@@ -355,7 +358,7 @@ void WebServer::Implementation::accept() {
     if (error == asio::error::operation_aborted) return;
     if (error) {  // for instance too many open files: that may pass
       accepts = false;
-      if (error == asio::error::no_descriptors) make_room();
+      if (error == asio::error::no_descriptors) make_room(time_to_ask);
       pause.expires_after(before_next_accept);
       pause.async_wait([this](Error cancelled) {
         if (!cancelled) accept();
