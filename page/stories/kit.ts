@@ -141,6 +141,7 @@ export interface Visit {
   size?: { width: number; height: number };
   units?: 'mm' | 'inch';
   density?: number;
+  before?: (page: Page) => Promise<void>; // the page is loaded
 }
 
 // A browser of another person: nothing of it is shared with others.
@@ -163,6 +164,7 @@ export async function visit(browser: Browser, daemon: Daemon, path: string, how:
     if (message.type() === 'error' && !isOfLine && !isOfEarlierOrder) errors.push(`${message.text()} ${message.location().url}`);
   });
   if (how.units !== undefined) await page.addInitScript(`localStorage.setItem('passo.units', '"${how.units}"')`);
+  await how.before?.(page);
   await page.goto(`${daemon.address}#/${path}`);
   await page.getByTestId('state').waitFor();
   return { context, page, errors };

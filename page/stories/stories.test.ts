@@ -72,21 +72,26 @@ describe('the question before a start', () => {
     const { page, context, errors } = await visit(browser, daemon, 'files');
     await takeOver(page);
     const { key } = (await daemon.post('/owner', '{"name": "story"}')) as { key: string };
-    await send(page, 'far.ngc', 'G21 G90 F600\nG0 X60 Y-50\nG1 X0 Y0\nX5\nG53 G0 Z-1\nG91 G0 X-7\nM2\n');
-    await expect.poll(() => page.getByTestId('verdict').innerText()).toContain('Good');
+    await send(page, 'far.ngc', 'G21 G90 F600\nG0 X60 Y50\nG1 X0 Y0\nX5\nG53 G0 Z-1\nG91 G0 X7\nM2\n');
+    await expect.poll(() => page.getByRole('region', { name: 'far.ngc' }).getByTestId('verdict').innerText()).toContain('Good');
     // The tool is moved after the check.
     await daemon.post('/jog', '{"direction": {"y": 1}, "speed": 3000, "distance": 3, "lease": 5}', key);
     const { place, work_offset: offset = {} } = await daemon.until((status) => status.state === 'Idle' && status.rests);
     await fetch(`${daemon.address}api/v1/owner`, { method: 'DELETE', headers: { 'X-Passo-Key': key } });
     await page.locator('.owner').waitFor({ state: 'detached' });
+    // A reload opens what was open, though there is a newer program.
+    await daemon.post('/programs?name=newer.ngc', 'G21 G90\nG0 X1\nM2\n');
+    await page.reload();
+    await page.getByRole('region', { name: 'far.ngc' }).waitFor();
+    await expect.poll(() => page.locator('.act.go').getAttribute('aria-disabled')).toBe('false');
     await click(page, 'Start');
     const row = async (axis: string): Promise<number[]> =>
       [...(await page.getByRole('dialog').getByRole('row', { name: axis }).innerText()).matchAll(/-?\d+\.\d+/g)].map(Number);
     const near = (axis: string, low: number, high: number): Promise<void> =>
       expect.poll(() => row(axis)).toEqual([low, high, low + (offset[axis.toLowerCase()] ?? 0), high + (offset[axis.toLowerCase()] ?? 0)].map((one) => expect.closeTo(one, 2)));
     const at = (axis: string): number => (place[axis] ?? 0) - (offset[axis] ?? 0);
-    await near('X', Math.min(-2, at('x')), Math.max(60, at('x')));
-    await near('Y', Math.min(-50, at('y')), Math.max(0, at('y')));
+    await near('X', Math.min(0, at('x')), Math.max(60, at('x')));
+    await near('Y', Math.min(0, at('y')), Math.max(50, at('y')));
     await near('Z', Math.min(-1 - (offset.z ?? 0), at('z')), Math.max(-1 - (offset.z ?? 0), at('z')));
     await page.getByRole('dialog').getByRole('button', { name: 'Cancel' }).click();
     expect(errors).toEqual([]);
@@ -133,6 +138,7 @@ describe('a program on its way', () => {
     const from = (await daemon.status()).place.x ?? NaN;
     await click(one.page, 'Jog X+');
     await other.page.locator('.owner').waitFor();
+    expect(await other.page.locator('.owner').innerText()).toContain('Chromium on Linux has the motion');
     const pad = other.page.getByRole('button', { name: 'Jog X+', exact: true });
     expect(await pad.getAttribute('aria-disabled')).toBe('true');
     expect(await pad.getAttribute('title')).toContain('Somebody else');
@@ -234,6 +240,33 @@ describe('a program line by line', () => {
     await daemon.until((status) => status.stops.optional_stop);
     expect(errors).toEqual([]);
     await context.close();
+  });
+});
+
+describe('a program that waits for a person', () => {
+  it('is told by its own words, and leads to the jog, the zeros and the probe, and on', async () => {
+    const waits = { for: 'M6', line: 12, tool: 5, message: 'Turn the plate over\n6 mm drill', free: true };
+    for (const [language, line, done, jog] of [['en', 'M6, line 12, tool 5', 'Done', 'Set up'], ['fr', 'M6, ligne 12, outil 5', 'Fait', 'Réglage']] as const) {
+      // What the daemon tells of a machine at M6.
+      const before = (page: Page): Promise<void> =>
+        page.routeWebSocket(/\/stream/, (socket) => {
+          const server = socket.connectToServer();
+          server.onMessage((said) => socket.send(JSON.stringify({ ...(JSON.parse(String(said)) as object), waits, state: 'Tool', owner: { kind: 'nobody', name: '', taken: 0 } })));
+        });
+      const { page, context, errors } = await visit(browser, daemon, 'run', { language, before });
+      const banner = page.locator('.waits');
+      await banner.getByText(line).waitFor();
+      expect(await banner.locator('.program-words').innerText()).toBe(waits.message);
+      expect(await banner.getByRole('button', { name: done }).getAttribute('aria-disabled')).toBe('false');
+      expect(await page.locator('.act.go').innerText()).toContain(done);
+      await banner.getByRole('button', { name: jog }).click();
+      for (const button of ['.pad-button', '.set-up-buttons button', '.probing .button.accent']) {
+        await expect.poll(() => page.locator(button).first().getAttribute('aria-disabled'), { message: button }).toBe('false');
+      }
+      expect(await violations(page)).toEqual([]);
+      expect(errors).toEqual([]);
+      await context.close();
+    }
   });
 });
 

@@ -96,7 +96,7 @@ TEST(ProgramPath, tells_the_box_along_the_axes_of_a_turned_work) {
 TEST(ProgramPath, tells_how_far_all_moves_reach_rapids_and_g53_too) {
   ProgramStore store;
   store.set_offsets({{5220, 1}, {5221, 7}}, {});
-  const std::string_view text = "G0 X100 Y-50\nG53 G0 Z30\nG1 X0 Y0 F600\nX5\nG0 A90\nM2\n";
+  const std::string text = "G0 X100 Y-50\nG53 G0 Z30\nG1 X0 Y0 F600\nX5\nG0 A90\nM2\n";
   const std::uint64_t id = store.add("far", Dialect::linuxcnc, text)->id;
   store.check(id, MachineDescription(), Point());
   for (int i = 0; i < 100; ++i) store.turn();

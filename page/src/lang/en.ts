@@ -236,7 +236,7 @@ export const en = {
   'files.extents': 'Extents of the feeds',
   'files.findings': 'What the check has found',
   'files.findings.none': 'The check has found nothing to complain about.',
-  'files.expected': 'Expected: {expected}',
+  'files.expected': 'Expected: {expected}.',
   'files.more.lines': 'And {count} more: lines {lines}.',
   'files.more.lines.one': 'And {count} more: line {lines}.',
   'files.check': 'Check again',

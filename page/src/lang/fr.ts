@@ -228,7 +228,7 @@ export const fr: Words = {
   'files.extents': 'Étendue de l’usinage',
   'files.findings': 'Ce que la vérification a trouvé',
   'files.findings.none': 'La vérification n’a rien trouvé à redire.',
-  'files.expected': 'Attendu : {expected}',
+  'files.expected': 'Attendu : {expected}.',
   'files.more.lines': 'Et {count} autres : lignes {lines}.',
   'files.more.lines.one': 'Et {count} autre : ligne {lines}.',
   'files.check': 'Revérifier',

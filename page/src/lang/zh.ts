@@ -228,7 +228,7 @@ export const zh: Words = {
   'files.extents': '切削范围',
   'files.findings': '检查结果',
   'files.findings.none': '检查没有发现问题。',
-  'files.expected': '应为:{expected}',
+  'files.expected': '应为:{expected}。',
   'files.more.lines': '另有 {count} 处：第 {lines} 行。',
   'files.more.lines.one': '另有 {count} 处：第 {lines} 行。',
   'files.check': '重新检查',
