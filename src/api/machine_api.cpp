@@ -170,8 +170,6 @@ WebAnswer MachineApi::change(const FoundRoute& found, const WebRequest& request)
   if (path.starts_with(machine_file_path)) return change_machine_file(found, request);
   if (path.starts_with(owner_path)) return change_owner(found, request);
   const Json body = request.body.empty() ? Json::object() : Json::parse(request.body, nullptr, false);
-  const bool frees = path == "/api/v1/work" || path == "/api/v1/mdi" || path == "/api/v1/probe";
-  if (frees) step_aside();
   if (path == "/api/v1/work") return set_work_zero(request.body);
   if (path == "/api/v1/mdi") return take_mdi(request.body);
   if (path == "/api/v1/probe") return begin_probing(request.body);
@@ -211,6 +209,7 @@ WebAnswer MachineApi::change_making(const FoundRoute& found, const WebRequest& r
 
 // The tool stands at this place of the work.
 WebAnswer MachineApi::set_work_zero(std::string_view body) {
+  step_aside();
   const MachineStatus status = session_.status();
   if (status.state != MachineState::idle || job_.state == JobState::checking) {
     return error_answer(409, "machine.busy", fmt::format("the machine is not idle: {}", name_of(status.state)));

@@ -20,6 +20,7 @@ std::optional<std::string> read_line(const Json& body) {
 WebAnswer MachineApi::take_mdi(std::string_view text) {
   const auto line = read_line(Json::parse(text, nullptr, false));
   if (!line) return bad_body("expected {\"line\": \"G0 X1\"}");
+  if (!line->starts_with("$")) step_aside();
   if (job_.state == JobState::checking) return error_answer(409, "machine.busy", "a job is about to begin");
   if (kept_ && kept_->interrupted() != nullptr && !line->starts_with("$")) {
     return error_answer(409, "jobs.interrupted", "a job was broken off: resume it or drop it first");

@@ -76,8 +76,8 @@ Result<Reentry, ReentryProblem> MachineApi::way_behind_stop() const {
   for (int system = 1; system <= systems; ++system) {
     if (is_changed(parked_->parameters, programs_.parameters(), system)) changed.push_back(system);
   }
-  const bool is_changed = !changed.empty() || parked_->tools != programs_.tools();
-  if (is_changed && stop->sets_own_zero) {
+  const bool any_changed = !changed.empty() || parked_->tools != programs_.tools();
+  if (any_changed && stop->sets_own_zero) {
     return refused("waits.own-zero",
                    "the program has set a zero or a tool itself before, which hides what was set now: stop it, and "
                    "begin from a line");

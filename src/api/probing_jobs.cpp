@@ -71,6 +71,7 @@ WebAnswer MachineApi::begin_probing(std::string_view body) {
   const auto text = probing_program(*cycle);
   if (!text) return error_answer(400, "http.bad-body", text.error());
   if (target != 0 && programs_.find(target) == nullptr) return refusal(404);
+  step_aside();
   if (session_.state() != MachineState::idle || job_.state == JobState::checking) {
     return error_answer(409, "machine.busy", fmt::format("the machine is not idle: {}", name_of(session_.state())));
   }
