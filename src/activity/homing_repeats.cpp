@@ -5,6 +5,8 @@
 
 #include <fmt/format.h>
 
+#include "passo/base/counted.hpp"
+
 namespace passo {
 
 void HomingRepeats::note(const std::vector<HomedAxis>& homed, const std::optional<Point>& stood) {
@@ -52,9 +54,10 @@ std::vector<AxisRepeats> HomingRepeats::axes() const {
 std::string words_of(const AxisRepeats& repeats) {
   // No minus sign before a zero.
   const auto rounded = [](double value) { return std::round(value * 10) / 10 + 0.0; };
-  return fmt::format("{}: the mean place is {:.1f} {unit} from the first, the spread {:.1f} {unit} ({} step{})",
-                     letter_of(repeats.axis), rounded(repeats.mean), rounded(repeats.spread), repeats.spread_steps,
-                     repeats.spread_steps == 1 ? "" : "s", fmt::arg("unit", is_rotary(repeats.axis) ? "mdeg" : "um"));
+  return fmt::format("{}: the mean place is {:.1f} {unit} from the first, the spread {:.1f} {unit} ({})",
+                     letter_of(repeats.axis), rounded(repeats.mean), rounded(repeats.spread),
+                     signed_count(repeats.spread_steps, "step"),
+                     fmt::arg("unit", is_rotary(repeats.axis) ? "mdeg" : "um"));
 }
 
 }  // namespace passo

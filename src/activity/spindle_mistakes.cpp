@@ -6,6 +6,7 @@
 
 #include <fmt/format.h>
 
+#include "passo/base/counted.hpp"
 #include "passo/interpreter/is_any_of.hpp"
 
 namespace passo {
@@ -74,9 +75,9 @@ void SpindleMistakes::finish() {
   if (laser_) {
     const std::string_view what = !any_backwards_ ? "S changes" : !any_changes_ ? "M4 is on" : "S changes, or M4 is on";
     laser_->message = fmt::format(
-        "{} in {} feed{}, as in a program for a laser; there is no laser mode: the beam would stay on in rapids and at "
+        "{} in {}, as in a program for a laser; there is no laser mode: the beam would stay on in rapids and at "
         "rest, and the motion rests at each change of S",
-        what, places_, places_ == 1 ? "" : "s");
+        what, counted(places_, "feed"));
     diagnostics_.add_certain(*std::exchange(laser_, std::nullopt));
   } else if (early_) {
     diagnostics_.add_certain(*std::exchange(early_, std::nullopt));

@@ -10,6 +10,8 @@
 #include "text_lines.hpp"
 #include <fmt/format.h>
 
+#include "passo/base/counted.hpp"
+
 namespace passo {
 namespace {
 
@@ -96,8 +98,10 @@ bool AirfoilReader::order_sides() {
   if (counts_) {
     const auto upper = static_cast<std::size_t>(counts_->x);
     if (upper + static_cast<std::size_t>(counts_->y) != points_.size()) {
-      refuse({}, "", fmt::format("the file has {} points, and says {} and {}", points_.size(), counts_->x, counts_->y),
-             "as many points as the second line says");
+      refuse(
+          {}, "",
+          fmt::format("the file has {}, and says {} and {}", counted(points_.size(), "point"), counts_->x, counts_->y),
+          "as many points as the second line says");
       return false;
     }
     const auto middle = points_.begin() + static_cast<std::ptrdiff_t>(upper);
@@ -107,7 +111,7 @@ bool AirfoilReader::order_sides() {
     if (has_nose_twice) points_.erase(middle);
   }
   if (points_.size() >= fewest_of_airfoil) return true;
-  refuse({}, "", fmt::format("a section of {} points", points_.size()), "a name, and points around it");
+  refuse({}, "", "a section of " + counted(points_.size(), "point"), "a name, and points around it");
   return false;
 }
 

@@ -222,7 +222,7 @@ void DrillPlanner::drill_slot(const WantedCut& cut, Nanometres drill) {
 // One finding for all holes of a width.
 void DrillPlanner::refuse(const WantedCut& first, std::size_t count) {
   const bool is_known = first.width.count != 0;
-  const std::string what = count == 1 ? "1 hole or slot" : fmt::format("{} holes or slots", count);
+  const std::string what = counted(count, "hole or slot", "holes or slots");
   std::string expected = "--drill D, which makes every hole with one drill";
   if (is_known) {
     std::string rack;

@@ -11,6 +11,7 @@
 #include "text_lines.hpp"
 #include <fmt/format.h>
 
+#include "passo/base/counted.hpp"
 #include "passo/geometry/chords.hpp"
 #include "passo/geometry/ellipse.hpp"
 #include "passo/geometry/nurbs.hpp"
@@ -166,8 +167,8 @@ void DxfExpansion::note_what_is_left_out() {
     if (names.size() > 200) break;
   }
   if (!names.empty()) builder_.note("left out, because they are neither holes nor lines: " + names);
-  if (on_layers_off_ != 0) builder_.note(fmt::format("left out, on other layers: {} entities", on_layers_off_));
-  if (in_paper_ != 0) builder_.note(fmt::format("left out, in paper space: {} entities", in_paper_));
+  if (on_layers_off_ != 0) builder_.note("left out, on other layers: " + counted(on_layers_off_, "entity", "entities"));
+  if (in_paper_ != 0) builder_.note("left out, in paper space: " + counted(in_paper_, "entity", "entities"));
 }
 
 bool DxfExpansion::has_work_left(const DxfEntity& entity) {

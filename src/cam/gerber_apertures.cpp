@@ -5,6 +5,8 @@
 
 #include <fmt/format.h>
 
+#include "passo/base/counted.hpp"
+
 namespace passo {
 namespace {
 
@@ -100,7 +102,7 @@ bool GerberApertures::make_standard(const Definition& definition, PlotterApertur
     return findings_.refuse(0, 0, "gerber.bad-aperture", std::move(message), expected);
   };
   if (values.size() < needed) {
-    return wrong(fmt::format("shape {} has {} values", shape, values.size()),
+    return wrong(fmt::format("shape {} has {}", shape, counted(values.size(), "value")),
                  shape == 'C'   ? "a diameter, and perhaps that of its hole"
                  : shape == 'P' ? "a diameter, the number of corners, and perhaps an angle and a hole's diameter"
                                 : "width and height, and perhaps a hole's diameter");

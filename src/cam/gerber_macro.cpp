@@ -10,6 +10,8 @@
 #include "gerber_shapes.hpp"
 #include <fmt/format.h>
 
+#include "passo/base/counted.hpp"
+
 namespace passo {
 namespace {
 
@@ -211,7 +213,8 @@ bool MacroComposer::read_arguments(const Variables& variables) {
 
 bool MacroComposer::has_arguments(std::size_t least) {
   if (numbers_.size() >= least) return true;
-  return refuse(0, fmt::format("primitive {} has {} values", code_, numbers_.size()), fmt::format("{} or more", least));
+  return refuse(0, fmt::format("primitive {} has {}", code_, counted(numbers_.size(), "value")),
+                fmt::format("{} or more", least));
 }
 
 bool MacroComposer::add_primitive() {
@@ -251,7 +254,9 @@ bool MacroComposer::add_outline() {
   if (!has_arguments(2)) return false;
   const double corners = number(1);
   if (!(corners >= 1) || corners * 2 + 4 > static_cast<double>(numbers_.size())) {
-    return refuse(0, fmt::format("the outline of {:g} corners has {} values", corners, numbers_.size()),
+    return refuse(0,
+                  fmt::format("the outline of {:g} corner{} has {}", corners, plural_end(corners == 1),
+                              counted(numbers_.size(), "value")),
                   "exposure, the number of corners, X and Y of each, the first again, and perhaps an angle");
   }
   const auto count = static_cast<std::size_t>(corners);

@@ -7,6 +7,8 @@
 #include "hpgl_plotter.hpp"
 #include <fmt/format.h>
 
+#include "passo/base/counted.hpp"
+
 namespace passo {
 namespace {
 
@@ -130,7 +132,7 @@ bool HpglPlotter::carry_out(const HpglCommand& command) {
     return false;
   }
   if (numbers->size() < order->least) {
-    refuse(command.place, "hpgl.numbers", fmt::format("{} has {} numbers", command.name(), numbers->size()),
+    refuse(command.place, "hpgl.numbers", fmt::format("{} has {}", command.name(), counted(numbers->size(), "number")),
            fmt::format("{} or more", order->least));
     return false;
   }

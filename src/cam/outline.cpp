@@ -12,6 +12,7 @@
 #include "flat_vector.hpp"
 #include <fmt/format.h>
 
+#include "passo/base/counted.hpp"
 #include "passo/cam/bulge.hpp"
 #include "passo/cam/mill_program.hpp"
 #include "passo/cam/route.hpp"
@@ -226,8 +227,9 @@ void OutlinePlanner::put_tabs(std::vector<CutTrack>& tracks) {
   for (std::size_t i = 0; i < tracks.size(); ++i) {
     if ((!cuts_[i].is_outside && !options_.openings_only) || options_.tabs == 0) continue;
     if (options_.tabs * wide > tracks[i].length() / 2) {
-      plan_.mill.notes.push_back(fmt::format("{} tabs are too many for an edge of {:.4g} mm: it has none",
-                                             options_.tabs, tracks[i].length() / nanometres_per_mm));
+      plan_.mill.notes.push_back(fmt::format("{} {} too many for an edge of {:.4g} mm: it has none",
+                                             counted(options_.tabs, "tab"), options_.tabs == 1 ? "is" : "are",
+                                             tracks[i].length() / nanometres_per_mm));
       continue;
     }
     middles[i] = spread_tabs(tracks[i], wide);

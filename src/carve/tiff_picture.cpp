@@ -11,6 +11,8 @@
 #include "tiff_file.hpp"
 #include <fmt/format.h>
 
+#include "passo/base/counted.hpp"
+
 namespace passo {
 namespace {
 
@@ -104,14 +106,14 @@ bool TiffReading::read_samples() {
     return refuse("its samples differ in size");
   }
   if (bits.front() > 32 || !std::has_single_bit(bits.front())) {
-    return refuse(fmt::format("samples of {} bits are not read", bits.front()));
+    return refuse(fmt::format("samples of {} are not read", counted(bits.front(), "bit")));
   }
   layout_.bits = static_cast<unsigned>(bits.front());
   const std::uint64_t kind = file_.number(TiffField::number_kind, 1);
   if (kind == 0 || kind > 4) return refuse("its samples are no real numbers");
   layout_.kind = kind == 4 ? NumberKind::without_sign : static_cast<NumberKind>(kind);
   if (layout_.kind == NumberKind::floating && layout_.bits != 32) {
-    return refuse(fmt::format("floating-point numbers of {} bits are not read", layout_.bits));
+    return refuse(fmt::format("floating-point numbers of {} are not read", counted(layout_.bits, "bit")));
   }
   if (layout_.kind == NumberKind::with_sign && layout_.bits < 8) return refuse("its samples are too small for a sign");
   const std::uint64_t photometric = file_.number(TiffField::photometric, 1);

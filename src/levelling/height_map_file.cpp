@@ -7,6 +7,7 @@
 
 #include <fmt/format.h>
 
+#include "passo/base/counted.hpp"
 #include "passo/levelling/height_map.hpp"
 
 namespace passo {
@@ -121,17 +122,17 @@ std::optional<HeightMap> HeightMapReader::grid() {
   columns = sorted_once(std::move(columns));
   rows = sorted_once(std::move(rows));
   if (columns.size() < 2 || rows.size() < 2) {
-    error(
-        0, 0, 1, "",
-        fmt::format("{} points in {} columns and {} rows are no surface", points_.size(), columns.size(), rows.size()),
-        "a grid of at least two columns and two rows");
+    error(0, 0, 1, "",
+          fmt::format("{} in {} and {} are no surface", counted(points_.size(), "point"),
+                      counted(columns.size(), "column"), counted(rows.size(), "row")),
+          "a grid of at least two columns and two rows");
     return {};
   }
   // Points may be missing or double, so the grid may be far larger than the file.
   if (columns.size() > points_.size() / rows.size()) {
     error(0, 0, 1, "",
-          fmt::format("{} points in {} columns and {} rows are no whole grid", points_.size(), columns.size(),
-                      rows.size()),
+          fmt::format("{} in {} and {} are no whole grid", counted(points_.size(), "point"),
+                      counted(columns.size(), "column"), counted(rows.size(), "row")),
           fmt::format("a point for each column and row: {}",
                       static_cast<double>(columns.size()) * static_cast<double>(rows.size())));
     return {};

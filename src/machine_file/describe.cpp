@@ -1,5 +1,7 @@
 #include <fmt/format.h>
 
+#include "passo/base/counted.hpp"
+#include "passo/base/sensible_number.hpp"
 #include "passo/machine_file/machine_description.hpp"
 
 namespace passo {
@@ -11,8 +13,8 @@ std::string describe_torque(const AxisDescription& axis, const char* unit) {
   std::string line = fmt::format("                {:g} of pull-out:", axis.motor->share);
   for (const double part : {0.0, 0.25, 0.5, 0.75, 1.0}) {
     const MmPerSecond speed = part * axis.velocity;
-    line += fmt::format(" {:.4g} {unit}/s2 at {:g} {unit}/s{}", axis.acceleration_at(speed).value(), speed.value(),
-                        part < 1 ? "," : "\n", fmt::arg("unit", unit));
+    line += fmt::format(" {} {unit}/s2 at {:g} {unit}/s{}", sensible_number(axis.acceleration_at(speed).value(), 4),
+                        speed.value(), part < 1 ? "," : "\n", fmt::arg("unit", unit));
   }
   return line;
 }
@@ -30,7 +32,7 @@ std::string describe_home(const AxisDescription& axis, const char* unit) {
 std::string describe_screw(const AxisDescription& axis, const char* unit) {
   if (!axis.screw) return "";
   std::string line = fmt::format("                screw with {:g} {} of backlash", axis.screw->backlash, unit);
-  if (!axis.screw->errors.empty()) line += fmt::format(", errors at {} places", axis.screw->errors.size());
+  if (!axis.screw->errors.empty()) line += ", errors at " + counted(axis.screw->errors.size(), "place");
   return line + (axis.screw->is_compensated ? ", compensated\n" : ", not compensated\n");
 }
 
@@ -159,9 +161,9 @@ std::string describe(const MachineDescription& machine) {
   const BoardDescription& board = machine.board;
   std::string out = fmt::format("machine         {}\n", machine.name);
   out += fmt::format("path tolerance  {:g} mm\n", machine.path_tolerance.value());
-  out +=
-      fmt::format("board           clock {:.9g} Hz, {:.1f} to {:g} events/s, step pulse {:g} us\n", board.clock.value(),
-                  board.lowest_event_rate().value(), board.highest_event_rate.value(), board.step_pulse.value() * 1e6);
+  out += fmt::format("board           clock {} Hz, {:.1f} to {} events/s, step pulse {:g} us\n",
+                     sensible_number(board.clock.value()), board.lowest_event_rate().value(),
+                     sensible_number(board.highest_event_rate.value()), board.step_pulse.value() * 1e6);
   out += describe_tool(machine.tool);
   out += describe_spindle(machine.spindle);
   out += describe_pins(machine.pins);

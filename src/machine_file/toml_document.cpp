@@ -7,6 +7,8 @@
 #include <fmt/format.h>
 #include <toml++/toml.h>
 
+#include "passo/base/counted.hpp"
+
 namespace passo {
 namespace {
 
@@ -140,9 +142,7 @@ std::string kind_of(const TomlValue& value) {
     std::string operator()(const std::string& text) const {
       return text.size() > 40 ? "a long text" : fmt::format("the text \"{}\"", text);
     }
-    std::string operator()(const TomlArray& array) const {
-      return fmt::format("a list of {} value{}", array.size(), array.size() == 1 ? "" : "s");
-    }
+    std::string operator()(const TomlArray& array) const { return "a list of " + counted(array.size(), "value"); }
     std::string operator()(const TomlTable&) const { return "a table"; }
   };
   return std::visit(Namer{}, value.content);

@@ -5,6 +5,8 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include "passo/base/counted.hpp"
+
 namespace passo {
 namespace {
 
@@ -88,7 +90,7 @@ std::string to_text(const MotionProof& proof) {
                                  proof.time_bound.value(), proof.times_bound());
   text += fmt::format("any path     bound {:.6f} s within the tolerance, time / bound {:.4f}\n",
                       proof.tube_bound.value(), proof.times_tube_bound());
-  text += fmt::format("motion       {} moves, {} phases\n", proof.moves, proof.phases);
+  text += fmt::format("motion       {}, {}\n", counted(proof.moves, "move"), counted(proof.phases, "phase"));
   for (const AxisProof& axis : proof.axes) text += text_of(axis);
   text += "path\n";
   text += row("feed", proof.feed, "mm/s");

@@ -8,6 +8,8 @@
 #include "step_view.hpp"
 #include <fmt/format.h>
 
+#include "passo/base/counted.hpp"
+
 namespace passo {
 namespace {
 
@@ -78,7 +80,8 @@ void draw_deviations(Canvas& canvas, const CurvePulsesScene& scene, const Area& 
 
 std::string figures(const CurvePulsesScene& scene) {
   const CurveMeasures& found = scene.measures;
-  std::string text = fmt::format("{} chords   \u00B7   {}: {} pulses", found.chords, scene.method, found.pulses);
+  std::string text =
+      fmt::format("{}   \u00B7   {}: {}", counted(found.chords, "chord"), scene.method, counted(found.pulses, "pulse"));
   if (found.together != 0) text += fmt::format(", {} of several axes", found.together);
   if (found.idle != 0) text += fmt::format(", {} of none", found.idle);
   const auto& steps = scene.scale.steps_per_mm;

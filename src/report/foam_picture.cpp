@@ -12,6 +12,7 @@
 #include "stock_shading.hpp"
 #include <fmt/format.h>
 
+#include "passo/base/sensible_number.hpp"
 #include "passo/stock/foam_skin.hpp"
 
 namespace passo {
@@ -232,7 +233,7 @@ void draw_legend(Canvas& canvas, const FoamDrawing& drawing, double height) {
   for (std::uint32_t piece = 0; piece < std::min(most, drawing.pieces.pieces.size()); ++piece) {
     constexpr double mm3_a_cm3 = 1000;
     legend.patch(colour_of_piece(piece),
-                 fmt::format("{:.4g} cm\u00B3", drawing.pieces.volume(piece, drawing.foam) / mm3_a_cm3));
+                 sensible_number(drawing.pieces.volume(piece, drawing.foam) / mm3_a_cm3, 4) + " cm\u00B3");
   }
   if (drawing.pieces.pieces.size() > most) legend.patch(colour_of_piece(most), "smaller pieces");
   if (drawing.difference == nullptr) return;

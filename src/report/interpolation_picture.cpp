@@ -9,6 +9,7 @@
 #include "step_view.hpp"
 #include <fmt/format.h>
 
+#include "passo/base/counted.hpp"
 #include "passo/study/ideal_path.hpp"
 
 namespace passo {
@@ -115,7 +116,7 @@ void draw_view(Canvas& canvas, const StepView& view, const std::vector<Shown>& s
 }
 
 std::string figures(const Measures& found) {
-  std::string text = fmt::format("{} pulses", found.pulses);
+  std::string text = counted(found.pulses, "pulse");
   if (found.together != 0) text += fmt::format(", {} of several axes", found.together);
   if (found.idle != 0) text += fmt::format(", {} of none", found.idle);
   return text;

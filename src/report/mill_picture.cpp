@@ -7,6 +7,8 @@
 #include "sheet.hpp"
 #include <fmt/format.h>
 
+#include "passo/base/counted.hpp"
+
 namespace passo {
 namespace {
 
@@ -96,9 +98,10 @@ Status<OutputError> draw_mill_plan(const MillScene& scene, const PictureOptions&
     all.milled_nm += lengths.milled_nm;
     all.rapids_nm += lengths.rapids_nm;
   }
-  begin_sheet(canvas, options,
-              fmt::format("{} times down   \u00B7   {:.1f} mm milled   \u00B7   {:.1f} mm of rapids", all.runs,
-                          all.milled_nm / nanometres_per_mm, all.rapids_nm / nanometres_per_mm));
+  begin_sheet(
+      canvas, options,
+      fmt::format("{} down   \u00B7   {:.1f} mm milled   \u00B7   {:.1f} mm of rapids", counted(all.runs, "time"),
+                  all.milled_nm / nanometres_per_mm, all.rapids_nm / nanometres_per_mm));
   const Area area{sheet::margin, 100, options.width - 2 * sheet::margin, options.height - 190.0};
   const PlanView view = view_of(scene, area);
   if (scene.sheet) draw_sheet(canvas, view, *scene.sheet);

@@ -8,6 +8,8 @@
 #include "sheet.hpp"
 #include <fmt/format.h>
 
+#include "passo/base/counted.hpp"
+
 namespace passo {
 namespace {
 
@@ -80,7 +82,8 @@ void draw_reached_rates(Canvas& canvas, const Area& area, const RampLimitScene& 
 void draw_legend(Canvas& canvas, const RampLimitScene& scene, Spot place) {
   Legend legend(canvas, place);
   for (std::size_t i = 0; i < scene.table_sizes.size(); ++i) {
-    legend.line(size_pens[i], fmt::format("table of {} entries", scene.table_sizes[i]));
+    legend.line(size_pens[i],
+                "table of " + counted(static_cast<std::uint32_t>(scene.table_sizes[i]), "entry", "entries"));
   }
   if (scene.rate) legend.line(wanted_pen, fmt::format("{:g} steps/s wanted", scene.rate->value()));
   legend.words("numbers at the curves: acceleration, rad/s\u00B2");

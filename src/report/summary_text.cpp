@@ -176,10 +176,10 @@ class Text {
     constexpr std::size_t shown = 10;
     for (std::size_t i = 0; i < std::min(shown, physics.losses.size()); ++i) {
       const PhysicsSummary::Loss& loss = physics.losses[i];
-      out_ += fmt::format("  at {:.3f} s, line {}: {} lost {} steps\n", loss.time.value(), loss.line,
-                          letter_of(loss.axis), loss.steps);
+      out_ += fmt::format("  at {:.3f} s, line {}: {} lost {}\n", loss.time.value(), loss.line, letter_of(loss.axis),
+                          signed_count(loss.steps, "step"));
     }
-    if (physics.losses.size() > shown) out_ += fmt::format("  and {} more times\n", physics.losses.size() - shown);
+    if (physics.losses.size() > shown) out_ += "  and " + counted(physics.losses.size() - shown, "more time") + "\n";
   }
 
   std::string take() { return std::move(out_); }

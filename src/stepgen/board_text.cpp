@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include "passo/base/counted.hpp"
 #include "passo/wire/segment_parts.hpp"
 
 namespace passo {
@@ -17,7 +18,7 @@ double in_steps(const BoardSegment& segment, unsigned motor) {
 
 std::string text_of(const BoardSegment& segment, const StepOptions& options) {
   std::string text =
-      fmt::format("segment {} events, {:.8g} ticks, ", unsigned{segment.events}, segment.interval / 65536.0);
+      fmt::format("segment {}, {:.8g} ticks, ", counted(segment.events, "event"), segment.interval / 65536.0);
   text += is_root(segment.form)
               ? fmt::format("root of growth {:.8g} in {}", segment.change / 2147483648.0, part_length(segment.form))
               : fmt::format("change {:.8g}", segment.change / 65536.0);

@@ -4,6 +4,7 @@
 
 #include <fmt/format.h>
 
+#include "passo/base/counted.hpp"
 #include "passo/interpolate/arcs.hpp"
 #include "passo/interpolate/dda.hpp"
 #include "passo/interpolate/lean.hpp"
@@ -160,7 +161,7 @@ std::optional<MethodName> method_named(std::string_view name, bool arc) {
 std::string title(const Method& method) {
   std::string text = method_names()[static_cast<std::size_t>(method.name)];
   if (method.half_loaded) text += ", half loaded";
-  if (method.register_bits) text += fmt::format(", {} bits", *method.register_bits);
+  if (method.register_bits) text += ", " + counted(*method.register_bits, "bit");
   return text;
 }
 

@@ -4,6 +4,8 @@
 
 #include <fmt/format.h>
 
+#include "passo/base/counted.hpp"
+
 namespace passo {
 namespace {
 
@@ -47,10 +49,11 @@ Status<std::string> check_arc(const StepMove& move) {
 
 Status<std::string> check(const StepMove& move) {
   if (move.axes() == 0 || move.axes() > most_axes) {
-    return Failure{fmt::format("has {} axes; one to {} are wanted", move.axes(), most_axes)};
+    return Failure{fmt::format("has {}; one to {} are wanted", counted(move.axes(), "axis", "axes"), most_axes)};
   }
   if (move.from.size() != move.to.size()) {
-    return Failure{fmt::format("starts with {} axes and ends with {}", move.from.size(), move.to.size())};
+    return Failure{
+        fmt::format("starts with {} and ends with {}", counted(move.from.size(), "axis", "axes"), move.to.size())};
   }
   for (const Place* place : {&move.from, &move.to}) {
     for (const std::int64_t steps : *place) {

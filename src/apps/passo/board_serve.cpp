@@ -11,6 +11,7 @@
 #include <fmt/format.h>
 
 #include "passo/activity/machine_plant.hpp"
+#include "passo/base/counted.hpp"
 #include "passo/machine/virtual_machine.hpp"
 #include "passo/transport/board_server.hpp"
 
@@ -99,8 +100,8 @@ int board_serve(const BoardServeArguments& arguments) {
   machine.wire(wiring);
   note_signals();
   std::signal(SIGUSR1, press_reset);
-  fmt::print("A virtual board of {} motors, {:.0f} ticks a second: tcp:127.0.0.1:{}\n", motors, clock.value(),
-             (*server)->port());
+  fmt::print("A virtual board of {}, {:.0f} ticks a second: tcp:127.0.0.1:{}\n", signed_count(motors, "motor"),
+             clock.value(), (*server)->port());
   std::fflush(stdout);
   serve(**server, machine, arguments.once);
   return interrupted_by() != 0 ? 128 + interrupted_by() : exit_done;

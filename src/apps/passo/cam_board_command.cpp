@@ -377,6 +377,9 @@ int make_all(BoardMaker& maker, const BoardJob& job, CamDrillArguments drill, Ca
 
 int cam_board(const CamBoardArguments& arguments, CamDrillArguments drill, CamIsolateArguments isolate,
               CamOutlineArguments outline) {
+  if (std::ranges::find(arguments.paths, "") != arguments.paths.end()) {
+    return fail(exit_bad_program, "expected a folder, an archive or files, and this name is empty");
+  }
   Diagnostics findings;
   std::optional<MachineDescription> machine;
   if (!arguments.machine.empty()) {

@@ -169,7 +169,7 @@ int cam_drill(const CamDrillArguments& arguments, const CamSources* given, CamMa
   const DrillPlan plan = plan_drilling(drawings, job->plan, findings);
   for (const std::string& words : plan.notes) note(words);
   if (findings.any_error()) {
-    show(findings);
+    show(findings, listed(arguments.files));
     return exit_bad_program;
   }
   if (const int code = write_text(arguments.output, write_drill_program(plan, job->program)); code != exit_done)

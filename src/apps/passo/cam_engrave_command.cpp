@@ -7,6 +7,7 @@
 #include "cam_part.hpp"
 #include <nlohmann/json.hpp>
 
+#include "passo/base/sensible_number.hpp"
 #include "passo/cam/lettering.hpp"
 #include "passo/cam/pocket.hpp"
 #include "passo/cam/profile.hpp"
@@ -130,7 +131,7 @@ std::optional<Drawing> drawing_of(const CamEngraveArguments& arguments, const Mi
       drawing = letter(engrave.lettering, arguments.font, *font, findings);
     }
   }
-  show(findings);
+  show(findings, "--text");
   if (findings.any_error()) return std::nullopt;
   return drawing;
 }
@@ -150,7 +151,7 @@ int engrave_lines(const CamEngraveArguments& arguments, const MillJob& job, cons
   options.cut.cutter = std::min(carving.widest, Nanometres{carving.tip.count + flanks});
   Diagnostics findings;
   const ProfilePlan plan = plan_profile(part.loops.loops, part.loops.open, options, findings);
-  show(findings);
+  show(findings, arguments.files.empty() ? "--text" : listed(arguments.files));
   if (findings.any_error()) return exit_bad_program;
   const double width = to_mm(options.cut.cutter).value();
   const double depth = -to_mm(options.cut.depth).value();
@@ -208,15 +209,16 @@ int cam_engrave(const CamEngraveArguments& arguments) {
     std::ranges::move(plan.mill.tools, std::back_inserter(floor.mill.tools));
     plan.mill.tools = std::move(floor.mill.tools);
   }
-  show(findings);
+  show(findings, arguments.files.empty() ? "--text" : listed(arguments.files));
   if (findings.any_error()) return exit_bad_program;
   const double stays = area_mm2(warned);
-  std::string words = size_words(*part) + fmt::format("{:.4g} mm² carved, {:.4g} mm deep at most\n",
-                                                      area_mm2(area) - stays, -to_mm(plan.deepest).value());
+  std::string words =
+      size_words(*part) + fmt::format("{} mm² carved, {:.4g} mm deep at most\n",
+                                      sensible_number(area_mm2(area) - stays, 4), -to_mm(plan.deepest).value());
   if (plan.layers > 1) words += fmt::format("in {} layers\n", plan.layers);
   if (stays > 0) {
     words +=
-        fmt::format("not reached: {:.4g} mm², too wide for the V-shaped cutter{}\n", stays,
+        fmt::format("not reached: {} mm², too wide for the V-shaped cutter{}\n", sensible_number(stays, 4),
                     engrave.clears ? ", too narrow for the flat one, or for the tip" : ": --clear D, a flat cutter");
   }
   nlohmann::ordered_json json = {{"area_mm2", area_mm2(area)},

@@ -7,6 +7,7 @@
 #include "cam_job.hpp"
 #include <nlohmann/json.hpp>
 
+#include "passo/base/sensible_number.hpp"
 #include "passo/cam/isolation.hpp"
 #include "passo/cam/isolation_proof.hpp"
 
@@ -94,8 +95,9 @@ nlohmann::ordered_json as_json(const IsolationPlan& plan, const IsolationProof& 
 }
 
 std::string proof_words(const IsolationProof& proof) {
-  std::string text = fmt::format("proof: {:.4g} mm² milled, {:g} of {:.4g} mm² of copper lost; {}", proof.milled_mm2,
-                                 proof.lost_mm2, proof.copper_mm2, counted(proof.islands, "island"));
+  std::string text =
+      fmt::format("proof: {} mm² milled, {:g} of {} mm² of copper lost; {}", sensible_number(proof.milled_mm2, 4),
+                  proof.lost_mm2, sensible_number(proof.copper_mm2, 4), counted(proof.islands, "island"));
   return text + (proof.joined == 0
                      ? ", all apart\n"
                      : fmt::format(", {} of them still joined in {}\n", proof.joined, counted(proof.groups, "piece")));
@@ -175,7 +177,7 @@ int cam_isolate(const CamIsolateArguments& arguments, const CamSources* given, C
 
   const IsolationPlan plan = plan_isolation(copper, options, findings);
   if (findings.any_error()) {
-    show(findings);
+    show(findings, sources->layer.lines.file);
     return exit_bad_program;
   }
   const IsolationProof proof = prove_isolation(copper, plan.mill, options.voronoi ? options.board : Region{});

@@ -140,6 +140,12 @@ bool outputs_are_good(const CamMillArguments& arguments, const std::string& edge
   return !has_no_room;
 }
 
+std::string listed(const std::vector<std::string>& files) {
+  constexpr std::size_t most = 3;
+  if (files.size() <= most) return fmt::format("{}", fmt::join(files, ", "));
+  return fmt::format("{} and {}", files.front(), counted(files.size() - 1, "other file"));
+}
+
 std::optional<BoardLayer> read_layers(const std::vector<std::string>& files, const MillJob& job) {
   Diagnostics findings;
   BoardLayer all;

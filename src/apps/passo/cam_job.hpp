@@ -70,6 +70,9 @@ OutlineOptions outline_options_of(const CamOutlineArguments& arguments, const Mi
 // Whether the files are apart, and --picture is a picture. If not, says why.
 bool outputs_are_good(const CamMillArguments& arguments, const std::string& edge);
 
+// The files as a finding on all of them names them: "front.svg, back.svg".
+std::string listed(const std::vector<std::string>& files);
+
 // Reads the files, and says what was guessed. Findings are shown; then the answer is empty.
 std::optional<BoardLayer> read_layers(const std::vector<std::string>& files, const MillJob& job);
 

@@ -4,6 +4,8 @@
 #include "cam_job.hpp"
 #include <nlohmann/json.hpp>
 
+#include "passo/base/counted.hpp"
+#include "passo/base/sensible_number.hpp"
 #include "passo/cam/outline.hpp"
 
 namespace passo {
@@ -39,9 +41,9 @@ OutlineOptions outline_options_of(const CamOutlineArguments& arguments, const Mi
 namespace {
 
 std::string board_words(const Region& board, const OutlinePlan& plan, const EdgeLoops& loops) {
-  std::string text =
-      fmt::format("{} and {} around {:.4g} mm² of board, {}; {:g} mm² of it lost\n", counted(plan.outsides, "outline"),
-                  counted(plan.openings, "opening"), area_mm2(board), counted(plan.tabs.size(), "tab"), plan.lost_mm2);
+  std::string text = fmt::format("{} and {} around {} mm² of board, {}; {:g} mm² of it lost\n",
+                                 counted(plan.outsides, "outline"), counted(plan.openings, "opening"),
+                                 sensible_number(area_mm2(board), 4), counted(plan.tabs.size(), "tab"), plan.lost_mm2);
   if (loops.joined > 0) {
     text += fmt::format("joined: ends that did not meet at {}, at most {:.4g} mm apart\n",
                         counted(loops.joined, "place"), to_mm(loops.widest_joined).value());
@@ -87,7 +89,7 @@ int cam_outline(const CamOutlineArguments& arguments, const CamSources* given, C
   move_to_zero(job.zero, board, {&board});
   OutlinePlan plan;
   if (!findings.any_error()) plan = plan_outline(board, options, findings);
-  show(findings);
+  show(findings, layer->lines.file);
   if (findings.any_error()) return exit_bad_program;
   for (const std::string& words : plan.mill.notes) note(words);
   if (const int code = write_text(arguments.output, write_mill_program(plan.mill, job.program)); code != exit_done) {

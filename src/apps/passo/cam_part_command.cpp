@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include "passo/base/counted.hpp"
+#include "passo/base/sensible_number.hpp"
 #include "passo/cam/pocket.hpp"
 #include "passo/cam/profile.hpp"
 #include "passo/diagnostics/file_bytes.hpp"
@@ -56,7 +57,10 @@ std::optional<Drawing> read_drawings(const CamMillArguments& arguments, const Mi
 std::optional<PartDrawing> part_of(Drawing drawing, const MillJob& job, Nanometres join, OpenRows open_rows) {
   const auto points =
       std::ranges::count_if(drawing.holes, [](const DrawnHole& hole) { return hole.diameter.count <= 0; });
-  if (points > 0) note(fmt::format("{} points without a diameter are left out", points));
+  if (points > 0) {
+    note(fmt::format("{} without a diameter {} left out", counted(static_cast<std::size_t>(points), "point"),
+                     points == 1 ? "is" : "are"));
+  }
   mirror_drawing(drawing, job.mirror);
   if (job.zero.at || job.zero.is_lower_left) {
     move_zero_to(job.zero.is_lower_left ? box_of(drawing).least : *job.zero.at, drawing);
@@ -119,12 +123,13 @@ Nanometres join_of(const std::string& text, LengthArguments& lengths) {
 
 std::string unreached_words(double mm2) {
   if (mm2 <= 0) return "";
-  return fmt::format("not reached: {:.4g} mm² in corners and gaps that are narrower than the cutter\n", mm2);
+  return fmt::format("not reached: {} mm² in corners and gaps that are narrower than the cutter\n",
+                     sensible_number(mm2, 4));
 }
 
 std::string joined_words(const EdgeLoops& loops) {
   if (loops.joined == 0) return "";
-  return fmt::format("joined: {} ends that did not meet, at most {:.4g} mm apart\n", loops.joined,
+  return fmt::format("joined: {} that did not meet, at most {:.4g} mm apart\n", counted(loops.joined, "end"),
                      to_mm(loops.widest_joined).value());
 }
 
@@ -173,7 +178,7 @@ int cam_profile(const CamProfileArguments& arguments) {
   if (!part) return exit_bad_program;
   Diagnostics findings;
   const ProfilePlan plan = plan_profile(part->loops.loops, part->loops.open, options, findings);
-  show(findings);
+  show(findings, listed(arguments.files));
   if (findings.any_error()) return exit_bad_program;
   const OutlinePlan& cut = plan.outline;
   std::string words = size_words(*part);
@@ -229,12 +234,13 @@ int cam_pocket(const CamPocketArguments& arguments) {
   const Region area = enclosed_by(part->loops.loops);
   const bool is_constant = options.most_engagement > 0;
   const PocketPlan plan = plan_pocket(area, options, findings);
-  show(findings);
+  show(findings, listed(arguments.files));
   if (findings.any_error()) return exit_bad_program;
   const std::string words =
       size_words(*part) +
-      fmt::format("{} of {:.4g} mm², {} a layer; {:g} mm² of what stays lost\n", counted(plan.pockets, "pocket"),
-                  area_mm2(area), counted(plan.loops, is_constant ? "disc" : "loop"), plan.lost_mm2) +
+      fmt::format("{} of {} mm², {} a layer; {:g} mm² of what stays lost\n", counted(plan.pockets, "pocket"),
+                  sensible_number(area_mm2(area), 4), counted(plan.loops, is_constant ? "disc" : "loop"),
+                  plan.lost_mm2) +
       (is_constant
            ? fmt::format("engagement: at most {:.1f} degrees of the cutter, but while it goes down\n", plan.engagement)
            : std::string()) +

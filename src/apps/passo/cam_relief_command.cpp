@@ -12,6 +12,7 @@
 #include "progress_display.hpp"
 #include <fmt/format.h>
 
+#include "passo/base/counted.hpp"
 #include "passo/carve/relief_program.hpp"
 #include "passo/carve/relief_surface.hpp"
 #include "passo/diagnostics/file_bytes.hpp"
@@ -177,7 +178,7 @@ std::optional<ReliefGrid> read_relief(const CamReliefArguments& arguments, const
     const Surface body = read_surface(arguments.file, *bytes, findings);
     if (findings.any_error()) return std::nullopt;
     read.grid = relief_of(body, shape, arguments.file, findings);
-    read.words = fmt::format("{} triangles, seen from above", body.triangles());
+    read.words = counted(body.triangles(), "triangle") + ", seen from above";
   }
   if (read.grid.columns == 0) return std::nullopt;
   return read;
@@ -231,12 +232,12 @@ std::string minutes_words(double minutes) {
 std::string summary_of(const ReliefReport& report) {
   std::string text;
   for (const ReliefPart& part : report.parts) {
-    std::string more = part.arcs > 0 ? fmt::format(", {} of them arcs", part.arcs) : "";
-    text += fmt::format(
-        "{}: {}; rows {:.4g} mm apart, {} moves{}, {:.2f} m of work, {:.2f} m of rapids, {} at the feeds{}\n",
-        part.what, part.tool, part.step.value(), part.moves, more, part.cut.value() / 1000, part.rapid.value() / 1000,
-        minutes_words(part.minutes),
-        part.removal > 0 ? fmt::format(", at most {:.0f} mm3 a minute", part.removal) : "");
+    std::string more =
+        part.arcs > 0 ? fmt::format(", {} of them {}", part.arcs, part.arcs == 1 ? "an arc" : "arcs") : "";
+    text += fmt::format("{}: {}; rows {:.4g} mm apart, {}{}, {:.2f} m of work, {:.2f} m of rapids, {} at the feeds{}\n",
+                        part.what, part.tool, part.step.value(), counted(part.moves, "move"), more,
+                        part.cut.value() / 1000, part.rapid.value() / 1000, minutes_words(part.minutes),
+                        part.removal > 0 ? fmt::format(", at most {:.0f} mm3 a minute", part.removal) : "");
   }
   return text;
 }

@@ -7,6 +7,7 @@
 #include "wire_kerfs.hpp"
 #include <nlohmann/json.hpp>
 
+#include "passo/base/sensible_number.hpp"
 #include "passo/cam/airfoil.hpp"
 #include "passo/cam/wire_program.hpp"
 #include "passo/diagnostics/file_bytes.hpp"
@@ -162,8 +163,8 @@ std::optional<std::vector<WireProfile>> read_profiles(const CamWireArguments& ar
 }
 
 std::string side_words(const char* name, const WireSide& side) {
-  std::string words =
-      fmt::format("{}: {:.1f} mm, at most {:.4g} mm/min, kerf {:.3g}", name, side.way, side.most_speed, side.most_kerf);
+  std::string words = fmt::format("{}: {:.1f} mm, at most {} mm/min, kerf {:.3g}", name, side.way,
+                                  sensible_number(side.most_speed, 4), side.most_kerf);
   if (side.most_kerf - side.least_kerf > 1e-3) words += fmt::format(" to {:.3g}", side.least_kerf);
   return words + fmt::format(" mm; {:.3g} mm² of what stays lost\n", side.lost_mm2);
 }
@@ -209,7 +210,7 @@ int cam_wire(const CamWireArguments& arguments) {
   if (!profiles) return exit_bad_program;
   Diagnostics findings;
   const WirePlan plan = plan_wire_cut((*profiles)[0], (*profiles)[1], wire.cut, findings);
-  show(findings);
+  show(findings, listed(arguments.files));
   if (findings.any_error()) return exit_bad_program;
   const int written = write_text(arguments.output, write_wire_program(plan, program_of(arguments, wire, job)));
   if (written != exit_done) return written;

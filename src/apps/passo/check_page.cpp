@@ -9,6 +9,7 @@
 
 #include "passo/activity/stage_options.hpp"
 #include "passo/base/counted.hpp"
+#include "passo/base/sensible_number.hpp"
 #include "passo/drive/backlash_options.hpp"
 #include "passo/report/summary_builder.hpp"
 #include "passo/trajectory/planner.hpp"
@@ -31,7 +32,10 @@ std::string limit_words(const SpeedShare& share) {
   const char* const unit = is_rotary(share.bound.axis) ? "deg" : "mm";
   const bool velocity = share.bound.kind == SpeedBound::Kind::velocity;
   const bool jerk = share.bound.kind == SpeedBound::Kind::jerk;
-  return words + fmt::format(", {:.4g} {}/s{}", share.limit, unit, velocity ? "" : jerk ? "\u00B3" : "\u00B2");
+  return words + fmt::format(", {} {}/s{}", sensible_number(share.limit, 4), unit,
+                             velocity ? ""
+                             : jerk   ? "\u00B3"
+                                      : "\u00B2");
 }
 
 std::string feed_words(const WorkSummary& work, const RunSummary& summary) {
@@ -52,11 +56,11 @@ std::string axis_words(const AxisSummary& moved, const AxisDescription& axis) {
   const char* unit = is_rotary(axis.axis) ? "deg" : "mm";
   std::string words = fmt::format("axis {}          ", letter_of(axis.axis));
   if (!moved.machine_extents) return words + "does not move\n";
-  return words +
-         fmt::format("{:.3f} to {:.3f} {unit} of {:g} to {:g}; {:.4g} {unit}/s of {:g}, {:.4g} {unit}/s2 of {:.4g}\n",
-                     moved.machine_extents->low, moved.machine_extents->high, axis.travel_low, axis.travel_high,
-                     moved.peak_speed.value(), axis.velocity.value(), moved.peak_acceleration.value(),
-                     axis.acceleration.value(), fmt::arg("unit", unit));
+  return words + fmt::format("{:.3f} to {:.3f} {unit} of {:g} to {:g}; {} {unit}/s of {:g}, {} {unit}/s2 of {}\n",
+                             moved.machine_extents->low, moved.machine_extents->high, axis.travel_low, axis.travel_high,
+                             sensible_number(moved.peak_speed.value(), 4), axis.velocity.value(),
+                             sensible_number(moved.peak_acceleration.value(), 4),
+                             sensible_number(axis.acceleration.value(), 4), fmt::arg("unit", unit));
 }
 
 // The axes whose limits are reached, and for how much of the time. The motion's bounds with less than half a percent of

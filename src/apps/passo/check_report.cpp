@@ -8,6 +8,8 @@
 #include "time_chart.hpp"
 #include <fmt/format.h>
 
+#include "passo/base/counted.hpp"
+#include "passo/base/sensible_number.hpp"
 #include "passo/diagnostics/shown_place.hpp"
 #include "passo/report/html.hpp"
 #include "passo/report/picture.hpp"
@@ -64,9 +66,8 @@ std::string badges(const CheckReport& report) {
   const std::size_t errors = report.findings.errors();
   const std::size_t warnings = report.findings.all().size() - std::min(report.findings.all().size(), errors);
   std::string html = "<ul class=\"badges\">";
-  html += errors == 0 ? badge("good", "no errors")
-                      : badge("bad", fmt::format("{} error{}", errors, errors == 1 ? "" : "s"));
-  if (warnings > 0) html += badge("doubt", fmt::format("{} warning{}", warnings, warnings == 1 ? "" : "s"));
+  html += errors == 0 ? badge("good", "no errors") : badge("bad", counted(errors, "error"));
+  if (warnings > 0) html += badge("doubt", counted(warnings, "warning"));
   if (report.page != nullptr) {
     const CheckPage& page = *report.page;
     html += page.knows_motors
@@ -111,10 +112,10 @@ std::string axes(const CheckReport& report) {
     }
     table.row({letter,
                fmt::format("{:.3f} to {:.3f} {}", moved.machine_extents->low, moved.machine_extents->high, unit),
-               travel, fmt::format("{:.4g} {}/s", moved.peak_speed.value(), unit),
+               travel, fmt::format("{} {}/s", sensible_number(moved.peak_speed.value(), 4), unit),
                fmt::format("{:g}{}", axis.velocity.value(), share_of(moved.peak_speed.value(), axis.velocity.value())),
-               fmt::format("{:.4g} {}/s\u00B2", moved.peak_acceleration.value(), unit),
-               fmt::format("{:.4g}{}", axis.acceleration.value(),
+               fmt::format("{} {}/s\u00B2", sensible_number(moved.peak_acceleration.value(), 4), unit),
+               fmt::format("{}{}", sensible_number(axis.acceleration.value(), 4),
                            share_of(moved.peak_acceleration.value(), axis.acceleration.value()))});
   }
   std::string html = "<h2>Axes</h2>\n" + table.html();

@@ -10,6 +10,7 @@
 #include <fmt/format.h>
 #include <unistd.h>
 
+#include "passo/base/counted.hpp"
 #include "passo/interpreter/explain.hpp"
 
 namespace passo {
@@ -66,8 +67,8 @@ class Writer {
       return;
     }
     if (line.executions > 1 || !whole_run) {
-      out_ += fmt::format("  executed {}{} time{}; this is the first\n", whole_run ? "" : "at least ", line.executions,
-                          line.executions == 1 ? "" : "s");
+      out_ += fmt::format("  executed {}{}; this is the first\n", whole_run ? "" : "at least ",
+                          counted(line.executions, "time"));
     }
     std::size_t width = 0;
     for (const Explanation::Word& word : line.words)
@@ -175,12 +176,12 @@ int explain(const ExplainArguments& arguments) {
   Diagnostics findings(1000);
   const Explanations result = explain(std::move(*program), *options, place.lines, findings);
   if (result.lines.empty()) {
-    return fail(exit_bad_program, fmt::format("{} has {} lines: expected a line from 1 to {}", place.file,
-                                              result.lines_in_file, result.lines_in_file));
+    return fail(exit_bad_program, fmt::format("{} has {}: expected a line from 1 to {}", place.file,
+                                              counted(result.lines_in_file, "line"), result.lines_in_file));
   }
   if (place.whole_file && result.lines_in_file > most_lines) {
-    return fail(exit_bad_program, fmt::format("{} has {} lines: expected {}:FROM-TO, {} lines at most", place.file,
-                                              result.lines_in_file, place.file, most_lines));
+    return fail(exit_bad_program, fmt::format("{} has {}: expected {}:FROM-TO, {} lines at most", place.file,
+                                              counted(result.lines_in_file, "line"), place.file, most_lines));
   }
 
   if (arguments.json) {

@@ -18,6 +18,7 @@
 #include <nlohmann/json.hpp>
 
 #include "passo/activity/program.hpp"
+#include "passo/base/counted.hpp"
 #include "passo/sender/grbl_code.hpp"
 
 namespace passo {
@@ -294,10 +295,9 @@ void print(const GrblRunResult& result, const RunArguments& arguments, const Ope
         {"position_mm", {{"X", place[Axis::x]}, {"Y", place[Axis::y]}, {"Z", place[Axis::z]}}}};
     fmt::print("{}\n", all.dump(2));
   } else if (!arguments.quiet) {
-    fmt::print(
-        "{}: {} moves in {} lines, {:.1f} s; at rest in {} (machine). Its steps are not counted: {} {} tells none\n",
-        arguments.program.program, check.moves, result.lines, result.time.value(), opened.place_words(),
-        machine.firmware, machine.version);
+    fmt::print("{}: {} in {}, {:.1f} s; at rest in {} (machine). Its steps are not counted: {} {} tells none\n",
+               arguments.program.program, counted(check.moves, "move"), counted(result.lines, "line"),
+               result.time.value(), opened.place_words(), machine.firmware, machine.version);
   }
 }
 

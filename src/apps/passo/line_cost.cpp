@@ -8,6 +8,7 @@
 #include <nlohmann/json.hpp>
 
 #include "passo/activity/stage_options.hpp"
+#include "passo/base/counted.hpp"
 #include "passo/link/await.hpp"
 #include "passo/report/line_words.hpp"
 #include "passo/trajectory/planner.hpp"
@@ -67,7 +68,7 @@ std::optional<LineCost> line_cost(ProgramReader program, const MachineDescriptio
 }
 
 std::string to_text(const LineCost& cost) {
-  std::string words = fmt::format("line            to a board with {} places: ", cost.held_items);
+  std::string words = fmt::format("line            to a board with {}: ", counted(cost.held_items, "place"));
   if (!cost.trouble.empty()) return words + cost.trouble + "\n";
   if (cost.cost() < least_cost_of_line) {
     words += "costs no time";

@@ -9,6 +9,7 @@
 #include "program_input.hpp"
 #include <fmt/format.h>
 
+#include "passo/base/counted.hpp"
 #include "passo/diagnostics/file_bytes.hpp"
 #include "passo/levelling/height_map.hpp"
 #include "passo/levelling/map_figures.hpp"
@@ -81,8 +82,9 @@ int level(const LevelArguments& arguments) {
   if (findings.any_error()) return exit_bad_program;
   if (const int code = write_text(arguments.output, text); code != exit_done) return code;
   if (!arguments.output.empty() && arguments.output != "-") {
-    fmt::print("{} moves are {} on the surface; {} holes keep their depths\n", count.moves_before, count.moves_after,
-               count.holes);
+    fmt::print("{} {} {} on the surface; {} {}\n", counted(count.moves_before, "move"),
+               count.moves_before == 1 ? "is" : "are", count.moves_after, counted(count.holes, "hole"),
+               count.holes == 1 ? "keeps its depth" : "keep their depths");
   }
   return exit_done;
 }

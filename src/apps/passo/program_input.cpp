@@ -103,7 +103,19 @@ void show(const std::string& text) {
 }  // namespace
 
 void show(const Diagnostics& diagnostics) {
-  show(render(diagnostics, shows_colours(STDERR_FILENO)));
+  show(diagnostics, "passo");
+}
+
+void show(const Diagnostics& diagnostics, const std::string& file) {
+  const bool colour = shows_colours(STDERR_FILENO);
+  std::string text;
+  std::size_t unnamed = 0;  // characters
+  for (Diagnostic finding : diagnostics.all()) {
+    unnamed += render(finding, colour).size();
+    if (finding.file.empty()) finding.file = file;
+    text += render(finding, colour);
+  }
+  show(text + render(diagnostics, colour).substr(unnamed));
 }
 
 void FindingsDisplay::show_new() {

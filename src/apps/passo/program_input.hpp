@@ -32,6 +32,8 @@ NamedFiles files_of(const ProgramArguments& arguments, const InterpreterOptions&
 
 // Writes all findings to standard error, in colour on a terminal.
 void show(const Diagnostics& diagnostics);
+// The same, where findings that name no file are of this one.
+void show(const Diagnostics& diagnostics, const std::string& file);
 
 // Shows findings on standard error as soon as they are found, where a stage still works on the program.
 class FindingsDisplay {

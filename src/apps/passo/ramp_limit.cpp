@@ -9,6 +9,8 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include "passo/base/counted.hpp"
+#include "passo/base/sensible_number.hpp"
 #include "passo/interpolate/ramp_table.hpp"
 #include "passo/ramp/ramp_sequence.hpp"
 #include "passo/report/output_file.hpp"
@@ -54,16 +56,18 @@ nlohmann::ordered_json limit_json(const RampArguments& arguments, std::int32_t s
 
 std::string limit_words(const RampArguments& arguments, std::int32_t size) {
   const std::int32_t steps = *arguments.steps_per_turn;
-  std::string text = fmt::format("A table of {} entries, a motor of {} steps a revolution:\n", size, steps);
+  std::string text =
+      fmt::format("A table of {}, a motor of {} a revolution:\n",
+                  counted(static_cast<std::uint32_t>(size), "entry", "entries"), signed_count(steps, "step"));
   if (arguments.max_rate) {
     const double least = least_acceleration(Hertz(*arguments.max_rate), size, steps).value;
-    text += fmt::format("  for {:g} Hz it needs an acceleration of at least {:.15g} rad/s\u00B2\n", *arguments.max_rate,
-                        least);
+    text += fmt::format("  for {} Hz it needs an acceleration of at least {} rad/s\u00B2\n",
+                        sensible_number(*arguments.max_rate), sensible_number(least));
   }
   if (arguments.acceleration) {
     const double reached = reached_rate({*arguments.acceleration}, size, steps).value();
-    text += fmt::format("  with {:g} rad/s\u00B2 it reaches {:.15g} Hz, and goes on at that\n", *arguments.acceleration,
-                        reached);
+    text += fmt::format("  with {} rad/s\u00B2 it reaches {} Hz, and goes on at that\n",
+                        sensible_number(*arguments.acceleration), sensible_number(reached));
   }
   return text;
 }
@@ -139,17 +143,18 @@ std::vector<std::string> remarks_of(const RampArguments& arguments, std::int32_t
   if (arguments.clock && arguments.acceleration) {
     const RampSetup setup{
         .clock = Hertz(*arguments.clock), .steps_per_turn = steps, .acceleration = {*arguments.acceleration}};
-    remarks.push_back(
-        fmt::format("K_b = f sqrt(2 alpha / a) = {:.15g} ticks: f = {:g} Hz, {} steps/rev, a = {:g} rad/s2.",
-                    first_interval(setup), *arguments.clock, steps, *arguments.acceleration));
+    remarks.push_back(fmt::format("K_b = f sqrt(2 alpha / a) = {} ticks: f = {} Hz, {} steps/rev, a = {} rad/s2.",
+                                  sensible_number(first_interval(setup)), sensible_number(*arguments.clock), steps,
+                                  sensible_number(*arguments.acceleration)));
   }
   if (arguments.acceleration) {
-    remarks.push_back(fmt::format("With {:g} rad/s2 the table ends at {:.15g} steps/s.", *arguments.acceleration,
-                                  reached_rate({*arguments.acceleration}, size, steps).value()));
+    remarks.push_back(fmt::format("With {} rad/s2 the table ends at {} steps/s.",
+                                  sensible_number(*arguments.acceleration),
+                                  sensible_number(reached_rate({*arguments.acceleration}, size, steps).value())));
   }
   if (arguments.max_rate) {
-    remarks.push_back(fmt::format("For {:g} steps/s it needs at least {:.15g} rad/s2.", *arguments.max_rate,
-                                  least_acceleration(Hertz(*arguments.max_rate), size, steps).value));
+    remarks.push_back(fmt::format("For {} steps/s it needs at least {} rad/s2.", sensible_number(*arguments.max_rate),
+                                  sensible_number(least_acceleration(Hertz(*arguments.max_rate), size, steps).value)));
   }
   return remarks;
 }

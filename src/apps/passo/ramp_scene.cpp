@@ -6,6 +6,8 @@
 
 #include <fmt/format.h>
 
+#include "passo/base/counted.hpp"
+#include "passo/base/sensible_number.hpp"
 #include "passo/ramp/ideal_rates.hpp"
 #include "passo/ramp/s_curve_move.hpp"
 
@@ -120,20 +122,23 @@ Result<RampScene, RampError> ramp_scene(const RampRequest& request) {
 }
 
 std::string ramp_title(const RampRequest& request) {
-  if (!request.whole_move) return fmt::format("A ramp up: the first {} steps", request.steps);
-  return fmt::format("A move of {} steps{}", request.steps, request.jerk.value > 0 ? " with bounded jerk" : "") +
+  if (!request.whole_move) return "A ramp up: the first " + signed_count(request.steps, "step");
+  return fmt::format("A move of {}{}", signed_count(request.steps, "step"),
+                     request.jerk.value > 0 ? " with bounded jerk" : "") +
          (request.stop_after > 0 ? fmt::format(", told to stop after {}", request.stop_after) : "") +
          (request.reverse_after > 0 ? fmt::format(", told to go back after {}", request.reverse_after) : "");
 }
 
 std::string ramp_words(const RampRequest& request) {
   const char* const dot = "   \u00B7   ";
-  std::string words = fmt::format("clock {:.12g} Hz{}{} steps/rev{}{:g} rad/s\u00B2{}K_b = {:.1f} ticks",
-                                  request.setup.clock.value(), dot, request.setup.steps_per_turn, dot,
-                                  request.setup.acceleration.value, dot, first_interval(request.setup));
+  std::string words =
+      fmt::format("clock {} Hz{}{} steps/rev{}{} rad/s\u00B2{}K_b = {:.1f} ticks",
+                  sensible_number(request.setup.clock.value()), dot, request.setup.steps_per_turn, dot,
+                  sensible_number(request.setup.acceleration.value), dot, first_interval(request.setup));
   if (first_interval(request.setup) >= 65536 && !(request.jerk.value > 0)) words += ", too long for a table";
-  if (request.rate > Hertz(0)) words += fmt::format("{}up to {:g} steps/s", dot, request.rate.value());
-  if (request.start > Hertz(0)) words += fmt::format("{}starts at {:g} steps/s", dot, request.start.value());
+  if (request.rate > Hertz(0)) words += fmt::format("{}up to {} steps/s", dot, sensible_number(request.rate.value()));
+  if (request.start > Hertz(0))
+    words += fmt::format("{}starts at {} steps/s", dot, sensible_number(request.start.value()));
   if (request.jerk.value > 0) words += fmt::format("{}{:g} rad/s\u00B3", dot, request.jerk.value);
   return words;
 }

@@ -183,10 +183,10 @@ void add_findings(const FoamSimulation& done, Diagnostics& findings) {
 }
 
 std::string in_short(const FoamSimulation& done) {
-  return fmt::format(
-      "kerf {:.2f} to {:.2f} mm   \u00B7   {:.1f} cm\u00B3 melted   \u00B7   {} slices, cells of {:g} mm",
-      done.moves.cutting > 0 ? done.moves.least_kerf : 0.0, done.moves.most_kerf,
-      (done.volume_before - done.foam.volume()) / mm3_a_cm3, done.foam.slices(), done.foam.cell());
+  return fmt::format("kerf {:.2f} to {:.2f} mm   \u00B7   {:.1f} cm\u00B3 melted   \u00B7   {}, cells of {:g} mm",
+                     done.moves.cutting > 0 ? done.moves.least_kerf : 0.0, done.moves.most_kerf,
+                     (done.volume_before - done.foam.volume()) / mm3_a_cm3, counted(done.foam.slices(), "slice"),
+                     done.foam.cell());
 }
 
 // A piece of less than a ten-thousandth of the largest is a crumb.
@@ -203,9 +203,9 @@ std::string to_text(const FoamSimulation& done) {
   std::string text =
       fmt::format("{}: {}, {} of them cut\n", done.program, counted(done.look.moves, "move"), done.moves.cutting);
   const auto add = [&](const char* name, const std::string& words) { text += fmt::format("{:<16}{}\n", name, words); };
-  add("foam", fmt::format("X {:g} to {:g}, Y {:g} to {:g}, Z {:g} to {:g}; {} slices of {} x {} cells of {:g} mm",
-                          block.low.x, block.high.x, block.low.y, block.high.y, block.low.z, block.high.z,
-                          foam.slices(), foam.columns(), foam.rows(), foam.cell()));
+  add("foam", fmt::format("X {:g} to {:g}, Y {:g} to {:g}, Z {:g} to {:g}; {} of {} x {} cells of {:g} mm", block.low.x,
+                          block.high.x, block.low.y, block.high.y, block.low.z, block.high.z,
+                          counted(foam.slices(), "slice"), foam.columns(), foam.rows(), foam.cell()));
   add("wire", done.look.has_four_axes ? fmt::format("X Y at Z 0, U V at Z {:g}", done.span) : "both ends by X Y");
   const double melted = done.volume_before - foam.volume();
   add("melted",
