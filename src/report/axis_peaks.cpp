@@ -1,8 +1,10 @@
 #include "axis_peaks.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numbers>
+#include <span>
 
 namespace passo {
 namespace {
@@ -39,9 +41,20 @@ struct Way {
   double to = 0;
 };
 
+// The first two derivatives of an axis by s.
+struct Slopes {
+  double slope = 0;
+  double bend = 0;
+};
+
+double hypotenuse(double a, double b) {
+  return std::sqrt(a * a + b * b);
+}
+
 // One axis of an arc's plane: x(s) = centre + r cos(angle), with r and angle linear in s.
 class ArcAxis {
  public:
+  ArcAxis() = default;
   ArcAxis(const Curve& curve, double shift)
       : radius_(curve.arc_data().start_radius),
         growth_((curve.arc_data().end_radius - curve.arc_data().start_radius) / curve.length().value()),
@@ -49,28 +62,28 @@ class ArcAxis {
         turning_(curve.arc_data().sweep / curve.length().value()) {}
 
   // dx/ds and d²x/ds².
-  double slope(double s) const {
-    return growth_ * std::cos(angle_at(s)) - radius_at(s) * turning_ * std::sin(angle_at(s));
-  }
-  double bend(double s) const {
-    return -turning_ * (2 * growth_ * std::sin(angle_at(s)) + radius_at(s) * turning_ * std::cos(angle_at(s)));
+  Slopes at(double s) const {
+    const double sine = std::sin(angle_at(s));
+    const double cosine = std::cos(angle_at(s));
+    return {growth_ * cosine - radius_at(s) * turning_ * sine,
+            -turning_ * (2 * growth_ * sine + radius_at(s) * turning_ * cosine)};
   }
 
   // Upper bounds for any axis of the plane: the lengths of the vectors of which the slope, the bend and the next
   // derivative are components.
-  double most_slope(Way way) const { return std::hypot(growth_, largest_radius(way) * turning_); }
+  double most_slope(Way way) const { return hypotenuse(growth_, largest_radius(way) * turning_); }
   double most_bend(Way way) const {
-    return std::abs(turning_) * std::hypot(2 * growth_, largest_radius(way) * turning_);
+    return std::abs(turning_) * hypotenuse(2 * growth_, largest_radius(way) * turning_);
   }
   double most_twist(Way way) const {
-    return turning_ * turning_ * std::hypot(3 * growth_, largest_radius(way) * turning_);
+    return turning_ * turning_ * hypotenuse(3 * growth_, largest_radius(way) * turning_);
   }
   // The largest |a · slope + v² · bend|.
   double most_pull(double a, double v, Way way) const {
     const double radius = largest_radius(way);
     const double inward = a * std::abs(growth_) + v * v * radius * turning_ * turning_;
     const double along = (a * radius + 2 * v * v * std::abs(growth_)) * std::abs(turning_);
-    return std::hypot(inward, along);
+    return hypotenuse(inward, along);
   }
 
  private:
@@ -78,22 +91,22 @@ class ArcAxis {
   double angle_at(double s) const { return angle_ + turning_ * s; }
   double largest_radius(Way way) const { return std::max(radius_at(way.from), radius_at(way.to)); }
 
-  double radius_;
-  double growth_;
-  double angle_;
-  double turning_;
+  double radius_ = 0;
+  double growth_ = 0;
+  double angle_ = 0;
+  double turning_ = 0;
 };
 
 // One axis of a cubic.
 class CubicAxis {
  public:
+  CubicAxis() = default;
   CubicAxis(const Curve& curve, Axis axis)
       : first_(curve.cubic_data().first[axis]),
         second_(2 * curve.cubic_data().second[axis]),
         third_(6 * curve.cubic_data().third[axis]) {}
 
-  double slope(double s) const { return first_ + s * (second_ + s * third_ / 2); }
-  double bend(double s) const { return second_ + s * third_; }
+  Slopes at(double s) const { return {slope(s), bend(s)}; }
 
   double most_slope(Way way) const {
     const double most = std::max(std::abs(slope(way.from)), std::abs(slope(way.to)));
@@ -105,69 +118,79 @@ class CubicAxis {
   double most_pull(double a, double v, Way way) const { return a * most_slope(way) + v * v * most_bend(way); }
 
  private:
-  double first_;  // the derivatives at s = 0
-  double second_;
-  double third_;
+  double slope(double s) const { return first_ + s * (second_ + s * third_ / 2); }
+  double bend(double s) const { return second_ + s * third_; }
+
+  double first_ = 0;  // the derivatives at s = 0
+  double second_ = 0;
+  double third_ = 0;
+};
+
+// What is known of a stretch: the path's largest speed and acceleration in it, its way, and the values at its middle.
+struct Look {
+  Look(const Phase& phase, Stretch time)
+      : v(highest_speed(phase, time)),
+        a(highest_acceleration(phase, time)),
+        way{phase.position_at(Seconds(time.begin)).value(), phase.position_at(Seconds(time.end)).value()},
+        half((time.end - time.begin) / 2) {
+    const double middle = (time.begin + time.end) / 2;
+    middle_s = phase.position_at(Seconds(middle)).value();
+    middle_v = phase.velocity_at(Seconds(middle)).value();
+    middle_a = acceleration_at(phase, middle);
+  }
+  double v, a;
+  Way way;
+  double half;
+  double middle_s = 0, middle_v = 0, middle_a = 0;
+};
+
+// A value at the middle of a stretch, and an upper bound of it in the whole stretch.
+struct Found {
+  double here;
+  double bound;
 };
 
 // The highest speed and acceleration of an axis in one phase, each to a thousandth. A stretch is halved until it cannot
 // hold more than the highest value seen. The value at its middle and the highest rate of change bound all values in the
-// stretch. On most curves the first look is enough.
+// stretch. On most curves the first look is enough, and most of the first looks need no more than the longest vector
+// of which the value is a component.
 template <class CurvedAxis>
 class PeakSearch {
  public:
-  PeakSearch(const CurvedAxis& axis, const Phase& phase) : axis_(axis), phase_(phase) {}
+  // `whole`: the look at the whole phase.
+  PeakSearch(const CurvedAxis& axis, const Phase& phase, const Look& whole)
+      : axis_(axis), phase_(phase), whole_(whole) {}
 
   void raise_speed(double& peak) {
+    if (whole_.v * axis_.most_slope(whole_.way) <= peak) return;
     raise(peak, [this](const Look& look) {
       const double most = look.v * axis_.most_slope(look.way);
       const double change = axis_.most_pull(look.a, look.v, look.way);
-      const double here = std::abs(look.middle_v * axis_.slope(look.middle_s));
+      const double here = std::abs(look.middle_v * axis_.at(look.middle_s).slope);
       return Found{here, std::min(most, here + look.half * change)};
     });
   }
   void raise_acceleration(double& peak) {
+    if (axis_.most_pull(whole_.a, whole_.v, whole_.way) <= peak) return;
     raise(peak, [this](const Look& look) {
       const double most = axis_.most_pull(look.a, look.v, look.way);
       const double change = std::abs(phase_.jerk.value()) * axis_.most_slope(look.way) +
                             3 * look.v * look.a * axis_.most_bend(look.way) +
                             look.v * look.v * look.v * axis_.most_twist(look.way);
-      const double here = std::abs(look.middle_a * axis_.slope(look.middle_s) +
-                                   look.middle_v * look.middle_v * axis_.bend(look.middle_s));
+      const Slopes middle = axis_.at(look.middle_s);
+      const double here = std::abs(look.middle_a * middle.slope + look.middle_v * look.middle_v * middle.bend);
       return Found{here, std::min(most, here + look.half * change)};
     });
   }
 
  private:
-  struct Look {  // what is known of a stretch: the path's largest speed and acceleration in it, its way, and the values
-                 // at its middle
-    double v, a;
-    Way way;
-    double half, middle_s, middle_v, middle_a;
-  };
-  struct Found {
-    double here;   // at the middle
-    double bound;  // upper bound in the whole stretch
-  };
-
-  Look look_at(Stretch time) const {
-    const double middle = (time.begin + time.end) / 2;
-    return {.v = highest_speed(phase_, time),
-            .a = highest_acceleration(phase_, time),
-            .way = {phase_.position_at(Seconds(time.begin)).value(), phase_.position_at(Seconds(time.end)).value()},
-            .half = (time.end - time.begin) / 2,
-            .middle_s = phase_.position_at(Seconds(middle)).value(),
-            .middle_v = phase_.velocity_at(Seconds(middle)).value(),
-            .middle_a = acceleration_at(phase_, middle)};
-  }
-
   template <class Examine>
   void raise(double& peak, const Examine& examine) {
     left_ = 10'000;
     const double duration = phase_.duration.value();
-    if (cannot_raise(examine(look_at({0, duration})), peak)) return;
+    if (cannot_raise(examine(whole_), peak)) return;
     // The ends are examined first, because the highest acceleration of a ramp is at one of them.
-    for (const double end : {0.0, duration}) peak = std::max(peak, examine(look_at({end, end})).here);
+    for (const double end : {0.0, duration}) peak = std::max(peak, examine(Look(phase_, {end, end})).here);
     search({0, duration}, peak, examine, 30);
   }
   static bool cannot_raise(const Found& found, double peak) {
@@ -177,7 +200,7 @@ class PeakSearch {
   }
   template <class Examine>
   void search(Stretch time, double& peak, const Examine& examine, int depth) {
-    const Found found = examine(look_at(time));
+    const Found found = examine(Look(phase_, time));
     peak = std::max(peak, found.here);
     if (cannot_raise(found, peak) || depth == 0 || --left_ < 0) return;
     const double middle = (time.begin + time.end) / 2;
@@ -187,15 +210,27 @@ class PeakSearch {
 
   const CurvedAxis& axis_;
   const Phase& phase_;
+  const Look& whole_;
   int left_ = 0;  // how many more looks are allowed; ordinary curves need only a few
 };
 
+// An axis along which a curve bends.
 template <class CurvedAxis>
-void raise_on_curve(const PlannedMove& move, const CurvedAxis& axis, double& speed, double& acceleration) {
+struct Bending {
+  Axis axis = Axis::x;
+  CurvedAxis shape = {};
+};
+
+template <class CurvedAxis>
+void raise_on_curve(const PlannedMove& move, std::span<const Bending<CurvedAxis>> bending, PerAxis<double>& speed,
+                    PerAxis<double>& acceleration) {
   for (const Phase& phase : move) {
-    PeakSearch search(axis, phase);
-    search.raise_speed(speed);
-    search.raise_acceleration(acceleration);
+    const Look whole(phase, {0, phase.duration.value()});
+    for (const auto& [axis, shape] : bending) {
+      PeakSearch search(shape, phase, whole);
+      search.raise_speed(speed[axis]);
+      search.raise_acceleration(acceleration[axis]);
+    }
   }
 }
 
@@ -204,6 +239,28 @@ void raise_on_curve(const PlannedMove& move, const CurvedAxis& axis, double& spe
 void AxisPeaks::watch(const PlannedMove& move) {
   const Curve& curve = move.segment.curve;
   if (!curve.has_length()) return;
+  AxisSet bent;
+  if (curve.shape() == Curve::Shape::arc) {
+    const Curve::ArcData& arc = curve.arc_data();
+    const std::array<Bending<ArcAxis>, 2> plane{
+        {{arc.first, ArcAxis(curve, 0)}, {arc.second, ArcAxis(curve, std::numbers::pi / 2)}}};
+    raise_on_curve(move, std::span<const Bending<ArcAxis>>(plane), speed_, acceleration_);
+    for (const auto& one : plane) bent.add(one.axis);
+    watch_straight(move, bent);
+  } else if (curve.shape() == Curve::Shape::cubic) {
+    std::array<Bending<CubicAxis>, axis_count> axes;
+    std::size_t count = 0;
+    for (const Axis axis : all_axes) {
+      if (curve.moves(axis)) axes[count++] = {axis, CubicAxis(curve, axis)};
+    }
+    raise_on_curve(move, std::span<const Bending<CubicAxis>>(axes).first(count), speed_, acceleration_);
+  } else {
+    watch_straight(move, bent);
+  }
+}
+
+// The axes that are not bent have the same slope everywhere.
+void AxisPeaks::watch_straight(const PlannedMove& move, AxisSet bent) {
   double speed = 0;
   double acceleration = 0;
   for (const Phase& phase : move) {
@@ -211,21 +268,11 @@ void AxisPeaks::watch(const PlannedMove& move) {
     speed = std::max(speed, highest_speed(phase, all));
     acceleration = std::max(acceleration, highest_acceleration(phase, all));
   }
-
-  const bool arc = curve.shape() == Curve::Shape::arc;
-  const bool cubic = curve.shape() == Curve::Shape::cubic;
-  const Point slope = curve.tangent(Mm(0));
+  const Point slope = move.segment.curve.tangent(Mm(0));
   for (const Axis axis : all_axes) {
-    if (arc && axis == curve.arc_data().first) {
-      raise_on_curve(move, ArcAxis(curve, 0), speed_[axis], acceleration_[axis]);
-    } else if (arc && axis == curve.arc_data().second) {
-      raise_on_curve(move, ArcAxis(curve, std::numbers::pi / 2), speed_[axis], acceleration_[axis]);
-    } else if (cubic) {
-      raise_on_curve(move, CubicAxis(curve, axis), speed_[axis], acceleration_[axis]);
-    } else {
-      speed_[axis] = std::max(speed_[axis], speed * std::abs(slope[axis]));
-      acceleration_[axis] = std::max(acceleration_[axis], acceleration * std::abs(slope[axis]));
-    }
+    if (bent.has(axis)) continue;
+    speed_[axis] = std::max(speed_[axis], speed * std::abs(slope[axis]));
+    acceleration_[axis] = std::max(acceleration_[axis], acceleration * std::abs(slope[axis]));
   }
 }
 

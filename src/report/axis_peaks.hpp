@@ -13,6 +13,8 @@ class AxisPeaks {
   double acceleration(Axis axis) const { return acceleration_[axis]; }
 
  private:
+  void watch_straight(const PlannedMove& move, AxisSet bent);
+
   PerAxis<double> speed_;
   PerAxis<double> acceleration_;
 };

@@ -5,6 +5,7 @@
 
 #include "axis_peaks.hpp"
 
+#include "passo/geometry/only_turns.hpp"
 #include "passo/interpreter/frame.hpp"
 #include "passo/interpreter/is_any_of.hpp"
 
@@ -82,7 +83,7 @@ class SummaryBuilder::Implementation {
     if (segment.rapid) return;
     work.cutting.add(box.low, box.high);
     ToolSummary& tool = tool_of(path_tool_);
-    widen(tool.feed, segment.speed.value());
+    widen(only_turns(segment.curve) ? tool.turn_feed : tool.feed, segment.speed.value());
     tool.depth = std::min(tool.depth.value_or(box.low[Axis::z]), box.low[Axis::z]);
   }
 
@@ -91,10 +92,15 @@ class SummaryBuilder::Implementation {
     (segment.rapid ? sum_.rapid_time : sum_.cutting_time) += move.duration();
     peaks_.watch(move);
     const Mm way = move.to - move.from();
-    (segment.rapid ? sum_.rapid_distance : sum_.cutting_distance) += way;
     ToolSummary& tool = tool_of(motion_tool_);
     (segment.rapid ? tool.rapid_time : tool.cutting_time) += move.duration();
-    if (!segment.rapid) tool.cutting_distance += way;
+    if (only_turns(segment.curve)) {
+      (segment.rapid ? sum_.rapid_turn : sum_.cutting_turn) += way.value();
+      if (!segment.rapid) tool.cutting_turn += way.value();
+    } else {
+      (segment.rapid ? sum_.rapid_distance : sum_.cutting_distance) += way;
+      if (!segment.rapid) tool.cutting_distance += way;
+    }
     add_extents(move, machine_minus_work);
   }
 

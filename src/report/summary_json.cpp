@@ -30,6 +30,9 @@ void add_motion(const RunSummary& summary, Json& json) {
                   {"rapid_s", summary.rapid_time.value()},
                   {"dwell_s", summary.dwell_time.value()}};
   json["distance_mm"] = {{"cutting", summary.cutting_distance.value()}, {"rapid", summary.rapid_distance.value()}};
+  if (summary.cutting_turn + summary.rapid_turn > 0) {
+    json["turning_deg"] = {{"cutting", summary.cutting_turn}, {"rapid", summary.rapid_turn}};
+  }
   json["counts"] = {
       {"moves", summary.moves}, {"rapids", summary.rapids}, {"arcs", summary.arcs}, {"dwells", summary.dwells}};
   json["extents_mm"] = {
@@ -47,6 +50,11 @@ Json ranges(const RunSummary& summary, const std::vector<std::optional<Range>>& 
   return json;
 }
 
+Json feeds(const std::optional<Range>& feed) {
+  if (!feed) return nullptr;
+  return {{"min", feed->low * seconds_per_minute}, {"max", feed->high * seconds_per_minute}};
+}
+
 void add_program(const RunSummary& summary, Json& json) {
   json["units"] = summary.units == LengthUnits::inch ? "inch" : "mm";
   for (const WorkSummary& work : summary.work) {
@@ -54,14 +62,15 @@ void add_program(const RunSummary& summary, Json& json) {
                                                          {"cutting_mm", ranges(summary, work.cutting)}};
   }
   for (const ToolSummary& tool : summary.tools) {
-    Json feed = nullptr;
-    if (tool.feed) feed = {{"min", tool.feed->low * seconds_per_minute}, {"max", tool.feed->high * seconds_per_minute}};
     json["tools"].push_back({{"tool", tool.tool},
                              {"cutting_s", tool.cutting_time.value()},
                              {"rapid_s", tool.rapid_time.value()},
                              {"cutting_mm", tool.cutting_distance.value()},
-                             {"feed_mm_min", feed},
+                             {"feed_mm_min", feeds(tool.feed)},
                              {"depth_mm", tool.depth ? Json(*tool.depth) : Json()}});
+    if (!tool.turn_feed) continue;
+    json["tools"].back()["cutting_deg"] = tool.cutting_turn;
+    json["tools"].back()["feed_deg_min"] = feeds(tool.turn_feed);
   }
   for (const ProgramMessage& message : summary.messages) {
     json["messages"].push_back(

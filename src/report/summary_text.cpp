@@ -71,14 +71,28 @@ class Text {
                      counted(summary.arcs, "arc")));
   }
 
+  void turns(const RunSummary& summary) {
+    const double all = summary.cutting_turn + summary.rapid_turn;
+    if (!(all > 0)) return;
+    heading("Turning", "degrees; moves of A B C alone");
+    line("cutting", place(summary.cutting_turn, Axis::a), share(summary.cutting_turn, all));
+    line("rapid", place(summary.rapid_turn, Axis::a), share(summary.rapid_turn, all));
+  }
+
   void tools(const RunSummary& summary) {
     heading("Tools", fmt::format("{}; feeds {} a minute; depth is the lowest Z at feed", unit(), unit()));
     out_ += fmt::format("  {:4}{:>14}{:>14}{:>14}{:>20}{:>12}\n", "", "cutting", "rapid", "distance", "feed", "depth");
     for (const ToolSummary& tool : summary.tools) {
       out_ += fmt::format("  {:4}{:>14}{:>14}{:>14}{:>20}{:>12}\n",
                           tool.tool > 0 ? fmt::format("T{}", tool.tool) : std::string("-"), duration(tool.cutting_time),
-                          duration(tool.rapid_time), length(tool.cutting_distance), feeds(tool.feed),
+                          duration(tool.rapid_time), length(tool.cutting_distance), feeds(tool.feed, Axis::x),
                           tool.depth ? place(*tool.depth, Axis::z) : "");
+    }
+    for (const ToolSummary& tool : summary.tools) {
+      if (!tool.turn_feed) continue;
+      out_ += fmt::format("  {:4}turns {} degrees at feed, {} a minute\n",
+                          tool.tool > 0 ? fmt::format("T{}", tool.tool) : std::string("-"),
+                          place(tool.cutting_turn, Axis::a), feeds(tool.turn_feed, Axis::a));
     }
   }
 
@@ -224,11 +238,9 @@ class Text {
     if (!extents) return "no motion";
     return fmt::format("{:>12}{:>12}", place(extents->low, axis), place(extents->high, axis));
   }
-  std::string feeds(const std::optional<Range>& feed) const {
+  std::string feeds(const std::optional<Range>& feed, Axis axis) const {
     if (!feed) return "";
-    const auto shown = [&](double speed) {
-      return fmt::format("{:.1f}", in_units(speed * seconds_per_minute, Axis::x));
-    };
+    const auto shown = [&](double speed) { return fmt::format("{:.1f}", in_units(speed * seconds_per_minute, axis)); };
     const std::string low = shown(feed->low);
     const std::string high = shown(feed->high);
     return low == high ? low : fmt::format("{} to {}", low, high);
@@ -277,6 +289,7 @@ std::string to_text(const RunSummary& summary, bool colour) {
   text.title(summary);
   text.times(summary);
   text.distances(summary);
+  text.turns(summary);
   if (!summary.tools.empty()) text.tools(summary);
   text.extents(summary);
   text.axes(summary);

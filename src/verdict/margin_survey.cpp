@@ -109,6 +109,7 @@ MarginSurvey::MarginSurvey(std::vector<SurveyedMotor> motors, const StepGrid& gr
 }
 
 void MarginSurvey::watch(const MotionItem& item) {
+  if (motors_.empty()) return;
   if (const auto* move = std::get_if<PlannedMove>(&item)) {
     watch_move(*move);
     return;
@@ -127,6 +128,7 @@ void MarginSurvey::stand(std::size_t motor, Seconds time) {
   State& state = states_[motor];
   state.torque = motors_[motor].weight;
   state.acceleration = 0;
+  state.lacks_since.reset();
   const TrialFinding finding = trials_[motor].stand(time);
   if (state.hardest) judge(motor, *state.hardest, finding);
 }
@@ -164,10 +166,13 @@ void MarginSurvey::watch_phase(const PlannedMove& move, const Phase& phase) {
 void MarginSurvey::watch_motor(const PlannedMove& move, std::size_t motor) {
   const SurveyedMotor& own = motors_[motor];
   Moment from(own, move, looks_[0], cut_);
-  MarginSpot worst = spot_of_jump(motor, from);
+  MarginSpot worst = spot_at(motor, from);
+  mind_lack(motor, worst);
+  add_jump(motor, from, worst);
   for (std::size_t i = 1; i < looks_.size(); ++i) {
     const Moment to(own, move, looks_[i], cut_);
     const MarginSpot spot = spot_at(motor, to);
+    mind_lack(motor, spot);
     if (is_worse(spot, worst)) worst = spot;
     AxisPiece piece{.duration = to.time - from.time,
                     .from = from.place,
@@ -222,17 +227,15 @@ void MarginSurvey::find_leader(const Look& from, const Look& to) {
 void MarginSurvey::judge(std::size_t motor, MarginSpot spot, const TrialFinding& finding) {
   std::optional<MarginSpot>& hardest = states_[motor].hardest;
   if (!hardest || spot.load() >= hardest->load() || spot.time - hardest->time > time_to_swing) hardest = spot;
-  if (finding.judged) {
-    const bool keeps = finding.lost == 0 && finding.most_swing < safe_swing;
-    if (!keeps) spot = *hardest;
-    const bool torque_is_enough = spot.verdict == Verdict::safe;
-    spot.verdict = keeps ? Verdict::safe : Verdict::doubtful;
-    if (finding.lost > 0 && trials_[motor].usual_out()) spot.verdict = Verdict::lost;
-    if (keeps) {
-      spot.want = Want::torque;
-    } else if (torque_is_enough) {
-      spot.want = Want::calm;
-    }
+  if (finding.judged && finding.lost == 0 && finding.most_swing < safe_swing) {
+    spot.verdict = Verdict::safe;
+    spot.want = Want::torque;
+  } else if (finding.judged) {
+    spot = *hardest;
+    if (!is_lack(motor, spot) && spot.verdict == Verdict::safe) spot.want = Want::calm;
+    spot.verdict = finding.lost > 0 && finding.usual_out ? Verdict::lost : Verdict::doubtful;
+  } else if (spot.want == Want::jump) {
+    static_cast<void>(is_lack(motor, spot));
   }
   note(motor, spot);
 }
@@ -269,12 +272,11 @@ MarginSpot MarginSurvey::spot_at(std::size_t motor, const Moment& moment) const 
   return spot;
 }
 
-// The same for the first moment of a phase, with the swing after the jump from the last one.
-MarginSpot MarginSurvey::spot_of_jump(std::size_t motor, const Moment& moment) const {
-  MarginSpot spot = spot_at(motor, moment);
+// Adds the swing after the jump from the last phase to the first moment of a phase.
+void MarginSurvey::add_jump(std::size_t motor, const Moment& moment, MarginSpot& spot) const {
   const State& before = states_[motor];
   constexpr double notable = 0.05;
-  if (std::abs(moment.torque - before.torque) < notable * spot.there.low.value) return spot;
+  if (std::abs(moment.torque - before.torque) < notable * spot.there.low.value) return;
   spot.needed = {torque_to_catch(before.torque, moment.torque)};
   spot.of_motion = {std::max(std::abs(before.torque), std::abs(moment.torque))};
   spot.acceleration = MmPerSecond2(std::max(std::abs(before.acceleration), std::abs(moment.acceleration)));
@@ -282,7 +284,33 @@ MarginSpot MarginSurvey::spot_of_jump(std::size_t motor, const Moment& moment) c
     spot.verdict = Verdict::doubtful;
     spot.want = Want::jump;
   }
-  return spot;
+}
+
+// Follows how long the motion itself needs more than there surely is. Within a quarter of its own period a rotor cannot
+// tell an acceleration from a jump of its speed.
+void MarginSurvey::mind_lack(std::size_t motor, const MarginSpot& spot) {
+  State& state = states_[motor];
+  if (spot.of_motion.value <= spot.there.low.value) {
+    state.lacks_since.reset();
+    return;
+  }
+  if (!state.lacks_since) state.lacks_since = spot.time;
+  const SurveyedMotor& own = motors_[motor];
+  constexpr double steps_a_period = 4;
+  const double stiffness =
+      own.setup.motor.rotor.steps_per_revolution / steps_a_period * own.band.of_curve({0}).low.value;
+  const Seconds quarter(std::numbers::pi / 2 * std::sqrt(own.inertia / stiffness));
+  if (spot.time - *state.lacks_since >= quarter) state.lack = spot;
+}
+
+// Whether the torque itself was short just before. Then that is the cause, and the spot tells of it. The cure is still
+// that of the spot, since a cure has to care for the swing too.
+bool MarginSurvey::is_lack(std::size_t motor, MarginSpot& spot) const {
+  const std::optional<MarginSpot>& lack = states_[motor].lack;
+  if (!lack || spot.time - lack->time > time_to_swing) return false;
+  spot.want = Want::torque;
+  spot.lack = Lack{.needed = lack->of_motion, .of_cut = lack->of_cut, .there = lack->there, .rate = lack->rate};
+  return true;
 }
 
 // The greatest acceleration with which the moment would be safe at its speed.
@@ -318,6 +346,15 @@ void MarginSurvey::find_safe_speed(MarginSpot& spot) {
   }
 }
 
+// With its cure known, the spot tells what was short.
+void MarginSurvey::tell_lack(MarginSpot& spot) {
+  if (!spot.lack) return;
+  spot.needed = spot.of_motion = spot.lack->needed;
+  spot.of_cut = spot.lack->of_cut;
+  spot.there = spot.lack->there;
+  spot.rate = spot.lack->rate;
+}
+
 MarginVerdict MarginSurvey::verdict() {
   rest(after_the_end);
   end_line();
@@ -328,12 +365,16 @@ MarginVerdict MarginSurvey::verdict() {
       // One motor here, another there.
       if (trials_[m].usual_lost()) worst->verdict = Verdict::lost;
       find_safe_speed(*worst);
+      tell_lack(*worst);
       whole.verdict = std::max(whole.verdict, worst->verdict);
     }
     whole.axes.push_back({.axis = motors_[m].axis, .worst = worst});
   }
   whole.worst = worst_;
-  for (MarginSpot& spot : whole.worst) find_safe_speed(spot);
+  for (MarginSpot& spot : whole.worst) {
+    find_safe_speed(spot);
+    tell_lack(spot);
+  }
   return whole;
 }
 

@@ -6,6 +6,8 @@
 
 #include <fmt/format.h>
 
+#include "passo/geometry/only_turns.hpp"
+
 namespace passo {
 namespace {
 
@@ -31,14 +33,26 @@ SpeedSurvey::SpeedSurvey(MotionLimits limits, AxisSet axes) : limits_(std::move(
 
 void SpeedSurvey::watch(const PlannedMove& move) {
   const Segment& segment = move.segment;
-  if (!in_part_ || segment.source.line != part_.line || segment.rapid != part_.rapid) {
+  const bool takes_up = segment.takes_up_backlash;
+  const bool same_line = in_part_ && segment.source.line == part_.line;
+  if (same_line && std::exchange(only_takes_up_, false)) {  // the line itself begins
+    only_takes_up_ = takes_up;
+    part_.rapid = segment.rapid;
+    part_.turns = only_turns(segment.curve);
+    part_.programmed = segment.speed;
+    if (!part_.rapid) part_.lost = part_.time;
+  } else if (!same_line || (segment.rapid != part_.rapid && !takes_up)) {
     end_part();
     in_part_ = true;
     highest_look_ = MmPerSecond(0);
-    part_ = {.line = segment.source.line, .rapid = segment.rapid, .programmed = segment.speed};
+    part_ = {.line = segment.source.line,
+             .rapid = segment.rapid,
+             .turns = only_turns(segment.curve),
+             .programmed = segment.speed};
+    only_takes_up_ = takes_up;
   }
-  part_.programmed = std::max(part_.programmed, segment.speed);
-  part_.way += move.to - move.from();
+  if (!takes_up || only_takes_up_) part_.programmed = std::max(part_.programmed, segment.speed);
+  if (!takes_up) part_.way += move.to - move.from();
   for (const Phase& phase : move) watch_phase(move, phase);
 }
 
@@ -63,6 +77,7 @@ void SpeedSurvey::watch_phase(const PlannedMove& move, const Phase& phase) {
       reached.lost += piece * (1 - share);
       part_.lost += piece * (1 - share);
     }
+    if (move.segment.takes_up_backlash) continue;
     // Judged at the places of the looks: at its end a ramp is as fast as the even motion after it.
     if (phase.velocity_at(t) > highest_look_) {
       highest_look_ = phase.velocity_at(t);

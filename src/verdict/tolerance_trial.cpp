@@ -24,7 +24,7 @@ constexpr double between_samples = 50e-6;   // s; between them a place is in pro
 constexpr double between_looks = 1e-3;      // s: a swing takes longer
 constexpr double latest = 1e-4;             // s: events are seldom further apart
 // The strengths of the motors after the weakest: how far from the usual one, in tolerances.
-constexpr std::array<double, ToleranceTrial::motor_count - 1> offsets = {-1.1, -0.9, -0.5, 0.15, 1};
+constexpr std::array<double, ToleranceTrial::motor_count - 1> offsets = {-1.1, -0.9, -0.5, 0, 1};
 // In steps. A place on the border between two steps belongs to the higher one, as on a board. Motion that turns round
 // there makes a step up, and goes back at the next line of the board's finest grid.
 constexpr double rounding_at_border = 1e-6;
@@ -72,7 +72,14 @@ TrialFinding ToleranceTrial::play(const AxisPiece& piece) {
   const unsigned out_before = out_;
   most_swing_ = 0;
   of_kind += static_cast<float>(follow(piece));
-  return {.judged = true, .lost = std::popcount(out_ & ~out_before), .most_swing = most_swing_};
+  return finding_since(out_before);
+}
+
+TrialFinding ToleranceTrial::finding_since(unsigned out_before) const {
+  return {.judged = true,
+          .lost = std::popcount(out_ & ~out_before),
+          .most_swing = most_swing_,
+          .usual_out = (out_ & usual) == usual};
 }
 
 TrialFinding ToleranceTrial::stand(Seconds time) {
@@ -89,7 +96,7 @@ TrialFinding ToleranceTrial::stand(Seconds time) {
   if (pending_ > 0) pass(pending_);
   resist({0});
   for (double run = std::min(time.value(), left); run > 0; run -= between_looks) pass(std::min(run, between_looks));
-  const TrialFinding finding{.judged = true, .lost = std::popcount(out_ & ~out_before), .most_swing = most_swing_};
+  const TrialFinding finding = finding_since(out_before);
   if (stood_ >= until_at_rest) stop();
   return finding;
 }

@@ -30,6 +30,15 @@ class CheckLine : public passo::test::CommandLine {
   }
 };
 
+// Backlash that is taken up takes time on any board: it is no cost of the line.
+TEST_F(CheckLine, does_not_cost_the_time_that_backlash_takes) {
+  const std::string slack = write("slack.toml", passo::test::read(uno_) + "\n[axis.X.screw]\nbacklash_mm = 2\n");
+  const std::string program = write("p.ngc", bends_);
+  const auto check = json_of("check " + program + " -m " + slack)["line"];
+  const auto run = json_of("run " + program + " -m " + slack + " --cut-cable-at 9999:1")["board"];
+  EXPECT_NEAR(check["cost_s"], run["cost_of_line_s"], 1e-9);
+}
+
 // The check plays just what the run plays, so they agree to the last digit.
 TEST_F(CheckLine, tells_what_a_run_over_the_line_takes) {
   const std::string bends = write("p.ngc", bends_);

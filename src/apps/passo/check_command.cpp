@@ -12,6 +12,7 @@
 #include "commands.hpp"
 #include "cut_loads.hpp"
 #include "findings_json.hpp"
+#include "fit_proposals.hpp"
 #include "named_files.hpp"
 #include "operator_prompt.hpp"
 #include "program_input.hpp"
@@ -209,12 +210,14 @@ void look(const CheckArguments& arguments, const MachineDescription& machine, co
 }
 
 void print(const CheckArguments& arguments, const MachineDescription& machine, const FirstLook& first,
-           const std::optional<CheckPage>& page, const std::optional<CutOutcome>& cut) {
+           const std::optional<CheckPage>& page, const std::optional<CutOutcome>& cut,
+           const std::vector<Proposal>& proposals) {
   if (arguments.json) {
     const auto replace = nlohmann::ordered_json::error_handler_t::replace;
     nlohmann::ordered_json json = as_json(first.findings, first.stops);
     if (page) add_to(json, *page, machine);
     if (cut) json["cut"] = as_json(*cut);
+    json["proposals"] = as_json(proposals);
     std::puts(json.dump(2, ' ', false, replace).c_str());
     return;
   }
@@ -223,6 +226,7 @@ void print(const CheckArguments& arguments, const MachineDescription& machine, c
   if (first.stops.count() > 0) std::printf("%s: waits for somebody at %s\n", name, first.stops.words().c_str());
   if (cut) std::fputs(to_text(*cut).c_str(), stdout);
   if (page) std::fputs(to_text(*page, machine).c_str(), stdout);
+  std::fputs(to_text(proposals).c_str(), stdout);
 }
 
 // What the stock is cut by. Nothing, with a message.
@@ -309,14 +313,18 @@ int check(const CheckArguments& arguments) {
                  [&](double share) { progress.update(share_of_first_look + (1 - share_of_first_look) * share); });
   }
   progress.clear();
-  if (page) page->line = line_cost(std::move(*program), *machine, *options, first.result, page->summary.time());
+  if (page) page->line = line_cost(program->again(), *machine, *options, first.result, page->summary.time());
   if (page && !arguments.loads.empty()) {
     const int code = write_text(arguments.loads, loads.text());
     if (code != exit_done) return code;
   }
   const int written = write_files(arguments, *machine, first, page, path, track);
   if (written != exit_done) return written;
-  print(arguments, *machine, first, page, stock);
+  const Unfit unfit{*program, *machine, *options};
+  std::vector<Proposal> proposals;
+  if (!page) proposals = proposals_for_travel(unfit, first.findings);
+  if (page && !stock) proposals = proposals_for_motors(unfit, first.result, *page);
+  print(arguments, *machine, first, page, stock, proposals);
   if (page && page->lost()) {
     return fail(exit_failed, "the motors would lose steps: this part would be scrap [check.steps-lost]");
   }

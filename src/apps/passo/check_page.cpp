@@ -78,8 +78,9 @@ std::string speed_words(const CheckPage& page) {
   }
   constexpr std::size_t most_parts = 3;
   const auto add = [&words](const char* what, const SpeedPart& part) {
-    words += fmt::format("  {}       line {}: {:.4g} mm/s", what, part.line,
-                         part.lost > Seconds(0) ? part.mean().value() : part.highest.value());
+    words +=
+        fmt::format("  {}       line {}: {:.4g} {}/s", what, part.line,
+                    part.lost > Seconds(0) ? part.mean().value() : part.highest.value(), part.turns ? "deg" : "mm");
     if (part.rapid) words += ", a rapid";
     if (part.lost > Seconds(0)) {
       words += fmt::format(" of {:.4g}, {:.2g} s lost", part.programmed.value(), part.lost.value());
@@ -143,6 +144,7 @@ nlohmann::ordered_json as_json(const std::vector<SpeedPart>& parts) {
   for (const SpeedPart& part : parts) {
     nlohmann::ordered_json json = {{"line", part.line},
                                    {"rapid", part.rapid},
+                                   {"unit", part.turns ? "deg" : "mm"},
                                    {"way_mm", part.way.value()},
                                    {"time_s", part.time.value()},
                                    {"lost_s", part.lost.value()},
@@ -238,7 +240,8 @@ std::string LineLoads::text() const {
 }
 
 CheckPage judge(ProgramReader program, const MachineDescription& machine, const InterpreterOptions& options,
-                const ProgramCheck& check, const CheckWatchers& watchers, const std::function<void(double)>& progress) {
+                const ProgramCheck& check, const CheckWatchers& watchers, const std::function<void(double)>& progress,
+                const JudgedOverrides& overrides) {
   Diagnostics findings;  // after a good check only what is known already
   Program activity(std::move(program), machine, options, no_answers(), findings, check.nominal_time);
   std::vector<Axis> axes;
@@ -261,6 +264,8 @@ CheckPage judge(ProgramReader program, const MachineDescription& machine, const 
   steps.start = options.start;
   BacklashTaker path_with_rests(activity, backlash_options(steps, false));
   Planner planner(path_with_rests, motion_limits(machine));
+  planner.set_feed_override(overrides.feeds);
+  planner.set_rapid_override(overrides.rapids);
   constexpr unsigned items_between_looks = 1024;
   MotionItem item;
   // A loop that only a probe ends goes on as far as the check has followed it.

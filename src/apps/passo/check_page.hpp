@@ -52,10 +52,17 @@ struct CheckWatchers {
   LineLoads* lines = nullptr;
 };
 
+// The speeds at which the motion is judged, as an operator sets them: 1 is 100 %.
+struct JudgedOverrides {
+  double feeds = 1;
+  double rapids = 1;
+};
+
 // Plans a program that was checked, judges its motion, and plays it over a line. `progress` is told now and then which
 // share is done.
 CheckPage judge(ProgramReader program, const MachineDescription& machine, const InterpreterOptions& options,
-                const ProgramCheck& check, const CheckWatchers& watchers, const std::function<void(double)>& progress);
+                const ProgramCheck& check, const CheckWatchers& watchers, const std::function<void(double)>& progress,
+                const JudgedOverrides& overrides = {});
 
 // A line of the program that loses less than this against its feed is not told as slow.
 inline constexpr Seconds notable_loss{0.005};

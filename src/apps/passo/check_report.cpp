@@ -89,6 +89,8 @@ std::string figures(const CheckReport& report) {
   add("tool changes", fmt::format("{}", page.tool_changes));
   add("way at feed", fmt::format("{:.4g} m", page.summary.cutting_distance.value() / 1000));
   add("way in rapids", fmt::format("{:.4g} m", page.summary.rapid_distance.value() / 1000));
+  const double turned = page.summary.cutting_turn + page.summary.rapid_turn;
+  if (turned > 0) add("turning of A B C alone", fmt::format("{:.4g} deg", turned));
   html += "</dl>\n";
   if (page.line) html += fmt::format("<pre>{}</pre>\n", html_text(to_text(*page.line)));
   if (!report.waits.empty()) html += fmt::format("<p>Waits for somebody at {}.</p>\n", html_text(report.waits));
@@ -143,8 +145,9 @@ std::string parts(const char* title, const std::vector<SpeedPart>& parts, bool b
   for (const SpeedPart& part : parts) {
     if (by_loss && part.lost < notable_loss) continue;
     const MmPerSecond speed = by_loss ? part.mean() : part.highest;
-    table.row({fmt::format("{}", part.line), fmt::format("{:.0f}", 60 * speed.value()),
-               part.rapid ? "rapid" : fmt::format("{:.0f}", 60 * part.programmed.value()),
+    const char* const unit = part.turns ? " deg" : "";
+    table.row({fmt::format("{}", part.line), fmt::format("{:.0f}{}", 60 * speed.value(), unit),
+               part.rapid ? "rapid" : fmt::format("{:.0f}{}", 60 * part.programmed.value(), unit),
                fmt::format("{:.2g} s", (by_loss ? part.lost : part.time).value()), words_of(part.bound)});
   }
   const std::string html = table.html();
@@ -152,7 +155,8 @@ std::string parts(const char* title, const std::vector<SpeedPart>& parts, bool b
 }
 
 std::string speed_chart(const CheckReport& report) {
-  TimeChart chart{.label = "Speed along the program, in mm/min", .values = {}, .unit = ""};
+  TimeChart chart{
+      .label = "Speed along the program, in mm/min, or degrees/min where only A B C turn", .values = {}, .unit = ""};
   double most = 0;
   for (const LoadTrack::Stretch& stretch : report.track.stretches()) {
     chart.values.push_back({stretch.time, 60 * stretch.mean_speed().value()});

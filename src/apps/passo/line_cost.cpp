@@ -9,6 +9,7 @@
 
 #include "passo/activity/stage_options.hpp"
 #include "passo/base/counted.hpp"
+#include "passo/drive/backlash_options.hpp"
 #include "passo/link/await.hpp"
 #include "passo/report/line_words.hpp"
 #include "passo/trajectory/planner.hpp"
@@ -28,7 +29,10 @@ Seconds planned_time(ProgramReader program, const MachineDescription& machine, c
                      const ProgramCheck& check) {
   Diagnostics unheard;
   Program activity(std::move(program), machine, options, no_answers(), unheard, check.nominal_time);
-  Planner planner(activity, motion_limits(machine));
+  StepOptions steps = step_options(machine);
+  steps.start = options.start;
+  BacklashTaker path_with_rests(activity, backlash_options(steps, false));
+  Planner planner(path_with_rests, motion_limits(machine));
   Seconds time{0};
   MotionItem item;
   while (planner.next(item)) {

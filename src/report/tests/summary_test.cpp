@@ -151,6 +151,39 @@ TEST(SummaryBuilder, splits_time_and_distance_into_cutting_rapid_and_dwell) {
   EXPECT_EQ(summary.dwells, 1U);
 }
 
+// A turn of A beside X is a part of the move along X. A turn of A alone is in degrees, and never counts as millimetres.
+TEST(SummaryBuilder, counts_turns_apart_from_distances) {
+  SummaryBuilder builder({Axis::x, Axis::a});
+  const auto to = [](double x, double a) {
+    Point point;
+    point[Axis::x] = x;
+    point[Axis::a] = a;
+    return point;
+  };
+  builder.watch(rapid(to(0, 0), to(0, 90)), Point());
+  watch(builder, feed(to(0, 90), to(0, 450)), operation::StraightFeed{}, Point());
+  watch(builder, feed(to(0, 450), to(30, 540)), operation::StraightFeed{}, Point());
+  const RunSummary summary = builder.summary();
+  EXPECT_EQ(summary.rapid_turn, 90);
+  EXPECT_EQ(summary.cutting_turn, 360);
+  EXPECT_EQ(summary.rapid_distance, Mm(0));
+  EXPECT_NEAR(summary.cutting_distance.value(), 30, 1e-12);
+  ASSERT_EQ(summary.tools.size(), 1U);
+  EXPECT_EQ(summary.tools[0].cutting_turn, 360);
+  EXPECT_NEAR(summary.tools[0].cutting_distance.value(), 30, 1e-12);
+  EXPECT_TRUE(summary.tools[0].turn_feed);
+
+  const auto json = nlohmann::json::parse(to_json(summary));
+  EXPECT_EQ(json["turning_deg"]["cutting"], 360);
+  EXPECT_EQ(json["turning_deg"]["rapid"], 90);
+  EXPECT_EQ(json["tools"][0]["cutting_deg"], 360);
+  EXPECT_FALSE(json["tools"][0]["feed_deg_min"].is_null());
+  EXPECT_NEAR(json["distance_mm"]["cutting"].get<double>(), 30, 1e-12);
+  const std::string text = to_text(summary, false);
+  EXPECT_NE(text.find("Turning, degrees"), std::string::npos) << text;
+  EXPECT_EQ(to_text(small_job(), false).find("Turning"), std::string::npos);
+}
+
 TEST(SummaryBuilder, counts_the_programs_moves_and_not_the_pieces_of_the_motion) {
   SummaryBuilder builder({Axis::x});
   builder.watch_operation(of(operation::StraightFeed{}));

@@ -135,5 +135,37 @@ TEST(SpeedSurvey, keeps_the_lines_that_lose_most_and_those_that_are_fastest) {
   EXPECT_DOUBLE_EQ(report.slowest[0].mean().value(), 1);
 }
 
+// Where a line turns back, the tool rests until the backlash is taken up. The line stays one part, and the rest is
+// lost.
+TEST(SpeedSurvey, counts_the_backlash_of_a_line_as_time_that_the_line_loses) {
+  const auto cut = [](double from, double to, std::uint32_t line) {
+    return motion_along(Curve::line(spot_of(from, 0), spot_of(to, 0)), line, 10,
+                        {Phase{.duration = Seconds(0.1), .velocity = MmPerSecond(10)}});
+  };
+  const auto take_up = [](double at, std::uint32_t line) {
+    PlannedMove move = motion_along(Curve::line(spot_of(at - 1, 0), spot_of(at, 0)), line, no_feed,
+                                    {Phase{.duration = Seconds(0.05), .velocity = MmPerSecond(20)}});
+    move.segment.takes_up_backlash = true;
+    return move;
+  };
+  const SpeedReport report = report_of({take_up(0, 7), cut(0, 1, 7), take_up(1, 7), cut(1, 0, 7), cut(0, 1, 8)});
+  ASSERT_FALSE(report.slowest.empty());
+  EXPECT_EQ(report.slowest[0].line, 7U);
+  EXPECT_FALSE(report.slowest[0].rapid);
+  EXPECT_NEAR(report.slowest[0].lost.value(), 0.1, 1e-12);
+  EXPECT_NEAR(report.slowest[0].time.value(), 0.3, 1e-12);
+  EXPECT_NEAR(report.slowest[0].way.value(), 2, 1e-12);
+  EXPECT_EQ(report.slowest[0].highest, MmPerSecond(10));
+}
+
+TEST(SpeedSurvey, knows_a_line_that_only_turns) {
+  Point quarter;
+  quarter[Axis::a] = 90;
+  const SpeedReport report = report_of({motion_along(Curve::line(Point(), quarter), 3, 10,
+                                                     {Phase{.duration = Seconds(9), .velocity = MmPerSecond(10)}})});
+  ASSERT_FALSE(report.fastest.empty());
+  EXPECT_TRUE(report.fastest[0].turns);
+}
+
 }  // namespace
 }  // namespace passo

@@ -49,8 +49,10 @@ struct ToolSummary {
   Seconds cutting_time{0};
   Seconds rapid_time{0};
   Mm cutting_distance{0};
-  std::optional<Range> feed = {};    // mm/s, as programmed: the slowest and the fastest
-  std::optional<double> depth = {};  // mm, the lowest Z at feed in work coordinates
+  double cutting_turn = 0;              // degrees, of the moves that only turn A, B or C
+  std::optional<Range> feed = {};       // mm/s, as programmed: the slowest and the fastest
+  std::optional<Range> turn_feed = {};  // degrees/s, of the moves that only turn
+  std::optional<double> depth = {};     // mm, the lowest Z at feed in work coordinates
 };
 
 // A text for the operator: (MSG,…) and (DEBUG,…), or (PRINT,…).
@@ -136,6 +138,9 @@ struct RunSummary {
   Seconds dwell_time{0};
   Mm cutting_distance{0};
   Mm rapid_distance{0};
+  // Degrees, of the moves that only turn A, B or C. They are no part of the distances.
+  double cutting_turn = 0;
+  double rapid_turn = 0;
   // Counted as the program writes them, before corners are rounded and lines are joined.
   std::uint64_t moves = 0;  // including rapids and arcs
   std::uint64_t rapids = 0;

@@ -8,13 +8,17 @@
 //
 //   safe      all motors keep their steps, and none swings further than 1.6 full steps from the field
 //   doubtful  neither
-//   lost      a motor that is a little stronger than usual loses steps, and so does a weaker one
+//   lost      the usual motor loses steps, and so does a weaker one
 //
 // In the formula α and ω are those of the shaft, from the axis's part of the path: on a curve they include the bending.
 // Each phase is looked at in up to 64 places. A motor's true pull-out is only known between two torques (TorqueBand).
 // After a jump of the torque the rotor swings beyond its new place. The swing ends well if the energy does not carry
-// the rotor over the top: the equal-area criterion, as for a start without a ramp (motor/torque_curve.hpp). Where the
-// formula finds torque enough and steps are lost all the same, the motor swings by itself.
+// the rotor over the top: the equal-area criterion, as for a start without a ramp (motor/torque_curve.hpp).
+//
+// Steps are lost for one of three causes. The motion itself needs more than there surely is, for longer than a quarter
+// of the rotor's own period: the torque is short, whatever swings. A shorter acceleration is a jump of the speed, and
+// no torque of the formula: the swing after it is the cause. Where the formula finds torque enough for both, the motor
+// swings by itself.
 //
 // A trial leaves out what repeats itself, and ends after a minute. Motion that was not played is safe or doubtful by
 // the formula: safe if the low end, less a reserve, is enough.
@@ -71,6 +75,14 @@ struct StepGrid {
 };
 StepGrid step_grid(const MachineDescription& machine);
 
+// A moment when the motion itself, without any swing, needs more torque than there surely is.
+struct Lack {
+  NewtonMetres needed = {};
+  NewtonMetres of_cut = {};
+  TorqueRange there = {};
+  Hertz rate{0};
+};
+
 // The worst moment of an axis in a line of the program.
 struct MarginSpot {
   Axis axis = Axis::x;
@@ -79,7 +91,7 @@ struct MarginSpot {
   Verdict verdict = Verdict::safe;
   Want want = Want::torque;
   bool rapid = false;
-  NewtonMetres needed = {};     // with the swing, where `want` is jump
+  NewtonMetres needed = {};     // with the swing after a jump, unless `want` is torque
   NewtonMetres of_motion = {};  // without it
   NewtonMetres of_cut = {};     // the part of it that the cutting force takes
   TorqueRange there = {};       // pull-out
@@ -91,6 +103,7 @@ struct MarginSpot {
   // The cure: what would be safe. Empty: not even that helps.
   std::optional<MmPerSecond2> safe_acceleration = {};
   std::optional<MmPerSecond> safe_path_speed = {};
+  std::optional<Lack> lack = {};  // where the torque itself is short
 
   // The share of the least torque that is needed. Above 1: more than there surely is.
   double load() const;
@@ -133,6 +146,10 @@ class MarginSurvey {
     double acceleration = 0;  // of the axis, then
     // The hardest moment of the last tenth of a second: a swing that begins there may lose its steps later.
     std::optional<MarginSpot> hardest = {};
+    // Since when the motion itself, without any swing, has needed more than there surely is; and the last moment at
+    // which that had lasted for longer than a jump does.
+    std::optional<Seconds> lacks_since = {};
+    std::optional<MarginSpot> lack = {};
     std::optional<MarginSpot> worst_of_line = {};
     std::optional<MarginSpot> worst = {};
   };
@@ -160,11 +177,14 @@ class MarginSurvey {
   void watch_motor(const PlannedMove& move, std::size_t motor);
   void find_leader(const Look& from, const Look& to);
   MarginSpot spot_at(std::size_t motor, const Moment& moment) const;
-  MarginSpot spot_of_jump(std::size_t motor, const Moment& moment) const;
+  void add_jump(std::size_t motor, const Moment& moment, MarginSpot& spot) const;
+  void mind_lack(std::size_t motor, const MarginSpot& spot);
+  bool is_lack(std::size_t motor, MarginSpot& spot) const;
   void judge(std::size_t motor, MarginSpot spot, const TrialFinding& finding);
   void note(std::size_t motor, const MarginSpot& spot);
   std::optional<MmPerSecond2> safe_acceleration(const SurveyedMotor& own, const MarginSpot& spot) const;
   void find_safe_speed(MarginSpot& spot);
+  static void tell_lack(MarginSpot& spot);
   void end_line();
   void keep(const MarginSpot& spot);
   void rest(Seconds time);

@@ -6,7 +6,8 @@
 //
 // A part of the program is the motion of one line. A line that is played again, as in a loop, is a new part. The
 // slowest parts are the lines at feed that lose the most time against their programmed feed; the fastest ones have the
-// highest speed. Memory is bounded, whatever the program.
+// highest speed. Where a line takes up backlash, the tool stands: that time is lost, and the line stays one part.
+// Memory is bounded, whatever the program.
 #pragma once
 
 #include <array>
@@ -47,6 +48,7 @@ struct SpeedShare {
 struct SpeedPart {
   std::uint32_t line = 0;
   bool rapid = false;
+  bool turns = false;  // A, B or C alone: the way is in degrees, the speeds in degrees/s
   Mm way{0};
   Seconds time{0};
   Seconds lost{0};            // against the programmed feed; 0 for a rapid
@@ -98,6 +100,7 @@ class SpeedSurvey {
   std::vector<std::size_t> touched_;  // entries of reached_ that have `lost` in the part at hand
   SpeedPart part_;
   bool in_part_ = false;
+  bool only_takes_up_ = false;  // the part has had no motion yet but that which takes up backlash
   SpeedBound at_highest_;
   MmPerSecond highest_look_{0};
   std::vector<SpeedPart> slowest_;

@@ -58,6 +58,8 @@ struct TrialFinding {
   bool judged = false;
   int lost = 0;           // motors that lost steps in this piece
   double most_swing = 0;  // the largest lag of a motor in this piece, in full steps
+  // The usual motor and a weaker one have lost steps since the axis began to move.
+  bool usual_out = false;
 };
 
 class ToleranceTrial {
@@ -74,10 +76,8 @@ class ToleranceTrial {
   // The axis rests.
   TrialFinding stand(Seconds time);
 
-  // Motors on both sides of the usual one have lost steps since the axis began to move: one stronger by a seventh of
-  // the tolerance, and one weaker by half of it.
-  bool usual_out() const { return (out_ & usual) == usual; }
-  // They have lost steps somewhere.
+  // The usual motor, which is as the machine file says, has lost steps somewhere, and so has one that is weaker by half
+  // of the tolerance.
   bool usual_lost() const { return (ever_lost_ & usual) == usual; }
   // Motion that was played, for each motor.
   Seconds played() const { return Seconds(played_); }
@@ -88,6 +88,7 @@ class ToleranceTrial {
   static constexpr std::size_t speeds = 32;
   struct Path;
 
+  TrialFinding finding_since(unsigned out_before) const;
   float& played_of_kind(const AxisPiece& piece);
   void skip(const AxisPiece& piece);
   void forget_skipped();
