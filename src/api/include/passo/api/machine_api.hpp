@@ -228,14 +228,14 @@ class MachineApi final : public WebHandler {
   Seconds owner_heard_{0};
   std::set<std::uint64_t> owner_streams_;  // clients of the stream that have shown the owner's key
   std::optional<Seconds> stream_lost_;     // when the last of them went; empty: none has gone
-  std::uint64_t job_owner_ = 0;    // MotionOwner::changes() when the job was asked for
-  std::unique_ptr<KeptJob> kept_;  // null: no journal is kept
-  bool resumes_ = false;           // the job was broken off, and goes on
-  bool reenters_ = false;          // by a way back onto its path
-  bool named_ = false;             // the job's journal is begun
-  std::optional<LinePlace> from_;  // where the job is to begin; empty: at its beginning
-  std::optional<Reentry> way_;     // the way there
-  std::string stopped_by_;         // who has asked to stop the job
+  std::uint64_t job_owner_ = 0;            // MotionOwner::changes() when the job was asked for
+  std::unique_ptr<KeptJob> kept_;          // null: no journal is kept
+  bool resumes_ = false;                   // the job was broken off, and goes on
+  bool reenters_ = false;                  // by a way back onto its path
+  bool named_ = false;                     // the job's journal is begun
+  std::optional<LinePlace> from_;          // where the job is to begin; empty: at its beginning
+  std::optional<Reentry> way_;             // the way there
+  std::string stopped_by_;                 // who has asked to stop the job
   bool leaves_ = false;
   std::string offsets_trouble_;      // why the offsets are not kept; empty: they are
   Seconds keeps_again_{0};           // what could not be written is tried again then

@@ -80,7 +80,8 @@ class JobHistory {
   std::optional<HistoryJob> find(std::int64_t id) const;
   // Empty: there is no such job, or its program was forgotten when it ended.
   std::optional<std::string> program_of(std::int64_t id) const;
-  // False: there is no such job, or it cannot be written; an end is then kept in memory. The program of a job that is done is forgotten.
+  // False: there is no such job, or it cannot be written; an end is then kept in memory. The program of a job that is
+  // done is forgotten.
   bool begin(std::int64_t id, double now);
   bool end(std::int64_t id, HistoryState state, std::string_view why, double now);
   bool note_wait(std::int64_t id, const HistoryWait& wait);

@@ -88,7 +88,7 @@ class SenderLine {
   unsigned baud_ = 0;
   CallerCheck check_;
   Clock::time_point heard_;
-  Clock::time_point tried_;  // to open the device again
+  Clock::time_point tried_;       // to open the device again
   Clock::time_point accepts_at_;  // not before: there was no room for a caller
   bool connected_ = false;
   bool broken_ = false;
