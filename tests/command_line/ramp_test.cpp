@@ -105,7 +105,10 @@ TEST_F(RampCommand, a_stop_ends_in_fewer_steps_at_rest) {
 TEST_F(RampCommand, limit_answers_both_ways) {
   const Outcome text = ramp("--limit --table-size 256 --steps-per-rev 100 --max-rate 280");
   EXPECT_EQ(text.code, 0);
-  EXPECT_NE(text.out.find("9.6211275016187"), std::string::npos) << text.out;
+  EXPECT_NE(text.out.find("at least 9.62113 rad"), std::string::npos) << text.out;
+  const auto exact =
+      nlohmann::json::parse(ramp("--limit --table-size 256 --steps-per-rev 100 --max-rate 280 --json").out);
+  EXPECT_NEAR(exact["least_acceleration_rad_s2"].get<double>() / 9.6211275016187, 1, 1e-12);
   const Outcome json = ramp("--limit --table-size 512 --steps-per-rev 200 --max-rate 400 --accel 10 --json");
   const auto answer = nlohmann::json::parse(json.out);
   EXPECT_NEAR(answer["least_acceleration_rad_s2"].get<double>() / 4.90873852123405, 1, 1e-12);

@@ -85,6 +85,7 @@ TEST_F(Sayings, numbers_have_sensible_digits) {
 // Also where there is no name to give.
 TEST_F(Sayings, a_finding_begins_with_a_name) {
   const std::string nothing = write("nothing.svg", svg(""));
+  const std::string none = write("none.svg", svg(""));
   const std::string narrow = write("narrow.svg", svg(R"(<rect x="10" y="10" width="1" height="50"/>)"));
   const std::string to = " -o " + path("o.ngc");
   const struct {
@@ -99,7 +100,7 @@ TEST_F(Sayings, a_finding_begins_with_a_name) {
                {"cam board '' -o " + path("job"), "passo: error: expected a folder"},
                {"cam drill ''" + to, "passo: error: "},
                {"cam drill " + nothing + to, nothing + ": error: there is no hole"},
-               {"cam drill " + nothing + " " + narrow + to, nothing + ", " + narrow + ": error: there is no hole"},
+               {"cam drill " + nothing + " " + none + to, nothing + ", " + none + ": error: there is no hole"},
                {"cam pocket " + nothing + " --tool 3" + to, nothing + ": error: there is no closed line"},
                {"cam pocket " + narrow + " --tool 3" + to, narrow + ": warning: the area at X10.5"},
                {"cam profile " + nothing + " --tool 3" + to, nothing + ": error: "},
