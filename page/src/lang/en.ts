@@ -31,6 +31,7 @@ export const en = {
   'connection.token.what': 'It is the first line of the file that passo serve was given by --http-token.',
   'connection.token.use': 'Connect',
   'connection.unreached': 'The server did not answer in time.',
+  'disk.next': 'It is written as soon as there is room on the disk. Do not switch the computer off before.',
   'owner.other': '{name} has the motion. Here you can look, hold and stop.',
   'owner.sender': 'A G-code sender',
   'owner.take': 'Take over',

@@ -30,6 +30,7 @@ export const fr: Words = {
   'connection.token.what': 'C’est la première ligne du fichier donné à passo serve par --http-token.',
   'connection.token.use': 'Se connecter',
   'connection.unreached': 'Le serveur n’a pas répondu à temps.',
+  'disk.next': 'L’écriture se fera dès qu’il y aura de la place sur le disque. N’éteignez pas l’ordinateur avant.',
   'owner.other': '{name} commande le mouvement. Ici, on peut regarder, suspendre et arrêter.',
   'owner.sender': 'Un logiciel d’envoi de G-code',
   'owner.take': 'Prendre la main',

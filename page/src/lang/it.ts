@@ -30,6 +30,7 @@ export const it: Words = {
   'connection.token.what': 'È la prima riga del file dato a passo serve con --http-token.',
   'connection.token.use': 'Connetti',
   'connection.unreached': 'Il server non ha risposto in tempo.',
+  'disk.next': 'Verrà scritto appena ci sarà posto sul disco. Non spegnere il computer prima.',
   'owner.other': '{name} comanda il movimento. Qui si può guardare, sospendere e fermare.',
   'owner.sender': 'Un programma di invio G-code',
   'owner.take': 'Prendi il comando',

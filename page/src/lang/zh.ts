@@ -30,6 +30,7 @@ export const zh: Words = {
   'connection.token.what': '令牌是 passo serve 的 --http-token 所给文件的第一行。',
   'connection.token.use': '连接',
   'connection.unreached': '服务器没有及时应答。',
+  'disk.next': '磁盘有空间后会立即写入。在此之前请勿关闭计算机。',
   'owner.other': '{name} 拥有运动控制权。您可以查看、暂停和停止。',
   'owner.sender': 'G 代码发送程序',
   'owner.take': '接管',

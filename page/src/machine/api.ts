@@ -54,6 +54,7 @@ export interface Status {
   waits_for_operator: boolean;
   waits?: Waits | null;
   trouble: string;
+  unkept: string; // what is not on the disk yet, and why
   owner: { kind: 'nobody' | 'sender' | 'client'; name: string; taken: number };
   job: Job | null;
   // The lines of the console: the modes in force, and where the tool is by them.

@@ -11,6 +11,7 @@ import { shown } from '../machine/programs';
 import { stateWords, type Tone } from '../machine/words';
 import { Button } from './button';
 import { Icon, type IconName } from './icon';
+import { Told } from './told';
 
 const icons: Record<Tone, IconName> = { calm: 'calm', go: 'run', wait: 'hold', bad: 'bad' };
 
@@ -68,6 +69,24 @@ export function OwnerBanner() {
     <div class="owner" role="status">
       <span>{say('owner.other', { name: nameOfOwner() })}</span>
       <Button onClick={takeOver}>{say('owner.take')}</Button>
+    </div>
+  );
+}
+
+// What has happened and is not on the disk yet.
+export function DiskBanner() {
+  const unkept = status.value?.unkept ?? '';
+  if (unkept === '') return null;
+  return (
+    <div class="owner" role="alert">
+      <div>
+        {unkept.split('; ').map((words) => (
+          <p key={words}>
+            <Told words={words} />
+          </p>
+        ))}
+        <p class="dim">{say('disk.next')}</p>
+      </div>
     </div>
   );
 }

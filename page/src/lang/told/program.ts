@@ -107,7 +107,7 @@ export const program: readonly Saying[] = [
   saying('there is no |program| {name}', 'il n’y a pas de programme {name}', 'non c’è il programma {name}', '没有程序 {name}'),
   saying('{what} has no value', '{what} n’a pas de valeur', '{what} non ha valore', '{what} 没有值'),
   saying('{what} divides by zero', '{what} divise par zéro', '{what} divide per zero', '{what} 除以零'),
-  saying('the loop went round {times} times, and the machine did nothing', 'la boucle a tourné {times} fois, et la machine n’a rien fait', 'il ciclo ha girato {times} volte, e la macchina non ha fatto nulla', '循环了 {times} 次，机床没有动作'),
+  saying('the loop went round {times} |times|, and the machine did nothing', 'la boucle a tourné {times} fois, et la machine n’a rien fait', 'il ciclo ha girato {times} volte, e la macchina non ha fatto nulla', '循环了 {times} 次，机床没有动作'),
   // Tools
   saying('tool {tool} is not in the tool table', 'l’outil {tool} n’est pas dans la table d’outils', 'l’utensile {tool} non è nella tabella utensili', '刀具 {tool} 不在刀具表中'),
   saying('the offset of tool {tool} is |taken as zero|: no tool table was given', 'la longueur de l’outil {tool} est prise pour zéro : aucune table d’outils', 'la lunghezza dell’utensile {tool} è presa per zero: nessuna tabella utensili', '刀具 {tool} 的长度补偿按零处理：没有刀具表'),
