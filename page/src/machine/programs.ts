@@ -39,7 +39,7 @@ export const sending = signal<string | null>(null);
 export const setUpName = 'set-up.ngc';
 export const isListed = (program: Program): boolean => program.name !== consoleName && program.name !== setUpName;
 
-// What a probing cycle runs. A file of a user ends with its kind. A height map without a program stays with its own cycle.
+// What a probing cycle runs. A height map without a program stays with its own cycle.
 export const isProbing = (program: Program): boolean => /^probe (surface|edge|corner|bore|boss|tool|angle|bores|map)$/.test(program.name);
 
 // s; until the motion is planned, at the programmed speeds.

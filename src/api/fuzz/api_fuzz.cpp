@@ -28,7 +28,7 @@ class Bench {
     const char first = request.front();
     request.remove_prefix(1);
     if (first == 'W') {
-      require(nlohmann::json::accept(api_.hear(request)), "an answer that is no JSON");
+      require(nlohmann::json::accept(api_.hear(request, 1)), "an answer that is no JSON");
     } else {
       look(api_.answer(read(first, request)));
     }
