@@ -36,7 +36,8 @@ class PromptTimer final : public MotionTimer {
 class ApiRun {
  public:
   explicit ApiRun(const KnownPosition& start = GrblRun::at_zero(), JobHistory* history = nullptr,
-                  const std::vector<Touchable>& things = {}, Studies* studies = nullptr)
+                  const std::vector<Touchable>& things = {}, Studies* studies = nullptr,
+                  const ToolTable& known_tools = {})
       : run(example_machine("router"), start, things),
         api(run.description(), run.session(), owner,
             {.version = "1",
@@ -45,6 +46,7 @@ class ApiRun {
              .page = {},
              .history = history,
              .wall_time = [this] { return 1e9 + run.session().now().value(); },
+             .tools = known_tools,
              .keep_offsets =
                  [this](const SavedParameters& parameters, const ToolTable& tools) {
                    if (keep) keep(parameters, tools);

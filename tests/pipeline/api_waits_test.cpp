@@ -189,7 +189,7 @@ KnownPosition amid_travel() {
 // At the zero of the work stands the machine at the start. The second tool is 5 mm longer.
 class TwoTools {
  public:
-  TwoTools() : run(amid_travel()), steps(run) {
+  explicit TwoTools(const ToolTable& tools = {}) : run(amid_travel(), nullptr, {}, nullptr, tools), steps(run) {
     run.own();
     run.post("/work", R"({"place": {"x": 0, "y": 0, "z": 0}})");
     EXPECT_EQ(run.status, 200U);
@@ -298,6 +298,21 @@ TEST(ApiTouchOff, a_console_line_may_set_the_zero) {
   ASSERT_EQ(two.run.status, 200U);
   two.run.pass(Seconds(0.3));
   EXPECT_NEAR(two.go_on(), -36, 0.01);
+}
+
+TEST(ApiTouchOff, a_tool_that_is_measured_there_counts_with_G43) {
+  ToolTable tools;
+  tools.name = "tools.tbl";
+  for (int number : {1, 2}) ASSERT_TRUE(tools.add({.number = number, .pocket = number}));
+  TwoTools two(tools);
+  two.run_to_second_tool(
+      "G21 G90 G54 F1200\nT1 M6\nM3 S1000\nG0 X0 Y0 Z5\nG1 Z-1\nG1 X10\nG0 Z5\nG0 X0\nT2 M6\nG43 H2\n"
+      "M3 S1000\nG0 X2 Y4\nG1 Z-1\nG1 X10\nG0 Z5\nM2\n");
+  const Json answer = two.run.post("/mdi", R"({"line": "G10 L1 P2 Z5"})");
+  ASSERT_EQ(two.run.status, 200U) << answer;
+  two.run.pass(Seconds(2));
+  EXPECT_NEAR(two.go_on(), -36, 0.01);
+  EXPECT_EQ(two.run.get("/status")["job"]["state"], "done");
 }
 
 TEST(ApiTouchOff, a_job_that_waits_keeps_others_out_and_can_be_stopped) {
