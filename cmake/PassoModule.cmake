@@ -60,7 +60,7 @@ function(passo_module module)
   endif()
 endfunction()
 
-# Slow tests make an eighth of their trials, or all of them, which takes an hour: scripts/test.sh --full.
+# Slow tests make a part of their trials, or all of them, which takes an hour: scripts/test.sh --full.
 option(PASSO_TESTS_IN_FULL "Slow tests make all of their trials" OFF)
 
 # With PASSO_SANITIZE only the modules that read what others wrote have tests, and of the tests of the whole street one
@@ -148,7 +148,7 @@ endfunction()
 
 # passo_slow_test(NAME SECONDS COMMAND program [argument…] [ENVIRONMENT name=value…] [IN_FULL name=value…])
 #
-# Tests of a program that a developer would not wait for. CI runs them with ENVIRONMENT, which asks for about an eighth of
+# Tests of a program that a developer would not wait for. CI runs them with ENVIRONMENT, which asks for a part of
 # the trials, in about so many seconds, the longest first, so that no processor stands idle at the end. With
 # PASSO_TESTS_IN_FULL they get IN_FULL instead, which asks for all.
 function(passo_slow_test name seconds)

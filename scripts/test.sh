@@ -3,7 +3,7 @@
 #
 #   --all    what CI wants, before that: the format check; what reads what others wrote, and the whole street, by clang
 #            under AddressSanitizer and UndefinedBehaviorSanitizer; all else looked at by clang. Without benchmarks
-#   --full   slow tests make all of their trials and not an eighth: an hour and more
+#   --full   slow tests make all of their trials and not a part: an hour and more
 #
 # The last lines are the summary of ctest, and its exit code is the script's.
 set -euo pipefail

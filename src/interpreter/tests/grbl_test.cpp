@@ -189,10 +189,17 @@ TEST(Grbl, drops_the_slash_and_runs_the_line) {
 TEST(Grbl, takes_what_has_no_effect_without_effect) {
   const std::string plain = as_grbl("G0 X1\nM2").calls();
   EXPECT_EQ(as_grbl("G40 G61 G91.1 M1 G0 X1\nM2").calls(), plain);
-  const Interpreted comments = as_grbl("(msg,hello)\n(print,hello)\n(abort,stop)\nG0 X1\nM2");
+  const Interpreted comments = as_grbl("(print,hello)\n(abort,stop)\nG0 X1\nM2");
   EXPECT_TRUE(comments.diagnostics.all().empty()) << comments.rendered();
   EXPECT_TRUE(comments.all<operation::StraightTraverse>().size() == 1);
   EXPECT_EQ(comments.canon.find("MESSAGE"), std::string::npos);
+}
+
+// As grblHAL does: the operator reads it where the program waits.
+TEST(Grbl, shows_messages) {
+  const Interpreted message = as_grbl("(MSG,Turn the plate)\nM0\nM2");
+  EXPECT_TRUE(message.diagnostics.all().empty()) << message.rendered();
+  EXPECT_NE(message.canon.find("MESSAGE(\"Turn the plate\")"), std::string::npos) << message.canon;
 }
 
 TEST(Grbl, counts_neither_blanks_nor_comments_of_a_line) {
