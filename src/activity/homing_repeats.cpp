@@ -56,8 +56,7 @@ std::string words_of(const AxisRepeats& repeats) {
   const auto rounded = [](double value) { return std::round(value * 10) / 10 + 0.0; };
   return fmt::format("{}: the mean place is {:.1f} {unit} from the first, the spread {:.1f} {unit} ({})",
                      letter_of(repeats.axis), rounded(repeats.mean), rounded(repeats.spread),
-                     signed_count(repeats.spread_steps, "step"),
-                     fmt::arg("unit", is_rotary(repeats.axis) ? "mdeg" : "um"));
+                     counted(repeats.spread_steps, "step"), fmt::arg("unit", is_rotary(repeats.axis) ? "mdeg" : "um"));
 }
 
 }  // namespace passo

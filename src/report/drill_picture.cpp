@@ -67,10 +67,10 @@ Status<OutputError> draw_drill_plan(const DrillPlan& plan, DrawnPoint park, cons
     holes += tool.targets.size();
     rapids += tool.rapids_after_nm;
   }
-  begin_sheet(canvas, options,
-              fmt::format("{}   \u00B7   {}   \u00B7   {:.1f} mm of rapids",
-                          grouped(holes) + (holes == 1 ? " hole or slot" : " holes and slots"),
-                          counted(plan.tools.size(), "tool"), rapids / nanometres_per_mm));
+  begin_sheet(
+      canvas, options,
+      fmt::format("{}   \u00B7   {}   \u00B7   {:.1f} mm of rapids", counted(holes, "hole or slot", "holes and slots"),
+                  counted(plan.tools.size(), "tool"), rapids / nanometres_per_mm));
   const Area area{sheet::margin, 100, options.width - 2 * sheet::margin, options.height - 190.0};
   const PlanView view = view_of(plan, park, area);
   draw_rapids(canvas, view, plan, park);

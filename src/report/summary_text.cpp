@@ -132,7 +132,7 @@ class Text {
     line("sent", sizes(board.bytes), "  in " + counted(board.frames, "frame"));
     if (board.busiest_second > 0) line("at most", sizes(board.busiest_second), "  in a second");
     if (board.held_items > 0) {
-      line("holds", counted(static_cast<std::uint64_t>(board.held_items), "item"),
+      line("holds", counted(board.held_items, "item"),
            fmt::format("  and rested {} for want of more", so_often(board.rests)));
     }
     if (board.stood_still) {
@@ -191,7 +191,7 @@ class Text {
     for (std::size_t i = 0; i < std::min(shown, physics.losses.size()); ++i) {
       const PhysicsSummary::Loss& loss = physics.losses[i];
       out_ += fmt::format("  at {:.3f} s, line {}: {} lost {}\n", loss.time.value(), loss.line, letter_of(loss.axis),
-                          signed_count(loss.steps, "step"));
+                          counted(loss.steps, "step"));
     }
     if (physics.losses.size() > shown) out_ += "  and " + counted(physics.losses.size() - shown, "more time") + "\n";
   }

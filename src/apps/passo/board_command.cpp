@@ -139,7 +139,7 @@ int board_info(const BoardInfoArguments& arguments) {
   fmt::print("  last reset    {}\n", reset_of(*status));
   fmt::print("  switches on   {}\n", switches.empty() ? "none" : switches);
   for (int motor = 0; motor < std::min<int>(status->motors, max_motors); ++motor) {
-    fmt::print("  motor {}       {}\n", motor + 1, signed_count(status->positions[motor], "step"));
+    fmt::print("  motor {}       {}\n", motor + 1, counted(status->positions[motor], "step"));
   }
   return exit_done;
 }

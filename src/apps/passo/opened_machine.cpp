@@ -282,7 +282,7 @@ void OpenedMachine::catch_up() {
 std::optional<std::string> OpenedMachine::compare() {
   if (const auto& mismatch = session_->mismatch()) {
     return fmt::format("motor {} stands {} from machine zero, and {} were planned", mismatch->motor + 1,
-                       signed_count(mismatch->counted, "step"), mismatch->commanded);
+                       counted(mismatch->counted, "step"), mismatch->commanded);
   }
   if (!has_board() || !plant_is_behind_ || rotors_ != nullptr) return {};
   const MachineCounts planned = machine_.counts();
@@ -290,8 +290,8 @@ std::optional<std::string> OpenedMachine::compare() {
   for (std::size_t motor = 0; motor < description_.axes.size(); ++motor) {
     const auto steps = std::llround(truth.positions[motor]);
     if (steps == planned.motors[motor].position) continue;
-    return fmt::format("motor {} is truly {} from machine zero, and {} were planned", motor + 1,
-                       signed_count(steps, "step"), planned.motors[motor].position);
+    return fmt::format("motor {} is truly {} from machine zero, and {} were planned", motor + 1, counted(steps, "step"),
+                       planned.motors[motor].position);
   }
   return {};
 }

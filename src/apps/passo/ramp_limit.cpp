@@ -56,9 +56,8 @@ nlohmann::ordered_json limit_json(const RampArguments& arguments, std::int32_t s
 
 std::string limit_words(const RampArguments& arguments, std::int32_t size) {
   const std::int32_t steps = *arguments.steps_per_turn;
-  std::string text =
-      fmt::format("A table of {}, a motor of {} a revolution:\n",
-                  counted(static_cast<std::uint32_t>(size), "entry", "entries"), signed_count(steps, "step"));
+  std::string text = fmt::format("A table of {}, a motor of {} a revolution:\n",
+                                 counted(static_cast<std::uint32_t>(size), "entry", "entries"), counted(steps, "step"));
   if (arguments.max_rate) {
     const double least = least_acceleration(Hertz(*arguments.max_rate), size, steps).value;
     text += fmt::format("  for {} Hz it needs an acceleration of at least {} rad/s\u00B2\n",

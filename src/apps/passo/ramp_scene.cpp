@@ -122,8 +122,8 @@ Result<RampScene, RampError> ramp_scene(const RampRequest& request) {
 }
 
 std::string ramp_title(const RampRequest& request) {
-  if (!request.whole_move) return "A ramp up: the first " + signed_count(request.steps, "step");
-  return fmt::format("A move of {}{}", signed_count(request.steps, "step"),
+  if (!request.whole_move) return "A ramp up: the first " + counted(request.steps, "step");
+  return fmt::format("A move of {}{}", counted(request.steps, "step"),
                      request.jerk.value > 0 ? " with bounded jerk" : "") +
          (request.stop_after > 0 ? fmt::format(", told to stop after {}", request.stop_after) : "") +
          (request.reverse_after > 0 ? fmt::format(", told to go back after {}", request.reverse_after) : "");

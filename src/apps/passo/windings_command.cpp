@@ -61,7 +61,7 @@ Timed ramp_move(const RampArguments& arguments) {
   if (*arguments.move > most_pulses) return Failure{fmt::format("more than {} pulses", most_pulses)};
   auto sequence = RampSequence::start(ramp_request_of(arguments));
   if (!sequence) return Failure{sequence.error().message};
-  TimedMove timed{.title = fmt::format("a move of {} with its ramp", signed_count(*arguments.move, "step"))};
+  TimedMove timed{.title = fmt::format("a move of {} with its ramp", counted(*arguments.move, "step"))};
   std::int64_t place = 0;
   long double ticks = 0;
   while (!sequence->done()) {

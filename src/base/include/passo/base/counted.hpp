@@ -1,11 +1,10 @@
 // counted: a number and its noun, as messages and programs say it: "1 hole", "2 holes", "1 234 holes", "2 entries".
 #pragma once
 
+#include <concepts>
 #include <cstdint>
 #include <string>
 #include <string_view>
-
-#include "passo/base/counted.hpp"
 
 namespace passo {
 
@@ -25,15 +24,15 @@ inline std::string_view plural_end(bool is_one) {
   return is_one ? "" : "s";
 }
 
-inline std::string counted(std::uint64_t number, std::string_view noun) {
-  return grouped(number).append(" ").append(noun).append(plural_end(number == 1));
-}
-inline std::string counted(std::uint64_t number, std::string_view noun, std::string_view nouns) {
-  return grouped(number).append(" ").append(number == 1 ? noun : nouns);
-}
 // With a minus before what is below zero, as of a place in steps.
-inline std::string signed_count(std::int64_t number, std::string_view noun) {
-  return grouped(number).append(" ").append(noun).append(plural_end(number == 1 || number == -1));
+template <std::integral Number>
+std::string counted(Number number, std::string_view noun, std::string_view nouns) {
+  const auto wide = static_cast<std::int64_t>(number);
+  return grouped(wide).append(" ").append(wide == 1 || wide == -1 ? noun : nouns);
+}
+template <std::integral Number>
+std::string counted(Number number, std::string_view noun) {
+  return counted(number, noun, std::string(noun) + "s");
 }
 
 }  // namespace passo
