@@ -103,7 +103,8 @@ describe('a program on its way', () => {
   it('is held, overridden, seen by another page, and finished', async () => {
     const first = await visit(browser, daemon, 'files');
     await send(first.page, 'slow.ngc', part.replace('F1200', 'F400'));
-    await expect.poll(() => first.page.getByTestId('verdict').innerText()).toContain('Good');
+    // Another program may be open until this one is there.
+    await expect.poll(() => first.page.getByRole('region', { name: 'slow.ngc' }).getByTestId('verdict').innerText()).toContain('Good');
     await first.page.goto(`${daemon.address}#/run`);
     await takeOver(first.page);
     await startProgram(first.page);
