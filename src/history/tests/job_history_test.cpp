@@ -139,8 +139,7 @@ TEST_F(JobHistoryTest, a_killed_program_loses_nothing) {
     const pid_t child = fork();
     if (child == 0) {
       const auto history = std::move(*JobHistory::open(file()));
-      history->add("runs", "grbl", "M2\n", 0);
-      history->begin(1, 1);
+      history->add_running("runs", "grbl", "M2\n", 0);
       for (char i = 0;; ++i) {
         if (history->add("job", "grbl", std::string(2000, 'x'), 0) && write(told[1], &i, 1) != 1) _exit(1);
         if (i % 7 == 3) history->keep();
