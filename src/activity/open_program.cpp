@@ -8,13 +8,10 @@
 
 #include "passo/activity/nominal_time.hpp"
 #include "passo/activity/stage_options.hpp"
+#include "passo/interpreter/saved_offsets.hpp"
 
 namespace passo {
 namespace {
-
-constexpr int first_g92_parameter = 5210;
-constexpr int last_g92_parameter = 5219;
-constexpr int work_system = 5220;
 
 bool is_kind(const PathItem& item, Action::Kind kind) {
   const auto* action = std::get_if<Action>(&item);
@@ -60,8 +57,8 @@ void OpenProgram::begin(const Point& start) {
 void OpenProgram::restart(const Point& place) {
   forget_queue();
   options_.parameters = interpreter_->saved_parameters();
-  for (int number = first_g92_parameter; number <= last_g92_parameter; ++number) options_.parameters.erase(number);
-  options_.parameters[work_system] = 1;
+  for (int number = g92_active_parameter; number < work_system_parameter; ++number) options_.parameters.erase(number);
+  options_.parameters[work_system_parameter] = 1;
   options_.units = LengthUnits::mm;
   begin(place);
 }

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "passo/base/utf8.hpp"
 #include "passo/interpreter/is_any_of.hpp"
 
 namespace passo {
@@ -11,10 +12,7 @@ namespace {
 std::string shown(std::string_view text) {
   const auto is_blank = [](char c) { return static_cast<unsigned char>(c) <= ' '; };
   while (!text.empty() && is_blank(text.front())) text.remove_prefix(1);
-  std::size_t length = std::min(text.size(), WaitWords::longest);
-  const auto continues = [](char c) { return (static_cast<unsigned char>(c) & 0xC0U) == 0x80U; };
-  while (length < text.size() && length > 0 && continues(text[length])) --length;
-  text = text.substr(0, length);
+  text = cut_at_character(text, WaitWords::longest);
   while (!text.empty() && is_blank(text.back())) text.remove_suffix(1);
   std::string words(text);
   std::ranges::replace_if(

@@ -5,6 +5,8 @@
 #include "api_json.hpp"
 #include <fmt/format.h>
 
+#include "passo/base/lower_case.hpp"
+
 namespace passo {
 namespace {
 
@@ -12,9 +14,7 @@ namespace {
 std::string media_type(std::string_view header) {
   std::string type(header.substr(0, header.find(';')));
   std::erase_if(type, [](char c) { return c == ' ' || c == '\t'; });
-  std::ranges::transform(type, type.begin(),
-                         [](char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c; });
-  return type;
+  return lower_case(std::move(type));
 }
 
 // No type, text/plain, and the type that curl gives to any data, say nothing about a body.

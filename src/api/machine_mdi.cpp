@@ -3,10 +3,10 @@
 
 #include "api_json.hpp"
 
+#include "passo/interpreter/saved_offsets.hpp"
+
 namespace passo {
 namespace {
-
-constexpr int selected_system = 5220;
 
 // The only member of the body.
 std::optional<std::string> read_line(const Json& body) {
@@ -37,7 +37,7 @@ WebAnswer MachineApi::take_mdi(std::string_view text) {
 void MachineApi::mind_mdi() {
   if (mdi_.turn()) {
     SavedParameters parameters = mdi_.parameters();
-    parameters[selected_system] = 1;  // programs begin with G54
+    parameters[work_system_parameter] = 1;  // programs begin with G54
     keep_results(parameters, mdi_.tools());
   }
   if (std::exchange(mdi_owner_, owner_.changes()) == owner_.changes() || owner_.kind() == MotionOwner::Kind::client) {

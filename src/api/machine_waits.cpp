@@ -11,6 +11,7 @@
 
 #include "passo/activity/stage_options.hpp"
 #include "passo/drive/backlash_options.hpp"
+#include "passo/interpreter/saved_offsets.hpp"
 #include "passo/journal/stop_place.hpp"
 
 namespace passo {
@@ -20,21 +21,10 @@ namespace {
 constexpr Seconds a_turn{0.005};
 constexpr int most_turns = 400;
 
-constexpr int first_system = 5221;
-constexpr int parameters_of_system = 20;
-constexpr int systems = 9;
-
-double value_of(const SavedParameters& parameters, int number) {
-  const auto found = parameters.find(number);
-  return found != parameters.end() ? found->second : 0;
-}
-
 bool is_changed(const SavedParameters& before, const SavedParameters& now, int system) {
-  for (int i = 0; i < parameters_of_system; ++i) {
-    const int number = first_system + (system - 1) * parameters_of_system + i;
-    if (value_of(before, number) != value_of(now, number)) return true;
-  }
-  return false;
+  const auto differs = [&](int number) { return saved_value(before, number) != saved_value(now, number); };
+  const int first = work_offset_parameter(system);
+  return saved_point(before, first) != saved_point(now, first) || differs(rotation_parameter(system));
 }
 
 }  // namespace
@@ -73,7 +63,7 @@ Result<Reentry, ReentryProblem> MachineApi::way_behind_stop() const {
   if (!stop) return refused_for(ReentryRefusal::bad_program);
   if (stop->line != parked_->wait.line) return refused_for(ReentryRefusal::path_changed);
   std::vector<int> changed;
-  for (int system = 1; system <= systems; ++system) {
+  for (int system = 1; system <= work_systems; ++system) {
     if (is_changed(parked_->parameters, programs_.parameters(), system)) changed.push_back(system);
   }
   const bool any_changed = !changed.empty() || parked_->tools != programs_.tools();
@@ -85,9 +75,8 @@ Result<Reentry, ReentryProblem> MachineApi::way_behind_stop() const {
   if (!changed.empty() && std::ranges::find(changed, int{stop->system}) == changed.end()) {
     return refused(
         "waits.other-zero",
-        fmt::format("the program works with G{}, and another zero was set: set that one, or set the other "
-                    "back",
-                    stop->system <= 6 ? fmt::format("{}", 53 + stop->system) : fmt::format("59.{}", stop->system - 6)));
+        fmt::format("the program works with {}, and another zero was set: set that one, or set the other back",
+                    name_of_system(stop->system)));
   }
   auto way = plan_reentry(machine_, stop->at, session_.status().position.place);
   if (!way) return refused_for(way.error());

@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "passo/api/deleted_lines.hpp"
+#include "passo/interpreter/saved_offsets.hpp"
 
 namespace passo {
 namespace {
@@ -12,15 +13,12 @@ constexpr std::uint64_t items_a_turn = 500;
 constexpr std::uint64_t lines_a_mark = 256;
 
 // The numbered parameters of G54 in RS274/NGC.
-constexpr int selected_system = 5220;
-constexpr int first_offset = 5221;
-constexpr int rotation_about_z = 5230;
 
 // A parameter that nobody has set counts like one that a program has left as it was.
 bool mean_the_same(const SavedParameters& one, const SavedParameters& other) {
   const auto is_in = [](const SavedParameters& all) {
     return [&all](const auto& parameter) {
-      const double usual = parameter.first == selected_system ? 1 : 0;
+      const double usual = parameter.first == work_system_parameter ? 1 : 0;
       const auto found = all.find(parameter.first);
       return parameter.second == (found == all.end() ? usual : found->second);
     };
@@ -97,7 +95,7 @@ InterpreterOptions ProgramStore::options_of(Dialect dialect) const {
   InterpreterOptions options;
   options.dialect = dialect;
   options.parameters = parameters_;
-  options.parameters[selected_system] = 1;
+  options.parameters[work_system_parameter] = 1;
   options.tools = tools_;
   return options;
 }
@@ -162,20 +160,15 @@ void ProgramStore::make_room_for_path(std::uint64_t id) {
 }
 
 Frame ProgramStore::work_frame() const {
-  const auto parameter = [this](int number) {
-    const auto found = parameters_.find(number);
-    return found != parameters_.end() ? found->second : 0;
-  };
-  Point zero;
-  for (std::size_t i = 0; i < axis_count; ++i) zero.values[i] = parameter(first_offset + static_cast<int>(i));
   Frame frame;
-  frame.follow({operation::SetWorkOffset{.offset = zero}, {}});
-  frame.follow({operation::SetRotation{parameter(rotation_about_z)}, {}});
+  frame.follow({operation::SetWorkOffset{.offset = saved_point(parameters_, work_offset_parameter(1))}, {}});
+  frame.follow({operation::SetRotation{saved_value(parameters_, rotation_parameter(1))}, {}});
   return frame;
 }
 
 void ProgramStore::set_work_zero(const Point& zero) {
-  for (std::size_t i = 0; i < axis_count; ++i) parameters_[first_offset + static_cast<int>(i)] = zero.values[i];
+  for (std::size_t i = 0; i < axis_count; ++i)
+    parameters_[work_offset_parameter(1) + static_cast<int>(i)] = zero.values[i];
   forget_checks();
 }
 

@@ -5,31 +5,10 @@
 
 #include <fmt/format.h>
 
+#include "passo/base/utf8.hpp"
+
 namespace passo {
 namespace {
-
-// A code point of UTF-8. Length 0 means that the bytes are not UTF-8.
-struct CodePoint {
-  std::uint32_t value = 0;
-  std::size_t length = 0;
-};
-
-CodePoint decode(std::string_view text) {
-  const auto byte = [text](std::size_t i) { return static_cast<std::uint32_t>(static_cast<unsigned char>(text[i])); };
-  const std::uint32_t first = byte(0);
-  if (first < 0x80) return {first, 1};
-  const std::size_t length = first >= 0xF0 ? 4 : first >= 0xE0 ? 3 : 2;
-  if (first < 0xC2 || first > 0xF4 || text.size() < length) return {};
-  std::uint32_t value = first & (0x7FU >> length);
-  for (std::size_t i = 1; i < length; ++i) {
-    if ((byte(i) & 0xC0U) != 0x80U) return {};
-    value = (value << 6U) | (byte(i) & 0x3FU);
-  }
-  const bool is_overlong = (length == 3 && value < 0x800) || (length == 4 && value < 0x10000);
-  const bool is_surrogate = value >= 0xD800 && value <= 0xDFFF;
-  if (is_overlong || is_surrogate || value > 0x10FFFF) return {};
-  return {value, length};
-}
 
 // Characters that word processors, web pages and foreign keyboards produce in place of those of RS274/NGC.
 struct LookAlike {
@@ -70,15 +49,16 @@ std::string cure_for(std::uint32_t code) {
 }  // namespace
 
 NamedCharacter name_character(std::string_view text) {
-  const CodePoint point = decode(text);
+  const CodePoint point = first_code_point(text);
   if (point.length == 0) {
     return {1, fmt::format("byte 0x{:02X}, which is not UTF-8,", static_cast<unsigned char>(text[0])), {}};
   }
-  if (point.value < 0x20 || (point.value >= 0x7F && point.value < 0xA0)) {
-    return {point.length, fmt::format("control character U+{:04X}", point.value), {}};
+  const auto code = static_cast<std::uint32_t>(point.value);
+  if (code < 0x20 || (code >= 0x7F && code < 0xA0)) {
+    return {point.length, fmt::format("control character U+{:04X}", code), {}};
   }
   if (point.length == 1) return {1, fmt::format("'{}'", text[0]), {}};
-  return {point.length, fmt::format("U+{:04X} '{}'", point.value, text.substr(0, point.length)), cure_for(point.value)};
+  return {point.length, fmt::format("U+{:04X} '{}'", code, text.substr(0, point.length)), cure_for(code)};
 }
 
 }  // namespace passo

@@ -8,6 +8,7 @@
 #include "line_parser.hpp"
 #include <fmt/format.h>
 
+#include "passo/base/utf8.hpp"
 #include "passo/diagnostics/diagnostic.hpp"
 
 namespace passo {
@@ -19,9 +20,7 @@ constexpr const char* a_value = "a number, #parameter, [expression] or function"
 std::string shortened(std::string_view text) {
   constexpr std::size_t most = 24;
   if (text.size() <= most) return std::string(text);
-  std::size_t size = most;
-  while (size > 0 && (static_cast<unsigned char>(text[size]) & 0xC0U) == 0x80U) --size;  // cut no character in two
-  return std::string(text.substr(0, size)) + "...";
+  return std::string(cut_at_character(text, most)) + "...";
 }
 
 // Guesses the word that was meant: one with a wrong letter, or with two letters swapped.

@@ -4,11 +4,11 @@
 
 #include <fmt/format.h>
 
+#include "passo/interpreter/saved_offsets.hpp"
+
 namespace passo {
 namespace {
 
-constexpr int first_work_system = 5221;
-constexpr int parameters_of_system = 20;
 constexpr int shown_systems = 6;
 constexpr int first_home = 5161;
 constexpr int second_home = 5181;
@@ -21,15 +21,6 @@ double clean(double value, int decimals) {
 
 double in_units(double value, Axis axis, const GrblUnits& units) {
   return units.inches && !is_rotary(axis) ? value / mm_per_inch : value;
-}
-
-Point saved_place(const SavedParameters& parameters, int first) {
-  Point place;
-  for (const Axis axis : all_axes) {
-    const auto found = parameters.find(first + static_cast<int>(index_of(axis)));
-    if (found != parameters.end()) place[axis] = found->second;
-  }
-  return place;
 }
 
 std::string place_line(std::string_view name, const Point& place, const GrblUnits& units) {
@@ -95,12 +86,11 @@ std::string probe_text(const std::optional<ProbeOutcome>& probe, const GrblUnits
 std::string offsets_text(const SavedParameters& parameters, const ModesInForce& modes,
                          const std::optional<ProbeOutcome>& probe, const GrblUnits& units) {
   std::string text;
-  for (int system = 0; system < shown_systems; ++system) {
-    const Point offset = saved_place(parameters, first_work_system + system * parameters_of_system);
-    text += place_line(fmt::format("G{}", 54 + system), offset, units);
+  for (int system = 1; system <= shown_systems; ++system) {
+    text += place_line(name_of_system(system), saved_point(parameters, work_offset_parameter(system)), units);
   }
-  text += place_line("G28", saved_place(parameters, first_home), units);
-  text += place_line("G30", saved_place(parameters, second_home), units);
+  text += place_line("G28", saved_point(parameters, first_home), units);
+  text += place_line("G30", saved_point(parameters, second_home), units);
   text += place_line("G92", modes.frame.g92_offset(), units);
   const double tool = clean(in_units(modes.frame.tool_offset()[Axis::z], Axis::z, units), units.inches ? 4 : 3);
   text += fmt::format("[TLO:{:.{}f}]\r\n", tool, units.inches ? 4 : 3);

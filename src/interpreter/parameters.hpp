@@ -22,7 +22,7 @@
 
 #include "passo/gcode/expression.hpp"
 #include "passo/gcode/symbols.hpp"
-#include "passo/interpreter/parameter_file.hpp"
+#include "passo/interpreter/saved_offsets.hpp"
 #include "passo/interpreter/settings_file.hpp"
 
 namespace passo {
@@ -30,7 +30,7 @@ namespace passo {
 inline constexpr int highest_parameter = 5601;
 inline constexpr std::size_t sub_parameters = 30;
 
-// Numbers of parameters. A work system has ten: the offsets of nine axes and the rotation.
+// Numbers of further parameters; those of offsets are in saved_offsets.hpp.
 inline constexpr int first_home_parameter = 5161;
 inline constexpr int second_home_parameter = 5181;
 inline constexpr int machine_position_parameter = 5021;
@@ -39,21 +39,11 @@ inline constexpr int probe_success_parameter = 5070;
 inline constexpr int used_offset_parameter = 5081;  // the tool offset in effect
 inline constexpr int input_parameter = 5399;
 inline constexpr int show_debug_parameter = 5599;
-inline constexpr int g92_active_parameter = 5210;
-inline constexpr int g92_parameter = 5211;
-inline constexpr int work_system_parameter = 5220;
 inline constexpr int tool_parameter = 5400;
 inline constexpr int tool_offset_parameter = 5401;
 inline constexpr int tool_shape_parameter = 5410;  // diameter, front angle, back angle, orientation
 inline constexpr int last_tool_parameter = 5413;
 inline constexpr int position_parameter = 5420;
-inline constexpr int work_systems = 9;
-constexpr int work_offset_parameter(int system) {
-  return 5201 + 20 * system;
-}
-constexpr int rotation_parameter(int system) {
-  return work_offset_parameter(system) + 9;
-}
 
 class Parameters final : public ParameterValues {
  public:

@@ -6,23 +6,10 @@
 
 #include "passo/drive/program_stop.hpp"
 #include "passo/interpreter/is_any_of.hpp"
+#include "passo/interpreter/saved_offsets.hpp"
 
 namespace passo {
 namespace {
-
-constexpr int first_system = 5221;
-constexpr int parameters_of_system = 20;
-constexpr int first_g92 = 5211;
-
-// The offset that lasts over programs, from the parameter of its X on.
-Point saved_offset(const SavedParameters& parameters, int first) {
-  Point offset;
-  for (const Axis axis : all_axes) {
-    const auto found = parameters.find(first + static_cast<int>(index_of(axis)));
-    if (found != parameters.end()) offset[axis] = found->second;
-  }
-  return offset;
-}
 
 // Looks at the operations up to a stop.
 class ZeroWatch {
@@ -34,17 +21,16 @@ class ZeroWatch {
     if (seen_ == number_) return;
     if (is_any_of<operation::ProgramStop, operation::OptionalProgramStop, operation::ChangeTool>(operation)) ++seen_;
     if (const auto* const work = std::get_if<operation::SetWorkOffset>(&operation.what)) {
-      const int first = first_system + (work->system - 1) * parameters_of_system;
       stop_.system = work->system;
-      note(work->offset, first);
+      note(work->offset, work_offset_parameter(work->system));
     }
     if (is_any_of<operation::SetToolTableEntry>(operation)) stop_.sets_own_zero = true;
-    if (const auto* const g92 = std::get_if<operation::SetG92Offset>(&operation.what)) note(g92->offset, first_g92);
+    if (const auto* const g92 = std::get_if<operation::SetG92Offset>(&operation.what)) note(g92->offset, g92_parameter);
   }
 
  private:
   void note(const Point& offset, int first) {
-    const Point saved = saved_offset(parameters_, first);
+    const Point saved = saved_point(parameters_, first);
     for (const Axis axis : all_axes) {
       constexpr double rounding = 1e-9;
       if (std::abs(offset[axis] - saved[axis]) > rounding) stop_.sets_own_zero = true;

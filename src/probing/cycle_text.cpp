@@ -7,15 +7,10 @@
 
 #include <fmt/format.h>
 
+#include "passo/interpreter/saved_offsets.hpp"
+
 namespace passo {
 namespace {
-
-constexpr int first_offset = 5221;  // the numbered parameter of G54's X
-constexpr int offsets = 20;         // parameters a work system
-
-std::string system_code(int system) {
-  return system <= 6 ? fmt::format("G{}", 53 + system) : fmt::format("G59.{}", system - 6);
-}
 
 class CycleText {
  public:
@@ -35,9 +30,7 @@ class CycleText {
   void go(char axis, double way) { line("G91 G0 {}{:.4f}\nG90", axis, way); }
   // The zero of an axis, found by the touch that the machine rests at: `ahead` beyond the contact.
   void set_zero(char axis, int sign, double height);
-  std::string offset_of(char axis) const {
-    return fmt::format("#{}", first_offset + offsets * (system_ - 1) + (axis - 'X'));
-  }
+  std::string offset_of(char axis) const { return fmt::format("#{}", work_offset_parameter(system_) + (axis - 'X')); }
 
   void surface();
   void edge();
@@ -81,7 +74,7 @@ void CycleText::write_subs() {
   line("    G38.2 Z[#1-0.01] (there is something: the probe is touched already, so the program ends here)");
   line("  o<hit> endif");
   line("o<lower> endsub");
-  line("G17 G21 G40 G80 G90 G94 {}", cycle_.kind == ProbingKind::tool ? "G49" : system_code(system_));
+  line("G17 G21 G40 G80 G90 G94 {}", cycle_.kind == ProbingKind::tool ? "G49" : name_of_system(system_));
 }
 
 // The machine rests a little behind the contact. G10 L20 says which work coordinate that place has.
@@ -97,7 +90,7 @@ void CycleText::surface() {
   touch(0, 0, -1);
   set_zero('Z', -1, cycle_.height);
   go('Z', cycle_.clearance);
-  line("(PRINT,found: Z0 of {} is Z{} in the machine)", system_code(system_), offset_of('Z'));
+  line("(PRINT,found: Z0 of {} is Z{} in the machine)", name_of_system(system_), offset_of('Z'));
 }
 
 void CycleText::edge() {
@@ -107,7 +100,7 @@ void CycleText::edge() {
   touch(way.axis == 'X' ? way.sign : 0, way.axis == 'Y' ? way.sign : 0, 0);
   set_zero(way.axis, way.sign, 0);
   go(way.axis, -way.sign * cycle_.clearance);
-  line("(PRINT,found: {}0 of {} is {}{} in the machine)", way.axis, system_code(system_), way.axis,
+  line("(PRINT,found: {}0 of {} is {}{} in the machine)", way.axis, name_of_system(system_), way.axis,
        offset_of(way.axis));
 }
 
@@ -132,7 +125,7 @@ void CycleText::corner() {
   line("G0 Y{:.4f}", -ways.y * (cycle_.clearance + cycle_.ball / 2));
   line("G0 Z{:.4f}", cycle_.clearance);
   line("G0 X0 Y0");
-  line("(PRINT,found: X0 Y0 Z0 of {} is X{} Y{} Z{} in the machine)", system_code(system_), offset_of('X'),
+  line("(PRINT,found: X0 Y0 Z0 of {} is X{} Y{} Z{} in the machine)", name_of_system(system_), offset_of('X'),
        offset_of('Y'), offset_of('Z'));
 }
 
@@ -158,7 +151,7 @@ void CycleText::bore() {
   write_subs();
   go_to_middle();
   line("G10 L20 P{} X0 Y0", system_);
-  line("(PRINT,found: X0 Y0 of {} is X{} Y{} in the machine; the bore is #<diameter> wide)", system_code(system_),
+  line("(PRINT,found: X0 Y0 of {} is X{} Y{} in the machine; the bore is #<diameter> wide)", name_of_system(system_),
        offset_of('X'), offset_of('Y'));
 }
 
@@ -195,7 +188,7 @@ void CycleText::bores() {
        half_y);
   line("G10 L2 P{} X#<zero_x> Y#<zero_y> R#<angle>", system_);
   line("(PRINT,found: X0 Y0 of {} is X{} Y{} in the machine, turned by #<angle> degrees; the bores are #<apart> apart)",
-       system_code(system_), offset_of('X'), offset_of('Y'));
+       name_of_system(system_), offset_of('X'), offset_of('Y'));
 }
 
 void CycleText::boss_side(char axis, int sign, double half, const char* name) {
@@ -225,8 +218,8 @@ void CycleText::boss() {
   line("G0 Z[#<top>+{:.4f}]", cycle_.clearance);
   line("G0 X#<middle_x> Y#<middle_y>");
   line("G10 L20 P{} X0 Y0", system_);
-  line("(PRINT,found: X0 Y0 of {} is X{} Y{} in the machine; the boss is #<width> wide along Y)", system_code(system_),
-       offset_of('X'), offset_of('Y'));
+  line("(PRINT,found: X0 Y0 of {} is X{} Y{} in the machine; the boss is #<width> wide along Y)",
+       name_of_system(system_), offset_of('X'), offset_of('Y'));
 }
 
 void CycleText::tool() {
@@ -264,14 +257,14 @@ void CycleText::angle() {
   }
   go(way.axis, -way.sign * cycle_.clearance);
   line("G10 L2 P{} R#<angle>", system_);
-  line("(PRINT,found: {} is turned by #<angle> degrees)", system_code(system_));
+  line("(PRINT,found: {} is turned by #<angle> degrees)", name_of_system(system_));
 }
 
 // Each height is logged with the place that was meant, as a line of a height map.
 void CycleText::map() {
   head("Z0 is on the surface, and nothing is in the way at the height of the clearance",
        "above the last place, by the clearance");
-  line("G17 G21 G40 G80 G90 G94 {}", system_code(system_));
+  line("G17 G21 G40 G80 G90 G94 {}", name_of_system(system_));
   line("G0 Z{:.4f}", cycle_.clearance);
   const auto columns = static_cast<int>(cycle_.columns);
   const auto rows = static_cast<int>(cycle_.rows);

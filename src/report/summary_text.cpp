@@ -274,12 +274,6 @@ std::string percent_of(Seconds part, Seconds whole) {
   return percent < 0.1 ? "under 0.1 %" : fmt::format("{:.1f} %", percent);
 }
 
-std::string name_of_system(std::uint8_t system) {
-  constexpr int first = 53;
-  constexpr int last_whole = 6;  // G59
-  return system <= last_whole ? fmt::format("G{}", first + system) : fmt::format("G59.{}", system - last_whole);
-}
-
 bool PhysicsSummary::lost() const {
   return !losses.empty();
 }

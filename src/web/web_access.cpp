@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cstddef>
 
+#include "passo/base/lower_case.hpp"
+
 namespace passo {
 namespace {
 
@@ -10,13 +12,6 @@ constexpr unsigned bad_request = 400;
 constexpr unsigned unauthorized = 401;
 constexpr unsigned forbidden = 403;
 constexpr std::string_view bearer = "Bearer ";
-
-std::string lower(std::string_view text) {
-  std::string result(text);
-  std::ranges::transform(result, result.begin(),
-                         [](char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c; });
-  return result;
-}
 
 // "[::1]:7080" → "[::1]", "localhost:7080" → "localhost"
 std::string_view without_port(std::string_view host) {
@@ -70,10 +65,10 @@ std::string_view query_value(std::string_view query, std::string_view key) {
 
 std::optional<unsigned> WebAccess::refuse(const WebCaller& caller) const {
   if (caller.host.empty()) return bad_request;
-  const std::string host = lower(caller.host);
+  const std::string host = lower_case(std::string(caller.host));
   if (std::ranges::find(names, std::string(without_port(host))) == names.end()) return forbidden;
   if (!caller.origin.empty()) {
-    const std::string origin = lower(caller.origin);
+    const std::string origin = lower_case(std::string(caller.origin));
     if (origin != "http://" + host && origin != "https://" + host) return forbidden;
   }
   if (token.empty()) return {};

@@ -8,19 +8,16 @@
 
 #include <fmt/format.h>
 
+#include "passo/interpreter/saved_offsets.hpp"
 #include "passo/path/path_builder.hpp"
 
 namespace passo {
 namespace {
 
-constexpr int work_systems = 9;
 constexpr double slack = 1e-6;  // as of the check of the travel
 
-// #5221 is the X of G54's zero.
 int zero_parameter(int system, Axis axis) {
-  constexpr int of_first = 5221;
-  constexpr int between = 20;
-  return of_first + between * (system - 1) + static_cast<int>(index_of(axis));
+  return work_offset_parameter(system) + static_cast<int>(index_of(axis));
 }
 
 // Of a parameter: lengths are in the machine's units, angles in degrees.
@@ -29,8 +26,7 @@ double unit_of_parameter(const InterpreterOptions& options, Axis axis) {
 }
 
 double zero_of(const InterpreterOptions& options, int system, Axis axis) {
-  const auto found = options.parameters.find(zero_parameter(system, axis));
-  return found == options.parameters.end() ? 0 : found->second * unit_of_parameter(options, axis);
+  return saved_value(options.parameters, zero_parameter(system, axis)) * unit_of_parameter(options, axis);
 }
 
 void set_zero(InterpreterOptions& options, int system, Axis axis, double zero) {
@@ -168,7 +164,7 @@ std::vector<Proposal> proposals_for_travel(const Unfit& unfit, const Diagnostics
       const double zero = rounded(zero_of(unfit.options, system, axis.axis) + shift);
       set_zero(options, system, axis.axis, zero);
       line += fmt::format(" {}{:.10g}", letter_of(axis.axis), zero);
-      zeros[name_of_system(static_cast<std::uint8_t>(system))][std::string(1, letter_of(axis.axis))] = zero;
+      zeros[name_of_system(system)][std::string(1, letter_of(axis.axis))] = zero;
     }
     if (!line.empty()) words += fmt::format("{}G10 L2 P{}{}", words.empty() ? "" : ", ", system, line);
   }

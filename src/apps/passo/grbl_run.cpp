@@ -19,34 +19,29 @@
 
 #include "passo/activity/program.hpp"
 #include "passo/base/counted.hpp"
+#include "passo/drive/program_stop.hpp"
+#include "passo/interpreter/saved_offsets.hpp"
 #include "passo/sender/grbl_code.hpp"
 
 namespace passo {
 namespace {
 
-bool is_stop(const Action& action) {
-  using Kind = Action::Kind;
-  return action.kind == Kind::program_stop || action.kind == Kind::optional_stop || action.kind == Kind::tool_change;
-}
-
-// The machine's own offsets, as saved parameters: #5221 … are G54's X, Y and Z, and each further system has 20 more.
+// The machine's own offsets, as saved parameters.
 void take_offsets(const GrblMachine& machine, InterpreterOptions& options) {
-  constexpr int g92 = 5210;
-  constexpr int system_in_force = 5220;
   const double unit = options.machine_units == LengthUnits::inch ? 25.4 : 1;
   const auto set = [&](int first, const Point& offset) {
     for (int axis = 0; axis < 3; ++axis) {
       options.parameters[first + axis] = offset.values[static_cast<std::size_t>(axis)] / unit;
     }
   };
-  options.parameters[system_in_force] = 1;
-  options.parameters[g92] = 0;
+  options.parameters[work_system_parameter] = 1;
+  options.parameters[g92_active_parameter] = 0;
   for (const auto& [name, offset] : machine.offsets) {
     if (name == "G92") {
-      options.parameters[g92] = offset == Point() ? 0 : 1;
-      set(g92 + 1, offset);
+      options.parameters[g92_active_parameter] = offset == Point() ? 0 : 1;
+      set(g92_parameter, offset);
     } else if (name.size() == 3 && name[2] >= '4' && name[2] <= '9') {
-      set(system_in_force + 1 + 20 * (name[2] - '4'), offset);
+      set(work_offset_parameter(1 + name[2] - '4'), offset);
     }
   }
 }
@@ -168,7 +163,7 @@ class GrblProgram {
     const auto* action = std::get_if<Action>(&item);
     const Seconds silence = action != nullptr && action->kind == Action::Kind::dwell ? action->dwell : Seconds(0);
     for (std::string& text : lines) ready_.push_back({std::move(text), line_of(item), silence, {}});
-    if (action == nullptr || !is_stop(*action) || arguments_.yes) return;
+    if (action == nullptr || !is_program_stop(*action) || arguments_.yes) return;
     const std::uint32_t line = action->source.line;
     const OperatorWait wait{.kind = action->kind, .tool = action->tool, .line = line, .words = words_.at(line)};
     words_.pass(line);

@@ -11,6 +11,8 @@
 #include <fmt/format.h>
 #include <unistd.h>
 
+#include "passo/base/lower_case.hpp"
+
 namespace passo {
 namespace {
 
@@ -88,10 +90,7 @@ std::optional<WebPlace> web_place(const ServeArguments& arguments, int& code) {
   WebAccess access{.names = {"localhost", "127.0.0.1", "[::1]"}};
   const bool has_colon = address->host.find(':') != std::string::npos;
   access.names.push_back(has_colon ? "[" + address->host + "]" : address->host);
-  for (std::string name : arguments.http_names) {
-    std::ranges::transform(name, name.begin(), [](char c) { return c >= 'A' && c <= 'Z' ? char(c - 'A' + 'a') : c; });
-    access.names.push_back(std::move(name));
-  }
+  for (const std::string& name : arguments.http_names) access.names.push_back(lower_case(name));
   if (!arguments.http_token.empty()) {
     const auto token = read_token(arguments.http_token);
     if (!token || token->size() < shortest_token) {

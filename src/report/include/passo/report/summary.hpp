@@ -11,6 +11,7 @@
 
 #include "passo/geometry/axes.hpp"
 #include "passo/interpreter/operation.hpp"
+#include "passo/interpreter/saved_offsets.hpp"
 #include "passo/units/units.hpp"
 
 namespace passo {
@@ -162,9 +163,6 @@ struct RunSummary {
 
   Seconds time() const { return cutting_time + rapid_time + dwell_time; }
 };
-
-// "G54" … "G59", "G59.1" … "G59.3", for 1 to 9.
-std::string name_of_system(std::uint8_t system);
 
 std::string to_text(const RunSummary& summary, bool colour);
 // Pretty-printed, keys always in the same order, with a line end.

@@ -1,0 +1,43 @@
+// Numbers of the parameters that keep offsets (RS274/NGC 3.2.1, and LinuxCNC for the rotation), and the offsets read
+// from saved parameters. A work system has 20 numbers, of which ten count: the offsets of nine axes and the rotation.
+// Values are in the machine's unit and in degrees.
+#pragma once
+
+#include <string>
+
+#include "passo/geometry/axes.hpp"
+#include "passo/interpreter/parameter_file.hpp"
+
+namespace passo {
+
+inline constexpr int g92_active_parameter = 5210;
+inline constexpr int g92_parameter = 5211;
+inline constexpr int work_system_parameter = 5220;  // the system in force
+inline constexpr int work_systems = 9;
+// Of X. The other axes follow.
+constexpr int work_offset_parameter(int system) {
+  return 5201 + 20 * system;
+}
+constexpr int rotation_parameter(int system) {
+  return work_offset_parameter(system) + 9;
+}
+
+// 0 where it is not kept.
+inline double saved_value(const SavedParameters& saved, int number) {
+  const auto found = saved.find(number);
+  return found == saved.end() ? 0 : found->second;
+}
+// The nine values from the parameter of an X on.
+inline Point saved_point(const SavedParameters& saved, int first) {
+  Point point;
+  for (const Axis axis : all_axes) point[axis] = saved_value(saved, first + static_cast<int>(index_of(axis)));
+  return point;
+}
+
+// "G54" … "G59", "G59.1" … "G59.3", for 1 to 9.
+inline std::string name_of_system(int system) {
+  constexpr int last_whole = 6;  // G59
+  return system <= last_whole ? "G" + std::to_string(53 + system) : "G59." + std::to_string(system - last_whole);
+}
+
+}  // namespace passo
