@@ -81,6 +81,16 @@ TEST_F(ServeSafely, keeps_the_zero_of_a_machine_that_is_not_homed_over_restarts)
   EXPECT_EQ(counted_x(board), std::round(5 * steps_per_mm));
 }
 
+// The time of an emulated board passes only while the daemon waits for it. The journal of a job names the board's
+// session before the job begins.
+TEST_F(ServeSafely, begins_a_job_that_is_kept_on_an_emulated_board) {
+  const auto info = passo("board info --json sim:uno");
+  if (passo::test::lacks_an_emulator(info)) GTEST_SKIP() << info.err;
+  serve({"--data", path("data"), "-m", PASSO_SOURCE_DIR "/examples/machines/uno.toml", "--board", "sim:uno"});
+  run("G21 G90\nG1 X1 F3000\nM2\n", new_key());
+  EXPECT_EQ(json("GET", "/status")["place"]["x"], 1.0);
+}
+
 // The board was switched off and on: its counts begin anew, and the work's zero of before is somewhere else.
 TEST_F(ServeSafely, begins_no_program_where_the_board_has_lost_its_count) {
   const std::string machine = router_without_switches();

@@ -51,8 +51,11 @@ void ServeDaemon::stop() {
   hear_changes();
 }
 
+// A board that is greeted anew is waited for: the time of an emulated one passes only meanwhile.
 bool ServeDaemon::works() const {
-  return session_.busy() || session_.state() == MachineState::offline;
+  const BoardSession& board = session_.board();
+  const bool is_greeted = !board.ready() && !board.error();
+  return session_.busy() || session_.state() == MachineState::offline || is_greeted;
 }
 
 // While the machine is busy, its board is waited for in turn(). A look that may not sleep would only cost: each socket
