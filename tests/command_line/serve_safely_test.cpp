@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "kit/served_http.hpp"
+#include "kit/shared_case.hpp"
 #include <gmock/gmock.h>
 
 namespace {
@@ -199,31 +200,18 @@ TEST_F(ServeSafely, holds_by_each_door_beside_700_idle_connections) {
   close(page);
 }
 
-// The case of a user, step by step, where it is at hand.
+// The cases of users, where they are at hand.
 TEST_F(ServeSafely, shared_case_of_the_restart) {
-  const std::string file = std::string(PASSO_SOURCE_DIR) + "/../shared/cases/serve/restart-shifts-zero.sh";
-  if (!std::filesystem::exists(file)) GTEST_SKIP() << file << " is not there";
-  if (std::system("command -v jq curl >/dev/null") != 0) GTEST_SKIP() << "jq or curl is not there";
-  const std::string out = path("out");
-  const std::string command = "cd " PASSO_SOURCE_DIR " && PASSO=" PASSO_PROGRAM " XDG_STATE_HOME=" + path("state") +
-                              " bash " + file + " >" + out + " 2>&1";
-  EXPECT_EQ(std::system(command.c_str()) & 0x7F, 0);
-  const std::string said = passo::test::read(out);
-  const std::string last = said.substr(said.find("after G1 X0"));
-  EXPECT_THAT(last, HasSubstr("[32000,")) << said;
+  const auto said = passo::test::run_shared_case("restart-shifts-zero.sh", "jq curl", path("out"));
+  if (!said) GTEST_SKIP() << "no ../shared/cases, or no jq or curl";
+  EXPECT_THAT(said->substr(said->find("after G1 X0")), HasSubstr("[32000,")) << *said;
 }
 
 TEST_F(ServeSafely, shared_case_of_the_sender_that_has_left) {
-  const std::string file = std::string(PASSO_SOURCE_DIR) + "/../shared/cases/serve/line-state.sh";
-  if (!std::filesystem::exists(file)) GTEST_SKIP() << file << " is not there";
-  if (std::system("command -v jq curl nc >/dev/null") != 0) GTEST_SKIP() << "jq, curl or nc is not there";
-  const std::string out = path("out");
-  const std::string command = "cd " PASSO_SOURCE_DIR " && PASSO=" PASSO_PROGRAM " XDG_STATE_HOME=" + path("state") +
-                              " bash " + file + " >" + out + " 2>&1";
-  EXPECT_EQ(std::system(command.c_str()) & 0x7F, 0);
-  const std::string said = passo::test::read(out);
-  EXPECT_THAT(said, testing::StartsWith("[\"Idle\",")) << said;
-  EXPECT_THAT(said, HasSubstr("\"ticket\"")) << "a jog begins";
+  const auto said = passo::test::run_shared_case("line-state.sh", "jq curl nc", path("out"));
+  if (!said) GTEST_SKIP() << "no ../shared/cases, or no jq, curl or nc";
+  EXPECT_THAT(*said, testing::StartsWith("[\"Idle\","));
+  EXPECT_THAT(*said, HasSubstr("\"ticket\"")) << "a jog begins";
 }
 
 }  // namespace

@@ -4,6 +4,7 @@
 #include <string>
 
 #include "kit/command_line.hpp"
+#include "kit/shared_case.hpp"
 #include <arpa/inet.h>
 #include <gmock/gmock.h>
 #include <netinet/in.h>
@@ -121,12 +122,9 @@ TEST_F(Strangers, move_nothing_switch_nothing_and_shift_nothing) {
 
 // The case that found it, as it was found.
 TEST_F(Strangers, the_case_of_a_page_s_post) {
-  const std::string script = PASSO_SOURCE_DIR "/../shared/cases/serve/http-into-grbl-port.sh";
-  if (!std::filesystem::exists(script)) GTEST_SKIP() << "no ../shared/cases beside the checkout";
-  if (std::system("for tool in curl jq nc; do command -v $tool >/dev/null || exit 1; done") != 0)
-    GTEST_SKIP() << "needs curl, jq and nc";
-  ASSERT_EQ(std::system(("PASSO=" PASSO_PROGRAM " bash " + script + " >" + path("shown") + " 2>&1").c_str()), 0);
-  const std::string shown = read(path("shown"));
+  const auto said = passo::test::run_shared_case("http-into-grbl-port.sh", "curl jq nc", path("shown"));
+  if (!said) GTEST_SKIP() << "no ../shared/cases, or no curl, jq or nc";
+  const std::string& shown = *said;
   int found = 0;
   for (const char* const rests : {"[\"Idle\",0.0,0.0,\"off\"]\n", "[\"Idle\",0,0,\"off\"]\n"}) {  // jq 1.7, jq 1.6
     for (std::size_t at = shown.find(rests); at != std::string::npos; at = shown.find(rests, at + 1)) ++found;

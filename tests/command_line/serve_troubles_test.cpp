@@ -14,6 +14,7 @@
 
 #include "kit/seed.hpp"
 #include "kit/served_http.hpp"
+#include "kit/shared_case.hpp"
 #include <gmock/gmock.h>
 #include <sys/mount.h>
 #include <sys/resource.h>
@@ -288,15 +289,10 @@ TEST_F(ServeTroubles, keeps_names_in_their_own_letters) {
 
 // The case of a user, where it is at hand.
 TEST_F(ServeTroubles, shared_case_of_the_names) {
-  const std::string file = std::string(PASSO_SOURCE_DIR) + "/../shared/cases/serve/name-lost.sh";
-  if (!std::filesystem::exists(file)) GTEST_SKIP() << file << " is not there";
-  if (std::system("command -v jq curl >/dev/null") != 0) GTEST_SKIP() << "jq or curl is not there";
-  const std::string out = path("out");
-  const std::string command = "PASSO=" PASSO_PROGRAM " XDG_STATE_HOME=" + path("state") + " bash " + file + " >" + out;
-  EXPECT_EQ(std::system(command.c_str()) & 0x7F, 0);
-  const std::string said = passo::test::read(out);
+  const auto said = passo::test::run_shared_case("name-lost.sh", "jq curl", path("out"));
+  if (!said) GTEST_SKIP() << "no ../shared/cases, or no jq or curl";
   for (const char* name : {"-> my part.ngc", "-> Größe.ngc", "-> 零件.ngc", "-> a&b.ngc"})
-    EXPECT_THAT(said, HasSubstr(name));
+    EXPECT_THAT(*said, HasSubstr(name));
 }
 
 // A page that dies without a word: its computer has lost its power, or its network. It answers no ping.
