@@ -1,11 +1,19 @@
-# passo_module(NAME [TOGETHER] [SOURCES file…] [APART file…] [LIBRARIES target…] [TESTS file…] [TESTS_APART file…])
+# passo_module(NAME [EACH_ALONE] [SOURCES file…] [APART file…] [LIBRARIES target…] [TESTS file…] [TESTS_APART file…])
 #
 # One module of the street: a static library passo_NAME with its public headers under
 # include/passo/NAME/. What it may use is read from docs/layers.txt, the only place where that is written.
 # TESTS become one test program NAME_tests. They are compiled several at a time (a unity build); those whose own names
-# clash with the others' are TESTS_APART. With TOGETHER and PASSO_TOGETHER the same is done with SOURCES, except APART.
+# clash with the others' are TESTS_APART. With PASSO_TOGETHER the same is done with SOURCES, except APART; EACH_ALONE: all
+# of them are.
 # The presets dev and clang compile each file alone, so each includes what it uses.
-file(STRINGS "${PROJECT_SOURCE_DIR}/docs/layers.txt" PASSO_LAYER_LINES REGEX "^[a-z_]+\\*?:")
+#
+# PASSO_LAYER_LINES: its rows. PASSO_FOLDER_<module>: where a module is.
+file(STRINGS "${PROJECT_SOURCE_DIR}/docs/layers.txt" PASSO_LAYER_LINES REGEX "^[a-z_]+/[a-z_]+\\*?:")
+foreach(line IN LISTS PASSO_LAYER_LINES)
+  if(line MATCHES "^([a-z_]+/([a-z_]+))")
+    set(PASSO_FOLDER_${CMAKE_MATCH_2} "${PROJECT_SOURCE_DIR}/src/${CMAKE_MATCH_1}")
+  endif()
+endforeach()
 set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS "${PROJECT_SOURCE_DIR}/docs/layers.txt")
 
 set(together OFF)
@@ -16,11 +24,14 @@ option(PASSO_TOGETHER "Compile several sources of a module at a time" ${together
 
 # Files that are compiled together may shadow one another's names. Each alone may not: clang looks at them so.
 add_library(passo_together INTERFACE)
-target_compile_options(passo_together INTERFACE -Wno-shadow)
+target_compile_options(passo_together INTERFACE -Wno-shadow $<$<CXX_COMPILER_ID:GNU>:-Wno-subobject-linkage>)
+
+# What waits for people, files and lines, and tests: a third less time to compile, and they run hardly longer.
+set(PASSO_LESS_OPTIMISED $<$<CONFIG:Release>:-O1>)
 
 function(passo_layers module out)
   foreach(line IN LISTS PASSO_LAYER_LINES)
-    if(line MATCHES "^${module}\\*?: *(.*)$")
+    if(line MATCHES "^[a-z_]+/${module}\\*?: *(.*)$")
       string(REGEX MATCHALL "[a-z_]+" names "${CMAKE_MATCH_1}")
       set(${out} "${names}" PARENT_SCOPE)
       return()
@@ -30,7 +41,7 @@ function(passo_layers module out)
 endfunction()
 
 function(passo_module module)
-  cmake_parse_arguments(ARG "TOGETHER" "" "SOURCES;APART;LIBRARIES;TESTS;TESTS_APART" ${ARGN})
+  cmake_parse_arguments(ARG "EACH_ALONE" "" "SOURCES;APART;LIBRARIES;TESTS;TESTS_APART" ${ARGN})
   passo_layers(${module} layers)
   list(TRANSFORM layers PREPEND "passo_")
 
@@ -38,8 +49,11 @@ function(passo_module module)
     add_library(passo_${module} STATIC ${ARG_SOURCES} ${ARG_APART})
     target_include_directories(passo_${module} PUBLIC include)
     target_link_libraries(passo_${module} PUBLIC ${layers} PRIVATE ${ARG_LIBRARIES} passo_compiler)
-    if(ARG_TOGETHER AND PASSO_TOGETHER)
-      set_target_properties(passo_${module} PROPERTIES UNITY_BUILD ON UNITY_BUILD_BATCH_SIZE 6)
+    if(PASSO_FOLDER_${module} MATCHES "/src/(interfaces|draw)/")
+      target_compile_options(passo_${module} PRIVATE ${PASSO_LESS_OPTIMISED})
+    endif()
+    if(PASSO_TOGETHER AND NOT ARG_EACH_ALONE)
+      set_target_properties(passo_${module} PROPERTIES UNITY_BUILD ON UNITY_BUILD_BATCH_SIZE 24)
       set_source_files_properties(${ARG_APART} PROPERTIES SKIP_UNITY_BUILD_INCLUSION ON)
       target_link_libraries(passo_${module} PRIVATE passo_together)
     endif()
@@ -55,7 +69,7 @@ function(passo_module module)
 
   if(ARG_TESTS AND PASSO_BUILD_TESTS AND (NOT PASSO_SANITIZE OR module IN_LIST PASSO_SANITIZED_MODULES))
     passo_test(${module}_tests SOURCES ${ARG_TESTS} ${ARG_TESTS_APART} LIBRARIES passo_${module})
-    set_target_properties(${module}_tests PROPERTIES UNITY_BUILD ON UNITY_BUILD_BATCH_SIZE 6)
+    set_target_properties(${module}_tests PROPERTIES UNITY_BUILD ON UNITY_BUILD_BATCH_SIZE 12)
     set_source_files_properties(${ARG_TESTS_APART} PROPERTIES SKIP_UNITY_BUILD_INCLUSION ON)
   endif()
 endfunction()
@@ -89,15 +103,13 @@ function(passo_headers_once name)
   target_precompile_headers(${name} REUSE_FROM passo_standard_headers)
 endfunction()
 
-# Tests are optimised less than what they test: a third less time to compile, and they run hardly longer.
-set(PASSO_TEST_OPTIONS $<$<CONFIG:Release>:-O1>)
 
 # GoogleTest's headers, compiled once for all test programs.
 function(passo_test_headers)
   file(CONFIGURE OUTPUT "${PROJECT_BINARY_DIR}/test_headers.cpp" CONTENT "")
   add_library(passo_test_headers OBJECT "${PROJECT_BINARY_DIR}/test_headers.cpp")
   target_link_libraries(passo_test_headers PRIVATE GTest::gmock GTest::gtest passo_compiler)
-  target_compile_options(passo_test_headers PRIVATE ${PASSO_TEST_OPTIONS})
+  target_compile_options(passo_test_headers PRIVATE ${PASSO_LESS_OPTIMISED})
   target_precompile_headers(passo_test_headers PRIVATE <gmock/gmock.h> <gtest/gtest.h>)
 endfunction()
 
@@ -117,7 +129,7 @@ function(passo_test name)
   endif()
   add_executable(${name} ${ARG_SOURCES})
   target_link_libraries(${name} PRIVATE ${ARG_LIBRARIES} GTest::gmock GTest::gtest_main passo_compiler)
-  target_compile_options(${name} PRIVATE ${PASSO_TEST_OPTIONS})
+  target_compile_options(${name} PRIVATE ${PASSO_LESS_OPTIMISED})
   target_include_directories(${name} PRIVATE "${PROJECT_SOURCE_DIR}/tests")  # "kit/…", what tests share
   target_compile_definitions(${name} PRIVATE
     PASSO_SOURCE_DIR="${PROJECT_SOURCE_DIR}" PASSO_ONE_IN=${ARG_ONE_IN}

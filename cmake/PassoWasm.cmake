@@ -36,7 +36,7 @@ set(PASSO_WASM_OPTIONS
 # passo_wasm_module(NAME SOURCES module/file… [MODULES module…])
 #
 # The target NAME builds NAME.wasm in the current binary directory; its path is the target's property PASSO_WASM. SOURCES
-# are relative to src/; those of one module are compiled together, which takes a third of the time. MODULES are further
+# begin with their module; those of one module are compiled together, which takes a third of the time. MODULES are further
 # modules whose headers the sources include.
 function(passo_wasm_module name)
   cmake_parse_arguments(ARG "" "" "SOURCES;MODULES" ${ARGN})
@@ -44,7 +44,7 @@ function(passo_wasm_module name)
   list(TRANSFORM ARG_SOURCES REPLACE "/.*" "" OUTPUT_VARIABLE modules)
   list(REMOVE_DUPLICATES modules)
   foreach(module IN LISTS modules ARG_MODULES)
-    list(APPEND options "-I${PROJECT_SOURCE_DIR}/src/${module}/include")
+    list(APPEND options "-I${PASSO_FOLDER_${module}}/include")
   endforeach()
   if(PASSO_WERROR)
     list(APPEND options -Werror)
@@ -52,13 +52,13 @@ function(passo_wasm_module name)
   foreach(module IN LISTS modules)
     set(sources ${ARG_SOURCES})
     list(FILTER sources INCLUDE REGEX "^${module}/")
-    list(TRANSFORM sources PREPEND "${PROJECT_SOURCE_DIR}/src/")
+    list(TRANSFORM sources REPLACE "^${module}/" "${PASSO_FOLDER_${module}}/")
     list(TRANSFORM sources REPLACE "(.+)" "#include \"\\1\"\n" OUTPUT_VARIABLE lines)
     string(JOIN "" text ${lines})
     set(unit "${CMAKE_CURRENT_BINARY_DIR}/${name}.dir/${module}")
     file(CONFIGURE OUTPUT "${unit}.cpp" CONTENT "${text}" @ONLY)
     add_custom_command(OUTPUT "${unit}.o"
-      COMMAND ${CMAKE_CXX_COMPILER_LAUNCHER} "${PASSO_CLANG}" ${options} "-I${PROJECT_SOURCE_DIR}/src/${module}"
+      COMMAND ${CMAKE_CXX_COMPILER_LAUNCHER} "${PASSO_CLANG}" ${options} "-I${PASSO_FOLDER_${module}}"
               -MD -MF "${unit}.d" -MT "${unit}.o" -c "${unit}.cpp" -o "${unit}.o"
       DEPENDS "${unit}.cpp" ${sources} DEPFILE "${unit}.d" COMMENT "Compiling ${module} for WebAssembly" VERBATIM)
     list(APPEND objects "${unit}.o")

@@ -27,8 +27,8 @@ function precompressed(): Plugin {
 
 // The modules that CMake makes of the program's own sources. Without them the page has all but the lab and the stock.
 const modules = {
-  'lab.wasm': process.env.PASSO_LAB_WASM ?? '../build/release/src/lab/lab.wasm',
-  'stock.wasm': process.env.PASSO_STOCK_WASM ?? '../build/release/src/stock/stock.wasm',
+  'lab.wasm': process.env.PASSO_LAB_WASM ?? '../build/release/src/study/lab/lab.wasm',
+  'stock.wasm': process.env.PASSO_STOCK_WASM ?? '../build/release/src/cam/stock/stock.wasm',
 };
 function core(): Plugin {
   return {

@@ -47,12 +47,12 @@ test_packages=(
 # elsewhere brings its own npm.
 command -v node >/dev/null || build_packages+=(nodejs)
 command -v npm >/dev/null || build_packages+=(npm)
-pico_emulator=$(dirname "${BASH_SOURCE[0]}")/../src/emulator/pico
+pico_emulator=$(dirname "${BASH_SOURCE[0]}")/../src/board/emulator/pico
 fetch_pico_emulator() {
   [[ ${1-} != --build ]] || return 0
   # The lock file names the version and the sum of what it fetches.
   cmp --silent "$pico_emulator/package-lock.json" "$pico_emulator/node_modules/.passo-lock" && return 0
-  echo "+ npm ci in src/emulator/pico"
+  echo "+ npm ci in src/board/emulator/pico"
   if ! npm ci --prefix "$pico_emulator" --ignore-scripts --no-audit --no-fund --silent; then
     echo "The Pico's emulator could not be fetched: its tests are skipped, and sim:pico is refused." >&2
     return 0

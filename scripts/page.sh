@@ -31,11 +31,11 @@ if ! cmp --silent package-lock.json node_modules/.passo-lock; then
   cp package-lock.json node_modules/.passo-lock
 fi
 # Two modules are made of the program's sources, where CMake was set up and finds what it needs.
-if [[ -e ../build/release/build.ninja && -n $(find ../build/release/src/lab -name lab.dir 2>/dev/null) ]]; then
+if [[ -e ../build/release/build.ninja && -n $(find ../build/release/src/study/lab -name lab.dir 2>/dev/null) ]]; then
   cmake --build ../build/release --target lab stock >/dev/null || echo "lab.wasm, stock.wasm could not be built: the page lacks lab and stock." >&2
 fi
 # What has not changed is not built again.
-newest=$(find . ../build/release/src/lab/lab.wasm ../build/release/src/stock/stock.wasm -path ./node_modules -prune -o -type f -newer ../build/page/index.html -print 2>/dev/null | head -1 || true)
+newest=$(find . ../build/release/src/study/lab/lab.wasm ../build/release/src/cam/stock/stock.wasm -path ./node_modules -prune -o -type f -newer ../build/page/index.html -print 2>/dev/null | head -1 || true)
 if [[ ! -e ../build/page/index.html || -n $newest ]]; then
   npm run --silent build -- --logLevel warn
   touch ../build/page/index.html

@@ -42,7 +42,7 @@ TEST_F(Pico, says_what_it_is) {
   EXPECT_EQ(bench.status()->inputs, 0);
 }
 
-// The host of src/emulator/pico/usb_host.js greets the device as Linux does, and looks at each packet's number.
+// The host of src/board/emulator/pico/usb_host.js greets the device as Linux does, and looks at each packet's number.
 TEST_F(Pico, speaks_by_usb_as_by_its_uart) {
   std::mt19937_64 random(test::seed());
   PicoBench bench(PASSO_MOTION_PICO, 3, pico_bare, PicoSocket::usb);

@@ -17,13 +17,18 @@ std::map<std::string, Layer> layers_by_name() {
 }
 
 TEST(Layers, list_every_module_and_no_other) {
-  std::set<std::string> listed;
+  std::set<fs::path> listed;
+  std::set<std::string> names;
   for (const Layer& layer : layers()) {
-    EXPECT_TRUE(listed.insert(layer.module).second) << layer.module << " has two lines";
+    EXPECT_TRUE(names.insert(layer.module).second) << layer.module << " has two lines";
+    listed.insert(project_root() / layer.folder);
   }
-  std::set<std::string> existing;
-  for (const auto& entry : fs::directory_iterator(project_root() / "src")) {
-    if (entry.is_directory()) existing.insert(entry.path().filename().string());
+  std::set<fs::path> existing;
+  for (const auto& district : fs::directory_iterator(project_root() / "src")) {
+    if (!district.is_directory()) continue;
+    for (const auto& module : fs::directory_iterator(district)) {
+      if (module.is_directory()) existing.insert(module.path());
+    }
   }
   EXPECT_EQ(listed, existing);
 }
@@ -48,32 +53,48 @@ TEST(Layers, a_portable_module_stands_on_portable_ones_and_on_base) {
   }
 }
 
-TEST(Layers, every_include_of_a_module_is_on_its_line) {
+// What the module may include, and for its tests all below that.
+std::set<std::string> allowed_for(const std::map<std::string, Layer>& by_name, const std::string& module, bool test) {
+  std::set<std::string> allowed = {module};
+  for (const std::string& used : by_name.at(module).uses) {
+    if (test) allowed.merge(allowed_for(by_name, used, true));
+    allowed.insert(used);
+  }
+  return allowed;
+}
+
+TEST(Layers, every_include_of_a_module_is_on_its_line_and_nothing_else) {
   const auto by_name = layers_by_name();
+  std::map<std::string, std::set<std::string>> unused;
+  for (const auto& [name, layer] : by_name) unused[name] = {layer.uses.begin(), layer.uses.end()};
   std::size_t checked = 0;
   for (const fs::path& file : files_below("src", cpp_files)) {
     const std::string module = module_of(file);
     ASSERT_TRUE(by_name.contains(module)) << file;
+    const std::set<std::string> allowed = allowed_for(by_name, module, is_test(file));
     for (const Include& include : includes_of(file)) {
       if (!include.name.starts_with("passo/")) continue;
       const std::string used = std::next(fs::path(include.name).begin())->string();
-      const std::vector<std::string>& allowed = by_name.at(module).uses;
-      EXPECT_TRUE(used == module || std::ranges::find(allowed, used) != allowed.end())
-          << file.string() << ":" << include.line << ": " << module << " may not include " << used
-          << " (docs/layers.txt)";
+      EXPECT_TRUE(allowed.contains(used)) << file.string() << ":" << include.line << ": " << module
+                                          << " may not include " << used << " (docs/layers.txt)";
       EXPECT_TRUE(include.quoted) << file.string() << ":" << include.line << ": our own headers go in quotes";
+      if (!is_test(file)) unused[module].erase(used);
       ++checked;
     }
   }
   EXPECT_GT(checked, 30U);
+  for (const auto& [name, names] : unused) {
+    EXPECT_THAT(names, testing::IsEmpty()) << name << " does not include what its line lists";
+  }
 }
 
 TEST(Layers, what_is_not_public_is_included_by_its_own_module_only) {
+  const auto by_name = layers_by_name();
   for (const fs::path& file : files_below("src", cpp_files)) {
     for (const Include& include : includes_of(file)) {
       if (!include.quoted || include.name.starts_with("passo/")) continue;
       if (include.name.starts_with("kit/") && is_test(file)) continue;
-      const fs::path own = fs::path("src") / module_of(file);
+      const fs::path own = by_name.at(module_of(file)).folder;
       const fs::path beside = project_root() / file.parent_path() / include.name;
       const fs::path in_module = project_root() / own / include.name;
       const bool inside = fs::exists(beside) && !fs::relative(beside, project_root() / own).string().starts_with("..");

@@ -10,10 +10,10 @@ namespace fs = std::filesystem;
 
 struct Place {
   std::string module;
-  std::string where;  // "src/path/segment.hpp:60"
+  std::string where;  // "src/motion/path/segment.hpp:60"
 };
 
-// Names that two modules declare, with the places: "Action: src/chip/… src/path/…".
+// Names that two modules declare, with the places: "Action: src/board/chip/… src/motion/path/…".
 class Doubles {
  public:
   void add(const std::string& module, const std::string& file, std::string_view text) {

@@ -9,6 +9,13 @@ namespace {
 
 namespace fs = std::filesystem;
 
+fs::path folder_of(const std::string& module) {
+  for (const Layer& layer : layers()) {
+    if (layer.module == module) return layer.folder;
+  }
+  return {};
+}
+
 bool says_portable(const fs::path& file) {
   const std::string comment = opening_comment(file);
   return comment.find("Portable.") != std::string::npos || comment.find("Portable:") != std::string::npos;
@@ -26,7 +33,7 @@ TEST(Portable, every_file_of_a_starred_module_says_so) {
   std::size_t checked = 0;
   for (const Layer& layer : layers()) {
     if (!layer.portable) continue;
-    for (const fs::path& file : files_below("src/" + layer.module, {".hpp", ".cpp"})) {
+    for (const fs::path& file : files_below(layer.folder.string(), {".hpp", ".cpp"})) {
       if (is_test(file)) continue;
       EXPECT_TRUE(says_portable(file)) << file << " lacks \"Portable.\" in its opening comment";
       ++checked;
@@ -43,7 +50,7 @@ TEST(Portable, files_include_only_what_a_chip_has) {
       fs::path target = file.parent_path() / include.name;
       if (include.name.starts_with("passo/")) {
         const std::string module = std::next(fs::path(include.name).begin())->string();
-        target = fs::path("src") / module / "include" / include.name;
+        target = folder_of(module) / "include" / include.name;
       }
       EXPECT_TRUE(include.quoted && says_portable(target.lexically_normal()))
           << file.string() << ":" << include.line << ": " << include.name << " is not portable";

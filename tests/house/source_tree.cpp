@@ -71,7 +71,7 @@ std::string opening_comment(const fs::path& relative) {
 }
 
 std::string module_of(const fs::path& relative) {
-  return std::next(relative.begin())->string();
+  return std::next(relative.begin(), 2)->string();
 }
 
 bool is_test(const fs::path& relative) {
@@ -102,9 +102,9 @@ std::vector<Layer> layers() {
     const std::size_t colon = line.find(':');
     if (line.starts_with('#') || colon == std::string::npos) continue;
     Layer layer;
-    layer.module = line.substr(0, colon);
-    layer.portable = layer.module.ends_with('*');
-    if (layer.portable) layer.module.pop_back();
+    layer.portable = line[colon - 1] == '*';
+    layer.folder = fs::path("src") / line.substr(0, layer.portable ? colon - 1 : colon);
+    layer.module = layer.folder.filename().string();
     std::istringstream names(line.substr(colon + 1));
     for (std::string name; names >> name;) layer.uses.push_back(name);
     all.push_back(std::move(layer));

@@ -23,7 +23,7 @@ std::vector<std::string> lines_of(const std::filesystem::path& relative);
 
 // The comment that a source file opens with.
 std::string opening_comment(const std::filesystem::path& relative);
-// "wire" for src/wire/...
+// "wire" for src/board/wire/...
 std::string module_of(const std::filesystem::path& relative);
 bool is_test(const std::filesystem::path& relative);
 
@@ -37,6 +37,7 @@ std::vector<Include> includes_of(const std::filesystem::path& relative);
 // docs/layers.txt in its order.
 struct Layer {
   std::string module;
+  std::filesystem::path folder;  // src/motion/path
   bool portable = false;
   std::vector<std::string> uses;
 };

@@ -66,7 +66,7 @@ class Mutator {
 
 std::vector<std::string> good_programs() {
   std::vector<fs::path> paths;
-  for (const char* const folder : {"examples", "src/interpreter/tests/golden"}) {
+  for (const char* const folder : {"examples", "src/language/interpreter/tests/golden"}) {
     for (const auto& entry : fs::directory_iterator(fs::path(PASSO_SOURCE_DIR) / folder)) {
       if (entry.path().extension() == ".ngc") paths.push_back(entry.path());
     }

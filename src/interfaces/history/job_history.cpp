@@ -1,0 +1,324 @@
+#include "passo/history/job_history.hpp"
+
+#include <algorithm>
+#include <utility>
+
+#include <fmt/format.h>
+#include <sqlite3.h>
+
+namespace passo {
+namespace {
+
+constexpr int version = 1;
+constexpr const char* tables = R"(
+  CREATE TABLE jobs (
+    id INTEGER PRIMARY KEY AUTOINCREMENT, name TEXT NOT NULL, dialect TEXT NOT NULL, bytes INTEGER NOT NULL,
+    state INTEGER NOT NULL, why TEXT NOT NULL DEFAULT '', queued_at REAL NOT NULL, begun_at REAL NOT NULL DEFAULT 0,
+    ended_at REAL NOT NULL DEFAULT 0, program BLOB);
+  CREATE INDEX jobs_by_state ON jobs (state, id);
+  CREATE TABLE alarms (id INTEGER PRIMARY KEY AUTOINCREMENT, at REAL NOT NULL, words TEXT NOT NULL);
+  PRAGMA user_version = 1;)";
+// Younger than the others, and of no use to older programs: the version stays.
+constexpr const char* table_of_waits = R"(
+  CREATE TABLE IF NOT EXISTS waits (
+    job INTEGER NOT NULL, number INTEGER NOT NULL, at REAL NOT NULL, code TEXT NOT NULL, line INTEGER NOT NULL,
+    tool INTEGER NOT NULL, words TEXT NOT NULL, PRIMARY KEY (job, number)) WITHOUT ROWID;)";
+constexpr std::int64_t no_tool = -1;
+
+constexpr std::int64_t number_of(HistoryState state) {
+  return static_cast<std::int64_t>(state);
+}
+
+// One statement. Values are bound in order, and columns read in order.
+class Statement {
+ public:
+  Statement(sqlite3* database, const char* sql) {
+    sqlite3_prepare_v2(database, sql, -1, &statement_, nullptr);
+  }
+  Statement(const Statement&) = delete;
+  Statement& operator=(const Statement&) = delete;
+  ~Statement() { sqlite3_finalize(statement_); }
+
+  Statement& with(std::int64_t value) {
+    sqlite3_bind_int64(statement_, ++bound_, value);
+    return *this;
+  }
+  Statement& with(double value) {
+    sqlite3_bind_double(statement_, ++bound_, value);
+    return *this;
+  }
+  // The text outlives the statement.
+  Statement& with(std::string_view value) {
+    sqlite3_bind_text64(statement_, ++bound_, value.data(), value.size(), SQLITE_STATIC, SQLITE_UTF8);
+    return *this;
+  }
+  Statement& with_bytes(std::string_view value) {
+    sqlite3_bind_blob64(statement_, ++bound_, value.data(), value.size(), SQLITE_STATIC);
+    return *this;
+  }
+
+  // True: there is a row.
+  bool step() {
+    read_ = -1;
+    return statement_ != nullptr && sqlite3_step(statement_) == SQLITE_ROW;
+  }
+  bool run() { return statement_ != nullptr && sqlite3_step(statement_) == SQLITE_DONE; }
+
+  std::int64_t number() { return sqlite3_column_int64(statement_, ++read_); }
+  double real() { return sqlite3_column_double(statement_, ++read_); }
+  std::string text() {
+    const void* const bytes = sqlite3_column_blob(statement_, ++read_);
+    const auto size = static_cast<std::size_t>(sqlite3_column_bytes(statement_, read_));
+    return bytes == nullptr ? std::string() : std::string(static_cast<const char*>(bytes), size);
+  }
+
+ private:
+  sqlite3_stmt* statement_ = nullptr;
+  int bound_ = 0;
+  int read_ = -1;
+};
+
+}  // namespace
+
+std::string_view name_of(HistoryState state) {
+  constexpr std::string_view names[] = {"queued", "running", "done", "stopped", "failed", "interrupted"};
+  return names[static_cast<std::size_t>(state)];
+}
+
+Result<std::unique_ptr<JobHistory>, std::string> JobHistory::open(const std::string& file) {
+  sqlite3* database = nullptr;
+  const int flags = SQLITE_OPEN_READWRITE | SQLITE_OPEN_CREATE | SQLITE_OPEN_NOMUTEX | SQLITE_OPEN_NOFOLLOW;
+  const int opened = sqlite3_open_v2(file.c_str(), &database, flags, nullptr);
+  std::unique_ptr<JobHistory> history(new JobHistory(database));
+  const auto failed = [&](const std::string& reason) { return Failure{file + ": " + reason}; };
+  const auto reason = [&] {
+    return std::string(database != nullptr ? sqlite3_errmsg(database) : "no memory");
+  };
+  if (opened != SQLITE_OK) return failed(reason());
+  sqlite3_db_config(database, SQLITE_DBCONFIG_DEFENSIVE, 1, nullptr);
+  // Another program that writes would be at the same machine. The lock lasts until the end.
+  if (!history->run("PRAGMA locking_mode = EXCLUSIVE; PRAGMA journal_mode = WAL; PRAGMA synchronous = NORMAL;"
+                    "PRAGMA wal_autocheckpoint = 0; BEGIN IMMEDIATE; COMMIT;")) {
+    return failed(reason());
+  }
+  {
+    Statement check(database, "PRAGMA quick_check(1)");
+    if (!check.step()) return failed(reason());
+    if (const std::string found = check.text(); found != "ok") return failed("it is damaged: " + found);
+  }
+  std::int64_t known = 0;
+  {
+    Statement of(database, "PRAGMA user_version");
+    if (of.step()) known = of.number();
+  }
+  if (known > version) return failed(fmt::format("it is of version {}, and this program knows {}", known, version));
+  if (known == 0 && !history->run(fmt::format("BEGIN;{}COMMIT;", tables).c_str())) return failed(reason());
+  if (!history->run(table_of_waits)) return failed(reason());
+  Statement interrupt(database,
+                      "UPDATE jobs SET state = ?, why = 'passo serve was killed, or its computer lost its power'"
+                      " WHERE state = ?");
+  interrupt.with(number_of(HistoryState::interrupted)).with(number_of(HistoryState::running));
+  if (!interrupt.run()) return failed(reason());
+  return history;
+}
+
+JobHistory::~JobHistory() {
+  keep();
+  sqlite3_close_v2(database_);
+}
+
+bool JobHistory::run(const char* sql) const {
+  return sqlite3_exec(database_, sql, nullptr, nullptr, nullptr) == SQLITE_OK;
+}
+
+bool JobHistory::judge(bool done) {
+  trouble_ = done ? std::string() : sqlite3_errmsg(database_);
+  return done;
+}
+
+std::optional<std::int64_t> JobHistory::insert(HistoryState state, std::string_view name, std::string_view dialect,
+                                               std::string_view program, double now) {
+  Statement insert(database_,
+                   "INSERT INTO jobs (name, dialect, bytes, state, queued_at, begun_at, program)"
+                   " VALUES (?, ?, ?, ?, ?, ?, ?)");
+  insert.with(name).with(dialect).with(static_cast<std::int64_t>(program.size())).with(number_of(state)).with(now);
+  insert.with(state == HistoryState::running ? now : 0.0).with_bytes(program);
+  is_kept_ = false;
+  if (!judge(insert.run())) return {};
+  return sqlite3_last_insert_rowid(database_);
+}
+
+std::optional<std::int64_t> JobHistory::add(std::string_view name, std::string_view dialect, std::string_view program,
+                                            double now) {
+  Statement count(database_, "SELECT count(*) FROM jobs WHERE state = ?");
+  count.with(number_of(HistoryState::queued));
+  if (!judge(count.step()) || count.number() >= static_cast<std::int64_t>(most_queued)) return {};
+  return insert(HistoryState::queued, name, dialect, program, now);
+}
+
+std::optional<std::int64_t> JobHistory::add_running(std::string_view name, std::string_view dialect,
+                                                    std::string_view program, double now) {
+  return insert(HistoryState::running, name, dialect, program, now);
+}
+
+std::vector<HistoryJob> JobHistory::jobs(const char* where, std::int64_t value) const {
+  const std::string sql =
+      fmt::format("SELECT id, name, dialect, bytes, state, why, queued_at, begun_at, ended_at FROM jobs {}", where);
+  Statement select(database_, sql.c_str());
+  select.with(value);
+  std::vector<HistoryJob> found;
+  while (select.step()) {
+    HistoryJob& job = found.emplace_back();
+    job.id = select.number();
+    job.name = select.text();
+    job.dialect = select.text();
+    job.bytes = static_cast<std::uint64_t>(select.number());
+    const std::int64_t state = select.number();
+    const bool is_known = state >= 0 && state <= number_of(HistoryState::interrupted);
+    job.state = is_known ? static_cast<HistoryState>(state) : HistoryState::interrupted;
+    job.why = select.text();
+    job.queued_at = select.real();
+    job.begun_at = select.real();
+    job.ended_at = select.real();
+    job.waits = waits_of(job.id);
+    const auto end = std::ranges::find(unwritten_, job.id, &End::id);
+    if (end == unwritten_.end()) continue;
+    job.state = end->state;
+    job.why = end->why;
+    job.ended_at = end->at;
+  }
+  return found;
+}
+
+std::optional<HistoryJob> JobHistory::find(std::int64_t id) const {
+  std::vector<HistoryJob> found = jobs("WHERE id = ?", id);
+  return found.empty() ? std::nullopt : std::optional(std::move(found.front()));
+}
+
+std::optional<std::string> JobHistory::program_of(std::int64_t id) const {
+  Statement select(database_, "SELECT program FROM jobs WHERE id = ? AND program IS NOT NULL");
+  select.with(id);
+  return select.step() ? std::optional(select.text()) : std::nullopt;
+}
+
+bool JobHistory::begin(std::int64_t id, double now) {
+  is_kept_ = false;
+  Statement update(database_, "UPDATE jobs SET state = ?, begun_at = ?, why = '', ended_at = 0 WHERE id = ?");
+  update.with(number_of(HistoryState::running)).with(now).with(id);
+  if (!judge(update.run())) return false;
+  std::erase_if(unwritten_, [id](const End& one) { return one.id == id; });
+  return sqlite3_changes(database_) == 1;
+}
+
+bool JobHistory::end(std::int64_t id, HistoryState state, std::string_view why, double now) {
+  if (!find(id)) return false;
+  End end{.id = id, .state = state, .why = std::string(why), .at = now};
+  if (write(end)) return true;
+  unwritten_.push_back(std::move(end));
+  return false;
+}
+
+bool JobHistory::write(const End& end) {
+  is_kept_ = false;
+  Statement update(database_,
+                   "UPDATE jobs SET state = ?1, why = ?2, ended_at = ?3,"
+                   " program = CASE WHEN ?1 = ?4 THEN NULL ELSE program END WHERE id = ?5");
+  update.with(number_of(end.state)).with(end.why).with(end.at).with(number_of(HistoryState::done)).with(end.id);
+  if (!judge(update.run())) return false;
+  // What is too old is forgotten the next time, if not now.
+  Statement forget(database_, "DELETE FROM jobs WHERE state > 1 AND id <= (SELECT max(id) FROM jobs) - ?");
+  Statement forget_waits(database_, "DELETE FROM waits WHERE job < (SELECT min(id) FROM jobs)");
+  static_cast<void>(forget.with(most_ended).run() && forget_waits.run());
+  return true;
+}
+
+bool JobHistory::note_wait(std::int64_t id, const HistoryWait& wait) {
+  is_kept_ = false;
+  Statement count(database_, "SELECT count(*) FROM waits WHERE job = ?");
+  const std::int64_t noted = count.with(id).step() ? count.number() : most_waits;
+  if (noted >= most_waits) return false;
+  Statement insert(database_,
+                   "INSERT INTO waits (job, number, at, code, line, tool, words) VALUES (?, ?, ?, ?, ?, ?, ?)");
+  insert.with(id).with(noted).with(wait.at).with(wait.code).with(std::int64_t{wait.line});
+  return judge(insert.with(std::int64_t{wait.tool.value_or(no_tool)}).with(wait.words).run());
+}
+
+std::vector<HistoryWait> JobHistory::waits_of(std::int64_t id) const {
+  Statement select(database_, "SELECT at, code, line, tool, words FROM waits WHERE job = ? ORDER BY number");
+  select.with(id);
+  std::vector<HistoryWait> found;
+  while (select.step()) {
+    HistoryWait& wait = found.emplace_back();
+    wait.at = select.real();
+    wait.code = select.text();
+    wait.line = static_cast<std::uint32_t>(select.number());
+    const std::int64_t tool = select.number();
+    if (tool != no_tool) wait.tool = static_cast<std::int32_t>(tool);
+    wait.words = select.text();
+  }
+  return found;
+}
+
+bool JobHistory::remove(std::int64_t id) {
+  is_kept_ = false;
+  Statement gone(database_, "DELETE FROM jobs WHERE id = ? AND state = ?");
+  gone.with(id).with(number_of(HistoryState::queued));
+  return judge(gone.run()) && sqlite3_changes(database_) == 1;
+}
+
+bool JobHistory::note_alarm(std::string_view words, double now) {
+  HistoryAlarm alarm{.at = now, .words = std::string(words)};
+  if (write(alarm)) return true;
+  constexpr std::size_t most_unwritten = 1000;
+  if (unwritten_alarms_.size() < most_unwritten) unwritten_alarms_.push_back(std::move(alarm));
+  return false;
+}
+
+bool JobHistory::write(const HistoryAlarm& alarm) {
+  is_kept_ = false;
+  Statement insert(database_, "INSERT INTO alarms (at, words) VALUES (?, ?)");
+  if (!judge(insert.with(alarm.at).with(alarm.words).run())) return false;
+  Statement forget(database_, "DELETE FROM alarms WHERE id <= (SELECT max(id) FROM alarms) - ?");
+  static_cast<void>(forget.with(most_alarms).run());
+  return true;
+}
+
+std::vector<HistoryJob> JobHistory::queue() const {
+  return jobs("WHERE state = ? ORDER BY id", number_of(HistoryState::queued));
+}
+
+// A job that a kill has broken off has no end: it counts from its beginning.
+std::vector<HistoryJob> JobHistory::ended(std::int64_t most) const {
+  std::vector<HistoryJob> found = jobs("WHERE state > 1 ORDER BY max(ended_at, begun_at) DESC, id DESC LIMIT ?", most);
+  for (const End& one : unwritten_) {
+    if (auto job = find(one.id)) found.insert(found.begin(), std::move(*job));
+  }
+  if (found.size() > static_cast<std::size_t>(most)) found.resize(static_cast<std::size_t>(most));
+  return found;
+}
+
+std::vector<HistoryAlarm> JobHistory::alarms(std::int64_t most) const {
+  Statement select(database_, "SELECT at, words FROM alarms ORDER BY id DESC LIMIT ?");
+  select.with(most);
+  // Newest first, also those that are not written yet.
+  std::vector<HistoryAlarm> found(unwritten_alarms_.rbegin(), unwritten_alarms_.rend());
+  while (select.step()) {
+    HistoryAlarm& alarm = found.emplace_back();
+    alarm.at = select.real();
+    alarm.words = select.text();
+  }
+  return found;
+}
+
+bool JobHistory::keep() {
+  while (!unwritten_.empty() && write(unwritten_.front())) unwritten_.erase(unwritten_.begin());
+  while (!unwritten_alarms_.empty() && write(unwritten_alarms_.front())) {
+    unwritten_alarms_.erase(unwritten_alarms_.begin());
+  }
+  if (is_kept_) return !is_behind();
+  is_kept_ =
+      sqlite3_wal_checkpoint_v2(database_, nullptr, SQLITE_CHECKPOINT_TRUNCATE, nullptr, nullptr) == SQLITE_OK;
+  return is_kept_ && !is_behind();
+}
+
+}  // namespace passo
