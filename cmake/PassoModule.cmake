@@ -68,9 +68,7 @@ function(passo_module module)
   endif()
 
   if(ARG_TESTS AND PASSO_BUILD_TESTS AND (NOT PASSO_SANITIZE OR module IN_LIST PASSO_SANITIZED_MODULES))
-    passo_test(${module}_tests SOURCES ${ARG_TESTS} ${ARG_TESTS_APART} LIBRARIES passo_${module})
-    set_target_properties(${module}_tests PROPERTIES UNITY_BUILD ON UNITY_BUILD_BATCH_SIZE 12)
-    set_source_files_properties(${ARG_TESTS_APART} PROPERTIES SKIP_UNITY_BUILD_INCLUSION ON)
+    passo_test(${module}_tests SOURCES ${ARG_TESTS} APART ${ARG_TESTS_APART} LIBRARIES passo_${module})
   endif()
 endfunction()
 
@@ -114,21 +112,26 @@ function(passo_test_headers)
 endfunction()
 
 
-# passo_test(NAME SOURCES file… LIBRARIES target… [LABELS label…] [DEFINITIONS name=value…] [ONE_IN number] [COST seconds]
+# passo_test(NAME SOURCES file… [APART file…] LIBRARIES target… [LABELS label…] [DEFINITIONS name=value…] [ONE_IN number] [COST seconds]
 #            [ALONE])
 #
-# A GoogleTest program. Tests without a label are fast: a developer runs them at every change. ONE_IN: of the trials of
+# A GoogleTest program; APART as for passo_module. Tests without a label are fast: a developer runs them at every change. ONE_IN: of the trials of
 # random tests they make one in so many (tests/kit/in_full.hpp). COST: how long they take, as for passo_slow_test.
 # ALONE: no other test runs beside it.
 function(passo_test name)
-  cmake_parse_arguments(ARG "ALONE" "ONE_IN;COST" "SOURCES;LIBRARIES;LABELS;DEFINITIONS" ${ARGN})
+  cmake_parse_arguments(ARG "ALONE" "ONE_IN;COST" "SOURCES;APART;LIBRARIES;LABELS;DEFINITIONS" ${ARGN})
   if(PASSO_SANITIZE)
     set(ARG_ONE_IN 8)  # a trial takes ten times as long
   elseif(PASSO_TESTS_IN_FULL OR NOT ARG_ONE_IN)
     set(ARG_ONE_IN 1)
   endif()
-  add_executable(${name} ${ARG_SOURCES})
-  target_link_libraries(${name} PRIVATE ${ARG_LIBRARIES} GTest::gmock GTest::gtest_main passo_compiler)
+  add_executable(${name} ${ARG_SOURCES} ${ARG_APART})
+  if(PASSO_TOGETHER)
+    set_target_properties(${name} PROPERTIES UNITY_BUILD ON UNITY_BUILD_BATCH_SIZE 12)
+    set_source_files_properties(${ARG_APART} PROPERTIES SKIP_UNITY_BUILD_INCLUSION ON)
+  endif()
+  target_link_libraries(${name} PRIVATE ${ARG_LIBRARIES} GTest::gmock GTest::gtest_main passo_compiler
+    $<$<BOOL:${PASSO_TOGETHER}>:passo_together>)
   target_compile_options(${name} PRIVATE ${PASSO_LESS_OPTIMISED})
   target_include_directories(${name} PRIVATE "${PROJECT_SOURCE_DIR}/tests")  # "kit/…", what tests share
   target_compile_definitions(${name} PRIVATE

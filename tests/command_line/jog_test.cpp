@@ -8,19 +8,19 @@ namespace {
 using passo::test::Outcome;
 using testing::HasSubstr;
 
-const std::string router = " -m " + std::string(PASSO_SOURCE_DIR) + "/examples/machines/router.toml ";
+const std::string on_router = " -m " + std::string(PASSO_SOURCE_DIR) + "/examples/machines/router.toml ";
 
 class JogCommand : public passo::test::CommandLine {
  protected:
   nlohmann::json jog(const std::string& words) const {
-    const Outcome outcome = passo("jog" + router + words + " --json");
+    const Outcome outcome = passo("jog" + on_router + words + " --json");
     EXPECT_EQ(outcome.code, 0) << outcome.err;
     return nlohmann::json::parse(outcome.out, nullptr, false);
   }
 };
 
 TEST_F(JogCommand, goes_by_a_distance_straight_and_says_where_it_rests) {
-  const Outcome outcome = passo("jog" + router + "X+3 Y-4 -F 1200");
+  const Outcome outcome = passo("jog" + on_router + "X+3 Y-4 -F 1200");
   EXPECT_EQ(outcome.code, 0) << outcome.err;
   EXPECT_THAT(outcome.out, HasSubstr(" in X3.000 Y-4.000 Z0.000 (machine): the distance is done\n"));
   const nlohmann::json json = jog("X2.5");
@@ -53,7 +53,7 @@ TEST_F(JogCommand, brakes_when_the_lease_is_not_renewed) {
 TEST_F(JogCommand, refuses_what_is_no_jog) {
   for (const char* wrong : {"", "X", "A+1", "X+1 X-1", "X+ Y3", "Xfast", "X0", "X1 -F 0", "X1 -F nan",
                             "X1 --lease 0.01", "X1 --lease 60", "X1 --held -1"}) {
-    EXPECT_EQ(passo("jog" + router + wrong).code, 2) << wrong;
+    EXPECT_EQ(passo("jog" + on_router + wrong).code, 2) << wrong;
   }
   EXPECT_EQ(passo("jog X1 -m " + write("bad.toml", "")).code, 3);
 }

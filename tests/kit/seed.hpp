@@ -15,4 +15,10 @@ inline std::uint64_t seed() {
   return value;
 }
 
+// How many trials a random test makes: PASSO_RUNS, or as many as a developer waits for.
+inline int trials(int usual) {
+  const char* const given = std::getenv("PASSO_RUNS");
+  return given != nullptr ? std::atoi(given) : usual;
+}
+
 }  // namespace passo::test

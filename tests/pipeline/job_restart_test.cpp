@@ -251,13 +251,8 @@ void die_at_random(std::uint64_t seed) {
   expect_the_whole_way(bench);
 }
 
-int trials(int usual) {
-  const char* const wanted = std::getenv("PASSO_RUNS");
-  return wanted != nullptr ? std::atoi(wanted) : usual;
-}
-
 TEST(JobRestartAtRandom, ends_as_if_nothing_had_been) {
-  for (int i = 0; i < trials(12) && !testing::Test::HasFailure(); ++i) {
+  for (int i = 0; i < test::trials(12) && !testing::Test::HasFailure(); ++i) {
     SCOPED_TRACE(fmt::format("PASSO_SEED={}, trial {}", seed(), i));
     die_at_random(seed() + static_cast<std::uint64_t>(i));
   }

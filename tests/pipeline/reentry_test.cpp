@@ -207,13 +207,8 @@ void cut_at_random(std::uint64_t seed) {
   EXPECT_EQ(bench.truth(), whole_pocket().truth);
 }
 
-int trials(int usual) {
-  const char* const wanted = std::getenv("PASSO_RUNS");
-  return wanted != nullptr ? std::atoi(wanted) : usual;
-}
-
 TEST(ReenteredAtRandom, makes_the_same_part) {
-  for (int i = 0; i < trials(3) && !testing::Test::HasFailure(); ++i) {
+  for (int i = 0; i < test::trials(3) && !testing::Test::HasFailure(); ++i) {
     SCOPED_TRACE(fmt::format("PASSO_SEED={}, trial {}", seed(), i));
     cut_at_random(seed() + static_cast<std::uint64_t>(i));
   }

@@ -16,7 +16,7 @@ using test::SessionRun;
 using test::start_of;
 using test::xyz;
 
-constexpr const char* along = "G21 G90 G1 F1200\nX30\nX0 Y10\nM2\n";
+constexpr const char* around = "G21 G90 G1 F1200\nX30\nX0 Y10\nM2\n";
 
 class Session : public testing::TestWithParam<bool> {
  protected:
@@ -33,7 +33,7 @@ Ended whole_run(const test::SessionOn& on) {
   SessionRun run(test::short_router(), on);
   run.make_ready();
   const Seconds begun = run.now();
-  run.taken(start_of(along));
+  run.taken(start_of(around));
   run.to_end();
   return {.steps = run.log.steps, .time = (run.now() - begun).value()};
 }
@@ -42,7 +42,7 @@ TEST_P(Session, holds_a_program_on_its_path_and_resumes_it) {
   const Ended whole = whole_run(on());
   SessionRun run(test::short_router(), on());
   run.make_ready();
-  const Ticket program = run.taken(start_of(along));
+  const Ticket program = run.taken(start_of(around));
   run.pass(Seconds(0.7));
   const Ticket hold = run.taken(request::Hold{});
   EXPECT_EQ(run.state(), MachineState::hold);
@@ -71,7 +71,7 @@ TEST_P(Session, holds_a_program_on_its_path_and_resumes_it) {
 TEST_P(Session, answers_a_hold_that_is_called_off_before_the_machine_rests) {
   SessionRun run(test::short_router(), on());
   run.make_ready();
-  const Ticket program = run.taken(start_of(along));
+  const Ticket program = run.taken(start_of(around));
   run.pass(Seconds(0.7));
   const Ticket hold = run.taken(request::Hold{});
   run.taken(request::Resume{});
@@ -159,7 +159,7 @@ TEST_P(Session, overrides_make_a_program_slower_and_hold_it_at_nothing) {
   run.make_ready();
   run.taken(request::Override{.feed = 0.5});
   const Seconds begun = run.now();
-  const Ticket program = run.taken(start_of(along));
+  const Ticket program = run.taken(start_of(around));
   run.pass(Seconds(1));
   run.taken(request::Override{.feed = 0.0});
   ASSERT_TRUE(run.turn_until(MachineState::hold, Seconds(0.5)));

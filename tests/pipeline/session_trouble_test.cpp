@@ -18,7 +18,7 @@ using test::SessionRun;
 using test::start_of;
 using test::xyz;
 
-constexpr const char* along = "G21 G90 M3 S1000 G1 F1200\nX30\nX0 Y10\nM2\n";
+constexpr const char* cutting = "G21 G90 M3 S1000 G1 F1200\nX30\nX0 Y10\nM2\n";
 // More than a line is waited for.
 constexpr Seconds long_cut{3};
 
@@ -57,7 +57,7 @@ TEST_P(Trouble, an_emergency_stop_is_an_alarm_until_it_is_released_and_reset) {
     Ticket program = 0;
     Ticket hold = 0;
     if (amid_run) {
-      program = run.taken(start_of(along));
+      program = run.taken(start_of(cutting));
       run.pass(Seconds(0.7));
       hold = run.taken(request::Hold{});
     }
@@ -117,7 +117,7 @@ TEST(LineTrouble, a_cut_is_a_fault_and_after_a_reset_the_place_is_what_the_board
     run.taken(request::Home{});
     run.to_end();
     Ticket program = 0;
-    if (at >= 0) program = run.taken(start_of(along));
+    if (at >= 0) program = run.taken(start_of(cutting));
     if (at > 0) run.pass(Seconds(at));
     run.line().cut(run.now(), long_cut);
     ASSERT_TRUE(run.turn_until(MachineState::fault, Seconds(3)));
@@ -151,7 +151,7 @@ TEST(LineTrouble, a_standstill_amid_motion_is_an_alarm_and_the_place_is_not_trus
     run.make_ready();
     run.taken(request::Home{});
     run.to_end();
-    const Ticket program = run.taken(start_of(along));
+    const Ticket program = run.taken(start_of(cutting));
     run.pass(Seconds(at));
     ASSERT_EQ(run.board().counts().outputs.switches, unsigned{spindle_on});
     run.board().stand_still(Ticks{2000});
@@ -201,7 +201,7 @@ TEST(LineTrouble, a_standstill_ends_a_jog_a_homing_cycle_a_probe_move_and_a_stre
 TEST(LineTrouble, a_reset_that_comes_to_a_line_that_is_still_cut_forgets_nothing) {
   SessionRun run(test::short_router(), {.line = true, .start = {.place = Point(), .trust = Trust::homed}});
   run.make_ready();
-  run.taken(start_of(along));
+  run.taken(start_of(cutting));
   run.pass(Seconds(0.7));
   run.line().cut(run.now(), Seconds(10));
   ASSERT_TRUE(run.turn_until(MachineState::fault, Seconds(3)));
@@ -238,7 +238,7 @@ TEST(LineTrouble, a_reset_out_of_idle_keeps_the_place_that_the_counts_prove) {
 TEST(LineTrouble, a_short_cut_is_survived) {
   SessionRun run(test::short_router(), {.line = true});
   run.make_ready();
-  const Ticket program = run.taken(start_of(along));
+  const Ticket program = run.taken(start_of(cutting));
   run.pass(Seconds(0.7));
   run.line().cut(run.now(), Seconds(1));
   run.to_end();
@@ -404,7 +404,7 @@ Request any_request(test::Random& random) {
   const auto place = [&] { return xyz(random.between(-10, 10), random.between(-10, 10), random.between(-10, 10)); };
   switch (static_cast<int>(random.between(0, 17))) {
     case 0: return start_of("G21 G90 M3 S500 G1 F1800 X5\nM0\nX-5 Y3\nT1 M6\nG4 P0.5\nG1 Y-5\nM2\n");
-    case 1: return start_of(along);
+    case 1: return start_of(cutting);
     case 2: return start_of("G21 G90 M3 S500 G38.3 Z-1 F300\nG53 G1 X#5061 F900\nX9999\nM2\n");  // fails
     case 3:
     case 4:
@@ -413,7 +413,7 @@ Request any_request(test::Random& random) {
     case 5: return request::RenewLease{};
     case 6: return request::Home{};
     case 7: return request::Probe{.target = place(), .speed = MmPerSecond(10), .toward = random.chance(0.5)};
-    case 8: return request::Check{.program = ProgramReader::from_text("t", along), .options = {}};
+    case 8: return request::Check{.program = ProgramReader::from_text("t", cutting), .options = {}};
     case 9: return request::Hold{};
     case 10: return request::Resume{};
     case 11: return request::Stop{};

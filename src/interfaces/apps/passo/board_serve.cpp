@@ -42,7 +42,7 @@ class RealTime {
     plays_ = machine_.elapsed() > before;
   }
   // How long to wait for the host until the next look.
-  Seconds patience() const { return plays_ ? look : idle_look; }
+  Seconds patience() const { return plays_ ? look_every : idle_look; }
 
  private:
   Seconds elapsed() const {
