@@ -392,5 +392,20 @@ TEST(ApiTouchOff, a_probing_cycle_that_fails_leaves_the_job_waiting) {
   EXPECT_EQ(two.run.get("/status")["job"]["state"], "done");
 }
 
+// The cycle is a job of its own, which begins elsewhere: the job that waits keeps where its path begins, and what it
+// has probed.
+TEST(ApiTouchOff, after_a_probing_cycle_a_program_in_steps_of_its_own_goes_on_where_it_waited) {
+  TwoTools two;
+  two.run_to_second_tool("G21 G91 F1200\nT1 M6\nG1 X10 Z-1\nG1 X-4\nT2 M6\nG1 X2\nG1 Z1\nM2\n");
+  jog(two.run, R"("x": 1)", 20);
+  two.run.post("/probe", R"({"cycle": "surface", "reach": 3})");
+  ASSERT_EQ(two.run.status, 202U);
+  ASSERT_TRUE(two.run.turn_until([&] { return two.run.get("/status")["job"]["state"] == "failed"; }));
+  EXPECT_NEAR(two.go_on(), -44, 0.01) << "where the probe has ended";
+  EXPECT_EQ(two.run.get("/status")["job"]["state"], "done");
+  EXPECT_NEAR(two.steps.now()[Axis::x], 28, 0.01);
+  EXPECT_NEAR(two.steps.now()[Axis::z], -40, 0.01);
+}
+
 }  // namespace
 }  // namespace passo

@@ -211,8 +211,8 @@ void MachineApi::name_job() {
                                                 .text = program.text_to_keep(),
                                                 .path = program.path,
                                                 .place = way_ ? way_->at.place : PathPlace(),
-                                                .start = goes_on_ ? job_start_ : session_.status().position.place,
-                                                .probes = goes_on_ ? probes_ : std::vector<ProbeOutcome>()});
+                                                .start = goes_on_ ? parked_->start : session_.status().position.place,
+                                                .probes = goes_on_ ? parked_->probes : std::vector<ProbeOutcome>()});
   if (begun) {
     named_ = true;
   } else if (const InterruptedJob* const broken = kept_->interrupted(); resumes_ && broken != nullptr) {
@@ -231,12 +231,12 @@ void MachineApi::start_job() {
   start.findings = &findings_;
   words_.clear();
   start.watchers.operations = [this](const Operation& operation) { note_words(operation); };
-  start.options.start = goes_on_ ? job_start_ : session_.status().position.place;
+  start.options.start = goes_on_ ? parked_->start : session_.status().position.place;
   if (way_) {
     start.from = way_->at;
     start.lead_in = way_->lead_in;
   }
-  if (goes_on_) start.known_probes = probes_;
+  if (goes_on_) start.known_probes = parked_->probes;
   if (named_) kept_->add_to(start);
   const Point begins_at = start.options.start;
   std::vector<ProbeOutcome> probes = start.known_probes;

@@ -40,8 +40,12 @@ bool MachineApi::is_free_to_move(const MachineStatus& status) const {
 void MachineApi::step_aside() {
   const MachineStatus status = session_.status();
   if (!is_free_to_move(status)) return;
-  parked_ = ParkedJob{
-      .job = job_, .wait = *status.waits_for, .parameters = programs_.parameters(), .tools = programs_.tools()};
+  parked_ = ParkedJob{.job = job_,
+                      .wait = *status.waits_for,
+                      .parameters = programs_.parameters(),
+                      .tools = programs_.tools(),
+                      .start = job_start_,
+                      .probes = probes_};
   ticket_.reset();
   if (std::exchange(named_, false)) kept_->end(false);
   static_cast<void>(session_.request(request::Stop{}).has_value());
@@ -57,9 +61,9 @@ Result<Reentry, ReentryProblem> MachineApi::way_behind_stop() const {
   const StoredProgram* const program = programs_.find(parked_->job.program);
   if (program == nullptr) return refused_for(ReentryRefusal::path_changed);
   InterpreterOptions options = programs_.options_of(*program);
-  options.start = job_start_;
+  options.start = parked_->start;
   const auto stop = find_stop(ProgramReader::from_text(program->name, program->text), machine_, options,
-                              parked_->wait.number, probes_);
+                              parked_->wait.number, parked_->probes);
   if (!stop) return refused_for(ReentryRefusal::bad_program);
   if (stop->line != parked_->wait.line) return refused_for(ReentryRefusal::path_changed);
   std::vector<int> changed;
@@ -99,7 +103,7 @@ WebAnswer MachineApi::go_on_behind_stop() {
   from_.reset();
   map_for_ = 0;
   job_owner_ = owner_.changes();
-  programs_.check(job_.program, machine_, job_start_);
+  programs_.check(job_.program, machine_, parked_->start);
   return ticket_answer(0);
 }
 

@@ -251,6 +251,8 @@ class MachineApi final : public WebHandler {
     OperatorWait wait;
     SavedParameters parameters;  // of then
     ToolTable tools;
+    Point start;                       // where its path begins
+    std::vector<ProbeOutcome> probes;  // what it has probed
   };
   std::optional<ParkedJob> parked_;
   bool goes_on_ = false;              // the parked job is about to begin behind its stop
