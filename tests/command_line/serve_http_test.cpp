@@ -329,14 +329,14 @@ TEST_F(ServeHttp, changes_the_machine_file_and_keeps_its_comments) {
 TEST_F(ServeHttp, makes_a_program_of_a_drill_file) {
   serve();
   const auto send = [&](const std::string& name, const std::string& text) {
-    return json("POST", "/make/files?name=" + name, text);
+    return json("POST", "/cam/files?name=" + name, text);
   };
   send("holes.drl", "M48\nMETRIC\nT1C0.800\n%\nT1\nX10.0Y10.0\nX20.0Y10.0\nM30\n");
   EXPECT_EQ(send("wrong.drl", "this is no drill file\n")["files"], nlohmann::json({"holes.drl", "wrong.drl"}));
   const auto make = [&](const std::string& order) {
-    json("POST", "/make", order);
-    until([&] { return json("GET", "/make")["state"] != "running"; });
-    return json("GET", "/make");
+    json("POST", "/cam", order);
+    until([&] { return json("GET", "/cam")["state"] != "running"; });
+    return json("GET", "/cam");
   };
   const auto made = make(R"({"job": "drill", "files": ["holes.drl"], "options": {"depth": -1.5, "plain": true}})");
   ASSERT_EQ(made["state"], "done") << made;
@@ -344,7 +344,7 @@ TEST_F(ServeHttp, makes_a_program_of_a_drill_file) {
   const std::string id = std::to_string(made["program"].get<int>());
   EXPECT_EQ(json("GET", "/programs/" + id)["name"], "holes-drill.ngc");
   EXPECT_THAT(ask("GET", "/api/v1/programs/" + id + "/text"), HasSubstr("Z-1.5"));
-  EXPECT_THAT(ask("GET", "/api/v1/make/picture"), HasSubstr("<svg"));
+  EXPECT_THAT(ask("GET", "/api/v1/cam/picture"), HasSubstr("<svg"));
   EXPECT_THAT(ask("GET", "/api/v1/programs/" + id + "/text"), HasSubstr("(holes-drill.ngc"));
   const auto failed = make(R"({"job": "drill", "files": ["wrong.drl"]})");
   EXPECT_EQ(failed["state"], "failed");
@@ -360,23 +360,23 @@ TEST_F(ServeHttp, makes_a_program_of_a_drill_file) {
         R"({"job": "drill", "files": ["holes.drl"], "options": {"output": "x"}})",
         R"({"job": "isolate", "files": ["holes.drl"], "options": {"edge": "/etc/passwd"}})",
         R"({"job": "isolate", "files": ["holes.drl"], "options": {"edge": "../x"}})"}) {
-    EXPECT_EQ(json("POST", "/make", order)["error"]["code"], "http.bad-body") << order;
+    EXPECT_EQ(json("POST", "/cam", order)["error"]["code"], "http.bad-body") << order;
   }
   EXPECT_EQ(send("../x", "a")["files"].dump().find('/'), std::string::npos);
-  EXPECT_TRUE(json("DELETE", "/make/files")["files"].empty());
+  EXPECT_TRUE(json("DELETE", "/cam/files")["files"].empty());
 }
 
 TEST_F(ServeHttp, makes_all_programs_of_a_board_and_says_what_to_do_when) {
   serve();
   const std::string head = "%FSLAX46Y46*%\n%MOMM*%\n%LPD*%\n%ADD10C,1*%\nD10*\n";
-  json("POST", "/make/files?name=odd.gbr", head + "X5000000Y5000000D02*\nX9000000Y5000000D01*\nM02*\n");
-  json("POST", "/make/files?name=board.gko",
+  json("POST", "/cam/files?name=odd.gbr", head + "X5000000Y5000000D02*\nX9000000Y5000000D01*\nM02*\n");
+  json("POST", "/cam/files?name=board.gko",
        head + "X0Y0D02*\nX20000000Y0D01*\nX20000000Y15000000D01*\nX0Y15000000D01*\nX0Y0D01*\nM02*\n");
-  json("POST", "/make/files?name=holes.drl", "M48\nMETRIC\nT1C0.800\n%\nT1\nX5.0Y5.0\nM30\n");
+  json("POST", "/cam/files?name=holes.drl", "M48\nMETRIC\nT1C0.800\n%\nT1\nX5.0Y5.0\nM30\n");
   const auto make = [&](const std::string& options) {
-    json("POST", "/make", R"({"job": "board", "files": ["odd.gbr", "board.gko", "holes.drl"], )" + options + "}");
-    until([&] { return json("GET", "/make")["state"] != "running"; });
-    return json("GET", "/make");
+    json("POST", "/cam", R"({"job": "board", "files": ["odd.gbr", "board.gko", "holes.drl"], )" + options + "}");
+    until([&] { return json("GET", "/cam")["state"] != "running"; });
+    return json("GET", "/cam");
   };
   const auto unknown = make(R"("options": {})");
   EXPECT_EQ(unknown["programs"].size(), 2U) << unknown;
@@ -395,10 +395,10 @@ TEST_F(ServeHttp, makes_all_programs_of_a_board_and_says_what_to_do_when) {
             "odd-2-isolate-front.ngc");
   EXPECT_EQ(made["report"]["margin_mm"], 12);
   EXPECT_GT(made["report"]["steps"][1]["time_s"].get<double>(), 1);
-  EXPECT_THAT(ask("GET", "/api/v1/make/picture"), HasSubstr("<svg"));
-  EXPECT_NE(ask("GET", "/api/v1/make/picture?number=2"), ask("GET", "/api/v1/make/picture?number=0"));
-  EXPECT_THAT(ask("GET", "/api/v1/make/picture?number=9"), HasSubstr("there is no picture"));
-  EXPECT_THAT(ask("GET", "/api/v1/make/page"), HasSubstr("Mill the front"));
+  EXPECT_THAT(ask("GET", "/api/v1/cam/picture"), HasSubstr("<svg"));
+  EXPECT_NE(ask("GET", "/api/v1/cam/picture?number=2"), ask("GET", "/api/v1/cam/picture?number=0"));
+  EXPECT_THAT(ask("GET", "/api/v1/cam/picture?number=9"), HasSubstr("there is no picture"));
+  EXPECT_THAT(ask("GET", "/api/v1/cam/page"), HasSubstr("Mill the front"));
 }
 
 TEST_F(ServeHttp, tells_systemd_that_it_is_ready_lives_and_ends) {

@@ -128,7 +128,7 @@ TEST_F(ServeTroubles, tells_of_a_full_disk_and_loses_nothing) {
   EXPECT_EQ(json("GET", "/status")["work_offset"]["x"], -1.0);
   EXPECT_THAT(refused("/queue?name=q.ngc", moves), HasSubstr("data.unwritten"));
   EXPECT_THAT(refused("/programs/" + id + "/run", ""), HasSubstr("data.unwritten"));
-  EXPECT_THAT(refused("/make/files?name=a.svg", "<svg/>"), HasSubstr("make.no-room"));
+  EXPECT_THAT(refused("/cam/files?name=a.svg", "<svg/>"), HasSubstr("make.no-room"));
   const auto stamp = json("GET", "/machine/file")["stamp"];
   EXPECT_THAT(refused("/machine/file", nlohmann::json({{"text", text + "# more\n"}, {"stamp", stamp}}).dump()),
               HasSubstr("machine-file.unwritten"));
@@ -136,7 +136,7 @@ TEST_F(ServeTroubles, tells_of_a_full_disk_and_loses_nothing) {
   EXPECT_EQ(passo::test::read(machine), text);
   EXPECT_TRUE(json("GET", "/queue")["jobs"].empty());
   EXPECT_TRUE(json("GET", "/history")["jobs"].empty());
-  EXPECT_TRUE(json("GET", "/make")["files"].empty());
+  EXPECT_TRUE(json("GET", "/cam")["files"].empty());
   EXPECT_EQ(json("GET", "/status")["state"], "Idle");
   // The disk fills up while a job runs.
   empty_disk();
@@ -278,10 +278,10 @@ TEST_F(ServeTroubles, keeps_names_in_their_own_letters) {
   EXPECT_EQ(json("GET", "/history")["jobs"][0]["name"], "零件 1.ngc");
   EXPECT_EQ(json("POST", "/queue?name=" + written, "M2\n")["name"], "零件 1.ngc");
   const std::string holes = "M48\nMETRIC\nT1C0.800\n%\nT1\nX10.0Y10.0\nM30\n";
-  EXPECT_EQ(json("POST", "/make/files?name=%E9%9B%B6%E4%BB%B6%201.drl", holes)["files"][0], "零件 1.drl");
-  json("POST", "/make", R"({"job": "drill", "files": ["零件 1.drl"], "options": {"depth": -1.5}})");
-  EXPECT_TRUE(until([&] { return json("GET", "/make")["state"] != "running"; }));
-  const auto made = json("GET", "/make");
+  EXPECT_EQ(json("POST", "/cam/files?name=%E9%9B%B6%E4%BB%B6%201.drl", holes)["files"][0], "零件 1.drl");
+  json("POST", "/cam", R"({"job": "drill", "files": ["零件 1.drl"], "options": {"depth": -1.5}})");
+  EXPECT_TRUE(until([&] { return json("GET", "/cam")["state"] != "running"; }));
+  const auto made = json("GET", "/cam");
   ASSERT_EQ(made["state"], "done") << made;
   EXPECT_EQ(json("GET", "/programs/" + std::to_string(made["program"].get<int>()))["name"], "零件 1-drill.ngc");
   EXPECT_THAT(ask("POST", "/api/v1/programs?name=..%2Fx", "M2\n"), HasSubstr("http.bad-name"));

@@ -12,7 +12,7 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
-#include "passo/api/machine_api.hpp"
+#include "passo/api/web_api.hpp"
 
 namespace passo::test {
 
@@ -107,7 +107,7 @@ class ApiRun {
   std::function<void(const SavedParameters&, const ToolTable&)> keep;
   std::string disk_trouble;  // why offsets cannot be kept
   MotionOwner owner;
-  MachineApi api;
+  WebApi api;
   std::string key;
   unsigned status = 0;
 

@@ -20,7 +20,7 @@
 
 #include "passo/activity/machine_plant.hpp"
 #include "passo/activity/stage_options.hpp"
-#include "passo/api/machine_api.hpp"
+#include "passo/api/web_api.hpp"
 #include "passo/link/await.hpp"
 #include "passo/machine/virtual_line.hpp"
 #include "passo/machine/virtual_machine.hpp"
@@ -113,7 +113,7 @@ class JobServer final : public JobKeeper {
     if (board_status->session != 0 || bench_.numbers == 2) session_.start_at(position_of(*board_status));
     session_.greet(greeting);
     while (session_.state() == MachineState::offline) session_.turn(Seconds(0.02));
-    api_ = std::make_unique<MachineApi>(bench_.description, session_, owner_, options(found));
+    api_ = std::make_unique<WebApi>(bench_.description, session_, owner_, options(found));
     key_ = ask("POST", "/owner", "{}").value("key", "");
   }
 
@@ -159,7 +159,7 @@ class JobServer final : public JobKeeper {
     EXPECT_EQ(status, 202U);
   }
   MachineSession& session() { return session_; }
-  MachineApi& api() { return *api_; }
+  WebApi& api() { return *api_; }
   std::string job_state() const { return std::string(name_of(api_->job().state)); }
   std::uint64_t moments() const { return port_.moments(); }
 
@@ -197,7 +197,7 @@ class JobServer final : public JobKeeper {
   std::unique_ptr<JobHistory> history_;
   MachineSession session_;
   MotionOwner owner_;
-  std::unique_ptr<MachineApi> api_;
+  std::unique_ptr<WebApi> api_;
   std::string key_;
 };
 

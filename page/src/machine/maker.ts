@@ -52,16 +52,16 @@ const lookEvery = 150; // ms
 const settle = 500; // ms after the last change of a form
 
 export async function refreshMake(): Promise<void> {
-  await attempt(async () => (make.value = await get<Make>('/make')));
+  await attempt(async () => (make.value = await get<Make>('/cam')));
 }
 
 export async function sendDrawing(file: File): Promise<void> {
-  await attempt(async () => (make.value = await upload<Make>('/make/files', file.name, file)));
+  await attempt(async () => (make.value = await upload<Make>('/cam/files', file.name, file)));
 }
 
 export async function clearDrawings(): Promise<void> {
   await attempt(async () => {
-    make.value = (await remove('/make/files')) as Make;
+    make.value = (await remove('/cam/files')) as Make;
   });
 }
 
@@ -91,10 +91,10 @@ async function work(): Promise<void> {
     const now = wanted;
     wanted = null;
     await attempt(async () => {
-      make.value = await post<Make>('/make', now);
+      make.value = await post<Make>('/cam', now);
       while (make.value?.state === 'running') {
         await new Promise((resolve) => setTimeout(resolve, lookEvery));
-        make.value = await get<Make>('/make');
+        make.value = await get<Make>('/cam');
       }
       ++madeCount.value;
       if (make.value?.program != null) {

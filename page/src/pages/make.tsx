@@ -107,7 +107,7 @@ function Result() {
           {say(`make.state.${now?.state ?? 'none'}`)}
         </span>
       </div>
-      {shown && now.job !== 'board' && <img src={`api/v1/make/picture?order=${madeCount.value}${secret}`} alt={say('make.picture')} />}
+      {shown && now.job !== 'board' && <img src={`api/v1/cam/picture?order=${madeCount.value}${secret}`} alt={say('make.picture')} />}
       {now !== null && now.words !== '' && (
         <pre class={`toml ${now.state === 'failed' ? 'failed' : ''}`} lang="en" tabIndex={0}>
           {now.words}

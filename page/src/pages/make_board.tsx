@@ -138,7 +138,7 @@ function Step({ report, step, at, program, number }: { report: BoardReport; step
         ))}
       </ol>
       {withPicture.includes(step.step) && (
-        <img src={`api/v1/make/picture?${number === null ? '' : `number=${number}&`}made=${madeCount.value}${secretOf()}`} alt={title} loading="lazy" />
+        <img src={`api/v1/cam/picture?${number === null ? '' : `number=${number}&`}made=${madeCount.value}${secretOf()}`} alt={title} loading="lazy" />
       )}
       {program !== null && (
         <p class="row">
@@ -178,7 +178,7 @@ export function BoardSteps() {
       <div class="position-head">
         <h2>{say('make.board.do')}</h2>
         {now.page && (
-          <a href={`api/v1/make/page?made=${madeCount.value}${secretOf()}`} target="_blank" rel="noopener">
+          <a href={`api/v1/cam/page?made=${madeCount.value}${secretOf()}`} target="_blank" rel="noopener">
             {say('make.board.page')}
           </a>
         )}

@@ -2,80 +2,114 @@
 
 #include <charconv>
 
+#include "cam_api.hpp"
+#include "jobs_api.hpp"
+#include "machine_api.hpp"
+#include "machine_file_api.hpp"
+#include "owner_api.hpp"
+#include "programs_api.hpp"
+#include "studies_api.hpp"
+
 namespace passo {
 namespace {
 
+using enum BodyKind;
+
+// Who may ask.
+constexpr bool anybody = false;
+constexpr bool owner = true;
+
 constexpr ApiRoute routes[] = {
-    {"GET", "/api/v1/alarms"},
-    {"GET", "/api/v1/health"},
-    {"GET", "/api/v1/history"},
-    {"GET", "/api/v1/homing"},
-    {"GET", "/api/v1/interrupted"},
-    {"GET", "/api/v1/log"},
-    {"GET", "/api/v1/machine"},
-    {"GET", "/api/v1/machine/file"},
-    {"GET", "/api/v1/make"},
-    {"GET", "/api/v1/make/page"},
-    {"GET", "/api/v1/make/picture"},
-    {"GET", "/api/v1/metrics"},
-    {"GET", "/api/v1/openapi.json"},
-    {"GET", "/api/v1/programs"},
-    {"GET", "/api/v1/programs/{id}"},
-    {"GET", "/api/v1/programs/{id}/height-map"},
-    {"GET", "/api/v1/programs/{id}/path"},
-    {"GET", "/api/v1/programs/{id}/text"},
-    {"GET", "/api/v1/programs/{id}/way"},
-    {"GET", "/api/v1/pulses"},
-    {"GET", "/api/v1/queue"},
-    {"GET", "/api/v1/status"},
-    {"GET", "/api/v1/stream"},
-    {"GET", "/api/v1/study"},
-    {"GET", "/api/v1/study/loads"},
-    {"GET", "/api/v1/study/picture"},
-    {"GET", "/api/v1/uploads"},
-    {"GET", "/api/v1/uploads/{id}"},
-    {"DELETE", "/api/v1/interrupted", true},
-    {"DELETE", "/api/v1/make/files"},
-    {"DELETE", "/api/v1/owner"},
-    {"DELETE", "/api/v1/programs/{id}", true},
-    {"DELETE", "/api/v1/queue/{id}", true},
-    {"DELETE", "/api/v1/uploads/{id}"},
-    {"POST", "/api/v1/hold", false, BodyKind::json},
-    {"POST", "/api/v1/home", true},
-    {"POST", "/api/v1/interrupted/reenter", true},
-    {"POST", "/api/v1/interrupted/resume", true},
-    {"POST", "/api/v1/jog", true, BodyKind::json},
-    {"POST", "/api/v1/jog/renew", true},
-    {"POST", "/api/v1/machine/file", true, BodyKind::json},
-    {"POST", "/api/v1/machine/file/draft", false, BodyKind::json},
-    {"POST", "/api/v1/make", false, BodyKind::json},
-    {"POST", "/api/v1/make/files", false, BodyKind::bytes},
-    {"POST", "/api/v1/mdi", true, BodyKind::json},
-    {"POST", "/api/v1/operator-done", true},
-    {"POST", "/api/v1/outputs", true, BodyKind::json},
-    {"POST", "/api/v1/override", true, BodyKind::json},
-    {"POST", "/api/v1/owner", false, BodyKind::json},
-    {"POST", "/api/v1/owner/renew", true},
-    {"POST", "/api/v1/position", true, BodyKind::json},
-    {"POST", "/api/v1/probe", true, BodyKind::json},
-    {"POST", "/api/v1/programs", false, BodyKind::program},
-    {"POST", "/api/v1/programs/{id}/block-delete", false, BodyKind::json},
-    {"POST", "/api/v1/programs/{id}/check"},
-    {"POST", "/api/v1/programs/{id}/height-map", false, BodyKind::table},
-    {"POST", "/api/v1/programs/{id}/level"},
-    {"POST", "/api/v1/programs/{id}/run", true},
-    {"POST", "/api/v1/queue", false, BodyKind::program},
-    {"POST", "/api/v1/queue/{id}/run", true},
-    {"POST", "/api/v1/reset", true},
-    {"POST", "/api/v1/resume", true},
-    {"POST", "/api/v1/sleep", true},
-    {"POST", "/api/v1/stop"},
-    {"POST", "/api/v1/stops", true, BodyKind::json},
-    {"POST", "/api/v1/study", false, BodyKind::json},
-    {"POST", "/api/v1/uploads"},
-    {"POST", "/api/v1/uploads/{id}", false, BodyKind::program},
-    {"POST", "/api/v1/wake", true},
-    {"POST", "/api/v1/work", true, BodyKind::json},
+    {"GET", "/alarms", "listAlarms", anybody, none, &JobsApi::list_alarms, Needs::history},
+    {"GET", "/health", "getHealth", anybody, none, &MachineApi::health},
+    {"POST", "/hold", "hold", anybody, json, &MachineApi::hold},
+    {"POST", "/home", "home", owner, none, &MachineApi::home},
+    {"GET", "/history", "listHistory", anybody, none, &JobsApi::list_history, Needs::history},
+    {"GET", "/homing", "getHoming", anybody, none, &MachineApi::homing},
+    {"GET", "/log", "getLog", anybody, none, &JobsApi::log},
+    {"GET", "/metrics", "getMetrics", anybody, none, &MachineApi::metrics},
+    {"GET", "/openapi.json", "getDescription", anybody, none, &MachineApi::openapi},
+    {"GET", "/pulses", "getPulses", anybody, none, &MachineApi::pulses},
+    {"GET", "/status", "getStatus", anybody, none, &MachineApi::status},
+    {"GET", "/stream", "openStream", anybody, none, &MachineApi::stream},
+
+    {"GET", "/cam", "getCam", anybody, none, &CamApi::look, Needs::maker},
+    {"POST", "/cam", "beginCam", anybody, json, &CamApi::begin, Needs::maker},
+    {"POST", "/cam/files", "sendCamFile", anybody, bytes, &CamApi::keep_file, Needs::maker},
+    {"DELETE", "/cam/files", "clearCamFiles", anybody, none, &CamApi::clear_files, Needs::maker},
+    {"GET", "/cam/page", "getCamPage", anybody, none, &CamApi::page, Needs::maker},
+    {"GET", "/cam/picture", "getCamPicture", anybody, none, &CamApi::picture, Needs::maker},
+    // As these were called before; for one version.
+    {"GET", "/make", "getMake", anybody, none, &CamApi::look, Needs::maker},
+    {"POST", "/make", "make", anybody, json, &CamApi::begin, Needs::maker},
+    {"POST", "/make/files", "sendMakeFile", anybody, bytes, &CamApi::keep_file, Needs::maker},
+    {"DELETE", "/make/files", "clearMakeFiles", anybody, none, &CamApi::clear_files, Needs::maker},
+    {"GET", "/make/page", "getMadePage", anybody, none, &CamApi::page, Needs::maker},
+    {"GET", "/make/picture", "getMadePicture", anybody, none, &CamApi::picture, Needs::maker},
+
+    {"GET", "/interrupted", "getInterrupted", anybody, none, &JobsApi::look_at_interrupted, Needs::history},
+    {"DELETE", "/interrupted", "dropInterrupted", owner, none, &JobsApi::drop_interrupted, Needs::history},
+    {"POST", "/interrupted/reenter", "reenterInterrupted", owner, none, &JobsApi::reenter_interrupted, Needs::history},
+    {"POST", "/interrupted/resume", "resumeInterrupted", owner, none, &JobsApi::resume_interrupted, Needs::history},
+
+    {"POST", "/jog", "jog", owner, json, &MachineApi::jog},
+    {"POST", "/jog/renew", "renewJog", owner, none, &MachineApi::order<request::RenewLease>},
+
+    {"GET", "/machine", "getMachine", anybody, none, &MachineApi::description},
+    {"GET", "/machine/file", "getMachineFile", anybody, none, &MachineFileApi::look},
+    {"POST", "/machine/file", "writeMachineFile", owner, json, &MachineFileApi::write},
+    {"POST", "/machine/file/draft", "draftMachineFile", anybody, json, &MachineFileApi::draft},
+
+    {"POST", "/mdi", "runLine", owner, json, &MachineApi::run_line},
+    {"POST", "/operator-done", "confirmOperatorDone", owner, none, &MachineApi::operator_done},
+    {"POST", "/outputs", "switchOutputs", owner, json, &MachineApi::switch_outputs},
+    {"POST", "/override", "setOverride", owner, json, &MachineApi::set_overrides},
+
+    {"POST", "/owner", "takeOwnership", anybody, json, &OwnerApi::take},
+    {"DELETE", "/owner", "giveBackOwnership", anybody, none, &OwnerApi::give_back},
+    {"POST", "/owner/renew", "renewOwnership", owner, none, &OwnerApi::renew},
+
+    {"POST", "/position", "setPosition", owner, json, &MachineApi::set_position},
+    {"POST", "/probe", "probe", owner, json, &JobsApi::probe},
+
+    {"GET", "/programs", "listPrograms", anybody, none, &ProgramsApi::list},
+    {"POST", "/programs", "sendProgram", anybody, program, &ProgramsApi::send},
+    {"GET", "/programs/{id}", "getProgram", anybody, none, &ProgramsApi::look},
+    {"DELETE", "/programs/{id}", "deleteProgram", owner, none, &ProgramsApi::remove},
+    {"POST", "/programs/{id}/block-delete", "setBlockDelete", anybody, json, &ProgramsApi::set_block_delete},
+    {"POST", "/programs/{id}/check", "checkProgram", anybody, none, &ProgramsApi::check},
+    {"GET", "/programs/{id}/height-map", "getHeightMap", anybody, none, &ProgramsApi::height_map},
+    {"POST", "/programs/{id}/height-map", "setHeightMap", anybody, table, &ProgramsApi::set_height_map},
+    {"POST", "/programs/{id}/level", "levelProgram", anybody, none, &ProgramsApi::level},
+    {"GET", "/programs/{id}/path", "getProgramPath", anybody, none, &ProgramsApi::path},
+    {"POST", "/programs/{id}/run", "runProgram", owner, none, &JobsApi::run},
+    {"GET", "/programs/{id}/text", "getProgramText", anybody, none, &ProgramsApi::text},
+    {"GET", "/programs/{id}/way", "getProgramWay", anybody, none, &JobsApi::way},
+
+    {"GET", "/queue", "listQueue", anybody, none, &JobsApi::list_queue, Needs::history},
+    {"POST", "/queue", "queueJob", anybody, program, &JobsApi::queue, Needs::history},
+    {"DELETE", "/queue/{id}", "deleteQueuedJob", owner, none, &JobsApi::delete_queued, Needs::history},
+    {"POST", "/queue/{id}/run", "runQueuedJob", owner, none, &JobsApi::run_queued, Needs::history},
+
+    {"POST", "/reset", "reset", owner, none, &MachineApi::order<request::ResetMachine>},
+    {"POST", "/resume", "resume", owner, none, &MachineApi::order<request::Resume>},
+    {"POST", "/sleep", "sleep", owner, none, &MachineApi::order<request::Sleep>},
+    {"POST", "/stop", "stop", anybody, none, &MachineApi::stop},
+    {"POST", "/stops", "chooseStops", owner, json, &MachineApi::choose_stops},
+
+    {"GET", "/study", "getStudy", anybody, none, &StudiesApi::look, Needs::studies},
+    {"POST", "/study", "beginStudy", anybody, json, &StudiesApi::begin, Needs::studies},
+    {"GET", "/study/loads", "getStudyLoads", anybody, none, &StudiesApi::loads, Needs::studies},
+    {"GET", "/study/picture", "getStudyPicture", anybody, none, &StudiesApi::picture, Needs::studies},
+
+    {"GET", "/uploads", "listUploads", anybody, none, &ProgramsApi::list_uploads},
+    {"POST", "/uploads", "beginUpload", anybody, none, &ProgramsApi::begin_upload},
+    {"GET", "/uploads/{id}", "getUpload", anybody, none, &ProgramsApi::look_at_upload},
+    {"DELETE", "/uploads/{id}", "dropUpload", anybody, none, &ProgramsApi::drop_upload},
+    {"POST", "/uploads/{id}", "sendUploadPiece", anybody, program, &ProgramsApi::take_piece},
+
+    {"POST", "/wake", "wake", owner, none, &MachineApi::order<request::Wake>},
+    {"POST", "/work", "setWorkZero", owner, json, &MachineApi::set_work_zero},
 };
 constexpr std::string_view id_place = "{id}";
 
@@ -98,10 +132,13 @@ std::span<const ApiRoute> api_routes() {
 
 FoundRoute find_route(std::string_view method, std::string_view path) {
   FoundRoute found;
+  if (!path.starts_with(api_root)) return found;
+  path.remove_prefix(api_root.size());
   for (const ApiRoute& one : routes) {
     if (!matches(one.path, path, found.id)) continue;
-    found.knows_path = true;
     if (one.method == method) found.route = &one;
+    found.allowed += found.allowed.empty() ? "" : ", ";
+    found.allowed += one.method;
   }
   return found;
 }

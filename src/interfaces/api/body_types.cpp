@@ -1,6 +1,7 @@
 // What the body of a request is: its type by the header, and its shape.
 #include <algorithm>
 #include <array>
+#include <utility>
 
 #include "api_json.hpp"
 #include <fmt/format.h>
@@ -59,19 +60,21 @@ bool is_json_text(std::string_view body) {
 
 }  // namespace
 
-std::optional<WebAnswer> wrong_body(BodyKind kind, const WebRequest& request) {
+Result<Json, WebAnswer> read_body(BodyKind kind, const WebRequest& request, std::optional<Json> said) {
   const std::string type = media_type(request.type);
   const auto wrong_type = [&](std::string_view what) {
-    return error_answer(415, "http.wrong-type", fmt::format("the body is {}; expected {}", what, words_of(kind)));
+    return Failure{
+        error_answer(415, "http.wrong-type", fmt::format("the body is {}; expected {}", what, words_of(kind)))};
   };
   if (!fits(kind, type)) return wrong_type(type.substr(0, 60));
-  if (request.body.empty()) return {};
+  if (!said && request.body.empty()) return Json(Json::value_t::discarded);
   if (kind == BodyKind::program && is_json_text(request.body)) return wrong_type("JSON");
-  if (kind != BodyKind::json && kind != BodyKind::none) return {};
-  const Json said = Json::parse(request.body, nullptr, false);
-  if (kind == BodyKind::none && !(said.is_object() && said.empty())) return bad_body("this request has no body");
-  if (!said.is_object()) return bad_body("the body is no JSON object");
-  return {};
+  if (kind != BodyKind::json && kind != BodyKind::none) return Json(Json::value_t::discarded);
+  if (!said) said = Json::parse(request.body, nullptr, false);
+  const bool is_empty = said->is_object() && said->empty();
+  if (kind == BodyKind::none && !is_empty) return Failure{bad_body("this request has no body")};
+  if (!said->is_object()) return Failure{bad_body("the body is no JSON object")};
+  return std::move(*said);
 }
 
 }  // namespace passo

@@ -1,4 +1,5 @@
-// The machine file for an editor: its text and values, what a change would make of it, and writing it.
+#include "machine_file_api.hpp"
+
 #include <utility>
 
 #include "api_json.hpp"
@@ -77,7 +78,15 @@ Json unset_json(std::string text, std::string message) {
 
 }  // namespace
 
-WebAnswer machine_file_answer(const MachineFileAccess& file, const FileStamp& in_force) {
+// Reading a machine file may take some milliseconds: nothing waits for them while nothing moves.
+std::optional<WebAnswer> MachineFileApi::refuse_while_moving() const {
+  if (!shared_.session.busy() && !jobs_.is_checking()) return {};
+  return error_answer(409, "machine.busy", "the machine moves: the machine file can wait");
+}
+
+WebAnswer MachineFileApi::look(const ApiCall&) {
+  const MachineFileAccess& file = shared_.options.machine_access;
+  const FileStamp& in_force = shared_.options.machine_file;
   const auto text = file.read ? file.read() : std::nullopt;
   if (!text) return error_answer(404, "machine-file.none", "the machine file cannot be read");
   Json json = draft_json(*text, file.name);
@@ -90,8 +99,10 @@ WebAnswer machine_file_answer(const MachineFileAccess& file, const FileStamp& in
   return json_answer(200, json);
 }
 
-WebAnswer try_machine_file(const MachineFileAccess& file, std::string_view body) {
-  const Json said = Json::parse(body, nullptr, false);
+WebAnswer MachineFileApi::draft(const ApiCall& call) {
+  if (auto refused = refuse_while_moving()) return std::move(*refused);
+  const MachineFileAccess& file = shared_.options.machine_access;
+  const Json& said = call.body;
   if (!said.is_object() || !said.contains("text") || !said["text"].is_string() || !has_only(said, "text", "set")) {
     return bad_body("expected \"text\", that of a machine file, and \"set\"");
   }
@@ -116,8 +127,10 @@ WebAnswer try_machine_file(const MachineFileAccess& file, std::string_view body)
   return json_answer(200, draft_json(toml->text(), file.name));
 }
 
-WebAnswer write_machine_file(const MachineFileAccess& file, const FileStamp& in_force, std::string_view body) {
-  const Json said = Json::parse(body, nullptr, false);
+WebAnswer MachineFileApi::write(const ApiCall& call) {
+  if (auto refused = refuse_while_moving()) return std::move(*refused);
+  const MachineFileAccess& file = shared_.options.machine_access;
+  const Json& said = call.body;
   const auto has_text = [&](const char* key) {
     return said.is_object() && said.contains(key) && said[key].is_string();
   };
@@ -141,7 +154,7 @@ WebAnswer write_machine_file(const MachineFileAccess& file, const FileStamp& in_
   if (const std::string why = file.write(*before, text); !why.empty()) {
     return error_answer(507, "machine-file.unwritten", fmt::format("{} cannot be written: {}", file.name, why));
   }
-  return machine_file_answer(file, in_force);
+  return look(call);
 }
 
 }  // namespace passo

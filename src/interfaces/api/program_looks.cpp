@@ -1,10 +1,12 @@
-// What viewers ask of a program: its path in chunks, and a window of its text.
+// What viewers ask of a program: its path in chunks, a window of its text, and its height map.
 #include <algorithm>
 #include <charconv>
 #include <cmath>
-#include <limits>
+#include <utility>
 
 #include "api_json.hpp"
+
+#include "passo/levelling/map_figures.hpp"
 
 namespace passo {
 namespace {
@@ -53,10 +55,6 @@ Json tools_json(const ProgramPath& path, const MachineDescription& machine, cons
   return list;
 }
 
-WebAnswer bad_number(const std::string& what) {
-  return error_answer(400, "http.bad-body", what);
-}
-
 }  // namespace
 
 WebAnswer path_answer(const StoredProgram& program, const MachineDescription& machine, const ToolTable& tools,
@@ -81,7 +79,7 @@ WebAnswer path_answer(const StoredProgram& program, const MachineDescription& ma
   const auto chunk = number_of(query, "chunk");
   const auto level = query_value(query, "level").empty() ? std::optional<std::uint64_t>(0) : number_of(query, "level");
   if (!chunk || !level || *chunk >= path.chunks() || *level >= ProgramPath::levels) {
-    return bad_number("there is no such chunk, or no such level");
+    return bad_body("there is no such chunk, or no such level");
   }
   const std::uint64_t count = std::clamp<std::uint64_t>(number_of(query, "count").value_or(1), 1, most_chunks);
   WebAnswer answer{.type = "application/octet-stream"};
@@ -95,6 +93,26 @@ WebAnswer text_answer(const StoredProgram& program, std::string_view query) {
   const std::uint64_t from = number_of(query, "from").value_or(1);
   const std::uint64_t count = std::min(number_of(query, "lines").value_or(most_lines), most_lines);
   return {.type = "text/plain; charset=utf-8", .body = std::string(program.lines_from(from, count))};
+}
+
+WebAnswer height_map_answer(const HeightMap& map, std::string_view query) {
+  if (query_value(query, "as") == "csv") return {.type = "text/csv", .body = text_of(map)};
+  const MapFigures figures = figures_of(map);
+  Json heights = Json::array();
+  for (std::size_t row = 0; row < map.rows().size(); ++row) {
+    Json line = Json::array();
+    for (std::size_t column = 0; column < map.columns().size(); ++column) line.push_back(map.at(column, row));
+    heights.push_back(std::move(line));
+  }
+  return json_answer(200, {{"columns", map.columns()},
+                           {"rows", map.rows()},
+                           {"heights", std::move(heights)},
+                           {"lowest", figures.lowest},
+                           {"highest", figures.highest},
+                           {"mean", figures.mean},
+                           {"rise_x", figures.rise_x},
+                           {"rise_y", figures.rise_y},
+                           {"off_plane", figures.farthest_off_plane}});
 }
 
 }  // namespace passo

@@ -1,4 +1,4 @@
-// MachineApi: the pulses that the board makes, one by one.
+// The pulses that the board makes, one by one.
 #include <bit>
 #include <charconv>
 #include <cmath>
@@ -34,9 +34,9 @@ void put(std::string& bytes, Number number) {
 
 }  // namespace
 
-WebAnswer MachineApi::pulses_answer(std::string_view query) {
-  const SentSegments& sent = session_.board().sent_segments();
-  const Seconds now = session_.now();
+WebAnswer pulses_answer(MachineSession& session, const MachineDescription& machine, std::string_view query) {
+  const SentSegments& sent = session.board().sent_segments();
+  const Seconds now = session.now();
   const auto from = seconds_of(query, "from");
   const auto to = seconds_of(query, "to");
   if ((!from && !query_value(query, "from").empty()) || (!to && !query_value(query, "to").empty())) {
@@ -45,14 +45,14 @@ WebAnswer MachineApi::pulses_answer(std::string_view query) {
   const Seconds end = to.value_or(sent.look(now, now, now, 0).newest);
   const Seconds begin = std::max(from.value_or(end - usual_window), end - longest_window);
   const PulseWindow window = sent.look(begin, end, now, most_pulses);
-  const double tick = 1 / machine_.board.clock.value();
+  const double tick = 1 / machine.board.clock.value();
   std::string bytes;
   bytes.reserve(80 + 8 * window.pulses.size());
   for (const Seconds time : {window.begin, window.end, window.oldest, window.newest}) put(bytes, time.value());
   put(bytes, tick);
   for (const std::int32_t count : window.counts) put(bytes, count);
   put(bytes, static_cast<std::uint32_t>(window.pulses.size()));
-  put(bytes, static_cast<std::uint32_t>(session_.board().motors()));
+  put(bytes, static_cast<std::uint32_t>(session.board().motors()));
   for (const BoardPulse& pulse : window.pulses) {
     put(bytes, static_cast<std::uint32_t>((pulse.time - window.begin).value() / tick + 0.5));
     put(bytes, pulse.stepped);

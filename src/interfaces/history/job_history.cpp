@@ -1,6 +1,7 @@
 #include "passo/history/job_history.hpp"
 
 #include <algorithm>
+#include <map>
 #include <utility>
 
 #include <fmt/format.h>
@@ -180,14 +181,36 @@ std::vector<HistoryJob> JobHistory::jobs(const char* where, std::int64_t value) 
     job.queued_at = select.real();
     job.begun_at = select.real();
     job.ended_at = select.real();
-    job.waits = waits_of(job.id);
     const auto end = std::ranges::find(unwritten_, job.id, &End::id);
     if (end == unwritten_.end()) continue;
     job.state = end->state;
     job.why = end->why;
     job.ended_at = end->at;
   }
+  add_waits(found, where, value);
   return found;
+}
+
+// One question for the waits of all jobs. `where` and `value`: as the jobs were found.
+void JobHistory::add_waits(std::vector<HistoryJob>& jobs, const char* where, std::int64_t value) const {
+  std::map<std::int64_t, HistoryJob*> by_id;
+  for (HistoryJob& job : jobs) by_id[job.id] = &job;
+  const std::string sql = fmt::format(
+      "SELECT job, at, code, line, tool, words FROM waits WHERE job IN (SELECT id FROM jobs {}) ORDER BY job, number",
+      where);
+  Statement select(database_, sql.c_str());
+  select.with(value);
+  while (select.step()) {
+    const auto job = by_id.find(select.number());
+    if (job == by_id.end()) continue;
+    HistoryWait& wait = job->second->waits.emplace_back();
+    wait.at = select.real();
+    wait.code = select.text();
+    wait.line = static_cast<std::uint32_t>(select.number());
+    const std::int64_t tool = select.number();
+    if (tool != no_tool) wait.tool = static_cast<std::int32_t>(tool);
+    wait.words = select.text();
+  }
 }
 
 std::optional<HistoryJob> JobHistory::find(std::int64_t id) const {
@@ -241,22 +264,6 @@ bool JobHistory::note_wait(std::int64_t id, const HistoryWait& wait) {
                    "INSERT INTO waits (job, number, at, code, line, tool, words) VALUES (?, ?, ?, ?, ?, ?, ?)");
   insert.with(id).with(noted).with(wait.at).with(wait.code).with(std::int64_t{wait.line});
   return judge(insert.with(std::int64_t{wait.tool.value_or(no_tool)}).with(wait.words).run());
-}
-
-std::vector<HistoryWait> JobHistory::waits_of(std::int64_t id) const {
-  Statement select(database_, "SELECT at, code, line, tool, words FROM waits WHERE job = ? ORDER BY number");
-  select.with(id);
-  std::vector<HistoryWait> found;
-  while (select.step()) {
-    HistoryWait& wait = found.emplace_back();
-    wait.at = select.real();
-    wait.code = select.text();
-    wait.line = static_cast<std::uint32_t>(select.number());
-    const std::int64_t tool = select.number();
-    if (tool != no_tool) wait.tool = static_cast<std::int32_t>(tool);
-    wait.words = select.text();
-  }
-  return found;
 }
 
 bool JobHistory::remove(std::int64_t id) {

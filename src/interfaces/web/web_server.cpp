@@ -301,6 +301,7 @@ class WebServer::Implementation::Connection : public std::enable_shared_from_thi
     if (!answer.version.empty()) response_.set(http::field::etag, answer.version);
     if (!answer.cache.empty()) response_.set(http::field::vary, "Accept-Encoding");
     if (!answer.encoding.empty()) response_.set(http::field::content_encoding, answer.encoding);
+    if (!answer.allow.empty()) response_.set(http::field::allow, answer.allow);
     if (answer.status == 401) response_.set(http::field::www_authenticate, "Bearer");
     response_.body() = std::move(answer.body);
     response_.keep_alive(keeps_alive);

@@ -12,7 +12,8 @@
 #include "kit/fuzzed_machine.hpp"
 #include <nlohmann/json.hpp>
 
-#include "passo/api/machine_api.hpp"
+#include "passo/api/api_routes.hpp"
+#include "passo/api/web_api.hpp"
 
 namespace passo::test {
 namespace {
@@ -52,7 +53,7 @@ class Bench {
       const auto routes = api_routes();
       const ApiRoute& route = routes[static_cast<unsigned char>(target.front()) % routes.size()];
       request.method = route.method;
-      std::string path(route.path);
+      std::string path = std::string(api_root) + std::string(route.path);
       if (const std::size_t id = path.find("{id}"); id != std::string::npos) path.replace(id, 4, "1");
       target.replace(0, 1, path);
     }
@@ -69,7 +70,7 @@ class Bench {
 
   FuzzedSession world_{Trust::commanded};
   MotionOwner owner_;
-  MachineApi api_{
+  WebApi api_{
       fuzzed_machine(), world_.session, owner_, {.version = "1", .openapi = "{}", .make_key = [] { return key; }}};
 };
 

@@ -2,10 +2,10 @@
 #include <algorithm>
 
 #include "cam_job.hpp"
-#include "findings_json.hpp"
 #include "named_files.hpp"
 #include "program_input.hpp"
 #include <fmt/format.h>
+#include <nlohmann/json.hpp>
 
 #include "passo/cam/board_job.hpp"
 #include "passo/report/board_picture.hpp"

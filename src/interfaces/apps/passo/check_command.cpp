@@ -11,7 +11,6 @@
 #include "check_report.hpp"
 #include "commands.hpp"
 #include "cut_loads.hpp"
-#include "findings_json.hpp"
 #include "fit_proposals.hpp"
 #include "named_files.hpp"
 #include "operator_prompt.hpp"
@@ -23,6 +22,7 @@
 #include "passo/activity/machine_plant.hpp"
 #include "passo/activity/program.hpp"
 #include "passo/activity/stage_options.hpp"
+#include "passo/diagnostics/findings_json.hpp"
 #include "passo/link/await.hpp"
 #include "passo/machine/virtual_machine.hpp"
 #include "passo/proof/motion_proof.hpp"
@@ -43,7 +43,7 @@ nlohmann::ordered_json as_json(const Diagnostics& findings, const ProgramStops& 
   }
   return {{"good", !findings.any_error()},
           {"errors", findings.errors()},
-          {"findings", as_json(findings.all())},
+          {"findings", findings_json(findings.all())},
           {"waits", stops.count()},
           {"waits_first_at", waits}};
 }

@@ -5,12 +5,12 @@
 #include <cstdlib>
 
 #include "commands.hpp"
-#include "findings_json.hpp"
 #include "program_input.hpp"
 #include <fmt/format.h>
 #include <unistd.h>
 
 #include "passo/base/counted.hpp"
+#include "passo/diagnostics/findings_json.hpp"
 #include "passo/interpreter/explain.hpp"
 
 namespace passo {
@@ -156,7 +156,7 @@ nlohmann::ordered_json as_json(const Explanation& line) {
         {"feed_mm", line.moves.feed_length},
         {"feed_s", line.moves.feed_time ? nlohmann::ordered_json(*line.moves.feed_time) : nlohmann::ordered_json()}}},
       {"modes", modes},
-      {"findings", as_json(line.findings)}};
+      {"findings", findings_json(line.findings)}};
 }
 
 }  // namespace

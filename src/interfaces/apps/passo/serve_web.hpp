@@ -15,7 +15,7 @@
 #include "served_studies.hpp"
 #include "served_timer.hpp"
 
-#include "passo/api/machine_api.hpp"
+#include "passo/api/web_api.hpp"
 #include "passo/grbl/grbl_controller.hpp"
 #include "passo/web/web_server.hpp"
 
@@ -47,7 +47,7 @@ class ServedWeb {
   std::optional<Point> broken_off_at() { return api_.broken_off_at(); }
   // A job that is stopped from now on can go on when the program runs again.
   void leave() { api_.leave(); }
-  const MachineApi& api() const { return api_; }
+  const WebApi& api() const { return api_; }
   // From now on senders and programs have the same offsets. `grbl` outlives this.
   void share_offsets(GrblController& grbl);
   // Hears the clients, and tells those who watch what is new.
@@ -71,7 +71,7 @@ class ServedWeb {
   ServedMaker maker_;
   ServedStudies studies_;
   ServedTimer timer_;
-  MachineApi api_;
+  WebApi api_;
   std::unique_ptr<WebServer> server_;
   std::chrono::steady_clock::time_point published_;
   std::uint64_t told_version_ = 0;

@@ -64,7 +64,7 @@ std::unique_ptr<ServedStatus> ServedStatus::open(const ServeArguments& arguments
 }
 
 // Axes are named as by HTTP.
-std::string ServedStatus::text_of(const MachineStatus& status, const MachineApi* api) const {
+std::string ServedStatus::text_of(const MachineStatus& status, const WebApi* api) const {
   nlohmann::ordered_json place = nlohmann::ordered_json::object();
   for (const AxisDescription& axis : machine_.axes) {
     const char name = static_cast<char>(letter_of(axis.axis) - 'A' + 'a');
@@ -81,7 +81,7 @@ std::string ServedStatus::text_of(const MachineStatus& status, const MachineApi*
   return all.dump(-1, ' ', false, nlohmann::ordered_json::error_handler_t::replace);
 }
 
-void ServedStatus::turn(const MachineSession& session, const MachineApi* api) {
+void ServedStatus::turn(const MachineSession& session, const WebApi* api) {
   const auto now = std::chrono::steady_clock::now();
   if (now - told_at_ < between_messages) return;
   told_at_ = now;

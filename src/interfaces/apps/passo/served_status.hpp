@@ -7,7 +7,7 @@
 
 #include "commands.hpp"
 
-#include "passo/api/machine_api.hpp"
+#include "passo/api/web_api.hpp"
 #include "passo/mqtt/mqtt_publisher.hpp"
 #include "passo/session/machine_session.hpp"
 
@@ -24,13 +24,13 @@ class ServedStatus {
   static bool check(const ServeArguments& arguments, int& code);
 
   // `api`: knows the job and the time left; null: nobody does.
-  void turn(const MachineSession& session, const MachineApi* api);
+  void turn(const MachineSession& session, const WebApi* api);
   std::string name() const { return name_; }
 
  private:
   ServedStatus(std::unique_ptr<MqttPublisher> broker, const MachineDescription& machine, std::string name)
       : broker_(std::move(broker)), machine_(machine), name_(std::move(name)) {}
-  std::string text_of(const MachineStatus& status, const MachineApi* api) const;
+  std::string text_of(const MachineStatus& status, const WebApi* api) const;
 
   std::unique_ptr<MqttPublisher> broker_;
   const MachineDescription& machine_;

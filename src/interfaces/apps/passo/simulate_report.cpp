@@ -2,10 +2,10 @@
 
 #include <cmath>
 
-#include "findings_json.hpp"
 #include <fmt/format.h>
 
 #include "passo/base/counted.hpp"
+#include "passo/diagnostics/findings_json.hpp"
 
 namespace passo {
 namespace {
@@ -178,7 +178,7 @@ std::string to_json(const Simulation& simulation, const Diagnostics& findings) {
     json["material_left"] = as_json(simulation.difference->left);
     json["gouges"] = as_json(simulation.difference->gouge);
   }
-  json["findings"] = as_json(findings.all());
+  json["findings"] = findings_json(findings.all());
   return json.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n";
 }
 

@@ -7,7 +7,6 @@
 #include <numbers>
 #include <thread>
 
-#include "findings_json.hpp"
 #include "named_files.hpp"
 #include "program_input.hpp"
 #include "simulate_options.hpp"
@@ -17,6 +16,7 @@
 #include <fmt/format.h>
 
 #include "passo/base/counted.hpp"
+#include "passo/diagnostics/findings_json.hpp"
 #include "passo/report/foam_body.hpp"
 #include "passo/report/foam_picture.hpp"
 #include "passo/stock/foam_comparison.hpp"
@@ -271,7 +271,7 @@ std::string to_json(const FoamSimulation& done, const Diagnostics& findings) {
     json["foam_left"] = side(done.difference->sides.left);
     json["gouges"] = side(done.difference->sides.gouge);
   }
-  json["findings"] = passo::as_json(findings.all());
+  json["findings"] = passo::findings_json(findings.all());
   return json.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n";
 }
 

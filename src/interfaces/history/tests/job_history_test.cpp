@@ -50,6 +50,25 @@ TEST_F(JobHistoryTest, keeps_where_a_job_has_waited) {
   EXPECT_EQ(history->find(2)->waits.size(), std::size_t{JobHistory::most_waits});
 }
 
+TEST_F(JobHistoryTest, gives_each_of_many_jobs_its_own_waits) {
+  const auto history = open();
+  for (std::uint32_t job = 1; job <= 20; ++job) {
+    history->add_running("part.ngc", "linuxcnc", "M0\n", job);
+    for (std::uint32_t line = 0; line < job % 4; ++line) {
+      EXPECT_TRUE(history->note_wait(job, {.at = 1.0 * job, .code = "M0", .line = 10 * job + line, .words = ""}));
+    }
+    EXPECT_TRUE(history->end(job, HistoryState::done, "", job));
+  }
+  const std::vector<HistoryJob> ended = history->ended(12);
+  ASSERT_EQ(ended.size(), 12U);
+  for (const HistoryJob& job : ended) {
+    ASSERT_EQ(job.waits.size(), static_cast<std::size_t>(job.id % 4)) << job.id;
+    for (std::size_t i = 0; i < job.waits.size(); ++i) {
+      EXPECT_EQ(job.waits[i].line, static_cast<std::size_t>(10 * job.id) + i) << job.id;
+    }
+  }
+}
+
 TEST_F(JobHistoryTest, keeps_what_waits_and_what_has_ended) {
   {
     const auto history = open();

@@ -1,7 +1,7 @@
 // KeptJob: the job that runs, kept so that the next program can go on with it; and the job of an earlier program that
 // was broken off.
 //
-// Place: beside MachineApi. The journal (decision 0047) tells where on its path a board may rest; the history has the
+// Place: beside JobRunner. The journal (decision 0047) tells where on its path a board may rest; the history has the
 // text of the job. A job that was broken off waits until somebody resumes it or drops it. See docs/decisions/0075.
 #pragma once
 

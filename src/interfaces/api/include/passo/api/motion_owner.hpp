@@ -10,10 +10,17 @@
 #include <string_view>
 #include <utility>
 
+#include "passo/units/units.hpp"
+
 namespace passo {
 
 class MotionOwner {
  public:
+  // A client that owns the motion, and was not heard for so long while nothing moved, owns it no longer.
+  static constexpr Seconds silent_for{300};
+  // One whose streams have all ended may come back so long.
+  static constexpr Seconds returns_within{5};
+
   enum class Kind : std::uint8_t { nobody, sender, client };
 
   Kind kind() const { return kind_; }

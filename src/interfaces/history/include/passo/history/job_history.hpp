@@ -106,7 +106,7 @@ class JobHistory {
   explicit JobHistory(sqlite3* database) : database_(database) {}
   bool run(const char* sql) const;
   std::vector<HistoryJob> jobs(const char* where, std::int64_t value) const;
-  std::vector<HistoryWait> waits_of(std::int64_t id) const;
+  void add_waits(std::vector<HistoryJob>& jobs, const char* where, std::int64_t value) const;
   struct End {
     std::int64_t id = 0;
     HistoryState state = HistoryState::done;

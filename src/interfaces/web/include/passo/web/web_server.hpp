@@ -47,6 +47,7 @@ struct WebAnswer {
   std::string version = {};   // ETag
   std::string cache = {};     // Cache-Control
   std::string policy = {};    // Content-Security-Policy
+  std::string allow = {};     // Allow; empty: none
 };
 
 class WebHandler {

@@ -1,4 +1,4 @@
-// Findings as JSON, the same from every command.
+// Findings as JSON, the same from every command. The API leaves out what a client of one program does not need.
 #pragma once
 
 #include <span>
@@ -9,7 +9,7 @@
 
 namespace passo {
 
-inline nlohmann::ordered_json as_json(std::span<const Diagnostic> findings) {
+inline nlohmann::ordered_json findings_json(std::span<const Diagnostic> findings) {
   nlohmann::ordered_json list = nlohmann::ordered_json::array();
   for (const Diagnostic& finding : findings) {
     nlohmann::ordered_json calls = nlohmann::ordered_json::array();

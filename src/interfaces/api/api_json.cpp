@@ -1,8 +1,11 @@
-#include <cmath>
-
 #include "api_json.hpp"
 
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
 #include "passo/activity/machine_plant.hpp"
+#include "passo/diagnostics/findings_json.hpp"
 
 namespace passo {
 namespace {
@@ -104,20 +107,6 @@ double rounded(double value) {
   return std::round(value * 1e6) / 1e6 + 0.0;
 }
 
-WebAnswer json_answer(unsigned status, const Json& json) {
-  return {.status = status,
-          .type = "application/json",
-          .body = json.dump(-1, ' ', false, Json::error_handler_t::replace) + "\n"};
-}
-
-WebAnswer error_answer(unsigned status, std::string_view code, std::string_view message) {
-  return json_answer(status, {{"error", {{"code", code}, {"message", message}}}});
-}
-
-WebAnswer bad_body(std::string_view message) {
-  return error_answer(400, "http.bad-body", message);
-}
-
 Json as_json(const MachineDescription& machine, const Point& place) {
   Json json = Json::object();
   for (const AxisDescription& axis : machine.axes) json[axis_key(axis.axis)] = rounded(place[axis.axis]);
@@ -172,6 +161,24 @@ Json as_json(const ApiJob& job) {
   if (job.state == JobState::none) return Json();
   return {{"id", job.id},   {"program", job.program}, {"name", job.name}, {"state", name_of(job.state)},
           {"why", job.why}, {"history", job.history}};
+}
+
+Json as_json(const MachineDescription& machine, const MdiLines& mdi, const Point& at) {
+  const ModesInForce modes = mdi.modes();
+  Json codes = modes.codes;
+  codes.push_back(modes.spindle == SpindleDirection::off         ? "M5"
+                  : modes.spindle == SpindleDirection::clockwise ? "M3"
+                                                                 : "M4");
+  if (modes.mist) codes.push_back("M7");
+  if (modes.flood) codes.push_back("M8");
+  if (!modes.mist && !modes.flood) codes.push_back("M9");
+  return {{"codes", std::move(codes)},
+          {"feed", rounded(modes.feed)},
+          {"speed", rounded(modes.speed)},
+          {"tool", std::max(modes.tool, 0)},
+          {"place", as_json(machine, modes.frame.work_from_machine(at))},
+          {"streams", mdi.streams()},
+          {"trouble", mdi.trouble()}};
 }
 
 Json as_json(const HistoryJob& job) {
@@ -242,15 +249,9 @@ Json as_json(const MachineDescription& machine, const InterruptedJob& job, const
 }
 
 Json as_json(const Diagnostics& findings) {
-  Json list = Json::array();
-  for (const Diagnostic& one : findings.all()) {
-    list.push_back({{"severity", one.severity == Severity::error ? "error" : "warning"},
-                    {"code", one.code},
-                    {"line", one.place.line},
-                    {"column", one.place.column},
-                    {"message", one.message},
-                    {"expected", one.expected},
-                    {"more_lines", one.more_lines}});
+  Json list = findings_json(findings.all());
+  for (Json& one : list) {
+    for (const char* const left_out : {"file", "length", "rule", "calls"}) one.erase(left_out);
   }
   return list;
 }
@@ -258,7 +259,7 @@ Json as_json(const Diagnostics& findings) {
 Json as_json(const StoredProgram& program, bool with_findings) {
   Json json = {{"id", program.id},
                {"name", program.name},
-               {"dialect", program.dialect == Dialect::grbl ? "grbl" : "linuxcnc"},
+               {"dialect", dialect_name(program.dialect)},
                {"bytes", program.text.size()},
                {"lines", program.lines},
                {"state", name_of(program.state)},

@@ -1,4 +1,5 @@
-// MachineApi: programs made of drawings and pictures.
+#include "cam_api.hpp"
+
 #include <algorithm>
 #include <array>
 #include <charconv>
@@ -119,135 +120,140 @@ std::optional<std::string> profile_of(const Json& json, std::string& reason) {
   return text;
 }
 
-WebAnswer no_maker() {
-  return error_answer(404, "make.none", "this server makes no programs");
+// Empty, with a reason: the body is no order. `kept`: names of the files that were sent.
+std::optional<MakeOrder> order_from(const Json& said, const std::vector<std::string>& kept, std::string& reason) {
+  MakeOrder order;
+  const Json job = said.value("job", Json());
+  if (!job.is_string() || !has(jobs, job.get<std::string>())) {
+    reason = "\"job\": expected one of GET /cam";
+    return {};
+  }
+  order.job = job.get<std::string>();
+  const Json files = said.value("files", Json());
+  const Json& said_options = said.contains("options") ? said["options"] : Json::object();
+  const bool has_letters = order.job == "engrave" && said_options.is_object() && said_options.contains("text");
+  reason = "\"files\": expected names of files that were sent";
+  if (!files.is_array() || (files.empty() && !has_letters)) return {};
+  for (const Json& one : files) {
+    if (!one.is_string() || !has(kept, one.get<std::string>())) return {};
+    order.files.push_back(one.get<std::string>());
+  }
+  const auto options = options_of(said_options, reason);
+  if (!options) return {};
+  for (const auto& [name, value] : *options) {
+    order.options.push_back("--" + name + (value ? "=" + *value : std::string()));
+  }
+  if (order.job != "board") {
+    reason = "\"profile\": only a board has one";
+    return said.contains("profile") ? std::nullopt : std::optional(std::move(order));
+  }
+  const auto profile = profile_of(said.contains("profile") ? said["profile"] : Json::object(), reason);
+  if (!profile) return {};
+  order.profile = *profile;
+  return order;
 }
 
 }  // namespace
 
-WebAnswer MachineApi::make_answer() {
-  if (options_.maker == nullptr) return no_maker();
-  heed_maker();
-  const MakeResult& result = options_.maker->look();
+WebAnswer CamApi::state_answer(unsigned status) {
+  turn();
+  const Maker& maker = *shared_.options.maker;
+  const MakeResult& result = shared_.options.maker->look();
   const Json report = Json::parse(result.report, nullptr, false);
-  return json_answer(200, {{"jobs", jobs},
-                           {"files", options_.maker->files()},
-                           {"state", name_of(result.state)},
-                           {"job", result.job},
-                           {"words", result.words},
-                           {"picture", result.picture_type},
-                           {"program", made_.empty() ? Json() : Json(made_.front())},
-                           {"programs", made_},
-                           {"report", report.is_object() ? report : Json()},
-                           {"page", result.has_page}});
+  return json_answer(status, {{"jobs", jobs},
+                              {"files", maker.files()},
+                              {"state", name_of(result.state)},
+                              {"job", result.job},
+                              {"words", result.words},
+                              {"picture", result.picture_type},
+                              {"program", made_.empty() ? Json() : Json(made_.front())},
+                              {"programs", made_},
+                              {"report", report.is_object() ? report : Json()},
+                              {"page", result.has_page}});
 }
 
-WebAnswer MachineApi::made_picture(std::string_view query) const {
-  if (options_.maker == nullptr) return no_maker();
-  const MakeResult& result = options_.maker->look();
+WebAnswer CamApi::look(const ApiCall&) {
+  return state_answer();
+}
+
+WebAnswer CamApi::picture(const ApiCall& call) {
+  const MakeResult& result = shared_.options.maker->look();
   const bool done = result.state == MakeResult::State::done && !result.picture_type.empty();
-  const std::string_view digits = query_value(query, "number");
+  const std::string_view digits = call.query("number");
   std::size_t number = 0;
   std::from_chars(digits.data(), digits.data() + digits.size(), number);
-  std::string picture = done ? options_.maker->picture(digits.empty() ? std::optional<std::size_t>() : number) : "";
+  const std::optional<std::size_t> wanted = digits.empty() ? std::nullopt : std::optional(number);
+  std::string picture = done ? shared_.options.maker->picture(wanted) : "";
   if (picture.empty()) return error_answer(404, "http.not-found", "there is no picture");
   return {.type = result.picture_type, .body = std::move(picture)};
 }
 
 // The page has its style within, and runs nothing.
-WebAnswer MachineApi::made_page() const {
-  if (options_.maker == nullptr) return no_maker();
-  if (!options_.maker->look().has_page) return error_answer(404, "http.not-found", "there is no page");
+WebAnswer CamApi::page(const ApiCall&) {
+  if (!shared_.options.maker->look().has_page) return error_answer(404, "http.not-found", "there is no page");
   return {.type = "text/html; charset=utf-8",
-          .body = options_.maker->page(),
+          .body = shared_.options.maker->page(),
           .policy = "default-src 'none'; style-src 'unsafe-inline'; img-src data:; frame-ancestors 'none'"};
 }
 
-WebAnswer MachineApi::keep_make_file(std::string_view name, std::string_view bytes) {
-  if (options_.maker == nullptr) return no_maker();
-  if (name.empty() || name.front() == '-') return bad_body("the file has no name");
-  if (!options_.maker->keep(std::string(name), bytes)) {
+WebAnswer CamApi::keep_file(const ApiCall& call) {
+  const auto name = name_from(call.request.query, "");
+  if (!name) return name.error();
+  if (name->empty() || name->front() == '-') return bad_body("the file has no name");
+  if (!shared_.options.maker->keep(*name, call.request.body)) {
     return error_answer(507, "make.no-room",
                         "there is no room for this file: clear the others first, or make room on the disk");
   }
-  return make_answer();
+  return state_answer();
 }
 
-WebAnswer MachineApi::clear_make_files() {
-  if (options_.maker == nullptr) return no_maker();
-  options_.maker->clear();
+WebAnswer CamApi::clear_files(const ApiCall&) {
+  shared_.options.maker->clear();
   made_.clear();
-  return make_answer();
+  return state_answer();
 }
 
-WebAnswer MachineApi::begin_making(std::string_view body) {
-  const Json said = Json::parse(body, nullptr, false);
+WebAnswer CamApi::begin(const ApiCall& call) {
+  const Json& said = call.body;
   if (!said.is_object()) return bad_body("the body is no JSON object");
   for (const auto& [name, value] : said.items()) {
     if (name != "job" && name != "files" && name != "options" && name != "profile")
       return bad_body("there is no \"" + name.substr(0, 40) + "\"");
   }
-  if (options_.maker == nullptr) return no_maker();
-  MakeOrder order;
-  const Json job = said.value("job", Json());
-  if (!job.is_string() || !has(jobs, job.get<std::string>())) return bad_body("\"job\": expected one of GET /make");
-  order.job = job.get<std::string>();
-  const Json files = said.value("files", Json());
-  const std::vector<std::string> kept = options_.maker->files();
-  const Json& said_options = said.contains("options") ? said["options"] : Json::object();
-  const bool has_letters = order.job == "engrave" && said_options.is_object() && said_options.contains("text");
-  if (!files.is_array() || (files.empty() && !has_letters)) {
-    return bad_body("\"files\": expected names of files that were sent");
-  }
-  for (const Json& one : files) {
-    if (!one.is_string() || !has(kept, one.get<std::string>())) {
-      return bad_body("\"files\": expected names of files that were sent");
-    }
-    order.files.push_back(one.get<std::string>());
-  }
+  Maker& maker = *shared_.options.maker;
   std::string reason;
-  auto options = options_of(said_options, reason);
-  if (!options) return bad_body(reason);
-  for (const auto& [name, value] : *options) {
-    order.options.push_back("--" + name + (value ? "=" + *value : std::string()));
-  }
-  if (order.job == "board") {
-    const auto profile = profile_of(said.contains("profile") ? said["profile"] : Json::object(), reason);
-    if (!profile) return bad_body(reason);
-    order.profile = *profile;
-    if (options_.machine_access.read) order.machine = options_.machine_access.read().value_or("");
-  } else if (said.contains("profile")) {
-    return bad_body("\"profile\": only a board has one");
-  }
-  if (!options_.maker->begin(order)) {
-    if (options_.maker->look().state == MakeResult::State::running)
+  auto order = order_from(said, maker.files(), reason);
+  if (!order) return bad_body(reason);
+  const MachineFileAccess& file = shared_.options.machine_access;
+  if (order->job == "board" && file.read) order->machine = file.read().value_or("");
+  if (!maker.begin(*order)) {
+    if (maker.look().state == MakeResult::State::running)
       return error_answer(409, "make.busy", "another program is being made");
     return error_answer(507, "make.no-room", "there is no room for what is to be made: make room on the disk");
   }
   made_.clear();
-  making_ = order.job + "/" + (order.files.empty() ? std::string() : order.files.front());
-  WebAnswer answer = make_answer();
-  answer.status = 202;
-  return answer;
+  making_ = order->job + "/" + (order->files.empty() ? std::string() : order->files.front());
+  return state_answer(202);
 }
 
-// Programs that are made go to the others. What is made again of the same drawing takes the place of what was made
-// before, also where a board has other steps now.
-void MachineApi::heed_maker() {
+void CamApi::turn() {
   if (making_.empty()) return;
-  const MakeResult& result = options_.maker->look();
+  const MakeResult& result = shared_.options.maker->look();
   if (result.state == MakeResult::State::running) return;
   const std::string source = std::exchange(making_, {});
   if (result.state != MakeResult::State::done) return;
-  const bool runs = job_.state == JobState::checking || job_.state == JobState::running;
-  const auto is_gone = [&](std::uint64_t id) { return programs_.find(id) == nullptr; };
+  ProgramStore& programs = shared_.programs;
+  const ApiJob& job = jobs_.job();
+  const bool runs = job.state == JobState::checking || job.state == JobState::running;
+  const auto is_gone = [&](std::uint64_t id) { return programs.find(id) == nullptr; };
   for (const std::uint64_t id : made_of_[source]) {
-    if (!is_gone(id) && !(runs && job_.program == id)) programs_.remove(id);
+    if (!is_gone(id) && !(runs && job.program == id)) programs.remove(id);
   }
   for (auto& [name, ids] : made_of_) std::erase_if(ids, is_gone);
   std::erase_if(made_of_, [](const auto& one) { return one.second.empty(); });
   for (std::size_t i = 0; i < result.names.size(); ++i) {
-    const StoredProgram* const program = programs_.add(result.names[i], Dialect::linuxcnc, options_.maker->program(i));
+    const StoredProgram* const program =
+        programs.add(result.names[i], Dialect::linuxcnc, shared_.options.maker->program(i));
     made_.push_back(program != nullptr ? program->id : 0);
   }
   std::erase(made_, 0U);

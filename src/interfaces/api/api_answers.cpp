@@ -1,0 +1,76 @@
+#include "api_answers.hpp"
+
+#include <fmt/format.h>
+
+namespace passo {
+
+WebAnswer json_answer(unsigned status, const Json& json) {
+  return {.status = status,
+          .type = "application/json",
+          .body = json.dump(-1, ' ', false, Json::error_handler_t::replace) + "\n"};
+}
+
+WebAnswer error_answer(unsigned status, std::string_view code, std::string_view message) {
+  return json_answer(status, {{"error", {{"code", code}, {"message", message}}}});
+}
+
+WebAnswer refusal_answer(unsigned status) {
+  switch (status) {
+    case 400: return error_answer(status, "http.bad-request", "this is no request that HTTP knows");
+    case 401: return error_answer(status, "http.token", "a token is needed: the header Authorization: Bearer …");
+    case 403: return error_answer(status, "http.foreign-page", "the name in Host or Origin is not this server's");
+    case 404: return error_answer(status, "http.not-found", "there is nothing at this path");
+    case 405: return error_answer(status, "http.method", "this path has other methods");
+    case 413: return error_answer(status, "http.too-large", "the body is too long");
+    case 431: return error_answer(status, "http.too-large", "the header is too long");
+    case 503: return error_answer(status, "http.busy", "other clients or large uploads take all the room: try again");
+    default: return error_answer(status, "http.error", "the request failed");
+  }
+}
+
+WebAnswer bad_body(std::string_view message) {
+  return error_answer(400, "http.bad-body", message);
+}
+
+WebAnswer refused_answer(const Refusal& refusal) {
+  return error_answer(refusal.code == RefusalCode::bad_value ? 400 : 409, code_of(refusal.code), refusal.message);
+}
+
+WebAnswer ticket_answer(const MachineSession& session, Ticket ticket) {
+  return json_answer(200, {{"ticket", ticket}, {"change", session.status().version}});
+}
+
+WebAnswer not_idle(MachineState state) {
+  return error_answer(409, "machine.busy", fmt::format("the machine is not idle: {}", name_of(state)));
+}
+
+WebAnswer job_begins() {
+  return error_answer(409, "machine.busy", "a job is about to begin");
+}
+
+WebAnswer no_history() {
+  return error_answer(404, "data.none", "passo serve keeps nothing: start it with --data DIR");
+}
+
+WebAnswer no_maker() {
+  return error_answer(404, "make.none", "this server makes no programs");
+}
+
+WebAnswer no_place() {
+  return bad_body(
+      "from_line: expected the number of a line, 1 or more; pass: a number, 1 or more; after: millimetres, 0 or more");
+}
+
+WebAnswer no_room() {
+  return error_answer(507, "programs.no-room", "there are too many programs: delete some first");
+}
+
+WebAnswer no_studies() {
+  return error_answer(404, "study.none", "this server makes no studies");
+}
+
+WebAnswer unwritten(std::string_view what, std::string_view why) {
+  return error_answer(507, "data.unwritten", fmt::format("{} cannot be written: {}", what, why));
+}
+
+}  // namespace passo

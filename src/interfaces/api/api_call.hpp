@@ -1,0 +1,24 @@
+// ApiCall: a request that has found its route. Its body was parsed once. Private to api/.
+#pragma once
+
+#include <cstdint>
+
+#include <nlohmann/json.hpp>
+
+#include "passo/web/web_server.hpp"
+
+namespace passo {
+
+using Json = nlohmann::ordered_json;
+
+struct ApiCall {
+  const WebRequest& request;
+  std::uint64_t id = 0;                  // the number in the path
+  Json body = Json::value_t::discarded;  // an object where the body is one; else discarded
+
+  // Nothing said is no member said.
+  Json members() const { return body.is_object() ? body : Json::object(); }
+  std::string_view query(std::string_view key) const { return query_value(request.query, key); }
+};
+
+}  // namespace passo

@@ -1,0 +1,25 @@
+// ApiShared: what all parts of the API work with. Private to api/.
+#pragma once
+
+#include "kept_offsets.hpp"
+
+#include "passo/api/api_options.hpp"
+#include "passo/api/motion_owner.hpp"
+#include "passo/api/program_store.hpp"
+#include "passo/machine_file/machine_description.hpp"
+#include "passo/session/machine_session.hpp"
+
+namespace passo {
+
+struct ApiShared {
+  const MachineDescription& machine;
+  MachineSession& session;
+  MotionOwner& owner;
+  const ApiOptions& options;
+  ProgramStore& programs;
+  KeptOffsets& offsets;
+
+  double wall_time() const { return options.wall_time ? options.wall_time() : 0; }
+};
+
+}  // namespace passo

@@ -1,0 +1,387 @@
+#include "job_runner.hpp"
+
+#include <algorithm>
+#include <utility>
+
+#include "api_answers.hpp"
+#include "api_json.hpp"
+#include <fmt/format.h>
+
+#include "passo/activity/stage_options.hpp"
+#include "passo/drive/backlash_options.hpp"
+
+namespace passo {
+namespace {
+
+// How long a machine at rest may take to end its job.
+constexpr Seconds a_turn{0.005};
+constexpr int most_turns = 400;
+
+// The first error, for the history, which outlives the findings.
+std::string words_of_error(const Diagnostics& findings, std::string else_words) {
+  const auto& all = findings.all();
+  const auto first = std::ranges::find(all, Severity::error, &Diagnostic::severity);
+  if (first == all.end()) return else_words;
+  return fmt::format("line {}: {} [{}]", first->place.line, first->message, first->code);
+}
+
+HistoryState history_state_of(JobState state) {
+  switch (state) {
+    case JobState::done: return HistoryState::done;
+    case JobState::failed: return HistoryState::failed;
+    case JobState::interrupted: return HistoryState::interrupted;
+    default: return HistoryState::stopped;
+  }
+}
+
+}  // namespace
+
+std::string_view name_of(JobState state) {
+  switch (state) {
+    case JobState::none: return "none";
+    case JobState::checking: return "checking";
+    case JobState::running: return "running";
+    case JobState::done: return "done";
+    case JobState::stopped: return "stopped";
+    case JobState::failed: return "failed";
+    case JobState::interrupted: return "interrupted";
+  }
+  return "";
+}
+
+JobRunner::JobRunner(const ApiShared& shared, MdiLines& mdi) : shared_(shared), mdi_(mdi) {
+  const ApiOptions& options = shared.options;
+  if (options.keeper == nullptr || options.history == nullptr) return;
+  kept_ = std::make_unique<KeptJob>(shared.machine, shared.session, *options.keeper, *options.history, shared.programs,
+                                    KeptJob::Names{.made_by = options.version, .machine = options.machine_file});
+  shared.session.listen_before_hello(
+      [this](const BoardStatus& status, const Greeting& greeting) { kept_->hear(status, greeting); });
+  if (options.broken_off) kept_->find(*options.broken_off);
+}
+
+bool JobRunner::runs(const StoredProgram& program) const {
+  if (parked_ && parked_->job.program == program.id) return true;
+  return job_.state == JobState::running && job_.program == program.id;
+}
+
+bool JobRunner::waits_with(std::uint64_t program) const {
+  return (parked_ && parked_->job.program == program) || (is_checking() && job_.program == program);
+}
+
+WebAnswer JobRunner::no_room_in_history() const {
+  const std::string& trouble = shared_.options.history->trouble();
+  return trouble.empty() ? no_room() : unwritten("the job", trouble);
+}
+
+Result<Reentry, ReentryProblem> JobRunner::way_to(const StoredProgram& program, const LinePlace& from) const {
+  const MachineSession& session = shared_.session;
+  const KnownPosition position = session.status().position;
+  if (session.busy() || position.trust == Trust::unknown) {
+    return Failure{ReentryProblem{
+        .code = "reentry.place-unknown",
+        .why = session.busy() ? "the machine is busy" : "where the machine stands is not known: home it first"}};
+  }
+  InterpreterOptions options = shared_.programs.options_of(program);
+  options.start = position.place;
+  const auto at = find_line(ProgramReader::from_text(program.name, program.text), shared_.machine, options, from);
+  if (!at) return Failure{ReentryProblem{.code = code_of(at.error().refusal), .why = message_of(at.error())}};
+  auto way = plan_reentry(shared_.machine, *at, position.place);
+  if (!way) {
+    return Failure{ReentryProblem{.code = code_of(way.error()), .why = std::string(message_of(way.error()))}};
+  }
+  return std::move(*way);
+}
+
+// Why nothing begins where the machine stands.
+std::optional<WebAnswer> JobRunner::refuse_begin() const {
+  const MachineSession& session = shared_.session;
+  if (session.state() != MachineState::idle) return not_idle(session.state());
+  if (const auto refused = session.closed_limit()) return refused_answer(*refused);
+  if (const auto refused = session.lost_place()) return refused_answer(*refused);
+  return {};
+}
+
+WebAnswer JobRunner::begin(const StoredProgram& program, const Wanted& wanted) {
+  if (auto refused = refuse_begin()) return std::move(*refused);
+  if (interrupted() != nullptr) {
+    return error_answer(409, "jobs.interrupted", "a job was broken off: resume it or drop it first");
+  }
+  // A job that cannot be noted does not begin.
+  JobHistory* const history = shared_.options.history;
+  std::int64_t number = wanted.history;
+  if (number != 0) {
+    if (!history->begin(number, shared_.wall_time())) return no_room_in_history();
+  } else if (history != nullptr) {
+    number =
+        history->add_running(program.name, dialect_name(program.dialect), program.text_to_keep(), shared_.wall_time())
+            .value_or(0);
+    if (number == 0) return no_room_in_history();
+  }
+  begins_ = {.from = wanted.from, .map_for = wanted.map_for};
+  return begin_check(program, number, shared_.session.status().position.place);
+}
+
+WebAnswer JobRunner::begin_check(const StoredProgram& program, std::int64_t history, const Point& start) {
+  named_ = false;
+  job_ = {.id = ++last_job_,
+          .program = program.id,
+          .name = program.name,
+          .state = JobState::checking,
+          .why = {},
+          .history = history};
+  begins_.owner = shared_.owner.changes();
+  shared_.programs.check(program.id, shared_.machine, start);
+  return json_answer(202, as_json(job_));
+}
+
+WebAnswer JobRunner::resume(bool by_a_way_back) {
+  const InterruptedJob& broken = *kept_->interrupted();
+  const MachineSession& session = shared_.session;
+  if (session.state() != MachineState::idle) return not_idle(session.state());
+  if (by_a_way_back) {
+    if (const auto way = kept_->reentry(); !way) return error_answer(409, way.error().code, way.error().why);
+  } else if (!broken.code.empty()) {
+    return error_answer(409, broken.code, broken.why);
+  }
+  if (const auto refused = session.closed_limit()) return refused_answer(*refused);
+  const InterpreterOptions options = kept_->options();
+  const StoredProgram* const program = shared_.programs.add(broken.job.name, options.dialect, kept_->program());
+  if (program == nullptr) return no_room();
+  if (!shared_.options.history->begin(broken.job.id, shared_.wall_time())) {
+    shared_.programs.remove(program->id);
+    return no_room_in_history();
+  }
+  begins_ = {.resumes = true, .reenters = by_a_way_back};
+  return begin_check(*program, broken.job.id, options.start);
+}
+
+bool JobRunner::call_off() {
+  if (!is_checking() || shared_.session.busy()) return false;
+  end_job(JobState::stopped, "it was called off before it began");
+  return true;
+}
+
+void JobRunner::turn() {
+  if (kept_) kept_->look();
+  if (is_checking() && !shared_.programs.checks()) begin_checked_job();
+}
+
+void JobRunner::begin_checked_job() {
+  if (!named_) return name_job();
+  if (shared_.session.state() != MachineState::idle) return end_job(JobState::interrupted, "the board was lost");
+  if (kept_->is_named()) start_job();
+}
+
+// The check is done, and the machine stands where the check began. With a journal, the board hears of the job first.
+void JobRunner::name_job() {
+  const StoredProgram& program = *shared_.programs.find(job_.program);
+  if (shared_.owner.changes() != begins_.owner) {
+    return end_job(JobState::stopped, "the ownership of motion was passed on");
+  }
+  if (program.state != UploadState::good) {
+    return end_job(JobState::failed, words_of_error(program.findings, "the program has errors: see its findings"));
+  }
+  begins_.way.reset();
+  if (goes_on_ || begins_.from) {
+    auto way = goes_on_ ? way_behind_stop() : way_to(program, *begins_.from);
+    if (!way) return end_job(JobState::failed, way.error().why);
+    begins_.way = std::move(*way);
+  }
+  if (!kept_) return start_job();
+  if (shared_.session.state() != MachineState::idle) {
+    return end_job(JobState::failed, "the machine is not idle any more");
+  }
+  const Point stands = shared_.session.status().position.place;
+  const bool begun = begins_.reenters ? kept_->reenter(program.path)
+                     : begins_.resumes
+                         ? kept_->resume(program.path)
+                         : kept_->begin({.history = job_.history,
+                                         .text = program.text_to_keep(),
+                                         .path = program.path,
+                                         .place = begins_.way ? begins_.way->at.place : PathPlace(),
+                                         .start = goes_on_ ? parked_->start : stands,
+                                         .probes = goes_on_ ? parked_->probes : std::vector<ProbeOutcome>()});
+  if (begun) {
+    named_ = true;
+  } else if (const InterruptedJob* const broken = kept_->interrupted(); begins_.resumes && broken != nullptr) {
+    end_job(JobState::interrupted, broken->why);
+  } else {
+    end_job(JobState::failed, "the journal of the job cannot be written: " + shared_.options.keeper->trouble());
+  }
+}
+
+void JobRunner::start_job() {
+  const StoredProgram& program = *shared_.programs.find(job_.program);
+  findings_.clear();
+  request::Start start{.program = ProgramReader::from_text(program.name, program.text),
+                       .options = shared_.programs.options_of(program)};
+  start.nominal_time = program.check.nominal_time;
+  start.findings = &findings_;
+  log_.clear();
+  start.watchers.operations = [this](const Operation& operation) { log_.note(operation); };
+  start.options.start = goes_on_ ? parked_->start : shared_.session.status().position.place;
+  if (begins_.way) {
+    start.from = begins_.way->at;
+    start.lead_in = begins_.way->lead_in;
+  }
+  if (goes_on_) start.known_probes = parked_->probes;
+  if (named_) kept_->add_to(start);
+  const Point begins_at = start.options.start;
+  std::vector<ProbeOutcome> probes = start.known_probes;
+  const auto ticket = shared_.session.request(std::move(start));
+  if (!ticket) return end_job(JobState::failed, ticket.error().message);
+  start_ = begins_at;
+  probes_ = std::move(probes);
+  if (std::exchange(goes_on_, false)) parked_.reset();
+  if (named_) kept_->forget_interrupted();
+  ticket_ = *ticket;
+  job_.state = JobState::running;
+  stopped_by_.clear();
+}
+
+// A job that was broken off and did not begin again stays broken off.
+void JobRunner::end_job(JobState state, std::string why) {
+  // What could not go on waits as before.
+  if (std::exchange(goes_on_, false) && state == JobState::failed) {
+    if (std::exchange(named_, false)) kept_->end(false);
+    job_.state = JobState::running;
+    job_.why = std::move(why);
+    return;
+  }
+  if (parked_ && parked_->job.id == job_.id) parked_.reset();
+  if (begins_.resumes && kept_->interrupted() != nullptr) state = JobState::interrupted;
+  if (job_.state == JobState::running) mdi_.begin_anew();
+  job_.state = state;
+  job_.why = std::move(why);
+  ticket_.reset();
+  begins_.map_for = 0;
+  ++ended_;
+  if (named_) kept_->end(state == JobState::interrupted);
+  named_ = false;
+  if (job_.history == 0) return;
+  shared_.options.history->end(job_.history, history_state_of(state), job_.why, shared_.wall_time());
+}
+
+// A hold amid the wait is no second one.
+void JobRunner::note_wait() {
+  const auto wait = shared_.session.status().waits_for;
+  if (job_.history == 0 || !ticket_ || !wait || std::exchange(wait_noted_, true)) return;
+  const bool is_tool = wait->kind == Action::Kind::tool_change;
+  shared_.options.history->note_wait(job_.history, {.at = shared_.wall_time(),
+                                                    .code = code_of(*wait),
+                                                    .line = wait->line,
+                                                    .tool = is_tool ? std::optional(wait->tool) : std::nullopt,
+                                                    .words = wait->words});
+}
+
+void JobRunner::heed(const MachineChange& change) {
+  const bool runs_again = change.kind == MachineChange::Kind::state && change.state == MachineState::run;
+  if (runs_again) wait_noted_ = false;
+  if (change.kind == MachineChange::Kind::came_to_rest) note_wait();
+  if (change.kind == MachineChange::Kind::probed && ticket_) probes_.push_back(*change.probe);
+  if (change.kind == MachineChange::Kind::answered && ticket_ && change.ticket == *ticket_) heed_end(change);
+}
+
+void JobRunner::heed_end(const MachineChange& change) {
+  // What was broken off by the board, or because the program ends, may go on.
+  const bool is_broken_off =
+      change.outcome == Outcome::failed ? change.fault && change.fault->code.starts_with("board.") : leaves_;
+  switch (change.outcome) {
+    case Outcome::done:
+      keep_results();
+      end_job(JobState::done);
+      break;
+    case Outcome::stopped:
+      end_job(named_ && is_broken_off ? JobState::interrupted : JobState::stopped,
+              leaves_               ? "passo serve was told to end"
+              : stopped_by_.empty() ? "it was stopped"
+                                    : "stopped by " + stopped_by_);
+      break;
+    case Outcome::failed: {
+      // What came true only in the run: a probe that touched nothing, a way that leads out of the travel.
+      const std::string words = change.fault ? change.fault->message : "";
+      const bool is_of_program = change.fault && change.fault->code == "program.wrong";
+      end_job(named_ && is_broken_off ? JobState::interrupted : JobState::failed,
+              is_of_program ? words_of_error(findings_, words) : words);
+      break;
+    }
+  }
+}
+
+// What a program has found, and set, counts when the program has come to its end.
+void JobRunner::keep_results() {
+  if (const Program* const program = shared_.session.program(); program != nullptr) {
+    shared_.offsets.take(program->saved_parameters(), program->tools());
+  }
+  if (begins_.map_for == 0) return;
+  Diagnostics ignored;
+  // Somebody may have deleted the program meanwhile: the map then stays with the cycle that has found it.
+  const std::uint64_t owner = shared_.programs.find(begins_.map_for) != nullptr ? begins_.map_for : job_.program;
+  if (auto map = read_height_map("log", log_.lines(), ignored)) {
+    shared_.programs.set_height_map(owner, std::move(*map));
+  }
+}
+
+bool JobRunner::is_free_to_move(const MachineStatus& status) const {
+  if (parked_ || !ticket_ || job_.state != JobState::running || !status.waits_for || !status.rests) return false;
+  return status.outputs.spindle == SpindleDirection::off &&
+         !status.holds.any_of({HoldReason::operator_hold, HoldReason::door, HoldReason::stop}) &&
+         !takes_up_backlash(step_options(shared_.machine));
+}
+
+void JobRunner::step_aside() {
+  MachineSession& session = shared_.session;
+  const MachineStatus status = session.status();
+  if (!is_free_to_move(status)) return;
+  parked_ = ParkedJob{.job = job_,
+                      .wait = *status.waits_for,
+                      .parameters = shared_.programs.parameters(),
+                      .tools = shared_.programs.tools(),
+                      .start = start_,
+                      .probes = probes_};
+  ticket_.reset();
+  if (std::exchange(named_, false)) kept_->end(false);
+  static_cast<void>(session.request(request::Stop{}).has_value());
+  for (int turns = 0; session.busy() && turns < most_turns; ++turns) session.turn(a_turn);
+  mdi_.begin_anew();
+}
+
+Result<Reentry, ReentryProblem> JobRunner::way_behind_stop() const {
+  return parked_->way_behind_stop(shared_.machine, shared_.programs, shared_.session.status().position.place);
+}
+
+WebAnswer JobRunner::go_on() {
+  if (is_checking()) return not_idle(shared_.session.state());
+  if (auto refused = refuse_begin()) return std::move(*refused);
+  if (const auto way = way_behind_stop(); !way) return error_answer(409, way.error().code, way.error().why);
+  job_ = parked_->job;
+  job_.state = JobState::checking;
+  job_.why.clear();
+  goes_on_ = true;
+  named_ = false;
+  begins_ = {.owner = shared_.owner.changes()};
+  shared_.programs.check(job_.program, shared_.machine, parked_->start);
+  return ticket_answer(shared_.session, 0);
+}
+
+WebAnswer JobRunner::stop_parked() {
+  job_ = parked_->job;
+  end_job(JobState::stopped, stopped_by_.empty() ? "it was stopped" : "stopped by " + stopped_by_);
+  return ticket_answer(shared_.session, 0);
+}
+
+WebAnswer JobRunner::parked_refusal() const {
+  return error_answer(
+      409, "jobs.waits",
+      fmt::format("{} waits at line {}: go on with it or stop it first", parked_->job.name, parked_->wait.line));
+}
+
+void JobRunner::leave() {
+  leaves_ = true;
+  stopped_by_.clear();
+  if (!parked_) return;
+  job_ = parked_->job;
+  end_job(JobState::stopped, "passo serve was told to end");
+}
+
+}  // namespace passo

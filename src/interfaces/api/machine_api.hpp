@@ -1,0 +1,72 @@
+// MachineApi: the machine itself: how it is, and what a person does to it: hold, stop, jog, home, overrides, outputs,
+// lines that are typed, and the zero of the work. Private to api/.
+#pragma once
+
+#include <cstdint>
+#include <string>
+
+#include "api_call.hpp"
+#include "api_shared.hpp"
+#include "homing_record.hpp"
+#include "job_runner.hpp"
+#include "program_times.hpp"
+
+#include "passo/api/mdi_lines.hpp"
+
+namespace passo {
+
+class MachineApi {
+ public:
+  // All of them outlive this.
+  MachineApi(const ApiShared& shared, JobRunner& jobs, const ProgramTimes& times, MdiLines& mdi);
+
+  WebAnswer status(const ApiCall& call);
+  WebAnswer health(const ApiCall& call);
+  WebAnswer description(const ApiCall& call);
+  WebAnswer homing(const ApiCall& call);
+  WebAnswer pulses(const ApiCall& call);
+  WebAnswer metrics(const ApiCall& call);
+  WebAnswer openapi(const ApiCall& call);
+  // Without WebSocket there is no stream.
+  WebAnswer stream(const ApiCall& call);
+
+  WebAnswer hold(const ApiCall& call);
+  WebAnswer stop(const ApiCall& call);
+  WebAnswer home(const ApiCall& call);
+  WebAnswer jog(const ApiCall& call);
+  WebAnswer set_overrides(const ApiCall& call);
+  WebAnswer choose_stops(const ApiCall& call);
+  WebAnswer switch_outputs(const ApiCall& call);
+  WebAnswer operator_done(const ApiCall& call);
+  WebAnswer set_position(const ApiCall& call);
+  WebAnswer set_work_zero(const ApiCall& call);
+  WebAnswer run_line(const ApiCall& call);
+  // A request of the session that has nothing to say but its name.
+  template <class Wanted>
+  WebAnswer order(const ApiCall&) {
+    return ask(Wanted{});
+  }
+
+  std::string status_text() const;
+  void heed(const MachineChange& change);
+  void turn();
+  // What web servers count, for the metrics.
+  void watch(const WebServer& server) { server_ = &server; }
+
+ private:
+  WebAnswer ask(Request wanted);
+  std::string unkept() const;
+  std::string metrics_text() const;
+
+  const ApiShared& shared_;
+  JobRunner& jobs_;
+  const ProgramTimes& times_;
+  MdiLines& mdi_;
+  HomingRecord homing_;
+  std::uint64_t mdi_owner_ = 0;  // MotionOwner::changes()
+  const WebServer* server_ = nullptr;
+  std::uint64_t alarms_ = 0;
+  std::uint64_t late_ = 0;  // rests because a refill came too late
+};
+
+}  // namespace passo

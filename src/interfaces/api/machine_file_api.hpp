@@ -1,0 +1,29 @@
+// MachineFileApi: the machine file for an editor: its text and values, what a change would make of it, and writing it.
+// Private to api/.
+#pragma once
+
+#include <optional>
+
+#include "api_call.hpp"
+#include "api_shared.hpp"
+#include "job_runner.hpp"
+
+namespace passo {
+
+class MachineFileApi {
+ public:
+  // Both outlive this.
+  MachineFileApi(const ApiShared& shared, const JobRunner& jobs) : shared_(shared), jobs_(jobs) {}
+
+  WebAnswer look(const ApiCall& call);
+  WebAnswer draft(const ApiCall& call);
+  WebAnswer write(const ApiCall& call);
+
+ private:
+  std::optional<WebAnswer> refuse_while_moving() const;
+
+  const ApiShared& shared_;
+  const JobRunner& jobs_;
+};
+
+}  // namespace passo

@@ -1,0 +1,47 @@
+// ProgramsApi: programs that clients send, whole or in pieces, what viewers ask of them, and their height maps.
+// Private to api/.
+#pragma once
+
+#include "api_call.hpp"
+#include "api_shared.hpp"
+#include "job_runner.hpp"
+
+#include "passo/api/program_uploads.hpp"
+
+namespace passo {
+
+class ProgramsApi {
+ public:
+  // The longest program that is levelled: a machine that rests waits for that.
+  static constexpr std::size_t longest_to_level = std::size_t{16} << 20;
+
+  // Both outlive this.
+  ProgramsApi(const ApiShared& shared, const JobRunner& jobs) : shared_(shared), jobs_(jobs) {}
+
+  WebAnswer list(const ApiCall& call);
+  WebAnswer send(const ApiCall& call);
+  WebAnswer look(const ApiCall& call);
+  WebAnswer remove(const ApiCall& call);
+  WebAnswer check(const ApiCall& call);
+  WebAnswer set_block_delete(const ApiCall& call);
+  WebAnswer path(const ApiCall& call);
+  WebAnswer text(const ApiCall& call);
+
+  WebAnswer height_map(const ApiCall& call);
+  WebAnswer set_height_map(const ApiCall& call);
+  // A program of its own, so that it is seen and checked like any other.
+  WebAnswer level(const ApiCall& call);
+
+  WebAnswer list_uploads(const ApiCall& call);
+  WebAnswer begin_upload(const ApiCall& call);
+  WebAnswer look_at_upload(const ApiCall& call);
+  WebAnswer drop_upload(const ApiCall& call);
+  WebAnswer take_piece(const ApiCall& call);
+
+ private:
+  const ApiShared& shared_;
+  const JobRunner& jobs_;
+  ProgramUploads uploads_;
+};
+
+}  // namespace passo

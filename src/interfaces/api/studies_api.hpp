@@ -1,0 +1,32 @@
+// StudiesApi: what is worked out beside the machine: the torque that a program needs, and limits for the motors.
+// Private to api/.
+#pragma once
+
+#include <cstdint>
+#include <string>
+
+#include "api_call.hpp"
+#include "api_shared.hpp"
+
+namespace passo {
+
+class StudiesApi {
+ public:
+  // Outlives this.
+  explicit StudiesApi(const ApiShared& shared) : shared_(shared) {}
+
+  WebAnswer look(const ApiCall& call);
+  WebAnswer begin(const ApiCall& call);
+  WebAnswer loads(const ApiCall& call);
+  WebAnswer picture(const ApiCall& call);
+
+ private:
+  bool is_done() const { return shared_.options.studies->look().state == StudyResult::State::done; }
+  WebAnswer state_answer(unsigned status) const;
+
+  const ApiShared& shared_;
+  std::string study_;          // the last one that was ordered
+  std::uint64_t studied_ = 0;  // its program; 0: none
+};
+
+}  // namespace passo
