@@ -62,8 +62,8 @@ class LineParser {
   bool parse_control_arguments(Control& control, const char* keyword);
   bool parse_comments_only();
 
-  // value_parser.cpp: everything that gives a number. Each function adds to Block::code. `owner` is what lacks a value
-  // if there is none.
+  // line_parser_values.cpp: everything that gives a number. Each function adds to Block::code. `owner` is what lacks a
+  // value if there is none.
   bool parse_expression(Expression& expression, const char* owner);
   bool parse_value(const char* owner);
   bool parse_number(const char* owner);
@@ -77,7 +77,7 @@ class LineParser {
   bool parse_name(Symbol& symbol);
   bool emit(ExpressionOp op, const char* start, double number = 0, Symbol symbol = {});
 
-  // line_fault.cpp: the messages. All return false.
+  // line_parser_faults.cpp: the messages. All return false.
   bool fail(const char* code, const char* from, std::size_t length, std::string message, std::string expected);
   bool fail_missing_value(const char* owner);
   bool is_digit_alike() const;

@@ -4,7 +4,6 @@
 #include <bit>
 #include <cmath>
 
-#include "comment_text.hpp"
 #include "whole_number.hpp"
 #include <fmt/format.h>
 
@@ -46,34 +45,27 @@ bool follows_digit(std::string_view text, Span word) {
 
 }  // namespace
 
-// The order of execution is LinuxCNC's (execute_block and convert_g of its interpreter): comments, spindle and feed
-// mode, F, S, T, M codes, G codes, motion, stops. grbl's order has the same effect, but for units, which come before F.
-const BlockExecutor::Step BlockExecutor::steps_before_words[] = {
-    {spindle_mode, of<&BlockExecutor::spindles_, &SpindleCodes::set_mode>},
-    {feed_mode, own<&BlockExecutor::set_feed_mode>},
-    {length_units, own<&BlockExecutor::set_units_before_feed>},
-};
-const BlockExecutor::Step BlockExecutor::steps_after_words[] = {
-    {macro, of<&BlockExecutor::subprograms_, &SubprogramCodes::end_macro_calls>},
-    {input_output, of<&BlockExecutor::input_output_, &InputOutputCodes::run>},
-    {tool_change, of<&BlockExecutor::tools_, &ToolCodes::change>},
-    {spindle, own<&BlockExecutor::run_spindle_group>},
-    {coolant, own<&BlockExecutor::switch_coolant>},
-    {overrides, own<&BlockExecutor::switch_overrides>},
-    {user, of<&BlockExecutor::input_output_, &InputOutputCodes::run_user_code>},
-    {non_modal, own<&BlockExecutor::dwell>},
-    {plane, own<&BlockExecutor::select_plane>},
-    {length_units, own<&BlockExecutor::set_units_after_feed>},
-    {lathe_diameter, own<&BlockExecutor::set_lathe_diameter>},
-    {cutter_compensation, of<&BlockExecutor::cutter_codes_, &CutterCodes::set>},
-    {tool_length, of<&BlockExecutor::tools_, &ToolCodes::set_length>},
-    {work_system, of<&BlockExecutor::frame_, &FrameCodes::select_work_system>},
-    {path_mode, own<&BlockExecutor::set_path_mode>},
-    {distance, own<&BlockExecutor::set_distance_mode>},
-    {arc_distance, own<&BlockExecutor::set_arc_distance_mode>},
-    {retract, own<&BlockExecutor::set_retract_mode>},
-    {non_modal, own<&BlockExecutor::run_non_modal>},
-};
+// What the code of each group does. Most modes are nothing but set.
+const std::array<BlockExecutor::GroupFunction, modal_group_count> BlockExecutor::group_functions = [] {
+  std::array<GroupFunction, modal_group_count> all{};
+  all.fill(of<&BlockExecutor::modes_, &ModeCodes::set>);
+  const auto does = [&all](ModalGroup group, GroupFunction function) { all[index_of(group)] = function; };
+  does(spindle_mode, of<&BlockExecutor::spindles_, &SpindleCodes::set_mode>);
+  does(feed_mode, of<&BlockExecutor::modes_, &ModeCodes::set_feed_mode>);
+  does(macro, of<&BlockExecutor::subprograms_, &SubprogramCodes::end_macro_calls>);
+  does(input_output, of<&BlockExecutor::input_output_, &InputOutputCodes::run>);
+  does(tool_change, of<&BlockExecutor::tools_, &ToolCodes::change>);
+  does(spindle, own<&BlockExecutor::run_spindle_group>);
+  does(coolant, of<&BlockExecutor::modes_, &ModeCodes::switch_coolant>);
+  does(overrides, of<&BlockExecutor::modes_, &ModeCodes::switch_overrides>);
+  does(user, of<&BlockExecutor::input_output_, &InputOutputCodes::run_user_code>);
+  does(cutter_compensation, of<&BlockExecutor::cutter_codes_, &CutterCodes::set>);
+  does(tool_length, of<&BlockExecutor::tools_, &ToolCodes::set_length>);
+  does(work_system, of<&BlockExecutor::frame_, &FrameCodes::select_work_system>);
+  does(path_mode, of<&BlockExecutor::modes_, &ModeCodes::set_path_mode>);
+  does(non_modal, own<&BlockExecutor::run_non_modal>);
+  return all;
+}();
 
 BlockExecutor::BlockExecutor(BlockContext& block, SymbolTable& symbols)
     : CodeFamily(block),
@@ -89,6 +81,9 @@ BlockExecutor::BlockExecutor(BlockContext& block, SymbolTable& symbols)
       threading_(block),
       lathe_(block, cutter_codes_, symbols),
       subprograms_(block),
+      modes_(block),
+      stops_(block, cutter_codes_, frame_),
+      comments_(block, symbols),
       symbols_(symbols) {}
 
 void BlockExecutor::start(const InterpreterOptions& options) {
@@ -156,7 +151,7 @@ void BlockExecutor::execute(const Block& block) {
     return;
   }
   if (!block.assignments.empty() && !assign(block)) return;
-  if (!block.comments.empty() && !obey_comments(block)) return;
+  if (!block.comments.empty() && !comments_.obey(block)) return;
   if (block.words.empty() || !execute_words()) return;
   // grbl looks for words without use at the very end. Of a line with an error nothing is executed all the same.
   if (speaks_grbl() && !check_words_used()) return;
@@ -188,7 +183,7 @@ void BlockExecutor::go_on() {
     if (compensated) state_.cutter_shift = cutter_.shift(state_.position);
     if (!std::exchange(cycle_, nullptr)->finish()) return;
   }
-  if (words_.code(stopping) != nullptr) stop(words_.code(stopping)->number);
+  if (words_.code(stopping) != nullptr) stops_.run(words_.code(stopping)->number);
 }
 
 // A line of a lathe cycle's contour.
@@ -201,19 +196,37 @@ void BlockExecutor::end_contour() {
   if (lathe_.end_contour()) cycle_ = &lathe_;
 }
 
+// The order of execution is LinuxCNC's (execute_block and convert_g of its interpreter): comments, spindle and feed
+// mode, F, S, T, M codes, G codes, motion, stops. grbl's order has the same effect, but for units, which come before F.
 bool BlockExecutor::execute_words() {
   if (splines_.nurbs_is_open()) splines_.check_nurbs_is_closed();
   const WordPlace all = block_.word;
   const bool only_moves = (words_.groups() & ~bit_of(motion)) == 0;  // as most blocks do
-  if (!only_moves && !run(steps_before_words)) return false;
-  if (words_.has('F') && !set_feed_rate()) return false;
+  if (!only_moves && !execute_before_words()) return false;
+  if (words_.has('F') && !modes_.set_feed_rate()) return false;
   // In grbl, F of inverse time counts for its own line alone, also when G94 comes.
   if (speaks_grbl() && state_.modal.inverse_time()) state_.feed = words_.has('F') ? words_['F'] : 0;
   if (words_.has('S') && !set_spindle_speed()) return false;
   if (words_.has('T') && !tools_.select()) return false;
-  if (!only_moves && !run(steps_after_words)) return false;
+  if (!only_moves && !execute_after_words()) return false;
   block_.word = all;
   return block_.motion == nullptr || move(block_.motion->number);
+}
+
+bool BlockExecutor::execute_before_words() {
+  return run(spindle_mode) && run(feed_mode) && (!speaks_grbl() || run(length_units));
+}
+
+bool BlockExecutor::execute_after_words() {
+  for (const ModalGroup group : {macro, input_output, tool_change, spindle, coolant, overrides, user}) {
+    if (!run(group)) return false;
+  }
+  if (!stops_.dwell()) return false;
+  for (const ModalGroup group : modes_in_order) {
+    const bool is_set = group == length_units && speaks_grbl();
+    if (!is_set && !run(group)) return false;
+  }
+  return run(non_modal);
 }
 
 bool BlockExecutor::set_spindle_speed() {
@@ -221,14 +234,23 @@ bool BlockExecutor::set_spindle_speed() {
   return spindles_.set_speed();
 }
 
-bool BlockExecutor::run(std::span<const Step> steps) {
-  for (const Step& step : steps) {
-    const CodeEntry* const entry = words_.code(step.group);
-    if (entry == nullptr) continue;
-    block_.word = place_of(words_.span(step.group));
-    if (!step.run(*this, entry->number)) return false;
+bool BlockExecutor::run(ModalGroup group) {
+  const CodeEntry* const entry = words_.code(group);
+  if (entry == nullptr) return true;
+  block_.word = place_of(words_.span(group));
+  return set_group(*entry);
+}
+
+// M3, M4, M5, M19 share a modal group with M70 to M73.
+bool BlockExecutor::run_spindle_group(CodeNumber number) {
+  switch (number) {
+    case code(19): return spindles_.orient();
+    case code(70):
+    case code(71):
+    case code(72):
+    case code(73): return keep_modal_state(number);
+    default: return spindles_.turn(number);
   }
-  return true;
 }
 
 bool BlockExecutor::move(CodeNumber number) {
@@ -375,17 +397,6 @@ bool BlockExecutor::check_words_used() {
   return false;
 }
 
-// The words that a code takes. Those of G10 depend on its L. grbl's arcs make no turns (P), and have a radius or a
-// centre.
-LetterSet BlockExecutor::letters_of(const CodeEntry& entry) const {
-  if (speaks_grbl() && entry.group == motion && (entry.number == code(2) || entry.number == code(3))) {
-    return words_.has('R') ? "R" : "IJK";
-  }
-  if (entry.group != non_modal || entry.number != code(10) || !words_.has('L')) return entry.letters;
-  if (words_['L'] == 2) return "LPR";
-  return words_['L'] == 20 || words_['L'] == 0 ? "LP" : entry.letters;
-}
-
 // One word cannot be meant for two codes.
 bool BlockExecutor::check_words_shared() {
   if ((words_.groups() & (words_.groups() - 1)) == 0) return true;
@@ -444,51 +455,32 @@ bool BlockExecutor::assign(const Block& block) {
   return true;
 }
 
-// As LinuxCNC does: what follows ';' is never obeyed, and of several comments in parentheses the last one is.
-bool BlockExecutor::obey_comments(const Block& block) {
-  const BlockComment* last = nullptr;
-  for (const BlockComment& comment : block.comments) {
-    const bool says_nothing = comment.text.empty() && comment.kind == BlockComment::Kind::plain;
-    if (says_nothing || block.text[comment.span.column - 1] == ';') continue;
-    if (last != nullptr && last->kind != BlockComment::Kind::plain) {
-      reporter_.warning("gcode.hidden-comment", last->span, "only the last comment of a block is obeyed",
-                        "one comment a block");
-    }
-    last = &comment;
-  }
-  return last == nullptr || obey(*last);
+// In grbl a G53 without axis words needs no motion in its block.
+bool BlockExecutor::moves_straight() const {
+  if (block_.motion == nullptr && !speaks_grbl()) return false;
+  const CodeNumber number = block_.motion != nullptr ? block_.motion->number : state_.modal[motion];
+  return number == code(0) || number == code(1);
 }
 
-bool BlockExecutor::obey(const BlockComment& comment) {
-  using Kind = BlockComment::Kind;
-  using Log = operation::Log;
-  const auto filled = [&]() -> std::string_view {
-    fill_in_parameters(comment.text, parameters_, symbols_, text_);
-    return text_;
-  };
-  switch (comment.kind) {
-    case Kind::plain:
-      emit(operation::Comment{
-          comment.text.substr(std::min(comment.text.find_first_not_of(" \t"), comment.text.size()))});
-      return true;
-    case Kind::message: emit_ahead(operation::Message{comment.text}); return true;
-    case Kind::debug:
-      if (parameters_.get(show_debug_parameter) != 0) emit_ahead(operation::Message{filled()});
-      return true;
-    case Kind::print: emit_ahead(operation::Print{filled()}); return true;
-    case Kind::log: emit_ahead(Log{Log::Kind::line, filled()}); return true;
-    case Kind::log_open: emit_ahead(Log{Log::Kind::open, comment.text}); return true;
-    case Kind::log_append: emit_ahead(Log{Log::Kind::append, comment.text}); return true;
-    case Kind::log_close: emit_ahead(Log{Log::Kind::close, {}}); return true;
-    case Kind::abort:
-      block_.ended = block_.gave_up = true;
-      return fail("gcode.abort", comment.span, fmt::format("the program gives up:{}", filled()));
-    case Kind::probe_open:
-    case Kind::probe_close:  // as rs274 shows them: whole
-      emit(operation::Comment{reporter_.block().text.substr(comment.span.column, comment.span.length - 2)});
-      return true;
+bool BlockExecutor::run_non_modal(CodeNumber number) {
+  switch (number) {
+    case code(10): return tools_.set_table();
+    case code(28): return splines_.interrupt(), frame_.go_home(first_home_parameter);
+    case code(28, 1): return frame_.store_home(first_home_parameter);
+    case code(30): return splines_.interrupt(), frame_.go_home(second_home_parameter);
+    case code(30, 1): return frame_.store_home(second_home_parameter);
+    case code(50): state_.scaling = Scaling{}; return true;
+    case code(51): return frame_.set_scaling();
+    case code(52):
+    case code(92):
+    case code(92, 1):
+    case code(92, 2):
+    case code(92, 3): return frame_.set_g92(number);
+    case code(53):
+      if (moves_straight()) return true;
+      return fail("gcode.g53-without-move", words_.span(non_modal), "G53 without G0 or G1", "G53 G0 … or G53 G1 …");
+    default: return true;  // G4 was executed before
   }
-  return true;
 }
 
 }  // namespace passo

@@ -1,21 +1,21 @@
 // BlockExecutor: one block of words -> operations, in RS274/NGC's order of execution.
 //
 // A block is first checked as a whole (one code of each modal group, every word used, one code that takes the axis
-// words). Then it is executed group by group in a fixed order (block_executor.cpp). The executor itself has the codes
-// of the modal state and of switches (settings.cpp). All other codes belong to families (code_family.hpp). A cycle is a
-// source of operations, which is pulled while the queue has room until the cycle is finished. A block with an error
-// does nothing after the error. But the position goes where the block was meant to lead, so one slip does not cause
-// errors in all that follows.
+// words). Then it is executed group by group in a fixed order. The codes belong to families (code_family.hpp). A cycle
+// is a source of operations, which is pulled while the queue has room until the cycle is finished. A block with an
+// error does nothing after the error. But the position goes where the block was meant to lead, so one slip does not
+// cause errors in all that follows.
 //
 // A block needs no allocation. The queue has room for the most operations of one block (an M2 with everything before
 // it).
 #pragma once
 
+#include <array>
 #include <optional>
-#include <span>
-#include <string>
+#include <type_traits>
 #include <vector>
 
+#include "active_comments.hpp"
 #include "code_family.hpp"
 #include "cutter_codes.hpp"
 #include "drilling_codes.hpp"
@@ -23,10 +23,12 @@
 #include "input_output_codes.hpp"
 #include "lathe_codes.hpp"
 #include "modal_snapshot.hpp"
+#include "mode_codes.hpp"
 #include "motion_codes.hpp"
 #include "probe_codes.hpp"
 #include "spindle_codes.hpp"
 #include "spline_codes.hpp"
+#include "stop_codes.hpp"
 #include "subprogram_codes.hpp"
 #include "threading_codes.hpp"
 #include "tool_codes.hpp"
@@ -57,7 +59,7 @@ class BlockExecutor : private CodeFamily {
   // Tells that a sub was left, by its O-word or M99. The flow is back in the caller.
   void leave_sub(const OperationSource& source);
   // Handles M99 in a main program that does not run again.
-  void end_program(bool pallet);
+  void end_program(bool pallet) { stops_.end_program(pallet); }
   // True: a cycle of the last block has more operations to give.
   bool busy() const { return cycle_ != nullptr; }
   void go_on();
@@ -76,59 +78,42 @@ class BlockExecutor : private CodeFamily {
 
  private:
   bool go_home_beside_g0(const CodeEntry& taker);
-  // Each function executes a group's code. False: the code failed, and the rest of the block is not executed.
-  using GroupFunction = bool (*)(BlockExecutor& executor, CodeNumber code);
-  struct Step {
-    ModalGroup group;
-    GroupFunction run;
-  };
-  static const Step steps_before_words[];
-  static const Step steps_after_words[];
+  // Executes the code of a group. False: the code failed, and the rest of the block is not executed.
+  using GroupFunction = bool (*)(BlockExecutor& executor, const CodeEntry& entry);
+  static const std::array<GroupFunction, modal_group_count> group_functions;
+  bool set_group(const CodeEntry& entry) { return group_functions[index_of(entry.group)](*this, entry); }
   template <auto method>
-  static bool own(BlockExecutor& executor, CodeNumber code) {
-    return (executor.*method)(code);
+  static bool own(BlockExecutor& executor, const CodeEntry& entry) {
+    return (executor.*method)(entry.number);
   }
   template <auto family, auto method>
-  static bool of(BlockExecutor& executor, CodeNumber code) {
-    return ((executor.*family).*method)(code);
+  static bool of(BlockExecutor& executor, const CodeEntry& entry) {
+    using Family = std::remove_reference_t<decltype(executor.*family)>;
+    if constexpr (std::is_invocable_v<decltype(method), Family&, const CodeEntry&>) {
+      return ((executor.*family).*method)(entry);
+    } else {
+      return ((executor.*family).*method)(entry.number);
+    }
   }
 
   // The block as a whole.
   bool resolve_motion();
   bool check_words_used();
-  LetterSet letters_of(const CodeEntry& entry) const;
   bool check_words_shared();
   bool assign(const Block& block);
   bool execute_words();
-  bool run(std::span<const Step> steps);
+  bool execute_before_words();
+  bool execute_after_words();
+  bool run(ModalGroup group);
 
   // Words and groups, in the order in which they are executed.
-  bool obey_comments(const Block& block);
-  bool obey(const BlockComment& comment);
-  bool set_feed_mode(CodeNumber code);
-  bool set_feed_rate();
   bool set_spindle_speed();
   bool run_spindle_group(CodeNumber code);
-  bool switch_coolant(CodeNumber code);
-  bool switch_overrides(CodeNumber code);
-  bool dwell(CodeNumber code);
-  bool select_plane(CodeNumber code);
-  bool set_units_before_feed(CodeNumber code);
-  bool set_units_after_feed(CodeNumber code);
-  bool set_length_units(CodeNumber code);
-  bool set_lathe_diameter(CodeNumber code);
-  bool set_path_mode(CodeNumber code);
-  bool set_distance_mode(CodeNumber code);
-  bool set_arc_distance_mode(CodeNumber code);
-  bool set_retract_mode(CodeNumber code);
   bool run_non_modal(CodeNumber code);
   bool moves_straight() const;
-  bool set_table();
   bool move(CodeNumber code);
   bool move_by(CodeNumber code);
   bool begin(CycleCodes& codes, bool good);
-  bool stop(CodeNumber code);
-  void emit_path_mode();
 
   // The modal state, saved and restored.
   bool keep_modal_state(CodeNumber code);
@@ -148,11 +133,13 @@ class BlockExecutor : private CodeFamily {
   ThreadingCodes threading_;
   LatheCodes lathe_;
   SubprogramCodes subprograms_;
+  ModeCodes modes_;
+  StopCodes stops_;
+  ActiveComments comments_;
 
   SymbolTable& symbols_;
   CycleCodes* cycle_ = nullptr;           // the cycle that is being pulled
   std::vector<ModalSnapshot> snapshots_;  // by call depth
-  std::string text_;                      // a comment's text, with parameters filled in
   std::vector<double> assigned_;
   bool missing_feed_was_told_ = false;  // at keep()
   bool has_settings_ = false;

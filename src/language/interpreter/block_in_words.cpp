@@ -1,7 +1,6 @@
 #include "block_in_words.hpp"
 
 #include <cmath>
-#include <span>
 
 #include "reporter.hpp"
 #include <fmt/format.h>
@@ -9,66 +8,20 @@
 namespace passo {
 namespace {
 
-enum class Quantity : std::uint8_t { number, turns, times, length, degrees, seconds, speed };
-
-// What a letter means with a code. For a code without a line here, the text is "a value of" and the code.
-struct LetterMeaning {
-  const char* letters;
-  CodeNumber first;  // G codes from here…
-  CodeNumber last;   // …to here
-  Quantity quantity;
-  const char* text;  // {}: the value
-};
-constexpr LetterMeaning g_letters[] = {
-    {"R", code(2), code(3), Quantity::length, "the arc's radius is {}"},
-    {"P", code(2), code(3), Quantity::turns, "{}, the last one a part of one perhaps"},
-    {"P", code(4), code(4), Quantity::seconds, "wait {}"},
-    {"P", code(10), code(10), Quantity::number, "number {} of what G10 sets"},
-    {"K", code(33), code(33, 1), Quantity::length, "{} along for each turn of the spindle"},
-    {"D", code(41), code(42), Quantity::number, "the radius of tool {}"},
-    {"D", code(41, 1), code(41, 1), Quantity::length, "a tool {} wide"},
-    {"D", code(42, 1), code(42, 1), Quantity::length, "a tool {} wide"},
-    {"H", code(43), code(43, 2), Quantity::number, "of tool {} in the tool table"},
-    {"P", code(64), code(64), Quantity::length, "leave the programmed path by {} at most"},
-    {"Q", code(64), code(64), Quantity::length, "merge moves that are straight within {}"},
-    {"R", code(73), code(74), Quantity::length, "the retract plane is at {}"},
-    {"R", code(81), code(89), Quantity::length, "the retract plane is at {}"},
-    {"L", code(73), code(74), Quantity::times, "{}"},
-    {"L", code(81), code(89), Quantity::times, "{}"},
-    {"Q", code(73), code(73), Quantity::length, "{} deeper with each peck"},
-    {"Q", code(83), code(83), Quantity::length, "{} deeper with each peck"},
-    {"D", code(73), code(73), Quantity::length, "{} back after each peck"},
-    {"D", code(83), code(83), Quantity::length, "by rapid to {} above the depth so far"},
-    {"P", code(74), code(74), Quantity::seconds, "wait {} at the bottom"},
-    {"P", code(81), code(89), Quantity::seconds, "wait {} at the bottom"},
-    {"D", code(96), code(96), Quantity::speed, "{} at most"},
-};
-constexpr LetterMeaning m_letters[] = {
-    {"R", code(19), code(19), Quantity::degrees, "to {}"},
-    {"Q", code(19), code(19), Quantity::seconds, "within {}"},
-    {"Q", code(61), code(61), Quantity::number, "tool {}"},
-    {"P", code(62), code(66), Quantity::number, "digital number {}"},
-    {"E", code(66), code(68), Quantity::number, "analog number {}"},
-    {"Q", code(66), code(66), Quantity::seconds, "for {} at most"},
-    {"Q", code(67), code(68), Quantity::number, "to {}"},
-    {"P", code(98), code(98), Quantity::number, "of subprogram {}"},
-    {"L", code(98), code(98), Quantity::times, "{}"},
-};
-
 std::string rounded(double value) {
   return plain_number(std::round(value * 1e6) / 1e6 + 0.0);
 }
 
-std::string quantity_in_words(double value, Quantity quantity, const ProgramState& state) {
+std::string quantity_in_words(double value, LetterQuantity quantity, const ProgramState& state) {
   switch (quantity) {
-    case Quantity::length:
+    case LetterQuantity::length:
       return state.modal.inches() ? fmt::format("{} in ({} mm)", plain_number(value), rounded(value * mm_per_inch))
                                   : fmt::format("{} mm", plain_number(value));
-    case Quantity::turns: return number_and_noun(value, "turn");
-    case Quantity::times: return number_and_noun(value, "time");
-    case Quantity::degrees: return number_and_noun(value, "degree");
-    case Quantity::seconds: return fmt::format("{} s", plain_number(value));
-    case Quantity::speed: return fmt::format("{} rev/min", plain_number(value));
+    case LetterQuantity::turns: return number_and_noun(value, "turn");
+    case LetterQuantity::times: return number_and_noun(value, "time");
+    case LetterQuantity::degrees: return number_and_noun(value, "degree");
+    case LetterQuantity::seconds: return fmt::format("{} s", plain_number(value));
+    case LetterQuantity::speed: return fmt::format("{} rev/min", plain_number(value));
     default: return plain_number(value);
   }
 }
@@ -116,8 +69,8 @@ class Meanings {
                                  after_.modal.inches() ? "feet/min" : "m/min")
                    : fmt::format("spindle speed {} rev/min", plain_number(word.value));
       case 'T': return fmt::format("select tool {}", plain_number(word.value));
-      case '@': return "distance from the origin " + quantity_in_words(word.value, Quantity::length, after_);
-      case '^': return "direction " + quantity_in_words(word.value, Quantity::degrees, after_);
+      case '@': return "distance from the origin " + quantity_in_words(word.value, LetterQuantity::length, after_);
+      case '^': return "direction " + quantity_in_words(word.value, LetterQuantity::degrees, after_);
       default: break;
     }
     const auto axis = axis_of(word.letter);
@@ -151,9 +104,9 @@ class Meanings {
   }
 
   std::string of_axis(Axis axis, double value) const {
-    const std::string given =
-        fmt::format("{} {}", letter_of(axis),
-                    quantity_in_words(value, is_rotary(axis) ? Quantity::degrees : Quantity::length, after_));
+    const std::string given = fmt::format(
+        "{} {}", letter_of(axis),
+        quantity_in_words(value, is_rotary(axis) ? LetterQuantity::degrees : LetterQuantity::length, after_));
     if (taker_ == nullptr) return given + ", which no code uses";
     if (taker_->group == ModalGroup::tool_length) return "tool offset " + given;
     if (goes_to_its_words(*taker_)) {
@@ -179,10 +132,9 @@ class Meanings {
       if (!entry->letters.has(letter)) continue;
       if (is_arc(*entry) && letter >= 'I' && letter <= 'K') return of_center(letter, value);
       if (entry->letter == 'G' && entry->number == code(10) && letter == 'L') return what_g10_sets(value);
-      const auto table = entry->letter == 'G' ? std::span<const LetterMeaning>(g_letters) : m_letters;
-      for (const LetterMeaning& line : table) {
-        if (line.letters[0] != letter || entry->number < line.first || entry->number > line.last) continue;
-        return fmt::format(fmt::runtime(line.text), quantity_in_words(value, line.quantity, after_));
+      for (const LetterMeaning& meaning : entry->meanings) {
+        if (meaning.letter != letter) continue;
+        return fmt::format(fmt::runtime(meaning.text), quantity_in_words(value, meaning.quantity, after_));
       }
       return fmt::format("a value of {}: {}", spelling(*entry), plain_number(value));
     }
@@ -197,7 +149,7 @@ class Meanings {
 
   std::string of_center(char letter, double value) const {
     const char axis = static_cast<char>('X' + (letter - 'I'));
-    const std::string length = quantity_in_words(value, Quantity::length, after_);
+    const std::string length = quantity_in_words(value, LetterQuantity::length, after_);
     return after_.modal[ModalGroup::arc_distance] == code(90, 1)
                ? fmt::format("the arc's centre is at {} {}", axis, length)
                : fmt::format("the arc's centre is {} in {} from its start", length, axis);

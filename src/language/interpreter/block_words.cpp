@@ -90,7 +90,7 @@ bool BlockWords::read_code(const Word& word, double value, Reporter& reporter) {
   if (codes_[group] != nullptr) {
     reporter.error("gcode.modal-conflict", word.span,
                    fmt::format("{} and {} are of the same group ({}) and cannot be in one block",
-                               spelling(*codes_[group]), spelling(*entry), name_of(entry->group)),
+                               spelling(*codes_[group]), spelling(*entry), row_of(entry->group).name),
                    "one of them, or two blocks");
     return false;
   }

@@ -47,9 +47,19 @@ Span CodeFamily::motion_span() const {
   return {1, 1};
 }
 
-double CodeFamily::axis_word(Axis axis) const {
-  const double value = words_[letter_of(axis)] * state_.units_of(axis);
-  return axis == Axis::x && state_.modal.diameters() ? value / 2 : value;
+// The words that a code takes. Those of G10 depend on its L. grbl's arcs make no turns (P), and have a radius or a
+// centre.
+LetterSet CodeFamily::letters_of(const CodeEntry& entry) const {
+  if (speaks_grbl() && entry.group == motion && (entry.number == code(2) || entry.number == code(3))) {
+    return words_.has('R') ? "R" : "IJK";
+  }
+  if (entry.group != non_modal || entry.number != code(10) || !words_.has('L')) return entry.letters;
+  if (words_['L'] == 2) return "LPR";
+  return words_['L'] == 20 || words_['L'] == 0 ? "LP" : entry.letters;
+}
+
+double CodeFamily::diameter_factor(Axis axis) const {
+  return axis == Axis::x && state_.modal[lathe_diameter] == code(7) ? 0.5 : 1;
 }
 
 bool CodeFamily::end_point(Point& end) {

@@ -40,9 +40,12 @@ class CodeFamily {
   // Where a diagnostic about a motion points: at the motion's code, or, if the code is modal, at the first word that
   // caused the move.
   Span motion_span() const;
+  LetterSet letters_of(const CodeEntry& entry) const;
 
   // Places. end_point: where the block's axis words lead, in work coordinates.
-  double axis_word(Axis axis) const;
+  double axis_word(Axis axis) const { return words_[letter_of(axis)] * state_.units_of(axis) * diameter_factor(axis); }
+  // Half of a word along X counts where such words are diameters (G7).
+  double diameter_factor(Axis axis) const;
   // Without G51, the result is bit for bit what the program says.
   double scaled_place(Axis axis, double value) const {
     return state_.scaling.factor(axis) == 1 ? value : state_.scaling.place(axis, value);

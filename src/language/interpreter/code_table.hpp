@@ -1,13 +1,22 @@
-// The G and M codes: their modal groups and the words they use.
+// The G and M codes: their modal groups, the words they use, and what each of them means.
 //
-// Each code is one line of the table. A new code needs a line there and a case in the function that executes its group
-// (block_executor.cpp). The table is enough to check a block before it is executed: for two codes of one group, for
-// words that no code uses, for two codes that both use the axis words.
+// Each code is one row of the table. The row is all that the interpreter, canon, `explain`, grbl's dialect, the rules
+// and the #<_names> need of a code that only sets a mode. A new mode needs an enumerator here with its place in
+// `modes_in_order`, a row for its group, and a row for each of its codes. What the mode does to other codes stands
+// where they are executed. A code that does more than set a mode also needs a case in the function that executes its
+// group (block_executor.cpp). A test holds docs/gcode.md against the rows.
+//
+// The table is enough to check a block before it is executed: for two codes of one group, for words that no code uses,
+// for two codes that both use the axis words.
 #pragma once
 
+#include <array>
 #include <cstdint>
+#include <span>
 #include <string>
 #include <string_view>
+
+#include "passo/interpreter/operation.hpp"
 
 namespace passo {
 
@@ -43,11 +52,31 @@ enum class ModalGroup : std::uint8_t {
   overrides,            // M group 9
   user,                 // M group 10
 };
-inline constexpr std::size_t modal_group_count = 22;
 constexpr std::size_t index_of(ModalGroup group) {
   return static_cast<std::size_t>(group);
 }
-std::string_view name_of(ModalGroup group);
+inline constexpr std::size_t modal_group_count = index_of(ModalGroup::user) + 1;
+
+// The modes that a block sets after F, S and T, and that M72 restores, in LinuxCNC's order.
+inline constexpr ModalGroup modes_in_order[] = {
+    ModalGroup::plane,        ModalGroup::length_units, ModalGroup::lathe_diameter, ModalGroup::cutter_compensation,
+    ModalGroup::tool_length,  ModalGroup::work_system,  ModalGroup::path_mode,      ModalGroup::distance,
+    ModalGroup::arc_distance, ModalGroup::retract};
+
+// When the canonical calls tell a mode.
+enum class Told : std::uint8_t { always, when_changed };
+
+struct GroupRow {
+  ModalGroup group = ModalGroup::non_modal;
+  std::string_view name;             // of its codes, for messages
+  CodeNumber at_start = 0;           // the code that is active when a program starts; 0: the group is no mode
+  std::string_view sets = {};        // what its codes set, for `explain`
+  Told told = Told::always;          // of a mode that is nothing but set
+  bool ahead_of_held_moves = false;  // told before the moves that cutter compensation holds back
+};
+// The groups, modes first, in the order in which `explain` shows them.
+std::span<const GroupRow> group_rows();
+const GroupRow& row_of(ModalGroup group);
 
 // A set of word letters. The polar words '@' and '^', and '$', follow after 'Z'.
 inline constexpr std::size_t letter_count = 29;
@@ -82,15 +111,33 @@ inline constexpr LetterSet polar_letters = "@^";
 
 enum class AxisUse : std::uint8_t { none, may, must };
 
+enum class GrblUse : std::uint8_t { refused, executed, without_effect };
+
+// What a word means with a code. A word without a meaning is shown as "a value of" its code.
+enum class LetterQuantity : std::uint8_t { number, turns, times, length, degrees, seconds, speed };
+struct LetterMeaning {
+  char letter = 0;
+  LetterQuantity quantity = LetterQuantity::number;
+  const char* text = "";  // {}: the value
+};
+
 struct CodeEntry {
   char letter = 'G';
   CodeNumber number = 0;
   ModalGroup group = ModalGroup::non_modal;
   AxisUse axes = AxisUse::none;  // whether the code uses axis words
-  LetterSet letters;             // the other words that the code uses
-  std::string_view what;         // a few words for messages
+  LetterSet letters = {};        // the other words that the code uses
+  std::string_view what;         // a few words for messages and `explain`
+  GrblUse grbl = GrblUse::refused;
+  std::string_view note = {};         // LinuxCNC reports the mode by this comment; empty: it does not
+  OperationKind (*call)() = nullptr;  // the canonical call that sets the mode; null: there is none
+  std::string_view parameter = {};    // the #<_name> that is 1 while the mode is active; empty: there is none
+  std::string_view chapter = {};      // of the manual that tells how the code is used; empty: no mistake is possible
+  std::array<LetterMeaning, 4> meanings = {};
 };
 
+// All codes but M100 to M199.
+std::span<const CodeEntry> code_entries();
 // Null: there is no such code.
 const CodeEntry* find_code(char letter, CodeNumber number);
 // "G59.1"

@@ -4,7 +4,7 @@
 #include <variant>
 
 #include "block_executor.hpp"
-#include "grbl.hpp"
+#include "grbl_dialect.hpp"
 #include "program_flow.hpp"
 #include "rules.hpp"
 

@@ -142,7 +142,7 @@ bool LatheCodes::contour_point(LathePoint& end) {
     if (words_.has(letter)) {
       coordinates[at] = axis_word(axis) / unit + (incremental ? coordinates[at] : 0);
     } else if (words_.has(increment)) {
-      coordinates[at] += increment == 'U' && state_.modal.diameters() ? words_['U'] / 2 : words_[increment];
+      coordinates[at] += words_[increment] * diameter_factor(axis);
     }
   }
   end = {coordinates[0], coordinates[1]};

@@ -56,28 +56,25 @@ void BlockExecutor::leave_sub(const OperationSource& source) {
 // even if they did not change, as in LinuxCNC.
 void BlockExecutor::restore(const ModalSnapshot& saved) {
   words_.clear();
-  const auto put_back = [&](ModalGroup group, GroupFunction set) {
-    if (state_.modal[group] != saved.modal[group]) set(*this, saved.modal[group]);
+  const auto put_back = [&](ModalGroup group) {
+    if (state_.modal[group] != saved.modal[group]) (void)set_group(*find_code('G', saved.modal[group]));
   };
-  put_back(length_units, own<&BlockExecutor::set_length_units>);
-  put_back(feed_mode, own<&BlockExecutor::set_feed_mode>);
+  put_back(length_units);
+  put_back(feed_mode);
   state_.feed = saved.feed;
   if (!state_.modal.inverse_time()) emit_feed_rate(saved.feed / state_.length_unit());
   restore_spindles(saved);
-  put_back(plane, own<&BlockExecutor::select_plane>);
-  put_back(lathe_diameter, own<&BlockExecutor::set_lathe_diameter>);
-  // Cutter compensation is restored only to off. To turn it on needs a tool and a move that leads in.
-  if (saved.modal[cutter_compensation] == code(40)) {
-    put_back(cutter_compensation, of<&BlockExecutor::cutter_codes_, &CutterCodes::set>);
+  for (const ModalGroup group : modes_in_order) {
+    // Cutter compensation is restored only to off. To turn it on needs a tool and a move that leads in.
+    if (group == cutter_compensation && saved.modal[group] != code(40)) continue;
+    if (group == tool_length) {
+      frame_.restore_tool_offset(saved);
+    } else if (group == path_mode) {
+      modes_.restore_path_mode(saved.modal[group], saved.tolerance);
+    } else {
+      put_back(group);
+    }
   }
-  frame_.restore_tool_offset(saved);
-  put_back(work_system, of<&BlockExecutor::frame_, &FrameCodes::select_work_system>);
-  state_.modal.set(path_mode, saved.modal[path_mode]);
-  state_.tolerance = saved.tolerance;
-  emit_path_mode();
-  put_back(distance, own<&BlockExecutor::set_distance_mode>);
-  put_back(arc_distance, own<&BlockExecutor::set_arc_distance_mode>);
-  put_back(retract, own<&BlockExecutor::set_retract_mode>);
   restore_switches(saved);
 }
 

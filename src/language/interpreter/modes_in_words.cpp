@@ -10,26 +10,6 @@ namespace {
 
 using Mode = Explanation::Mode;
 
-struct GroupName {
-  ModalGroup group;
-  const char* name;
-};
-constexpr GroupName shown_groups[] = {
-    {ModalGroup::motion, "motion"},
-    {ModalGroup::length_units, "units"},
-    {ModalGroup::distance, "distances"},
-    {ModalGroup::arc_distance, "arc centres"},
-    {ModalGroup::plane, "plane"},
-    {ModalGroup::feed_mode, "feed mode"},
-    {ModalGroup::work_system, "work system"},
-    {ModalGroup::tool_length, "tool length"},
-    {ModalGroup::cutter_compensation, "cutter compensation"},
-    {ModalGroup::path_mode, "path"},
-    {ModalGroup::retract, "retract"},
-    {ModalGroup::spindle_mode, "spindle mode"},
-    {ModalGroup::lathe_diameter, "X words"},
-};
-
 std::string feed_of(const ProgramState& state) {
   if (state.feed == 0) return "none given";
   const double units = state.feed / state.length_unit();
@@ -101,11 +81,12 @@ std::string in_words(const Point& point) {
 
 std::vector<Mode> modes_in_words(const ProgramState& before, const ProgramState& after) {
   std::vector<Mode> modes;
-  for (const auto& [group, name] : shown_groups) {
-    const CodeNumber number = after.modal[group];
+  for (const GroupRow& row : group_rows()) {
+    if (row.sets.empty()) continue;
+    const CodeNumber number = after.modal[row.group];
     const CodeEntry* const entry = find_code('G', number);
-    modes.push_back({name, spelling('G', number), entry != nullptr ? std::string(entry->what) : std::string(),
-                     before.modal[group] != number});
+    modes.push_back({std::string(row.sets), spelling('G', number),
+                     entry != nullptr ? std::string(entry->what) : std::string(), before.modal[row.group] != number});
   }
   for (const Setting& setting : shown_settings) {
     std::string now = setting.of(after);

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "predefined.hpp"
+#include "predefined_parameters.hpp"
 
 namespace passo {
 namespace {

@@ -18,19 +18,7 @@ class ModalState {
  public:
   // The state in which LinuxCNC starts.
   ModalState() {
-    set(ModalGroup::motion, code(80));
-    set(ModalGroup::plane, code(17));
-    set(ModalGroup::distance, code(90));
-    set(ModalGroup::arc_distance, code(91, 1));
-    set(ModalGroup::feed_mode, code(94));
-    set(ModalGroup::length_units, code(21));
-    set(ModalGroup::cutter_compensation, code(40));
-    set(ModalGroup::tool_length, code(49));
-    set(ModalGroup::retract, code(99));
-    set(ModalGroup::work_system, code(54));
-    set(ModalGroup::path_mode, code(64));
-    set(ModalGroup::spindle_mode, code(97));
-    set(ModalGroup::lathe_diameter, code(8));
+    for (const GroupRow& row : group_rows()) set(row.group, row.at_start);
   }
   CodeNumber operator[](ModalGroup group) const { return active_[index_of(group)]; }
   void set(ModalGroup group, CodeNumber number) { active_[index_of(group)] = number; }
@@ -49,7 +37,6 @@ class ModalState {
   bool inches() const { return (*this)[ModalGroup::length_units] == code(20); }
   bool inverse_time() const { return (*this)[ModalGroup::feed_mode] == code(93); }
   bool per_revolution() const { return (*this)[ModalGroup::feed_mode] == code(95); }
-  bool diameters() const { return (*this)[ModalGroup::lathe_diameter] == code(7); }
 
  private:
   std::array<CodeNumber, modal_group_count> active_{};

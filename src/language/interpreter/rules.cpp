@@ -148,77 +148,6 @@ constexpr std::string_view about_a_code[] = {
     "gcode.probe-too-short", "gcode.spindle-off",        "gcode.spline-axis",        "gcode.spline-inverse-time",
     "gcode.spline-plane",    "gcode.wrong-plane"};
 
-struct CodeChapter {
-  char letter;
-  CodeNumber number;
-  std::string_view chapter;
-};
-constexpr CodeChapter code_chapters[] = {
-    {'G', code(0), "RS274/NGC 3.5.1, rapid linear motion"},
-    {'G', code(1), "RS274/NGC 3.5.2, linear motion at feed rate"},
-    {'G', code(2), "RS274/NGC 3.5.3, arc at feed rate"},
-    {'G', code(3), "RS274/NGC 3.5.3, arc at feed rate"},
-    {'G', code(4), "RS274/NGC 3.5.4, dwell"},
-    {'G', code(5), "LinuxCNC manual, G-codes: G5 Cubic Spline"},
-    {'G', code(5, 1), "LinuxCNC manual, G-codes: G5.1 Quadratic Spline"},
-    {'G', code(5, 2), "LinuxCNC manual, G-codes: G5.2 G5.3 NURBS Block"},
-    {'G', code(5, 3), "LinuxCNC manual, G-codes: G5.2 G5.3 NURBS Block"},
-    {'G', code(10), "RS274/NGC 3.5.5, set coordinate system data"},
-    {'G', code(28), "RS274/NGC 3.5.8, return to home"},
-    {'G', code(28, 1), "LinuxCNC manual, G-codes: G28, G28.1 Go/Set Predefined Position"},
-    {'G', code(30), "RS274/NGC 3.5.8, return to home"},
-    {'G', code(30, 1), "LinuxCNC manual, G-codes: G30, G30.1 Go/Set Predefined Position"},
-    {'G', code(33), "LinuxCNC manual, G-codes: G33 Spindle Synchronized Motion"},
-    {'G', code(33, 1), "LinuxCNC manual, G-codes: G33.1 Rigid Tapping"},
-    {'G', code(38, 2), "RS274/NGC 3.5.9, straight probe"},
-    {'G', code(38, 3), "LinuxCNC manual, G-codes: G38.n Straight Probe"},
-    {'G', code(38, 4), "LinuxCNC manual, G-codes: G38.n Straight Probe"},
-    {'G', code(38, 5), "LinuxCNC manual, G-codes: G38.n Straight Probe"},
-    {'G', code(41), "LinuxCNC manual, G-codes: G41, G42 Cutter Compensation"},
-    {'G', code(41, 1), "LinuxCNC manual, G-codes: G41.1, G42.1 Dynamic Cutter Compensation"},
-    {'G', code(42), "LinuxCNC manual, G-codes: G41, G42 Cutter Compensation"},
-    {'G', code(42, 1), "LinuxCNC manual, G-codes: G41.1, G42.1 Dynamic Cutter Compensation"},
-    {'G', code(43), "LinuxCNC manual, G-codes: G43 Tool Length Offset"},
-    {'G', code(43, 1), "LinuxCNC manual, G-codes: G43.1 Dynamic Tool Length Offset"},
-    {'G', code(43, 2), "LinuxCNC manual, G-codes: G43.2 Apply additional Tool Length Offset"},
-    {'G', code(51), "grblHAL, G50 and G51: scaling"},
-    {'G', code(52), "LinuxCNC manual, G-codes: G52 Local Coordinate System Offset"},
-    {'G', code(53), "RS274/NGC 3.5.12, move in absolute coordinates"},
-    {'G', code(70), "LinuxCNC manual, G-codes: G70 Lathe finishing cycle"},
-    {'G', code(71), "LinuxCNC manual, G-codes: G71 G72 Lathe roughing cycles"},
-    {'G', code(71, 1), "LinuxCNC manual, G-codes: G71 G72 Lathe roughing cycles"},
-    {'G', code(71, 2), "LinuxCNC manual, G-codes: G71 G72 Lathe roughing cycles"},
-    {'G', code(72), "LinuxCNC manual, G-codes: G71 G72 Lathe roughing cycles"},
-    {'G', code(72, 1), "LinuxCNC manual, G-codes: G71 G72 Lathe roughing cycles"},
-    {'G', code(72, 2), "LinuxCNC manual, G-codes: G71 G72 Lathe roughing cycles"},
-    {'G', code(73), "LinuxCNC manual, G-codes: G73 Drilling Cycle with Chip Breaking"},
-    {'G', code(74), "LinuxCNC manual, G-codes: G74 Left-hand Tapping Cycle with Dwell"},
-    {'G', code(76), "LinuxCNC manual, G-codes: G76 Threading Cycle"},
-    {'G', code(81), "RS274/NGC 3.5.16.2, G81 cycle"},
-    {'G', code(82), "RS274/NGC 3.5.16.3, G82 cycle"},
-    {'G', code(83), "RS274/NGC 3.5.16.4, G83 cycle"},
-    {'G', code(84), "RS274/NGC 3.5.16.5, G84 cycle"},
-    {'G', code(85), "RS274/NGC 3.5.16.6, G85 cycle"},
-    {'G', code(86), "RS274/NGC 3.5.16.7, G86 cycle"},
-    {'G', code(89), "RS274/NGC 3.5.16.10, G89 cycle"},
-    {'G', code(92), "RS274/NGC 3.5.18, coordinate system offsets"},
-    {'G', code(93), "RS274/NGC 3.5.19, set feed rate mode"},
-    {'G', code(95), "LinuxCNC manual, G-codes: G93, G94, G95 Feed Rate Mode"},
-    {'G', code(96), "LinuxCNC manual, G-codes: G96, G97 Spindle Control Mode"},
-    {'M', code(6), "RS274/NGC 3.6.3, tool change"},
-    {'M', code(19), "LinuxCNC manual, M-codes: M19 Orient Spindle"},
-    {'M', code(61), "LinuxCNC manual, M-codes: M61 Set Current Tool"},
-    {'M', code(62), "LinuxCNC manual, M-codes: M62 - M65 Digital Output Control"},
-    {'M', code(63), "LinuxCNC manual, M-codes: M62 - M65 Digital Output Control"},
-    {'M', code(64), "LinuxCNC manual, M-codes: M62 - M65 Digital Output Control"},
-    {'M', code(65), "LinuxCNC manual, M-codes: M62 - M65 Digital Output Control"},
-    {'M', code(66), "LinuxCNC manual, M-codes: M66 Wait on Input"},
-    {'M', code(67), "LinuxCNC manual, M-codes: M67 Analog Output, Synchronized"},
-    {'M', code(68), "LinuxCNC manual, M-codes: M68 Analog Output, Immediate"},
-    {'M', code(98), "LinuxCNC manual, O Codes: Fanuc-Style Numbered Programs"},
-    {'M', code(99), "LinuxCNC manual, O Codes: Fanuc-Style Numbered Programs"},
-};
-
 // The chapter of the G or M code at the place of the diagnostic, as "G05.1". Empty: there is no such chapter.
 std::string_view chapter_of_the_code(const Diagnostic& diagnostic) {
   const SourcePlace& place = diagnostic.place;
@@ -228,10 +157,8 @@ std::string_view chapter_of_the_code(const Diagnostic& diagnostic) {
   const auto [end, problem] = std::from_chars(word.data() + 1, word.data() + word.size(), number);
   if (problem != std::errc() || end != word.data() + word.size() || !(std::abs(number) < 1000)) return {};
   const char letter = word[0] == 'g' ? 'G' : word[0] == 'm' ? 'M' : word[0];
-  const auto* const found = std::ranges::find_if(code_chapters, [&](const CodeChapter& entry) {
-    return entry.letter == letter && entry.number == std::lround(number * 10);
-  });
-  return found == std::end(code_chapters) ? std::string_view() : found->chapter;
+  const CodeEntry* const entry = find_code(letter, static_cast<CodeNumber>(std::lround(number * 10)));
+  return entry == nullptr ? std::string_view() : entry->chapter;
 }
 
 }  // namespace

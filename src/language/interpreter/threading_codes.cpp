@@ -33,7 +33,7 @@ bool ThreadingCodes::start() {
   plan.crest = std::abs(words_['I']);
   plan.first_cut = words_['J'];
   plan.full_depth = words_['K'];
-  plan.unit = state_.modal.diameters() ? unit / 2 : unit;  // I, J and K are along X
+  plan.unit = unit * diameter_factor(Axis::x);  // I, J and K are along X
   plan.pitch = words_['P'] * unit;
   plan.infeed_tangent = direction * std::tan(infeed);
   plan.degression = words_.has('R') ? std::max(1.0, words_['R']) : 1;

@@ -199,4 +199,16 @@ void ToolCodes::set_tool_offsets(Tool& tool) {
   }
 }
 
+// G10. L tells what it sets.
+bool ToolCodes::set_table() {
+  const double table = words_.has('L') ? words_['L'] : -1;
+  if (table == 0) return reload_tools();
+  if (table == 1 || table == 10 || table == 11) return set_tool_table_entry();
+  if (table == 2 || table == 20) return frame_.set_work_offset();
+  return fail("gcode.missing-word", words_.has('L') ? words_.span('L') : words_.span(non_modal),
+              words_.has('L') ? fmt::format("there is no G10 L{}", plain_number(table)) : "G10 without L",
+              "L0, L1, L2, L10, L11 or L20: G10 L2 P1 X… sets an offset, G10 L20 P1 X… makes this the given position, "
+              "G10 L1 P1 Z… sets a tool");
+}
+
 }  // namespace passo

@@ -16,10 +16,11 @@ class ToolCodes : private CodeFamily {
   bool select();
   bool change(CodeNumber code);
   bool set_length(CodeNumber code);
-  bool reload_tools();
-  bool set_tool_table_entry();
+  bool set_table();
 
  private:
+  bool reload_tools();
+  bool set_tool_table_entry();
   bool find_tool(std::int32_t number, Span span, const Tool*& tool);
   void load_tool(std::int32_t number);
   bool tool_offset(Point& offset);

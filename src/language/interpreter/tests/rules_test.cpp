@@ -8,7 +8,7 @@
 #include <set>
 #include <sstream>
 
-#include "../grbl.hpp"
+#include "../grbl_dialect.hpp"
 #include "interpreted.hpp"
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

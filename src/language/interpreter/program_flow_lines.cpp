@@ -1,7 +1,7 @@
 // ProgramFlow: the lines. A line is read and parsed, or its block was kept from an earlier pass.
 #include <algorithm>
 
-#include "grbl.hpp"
+#include "grbl_dialect.hpp"
 #include "program_flow.hpp"
 
 namespace passo {

@@ -1,9 +1,9 @@
 // The dialect of grbl 1.1: the part of the language that grbl accepts, and grbl's number for each error.
 //
-// A block is checked against the table of grbl.cpp before anything else. Words that grbl accepts without effect
-// (comments, M1, G40, G61, G91.1) are taken out of the block. The rest means the same as in LinuxCNC's dialect, and the
-// same code executes it. Source: grbl's documentation (doc/markdown/interface.md, doc/csv/error_codes_en_US.csv) and
-// its behaviour, version 1.1 as it is built by default: without M7.
+// A block is checked against the rows of the codes (code_table.hpp) before anything else. Words that grbl accepts
+// without effect (comments, M1, G40, G61, G91.1) are taken out of the block. The rest means the same as in LinuxCNC's
+// dialect, and the same code executes it. Source: grbl's documentation (doc/markdown/interface.md,
+// doc/csv/error_codes_en_US.csv) and its behaviour, version 1.1 as it is built by default: without M7.
 #pragma once
 
 #include <string>

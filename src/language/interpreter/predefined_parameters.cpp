@@ -1,4 +1,7 @@
-#include "predefined.hpp"
+#include "predefined_parameters.hpp"
+
+#include <iterator>
+#include <vector>
 
 namespace passo {
 namespace {
@@ -20,10 +23,6 @@ double machine(const State& state) {
 template <ModalGroup group>
 double active(const State& state) {
   return state.modal[group];
-}
-template <ModalGroup group, CodeNumber number>
-double is_active(const State& state) {
-  return truth(state.modal[group] == number);
 }
 template <bool State::*flag>
 double flag_of(const State& state) {
@@ -78,7 +77,7 @@ double minor_version(const State&) {
   return 0;
 }
 
-constexpr PredefinedParameter table[] = {
+constexpr PredefinedParameter others[] = {
     {"_vmajor", major_version},
     {"_vminor", minor_version},
     {"_line", current_line},
@@ -89,20 +88,6 @@ constexpr PredefinedParameter table[] = {
     {"_plane", active<ModalGroup::plane>},
     {"_ccomp", active<ModalGroup::cutter_compensation>},
     {"_coord_system", active<ModalGroup::work_system>},
-    {"_metric", is_active<ModalGroup::length_units, code(21)>},
-    {"_imperial", is_active<ModalGroup::length_units, code(20)>},
-    {"_absolute", is_active<ModalGroup::distance, code(90)>},
-    {"_incremental", is_active<ModalGroup::distance, code(91)>},
-    {"_ijk_absolute_mode", is_active<ModalGroup::arc_distance, code(90, 1)>},
-    {"_inverse_time", is_active<ModalGroup::feed_mode, code(93)>},
-    {"_units_per_minute", is_active<ModalGroup::feed_mode, code(94)>},
-    {"_units_per_rev", is_active<ModalGroup::feed_mode, code(95)>},
-    {"_lathe_diameter_mode", is_active<ModalGroup::lathe_diameter, code(7)>},
-    {"_lathe_radius_mode", is_active<ModalGroup::lathe_diameter, code(8)>},
-    {"_retract_old_z", is_active<ModalGroup::retract, code(98)>},
-    {"_retract_r_plane", is_active<ModalGroup::retract, code(99)>},
-    {"_spindle_rpm_mode", is_active<ModalGroup::spindle_mode, code(97)>},
-    {"_spindle_css_mode", is_active<ModalGroup::spindle_mode, code(96)>},
     {"_tool_offset", tool_offset_on},
     {"_feed", current_feed},
     {"_rpm", spindle_speed},
@@ -140,8 +125,20 @@ constexpr PredefinedParameter table[] = {
 
 }  // namespace
 
+// Those of the modes are in the rows of the codes.
 std::span<const PredefinedParameter> predefined_parameters() {
-  return table;
+  static const std::vector<PredefinedParameter> all = [] {
+    std::vector<PredefinedParameter> parameters(std::begin(others), std::end(others));
+    for (const CodeEntry& entry : code_entries()) {
+      if (!entry.parameter.empty()) parameters.push_back({.name = entry.parameter, .mode = &entry});
+    }
+    return parameters;
+  }();
+  return all;
+}
+
+double PredefinedParameter::value(const ProgramState& state) const {
+  return mode == nullptr ? of(state) : truth(state.modal[mode->group] == mode->number);
 }
 
 }  // namespace passo

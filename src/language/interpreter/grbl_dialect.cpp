@@ -1,4 +1,4 @@
-#include "grbl.hpp"
+#include "grbl_dialect.hpp"
 
 #include <algorithm>
 #include <array>
@@ -14,41 +14,6 @@
 namespace passo {
 namespace {
 
-enum class Use : std::uint8_t { yes, without_effect };
-
-struct Accepted {
-  char letter;
-  CodeNumber number;
-  Use use;
-};
-constexpr Use yes = Use::yes;
-constexpr Use without_effect = Use::without_effect;
-constexpr Accepted accepted[] = {
-    {'G', code(0), yes},     {'G', code(1), yes},
-    {'G', code(2), yes},     {'G', code(3), yes},
-    {'G', code(4), yes},     {'G', code(10), yes},
-    {'G', code(17), yes},    {'G', code(18), yes},
-    {'G', code(19), yes},    {'G', code(20), yes},
-    {'G', code(21), yes},    {'G', code(28), yes},
-    {'G', code(28, 1), yes}, {'G', code(30), yes},
-    {'G', code(30, 1), yes}, {'G', code(38, 2), yes},
-    {'G', code(38, 3), yes}, {'G', code(38, 4), yes},
-    {'G', code(38, 5), yes}, {'G', code(40), without_effect},  // there is no cutter compensation
-    {'G', code(43, 1), yes}, {'G', code(49), yes},
-    {'G', code(53), yes},    {'G', code(54), yes},
-    {'G', code(55), yes},    {'G', code(56), yes},
-    {'G', code(57), yes},    {'G', code(58), yes},
-    {'G', code(59), yes},    {'G', code(61), without_effect},  // there is no other path mode
-    {'G', code(80), yes},    {'G', code(90), yes},
-    {'G', code(91), yes},    {'G', code(91, 1), without_effect},  // centres are incremental always
-    {'G', code(92), yes},    {'G', code(92, 1), yes},
-    {'G', code(93), yes},    {'G', code(94), yes},
-    {'M', code(0), yes},     {'M', code(1), without_effect},
-    {'M', code(2), yes},     {'M', code(3), yes},
-    {'M', code(4), yes},     {'M', code(5), yes},
-    {'M', code(8), yes},     {'M', code(9), yes},
-    {'M', code(30), yes},
-};
 constexpr LetterSet accepted_letters = "FGIJKLMNPRSTXYZ";
 constexpr LetterSet never_negative = "FNPST";
 constexpr LetterSet grbl_axes = "XYZ";
@@ -112,11 +77,12 @@ const Error& error_of(int number) {
   return *std::ranges::find(errors, number, &Error::number);
 }
 
-Use use_of(char letter, CodeNumber number, bool& known) {
-  const auto* const found = std::ranges::find_if(
-      accepted, [&](const Accepted& entry) { return entry.letter == letter && entry.number == number; });
-  known = found != std::end(accepted);
-  return known ? found->use : Use::yes;
+GrblUse use_of(char letter, CodeNumber number) {
+  const CodeEntry* const entry = find_code(letter, number);
+  return entry == nullptr ? GrblUse::refused : entry->grbl;
+}
+bool is_known(char letter, CodeNumber number) {
+  return use_of(letter, number) != GrblUse::refused;
 }
 
 // Checks one block as grbl would.
@@ -224,12 +190,9 @@ class GrblCheck {
     }
     const bool readable = hundredths >= 0 && hundredths < 100 && std::fmod(hundredths, 10) == 0;
     const CodeNumber number = readable ? code(whole, static_cast<int>(hundredths / 10)) : CodeNumber{-1};
-    bool known = false;
-    (void)use_of(word.letter, number, known);
-    if (!known) {
+    if (!is_known(word.letter, number)) {
       // G54.1 is a G54 with too many digits, and G64 is an unknown code.
-      bool whole_known = false;
-      (void)use_of(word.letter, code(whole), whole_known);
+      const bool whole_known = is_known(word.letter, code(whole));
       const bool digits_too_many = hundredths != 0 && (word.letter == 'M' || (whole_known && !has_fractions(whole)));
       return fail(digits_too_many ? 23 : 20, word.span,
                   fmt::format("grbl does not know {}{}", word.letter, plain_number(value)),
@@ -244,7 +207,7 @@ class GrblCheck {
     if (codes_[group] != nullptr) {
       return fail(21, word.span,
                   fmt::format("{} and {} are of the same group ({})", spelling(*codes_[group]), spelling(*entry),
-                              name_of(entry->group)),
+                              row_of(entry->group).name),
                   "one of them, or two blocks");
     }
     codes_[group] = entry;
@@ -404,9 +367,8 @@ class GrblCheck {
 
 bool is_without_effect(const Block& block, const Word& word) {
   if (word.letter != 'G' && word.letter != 'M') return false;
-  bool known = false;
   const double value = block.code[word.value.first].number;
-  return use_of(word.letter, static_cast<CodeNumber>(std::lround(value * 10)), known) == Use::without_effect;
+  return use_of(word.letter, static_cast<CodeNumber>(std::lround(value * 10))) == GrblUse::without_effect;
 }
 
 // Of T, L and P of G10, grbl takes the whole part; of G and M the digits that it has looked at.

@@ -1,0 +1,25 @@
+// ModeCodes: the codes that set modes, the feed rate F, and the overrides and the coolant, which are switched.
+#pragma once
+
+#include "code_family.hpp"
+
+namespace passo {
+
+class ModeCodes : private CodeFamily {
+ public:
+  explicit ModeCodes(BlockContext& block) : CodeFamily(block) {}
+
+  // A mode that is nothing but set: its row of the table says what is told.
+  bool set(const CodeEntry& entry);
+  bool set_feed_mode(const CodeEntry& entry);
+  bool set_feed_rate();
+  bool set_path_mode(CodeNumber code);
+  void restore_path_mode(CodeNumber code, const PathTolerance& tolerance);
+  bool switch_coolant(CodeNumber code);
+  bool switch_overrides(CodeNumber code);
+
+ private:
+  void emit_path_mode();
+};
+
+}  // namespace passo

@@ -1,0 +1,26 @@
+// StopCodes: the codes that stop or end the program: M0, M1, M2, M30, M60; and G4, at which it waits.
+#pragma once
+
+#include "code_family.hpp"
+#include "cutter_codes.hpp"
+#include "frame_codes.hpp"
+
+namespace passo {
+
+class StopCodes : private CodeFamily {
+ public:
+  StopCodes(BlockContext& block, CutterCodes& cutter_codes, FrameCodes& frame)
+      : CodeFamily(block), cutter_codes_(cutter_codes), frame_(frame) {}
+
+  bool run(CodeNumber code);
+  // G4, if the block has one.
+  bool dwell();
+  // M2 and M30 put the machine back into the state that programs may expect.
+  void end_program(bool pallet);
+
+ private:
+  CutterCodes& cutter_codes_;
+  FrameCodes& frame_;
+};
+
+}  // namespace passo
