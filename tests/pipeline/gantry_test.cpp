@@ -120,7 +120,7 @@ TEST_P(Gantry, is_not_moved_further_apart_than_the_file_allows) {
   machine.axes[1].second->most_skew = 1;
   HomedMachine homed(machine, GetParam(), {});
   EXPECT_EQ(homed.home().size(), 2U) << "all but Y";
-  EXPECT_EQ(homed.session().homing()->homing_fault(), HomingFault::not_met);
+  EXPECT_EQ(homed.session().homing()->homing_fault(), MachineFault::switch_not_met);
   EXPECT_EQ(homed.session().status().position.trust, Trust::unknown);
 }
 

@@ -69,7 +69,7 @@ inline IdealPlant plant_with(const std::vector<TravelSwitch>& switches) {
 
 struct Homed {
   bool done = false;
-  std::optional<HomingFault> fault;
+  std::optional<MachineFault> fault;
   std::optional<LinkError> error;
   Point place;
   std::vector<HomedAxis> axes;
@@ -121,7 +121,7 @@ inline double expect_small_overrun(const MachineDescription& machine, const Dist
 // The machine stands where it says, to the step, and a pull-off away from each switch.
 inline void expect_homed(const MachineDescription& machine, const Distances& distances, const Homed& result) {
   ASSERT_FALSE(result.error) << message_of(*result.error);
-  ASSERT_FALSE(result.fault) << message_of(*result.fault);
+  ASSERT_FALSE(result.fault) << row_of(*result.fault).sentence;
   ASSERT_TRUE(result.done);
   for (std::size_t m = 0; m < 3; ++m) {
     SCOPED_TRACE("motor " + std::to_string(m));

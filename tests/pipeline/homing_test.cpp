@@ -121,7 +121,7 @@ TEST(HomingTest, seeks_as_far_as_1_1_of_the_travel) {
     const Homed result =
         home(machine, {.over_a_line = over_a_line, .switches = switches_of(machine, {.steps = {2000, 3000, 7050}})});
     EXPECT_FALSE(result.done);
-    EXPECT_EQ(result.fault, HomingFault::not_met);
+    EXPECT_EQ(result.fault, MachineFault::switch_not_met);
     EXPECT_EQ(result.counts[2], 7040);
     EXPECT_EQ(result.counts[0], 0) << "no other axis is tried";
   }
@@ -134,7 +134,7 @@ TEST(HomingTest, tells_a_switch_that_does_not_open) {
     std::vector<TravelSwitch> switches = switches_of(machine, distances);
     if (steps > 0) switches[2].opens_at = steps - 650;
     const Homed result = home(machine, {.over_a_line = true, .switches = switches});
-    EXPECT_EQ(result.fault, HomingFault::still_closed);
+    EXPECT_EQ(result.fault, MachineFault::switch_still_closed);
     EXPECT_EQ(result.counts[2], steps > 0 ? steps - 640 : -640) << "no further than the pull-off";
     EXPECT_EQ(result.counts[0], 0);
   }
@@ -207,7 +207,7 @@ TEST(HomingTest, contacts_that_bounce_are_homed_by_their_first_edge) {
 
 TEST(HomingTest, tells_a_switch_that_never_comes_to_rest) {
   const Homed result = home_by(homing_machine(), [](std::int64_t at) { return (at / 4) % 2 != 0; });
-  EXPECT_EQ(result.fault, HomingFault::unsteady);
+  EXPECT_EQ(result.fault, MachineFault::switch_unsteady);
   EXPECT_FALSE(result.done);
   EXPECT_EQ(result.counts[0], 0);
 }

@@ -159,7 +159,7 @@ class SessionSoak : public testing::Test {
         const auto open = open_.find(change.ticket);
         ASSERT_NE(open, open_.end()) << "ticket " << change.ticket << " was not open" << at();
         tell(fmt::format("answered {}: {}, {}", names[open->second.kind], static_cast<int>(change.outcome),
-                         change.fault ? change.fault->code : ""));
+                         change.fault ? change.fault->code() : ""));
         ++outcomes_[open->second.kind][static_cast<std::size_t>(change.outcome)];
         if (open->second.kind == index_of<request::Home>() && change.outcome == Outcome::done) mind_homed();
         open_.erase(open);

@@ -66,7 +66,7 @@ TEST_P(Trouble, an_emergency_stop_is_an_alarm_until_it_is_released_and_reset) {
     EXPECT_EQ(run.session().status().trouble, LinkError::stopped);
     if (amid_run) {
       EXPECT_EQ(run.outcome(program), Outcome::failed);
-      EXPECT_EQ(run.answer(program)->fault->code, "board.stopped");
+      EXPECT_EQ(run.answer(program)->fault->fault, MachineFault::board_stopped);
       EXPECT_EQ(run.outcome(hold), Outcome::failed);
     }
     expect_refuses_all_but_a_reset(run);
@@ -123,7 +123,7 @@ TEST(LineTrouble, a_cut_is_a_fault_and_after_a_reset_the_place_is_what_the_board
     ASSERT_TRUE(run.turn_until(MachineState::fault, Seconds(3)));
     if (at >= 0) {
       EXPECT_EQ(run.outcome(program), Outcome::failed);
-      EXPECT_EQ(run.answer(program)->fault->code, "board.lost");
+      EXPECT_EQ(run.answer(program)->fault->fault, MachineFault::board_lost);
     }
     expect_refuses_all_but_a_reset(run);
     // Too early: still cut. That forgets nothing.
@@ -159,7 +159,7 @@ TEST(LineTrouble, a_standstill_amid_motion_is_an_alarm_and_the_place_is_not_trus
     ASSERT_TRUE(run.turn_until(MachineState::alarm, Seconds(0.7)));
     EXPECT_EQ(run.session().status().trouble, LinkError::stood_still);
     EXPECT_EQ(run.outcome(program), Outcome::failed);
-    EXPECT_EQ(run.answer(program)->fault->code, "board.slipped");
+    EXPECT_EQ(run.answer(program)->fault->fault, MachineFault::board_slipped);
     EXPECT_NE(run.session().status().trouble_words.find("near line " + std::string(at < 1 ? "2" : "3")),
               std::string::npos)
         << run.session().status().trouble_words;
@@ -476,7 +476,7 @@ TEST_P(Trouble, whatever_is_asked_and_whatever_breaks_each_request_is_answered_o
       run.expect_at_place();
     } else {
       ASSERT_TRUE(run.answer(home)->fault);
-      EXPECT_TRUE(run.answer(home)->fault->code.starts_with("home.")) << run.answer(home)->fault->code;
+      EXPECT_TRUE(run.answer(home)->fault->code().starts_with("home.")) << run.answer(home)->fault->code();
     }
     ASSERT_FALSE(HasFailure()) << "seed " << random.seed();
   }

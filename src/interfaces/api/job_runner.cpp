@@ -285,7 +285,7 @@ void JobRunner::heed(const MachineChange& change) {
 void JobRunner::heed_end(const MachineChange& change) {
   // What was broken off by the board, or because the program ends, may go on.
   const bool is_broken_off =
-      change.outcome == Outcome::failed ? change.fault && change.fault->code.starts_with("board.") : leaves_;
+      change.outcome == Outcome::failed ? change.fault && is_of_board(change.fault->fault) : leaves_;
   switch (change.outcome) {
     case Outcome::done:
       keep_results();
@@ -299,8 +299,8 @@ void JobRunner::heed_end(const MachineChange& change) {
       break;
     case Outcome::failed: {
       // What came true only in the run: a probe that touched nothing, a way that leads out of the travel.
-      const std::string words = change.fault ? change.fault->message : "";
-      const bool is_of_program = change.fault && change.fault->code == "program.wrong";
+      const std::string words = change.fault ? change.fault->message() : "";
+      const bool is_of_program = change.fault && change.fault->fault == MachineFault::program_wrong;
       end_job(named_ && is_broken_off ? JobState::interrupted : JobState::failed,
               is_of_program ? words_of_error(findings_, words) : words);
       break;

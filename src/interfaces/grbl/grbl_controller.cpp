@@ -26,11 +26,12 @@ bool is_off(const OutputState& outputs) {
   return outputs.spindle == SpindleDirection::off && !outputs.mist && !outputs.flood;
 }
 
+// A board that fails has raised its own alarm before: then no switch was met.
 GrblAlarm alarm_of_homing(const MachineChange& change) {
   if (change.outcome == Outcome::stopped) return GrblAlarm::homing_stopped;
-  const std::string_view code = change.fault ? std::string_view(change.fault->code) : std::string_view();
-  const bool holds = code == code_of(HomingFault::still_closed) || code == code_of(HomingFault::unsteady);
-  return holds ? GrblAlarm::homing_no_release : GrblAlarm::homing_no_switch;
+  if (!change.fault || is_of_board(change.fault->fault)) return GrblAlarm::homing_no_switch;
+  const GrblAlarm alarm = row_of(change.fault->fault).alarm;
+  return alarm == GrblAlarm::none ? GrblAlarm::homing_no_switch : alarm;
 }
 
 // Lines that change nothing.
@@ -188,7 +189,8 @@ void GrblController::tell_wait() {
 void GrblController::end_probe() {
   waits_ = Waits::none;
   const bool failed = program_.answer_fault().has_value();
-  if (failed) raise(probe_ && probe_->refused ? GrblAlarm::probe_before : GrblAlarm::probe_untouched);
+  if (failed)
+    raise(row_of(probe_ && probe_->refused ? MachineFault::probe_before : MachineFault::probe_untouched).alarm);
   if (!probe_ || !probe_->refused) say(probe_text(probe_, units()));
   tell_end();
   answer(GrblError::none);

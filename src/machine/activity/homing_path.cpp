@@ -51,24 +51,6 @@ Point home_rest(const MachineDescription& machine, const Point& start) {
   return place;
 }
 
-std::string_view code_of(HomingFault fault) {
-  switch (fault) {
-    case HomingFault::not_met: return "home.not-met";
-    case HomingFault::still_closed: return "home.still-closed";
-    case HomingFault::unsteady: return "home.unsteady";
-  }
-  return "home.fault";
-}
-
-std::string_view message_of(HomingFault fault) {
-  switch (fault) {
-    case HomingFault::not_met: return "its switch was not met";
-    case HomingFault::still_closed: return "its switch is still closed behind the pull-off";
-    case HomingFault::unsteady: return "its switch opens and closes again and again";
-  }
-  return "its switch does what it should not";
-}
-
 HomingPath::HomingPath(const MachineDescription& machine, const MachineAnswers& answers, const Point& start)
     : machine_(machine), answers_(answers), start_(start), position_(start) {
   begin_turn();
@@ -210,7 +192,7 @@ void HomingPath::note_way(const Point& before) {
 }
 
 void HomingPath::judge_together() {
-  if (!outcome().refused && !outcome().touched) return fail(HomingFault::not_met);
+  if (!outcome().refused && !outcome().touched) return fail(MachineFault::switch_not_met);
   together_ = false;
   if (outcome().touched && !outcome().refused) met_ = outcome().contact;
   look_at(0);
@@ -229,7 +211,7 @@ void HomingPath::judge_approach() {
     turn_watch();
     return retreat(HomingStage::back_off, stands());
   }
-  if (!outcome().refused && !outcome().touched) return fail(HomingFault::not_met);
+  if (!outcome().refused && !outcome().touched) return fail(MachineFault::switch_not_met);
   if (stage_ == HomingStage::latch) {
     if (!is_pair()) return retreat(HomingStage::pull_off, off(found_[first_motor]));
     return begin_alone(Alone::find_second, direction() * (lag_ + axis_->second->most_skew));
@@ -245,7 +227,8 @@ void HomingPath::judge_approach() {
 void HomingPath::judge_alone() {
   const bool met = outcome().refused || outcome().touched;
   const bool is_free = alone_ == Alone::lag || alone_ == Alone::adjust;
-  if (!settles_ && met == is_free) return fail(is_free ? HomingFault::still_closed : HomingFault::not_met);
+  if (!settles_ && met == is_free)
+    return fail(is_free ? MachineFault::switch_still_closed : MachineFault::switch_not_met);
   if (!settles_ && alone_ == Alone::find_second && outcome().refused) return fall_further_behind();
   const double apart = goes_[first_motor] - goes_[second_motor];
   const double steps = (alone_ == Alone::close_first ? apart : -apart) * axis_->steps_per_unit * direction();
@@ -258,7 +241,7 @@ void HomingPath::judge_alone() {
 
 // The second motor's switch has closed before the first one's: after the fast seek their places were not known well.
 void HomingPath::fall_further_behind() {
-  if (++turns_ > most_turns) return fail(HomingFault::unsteady);
+  if (++turns_ > most_turns) return fail(MachineFault::switch_unsteady);
   lag_ *= 2;
   retreat(HomingStage::back_off, off(stands()));
 }
@@ -294,7 +277,7 @@ void HomingPath::judge_retreat() {
     turn_watch();
     return begin(stage_, is_first ? off(outcome().contact[axis_->axis]) : target);
   }
-  if (!until_closed_) return fail(HomingFault::still_closed);
+  if (!until_closed_) return fail(MachineFault::switch_still_closed);
   if (stage_ == HomingStage::back_off) {
     if (is_pair()) return begin_alone(Alone::lag, apart_from_switches() - direction() * lag_);
     begin(HomingStage::latch, stands() + direction() * pull_offs_to_latch * pull_off_of(*axis_));
@@ -320,7 +303,7 @@ double HomingPath::apart_from_switches() const {
 
 void HomingPath::turn_watch() {
   until_closed_ = !until_closed_;
-  if (++turns_ > most_turns) fault_ = HomingFault::unsteady;
+  if (++turns_ > most_turns) fault_ = MachineFault::switch_unsteady;
 }
 
 void HomingPath::end_axis() {
@@ -344,7 +327,7 @@ std::optional<double> HomingPath::progress() const {
 
 std::optional<ActivityFault> HomingPath::fault() const {
   if (!fault_) return {};
-  return ActivityFault{.code = std::string(code_of(*fault_)), .message = std::string(message_of(*fault_))};
+  return ActivityFault{.fault = *fault_};
 }
 
 Point HomingPath::place() const {

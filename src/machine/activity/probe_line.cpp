@@ -22,8 +22,8 @@ bool ProbeLine::next(PathItem& item) {
 
 std::optional<ActivityFault> ProbeLine::fault() const {
   const ProbeOutcome& outcome = *answers_.probe();
-  if (outcome.refused) return ActivityFault{"probe.before", "the probe was as it should become before the move began"};
-  if (!outcome.touched) return ActivityFault{"probe.untouched", "the probe move came to its end without a contact"};
+  if (outcome.refused) return ActivityFault{MachineFault::probe_before};
+  if (!outcome.touched) return ActivityFault{MachineFault::probe_untouched};
   return {};
 }
 

@@ -34,6 +34,15 @@ constexpr bool is_of_work(LinkError error) {
   }
 }
 
+constexpr MachineFault fault_of(LinkError error) {
+  switch (error) {
+    case LinkError::stopped: return MachineFault::board_stopped;
+    case LinkError::drivers_off: return MachineFault::board_drivers_off;
+    case LinkError::stood_still: return MachineFault::board_slipped;
+    default: return MachineFault::board_lost;
+  }
+}
+
 // False: some axes have no switches, and stand where they stood.
 bool homes_all_axes(const MachineDescription& machine) {
   return machine.homing.size() == machine.axes.size();
@@ -240,17 +249,13 @@ void MachineSession::end_work() {
 
 std::pair<Outcome, std::optional<ActivityFault>> MachineSession::judge_work() const {
   if (const auto error = board_.error()) {
-    const char* const code = *error == LinkError::stopped       ? "board.stopped"
-                             : *error == LinkError::drivers_off ? "board.drivers-off"
-                             : *error == LinkError::stood_still ? "board.slipped"
-                                                                : "board.lost";
-    return {Outcome::failed, ActivityFault{code, words_of(*error)}};
+    return {Outcome::failed, ActivityFault{fault_of(*error), {{"trouble", words_of(*error)}}}};
   }
   if (work_->findings->any_error()) {
-    return {Outcome::failed, ActivityFault{"program.wrong", "the program cannot go on"}};
+    return {Outcome::failed, ActivityFault{MachineFault::program_wrong}};
   }
   if (work_->drive->stopped_by_probe()) {
-    return {Outcome::failed, ActivityFault{"probe.guard", "the probe was touched in a move that is no probe move"}};
+    return {Outcome::failed, ActivityFault{MachineFault::probe_guard}};
   }
   if (work_->drive->stopped()) return {Outcome::stopped, {}};
   auto fault = work_->activity->fault();

@@ -58,8 +58,8 @@ void note_end(MachineSession& session, const Answered& answered, HomingReport& r
     report.message = "interrupted; it is not homed";
     return;
   }
-  report.code = answered.fault->code;
-  report.message = answered.fault->message;
+  report.code = answered.fault->code();
+  report.message = answered.fault->message();
   if (const auto trouble = session.status().trouble) {
     report.code = *trouble == LinkError::stopped ? "home.stopped" : "home.board";
     if (*trouble == LinkError::stopped) report.message += closed_switches(session.board());

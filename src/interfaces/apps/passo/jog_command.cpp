@@ -59,9 +59,9 @@ std::optional<JogWords> read_words(const std::vector<std::string>& texts, const 
 struct Ending {
   Point place;
   Seconds time{0};
-  const char* why = "";  // distance, travel or lease
-  bool is_known = true;  // the place counts from machine zero, and not from where the machine stood before
-  std::optional<ActivityFault> fault = {};
+  const char* why = "";      // distance, travel or lease
+  bool is_known = true;      // the place counts from machine zero, and not from where the machine stood before
+  std::string failure = {};  // why it failed, with the code; empty: it did not
 };
 
 // The button is held: the lease is renewed, and a real machine is looked at more often than that.
@@ -77,7 +77,7 @@ Ending jog_to_rest(OpenedMachine& opened, const JogWords& words, const JogArgume
   const auto ticket = session.request(request::Jog{.way = way, .lease = Seconds(arguments.lease)});
   if (!ticket) {
     Ending refused;
-    refused.fault = ActivityFault{std::string(code_of(ticket.error().code)), ticket.error().message};
+    refused.failure = words_of(ticket.error());
     return refused;
   }
   bool brakes = false;
@@ -99,7 +99,7 @@ Ending jog_to_rest(OpenedMachine& opened, const JogWords& words, const JogArgume
                  : answered.outcome == Outcome::done ? "travel"
                                                      : "lease",
           .is_known = status.position.trust != Trust::unknown,
-          .fault = answered.fault};
+          .failure = answered.fault ? fmt::format("{} [{}]", answered.fault->message(), answered.fault->code()) : ""};
 }
 
 std::string_view in_words(std::string_view why) {
@@ -171,7 +171,7 @@ int jog(const JogArguments& arguments) {
   if (opened->session().status().trouble == LinkError::stood_still) {
     return fail(exit_failed, "the board: " + slip_words(*opened, *machine));
   }
-  if (ending.fault) return fail(exit_failed, fmt::format("{} [{}]", ending.fault->message, ending.fault->code));
+  if (!ending.failure.empty()) return fail(exit_failed, ending.failure);
   if (const auto differs = opened->compare()) return fail(exit_failed, "the board: " + *differs);
   print(ending, *machine, arguments.json);
   return interrupted_by() != 0 ? 128 + interrupted_by() : exit_done;

@@ -64,7 +64,7 @@ std::optional<LineCost> line_cost(ProgramReader program, const MachineDescriptio
     if (turns % turns_between_looks == 0) progress.update(session.program()->nominal_time() / check.nominal_time);
   }
   const Answered answered = answer_of(session.take_changes(), *ticket);
-  if (answered.fault) cost.trouble = answered.fault->message;
+  if (answered.fault) cost.trouble = answered.fault->message();
   cost.over = Seconds(static_cast<double>(opened->machine().now().count) / machine.board.clock.value());
   cost.rests = session.refiller()->recoveries();
   cost.slowdowns = session.refiller()->slowdowns();

@@ -128,7 +128,10 @@ void turn_to_the_end(OpenedMachine& machine, const std::function<void()>& look =
 // The result of a request that has been answered, and the reason.
 struct Answered {
   Outcome outcome = Outcome::done;
-  std::optional<ActivityFault> fault;
+  std::optional<ActivityFault> fault = {};
+  std::optional<Refusal> refused = {};  // it never began
+
+  std::string message() const { return refused ? refused->message : fault ? fault->message() : std::string(); }
 };
 Answered answer_of(const std::vector<MachineChange>& changes, Ticket ticket);
 

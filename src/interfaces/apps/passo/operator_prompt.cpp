@@ -90,11 +90,7 @@ Seconds OperatorPrompt::look(MachineSession& session) {
   }
   if (!asks_operator()) {
     if (!fault_) {
-      fault_ = ActivityFault{
-          .code = "run.waits",
-          .message = fmt::format("{} waits at {}, and there is no terminal to ask on: run it on one, or with --yes "
-                                 "when all is prepared, together with --resume to go on from here [run.waits]",
-                                 program_, words_of(*wait))};
+      fault_ = ActivityFault{MachineFault::program_waits, {{"program", program_}, {"wait", words_of(*wait)}}};
       try_request(session, request::Stop{});
     }
     return endless;

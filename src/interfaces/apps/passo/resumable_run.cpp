@@ -183,9 +183,9 @@ void ResumableRun::add_to(request::Start& start) {
 void ResumableRun::end(const MachineSession& session, const Answered& answered) {
   const auto trouble = session.status().trouble;
   const bool ended = !trouble && answered.outcome == Outcome::done;
-  const std::string code = answered.fault ? answered.fault->code : "";
-  const bool never_began = code.starts_with("machine.") && !resumes_;
-  if (ended || never_began || code == "program.wrong") return file_.remove();
+  const bool is_refused = answered.refused && answered.refused->code != RefusalCode::place_unknown;
+  const bool is_of_program = answered.fault && answered.fault->fault == MachineFault::program_wrong;
+  if (ended || (is_refused && !resumes_) || is_of_program) return file_.remove();
   if (writer_.failed()) return note(file_.path() + ": this journal could not be written: " + file_.trouble());
   if (trouble && *trouble != LinkError::no_answer) return;  // --resume would be refused
   if (trouble) {

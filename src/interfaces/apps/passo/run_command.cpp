@@ -89,10 +89,6 @@ void add_board(RunSummary& summary, OpenedMachine& opened, const MachineDescript
   summary.board = board;
 }
 
-ActivityFault refused(const Refusal& refusal) {
-  return {.code = std::string(code_of(refusal.code)), .message = refusal.message};
-}
-
 void stop(MachineSession& session) {
   try_request(session, request::Stop{});
 }
@@ -234,7 +230,7 @@ RunSummary play(const Run& run, request::Start start, Answered& answered) {
   run.changes.begin(session.now());
   const auto ticket = session.request(std::move(start));
   if (!ticket) {
-    answered = {.outcome = Outcome::failed, .fault = refused(ticket.error())};
+    answered = {.outcome = Outcome::failed, .refused = ticket.error()};
   } else {
     bool brakes = false;
     for (unsigned turns = 0; session.busy(); ++turns) {
@@ -268,7 +264,7 @@ RunSummary play(const Run& run, request::Start start, Answered& answered) {
 
 // Says why a run ended before its program did, and where the machine rests.
 std::string stopped_words(const Answered& answered, const RunSummary& summary) {
-  std::string words = interrupted_by() != 0 ? "interrupted; " : answered.fault->message + "; ";
+  std::string words = interrupted_by() != 0 ? "interrupted; " : answered.message() + "; ";
   words += "the machine rests at";
   for (const AxisSummary& axis : summary.axes) words += fmt::format(" {}{:.3f}", letter_of(axis.axis), axis.position);
   return words + " (machine coordinates), and nothing was written";
@@ -301,8 +297,7 @@ int make_ready(const ResumableRun::Subject& subject, const ProgramReader& progra
   // Only from the greeting does the board know at which level a switch is closed.
   if (const auto closed = machine.session().closed_limit()) {
     code = fail(exit_failed, words_of(*closed));
-    if (resumable != nullptr)
-      resumable->end(machine.session(), {.outcome = Outcome::failed, .fault = refused(*closed)});
+    if (resumable != nullptr) resumable->end(machine.session(), {.outcome = Outcome::failed, .refused = *closed});
   }
   return code;
 }
@@ -341,8 +336,8 @@ int end_run(const Run& run, const Answered& answered, const RunSummary& summary,
                                                         summary.board->stood_still_line));
   }
   if (session.status().trouble) return fail(exit_failed, "the board: " + session.trouble_words());
-  if (answered.fault && answered.fault->code.starts_with("board.")) {
-    return fail(exit_failed, "the board: " + answered.fault->message);
+  if (answered.fault && is_of_board(answered.fault->fault)) {
+    return fail(exit_failed, "the board: " + answered.message());
   }
   if (const auto words = run.opened.compare()) return fail(exit_failed, "the board: " + *words);
   if (run.opened.has_board()) tell_tails(session);

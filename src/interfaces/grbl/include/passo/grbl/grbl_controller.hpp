@@ -52,19 +52,6 @@ enum class GrblError : int {
 
 inline constexpr std::string_view jog_begins = "$J=";
 
-enum class GrblAlarm : int {
-  none = 0,
-  hard_limit = 1,
-  soft_limit = 2,
-  lost_place = 3,
-  probe_before = 4,
-  probe_untouched = 5,
-  homing_stopped = 6,
-  homing_no_release = 8,
-  homing_no_switch = 9,
-  motor_fault = 17,  // as grblHAL numbers it
-};
-
 class GrblController {
  public:
   // `machine`, `session` and `program` outlive the controller. `program` speaks grbl's dialect.

@@ -8,20 +8,14 @@
 
 #include <cstdint>
 #include <optional>
-#include <string>
 
+#include "passo/activity/machine_fault.hpp"
 #include "passo/base/source.hpp"
 #include "passo/path/segment.hpp"
 
 namespace passo {
 
 enum class ActivityKind : std::uint8_t { program, jog, homing, probing };
-
-// Why an activity failed. `code` is stable; the message is a sentence without a full stop.
-struct ActivityFault {
-  std::string code;
-  std::string message;
-};
 
 class Activity : public Source<PathItem> {
  public:

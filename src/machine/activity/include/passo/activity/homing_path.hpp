@@ -39,16 +39,6 @@ enum class HomingStage : std::uint8_t {
   pull_off,
 };
 
-enum class HomingFault : std::uint8_t {
-  not_met,       // the switch did not close within 1.1 of the travel, or, on the slow return, within three times the
-                 // pull-off
-  still_closed,  // the switch did not open within the pull-off
-  unsteady,      // the switch opened and closed again and again
-};
-// The code is stable. The message is a sentence without a full stop.
-std::string_view code_of(HomingFault fault);
-std::string_view message_of(HomingFault fault);
-
 // Where a machine rests after homing, in machine coordinates. Axes that are not homed keep their places of `start`.
 Point home_rest(const MachineDescription& machine, const Point& start = {});
 
@@ -76,7 +66,7 @@ class HomingPath final : public Activity {
   const std::vector<HomedAxis>& homed() const { return homed_; }
   // Where the machine stood, as far as was known.
   const Point& start() const { return start_; }
-  std::optional<HomingFault> homing_fault() const { return fault_; }
+  std::optional<MachineFault> homing_fault() const { return fault_; }
   // All axes are homed.
   bool done() const { return axis_ == nullptr; }
   // Where the machine stands when all axes are homed, in machine coordinates.
@@ -119,7 +109,7 @@ class HomingPath final : public Activity {
   void retreat(HomingStage stage, double target);
   void turn_watch();
   void end_axis();
-  void fail(HomingFault fault) { fault_ = fault; }
+  void fail(MachineFault fault) { fault_ = fault; }
 
   const MachineDescription& machine_;
   const MachineAnswers& answers_;
@@ -144,7 +134,7 @@ class HomingPath final : public Activity {
   int turns_ = 0;
   Point position_;  // where the machine rests
   std::vector<HomedAxis> homed_;
-  std::optional<HomingFault> fault_;
+  std::optional<MachineFault> fault_;
 };
 
 }  // namespace passo

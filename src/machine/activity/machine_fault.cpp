@@ -1,0 +1,78 @@
+#include "passo/activity/machine_fault.hpp"
+
+#include <algorithm>
+#include <cstddef>
+#include <iterator>
+
+namespace passo {
+namespace {
+
+using enum MachineFault;
+
+constexpr MachineFaultRow rows[] = {
+    {switch_not_met, "home.not-met", "its switch was not met", GrblAlarm::homing_no_switch},
+    {switch_still_closed, "home.still-closed", "its switch is still closed behind the pull-off",
+     GrblAlarm::homing_no_release},
+    {switch_unsteady, "home.unsteady", "its switch opens and closes again and again", GrblAlarm::homing_no_release},
+    {probe_before, "probe.before", "the probe was as it should become before the move began", GrblAlarm::probe_before},
+    {probe_untouched, "probe.untouched", "the probe move came to its end without a contact",
+     GrblAlarm::probe_untouched},
+    {probe_guard, "probe.guard", "the probe was touched in a move that is no probe move"},
+    {program_wrong, "program.wrong", "the program cannot go on"},
+    {program_waits, "run.waits",
+     "{program} waits at {wait}, and there is no terminal to ask on: run it on one, or with --yes when all is "
+     "prepared, "
+     "together with --resume to go on from here [run.waits]"},
+    {board_stopped, "board.stopped", "{trouble}", GrblAlarm::hard_limit},
+    {board_drivers_off, "board.drivers-off", "{trouble}", GrblAlarm::hard_limit},
+    {board_slipped, "board.slipped", "{trouble}", GrblAlarm::hard_limit},
+    {board_lost, "board.lost", "{trouble}", GrblAlarm::lost_place},
+};
+
+// A fault finds its row by its number.
+constexpr bool rows_are_in_order() {
+  for (std::size_t i = 0; i < std::size(rows); ++i) {
+    if (static_cast<std::size_t>(rows[i].fault) != i) return false;
+  }
+  return std::size(rows) == static_cast<std::size_t>(board_lost) + 1;
+}
+static_assert(rows_are_in_order());
+
+}  // namespace
+
+std::span<const MachineFaultRow> machine_fault_rows() {
+  return rows;
+}
+
+const MachineFaultRow& row_of(MachineFault fault) {
+  return rows[static_cast<std::size_t>(fault)];
+}
+
+// In one pass, because the value of an argument may have braces itself.
+std::string ActivityFault::message() const {
+  const std::string_view sentence = row_of(fault).sentence;
+  std::string words;
+  for (std::size_t at = 0; at < sentence.size();) {
+    const std::size_t open = std::min(sentence.find('{', at), sentence.size());
+    const std::size_t close = std::min(sentence.find('}', open), sentence.size());
+    words += sentence.substr(at, open - at);
+    if (open == sentence.size()) break;
+    const std::string_view name = sentence.substr(open + 1, close - open - 1);
+    const auto found = std::ranges::find(arguments, name, &std::pair<std::string_view, std::string>::first);
+    if (found != arguments.end()) words += found->second;
+    at = close + 1;
+  }
+  return words;
+}
+
+bool is_of_board(MachineFault fault) {
+  switch (fault) {
+    case board_stopped:
+    case board_drivers_off:
+    case board_slipped:
+    case board_lost: return true;
+    default: return false;
+  }
+}
+
+}  // namespace passo
