@@ -6,6 +6,7 @@
 
 #include <fmt/format.h>
 
+#include "passo/geometry/curve_derivatives.hpp"
 #include "passo/geometry/only_turns.hpp"
 
 namespace passo {
@@ -53,12 +54,15 @@ void SpeedSurvey::watch(const PlannedMove& move) {
   }
   if (!takes_up || only_takes_up_) part_.programmed = std::max(part_.programmed, segment.speed);
   if (!takes_up) part_.way += move.to - move.from();
-  for (const Phase& phase : move) watch_phase(move, phase);
+  const double curvature = segment.curve.curvature();
+  for (const Phase& phase : move) watch_phase(move, phase, curvature);
 }
 
-// With constant acceleration on a line a limit is reached in all of a phase or nowhere.
-void SpeedSurvey::watch_phase(const PlannedMove& move, const Phase& phase) {
-  const bool simple = phase.jerk.value() == 0 && move.segment.curve.shape() == Curve::Shape::line;
+// With constant acceleration a limit is reached in all of a phase or nowhere, if the path hardly turns in it.
+void SpeedSurvey::watch_phase(const PlannedMove& move, const Phase& phase, double curvature) {
+  constexpr double hardly_turns = 0.05;  // radians
+  const Mm end = &phase + 1 == move.end() ? move.to : (&phase + 1)->start;
+  const bool simple = phase.jerk.value() == 0 && (end - phase.start).value() * curvature < hardly_turns;
   const int looks = simple ? 1 : 3;
   const Seconds piece = phase.duration / looks;
   part_.time += phase.duration;
@@ -92,13 +96,9 @@ SpeedSurvey::Found SpeedSurvey::bound_at(const PlannedMove& move, const Phase& p
   const double v = phase.velocity_at(t).value();
   if (v >= nearly_all * move.segment.speed.value()) return {{.kind = Kind::feed}, 0};
   const Curve& curve = move.segment.curve;
-  const bool is_line = curve.shape() == Curve::Shape::line;
-  const Mm s = phase.position_at(t);
   const double a = phase.acceleration_at(t).value();
   const double j = phase.jerk.value();
-  const Point slope = curve.tangent(s);
-  const Point bend = is_line ? Point() : curve.second_derivative(s);
-  const Point twist = is_line ? Point() : curve.third_derivative(s);
+  const auto [slope, bend, twist] = derivatives_at(curve, phase.position_at(t));
   double most = nearly_all;
   Found found;
   const auto compare = [&](Kind kind, Axis axis, double value, double limit) {

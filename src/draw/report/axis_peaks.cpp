@@ -9,30 +9,18 @@
 namespace passo {
 namespace {
 
-// A time interval inside one phase.
-struct Stretch {
-  double begin = 0;
-  double end = 0;
-};
-
-double acceleration_at(const Phase& phase, double t) {
-  return phase.acceleration.value() + phase.jerk.value() * t;
-}
-
-double highest_speed(const Phase& phase, Stretch time) {
-  double highest = std::max(std::abs(phase.velocity_at(Seconds(time.begin)).value()),
-                            std::abs(phase.velocity_at(Seconds(time.end)).value()));
+double highest_speed(const Phase& phase) {
+  const Seconds end = phase.duration;
+  double highest = std::max(std::abs(phase.velocity.value()), std::abs(phase.velocity_at(end).value()));
   if (phase.jerk.value() != 0) {  // the speed may have an extreme value inside
-    const double turn = -phase.acceleration.value() / phase.jerk.value();
-    if (turn > time.begin && turn < time.end) {
-      highest = std::max(highest, std::abs(phase.velocity_at(Seconds(turn)).value()));
-    }
+    const Seconds turn(-phase.acceleration.value() / phase.jerk.value());
+    if (turn > Seconds(0) && turn < end) highest = std::max(highest, std::abs(phase.velocity_at(turn).value()));
   }
   return highest;
 }
 
-double highest_acceleration(const Phase& phase, Stretch time) {
-  return std::max(std::abs(acceleration_at(phase, time.begin)), std::abs(acceleration_at(phase, time.end)));
+double highest_acceleration(const Phase& phase) {
+  return std::max(std::abs(phase.acceleration.value()), std::abs(phase.acceleration_at(phase.duration).value()));
 }
 
 // An interval of s.
@@ -69,14 +57,17 @@ class ArcAxis {
             -turning_ * (2 * growth_ * sine + radius_at(s) * turning_ * cosine)};
   }
 
-  // Upper bounds for any axis of the plane: the lengths of the vectors of which the slope, the bend and the next
-  // derivative are components.
+  // Upper bounds for any axis of the plane: the lengths of the vectors of which the first four derivatives are
+  // components.
   double most_slope(Way way) const { return hypotenuse(growth_, largest_radius(way) * turning_); }
   double most_bend(Way way) const {
     return std::abs(turning_) * hypotenuse(2 * growth_, largest_radius(way) * turning_);
   }
   double most_twist(Way way) const {
     return turning_ * turning_ * hypotenuse(3 * growth_, largest_radius(way) * turning_);
+  }
+  double most_of_fourth(Way way) const {
+    return std::abs(turning_ * turning_ * turning_) * hypotenuse(4 * growth_, largest_radius(way) * turning_);
   }
   // The largest |a · slope + v² · bend|.
   double most_pull(double a, double v, Way way) const {
@@ -115,6 +106,7 @@ class CubicAxis {
   }
   double most_bend(Way way) const { return std::max(std::abs(bend(way.from)), std::abs(bend(way.to))); }
   double most_twist(Way /*way*/) const { return std::abs(third_); }
+  double most_of_fourth(Way /*way*/) const { return 0; }
   double most_pull(double a, double v, Way way) const { return a * most_slope(way) + v * v * most_bend(way); }
 
  private:
@@ -126,111 +118,117 @@ class CubicAxis {
   double third_ = 0;
 };
 
-// What is known of a stretch: the path's largest speed and acceleration in it, its way, and the values at its middle.
+// What is known of a phase: the largest speed and acceleration along the path, and the way.
 struct Look {
-  Look(const Phase& phase, Stretch time)
-      : v(highest_speed(phase, time)),
-        a(highest_acceleration(phase, time)),
-        way{phase.position_at(Seconds(time.begin)).value(), phase.position_at(Seconds(time.end)).value()},
-        half((time.end - time.begin) / 2) {
-    const double middle = (time.begin + time.end) / 2;
-    middle_s = phase.position_at(Seconds(middle)).value();
-    middle_v = phase.velocity_at(Seconds(middle)).value();
-    middle_a = acceleration_at(phase, middle);
-  }
-  double v, a;
+  Look(const Phase& phase, double end)
+      : v(highest_speed(phase)), a(highest_acceleration(phase)), way{phase.start.value(), end} {}
+  double v;
+  double a;
   Way way;
-  double half;
-  double middle_s = 0, middle_v = 0, middle_a = 0;
 };
 
-// A value at the middle of a stretch, and an upper bound of it in the whole stretch.
-struct Found {
-  double here;
-  double bound;
+// A moment of a phase, and the size of the axis's speed or acceleration there.
+struct Sample {
+  double t;
+  double size;
 };
 
-// The highest speed and acceleration of an axis in one phase, each to a thousandth. A stretch is halved until it cannot
-// hold more than the highest value seen. The value at its middle and the highest rate of change bound all values in the
-// stretch. On most curves the first look is enough, and most of the first looks need no more than the longest vector
-// of which the value is a component.
-template <class CurvedAxis>
+// Raises `peak` to the highest size of a value in one phase, to a thousandth. `bend` is an upper bound of the value's
+// second derivative by the time. So between two samples the value exceeds the larger of them by at most h²/8 of that,
+// and a stretch is halved until it cannot hold more than the highest value seen. On most curves the ends of the phase
+// are enough.
+template <class SizeAt>
 class PeakSearch {
  public:
-  // `whole`: the look at the whole phase.
-  PeakSearch(const CurvedAxis& axis, const Phase& phase, const Look& whole)
-      : axis_(axis), phase_(phase), whole_(whole) {}
+  PeakSearch(double& peak, double bend, const SizeAt& size_at) : peak_(peak), bend_(bend), size_at_(size_at) {}
 
-  void raise_speed(double& peak) {
-    if (whole_.v * axis_.most_slope(whole_.way) <= peak) return;
-    raise(peak, [this](const Look& look) {
-      const double most = look.v * axis_.most_slope(look.way);
-      const double change = axis_.most_pull(look.a, look.v, look.way);
-      const double here = std::abs(look.middle_v * axis_.at(look.middle_s).slope);
-      return Found{here, std::min(most, here + look.half * change)};
-    });
-  }
-  void raise_acceleration(double& peak) {
-    if (axis_.most_pull(whole_.a, whole_.v, whole_.way) <= peak) return;
-    raise(peak, [this](const Look& look) {
-      const double most = axis_.most_pull(look.a, look.v, look.way);
-      const double change = std::abs(phase_.jerk.value()) * axis_.most_slope(look.way) +
-                            3 * look.v * look.a * axis_.most_bend(look.way) +
-                            look.v * look.v * look.v * axis_.most_twist(look.way);
-      const Slopes middle = axis_.at(look.middle_s);
-      const double here = std::abs(look.middle_a * middle.slope + look.middle_v * look.middle_v * middle.bend);
-      return Found{here, std::min(most, here + look.half * change)};
-    });
+  void raise(const Sample& from, const Sample& to) {
+    peak_ = std::max({peak_, from.size, to.size});
+    search(from, to, 30);
   }
 
  private:
-  template <class Examine>
-  void raise(double& peak, const Examine& examine) {
-    left_ = 10'000;
-    const double duration = phase_.duration.value();
-    if (cannot_raise(examine(whole_), peak)) return;
-    // The ends are examined first, because the highest acceleration of a ramp is at one of them.
-    for (const double end : {0.0, duration}) peak = std::max(peak, examine(Look(phase_, {end, end})).here);
-    search({0, duration}, peak, examine, 30);
-  }
-  static bool cannot_raise(const Found& found, double peak) {
+  void search(const Sample& from, const Sample& to, int depth) {
     constexpr double precision = 1e-3;
     constexpr double nothing = 1e-9;
-    return found.bound <= peak * (1 + precision) + nothing;
-  }
-  template <class Examine>
-  void search(Stretch time, double& peak, const Examine& examine, int depth) {
-    const Found found = examine(Look(phase_, time));
-    peak = std::max(peak, found.here);
-    if (cannot_raise(found, peak) || depth == 0 || --left_ < 0) return;
-    const double middle = (time.begin + time.end) / 2;
-    search({time.begin, middle}, peak, examine, depth - 1);
-    search({middle, time.end}, peak, examine, depth - 1);
+    const double h = to.t - from.t;
+    const double bound = std::max(from.size, to.size) + h * h / 8 * bend_;
+    if (bound <= peak_ * (1 + precision) + nothing || depth == 0 || --left_ < 0) return;
+    const double t = from.t + h / 2;
+    const Sample middle{t, size_at_(t)};
+    peak_ = std::max(peak_, middle.size);
+    search(from, middle, depth - 1);
+    search(middle, to, depth - 1);
   }
 
-  const CurvedAxis& axis_;
-  const Phase& phase_;
-  const Look& whole_;
-  int left_ = 0;  // how many more looks are allowed; ordinary curves need only a few
+  double& peak_;
+  double bend_;
+  const SizeAt& size_at_;
+  int left_ = 10'000;  // how many more samples are allowed; ordinary curves need only a few
 };
 
 // An axis along which a curve bends.
 template <class CurvedAxis>
-struct Bending {
+class Bending {
+ public:
+  Bending() = default;
+  Bending(Axis bent, const CurvedAxis& shape) : axis(bent), shape_(shape) {}
+
+  // With the axis's derivatives q', q'', ... by s, its speed is q' v and its acceleration f = q' a + q'' v². The second
+  // derivative of its speed by the time is f' = q' j + 3 q'' a v + q''' v³. For the highest acceleration it is
+  // f'' = q'' (4 j v + 3 a²) + 6 q''' a v² + q'''' v⁴.
+  void raise(const Phase& phase, const Look& whole, double& speed, double& acceleration) {
+    const double j = std::abs(phase.jerk.value());
+    const double a = whole.a;
+    const double v = whole.v;
+    const Way way = whole.way;
+    if (v * shape_.most_slope(way) > speed) {
+      const double bend =
+          j * shape_.most_slope(way) + v * (3 * a * shape_.most_bend(way) + v * v * shape_.most_twist(way));
+      raise(speed, phase, way, bend,
+            [](const Slopes& at, double path_speed, double /*along*/) { return std::abs(path_speed * at.slope); });
+    }
+    if (shape_.most_pull(a, v, way) > acceleration) {
+      const double bend = (4 * j * v + 3 * a * a) * shape_.most_bend(way) +
+                          v * v * (6 * a * shape_.most_twist(way) + v * v * shape_.most_of_fourth(way));
+      raise(acceleration, phase, way, bend, [](const Slopes& at, double path_speed, double along) {
+        return std::abs(along * at.slope + path_speed * path_speed * at.bend);
+      });
+    }
+  }
+
   Axis axis = Axis::x;
-  CurvedAxis shape = {};
+
+ private:
+  template <class SizeOf>
+  void raise(double& peak, const Phase& phase, Way way, double bend, const SizeOf& size_of) {
+    const auto size = [&](const Slopes& slopes, double t) {
+      return size_of(slopes, phase.velocity_at(Seconds(t)).value(), phase.acceleration_at(Seconds(t)).value());
+    };
+    const auto size_at = [&](double t) { return size(shape_.at(phase.position_at(Seconds(t)).value()), t); };
+    const double end = phase.duration.value();
+    const Sample first{0, size(slopes_at(way.from), 0)};
+    PeakSearch(peak, bend, size_at).raise(first, {end, size(slopes_at(way.to), end)});
+  }
+  // The end of a phase is the start of the next.
+  const Slopes& slopes_at(double s) {
+    if (s != known_at_) known_ = shape_.at(s);
+    known_at_ = s;
+    return known_;
+  }
+
+  CurvedAxis shape_ = {};
+  double known_at_ = -1;
+  Slopes known_;
 };
 
 template <class CurvedAxis>
-void raise_on_curve(const PlannedMove& move, std::span<const Bending<CurvedAxis>> bending, PerAxis<double>& speed,
+void raise_on_curve(const PlannedMove& move, std::span<Bending<CurvedAxis>> bending, PerAxis<double>& speed,
                     PerAxis<double>& acceleration) {
   for (const Phase& phase : move) {
-    const Look whole(phase, {0, phase.duration.value()});
-    for (const auto& [axis, shape] : bending) {
-      PeakSearch search(shape, phase, whole);
-      search.raise_speed(speed[axis]);
-      search.raise_acceleration(acceleration[axis]);
-    }
+    const Mm end = &phase + 1 == move.end() ? move.to : (&phase + 1)->start;
+    const Look whole(phase, end.value());
+    for (Bending<CurvedAxis>& one : bending) one.raise(phase, whole, speed[one.axis], acceleration[one.axis]);
   }
 }
 
@@ -242,9 +240,9 @@ void AxisPeaks::watch(const PlannedMove& move) {
   AxisSet bent;
   if (curve.shape() == Curve::Shape::arc) {
     const Curve::ArcData& arc = curve.arc_data();
-    const std::array<Bending<ArcAxis>, 2> plane{
+    std::array<Bending<ArcAxis>, 2> plane{
         {{arc.first, ArcAxis(curve, 0)}, {arc.second, ArcAxis(curve, std::numbers::pi / 2)}}};
-    raise_on_curve(move, std::span<const Bending<ArcAxis>>(plane), speed_, acceleration_);
+    raise_on_curve(move, std::span<Bending<ArcAxis>>(plane), speed_, acceleration_);
     for (const auto& one : plane) bent.add(one.axis);
     watch_straight(move, bent);
   } else if (curve.shape() == Curve::Shape::cubic) {
@@ -253,7 +251,7 @@ void AxisPeaks::watch(const PlannedMove& move) {
     for (const Axis axis : all_axes) {
       if (curve.moves(axis)) axes[count++] = {axis, CubicAxis(curve, axis)};
     }
-    raise_on_curve(move, std::span<const Bending<CubicAxis>>(axes).first(count), speed_, acceleration_);
+    raise_on_curve(move, std::span<Bending<CubicAxis>>(axes).first(count), speed_, acceleration_);
   } else {
     watch_straight(move, bent);
   }
@@ -264,9 +262,8 @@ void AxisPeaks::watch_straight(const PlannedMove& move, AxisSet bent) {
   double speed = 0;
   double acceleration = 0;
   for (const Phase& phase : move) {
-    const Stretch all{0, phase.duration.value()};
-    speed = std::max(speed, highest_speed(phase, all));
-    acceleration = std::max(acceleration, highest_acceleration(phase, all));
+    speed = std::max(speed, highest_speed(phase));
+    acceleration = std::max(acceleration, highest_acceleration(phase));
   }
   const Point slope = move.segment.curve.tangent(Mm(0));
   for (const Axis axis : all_axes) {

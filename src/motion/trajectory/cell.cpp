@@ -4,6 +4,8 @@
 #include <cmath>
 #include <limits>
 
+#include "passo/geometry/curve_derivatives.hpp"
+
 namespace passo {
 namespace {
 
@@ -238,9 +240,8 @@ double CellCutter::top_of_turning(const Axes& axes, const Point& slope, const Po
 }
 
 CellCutter::Place CellCutter::place_at(const Curve& curve, const Axes& axes, double s) {
-  const Point slope = curve.tangent(Mm(s));
-  const Point bend = curve.second_derivative(Mm(s));
-  return {.s = s, .slope = slope, .bend = bend, .turning = top_of_turning(axes, slope, bend)};
+  const CurveDerivatives here = derivatives_at(curve, Mm(s));
+  return {.s = s, .slope = here.first, .bend = here.second, .turning = top_of_turning(axes, here.first, here.second)};
 }
 
 // On an arc each derivative is the one before, turned. So its size is that of the slope in the plane, times the turn

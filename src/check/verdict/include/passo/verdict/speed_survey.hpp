@@ -90,7 +90,7 @@ class SpeedSurvey {
   };
 
   Found bound_at(const PlannedMove& move, const Phase& phase, Seconds t) const;
-  void watch_phase(const PlannedMove& move, const Phase& phase);
+  void watch_phase(const PlannedMove& move, const Phase& phase, double curvature);
   Reached& reached(const SpeedBound& bound);
   void end_part();
 
