@@ -78,7 +78,8 @@ constexpr auto chapter(std::string_view title) {
 
 template <class... Facts>
 constexpr CodeEntry code_of(char letter, double number, ModalGroup group, std::string_view what, Facts... facts) {
-  CodeEntry entry{.letter = letter, .number = static_cast<CodeNumber>(number * 10 + 0.5), .group = group, .what = what};
+  const auto tenths = static_cast<CodeNumber>(static_cast<int>(number * 100 + 5) / 10);  // std::lround is no constexpr
+  CodeEntry entry{.letter = letter, .number = tenths, .group = group, .what = what};
   (facts(entry), ...);
   return entry;
 }

@@ -65,6 +65,14 @@ TEST(Explain, the_modes_are_those_the_line_runs_under) {
   EXPECT_EQ(meaning(line, "X1"), "by X 1 in (25.4 mm), to X 25.4 mm (work), 25.4 mm (machine)");
 }
 
+// G41 takes a tool of the table, G41.1 a diameter.
+TEST(Explain, a_letter_means_what_the_row_of_its_code_says) {
+  EXPECT_EQ(meaning(line_of("G41.1 D6\nM2\n", 1), "D6"), "a tool 6 mm wide");
+  EXPECT_EQ(meaning(line_of("G42.1 D6\nM2\n", 1), "D6"), "a tool 6 mm wide");
+  EXPECT_EQ(meaning(line_of("G41 D0\nM2\n", 1), "D0"), "the radius of tool 0");
+  EXPECT_EQ(meaning(line_of("G98 G83 X1 Z-2 R1 Q.5 F100\nM2\n", 1), "Q.5"), "0.5 mm deeper with each peck");
+}
+
 TEST(Explain, axis_words_alone_name_the_motion_that_is_active) {
   const Explanation line = line_of("G1 X1 F100\nX2\nM2\n", 2);
   ASSERT_EQ(line.words.size(), 2U);
