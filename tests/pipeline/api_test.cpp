@@ -12,6 +12,7 @@
 #include <nlohmann/json.hpp>
 #include <unistd.h>
 
+#include "passo/activity/homing_repeats.hpp"
 #include "passo/api/api_routes.hpp"
 #include "passo/api/web_api.hpp"
 

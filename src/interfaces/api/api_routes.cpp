@@ -34,14 +34,14 @@ constexpr ApiRoute routes[] = {
     {"GET", "/stream", "openStream", anybody, none, &MachineApi::stream},
 
     {"GET", "/cam", "getCam", anybody, none, &CamApi::look, Needs::maker},
-    {"POST", "/cam", "beginCam", anybody, json, &CamApi::begin, Needs::maker},
+    {"POST", "/cam", "beginCam", anybody, json, &CamApi::begin},
     {"POST", "/cam/files", "sendCamFile", anybody, bytes, &CamApi::keep_file, Needs::maker},
     {"DELETE", "/cam/files", "clearCamFiles", anybody, none, &CamApi::clear_files, Needs::maker},
     {"GET", "/cam/page", "getCamPage", anybody, none, &CamApi::page, Needs::maker},
     {"GET", "/cam/picture", "getCamPicture", anybody, none, &CamApi::picture, Needs::maker},
     // As these were called before; for one version.
     {"GET", "/make", "getMake", anybody, none, &CamApi::look, Needs::maker},
-    {"POST", "/make", "make", anybody, json, &CamApi::begin, Needs::maker},
+    {"POST", "/make", "make", anybody, json, &CamApi::begin},
     {"POST", "/make/files", "sendMakeFile", anybody, bytes, &CamApi::keep_file, Needs::maker},
     {"DELETE", "/make/files", "clearMakeFiles", anybody, none, &CamApi::clear_files, Needs::maker},
     {"GET", "/make/page", "getMadePage", anybody, none, &CamApi::page, Needs::maker},
@@ -98,7 +98,7 @@ constexpr ApiRoute routes[] = {
     {"POST", "/stops", "chooseStops", owner, json, &MachineApi::choose_stops},
 
     {"GET", "/study", "getStudy", anybody, none, &StudiesApi::look, Needs::studies},
-    {"POST", "/study", "beginStudy", anybody, json, &StudiesApi::begin, Needs::studies},
+    {"POST", "/study", "beginStudy", anybody, json, &StudiesApi::begin},
     {"GET", "/study/loads", "getStudyLoads", anybody, none, &StudiesApi::loads, Needs::studies},
     {"GET", "/study/picture", "getStudyPicture", anybody, none, &StudiesApi::picture, Needs::studies},
 

@@ -220,6 +220,7 @@ WebAnswer CamApi::begin(const ApiCall& call) {
     if (name != "job" && name != "files" && name != "options" && name != "profile")
       return bad_body("there is no \"" + name.substr(0, 40) + "\"");
   }
+  if (shared_.options.maker == nullptr) return no_maker();
   Maker& maker = *shared_.options.maker;
   std::string reason;
   auto order = order_from(said, maker.files(), reason);

@@ -60,6 +60,7 @@ WebAnswer StudiesApi::begin(const ApiCall& call) {
       return bad_body("there is no \"" + name.substr(0, 40) + "\"");
     }
   }
+  if (shared_.options.studies == nullptr) return no_studies();
   const Json study = said.value("study", Json());
   if (study != "motors" && study != "tune") return bad_body("\"study\": expected motors or tune");
   StudyOrder order;
