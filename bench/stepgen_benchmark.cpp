@@ -27,8 +27,7 @@ class Moves final : public Source<MotionItem> {
 
 StepOptions machine(double steps_per_mm) {
   StepOptions options;
-  options.motor_count = 3;
-  for (unsigned m = 0; m < 3; ++m) options.motors[m] = {.axis = all_axes[m], .steps_per_unit = steps_per_mm};
+  for (unsigned m = 0; m < 3; ++m) options.kinematics.add({.steps = {all_axes[m], steps_per_mm}});
   return options;
 }
 

@@ -46,29 +46,40 @@ struct Playback {
 struct Cubic {
   long double first, second, third;
 };
-inline Cubic cubic_of(const Motor& motor, const Curve& curve) {
+inline Cubic cubic_of(const MotorRow& motor, const Curve& curve) {
   const Curve::CubicData data = curve.cubic_data();
-  return {data.first[motor.axis], data.second[motor.axis], data.third[motor.axis]};
+  Cubic sum{0, 0, 0};
+  for (const auto& [axis, factor] : motor.steps.shares()) {
+    sum.first += static_cast<long double>(factor) * data.first[axis];
+    sum.second += static_cast<long double>(factor) * data.second[axis];
+    sum.third += static_cast<long double>(factor) * data.third[axis];
+  }
+  return sum;
 }
 
-// A motor's step count is this place, rounded down.
-inline long double exact_place(const Motor& motor, const Curve& curve, long double s) {
-  const long double scale = motor.steps_per_unit;
+inline long double exact_coordinate(Axis axis, const Curve& curve, long double s) {
   const long double length = curve.length().value();
   if (curve.shape() == Curve::Shape::arc) {
     const Curve::ArcData& arc = curve.arc_data();
     const long double part = s / length;
     const long double angle = arc.start_angle + arc.sweep * part;
     const long double radius = arc.start_radius + (static_cast<long double>(arc.end_radius) - arc.start_radius) * part;
-    if (motor.axis == arc.first) return (arc.first_center + radius * std::cos(angle)) * scale + 0.5L;
-    if (motor.axis == arc.second) return (arc.second_center + radius * std::sin(angle)) * scale + 0.5L;
+    if (axis == arc.first) return arc.first_center + radius * std::cos(angle);
+    if (axis == arc.second) return arc.second_center + radius * std::sin(angle);
   }
-  const long double start = curve.start()[motor.axis];
+  const long double start = curve.start()[axis];
   if (curve.shape() == Curve::Shape::cubic && s < length) {  // at s = length, the curve's given end is exact
-    const auto [first, second, third] = cubic_of(motor, curve);
-    return (start + s * (first + s * (second + s * third))) * scale + 0.5L;
+    const Curve::CubicData data = curve.cubic_data();
+    return start + s * (data.first[axis] + s * (data.second[axis] + s * data.third[axis]));
   }
-  return (start + (curve.end()[motor.axis] - start) * s / length) * scale + 0.5L;
+  return start + (curve.end()[axis] - start) * s / length;
+}
+
+// A motor's step count is this place, rounded down.
+inline long double exact_place(const MotorRow& motor, const Curve& curve, long double s) {
+  long double steps = 0.5L;
+  for (const auto& [axis, factor] : motor.steps.shares()) steps += factor * exact_coordinate(axis, curve, s);
+  return steps;
 }
 
 inline long double bisect(auto&& below, long double low, long double high) {
@@ -98,8 +109,9 @@ inline long double exact_time(const PlannedMove& move, long double s) {
   return time;
 }
 
-// The places where an axis of an arc's plane turns back. Between two samples, the slope changes its sign at most once.
-inline std::vector<long double> turns_on_arc(const Motor& motor, const Curve& curve) {
+// The places where a motor turns back that turns for an axis of an arc's plane. Between two samples, the slope changes
+// its sign at most once.
+inline std::vector<long double> turns_on_arc(const MotorRow& motor, const Curve& curve) {
   const Curve::ArcData& arc = curve.arc_data();
   const long double length = curve.length().value();
   const long double turn = arc.sweep / length;
@@ -107,9 +119,14 @@ inline std::vector<long double> turns_on_arc(const Motor& motor, const Curve& cu
   const auto rises = [&](long double s) {
     const long double angle = arc.start_angle + turn * s;
     const long double around = (arc.start_radius + growth * s) * turn;
-    const long double slope = motor.axis == arc.first ? growth * std::cos(angle) - around * std::sin(angle)
-                                                      : growth * std::sin(angle) + around * std::cos(angle);
-    return (slope > 0) == (motor.steps_per_unit > 0);
+    long double slope = 0;
+    for (const auto& [axis, factor] : motor.steps.shares()) {
+      slope += factor * (axis == arc.first ? growth * std::cos(angle) - around * std::sin(angle)
+                         : axis == arc.second
+                             ? growth * std::sin(angle) + around * std::cos(angle)
+                             : (static_cast<long double>(curve.end()[axis]) - curve.start()[axis]) / length);
+    }
+    return slope > 0;
   };
   const int samples = 64 + static_cast<int>(std::fabs(arc.sweep) * 64);
   std::vector<long double> turns;
@@ -123,7 +140,7 @@ inline std::vector<long double> turns_on_arc(const Motor& motor, const Curve& cu
 }
 
 // The places where the slope of a cubic changes its sign, by bisection on either side of the slope's own turning point.
-inline std::vector<long double> turns_on_cubic(const Motor& motor, const Curve& curve) {
+inline std::vector<long double> turns_on_cubic(const MotorRow& motor, const Curve& curve) {
   const auto [first, second, third] = cubic_of(motor, curve);
   const auto slope = [&, a = first, b = second, c = third](long double s) { return a + s * (2 * b + s * 3 * c); };
   const long double length = curve.length().value();
@@ -138,14 +155,13 @@ inline std::vector<long double> turns_on_cubic(const Motor& motor, const Curve& 
 }
 
 // Values of s between which the motor does not turn back. They cover the part of the curve that the move covers.
-inline std::vector<long double> monotone_pieces(const Motor& motor, const PlannedMove& move) {
+inline std::vector<long double> monotone_pieces(const MotorRow& motor, const PlannedMove& move) {
   const Curve& curve = move.segment.curve;
   const Curve::ArcData& arc = curve.arc_data();
   std::vector<long double> turns;
   if (curve.shape() == Curve::Shape::cubic) turns = turns_on_cubic(motor, curve);
-  if (curve.shape() == Curve::Shape::arc && (motor.axis == arc.first || motor.axis == arc.second)) {
-    turns = turns_on_arc(motor, curve);
-  }
+  const bool turns_round = motor.steps.factor_of(arc.first) != 0 || motor.steps.factor_of(arc.second) != 0;
+  if (curve.shape() == Curve::Shape::arc && turns_round) turns = turns_on_arc(motor, curve);
   const long double from = move.phases[0].start.value();
   const long double to = move.to.value();
   std::vector<long double> ends = {from};
@@ -163,7 +179,7 @@ inline std::int64_t whole_place(long double place) {
 inline std::vector<ExactStep> exact_steps(const std::vector<MotionItem>& items, const StepOptions& options,
                                           unsigned m) {
   std::vector<ExactStep> steps;
-  const Motor& motor = options.motors[m];
+  const MotorRow& motor = options.kinematics.rows()[m];
   const long double ticks = options.clock.tick_rate.value();
   long double start = 0;              // seconds
   std::optional<std::int64_t> count;  // the motor's step count so far
@@ -236,8 +252,8 @@ inline std::vector<BoardItem> plain(const std::vector<BoardItem>& items) {
 
 inline Playback play(const std::vector<BoardItem>& items, const StepOptions& options) {
   Playback result;
-  result.steps.resize(options.motor_count);
-  std::vector<std::int64_t> place(options.motor_count, 32768);
+  result.steps.resize(options.kinematics.motor_count());
+  std::vector<std::int64_t> place(options.kinematics.motor_count(), 32768);
   std::int64_t time = 32768;  // 1/65536 tick
   struct Pending {
     unsigned motor;
@@ -268,7 +284,7 @@ inline Playback play(const std::vector<BoardItem>& items, const StepOptions& opt
     // tell which one is the master.
     std::int64_t most = 0;
     unsigned alike = 0;
-    for (unsigned m = 0; m < options.motor_count; ++m) {
+    for (unsigned m = 0; m < options.kinematics.motor_count(); ++m) {
       const std::int64_t increment = std::abs(signed_increment(*segment, m));
       alike = increment == most ? alike + 1 : increment > most ? 1 : alike;
       most = std::max(most, increment);
@@ -285,7 +301,7 @@ inline Playback play(const std::vector<BoardItem>& items, const StepOptions& opt
       result.shortest_interval = std::min(result.shortest_interval, tick - before);
       if (most == 0) continue;
       const std::int64_t since_motion = end_interval(tick);
-      for (unsigned m = 0; m < options.motor_count; ++m) {
+      for (unsigned m = 0; m < options.kinematics.motor_count(); ++m) {
         const std::int64_t increment = signed_increment(*segment, m);
         const std::int64_t whole = place[m] >> 16;
         place[m] += increment;
@@ -317,7 +333,7 @@ inline void expect_exact(const std::vector<MotionItem>& items, const StepOptions
   const Playback played = play(board, options);
   const double shortest = options.clock.tick_rate / options.clock.highest_event_rate;
   EXPECT_GE(static_cast<double>(played.shortest_interval) + 1, shortest);
-  for (unsigned m = 0; m < options.motor_count; ++m) {
+  for (unsigned m = 0; m < options.kinematics.motor_count(); ++m) {
     const std::vector<ExactStep> exact = exact_steps(items, options, m);
     const std::vector<PlayedStep>& steps = played.steps[m];
     const auto left_out = [&](std::size_t i) {

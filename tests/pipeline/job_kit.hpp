@@ -167,13 +167,8 @@ class JobServer final : public JobKeeper {
 
  private:
   KnownPosition position_of(const BoardStatus& board) const {
-    KnownPosition position{.place = Point(), .trust = bench_.trust};
-    const StepOptions steps = step_options(bench_.description);
-    for (std::size_t m = 0; m < bench_.description.axes.size(); ++m) {
-      const auto counted = static_cast<double>(board.positions[m] - bench_.zero_counts[m]);
-      position.place[steps.motors[m].axis] = steps.motors[m].place_at(counted, false);
-    }
-    return position;
+    const MotorPlace motors = steps_since(bench_.zero_counts, board.positions);
+    return {.place = kinematics_of(bench_.description).axes(motors), .trust = bench_.trust};
   }
   ApiOptions options(const std::optional<BrokenOff>& found) {
     ApiOptions options{.version = "1", .openapi = "{}", .make_key = [] { return std::string("key"); }};

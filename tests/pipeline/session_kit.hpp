@@ -164,11 +164,11 @@ class SessionRun {
   // What the motors have truly done, in the steps of the session's place.
   std::array<double, StepLog::motors> steps_beside_place() const {
     std::array<double, StepLog::motors> beside{};
-    const StepOptions steps = step_options(description_);
+    const Kinematics kinematics = kinematics_of(description_);
     const MachineCounts counts = board_.counts();
     for (std::size_t m = 0; m < description_.axes.size(); ++m) {
       beside[m] = static_cast<double>(counts.motors[m].position) -
-                  session_.status().position.place[steps.motors[m].axis] * steps.motors[m].steps_per_unit;
+                  kinematics.rows()[m].steps.of(session_.status().position.place);
     }
     return beside;
   }

@@ -5,6 +5,8 @@
 #include <limits>
 #include <utility>
 
+#include "passo/activity/stage_options.hpp"
+
 namespace passo {
 namespace {
 
@@ -25,34 +27,32 @@ bool is_same_turn(const MachineDescription& machine, std::size_t i) {
   return i + 1 < machine.homing.size() && i + 1 < turns.size() && turns[i] == turns[i + 1];
 }
 
-double in_steps(const AxisDescription& axis, double place) {
-  return std::round(place * axis.steps_per_unit);
-}
-
 // Rounds to whole steps, so that the axis rests on a step.
-double pull_off_of(const AxisDescription& axis) {
-  return in_steps(axis, axis.home->pull_off) / axis.steps_per_unit;
+double pull_off_of(const AxisDescription& axis, double steps_per_unit) {
+  return std::round(axis.home->pull_off * steps_per_unit) / steps_per_unit;
 }
 
 // How far the second motor falls behind, so that the first one's switch closes first.
-double lag_of(const AxisDescription& axis) {
-  return std::max(in_steps(axis, axis.home->pull_off / 4), 1.0) / axis.steps_per_unit;
+double lag_of(const AxisDescription& axis, double steps_per_unit) {
+  return std::max(std::round(axis.home->pull_off / 4 * steps_per_unit), 1.0) / steps_per_unit;
 }
 
 }  // namespace
 
 Point home_rest(const MachineDescription& machine, const Point& start) {
   Point place = start;
+  const Kinematics kinematics = kinematics_of(machine);
   for (const Axis letter : machine.homing) {
     const AxisDescription& axis = *find(machine, letter);
-    const double off = axis.home->toward_high ? -pull_off_of(axis) : pull_off_of(axis);
+    const double pull_off = pull_off_of(axis, kinematics.steps_per_unit(letter));
+    const double off = axis.home->toward_high ? -pull_off : pull_off;
     place[letter] = axis.home->switch_at + off;
   }
   return place;
 }
 
 HomingPath::HomingPath(const MachineDescription& machine, const MachineAnswers& answers, const Point& start)
-    : machine_(machine), answers_(answers), start_(start), position_(start) {
+    : machine_(machine), kinematics_(kinematics_of(machine)), answers_(answers), start_(start), position_(start) {
   begin_turn();
 }
 
@@ -79,7 +79,7 @@ Action HomingPath::action(Action::Kind kind, const Point& place) const {
 }
 
 double HomingPath::off(double place) const {
-  return place - direction() * pull_off_of(*axis_);
+  return place - direction() * pull_off_of(*axis_, steps_per_unit());
 }
 
 // Goes on with the axes of this turn, or else of the next one.
@@ -129,7 +129,7 @@ void HomingPath::begin_axis(const AxisDescription& axis) {
   together_ = false;
   turns_ = 0;
   knows_switch_ = false;
-  lag_ = lag_of(axis);
+  lag_ = lag_of(axis, steps_per_unit());
   until_closed_ = true;
   goes_ = {stands(), stands()};
   found_ = goes_;
@@ -231,12 +231,12 @@ void HomingPath::judge_alone() {
     return fail(is_free ? MachineFault::switch_still_closed : MachineFault::switch_not_met);
   if (!settles_ && alone_ == Alone::find_second && outcome().refused) return fall_further_behind();
   const double apart = goes_[first_motor] - goes_[second_motor];
-  const double steps = (alone_ == Alone::close_first ? apart : -apart) * axis_->steps_per_unit * direction();
+  const double steps = (alone_ == Alone::close_first ? apart : -apart) * steps_per_unit() * direction();
   const double left = std::ceil(steps - hardly_a_step) - steps;
   settles_ = !settles_ && left > hardly_a_step;
   if (!settles_) return go_on_alone();
   until_closed_ = false;
-  move_alone(direction() * left / axis_->steps_per_unit);
+  move_alone(direction() * left / steps_per_unit());
 }
 
 // The second motor's switch has closed before the first one's: after the fast seek their places were not known well.
@@ -254,7 +254,8 @@ void HomingPath::go_on_alone() {
       return retreat(HomingStage::back_off, off(stands()) - direction() * farthest_beyond());
     case Alone::lag:
       until_closed_ = true;
-      return begin(HomingStage::latch, stands() + direction() * pull_offs_to_latch * pull_off_of(*axis_));
+      return begin(HomingStage::latch,
+                   stands() + direction() * pull_offs_to_latch * pull_off_of(*axis_, steps_per_unit()));
     case Alone::find_second:
       return retreat(HomingStage::pull_off, stands() + off(found_[first_motor]) - goes_[first_motor]);
     case Alone::adjust: return end_axis();
@@ -280,9 +281,9 @@ void HomingPath::judge_retreat() {
   if (!until_closed_) return fail(MachineFault::switch_still_closed);
   if (stage_ == HomingStage::back_off) {
     if (is_pair()) return begin_alone(Alone::lag, apart_from_switches() - direction() * lag_);
-    begin(HomingStage::latch, stands() + direction() * pull_offs_to_latch * pull_off_of(*axis_));
+    begin(HomingStage::latch, stands() + direction() * pull_offs_to_latch * pull_off_of(*axis_, steps_per_unit()));
   } else if (is_pair()) {
-    const double square = in_steps(*axis_, axis_->second->square) / axis_->steps_per_unit;
+    const double square = in_steps(axis_->second->square) / steps_per_unit();
     begin_alone(Alone::adjust, off(found_[second_motor]) + square - goes_[second_motor]);
   } else {
     end_axis();
@@ -307,18 +308,21 @@ void HomingPath::turn_watch() {
 }
 
 void HomingPath::end_axis() {
-  const double found = in_steps(*axis_, found_[first_motor]);
+  const double found = in_steps(found_[first_motor]);
   HomedAxis homed{.axis = axis_->axis,
-                  .way = (found - in_steps(*axis_, start_[axis_->axis])) / axis_->steps_per_unit,
-                  .place = home().switch_at + (in_steps(*axis_, goes_[first_motor]) - found) / axis_->steps_per_unit};
+                  .way = (found - in_steps(start_[axis_->axis])) / steps_per_unit(),
+                  .place = home().switch_at + (in_steps(goes_[first_motor]) - found) / steps_per_unit()};
   if (is_pair()) {
-    homed.squared =
-        (in_steps(*axis_, goes_[second_motor]) - in_steps(*axis_, goes_[first_motor])) / axis_->steps_per_unit;
+    homed.squared = (in_steps(goes_[second_motor]) - in_steps(goes_[first_motor])) / steps_per_unit();
   }
   homed_.push_back(homed);
   std::erase(turn_, axis_);
   if (turn_.empty()) met_.reset();
   begin_turn();
+}
+
+double HomingPath::in_steps(double place) const {
+  return std::round(place * steps_per_unit());
 }
 
 std::optional<double> HomingPath::progress() const {

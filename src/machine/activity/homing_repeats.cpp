@@ -5,6 +5,7 @@
 
 #include <fmt/format.h>
 
+#include "passo/activity/stage_options.hpp"
 #include "passo/base/counted.hpp"
 
 namespace passo {
@@ -15,6 +16,7 @@ void HomingRepeats::note(const std::vector<HomedAxis>& homed, const std::optiona
     places_.clear();
   }
   ++homings_;
+  const Kinematics kinematics = kinematics_of(machine_);
   for (const HomedAxis& one : homed) {
     const auto axis = std::ranges::find(machine_.axes, one.axis, &AxisDescription::axis);
     if (axis == machine_.axes.end() || !axis->home) continue;
@@ -25,7 +27,8 @@ void HomingRepeats::note(const std::vector<HomedAxis>& homed, const std::optiona
     }
     ++found->homings;
     if (!stood) continue;
-    const auto steps = [&](double value) { return std::llround(value * axis->steps_per_unit); };
+    const double steps_per_unit = kinematics.steps_per_unit(one.axis);
+    const auto steps = [&](double value) { return std::llround(value * steps_per_unit); };
     // Each homing makes its own place the true one. So the differences from one to the next add up.
     found->last = steps((*stood)[one.axis]) + steps(one.way) - steps(axis->home->switch_at);
     found->place += found->last;
@@ -37,10 +40,11 @@ void HomingRepeats::note(const std::vector<HomedAxis>& homed, const std::optiona
 
 std::vector<AxisRepeats> HomingRepeats::axes() const {
   std::vector<AxisRepeats> all;
+  const Kinematics kinematics = kinematics_of(machine_);
   for (const AxisDescription& axis : machine_.axes) {
     const auto found = std::ranges::find(places_, axis.axis, &Places::axis);
     if (found == places_.end() || found->homings != homings_) continue;
-    const double step = 1000 / axis.steps_per_unit;
+    const double step = 1000 / kinematics.steps_per_unit(axis.axis);
     all.push_back({.axis = axis.axis,
                    .homings = found->homings,
                    .last = static_cast<double>(found->last) * step,

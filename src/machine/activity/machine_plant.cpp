@@ -12,13 +12,15 @@ namespace passo {
 
 std::vector<TravelSwitch> home_switches(const MachineDescription& machine) {
   std::vector<TravelSwitch> switches;
+  const Kinematics board = board_kinematics_of(machine);
   for (std::size_t m = 0; m < machine.axes.size(); ++m) {
     const AxisDescription& axis = machine.axes[m];
     if (!axis.home) continue;
-    const auto add = [&](int input, std::size_t motor, bool inverted, double place) {
-      const bool high = axis.home->toward_high != inverted;
-      const auto closes = std::llround(place * (inverted ? -axis.steps_per_unit : axis.steps_per_unit));
-      const auto later = std::llround(axis.home->hysteresis * axis.steps_per_unit);
+    const auto add = [&](int input, std::size_t motor, double place) {
+      const double scale = board.rows()[motor].steps.factor_of(axis.axis);
+      const bool high = axis.home->toward_high == (scale > 0);
+      const auto closes = std::llround(place * scale);
+      const auto later = std::llround(axis.home->hysteresis * std::abs(scale));
       switches.push_back({.input = static_cast<std::uint16_t>(1U << static_cast<unsigned>(input)),
                           .motor = static_cast<std::uint8_t>(motor),
                           .at_high_end = high,
@@ -26,10 +28,9 @@ std::vector<TravelSwitch> home_switches(const MachineDescription& machine) {
                           .opens_at = high ? closes - later : closes + later,
                           .bounce = axis.home->bounce});
     };
-    add(axis.home->input, m, axis.inverted, axis.home->switch_at);
+    add(axis.home->input, m, axis.home->switch_at);
     if (!axis.second) continue;
-    add(axis.second->input, machine.second_motor_of(m), axis.second->inverted,
-        axis.home->switch_at - axis.second->square);
+    add(axis.second->input, machine.second_motor_of(m), axis.home->switch_at - axis.second->square);
   }
   return switches;
 }
@@ -37,13 +38,14 @@ std::vector<TravelSwitch> home_switches(const MachineDescription& machine) {
 // Where the motors truly stand, if the axes stand there. Second motors are skewed at first.
 MotorSteps truth_at(const MachineDescription& machine, const Point& place) {
   MotorSteps steps = steps_at(machine, place);
-  const StepOptions options = step_options(machine);
+  const Kinematics board = board_kinematics_of(machine);
   for (std::size_t m = 0; m < machine.axes.size(); ++m) {
     const AxisDescription& axis = machine.axes[m];
     if (!axis.second) continue;
-    Motor second = options.motors[m];
-    second.steps_per_unit = axis.second->inverted ? -axis.steps_per_unit : axis.steps_per_unit;
-    steps[machine.second_motor_of(m)] = std::llround(second.steps_at(place[axis.axis] + axis.second->skew, false));
+    Point ahead = place;
+    ahead[axis.axis] += axis.second->skew;
+    const std::uint8_t second = machine.second_motor_of(m);
+    steps[second] = std::llround(board.rows()[second].steps_at(ahead));
   }
   return steps;
 }
@@ -101,8 +103,8 @@ SpindleModel spindle_model(const SpindleDescription& spindle) {
           .ripple_rate = spindle.ripple_rate.value()};
 }
 
-ScrewModel screw_model(const AxisDescription& axis, bool inverted) {
-  const double scale = inverted ? -axis.steps_per_unit : axis.steps_per_unit;
+ScrewModel screw_model(const AxisDescription& axis, const MotorRow& motor) {
+  const double scale = motor.steps.factor_of(axis.axis);
   ScrewModel model{.backlash = axis.screw->backlash * scale};
   for (const ScrewDescription::Error& error : axis.screw->errors) {
     model.errors.push_back({.at = error.at * scale, .off = error.off * scale});
@@ -114,11 +116,13 @@ ScrewModel screw_model(const AxisDescription& axis, bool inverted) {
 void fit(FittedPlant& plant, const MachineDescription& machine, const Point& stands_at,
          const std::vector<Touchable>& things) {
   plant.stand_at(truth_at(machine, stands_at));
+  const Kinematics board = board_kinematics_of(machine);
   for (std::size_t m = 0; m < machine.axes.size(); ++m) {
     const AxisDescription& axis = machine.axes[m];
     if (!axis.screw) continue;
-    plant.fit_screw(m, screw_model(axis, axis.inverted));
-    if (axis.second) plant.fit_screw(machine.second_motor_of(m), screw_model(axis, axis.second->inverted));
+    const auto fit_screw = [&](std::size_t motor) { plant.fit_screw(motor, screw_model(axis, board.rows()[motor])); };
+    fit_screw(m);
+    if (axis.second) fit_screw(machine.second_motor_of(m));
   }
   plant.fit_spindle(spindle_model(machine.spindle));
   for (const TravelSwitch& one : home_switches(machine)) plant.add(one);

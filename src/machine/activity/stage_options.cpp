@@ -67,12 +67,9 @@ MotionLimits motion_limits(const MachineDescription& machine) {
 }
 
 std::array<std::int64_t, max_motors> steps_at(const MachineDescription& machine, const Point& place, AxisSet downs) {
-  const StepOptions options = step_options(machine);
+  const MotorPlace motors = kinematics_of(machine).motors(place, downs);
   std::array<std::int64_t, max_motors> steps{};
-  for (std::size_t m = 0; m < options.motor_count; ++m) {
-    const Motor& motor = options.motors[m];
-    steps[m] = std::llround(motor.steps_at(place[motor.axis], downs.has(motor.axis)));
-  }
+  for (std::size_t m = 0; m < steps.size(); ++m) steps[m] = std::llround(motors[m]);
   return steps;
 }
 
@@ -86,17 +83,30 @@ std::shared_ptr<const ScrewMap> screw_map(const AxisDescription& axis) {
   return std::make_shared<const ScrewMap>(axis.screw->backlash, std::move(errors));
 }
 
+MotorRow row_of(const AxisDescription& axis, bool inverted) {
+  return {.steps = {axis.axis, inverted ? -axis.steps_per_unit : axis.steps_per_unit}, .screw = screw_map(axis)};
+}
+
 }  // namespace
+
+Kinematics kinematics_of(const MachineDescription& machine) {
+  Kinematics kinematics;
+  for (const AxisDescription& axis : machine.axes) kinematics.add(row_of(axis, axis.inverted));
+  return kinematics;
+}
+
+Kinematics board_kinematics_of(const MachineDescription& machine) {
+  Kinematics kinematics = kinematics_of(machine);
+  for (const AxisDescription& axis : machine.axes) {
+    if (axis.second) kinematics.add(row_of(axis, axis.second->inverted));
+  }
+  return kinematics;
+}
 
 StepOptions step_options(const MachineDescription& machine) {
   StepOptions options;
-  for (const AxisDescription& axis : machine.axes) {
-    options.motors[options.motor_count++] = {
-        .axis = axis.axis,
-        .steps_per_unit = axis.inverted ? -axis.steps_per_unit : axis.steps_per_unit,
-        .screw = screw_map(axis)};
-    if (axis.second) options.bends = false;
-  }
+  options.kinematics = kinematics_of(machine);
+  options.bends = machine.motor_count() == machine.axes.size();
   options.clock = {.tick_rate = machine.board.clock, .highest_event_rate = machine.board.highest_event_rate};
   return options;
 }

@@ -14,11 +14,11 @@ constexpr double least_turn = 0.25;
 BacklashOptions backlash_options(const StepOptions& steps, bool counts_items) {
   BacklashOptions options{
       .start = steps.start, .backlash = {}, .least = {}, .downs = steps.downs, .counts_items = counts_items};
-  for (std::size_t m = 0; m < steps.motor_count; ++m) {
-    const Motor& motor = steps.motors[m];
+  for (const MotorRow& motor : steps.kinematics.rows()) {
     if (!motor.screw) continue;
-    options.backlash[motor.axis] = motor.screw->backlash();
-    options.least[motor.axis] = least_turn / std::abs(motor.steps_per_unit);
+    const Axis axis = motor.steps.axis();
+    options.backlash[axis] = motor.screw->backlash();
+    options.least[axis] = least_turn / std::abs(motor.steps.factor());
   }
   return options;
 }

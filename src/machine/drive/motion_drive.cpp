@@ -41,7 +41,7 @@ MotionDrive::MotionDrive(Source<PathItem>& path, const MotionLimits& limits, con
       step_generator_(watched_motion_, steps),
       watched_items_(step_generator_),
       feed_(make_feed(options, steps)),
-      probe_(board_, answers, steps),
+      probe_(board_, answers, steps.kinematics),
       spindle_({.planner = planner_, .feed = *feed_, .link = board_}, limits, options.counts_per_turn,
                steps.clock.tick_rate),
       pause_end_(options.not_before),
@@ -63,14 +63,8 @@ MotionDrive::MotionDrive(Source<PathItem>& path, const MotionLimits& limits, con
 MotionDrive::~MotionDrive() = default;
 
 BacklashAtRest MotionDrive::backlash_at_rest(const StepOptions& steps) const {
-  BacklashAtRest rest{.downs = step_generator_.downs(), .place = steps.start};
-  const BoardPlace place = step_generator_.place();
-  for (std::size_t m = 0; m < steps.motor_count; ++m) {
-    const Motor& motor = steps.motors[m];
-    const double counted = static_cast<double>(place.motors[m]) / whole_step - 0.5;
-    rest.place[motor.axis] = motor.place_at(counted, rest.downs.has(motor.axis));
-  }
-  return rest;
+  const AxisSet downs = step_generator_.downs();
+  return {.downs = downs, .place = steps.kinematics.axes(step_generator_.place().exact(), downs, steps.start)};
 }
 
 std::unique_ptr<Feed> MotionDrive::make_feed(const DriveOptions& options, const StepOptions& steps) {

@@ -39,14 +39,18 @@ void ProbeMove::end() {
 // An axis that made no step stands where it stood, even if that is between two steps. The move was a straight line, so
 // its direction tells on which side the backlash is.
 Point ProbeMove::contact_place(const ProbeReport& report, const Point& rest) const {
-  Point place = start_;
-  for (std::size_t m = 0; m < steps_.motor_count; ++m) {
+  MotorPlace motors = kinematics_.motors(start_, downs_);
+  unsigned moved = 0;
+  for (unsigned m = 0; m < kinematics_.motor_count(); ++m) {
     if (report.steps[m] == 0) continue;
-    const Motor& motor = steps_.motors[m];
-    const double steps = std::round(motor.steps_at(start_[motor.axis], downs_.has(motor.axis))) + report.steps[m];
-    place[motor.axis] = motor.place_at(steps, rest[motor.axis] < start_[motor.axis]);
+    motors[m] = std::round(motors[m]) + report.steps[m];
+    moved |= 1U << m;
   }
-  return place;
+  AxisSet downs;
+  for (const Axis axis : all_axes) {
+    if (rest[axis] < start_[axis]) downs.add(axis);
+  }
+  return kinematics_.axes_after(start_, motors, moved, downs);
 }
 
 }  // namespace passo

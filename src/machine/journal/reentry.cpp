@@ -298,7 +298,7 @@ std::string words_of_shift(const MachineDescription& machine, const std::vector<
     const auto axis = std::ranges::find(machine.axes, one.axis, &AxisDescription::axis);
     if (axis == machine.axes.end() || !axis->home) continue;
     const double stood = axis->home->switch_at - one.way - went[one.axis];
-    const double may_differ = repeatable_within + steps_to_the_field / axis->steps_per_unit;
+    const double may_differ = repeatable_within + steps_to_the_field / kinematics_of(machine).steps_per_unit(one.axis);
     const double low = range.low[one.axis] - may_differ;
     const double high = range.high[one.axis] + may_differ;
     if (stood >= low && stood <= high) continue;

@@ -8,6 +8,7 @@
 #include "path_of_program.hpp"
 
 #include "passo/drive/program_stop.hpp"
+#include "passo/kinematics/kinematics.hpp"
 
 namespace passo {
 namespace {
@@ -165,11 +166,9 @@ class PointFinder {
   std::optional<ResumePoint> point_at(const PathPlace& place, const Point& beside) {
     point_.place = place;
     if (has_item_ && !point_.probe) point_.line = std::visit([](const auto& what) { return what.source.line; }, item_);
-    const StepOptions& steps = chain_.steps();
-    for (std::size_t m = 0; m < steps.motor_count; ++m) {
-      const Motor& motor = steps.motors[m];
-      const double motor_place = motor.steps_at(point_.point[motor.axis], point_.downs.has(motor.axis));
-      point_.steps[m] = std::llround(motor_place + beside[motor.axis] * motor.steps_per_unit);
+    const std::span<const MotorRow> motors = chain_.steps().kinematics.rows();
+    for (std::size_t m = 0; m < motors.size(); ++m) {
+      point_.steps[m] = std::llround(motors[m].steps_at(point_.point, point_.downs) + motors[m].steps.of(beside));
     }
     return point_;
   }

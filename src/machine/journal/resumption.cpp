@@ -6,6 +6,7 @@
 
 #include "passo/activity/stage_options.hpp"
 #include "passo/drive/backlash_options.hpp"
+#include "passo/kinematics/kinematics.hpp"
 
 namespace passo {
 
@@ -79,19 +80,15 @@ namespace {
 constexpr double beside_line = 1.5;
 
 // The steps of each motor on the way of an unknown probe move.
-std::array<double, max_motors> steps_of_probe(const ResumePoint& point, const MachineDescription& machine) {
-  std::array<double, max_motors> way{};
-  const StepOptions steps = step_options(machine);
-  for (std::size_t m = 0; m < steps.motor_count; ++m) {
-    const Axis axis = steps.motors[m].axis;
-    way[m] =
-        steps.motors[m].steps_at(point.probe->end[axis], false) - steps.motors[m].steps_at(point.point[axis], false);
-  }
+MotorPlace steps_of_probe(const ResumePoint& point, const MachineDescription& machine) {
+  const Kinematics kinematics = kinematics_of(machine);
+  MotorPlace way = kinematics.motors(point.probe->end);
+  const MotorPlace from = kinematics.motors(point.point);
+  for (std::size_t m = 0; m < way.steps.size(); ++m) way[m] -= from[m];
   return way;
 }
 
-bool stands_on_way(const std::array<double, max_motors>& from_point, const std::array<double, max_motors>& way,
-                   std::size_t motors) {
+bool stands_on_way(const MotorPlace& from_point, const MotorPlace& way, std::size_t motors) {
   std::size_t most = 0;
   for (std::size_t m = 1; m < motors; ++m) {
     if (std::abs(way[m]) > std::abs(way[most])) most = m;
@@ -109,7 +106,7 @@ bool stands_on_way(const std::array<double, max_motors>& from_point, const std::
 
 bool stands_at(const JournalHead& head, const ResumePoint& point, const BoardStatus& status,
                const MachineDescription& machine) {
-  std::array<double, max_motors> from_point{};
+  MotorPlace from_point;
   bool is_there = true;
   for (std::size_t m = 0; m < head.job_counts.size(); ++m) {
     const std::int64_t steps = status.positions[m] - head.job_counts[m] - point.steps[m];
@@ -122,14 +119,12 @@ bool stands_at(const JournalHead& head, const ResumePoint& point, const BoardSta
 
 Point place_by_counts(const JournalHead& head, const ResumePoint& point, const BoardStatus& status,
                       const MachineDescription& machine) {
-  Point place = point.point;
-  const StepOptions steps = step_options(machine);
+  const MotorPlace motors = steps_since(head.job_counts, status.positions);
+  unsigned moved = 0;
   for (std::size_t m = 0; m < head.job_counts.size(); ++m) {
-    const std::int64_t counted = status.positions[m] - head.job_counts[m];
-    const Motor& motor = steps.motors[m];
-    if (counted != point.steps[m]) place[motor.axis] = motor.place_at(static_cast<double>(counted), false);
+    if (motors[m] != static_cast<double>(point.steps[m])) moved |= 1U << m;
   }
-  return place;
+  return kinematics_of(machine).axes_after(point.point, motors, moved);
 }
 
 JournalHead head_of_beginning(JournalHead job, const BoardStatus& status,

@@ -5,6 +5,7 @@
 
 #include "passo/activity/stage_options.hpp"
 #include "passo/geometry/euclid.hpp"
+#include "passo/kinematics/kinematics.hpp"
 
 namespace passo {
 namespace {
@@ -26,14 +27,7 @@ std::optional<Refusal> MachineSession::lost_place() const {
 }
 
 Point MachineSession::place_of(const BoardPlace& place, AxisSet downs) const {
-  Point point = position_.place;
-  const StepOptions steps = passo::step_options(machine_);
-  for (std::size_t m = 0; m < machine_.axes.size(); ++m) {
-    const double exact = static_cast<double>(place.motors[m]) / whole_step - 0.5;
-    const Motor& motor = steps.motors[m];
-    point[motor.axis] = motor.place_at(exact, downs.has(motor.axis));
-  }
-  return point;
+  return kinematics_of(machine_).axes(place.exact(), downs, position_.place);
 }
 
 // Asks the board where it is, and takes over what it has told.
@@ -61,13 +55,9 @@ void MachineSession::look_at_place() {
 }
 
 void MachineSession::hear_place() {
-  const StepOptions steps = passo::step_options(machine_);
   const Point before = now_at_;
-  for (std::size_t m = 0; m < machine_.axes.size(); ++m) {
-    const auto counted = static_cast<double>(std::int64_t{board_.status()->positions[m]} - (*zero_counts_)[m]);
-    const Motor& motor = steps.motors[m];
-    now_at_[motor.axis] = motor.place_at(counted, position_.downs.has(motor.axis));
-  }
+  const MotorPlace motors = steps_since(*zero_counts_, board_.status()->positions);
+  now_at_ = kinematics_of(machine_).axes(motors, position_.downs, before);
   const Seconds since = board_.status_time() - place_heard_;
   place_heard_ = board_.status_time();
   speed_now_ = since > Seconds(0) ? Mm(distance(before, now_at_)) / since : speed_now_;

@@ -12,6 +12,7 @@
 
 #include "passo/activity/machine_plant.hpp"
 #include "passo/activity/stage_options.hpp"
+#include "passo/kinematics/kinematics.hpp"
 
 namespace passo {
 namespace {
@@ -182,12 +183,8 @@ void MachineSession::find_place_again() {
   }
   position_.trust = trust_before_;
   position_.is_lost = lost_before_;
-  const StepOptions steps = passo::step_options(machine_);
-  for (std::size_t m = 0; m < machine_.axes.size(); ++m) {
-    const auto counted = static_cast<double>(status.positions[m] - (*zero_counts_)[m]);
-    const Motor& motor = steps.motors[m];
-    position_.place[motor.axis] = motor.place_at(counted, position_.downs.has(motor.axis));
-  }
+  const MotorPlace motors = steps_since(*zero_counts_, status.positions);
+  position_.place = kinematics_of(machine_).axes(motors, position_.downs, position_.place);
 }
 
 // A check needs no board, but hears what the board says.
@@ -287,14 +284,13 @@ void MachineSession::note_place() {
 // The switches have told where the homed axes stand. The other axes keep their places.
 Point MachineSession::home_place() {
   Point place = position_.place;
-  const StepOptions steps = passo::step_options(machine_);
-  for (const HomedAxis& homed : work_->homing->homed()) {
-    place[homed.axis] = homed.place;
-    for (std::size_t m = 0; m < machine_.axes.size(); ++m) {
-      if (steps.motors[m].axis != homed.axis) continue;
-      const bool down = position_.downs.has(homed.axis);
-      place_->set_steps(m, std::llround(steps.motors[m].steps_at(homed.place, down)));
-    }
+  for (const HomedAxis& homed : work_->homing->homed()) place[homed.axis] = homed.place;
+  const Kinematics kinematics = kinematics_of(machine_);
+  for (std::size_t m = 0; m < kinematics.rows().size(); ++m) {
+    const MotorRow& motor = kinematics.rows()[m];
+    const bool is_homed = std::ranges::any_of(
+        work_->homing->homed(), [&](const HomedAxis& homed) { return motor.steps.factor_of(homed.axis) != 0; });
+    if (is_homed) place_->set_steps(m, std::llround(motor.steps_at(place, position_.downs)));
   }
   return place;
 }

@@ -5,6 +5,7 @@
 #include "passo/activity/stage_options.hpp"
 #include "passo/base/fingerprint.hpp"
 #include "passo/journal/record_text.hpp"
+#include "passo/kinematics/kinematics.hpp"
 
 namespace passo {
 namespace {
@@ -35,9 +36,13 @@ std::optional<PlaceDoubt> refuse_board(const SessionNumbers& numbers, const Boar
 
 std::uint64_t place_fingerprint(const MachineDescription& machine) {
   Fingerprint fingerprint;
-  for (const AxisDescription& axis : machine.axes) {
-    fingerprint.add(std::uint64_t{static_cast<unsigned char>(letter_of(axis.axis))});
-    fingerprint.add(axis.inverted ? -axis.steps_per_unit : axis.steps_per_unit);
+  const Kinematics kinematics = kinematics_of(machine);
+  for (std::size_t m = 0; m < machine.axes.size(); ++m) {
+    const AxisDescription& axis = machine.axes[m];
+    for (const AxisRow::Share& share : kinematics.rows()[m].steps.shares()) {
+      fingerprint.add(std::uint64_t{static_cast<unsigned char>(letter_of(share.axis))});
+      fingerprint.add(share.factor);
+    }
     if (axis.screw && axis.screw->is_compensated) {
       fingerprint.add(axis.screw->backlash);
       for (const ScrewDescription::Error& error : axis.screw->errors) {
@@ -114,13 +119,7 @@ std::string_view message_of(PlaceDoubt doubt) {
 std::optional<Point> counted_place(const std::optional<PlaceRecord>& record, const MachineDescription& machine,
                                    const BoardStatus& status) {
   if (!record || !is_of(*record, machine) || refuse_board(record->numbers, status)) return {};
-  Point place;
-  const StepOptions steps = step_options(machine);
-  for (std::size_t m = 0; m < machine.axes.size(); ++m) {
-    const auto counted = static_cast<double>(std::int64_t{status.positions[m]} - record->zero_counts[m]);
-    place[steps.motors[m].axis] = steps.motors[m].place_at(counted, false);
-  }
-  return place;
+  return kinematics_of(machine).axes(steps_since(record->zero_counts, status.positions));
 }
 
 Result<KnownPosition, PlaceDoubt> place_of(const std::optional<PlaceRecord>& record, const MachineDescription& machine,

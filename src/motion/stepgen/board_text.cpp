@@ -16,15 +16,22 @@ double in_steps(const BoardSegment& segment, unsigned motor) {
   return down ? fraction - 1 : 1;
 }
 
+// Of the axes that the motor turns.
+std::string letters_of(const AxisRow& row) {
+  std::string letters;
+  for (const AxisRow::Share& share : row.shares()) letters += letter_of(share.axis);
+  return letters;
+}
+
 std::string text_of(const BoardSegment& segment, const StepOptions& options) {
   std::string text =
       fmt::format("segment {}, {:.8g} ticks, ", counted(segment.events, "event"), segment.interval / 65536.0);
   text += is_root(segment.form)
               ? fmt::format("root of growth {:.8g} in {}", segment.change / 2147483648.0, part_length(segment.form))
               : fmt::format("change {:.8g}", segment.change / 65536.0);
-  for (unsigned m = 0; m < options.motor_count; ++m) {
+  for (unsigned m = 0; m < options.kinematics.motor_count(); ++m) {
     const double increment = in_steps(segment, m);
-    text += fmt::format("{} {} ", m == 0 ? "," : "", letter_of(options.motors[m].axis));
+    text += fmt::format("{} {} ", m == 0 ? "," : "", letters_of(options.kinematics.rows()[m].steps));
     text += increment == 0 ? "0" : fmt::format("{:+.6g}", increment);
   }
   return text + "\n";

@@ -35,13 +35,12 @@ double Parabola::above_zero(double from) const {
   return first;
 }
 
-CubicPlace::CubicPlace(const Curve& curve, const Motor& motor, double end) : end_(end) {
-  const double scale = motor.steps_per_unit * place_per_step;
+CubicPlace::CubicPlace(const Curve& curve, const MotorRow& motor, double end) : end_(end) {
   const Curve::CubicData cubic = curve.cubic_data();
   base_ = place_of(motor, curve.start());
-  first_ = cubic.first[motor.axis] * scale;
-  second_ = cubic.second[motor.axis] * scale;
-  third_ = cubic.third[motor.axis] * scale;
+  first_ = motor.steps.of(cubic.first) * place_per_step;
+  second_ = motor.steps.of(cubic.second) * place_per_step;
+  third_ = motor.steps.of(cubic.third) * place_per_step;
   behind_turn_ = behind_turn * end;
 
   const double root = second_ * second_ - 3 * third_ * first_;

@@ -32,7 +32,7 @@ class CubicPlace {
  public:
   CubicPlace() = default;
   // Valid for 0 <= s <= `end`.
-  CubicPlace(const Curve& curve, const Motor& motor, double end);
+  CubicPlace(const Curve& curve, const MotorRow& motor, double end);
 
   double at(double s) const { return base_ + s * (first_ + s * (second_ + s * third_)); }
   double slope(double s) const { return first_ + s * (2 * second_ + s * 3 * third_); }

@@ -21,16 +21,15 @@ constexpr double smallest_distance = place_per_step / 256;
 }  // namespace
 
 EventStream::EventStream(const StepOptions& options)
-    : options_(options),
+    : motor_count_(options.kinematics.motor_count()),
       tick_rate_(options.clock.tick_rate.value()),
       shortest_interval_(std::llround(options.clock.tick_rate / options.clock.highest_event_rate * whole_tick)),
       slowest_share_(options.clock.highest_event_rate.value() * slow_share),
       screws_(options) {
   divide_below(Exactness{}.least_rate);
-  for (unsigned m = 0; m < options_.motor_count; ++m) {
-    const Motor& motor = options_.motors[m];
-    end_[m] = (motor.steps_at(options_.start[motor.axis], options_.downs.has(motor.axis)) + 0.5) * place_per_step;
-  }
+  std::ranges::copy(options.kinematics.rows(), motors_.begin());
+  const MotorPlace start = options.kinematics.motors(options.start, options.downs);
+  for (unsigned m = 0; m < motor_count_; ++m) end_[m] = (start[m] + 0.5) * place_per_step;
   here_ = at_last_event_ = end_;
 }
 
@@ -60,13 +59,13 @@ void EventStream::start_move(const PlannedMove& move) {
 }
 
 void EventStream::start_part(const Curve& curve, double from) {
-  path_.start(curve, screws_.any() ? screws_.fit(curve, from, move_end_, options_) : move_end_, options_);
+  path_.start(curve, screws_.any() ? screws_.fit(curve, from, move_end_, motors()) : move_end_, motors());
   here_ = end_;
   spot_ = path_.at(path_.end());
   // The last part of a segment ends exactly where the program says.
   const bool whole = path_.end() >= curve.length().value();
-  for (unsigned m = 0; m < options_.motor_count; ++m) {
-    end_[m] = whole ? place_of(options_.motors[m], curve.end()) : path_.place(m, spot_);
+  for (unsigned m = 0; m < motor_count_; ++m) {
+    end_[m] = whole ? place_of(motors_[m], curve.end()) : path_.place(m, spot_);
   }
   spot_ = path_.at(from);
   moment_ = clock_.at(spot_.s);
@@ -92,7 +91,7 @@ double EventStream::rate_squared(double slope) const {
 bool EventStream::master_leads(const MotorPath::Spot& spot) const {
   const double slope = path_.slope(stretch_.master, spot) * stretch_.sign;
   if (slope <= 0) return false;
-  for (unsigned m = 0; m < options_.motor_count; ++m) {
+  for (unsigned m = 0; m < motor_count_; ++m) {
     if (std::fabs(path_.slope(m, spot)) > slope * takeover) return false;
   }
   return true;
@@ -146,7 +145,7 @@ EventStream::Fastest EventStream::fastest() const {
   for (double distance = place_per_step; distance >= smallest_distance; distance /= 4) {
     best = {};
     bool arrives = path_.is_straight();
-    for (unsigned m = 0; m < options_.motor_count; ++m) {
+    for (unsigned m = 0; m < motor_count_; ++m) {
       const double length = path_.travel(m, distance, spot_.s);
       if (distance > best.slope * length) best = {.motor = m, .slope = distance / length};
       arrives = arrives || (length < infinity && path_.is_turning(m));
@@ -182,7 +181,7 @@ EventStream::Start EventStream::start_stretch(EventBuffer& events) {
 bool EventStream::push_border(EventBuffer& events) {
   double most = 0;
   bool due = false;
-  for (unsigned m = 0; m < options_.motor_count; ++m) {
+  for (unsigned m = 0; m < motor_count_; ++m) {
     const double moved = here_[m] - at_last_event_[m];
     due = due || std::floor(here_[m] / place_per_step) != std::floor(at_last_event_[m] / place_per_step);
     if (std::fabs(moved) <= most) continue;
@@ -203,13 +202,13 @@ std::int64_t EventStream::possible(std::int64_t time) {
 
 // Adds an event at which all motors are at `here_`.
 void EventStream::push(std::int64_t time, EventBuffer& events) {
-  events.push(possible(time), here_, options_.motor_count);
+  events.push(possible(time), here_, motor_count_);
 }
 
 void EventStream::go_to(double s) {
   spot_ = path_.at(s);
   moment_ = clock_.at(s);
-  for (unsigned m = 0; m < options_.motor_count; ++m) here_[m] = path_.place(m, spot_);
+  for (unsigned m = 0; m < motor_count_; ++m) here_[m] = path_.place(m, spot_);
 }
 
 // A place just after the step at a line. Going up, a place on the line is after the step. Going down, only a place
@@ -221,7 +220,7 @@ double EventStream::behind_line(double target) const {
 void EventStream::push_master(double target, const MotorPath::Spot& spot, EventBuffer& events) {
   moment_ = clock_.at(spot.s);
   spot_ = spot;
-  for (unsigned m = 0; m < options_.motor_count; ++m) {
+  for (unsigned m = 0; m < motor_count_; ++m) {
     here_[m] = at_last_event_[m] = m == stretch_.master ? target : path_.place(m, spot);
   }
   push(fixed_time(moment_.time), events);
@@ -256,10 +255,10 @@ EventStream::Filled EventStream::fill_lanes(EventBuffer& events) {
     }
   }
   std::array<Lanes, max_motors> places;
-  for (unsigned m = 0; m < options_.motor_count; ++m) path_.places(m, ahead, places[m]);
+  for (unsigned m = 0; m < motor_count_; ++m) path_.places(m, ahead, places[m]);
   for (std::size_t i = 0; i < made; ++i, target_ += step) places[master][i] = target_;
-  events.push(times, places, made, options_.motor_count);
-  for (unsigned m = 0; m < options_.motor_count; ++m) here_[m] = places[m][made - 1];
+  events.push(times, places, made, motor_count_);
+  for (unsigned m = 0; m < motor_count_; ++m) here_[m] = places[m][made - 1];
   here_[master] = behind_line(here_[master]);
   at_last_event_ = here_;
   spot_ = ahead[made - 1];

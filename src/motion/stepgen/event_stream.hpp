@@ -10,6 +10,7 @@
 
 #include <array>
 #include <cstdint>
+#include <span>
 
 #include "event_buffer.hpp"
 #include "motor_path.hpp"
@@ -102,7 +103,10 @@ class EventStream {
   std::int64_t fixed_time(double seconds) const;
   void advance(double seconds);
 
-  StepOptions options_;
+  std::span<MotorRow> motors() { return {motors_.data(), motor_count_}; }
+
+  std::array<MotorRow, max_motors> motors_;  // as they are in the present part of the move
+  std::uint8_t motor_count_;
   double tick_rate_;
   std::int64_t shortest_interval_;
   double slowest_share_;  // slow_share of the board's highest rate; events a second

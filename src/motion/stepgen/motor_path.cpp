@@ -17,9 +17,15 @@ constexpr double near_bend = 0.125;  // half of that change
 // A last round by this many radians leaves an error of half its square: 5e-13 of the radius.
 constexpr double last_turn = 1e-6;
 constexpr int most_rounds = 4;
+// A target at most so many places behind the motor counts as just reached.
+constexpr double place_rounding = 1;
 
-bool goes_straight(const Curve::CubicData& cubic, Axis axis) {
-  return cubic.second[axis] == 0 && cubic.third[axis] == 0;
+bool goes_straight(const Curve::CubicData& cubic, const AxisRow& row) {
+  return row.of(cubic.second) == 0 && row.of(cubic.third) == 0;
+}
+
+bool goes_round(const Curve::ArcData& arc, const AxisRow& row) {
+  return row.factor_of(arc.first) != 0 || row.factor_of(arc.second) != 0;
 }
 
 // Of a near turn, to the last digits: the next term is below 1e-17.
@@ -34,18 +40,18 @@ double near_cosine(double angle) {
 
 }  // namespace
 
-void MotorPath::start(const Curve& curve, double end, const StepOptions& options) {
+void MotorPath::start(const Curve& curve, double end, std::span<const MotorRow> motors) {
   curve_ = &curve;
   end_ = end;
   turn_ = 0;
-  motors_ = options.motor_count;
+  motors_ = static_cast<unsigned>(motors.size());
   const bool arc = curve.shape() == Curve::Shape::arc;
   if (arc) start_arc(curve.arc_data(), curve.length().value());
-  for (unsigned m = 0; m < options.motor_count; ++m) {
-    const Motor& motor = options.motors[m];
-    if (arc && (motor.axis == curve.arc_data().first || motor.axis == curve.arc_data().second)) {
+  for (unsigned m = 0; m < motors_; ++m) {
+    const MotorRow& motor = motors[m];
+    if (arc && goes_round(curve.arc_data(), motor.steps)) {
       terms_[m] = round_term(motor, curve.arc_data());
-    } else if (curve.shape() == Curve::Shape::cubic && !goes_straight(curve.cubic_data(), motor.axis)) {
+    } else if (curve.shape() == Curve::Shape::cubic && !goes_straight(curve.cubic_data(), motor.steps)) {
       terms_[m].way = Way::cubic;
       cubics_[m] = CubicPlace(curve, motor, end);
     } else {
@@ -61,21 +67,31 @@ void MotorPath::start_arc(const Curve::ArcData& arc, double length) {
   growth_ = (arc.end_radius - arc.start_radius) / length;
 }
 
-MotorPath::Term MotorPath::straight_term(const Motor& motor) const {
+MotorPath::Term MotorPath::straight_term(const MotorRow& motor) const {
   const double base = place_of(motor, curve_->start());
   const double length = curve_->length().value();
   return {.base = base, .scale = length > 0 ? (place_of(motor, curve_->end()) - base) / length : 0};
 }
 
-MotorPath::Term MotorPath::round_term(const Motor& motor, const Curve::ArcData& arc) const {
-  const bool first = motor.axis == arc.first;
-  const double scale = motor.steps_per_unit * place_per_step;
+MotorPath::Term MotorPath::round_term(const MotorRow& motor, const Curve::ArcData& arc) const {
+  const double first = motor.steps.factor_of(arc.first);
+  const double second = motor.steps.factor_of(arc.second);
+  // A motor that sees one axis keeps its sign.
+  const double factor = second == 0 ? first : first == 0 ? second : std::hypot(first, second);
+  const double scale = factor * place_per_step;
+  Point center = curve_->start();
+  Point straight = curve_->end() - center;
+  center[arc.first] = arc.first_center;
+  center[arc.second] = arc.second_center;
+  straight[arc.first] = straight[arc.second] = 0;
   return {.way = Way::round,
-          .on_cosine = first,
-          .base = (first ? arc.first_center : arc.second_center) * scale + (motor.offset + 0.5) * place_per_step,
+          .base = motor.steps.of(center) * place_per_step + (motor.offset + 0.5) * place_per_step,
           .scale = scale,
-          // cos(a) = sin(a + pi/2): one formula for both axes.
-          .angle = arc.start_angle + (first ? pi / 2 : 0),
+          .cosine = first / factor,
+          .sine = second / factor,
+          .drift = motor.steps.of(straight) * place_per_step / curve_->length().value(),
+          // cosine * cos(a) + sine * sin(a) is the sine of this.
+          .angle = arc.start_angle + std::atan2(first / factor, second / factor),
           .sharpest = std::fabs(scale * turn_) *
                       (std::max(arc.start_radius, arc.end_radius) * std::fabs(turn_) + 2 * std::fabs(growth_))};
 }
@@ -184,7 +200,8 @@ void MotorPath::look_ahead_round(unsigned motor, double target, double step, dou
       const double cosine = near_cosine(turn_ * way[i]);
       const Arm there{start.outward * cosine + start.around * sine, start.around * cosine - start.outward * sine};
       const double radius = radius_at(from + way[i]);
-      const double off = target + lane_numbers[i] * step - (term.base + term.scale * radius * there.outward);
+      const double straight = term.base + term.drift * (from + way[i]);
+      const double off = target + lane_numbers[i] * step - (straight + term.scale * radius * there.outward);
       const double more = off / slope_round(term, there, radius);
       const double angle = turn_ * more;
       const double still = 1 - angle * angle / 2;
@@ -196,11 +213,10 @@ void MotorPath::look_ahead_round(unsigned motor, double target, double step, dou
     const auto last = left.begin() + static_cast<std::ptrdiff_t>(near);
     if (*std::max_element(left.begin(), last) <= last_turn) ahead.count = near;
   }
-  const bool on_cosine = term.on_cosine;
   for (std::size_t i = 0; i < lane_count; ++i) {
     ahead.s[i] = from + (way[i] > 0 ? way[i] : 0);
-    ahead.cosine[i] = on_cosine ? outward[i] : around[i];
-    ahead.sine[i] = on_cosine ? -around[i] : outward[i];
+    ahead.cosine[i] = term.cosine * outward[i] + term.sine * around[i];
+    ahead.sine[i] = term.sine * outward[i] - term.cosine * around[i];
   }
 }
 
@@ -250,6 +266,7 @@ MotorPath::Spot MotorPath::crossing_round(unsigned motor, double target, const S
   if (ahead.count > 0) return ahead[0];
   const double from = spot.s;
   const Term& term = terms_[motor];
+  if (term.drift != 0) return at(crossing_with_drift(motor, target, from));
   const double sine = (target - term.base) / (term.scale * radius_at(from));
   if (!(std::fabs(sine) <= 1)) return {.s = infinity};
   // The sine rises on one half of the turn and falls on the other. Stay on the half that holds `from`.
@@ -269,8 +286,25 @@ double MotorPath::crossing_on_spiral(unsigned motor, double target, double from,
   for (int i = 0; i < 4; ++i) s -= (place(motor, at(s)) - target) / slope(motor, at(s));
   if (s >= from && s <= turn && std::fabs(place(motor, at(s)) - target) < 0.5) return s;
 
+  return crossing_between(motor, target, from, turn);
+}
+
+// Where nothing bounds how far the motor goes before it turns back, its straight part does.
+double MotorPath::crossing_with_drift(unsigned motor, double target, double from) const {
+  const Term& term = terms_[motor];
+  const double here = place(motor, at(from));
+  const double left = slope(motor, at(from)) > 0 ? target - here : here - target;
+  if (left <= 0 && left > -place_rounding) return from;
+  const double turn = turning_point(motor, from);
+  const double swing = 2 * std::fabs(term.scale) * std::max(radius_, radius_at(end_));
+  const double way = (std::fabs(left) + swing) / std::fabs(term.drift);
+  return crossing_between(motor, target, from, turn < infinity ? turn : from + way);
+}
+
+// By bisection. The motor does not turn back between the two.
+double MotorPath::crossing_between(unsigned motor, double target, double from, double to) const {
   double low = from;
-  double high = turn;
+  double high = to;
   const bool rising = place(motor, at(high)) > place(motor, at(low));
   if ((place(motor, at(low)) < target) != rising || (place(motor, at(high)) > target) != rising) return infinity;
   for (int i = 0; i < 60; ++i) {
@@ -281,12 +315,36 @@ double MotorPath::crossing_on_spiral(unsigned motor, double target, double from,
 }
 
 double MotorPath::turning_point_round(const Term& term, double from) const {
+  if (term.drift != 0) return turning_point_with_drift(term, from);
   // The sine turns back at odd multiples of a right angle. On a spiral whose radius grows, the motor turns back a
   // little later.
   const double lag = std::atan(growth_ / (radius_at(from) * turn_));
   const double quarter = (angle_at(term, from) - lag - pi / 2) / pi;
   const double next = turn_ > 0 ? std::floor(quarter + 1e-9) + 1 : std::ceil(quarter - 1e-9) - 1;
   return (next * pi + pi / 2 + lag - term.angle) / turn_ + behind_turn / std::fabs(turn_);
+}
+
+// The motor turns back where its part of the circle goes just as fast against its drift. The slope of that part is
+// steepest * cos(angle - lag). A radius that changes changes both a little: each round corrects that.
+double MotorPath::turning_point_with_drift(const Term& term, double from) const {
+  constexpr int rounds = 4;
+  double radius = radius_at(from);
+  double turn = infinity;
+  for (int i = 0; i < rounds; ++i) {
+    const double steepest = term.scale * std::copysign(std::hypot(growth_, radius * turn_), turn_);
+    const double cosine = -term.drift / steepest;
+    if (!(std::fabs(cosine) < 1)) return infinity;
+    const double lag = std::atan(growth_ / (radius * turn_));
+    const double here = angle_at(term, from) - lag;
+    turn = infinity;
+    for (const double angle : {std::acos(cosine), -std::acos(cosine)}) {
+      const double turns = (here - angle) / (2 * pi);
+      const double next = turn_ > 0 ? std::floor(turns + 1e-9) + 1 : std::ceil(turns - 1e-9) - 1;
+      turn = std::min(turn, (angle + next * 2 * pi + lag - term.angle) / turn_);
+    }
+    radius = radius_at(turn);
+  }
+  return turn + behind_turn / std::fabs(turn_);
 }
 
 double MotorPath::travel_round(unsigned motor, double distance, double from) const {

@@ -1,12 +1,14 @@
 // MotorPath: the place of every motor as a function of s, for a curve or a part of one. place.hpp defines places.
 //
-// A motor moves straight, in proportion to s; or round, as an axis of an arc's plane; or along a cubic. Crossings are
+// A motor moves straight, in proportion to s; or round, as the axes of an arc's plane do, perhaps with a straight part
+// from an axis beside the plane; or along a cubic. Its row (passo/kinematics) tells which of these. Crossings are
 // found several at once (lanes.hpp). One takes about 1 ns straight, 8 ns round and 5 ns on a cubic.
 #pragma once
 
 #include <array>
 #include <cmath>
 #include <cstdint>
+#include <span>
 
 #include "cubic_place.hpp"
 #include "lanes.hpp"
@@ -17,7 +19,7 @@ namespace passo {
 class MotorPath {
  public:
   // Begins a curve, which is followed up to `end`. `curve` must stay alive until the next curve begins.
-  void start(const Curve& curve, double end, const StepOptions& options);
+  void start(const Curve& curve, double end, std::span<const MotorRow> motors);
   void curve_lives_in(const Curve& curve) { curve_ = &curve; }
 
   // A place on the curve, with the values that all motors need, computed once. On an arc these are the cosine and the
@@ -96,19 +98,22 @@ class MotorPath {
   static constexpr double infinity = std::numeric_limits<double>::infinity();
 
   enum class Way : std::uint8_t { straight, round, cubic };
-  // Straight: place = base + scale * s. Round: place = base + scale * radius(s) * cos or sin(angle(s)).
+  // Straight: place = base + scale * s. Round: place = base + drift * s + scale * radius(s) * outward(s), where outward
+  // is cosine * cos(angle(s)) + sine * sin(angle(s)).
   struct Term {
     Way way = Way::straight;
-    bool on_cosine = false;  // the first axis of the plane
-    double base = 0;         // place at s = 0, or the place of the centre
-    double scale = 0;        // slope, or places a millimetre of radius
-    double angle = 0;        // at s = 0; the argument of a sine for both axes
-    double sharpest = 0;     // round: |d² place / ds²| at most
+    double base = 0;    // place at s = 0, or the place of the centre
+    double scale = 0;   // slope, or places a millimetre of radius
+    double cosine = 0;  // what the motor sees of the first axis of the plane, and of the second one: together 1
+    double sine = 0;
+    double drift = 0;     // of an axis that is not in the plane; 0 for most
+    double angle = 0;     // at s = 0; outward is its sine
+    double sharpest = 0;  // round: |d² place / ds²| at most
   };
 
   void start_arc(const Curve::ArcData& arc, double length);
-  Term straight_term(const Motor& motor) const;
-  Term round_term(const Motor& motor, const Curve::ArcData& arc) const;
+  Term straight_term(const MotorRow& motor) const;
+  Term round_term(const MotorRow& motor, const Curve::ArcData& arc) const;
   Parabola slope_of(unsigned motor) const;
   double leads_on_arc(unsigned master, int sign, double takeover, const Spot& from) const;
 
@@ -117,18 +122,18 @@ class MotorPath {
     return {.s = s, .cosine = std::cos(angle), .sine = std::sin(angle)};
   }
   double place_round(const Term& term, const Spot& spot) const {
-    return term.base + term.scale * radius_at(spot.s) * (term.on_cosine ? spot.cosine : spot.sine);
+    return term.base + term.drift * spot.s + term.scale * radius_at(spot.s) * arm(term, spot).outward;
   }
-  // Of the place on the circle: outward the cosine or the sine itself, around what it becomes a right angle farther.
+  // Of the place on the circle: outward as the motor sees it, around what that becomes a right angle farther.
   struct Arm {
     double outward = 0;
     double around = 0;
   };
   static Arm arm(const Term& term, const Spot& spot) {
-    return term.on_cosine ? Arm{spot.cosine, -spot.sine} : Arm{spot.sine, spot.cosine};
+    return {term.cosine * spot.cosine + term.sine * spot.sine, term.sine * spot.cosine - term.cosine * spot.sine};
   }
   double slope_round(const Term& term, const Arm& at, double radius) const {
-    return term.scale * (growth_ * at.outward + radius * turn_ * at.around);
+    return term.scale * (growth_ * at.outward + radius * turn_ * at.around) + term.drift;
   }
   double slope_round(const Term& term, const Spot& spot) const {
     return slope_round(term, arm(term, spot), radius_at(spot.s));
@@ -139,7 +144,10 @@ class MotorPath {
   void look_ahead_round(unsigned motor, double target, double step, double from, Spots& ahead) const;
   Spot crossing_round(unsigned motor, double target, const Spot& from) const;
   double crossing_on_spiral(unsigned motor, double target, double from, double guess) const;
+  double crossing_with_drift(unsigned motor, double target, double from) const;
+  double crossing_between(unsigned motor, double target, double from, double to) const;
   double turning_point_round(const Term& term, double from) const;
+  double turning_point_with_drift(const Term& term, double from) const;
   double travel_round(unsigned motor, double distance, double from) const;
   double angle_at(const Term& term, double s) const { return term.angle + turn_ * s; }
   double radius_at(double s) const { return radius_ + growth_ * s; }

@@ -3,7 +3,7 @@
 #pragma once
 
 #include "passo/geometry/axes.hpp"
-#include "passo/stepgen/step_generator.hpp"
+#include "passo/kinematics/kinematics.hpp"
 
 namespace passo {
 
@@ -11,8 +11,8 @@ namespace passo {
 inline constexpr double place_per_step = 65536.0;
 
 // For a motor without a screw.
-inline double place_of(const Motor& motor, const Point& point) {
-  return (point[motor.axis] * motor.steps_per_unit + motor.offset + 0.5) * place_per_step;
+inline double place_of(const MotorRow& motor, const Point& point) {
+  return (motor.steps.of(point) + motor.offset + 0.5) * place_per_step;
 }
 
 }  // namespace passo

@@ -34,45 +34,48 @@ double leaves(const MotorPath& path, unsigned motor, const Range& range, double 
 }  // namespace
 
 ScrewParts::ScrewParts(const StepOptions& options) : downs_(options.downs) {
-  for (unsigned m = 0; m < options.motor_count; ++m) {
-    scales_[m] = options.motors[m].steps_per_unit;
-    any_ = any_ || options.motors[m].screw;
+  const std::span<const MotorRow> motors = options.kinematics.rows();
+  for (std::size_t m = 0; m < motors.size(); ++m) {
+    if (!motors[m].screw) continue;
+    scales_[m] = motors[m].steps.factor();
+    any_ = true;
   }
 }
 
-double ScrewParts::fit(const Curve& curve, double from, double end, StepOptions& options) const {
-  for (unsigned m = 0; m < options.motor_count; ++m) {
-    Motor& motor = options.motors[m];
-    if (!motor.screw) continue;
-    motor.steps_per_unit = scales_[m];
-    motor.offset = 0;
+double ScrewParts::fit(const Curve& curve, double from, double end, std::span<MotorRow> motors) const {
+  for (std::size_t m = 0; m < motors.size(); ++m) {
+    if (!motors[m].screw) continue;
+    motors[m].steps = {motors[m].steps.axis(), scales_[m]};
+    motors[m].offset = 0;
   }
   MotorPath axes;  // the motors as if their screws were perfect
-  axes.start(curve, end, options);
+  axes.start(curve, end, motors);
   const Point place = curve.at(Mm(from));
   double until = end;
-  for (unsigned m = 0; m < options.motor_count; ++m) {
-    Motor& motor = options.motors[m];
+  for (unsigned m = 0; m < motors.size(); ++m) {
+    MotorRow& motor = motors[m];
     if (!motor.screw) continue;
     if (takes_up_backlash_) {
       fit_backlash(curve, motor, scales_[m]);
       continue;
     }
+    const Axis axis = motor.steps.axis();
     const bool up = axes.rises(m, axes.at(from)) == (scales_[m] > 0);
-    const auto& piece = motor.screw->piece_at(place[motor.axis], up, border_steps / std::fabs(scales_[m]));
+    const auto& piece = motor.screw->piece_at(place[axis], up, border_steps / std::fabs(scales_[m]));
     const double one = piece.low * scales_[m];
     const double other = piece.high * scales_[m];
     until = std::min(until, leaves(axes, m, {.low = std::min(one, other), .high = std::max(one, other)}, from));
-    motor.steps_per_unit = scales_[m] * piece.slope;
-    motor.offset = scales_[m] * (piece.offset - (downs_.has(motor.axis) ? motor.screw->backlash() : 0));
+    motor.steps = {axis, scales_[m] * piece.slope};
+    motor.offset = scales_[m] * (piece.offset - (downs_.has(axis) ? motor.screw->backlash() : 0));
   }
   return std::max(until, from);
 }
 
 // The motor alone moves, and its slide stands at the end of the curve.
-void ScrewParts::fit_backlash(const Curve& curve, Motor& motor, double scale) const {
-  const double stands_at = curve.end()[motor.axis];
-  motor.offset = scale * (motor.screw->nominal(stands_at, downs_.has(motor.axis)) - stands_at);
+void ScrewParts::fit_backlash(const Curve& curve, MotorRow& motor, double scale) const {
+  const Axis axis = motor.steps.axis();
+  const double stands_at = curve.end()[axis];
+  motor.offset = scale * (motor.screw->nominal(stands_at, downs_.has(axis)) - stands_at);
 }
 
 }  // namespace passo

@@ -5,6 +5,7 @@
 #pragma once
 
 #include <array>
+#include <span>
 
 #include "motor_path.hpp"
 
@@ -27,10 +28,10 @@ class ScrewParts {
   AxisSet downs() const { return downs_; }
   // Sets scale and offset of each motor with a screw for the part that begins at s = `from`. Returns where the part
   // ends: at `end` or before.
-  double fit(const Curve& curve, double from, double end, StepOptions& options) const;
+  double fit(const Curve& curve, double from, double end, std::span<MotorRow> motors) const;
 
  private:
-  void fit_backlash(const Curve& curve, Motor& motor, double scale) const;
+  void fit_backlash(const Curve& curve, MotorRow& motor, double scale) const;
 
   std::array<double, max_motors> scales_{};  // steps a unit of a perfect screw
   bool any_ = false;

@@ -16,15 +16,13 @@ class StepGenerator::Implementation {
  public:
   Implementation(Source<MotionItem>& motion, const StepOptions& options)
       : motion_(&motion),
-        motors_(options.motor_count),
+        motors_(options.kinematics.motor_count()),
         tick_rate_(options.clock.tick_rate),
         stream_(options),
-        board_(options.motor_count),
-        fitter_(options.motor_count, stream_.shortest_interval(), options.bends) {
-    for (unsigned m = 0; m < motors_; ++m) {
-      const Motor& motor = options.motors[m];
-      board_.set_steps(m, std::llround(motor.steps_at(options.start[motor.axis], options.downs.has(motor.axis))));
-    }
+        board_(options.kinematics.motor_count()),
+        fitter_(options.kinematics.motor_count(), stream_.shortest_interval(), options.bends) {
+    const MotorPlace start = options.kinematics.motors(options.start, options.downs);
+    for (unsigned m = 0; m < motors_; ++m) board_.set_steps(m, std::llround(start[m]));
     if (options.place) board_.set_place(*options.place);
   }
 

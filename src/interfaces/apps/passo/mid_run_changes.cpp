@@ -35,13 +35,16 @@ std::optional<std::pair<double, double>> pair_of(std::string_view text, char bet
 
 }  // namespace
 
+MotorPlace motors_of(const MachineCounts& counts) {
+  MotorPlace place;
+  for (std::size_t m = 0; m < counts.motors.size(); ++m) place[m] = static_cast<double>(counts.motors[m].position);
+  return place;
+}
+
 std::vector<double> place_of(const VirtualMachine& machine, const MachineDescription& description) {
+  const Point axes = kinematics_of(description).axes(motors_of(machine.counts()));
   std::vector<double> place;
-  const MachineCounts counts = machine.counts();
-  const StepOptions steps = step_options(description);
-  for (std::size_t m = 0; m < description.axes.size(); ++m) {
-    place.push_back(steps.motors[m].place_at(static_cast<double>(counts.motors[m].position), false));
-  }
+  for (const AxisDescription& axis : description.axes) place.push_back(axes[axis.axis]);
   return place;
 }
 

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "passo/kinematics/kinematics.hpp"
 #include "passo/machine/virtual_machine.hpp"
 #include "passo/machine_file/machine_description.hpp"
 #include "passo/report/summary.hpp"
@@ -20,6 +21,8 @@ struct CableCut {
 // Reads "SECONDS:SECONDS". Any other text is reported on standard error, and the result is empty.
 std::optional<CableCut> read_cable_cut(const std::string& text);
 
+// The counted steps of a virtual machine's motors.
+MotorPlace motors_of(const MachineCounts& counts);
 // The machine position of each axis of a virtual machine, computed from the counted steps of its motors.
 std::vector<double> place_of(const VirtualMachine& machine, const MachineDescription& description);
 

@@ -1,18 +1,23 @@
 #include "motor_watch.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <variant>
+
+#include "passo/activity/stage_options.hpp"
 
 namespace passo {
 
 MotorWatch::MotorWatch(RotorPlant& plant, const MachineDescription& machine, Seconds begins)
     : plant_(plant), begins_(begins), planned_(begins), motors_(machine.motor_count()) {
+  const Kinematics board = board_kinematics_of(machine);
   for (std::size_t m = 0; m < machine.axes.size(); ++m) {
     const AxisDescription& axis = machine.axes[m];
-    motors_[m] = {.axis = &axis, .inverted = axis.inverted, .worst_line = 0};
-    if (axis.second) {
-      motors_[machine.second_motor_of(m)] = {.axis = &axis, .inverted = axis.second->inverted, .worst_line = 0};
-    }
+    const auto watch = [&](std::size_t motor) {
+      motors_[motor] = {.axis = &axis, .scale = board.rows()[motor].steps.factor_of(axis.axis), .worst_line = 0};
+    };
+    watch(m);
+    if (axis.second) watch(machine.second_motor_of(m));
   }
 }
 
@@ -62,11 +67,11 @@ PhysicsSummary MotorWatch::finish(Seconds now) {
   for (std::size_t m = 0; m < motors_.size(); ++m) {
     const AxisDescription& axis = *motors_[m].axis;
     const RotorRecord& record = plant_.record(m);
-    const double scale = motors_[m].inverted ? -axis.steps_per_unit : axis.steps_per_unit;
+    const double scale = motors_[m].scale;
     summary.motors.push_back({.axis = axis.axis,
-                              .lost_steps = motors_[m].inverted ? -record.lost : record.lost,
+                              .lost_steps = scale < 0 ? -record.lost : record.lost,
                               .lost = static_cast<double>(record.lost) / scale,
-                              .following_error = plant_.steps_per_full_step(m) * record.most_lag / axis.steps_per_unit,
+                              .following_error = plant_.steps_per_full_step(m) * record.most_lag / std::abs(scale),
                               .least_margin = record.least_margin,
                               .line = motors_[m].worst_line,
                               .least_margin_at = record.least_margin_at - begins_,
@@ -76,7 +81,7 @@ PhysicsSummary MotorWatch::finish(Seconds now) {
     const StepLoss& loss = plant_.losses()[i];
     summary.losses.push_back({.time = loss.time - begins_,
                               .axis = motors_[loss.motor].axis->axis,
-                              .steps = motors_[loss.motor].inverted ? -loss.steps : loss.steps,
+                              .steps = motors_[loss.motor].scale < 0 ? -loss.steps : loss.steps,
                               .line = lines_of_losses_[i]});
   }
   return summary;

@@ -29,7 +29,7 @@ class MotorWatch {
  private:
   struct Motor {
     const AxisDescription* axis = nullptr;
-    bool inverted = false;
+    double scale = 0;              // steps a unit of the axis; negative: it turns the other way
     std::uint32_t worst_line = 0;  // of the least margin
   };
   struct Planned {

@@ -76,14 +76,14 @@ void add_board(RunSummary& summary, OpenedMachine& opened, const MachineDescript
     board.held_items = link.board()->capacity;
     board.rests = refiller->recoveries();
   }
-  const StepOptions steps = step_options(machine);
+  const Point place = kinematics_of(machine).axes(motors_of(counts));
   for (std::size_t m = 0; m < machine.axes.size(); ++m) {
     const AxisDescription& axis = machine.axes[m];
     const std::int64_t net = axis.inverted ? -counts.motors[m].position : counts.motors[m].position;
     const std::int64_t total = counts.motors[m].total - before.counts.motors[m].total;
     summary.axes[m].net_steps = Steps{net};
     summary.axes[m].total_steps = Steps{total};
-    summary.axes[m].position = steps.motors[m].place_at(static_cast<double>(counts.motors[m].position), false);
+    summary.axes[m].position = place[axis.axis];
     board.pulses += static_cast<std::uint64_t>(total);
   }
   summary.board = board;

@@ -30,16 +30,9 @@ double distance_to(const Point& from, const Point& to, const Point& place) {
 Point counted_place(OpenedMachine& opened, const MachineDescription& machine,
                     const std::optional<BoardStatus>& status) {
   const MachineSession& session = opened.session();
-  const StepOptions steps = step_options(machine);
-  const MachineCounts counts = opened.machine().counts();
-  Point place;
-  for (std::size_t m = 0; m < machine.axes.size(); ++m) {
-    const bool is_told = session.zero_counts() && status;
-    const std::int64_t counted =
-        is_told ? std::int64_t{status->positions[m]} - (*session.zero_counts())[m] : counts.motors[m].position;
-    place[steps.motors[m].axis] = steps.motors[m].place_at(static_cast<double>(counted), false);
-  }
-  return place;
+  MotorPlace motors = motors_of(opened.machine().counts());
+  if (session.zero_counts() && status) motors = steps_since(*session.zero_counts(), status->positions);
+  return kinematics_of(machine).axes(motors);
 }
 
 // An axis whose drive has given its alarm. Only of motors with physics; empty: none has.
@@ -52,10 +45,11 @@ std::optional<StopCause> following_error(OpenedMachine& opened, const MachineDes
     if (machine.axes[m].second && machine.second_motor_of(m) == fault.motor) index = m;
   }
   const AxisDescription& axis = machine.axes[index];
-  return StopCause{.what = fmt::format("axis {} was {:.3g} {} from its commanded place ({:g} are allowed)",
-                                       letter_of(axis.axis), std::abs(fault.error) / axis.steps_per_unit,
-                                       is_rotary(axis.axis) ? "degrees" : "mm", axis.encoder->most_error),
-                   .remedy = "find out what holds the axis"};
+  return StopCause{
+      .what = fmt::format("axis {} was {:.3g} {} from its commanded place ({:g} are allowed)", letter_of(axis.axis),
+                          std::abs(fault.error) / kinematics_of(machine).steps_per_unit(axis.axis),
+                          is_rotary(axis.axis) ? "degrees" : "mm", axis.encoder->most_error),
+      .remedy = "find out what holds the axis"};
 }
 
 std::string line_words(std::uint32_t line, const std::string& program) {

@@ -121,9 +121,7 @@ Segment line(double from, double to, double speed) {
 
 StepOptions steps(Axis first) {
   StepOptions options;
-  options.motors[0] = {.axis = first, .steps_per_unit = 100};
-  options.motors[1] = {.axis = Axis::y, .steps_per_unit = 100};
-  options.motor_count = 2;
+  options.kinematics = {{.steps = {first, 100}}, {.steps = {Axis::y, 100}}};
   options.clock = {.tick_rate = Hertz(1e6), .highest_event_rate = Hertz(50e3)};
   return options;
 }

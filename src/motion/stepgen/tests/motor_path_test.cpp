@@ -17,14 +17,12 @@ class LookAhead : public testing::Test {
 
   static StepOptions two_motors() {
     StepOptions options;
-    options.motor_count = 2;
-    options.motors[0] = {.axis = Axis::x, .steps_per_unit = 400};
-    options.motors[1] = {.axis = Axis::y, .steps_per_unit = -640};
+    options.kinematics = {{.steps = {Axis::x, 400}}, {.steps = {Axis::y, -640}}};
     return options;
   }
 
   // As programs write arcs: the radius at the end is not quite that at the start.
-  Curve random_arc() {
+  Curve random_arc(double climb = 0) {
     const double radius = std::exp(random_.between(-3, 4));
     const double angle = random_.between(-3, 3);
     const double sweep = random_.between(0.3, 6) * (random_.chance(0.5) ? 1 : -1);
@@ -33,6 +31,7 @@ class LookAhead : public testing::Test {
     start[Axis::x] = radius * std::cos(angle);
     start[Axis::y] = radius * std::sin(angle);
     Point end;
+    end[Axis::z] = climb;
     end[Axis::x] = end_radius * std::cos(angle + sweep);
     end[Axis::y] = end_radius * std::sin(angle + sweep);
     return Curve::arc(start, end, Axis::x, Axis::y, 0, 0, sweep);
@@ -55,7 +54,7 @@ class LookAhead : public testing::Test {
   std::size_t expect_exact(const Curve& curve) {
     MotorPath path;
     const double length = curve.length().value();
-    path.start(curve, length, options_);
+    path.start(curve, length, options_.kinematics.rows());
     std::size_t found = 0;
     for (unsigned motor = 0; motor < 2; ++motor) {
       const MotorPath::Spot from = path.at(random_.between(0, 0.9) * length);
@@ -66,11 +65,11 @@ class LookAhead : public testing::Test {
       path.look_ahead(motor, target, grid, from.s, ahead);
       for (std::size_t i = 0; i < ahead.count && ahead.s[i] <= length; ++i, ++found) {
         EXPECT_GE(ahead.s[i], i == 0 ? from.s : ahead.s[i - 1]);
-        const long double place = oracle::exact_place(options_.motors[motor], curve, ahead.s[i]);
+        const long double place = oracle::exact_place(options_.kinematics.rows()[motor], curve, ahead.s[i]);
         EXPECT_NEAR(static_cast<double>(place * place_per_step), target + static_cast<double>(i) * grid, 0.01);
         Lanes other;
         path.places(1 - motor, ahead, other);
-        const long double other_place = oracle::exact_place(options_.motors[1 - motor], curve, ahead.s[i]);
+        const long double other_place = oracle::exact_place(options_.kinematics.rows()[1 - motor], curve, ahead.s[i]);
         EXPECT_NEAR(static_cast<double>(other_place * place_per_step), other[i], 0.01);
       }
     }
@@ -81,6 +80,30 @@ class LookAhead : public testing::Test {
 TEST_F(LookAhead, finds_the_crossings_of_an_arc) {
   std::size_t found = 0;
   for (int run = 0; run < 2000 && !HasFailure(); ++run) found += expect_exact(random_arc());
+  EXPECT_GT(found, 20'000U);
+}
+
+// Each motor sees both axes of the arc's plane.
+TEST_F(LookAhead, finds_the_crossings_of_an_arc_if_axes_share_motors) {
+  options_.kinematics = {{.steps = {{Axis::x, 400}, {Axis::y, 400}}}, {.steps = {{Axis::x, 300}, {Axis::y, -500}}}};
+  std::size_t found = 0;
+  for (int run = 0; run < 2000 && !HasFailure(); ++run) found += expect_exact(random_arc());
+  EXPECT_GT(found, 20'000U);
+}
+
+// And the axis along which a helix climbs.
+TEST_F(LookAhead, finds_the_crossings_of_a_helix_if_axes_share_motors) {
+  options_.kinematics = {{.steps = {{Axis::x, 400}, {Axis::z, 400}}},
+                         {.steps = {{Axis::x, 300}, {Axis::y, -500}, {Axis::z, 100}}}};
+  std::size_t found = 0;
+  for (int run = 0; run < 2000 && !HasFailure(); ++run) found += expect_exact(random_arc(random_.between(-9, 9)));
+  EXPECT_GT(found, 15'000U);
+}
+
+TEST_F(LookAhead, finds_the_crossings_of_a_cubic_if_axes_share_motors) {
+  options_.kinematics = {{.steps = {{Axis::x, 400}, {Axis::y, 400}}}, {.steps = {{Axis::x, 300}, {Axis::y, -500}}}};
+  std::size_t found = 0;
+  for (int run = 0; run < 2000 && !HasFailure(); ++run) found += expect_exact(random_cubic());
   EXPECT_GT(found, 20'000U);
 }
 

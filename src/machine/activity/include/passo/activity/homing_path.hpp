@@ -26,6 +26,7 @@
 
 #include "passo/activity/activity.hpp"
 #include "passo/interpreter/machine_answers.hpp"
+#include "passo/kinematics/kinematics.hpp"
 #include "passo/machine_file/machine_description.hpp"
 
 namespace passo {
@@ -80,6 +81,10 @@ class HomingPath final : public Activity {
   static constexpr std::size_t second_motor = 1;
 
   const HomeDescription& home() const { return *axis_->home; }
+  // Steps a millimetre or a degree of the axis that is being homed.
+  double steps_per_unit() const { return kinematics_.steps_per_unit(axis_->axis); }
+  // A place of that axis in whole steps of its motor.
+  double in_steps(double place) const;
   const ProbeOutcome& outcome() const { return *answers_.probe(); }
   double direction() const { return home().toward_high ? 1 : -1; }
   // Where the current axis stands.
@@ -112,6 +117,7 @@ class HomingPath final : public Activity {
   void fail(MachineFault fault) { fault_ = fault; }
 
   const MachineDescription& machine_;
+  const Kinematics kinematics_;
   const MachineAnswers& answers_;
   Point start_;
   std::vector<const AxisDescription*> turn_;  // the axes of this turn that are not homed yet

@@ -6,6 +6,7 @@
 
 #include "passo/activity/touchable.hpp"
 #include "passo/geometry/axes.hpp"
+#include "passo/kinematics/kinematics.hpp"
 #include "passo/machine_file/machine_description.hpp"
 #include "passo/plant/ideal_plant.hpp"
 #include "passo/plant/rotor_plant.hpp"
@@ -17,8 +18,8 @@ namespace passo {
 // The limit switches by which a machine is homed, in steps from machine zero.
 std::vector<TravelSwitch> home_switches(const MachineDescription& machine);
 
-// The screw of an axis for which the machine file has one, in steps of a motor that is wired inverted or not.
-ScrewModel screw_model(const AxisDescription& axis, bool inverted);
+// The screw of an axis for which the machine file has one, in steps of one of its motors.
+ScrewModel screw_model(const AxisDescription& axis, const MotorRow& motor);
 
 // Where the motors of that plant stand at first, if the axes stand at `place`: second motors are ahead by their skew.
 MotorSteps truth_at(const MachineDescription& machine, const Point& place);

@@ -10,9 +10,9 @@
 #include <vector>
 
 #include "passo/interpreter/machine_answers.hpp"
+#include "passo/kinematics/kinematics.hpp"
 #include "passo/link/link.hpp"
 #include "passo/path/segment.hpp"
-#include "passo/stepgen/step_generator.hpp"
 
 namespace passo {
 
@@ -20,8 +20,8 @@ class ProbeMove {
  public:
   // `link` and `answers` outlive the ProbeMove. The outcome is written into `answers` at the beginning of a move
   // (whether the move is refused) and at the end.
-  ProbeMove(Link& link, AnswerBook& answers, const StepOptions& steps)
-      : link_(link), answers_(answers), steps_(steps) {}
+  ProbeMove(Link& link, AnswerBook& answers, const Kinematics& kinematics)
+      : link_(link), answers_(answers), kinematics_(kinematics) {}
 
   // Adds a watcher that gets the outcome at the end of each probe move.
   void watch(std::function<void(const ProbeOutcome&)> watcher) { watchers_.push_back(std::move(watcher)); }
@@ -52,7 +52,7 @@ class ProbeMove {
 
   Link& link_;
   AnswerBook& answers_;
-  StepOptions steps_;
+  Kinematics kinematics_;
   bool guards_ = false;
   bool running_ = false;
   Point start_;

@@ -9,29 +9,11 @@
 #include <variant>
 
 #include "passo/base/source.hpp"
-#include "passo/stepgen/screw_map.hpp"
+#include "passo/kinematics/kinematics.hpp"
 #include "passo/trajectory/phase.hpp"
 #include "passo/wire/board_segment.hpp"
 
 namespace passo {
-
-// A motor of the board, and the axis that the motor turns.
-struct Motor {
-  Axis axis = Axis::x;
-  double steps_per_unit = 0;  // steps a millimetre or a degree; negative: the motor counts down when the axis goes up
-  double offset = 0;          // steps where the axis is at 0; not for a motor with a screw
-  std::shared_ptr<const ScrewMap> screw = {};  // null: motor and axis are in proportion
-
-  // The steps at a place of the axis, with a fraction, and the place at a number of steps. `down`: the backlash is
-  // taken up for motion down.
-  double steps_at(double place, bool down) const {
-    return (screw ? screw->nominal(place, down) : place) * steps_per_unit + offset;
-  }
-  double place_at(double steps, bool down) const {
-    const double place = (steps - offset) / steps_per_unit + 0.0;  // never a negative zero
-    return screw ? screw->place(place, down) : place;
-  }
-};
 
 struct BoardClock {
   Hertz tick_rate{16e6};
@@ -48,14 +30,19 @@ struct BoardPlace {
   void set_steps(std::size_t motor, std::int64_t steps) {
     motors[motor] = steps * whole_step + (motors[motor] & (whole_step - 1));
   }
+  // With the fractions.
+  MotorPlace exact() const {
+    MotorPlace place;
+    for (std::size_t m = 0; m < motors.size(); ++m) place[m] = static_cast<double>(motors[m]) / whole_step - 0.5;
+    return place;
+  }
   friend bool operator==(const BoardPlace&, const BoardPlace&) = default;
 };
 
 struct StepOptions {
-  std::array<Motor, max_motors> motors;
-  std::uint8_t motor_count = 0;
+  Kinematics kinematics = {};
   BoardClock clock;
-  Point start;        // machine position at the start; the motors' step counts begin at its whole steps
+  Point start = {};   // machine position at the start; the motors' step counts begin at its whole steps
   bool bends = true;  // whether segments may bend. A bend does not serve the second motor of an axis
   std::optional<BoardPlace> place = {};  // where the board stands; empty: the board has just heard a hello at `start`
   AxisSet downs = {};                    // the axes whose backlash is taken up for motion down

@@ -1,4 +1,4 @@
-#include "passo/stepgen/screw_map.hpp"
+#include "passo/kinematics/screw_map.hpp"
 
 #include <gtest/gtest.h>
 

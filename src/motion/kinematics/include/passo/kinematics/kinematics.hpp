@@ -1,0 +1,85 @@
+// Kinematics: where the motors of a machine are when its axes are at a place, and the other way round.
+//
+// Each motor has a row: its steps are a sum over axes (AxisRow), perhaps with the errors and the backlash of a screw
+// between. A Cartesian machine has one axis in each row and one row for each axis. A gantry has two rows for the axis
+// that two motors turn. CoreXY has two rows of X and Y. Under such rows a line stays a line, and an arc or a cubic
+// stays a sum of the same functions of the way, so the step generator and the planner follow the rows themselves.
+//
+// Programs, jogs and limits of travel are in axes. Step counts, switches on motors and the wire are in motors. Nothing
+// else in the house turns one into the other.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <initializer_list>
+#include <memory>
+#include <span>
+
+#include "passo/geometry/axes.hpp"
+#include "passo/kinematics/axis_row.hpp"
+#include "passo/kinematics/screw_map.hpp"
+#include "passo/wire/board_segment.hpp"
+
+namespace passo {
+
+// A motor, and what it sees of the axes.
+struct MotorRow {
+  AxisRow steps;      // for each millimetre or degree; negative: the motor counts down when the axis goes up
+  double offset = 0;  // steps where the axes are at 0; not for a motor with a screw
+  std::shared_ptr<const ScrewMap> screw = {};  // only for a row of one axis; null: motor and axis are in proportion
+
+  // With a fraction. `downs`: the axes whose backlash is taken up for motion down.
+  double steps_at(const Point& place, AxisSet downs = {}) const {
+    if (!screw) return steps.of(place) + offset;
+    return screw->nominal(place[steps.axis()], downs.has(steps.axis())) * steps.factor() + offset;
+  }
+};
+
+// The steps of each motor from the machine's zero, with fractions.
+struct MotorPlace {
+  std::array<double, max_motors> steps{};
+  double& operator[](std::size_t motor) { return steps[motor]; }
+  double operator[](std::size_t motor) const { return steps[motor]; }
+};
+
+// What motors have done since their counts were `zero`.
+template <class Counts, class Zero>
+MotorPlace steps_since(const Zero& zero, const Counts& counts) {
+  MotorPlace place;
+  for (std::size_t m = 0; m < zero.size() && m < max_motors; ++m) {
+    place[m] = static_cast<double>(std::int64_t{counts[m]} - zero[m]);
+  }
+  return place;
+}
+
+class Kinematics {
+ public:
+  Kinematics() = default;
+  Kinematics(std::initializer_list<MotorRow> rows);
+  // A motor above max_motors is left out.
+  void add(const MotorRow& row);
+
+  std::span<const MotorRow> rows() const { return {rows_.data(), count_}; }
+  std::uint8_t motor_count() const { return static_cast<std::uint8_t>(count_); }
+
+  // `downs`: the axes whose backlash is taken up for motion down, here as in axes().
+  MotorPlace motors(const Point& axes, AxisSet downs = {}) const;
+  // An axis with a motor of its own is where that motor says; of two such motors, the first one counts. Axes that share
+  // motors follow from these together. `others`: where the axes are that no motor tells.
+  Point axes(const MotorPlace& motors, AxisSet downs = {}, const Point& others = {}) const;
+  // The same, if only some motors have moved since the axes were at `from`: bit i of `moved` is motor i. Axes that none
+  // of these turns stay exactly where they were.
+  Point axes_after(const Point& from, const MotorPlace& motors, unsigned moved, AxisSet downs = {}) const;
+
+  // Steps a millimetre or a degree of the axis, of the motor that turns most for it. Never negative; 0: none turns.
+  double steps_per_unit(Axis axis) const;
+
+ private:
+  void find_shared(const MotorPlace& motors, AxisSet known, Point& place) const;
+
+  std::array<MotorRow, max_motors> rows_;
+  std::size_t count_ = 0;
+};
+
+}  // namespace passo
