@@ -80,6 +80,31 @@ void fill(double from, double to, Cell& cell) {
   cell.straight = false;
 }
 
+// The next two: the largest speed and the largest acceleration along a path that every axis can follow. `part`: the
+// size of an axis's slope, or a bound of that.
+template <class Axes, class Part>
+double top_speed(const Axes& axes, const Part& part) {
+  double top = fastest;
+  for (const LimitedAxis& axis : axes) lower(top, axis.velocity, part(axis));
+  return top;
+}
+template <class Axes, class Part>
+double top_acceleration(const Axes& axes, const Part& part) {
+  double top = strongest;
+  for (const LimitedAxis& axis : axes) lower(top, axis.acceleration, part(axis));
+  return top;
+}
+// The speed up to which every limit is constant.
+template <class Axes, class Part>
+double flat_top(const Axes& axes, const Part& part) {
+  double top = infinity;
+  for (const LimitedAxis& axis : axes) {
+    if (axis.falling != nullptr && part(axis) > 0)
+      top = std::min(top, std::sqrt(axis.falling->shoulder()) / part(axis));
+  }
+  return top;
+}
+
 }  // namespace
 
 void CellPlace::allow(double entry, double exit) const {
@@ -110,17 +135,18 @@ void CellCutter::begin(const Segment& segment, double entry_squared, double from
   const Point steepest = curve.steepest();
   moving_.clear();
   for (const LimitedAxis& axis : limited_) {
-    if (steepest.values[axis.index] > 0) moving_.push_back(axis);
+    if (axis.row.most_of(steepest) > 0) moving_.push_back(axis);
   }
   at_ = place_at(curve, moving_, from);
-  const double top = std::min(segment.speed.value(), top_speed(moving_, steepest));
-  const double strongest_here = top_acceleration(moving_, steepest);
+  const auto steepest_of = [&](const LimitedAxis& axis) { return axis.row.most_of(steepest); };
+  const double top = std::min(segment.speed.value(), top_speed(moving_, steepest_of));
+  const double strongest_here = top_acceleration(moving_, steepest_of);
   const double braking = top * top / (2 * strongest_here);
   // On a short line all limits may be constant up to the highest speed that the motion can reach there.
   const double reached = std::sqrt(entry_squared + 2 * strongest_here * (length - from));
   const bool line = curve.shape() == Curve::Shape::line;
   straight_ = line;
-  if (flat_top(moving_, steepest) < std::min(room_for_override * top, line ? reached : infinity)) {
+  if (flat_top(moving_, steepest_of) < std::min(room_for_override * top, line ? reached : infinity)) {
     const bool is_short = curve.shape() == Curve::Shape::cubic && length < short_for_braking * braking;
     const double most_cells = is_short ? most_graded_of_short : most_graded;
     grade_ = std::max(speed_share * std::sqrt(braking), std::sqrt(2 * length) / most_cells);
@@ -184,39 +210,18 @@ double CellCutter::graded(double size, double left) const {
   return std::min({size, near_start, near_end, at_.s == 0 ? left / 2 : left});
 }
 
-// The next two: the largest speed and the largest acceleration along a path of this slope that every axis can follow.
-double CellCutter::top_speed(const Axes& axes, const Point& slope) {
-  double top = fastest;
-  for (const LimitedAxis& axis : axes) lower(top, axis.velocity, std::abs(slope.values[axis.index]));
-  return top;
-}
-double CellCutter::top_acceleration(const Axes& axes, const Point& slope) {
-  double top = strongest;
-  for (const LimitedAxis& axis : axes) lower(top, axis.acceleration, std::abs(slope.values[axis.index]));
-  return top;
-}
 // Limits of rotary axes are in degrees and cannot be compared with the others.
 double CellCutter::part_of_turn(const Axes& axes, const Point& steepest) {
   double weakest = strongest;
   double most = 0;
   for (const LimitedAxis& axis : axes) {
-    if (!axis.limits_acceleration() || is_rotary(static_cast<Axis>(axis.index))) continue;
-    if (steepest.values[axis.index] < hardly_moves) continue;
+    if (!axis.limits_acceleration() || axis.is_rotary()) continue;
+    if (axis.row.most_of(steepest) < hardly_moves) continue;
     weakest = std::min(weakest, axis.acceleration);
     most = std::max(most, axis.acceleration);
   }
   return most > 0 ? std::clamp(even_enough * weakest / most, least_part_of_turn, 1.0) : 1;
 }
-// The speed up to which every limit is constant.
-double CellCutter::flat_top(const Axes& axes, const Point& slope) {
-  double top = infinity;
-  for (const LimitedAxis& axis : axes) {
-    const double part = std::abs(slope.values[axis.index]);
-    if (axis.falling != nullptr && part > 0) top = std::min(top, std::sqrt(axis.falling->shoulder()) / part);
-  }
-  return top;
-}
-
 // Let n be the part of the bend at right angles to the slope. The sum of n (q' a + q'' v²) over the axes is n² v²,
 // whatever a is. It is at most the sum of |n| times the limits, which bounds v.
 double CellCutter::top_of_turning(const Axes& axes, const Point& slope, const Point& bend) {
@@ -224,15 +229,15 @@ double CellCutter::top_of_turning(const Axes& axes, const Point& slope, const Po
   double common = 0;
   for (const LimitedAxis& axis : axes) {
     if (!axis.limits_acceleration()) continue;
-    slope_squared += squared(slope.values[axis.index]);
-    common += slope.values[axis.index] * bend.values[axis.index];
+    slope_squared += squared(axis.row.of(slope));
+    common += axis.row.of(slope) * axis.row.of(bend);
   }
   const double share = slope_squared > 0 ? common / slope_squared : 0;
   double normal_squared = 0;
   double strength = 0;
   for (const LimitedAxis& axis : axes) {
     if (!axis.limits_acceleration()) continue;
-    const double normal = bend.values[axis.index] - share * slope.values[axis.index];
+    const double normal = axis.row.of(bend) - share * axis.row.of(slope);
     normal_squared += squared(normal);
     strength += std::abs(normal) * axis.acceleration;
   }
@@ -257,13 +262,16 @@ CellCutter::Bend CellCutter::bend_of_arc(const Curve& curve, const Place& in, co
 }
 
 // A cubic's third derivative is constant.
-CellCutter::Bend CellCutter::bend_on(const Curve& curve, const Bend& of_arc, std::size_t axis) {
+CellCutter::Bend CellCutter::bend_on(const Curve& curve, const Bend& of_arc, const AxisRow& row) {
   switch (curve.shape()) {
-    case Curve::Shape::cubic: return {.third = 6 * std::abs(curve.cubic_data().third.values[axis])};
+    case Curve::Shape::cubic: return {.third = 6 * std::abs(row.of(curve.cubic_data().third))};
     case Curve::Shape::arc: {
       const Curve::ArcData& arc = curve.arc_data();
-      if (axis == static_cast<std::size_t>(arc.first) || axis == static_cast<std::size_t>(arc.second)) return of_arc;
-      break;
+      const double first = row.factor_of(arc.first);
+      const double second = row.factor_of(arc.second);
+      if (first == 0 && second == 0) break;
+      const double part = first == 0 ? std::abs(second) : second == 0 ? std::abs(first) : std::hypot(first, second);
+      return {.third = part * of_arc.third, .fourth = part * of_arc.fourth};
     }
     case Curve::Shape::line: break;
   }
@@ -276,10 +284,11 @@ void CellCutter::cut_straight(const Segment& segment, const Axes& axes, double f
   Cell& cell = place.cell;
   fill(from, to, cell);
   const Point slope = segment.curve.tangent(Mm(from));
-  const double top = std::min(top_speed(axes, slope), flat_top(axes, slope));
+  const auto part = [&](const LimitedAxis& axis) { return std::abs(axis.row.of(slope)); };
+  const double top = std::min(top_speed(axes, part), flat_top(axes, part));
   cell.top_squared = squared(top);
   cell.smallest_rest = smallest_rest(top);
-  cell.acceleration = top_acceleration(axes, slope);
+  cell.acceleration = top_acceleration(axes, part);
   cell.straight = true;
 }
 
@@ -292,18 +301,18 @@ CellCutter::Strength CellCutter::strength_on(const Axes& axes, const Place& in, 
   const double most = std::min(bounds.top_squared / (2 * h), strongest);
   double strength = std::min(2 * slope_strength, most);
   const auto demand_on = [&](const LimitedAxis& axis) {
-    return axis.acceleration + bounds.fastest_squared * std::max(std::abs(in.bend.values[axis.index]),
-                                                                 std::abs(out.bend.values[axis.index]));
+    return axis.acceleration +
+           bounds.fastest_squared * std::max(std::abs(axis.row.of(in.bend)), std::abs(axis.row.of(out.bend)));
   };
   const auto along = [&](const LimitedAxis& axis) {
-    return std::min(std::abs(in.slope.values[axis.index]), std::abs(out.slope.values[axis.index]));
+    return std::min(std::abs(axis.row.of(in.slope)), std::abs(axis.row.of(out.slope)));
   };
   const auto keeps = [&](const LimitedAxis& axis) { return demand_on(axis) <= strength * along(axis); };
   const auto is_kept = [&] { return !(strength < most) || std::ranges::any_of(axes, keeps); };
   if (is_kept()) return {.most = strength, .is_kept = true};
   double more = most;
   for (const LimitedAxis& axis : axes) {
-    const Bend bend = bend_on(bounds.curve, bounds.of_arc, axis.index);
+    const Bend bend = bend_on(bounds.curve, bounds.of_arc, axis.row);
     const double left = cheap_slack * axis.acceleration * 8 / (h * h) - bend.fourth * bounds.top_squared;
     if (bend.third > 0) more = std::min(more, left / (5 * bend.third));
     if (along(axis) > 0) more = std::min(more, demand_on(axis) / along(axis));
@@ -322,15 +331,15 @@ void CellCutter::cut_curve(const Segment& segment, const Axes& axes, const Place
   const double eighth = h * h / 8;
   const Curve& curve = segment.curve;
   const Bend of_arc = curve.shape() == Curve::Shape::arc ? bend_of_arc(curve, in, out) : Bend{};
-  const auto steepest = [&](std::size_t i, const Bend& bend) {
-    return std::max(std::abs(in.slope.values[i]), std::abs(out.slope.values[i])) + eighth * bend.third;
+  const auto steepest = [&](const AxisRow& row, const Bend& bend) {
+    return std::max(std::abs(row.of(in.slope)), std::abs(row.of(out.slope))) + eighth * bend.third;
   };
   double top = fastest;
   double slope_strength = strongest;
   for (const LimitedAxis& axis : axes) {
-    const std::size_t i = axis.index;
-    lower(top, axis.velocity, steepest(i, bend_on(curve, of_arc, i)));
-    lower(slope_strength, axis.acceleration, std::min(std::abs(in.slope.values[i]), std::abs(out.slope.values[i])));
+    lower(top, axis.velocity, steepest(axis.row, bend_on(curve, of_arc, axis.row)));
+    lower(slope_strength, axis.acceleration,
+          std::min(std::abs(axis.row.of(in.slope)), std::abs(axis.row.of(out.slope))));
   }
   cell.top_squared = top * top;
   cell.smallest_rest = smallest_rest(top);
@@ -345,7 +354,7 @@ void CellCutter::cut_curve(const Segment& segment, const Axes& axes, const Place
     return eighth * (bend.fourth * top_squared + 5 * strength * bend.third);
   };
   for (const LimitedAxis& axis : axes) {
-    const Bend bend = bend_on(curve, of_arc, axis.index);
+    const Bend bend = bend_on(curve, of_arc, axis.row);
     if (slack_of(bend) <= most_slack * axis.acceleration) continue;
     // The cell is too coarse for this speed: go slower.
     top_squared = most_slack * axis.acceleration / (eighth * (bend.fourth + 5 * bend.third / (2 * h)));
@@ -355,26 +364,27 @@ void CellCutter::cut_curve(const Segment& segment, const Axes& axes, const Place
   cell.acceleration = strength;
 
   for (const LimitedAxis& axis : axes) {
-    const std::size_t i = axis.index;
-    const Bend bend = bend_on(curve, of_arc, i);
-    const double steep = steepest(i, bend);
-    if (!axis.limits_acceleration() || (steep == 0 && in.bend.values[i] == 0 && out.bend.values[i] == 0)) continue;
+    const Bend bend = bend_on(curve, of_arc, axis.row);
+    const double steep = steepest(axis.row, bend);
+    const double bend_in = axis.row.of(in.bend);
+    const double bend_out = axis.row.of(out.bend);
+    if (!axis.limits_acceleration() || (steep == 0 && bend_in == 0 && bend_out == 0)) continue;
     const double slack = slack_of(bend);
-    const double slope_in = in.slope.values[i] / (2 * h);
-    const double slope_out = out.slope.values[i] / (2 * h);
-    place.demands[cell.demand_count++] = {.entry_x = in.bend.values[i] - slope_in,
+    const double slope_in = axis.row.of(in.slope) / (2 * h);
+    const double slope_out = axis.row.of(out.slope) / (2 * h);
+    place.demands[cell.demand_count++] = {.entry_x = bend_in - slope_in,
                                           .entry_y = slope_in,
                                           .exit_x = -slope_out,
-                                          .exit_y = out.bend.values[i] + slope_out,
+                                          .exit_y = bend_out + slope_out,
                                           .limit = axis.acceleration - slack};
     if (axis.falling == nullptr || !(squared(steep) * top_squared > axis.falling->shoulder())) continue;
     // w = q'² v² bends by w'' = 2 (q''² + q' q''') v² + 8 q' q'' a.
-    const double second = std::max(std::abs(in.bend.values[i]), std::abs(out.bend.values[i])) + h * bend.third;
+    const double second = std::max(std::abs(bend_in), std::abs(bend_out)) + h * bend.third;
     const double bending = 2 * (second * second + steep * bend.third) * top_squared + 8 * steep * second * strength;
     place.falling[cell.falling_count++] = {.curve = axis.falling,
                                            .demand = static_cast<std::uint32_t>(cell.demand_count - 1),
-                                           .entry_weight = squared(in.slope.values[i]),
-                                           .exit_weight = squared(out.slope.values[i]),
+                                           .entry_weight = squared(axis.row.of(in.slope)),
+                                           .exit_weight = squared(axis.row.of(out.slope)),
                                            .slack = slack,
                                            .slack_of_fall = eighth * bending};
   }

@@ -41,7 +41,7 @@ struct AxisDemand {
 };
 
 // One demand for each axis, and one for the acceleration along the path.
-inline constexpr std::size_t most_demands_of_cell = axis_count + 1;
+inline constexpr std::size_t most_demands_of_cell = most_limited_axes + 1;
 
 // The demand of an axis whose limit falls with its speed. In the cell, the square of the axis's speed is about
 // entry_weight x at the entry and exit_weight y at the exit. Take any line of the curve; where at both ends
@@ -126,14 +126,11 @@ class CellCutter {
   };
   static Strength strength_on(const Axes& axes, const Place& in, const Place& out, const CellBounds& bounds,
                               double slope_strength);
-  static double top_speed(const Axes& axes, const Point& slope);
-  static double top_acceleration(const Axes& axes, const Point& slope);
   static double part_of_turn(const Axes& axes, const Point& steepest);
-  static double flat_top(const Axes& axes, const Point& slope);
   static double top_of_turning(const Axes& axes, const Point& slope, const Point& bend);
   static Place place_at(const Curve& curve, const Axes& axes, double s);
   static Bend bend_of_arc(const Curve& curve, const Place& in, const Place& out);
-  static Bend bend_on(const Curve& curve, const Bend& of_arc, std::size_t axis);
+  static Bend bend_on(const Curve& curve, const Bend& of_arc, const AxisRow& row);
   static void cut_straight(const Segment& segment, const Axes& axes, double from, double to, const CellPlace& place);
   static void cut_curve(const Segment& segment, const Axes& axes, const Place& in, const Place& out,
                         const CellPlace& place);

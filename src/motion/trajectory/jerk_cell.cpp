@@ -36,7 +36,7 @@ void JerkCutter::begin(const Segment& segment, const Cut& cut) {
   acceleration_ = strongest;
   jerk_ = sharpest;
   for (const LimitedAxis& axis : axes_) {
-    const double part = std::abs(steepest.values[axis.index]);
+    const double part = axis.row.most_of(steepest);
     if (!(part > 0)) continue;
     top_ = std::min(top_, axis.velocity / part);
     acceleration_ = std::min(acceleration_, axis.acceleration / part);
@@ -44,7 +44,7 @@ void JerkCutter::begin(const Segment& segment, const Cut& cut) {
   }
   straight_ = curve.shape() == Curve::Shape::line;
   for (const LimitedAxis& axis : axes_) {
-    const double fastest_of_axis = top_ * steepest.values[axis.index];
+    const double fastest_of_axis = top_ * axis.row.most_of(steepest);
     straight_ = straight_ && !axis.falls_at(fastest_of_axis * fastest_of_axis);
   }
   entry_ = std::min(cut.entry_squared, top_ * top_);
@@ -100,13 +100,13 @@ bool JerkCutter::next(JerkCell& cell, AxisShape* shapes) {
           .straight = straight_,
           .ends_segment = to == length_};
   for (std::size_t k = 0; k < axes_.size(); ++k) {
-    const std::size_t i = axes_[k].index;
-    shapes[k] = {.slope_in = here_.first.values[i],
-                 .slope_out = there.first.values[i],
-                 .bend_in = here_.second.values[i],
-                 .bend_out = there.second.values[i],
-                 .third_in = here_.third.values[i],
-                 .third_out = there.third.values[i]};
+    const AxisRow& row = axes_[k].row;
+    shapes[k] = {.slope_in = row.of(here_.first),
+                 .slope_out = row.of(there.first),
+                 .bend_in = row.of(here_.second),
+                 .bend_out = row.of(there.second),
+                 .third_in = row.of(here_.third),
+                 .third_out = row.of(there.third)};
   }
   here_ = there;
   at_ = to;
@@ -118,7 +118,7 @@ double JerkCutter::joint_cap(const Segment& before, const Segment& after) const 
   const Point out = after.curve.second_derivative(Mm(0));
   double cap = entry_cap(after);
   for (const LimitedAxis& axis : axes_) {
-    const double jump = std::abs(out.values[axis.index] - in.values[axis.index]);
+    const double jump = std::abs(axis.row.of(out) - axis.row.of(in));
     if (jump > 0) cap = std::min(cap, unseen_jump * axis.acceleration / jump);
   }
   return cap;
@@ -128,8 +128,8 @@ double JerkCutter::entry_cap(const Segment& segment) const {
   const Derivatives all = derivatives(segment.curve, 0);
   double cap = segment.speed.value() * segment.speed.value();
   for (const LimitedAxis& axis : axes_) {
-    const double bend = std::abs(all.second.values[axis.index]);
-    const double third = std::abs(all.third.values[axis.index]);
+    const double bend = std::abs(axis.row.of(all.second));
+    const double third = std::abs(axis.row.of(all.third));
     if (bend > 0) cap = std::min(cap, axis.acceleration / bend);
     if (third > 0) cap = std::min(cap, std::pow(axis.jerk / third, 2.0 / 3));
   }

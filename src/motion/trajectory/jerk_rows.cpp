@@ -138,7 +138,7 @@ JerkLift::Binding JerkLift::binding_in(const Stretch& stretch, std::size_t cell)
     double bend = 0;
     double third = 0;
   };
-  std::array<Steepness, axis_count> all;
+  std::array<Steepness, most_limited_axes> all;
   double acceleration = infinity;
   const AxisShape* const shapes = &stretch.shapes[cell * axes_.size()];
   for (std::size_t k = 0; k < axes_.size(); ++k) {

@@ -1,5 +1,6 @@
 #include "limited_axis.hpp"
 
+#include <cassert>
 #include <limits>
 
 namespace passo {
@@ -15,16 +16,22 @@ double limit_or_infinity(double limit) {
 
 std::vector<LimitedAxis> axes_with_limits(const MotionLimits& limits) {
   std::vector<LimitedAxis> axes;
-  for (std::size_t i = 0; i < axis_count; ++i) {
-    const LimitedAxis axis{.index = i,
-                           .velocity = limit_or_infinity(limits.velocity.values[i].value()),
-                           .acceleration = limit_or_infinity(limits.acceleration.values[i].value()),
-                           .jerk = limit_or_infinity(limits.jerk.values[i].value()),
-                           .falling = limits.falling.values[i].empty() ? nullptr : &limits.falling.values[i]};
+  const auto add = [&](const AxisRow& row, MmPerSecond velocity, MmPerSecond2 acceleration, MmPerSecond3 jerk,
+                       const AccelerationCurve& falling) {
+    const LimitedAxis axis{.row = row,
+                           .velocity = limit_or_infinity(velocity.value()),
+                           .acceleration = limit_or_infinity(acceleration.value()),
+                           .jerk = limit_or_infinity(jerk.value()),
+                           .falling = falling.empty() ? nullptr : &falling};
     if (std::isfinite(axis.velocity) || std::isfinite(axis.acceleration) || std::isfinite(axis.jerk)) {
       axes.push_back(axis);
     }
+  };
+  for (const Axis axis : all_axes) {
+    add({axis, 1}, limits.velocity[axis], limits.acceleration[axis], limits.jerk[axis], limits.falling[axis]);
   }
+  assert(limits.rows.size() <= most_limited_rows);
+  for (const RowLimits& own : limits.rows) add(own.row, own.velocity, own.acceleration, own.jerk, own.falling);
   return axes;
 }
 

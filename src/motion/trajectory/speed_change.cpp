@@ -145,7 +145,7 @@ SpeedChange::Strength SpeedChange::strength_at(const Segment& segment, const Pat
   const Point slope = segment.curve.tangent(Mm(state.s));
   Strength strength{.acceleration = strongest, .jerk = sharpest};
   for (const LimitedAxis& axis : axes) {
-    const double part = std::abs(slope.values[axis.index]);
+    const double part = std::abs(axis.row.of(slope));
     if (!(part > 0)) continue;
     const double speed = part * state.speed;
     strength.acceleration = std::min(strength.acceleration, axis.acceleration_at(speed * speed) / part);
@@ -245,7 +245,7 @@ SpeedChange::Demand SpeedChange::excess(PathAhead& path, const Request& request)
     const Point jump = after.curve.second_derivative(Mm(0)) - segment.curve.second_derivative(segment.curve.length());
     const double speed = piece.phase.velocity_at(piece.phase.duration).value();
     for (const LimitedAxis& axis : request.axes) {
-      const double seen = std::abs(jump.values[axis.index]) * speed * speed;
+      const double seen = std::abs(axis.row.of(jump)) * speed * speed;
       worst.most.force = std::max(worst.most.force, seen / (most_unseen_jump * unseen_jump * axis.acceleration));
     }
   }
@@ -318,9 +318,9 @@ SpeedChange::Look SpeedChange::look_at(const Piece& piece, const Segment& segmen
   look.count = request.axes.size();
   for (std::size_t k = 0; k < look.count; ++k) {
     const LimitedAxis& axis = request.axes[k];
-    const double q1 = first.values[axis.index];
-    const double q2 = second.values[axis.index];
-    const double q3 = third.values[axis.index];
+    const double q1 = axis.row.of(first);
+    const double q2 = axis.row.of(second);
+    const double q3 = axis.row.of(third);
     const double seen = axis.falling != nullptr && !request.planned ? looked_at_of_falling : looked_at;
     const double share = is_line ? 1 + rounding : seen;
     look.axes[k] = {.speed = q1 * v / axis.velocity * (1 - rounding),

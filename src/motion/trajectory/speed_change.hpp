@@ -75,7 +75,7 @@ class SpeedChange {
     double jolt = 0;
   };
   struct Look {  // at one instant
-    std::array<Demand, axis_count> axes{};
+    std::array<Demand, most_limited_axes> axes{};
     std::size_t count = 0;
   };
   struct Excess {

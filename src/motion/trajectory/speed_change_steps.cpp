@@ -64,7 +64,7 @@ double jerk_on(PathAhead& path, Walk walk, double way, const std::vector<Limited
     if (segment == nullptr) break;
     const Point slope = segment->curve.tangent(std::clamp(Mm(place - walk.base), Mm(0), segment->curve.length()));
     for (const LimitedAxis& axis : axes) {
-      const double part = std::abs(slope.values[axis.index]);
+      const double part = std::abs(axis.row.of(slope));
       if (part > no_slope) least = std::min(least, axis.jerk / part);
     }
   }
@@ -87,14 +87,14 @@ struct SpeedChange::Rooms {
     double common = 0;
     double whole = 0;
     for (const LimitedAxis& axis : axes) {
-      common += third.values[axis.index] * first.values[axis.index];
-      whole += first.values[axis.index] * first.values[axis.index];
+      common += axis.row.of(third) * axis.row.of(first);
+      whole += axis.row.of(first) * axis.row.of(first);
     }
     const double along = common / whole;
     for (const LimitedAxis& axis : axes) {
-      const double q1 = first.values[axis.index];
-      const double q2 = second.values[axis.index];
-      const double q3 = third.values[axis.index];
+      const double q1 = axis.row.of(first);
+      const double q2 = axis.row.of(second);
+      const double q3 = axis.row.of(third);
       accelerations.narrow(q1, q2 * v * v, axis.acceleration_at(q1 * q1 * v * v), share.acceleration);
       // No jerk along the path balances what is across.
       accelerations.narrow(3 * q2 * v, (q3 - along * q1) * v * v * v, axis.jerk, share.jerk);

@@ -147,7 +147,7 @@ inline Interval exits(std::span<const AxisDemand> demands, double x, double most
 }
 
 // The line in use of each curve.
-using Lines = std::array<std::uint32_t, axis_count>;
+using Lines = std::array<std::uint32_t, most_limited_axes>;
 
 Lines lines_at(std::span<const FallingDemand> falling, double entry, double exit) {
   Lines lines{};
@@ -194,7 +194,7 @@ double largest_entry_with(std::span<const AxisDemand> demands, std::span<const F
                   [&](double p, double q, double limit) { at_most.keep(p, q, limit, exit_most); });
   if (!at_most.is_empty() && !at_most.shrinks()) return at_most.high;
 
-  SpeedRegion<corners_of_stripes + 4 * axis_count> region(entry_most, exit_most);
+  SpeedRegion<corners_of_stripes + 4 * most_limited_axes> region(entry_most, exit_most);
   cut_stripes(demands, region);
   for_each_demand(demands, falling, lines, [&](double p, double q, double limit) { region.cut(p, q, limit); });
   return region.largest_x();

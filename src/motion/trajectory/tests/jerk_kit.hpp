@@ -52,6 +52,18 @@ inline MotionLimits draw_jerk_limits(Random& random) {
   return limits;
 }
 
+// Motors that X and Y share: one turns by their sum, the other one by their difference. They can do less than the axes
+// could.
+inline void limit_shared_motors(Random& random, MotionLimits& limits) {
+  for (const double sign : {1.0, -1.0}) {
+    const double part = random.between(0.3, 1);
+    limits.rows.push_back({.row = {{Axis::x, 1}, {Axis::y, sign}},
+                           .velocity = limits.velocity[Axis::x] * part,
+                           .acceleration = limits.acceleration[Axis::y] * part,
+                           .jerk = limits.jerk[Axis::x] * part});
+  }
+}
+
 // Half of the axes have no limit of jerk, but at least one has.
 inline MotionLimits draw_mixed_limits(Random& random) {
   MotionLimits limits = draw_jerk_limits(random);
@@ -186,6 +198,20 @@ class JerkOracle {
         }
       }
       before_[axis] = motion_at(segment.curve, axis, phase, phase.duration.value());
+    }
+    for (const RowLimits& own : limits_.rows) {
+      for (int k = 0; k <= 40; ++k) {
+        AxisMotion here;
+        for (const auto& [axis, factor] : own.row.shares()) {
+          const AxisMotion part = motion_at(segment.curve, axis, phase, phase.duration.value() * k / 40.0);
+          here.velocity += factor * part.velocity;
+          here.acceleration += factor * part.acceleration;
+          here.jerk += factor * part.jerk;
+        }
+        ASSERT_LE(std::abs(here.velocity), own.velocity.value() * tolerated) << "of a row";
+        ASSERT_LE(std::abs(here.acceleration), own.acceleration.value() * tolerated) << "of a row";
+        ASSERT_LE(std::abs(here.jerk), own.jerk.value() * tolerated) << "of a row";
+      }
     }
     for (int k = 0; k <= 40; ++k) {
       const double speed = phase.velocity_at(phase.duration * (k / 40.0)).value();

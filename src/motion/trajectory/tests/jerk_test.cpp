@@ -43,6 +43,18 @@ TEST_P(JerkLimited, smoothed_programs_keep_every_axis_within_its_limits) {
   expect_within_limits(plan(smoothed(program, Smoothness::slow_bending), limits), limits);
 }
 
+TEST_P(JerkLimited, motors_that_axes_share_keep_within_their_limits) {
+  SCOPED_TRACE(seed());
+  for (int n = 0; n < GetParam(); ++n) random_.between(0, 1);
+  MotionLimits limits = draw_jerk_limits(random_);
+  limit_shared_motors(random_, limits);
+  const std::vector<PathItem> chain = smooth_chain(random_, 150);
+  expect_within_limits(plan(chain, limits), limits);
+  if (HasFatalFailure()) return;
+  const std::vector<PathItem> program = RandomProgram(random_).draw(200);
+  expect_within_limits(plan(smoothed(program, Smoothness::slow_bending), limits), limits);
+}
+
 INSTANTIATE_TEST_SUITE_P(Seeds, JerkLimited, testing::Range(0, fewer(5)));
 
 TEST(JerkLimitedPlanner, a_line_is_driven_from_rest_to_rest_in_s_curves) {

@@ -137,6 +137,16 @@ inline void expect_within_limits(const PlannedMove& move, const MotionLimits& li
         ASSERT_LE(std::abs(motion.acceleration[axis]), limits.acceleration[axis].value() * (1 + slack))
             << letter_of(axis) << " at s " << double(s) << " of " << move.segment.curve.length().value();
       }
+      for (const RowLimits& own : limits.rows) {
+        Real velocity = 0;
+        Real acceleration = 0;
+        for (const auto& [axis, factor] : own.row.shares()) {
+          velocity += factor * motion.velocity[axis];
+          acceleration += factor * motion.acceleration[axis];
+        }
+        ASSERT_LE(std::abs(velocity), own.velocity.value() * (1 + 1e-6L)) << "of a row";
+        ASSERT_LE(std::abs(acceleration), own.acceleration.value() * (1 + slack)) << "of a row at s " << double(s);
+      }
     }
   }
 }
@@ -172,7 +182,7 @@ inline void expect_continuous(const std::vector<MotionItem>& motion) {
 struct LoneCell {
   Cell cell;
   std::array<AxisDemand, most_demands_of_cell> demands;
-  std::array<FallingDemand, axis_count> falling;
+  std::array<FallingDemand, most_limited_axes> falling;
   CellPlace place() { return {cell, demands.data(), falling.data()}; }
 };
 

@@ -34,6 +34,29 @@ TEST_P(RandomPrograms, keep_every_axis_within_its_velocity_and_acceleration) {
   }
 }
 
+TEST_P(RandomPrograms, keep_motors_that_axes_share_within_their_limits) {
+  SCOPED_TRACE(seed());
+  for (const double sign : {1.0, -1.0}) {
+    limits_.rows.push_back({.row = {{Axis::x, 1}, {Axis::y, sign}},
+                            .velocity = limits_.velocity[Axis::x] * random_.between(0.3, 1),
+                            .acceleration = limits_.acceleration[Axis::y] * random_.between(0.3, 1)});
+  }
+  path_.resize(path_.size() / 3);
+  const std::vector<MotionItem> motion = plan(path_, limits_);
+  expect_continuous(motion);
+  for (const MotionItem& item : motion) {
+    const auto* move = std::get_if<PlannedMove>(&item);
+    if (move == nullptr) continue;
+    SCOPED_TRACE(passo::to_text(*move));
+    expect_within_limits(*move, limits_);
+    if (HasFatalFailure()) return;
+  }
+  // The limits of the motors are felt.
+  MotionLimits of_axes = limits_;
+  of_axes.rows.clear();
+  EXPECT_GT(total_time(motion), total_time(plan(path_, of_axes)));
+}
+
 TEST_P(RandomPrograms, move_without_jumps_and_rest_at_actions_and_at_the_end) {
   SCOPED_TRACE(seed());
   expect_continuous(motion_);
