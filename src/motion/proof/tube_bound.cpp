@@ -8,13 +8,13 @@ namespace {
 
 constexpr std::size_t window = 4096;  // stations
 
-double size_of(const AxisRow& row) {
+double size_of(const AxisNumbers& row) {
   double sum = 0;
   for (const double part : row) sum += part * part;
   return std::sqrt(sum);
 }
 
-double size_of_difference(const AxisRow& a, const AxisRow& b) {
+double size_of_difference(const AxisNumbers& a, const AxisNumbers& b) {
   double sum = 0;
   for (std::size_t i = 0; i < a.size(); ++i) sum += (a[i] - b[i]) * (a[i] - b[i]);
   return std::sqrt(sum);

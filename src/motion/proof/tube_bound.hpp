@@ -38,7 +38,7 @@ class TubeBound {
   static constexpr std::size_t most_kinds = most_directions + 1;
   static constexpr double unused = -1e18;
   using Times = std::array<double, most_kinds>;
-  using Pace = AxisRow;  // s/mm
+  using Pace = AxisNumbers;  // s/mm
 
   void rest();
   void settle(bool rests);

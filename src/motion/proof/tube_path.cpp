@@ -16,7 +16,7 @@ constexpr double shortest_leg = 6;
 constexpr double least_part = 1e-6;
 constexpr int halvings = 50;
 
-double distance_of(const AxisRow& a, const AxisRow& b) {
+double distance_of(const AxisNumbers& a, const AxisNumbers& b) {
   double sum = 0;
   for (std::size_t i = 0; i < a.size(); ++i) sum += (b[i] - a[i]) * (b[i] - a[i]);
   return std::sqrt(sum);

@@ -18,14 +18,14 @@
 namespace passo::proof {
 
 // One number for each proven axis.
-using AxisRow = std::array<double, max_motors>;
+using AxisNumbers = std::array<double, max_motors>;
 
 // A station and the leg that ends there. Of the first station the leg has no meaning.
 struct Station {
-  AxisRow place{};
-  double slack = 0;  // how far from it the motion may pass: the tolerance, and 0 where the path rests
-  AxisRow low{};     // the range of the leg's places
-  AxisRow high{};
+  AxisNumbers place{};
+  double slack = 0;   // how far from it the motion may pass: the tolerance, and 0 where the path rests
+  AxisNumbers low{};  // the range of the leg's places
+  AxisNumbers high{};
   double around = 0;  // how far the motion may be beside the leg
   double bulge = 0;   // how far the leg's places are from the straight line between its ends
   double feed = 0;    // the greatest feed on the leg; fastest if there is none
@@ -52,10 +52,10 @@ class TubePath {
 
  private:
   struct Piece {
-    AxisRow from{};
-    AxisRow to{};
-    AxisRow low{};
-    AxisRow high{};
+    AxisNumbers from{};
+    AxisNumbers to{};
+    AxisNumbers low{};
+    AxisNumbers high{};
     double bulge = 0;
     double way = 0;
   };
