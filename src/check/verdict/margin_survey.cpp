@@ -8,6 +8,8 @@
 
 #include "swing.hpp"
 
+#include "passo/stepgen/event_leader.hpp"
+
 namespace passo {
 namespace {
 
@@ -194,14 +196,13 @@ void MarginSurvey::watch_motor(const PlannedMove& move, std::size_t motor) {
   states_[motor].acceleration = from.acceleration;
 }
 
-// As the step generator does: the fastest motor leads, and its steps are divided until events come often enough.
+// By the rules of the step generator, at the two looks.
 void MarginSurvey::find_leader(const Look& from, const Look& to) {
-  constexpr double takeover = 1 + 1e-6;
   std::optional<Axis> axis;
   double most = 0;
   const auto steps_of = [&](Axis one) { return std::abs(to.place[one] - from.place[one]) * grid_.steps_per_unit[one]; };
   for (const Axis one : all_axes) {
-    if (steps_of(one) <= most * takeover) continue;
+    if (steps_of(one) <= most * event_leader::takeover) continue;
     most = steps_of(one);
     axis = one;
   }
@@ -210,17 +211,15 @@ void MarginSurvey::find_leader(const Look& from, const Look& to) {
     return;
   }
   const double slope = std::max(std::abs(from.slope[*axis]), std::abs(to.slope[*axis])) * grid_.steps_per_unit[*axis];
-  const double speed = slope * std::max(from.speed, to.speed);
-  const double rate = std::sqrt(speed * speed + 2 * slope * std::abs(from.acceleration));
+  const double rate =
+      std::sqrt(event_leader::rate_squared(slope, std::max(from.speed, to.speed), from.acceleration, 1));
   const double slow = grid_.slow_rate.value();
   const double events = rate * leader_.division;
-  constexpr double before_finer = 0.5;
-  constexpr double before_coarser = 4;
-  const bool fits = events > before_finer * slow && (events <= before_coarser * slow || leader_.division == 1);
+  const bool fits = events > event_leader::rate_before_finer * slow &&
+                    (events <= event_leader::rate_before_coarser * slow || leader_.division == 1);
   if (leader_.axis == axis && fits) return;
-  constexpr double finest = 256;
   leader_ = {.axis = axis};
-  while (rate * leader_.division < slow && leader_.division < finest) leader_.division *= 2;
+  while (rate * leader_.division < slow && leader_.division < event_leader::finest_division) leader_.division *= 2;
 }
 
 // The verdict is that of the trial. The formula says what the cause was.

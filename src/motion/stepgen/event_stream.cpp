@@ -4,18 +4,14 @@
 #include <cmath>
 #include <limits>
 
+#include "passo/stepgen/event_leader.hpp"
+
 namespace passo {
 namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
-// The rate of a stretch's events stays between these multiples of the slow rate. If the rate leaves the range, a new
-// stretch begins with a finer or coarser grid.
-constexpr double rate_before_finer = 0.5;
-constexpr double rate_before_coarser = 4;
-constexpr std::int64_t finest_grid = whole_step / 256;
+constexpr std::int64_t finest_grid = whole_step / event_leader::finest_division;
 constexpr double turn_an_event = 0.25;  // radians
-// Another motor must be faster by this factor before it becomes the master.
-constexpr double takeover = 1 + 1e-6;
 constexpr double smallest_distance = place_per_step / 256;
 
 }  // namespace
@@ -80,11 +76,8 @@ bool EventStream::start_next_part() {
   return true;
 }
 
-// The square of the rate that a motor of this slope would have one step from here if the path sped up all the way.
-// Close to a rest the present rate says little. This rate is useful there, and it is the same before and after a stop.
 double EventStream::rate_squared(double slope) const {
-  const double speed = slope * moment_.speed;
-  return speed * speed + 2 * std::fabs(moment_.acceleration) * slope * place_per_step;
+  return event_leader::rate_squared(slope, moment_.speed, moment_.acceleration, place_per_step);
 }
 
 // Whether the master still moves in its direction, and no motor is faster than the master.
@@ -92,7 +85,7 @@ bool EventStream::master_leads(const MotorPath::Spot& spot) const {
   const double slope = path_.slope(stretch_.master, spot) * stretch_.sign;
   if (slope <= 0) return false;
   for (unsigned m = 0; m < motor_count_; ++m) {
-    if (std::fabs(path_.slope(m, spot)) > slope * takeover) return false;
+    if (std::fabs(path_.slope(m, spot)) > slope * event_leader::takeover) return false;
   }
   return true;
 }
@@ -105,7 +98,7 @@ bool EventStream::still_leads(const MotorPath::Spot& spot) {
 }
 
 double EventStream::leads_until(const MotorPath::Spot& spot) const {
-  return path_.leads_until(stretch_.master, stretch_.sign, takeover, spot);
+  return path_.leads_until(stretch_.master, stretch_.sign, event_leader::takeover, spot);
 }
 
 // The range of event rates in which no other division would be better.
@@ -113,8 +106,8 @@ EventStream::FittingRates EventStream::fitting_rates(std::int64_t grid) const {
   const auto squared = [](double x) { return x * x; };
   const double slow = slow_rate_ * static_cast<double>(grid);
   // If steps are never divided for slowness, a grid fits only if it is no finer than the path needs.
-  const double before_coarser = slow == 0 ? -1 : squared(rate_before_coarser * slow);
-  return {.above = grid == finest_grid || slow == 0 ? -1 : squared(rate_before_finer * slow),
+  const double before_coarser = slow == 0 ? -1 : squared(event_leader::rate_before_coarser * slow);
+  return {.above = grid == finest_grid || slow == 0 ? -1 : squared(event_leader::rate_before_finer * slow),
           .most = grid == whole_step ? infinity : before_coarser};
 }
 
