@@ -6,6 +6,7 @@
 
 #include "kit/command_line.hpp"
 #include "kit/seed.hpp"
+#include "kit/served_http.hpp"
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <nlohmann/json.hpp>
@@ -142,6 +143,112 @@ TEST_F(Proposals, of_an_override_are_safe) {
   EXPECT_EQ(check(program, slower)["margin"]["verdict"], "safe");
   EXPECT_EQ(passo("run " + program + " -m " + slower + " --physics").code, 0);
   EXPECT_TRUE(of("binding").empty());
+}
+
+// Each tool that is missing is named, also beyond the twenty errors that a check lists, and with them the program
+// passes.
+TEST_F(Proposals, of_tools_pass) {
+  const std::string on = machine({-100, 100}, {-100, 100});
+  const std::string table = "T1 P1 Z10 D6\n";
+  std::string body = "G21 G90 G17\nT1 M6\nG0 X1\n";
+  for (int tool = 2; tool <= 31; ++tool) body += fmt::format("T{} M6\nG0 X{}\n", tool, tool);
+  body += "S100 M3 G1 F100 X0\nG41 D77 X5 Y20\nX6 Y30\nG40 X0 Y0\nM5\nM2\n";
+  const std::string program = write("p.ngc", body);
+  const nlohmann::json json = check(program + " --tools " + write("t.tbl", table), on);
+  EXPECT_FALSE(json["good"]);
+  ASSERT_EQ(json["proposals"].size(), 1U) << json;
+  EXPECT_EQ(json["proposals"][0]["kind"], "tools");
+  std::string lines = table;
+  for (const int tool : json["proposals"][0]["tools"]) lines += fmt::format("T{} P{}\n", tool, tool);
+  EXPECT_EQ(json["proposals"][0]["tools"].size(), 31U);
+  EXPECT_TRUE(check(program + " --tools " + write("more.tbl", lines), on)["good"]) << lines;
+}
+
+TEST_F(Proposals, of_tools_are_in_words) {
+  const std::string on = machine({-100, 100}, {-100, 100});
+  const Outcome outcome = passo("check " + write("p.ngc", "G21 G90\nT5 M6\nG0 X1\nM2\n") + " --tools " +
+                                write("t.tbl", "T1 P1\n") + " -m " + on);
+  EXPECT_EQ(outcome.code, 2);
+  EXPECT_THAT(outcome.out,
+              HasSubstr("proposal        with this tool in the tool table the program passes (checked, with a "
+                        "length and a diameter of 0: add those of the real tool as Z and D): T5 P5\n"));
+}
+
+// Another error stays, or the number of the tool is worked out.
+TEST_F(Proposals, of_tools_are_none_where_more_is_wrong) {
+  const std::string on = machine({-100, 100}, {-100, 100});
+  const std::string tools = " --tools " + write("t.tbl", "T1 P1\n");
+  for (const std::string body : {"G21 G90\nT5 M6\nG53 G0 X900\nM2\n", "G21 G90\n#1=5\nT#1 M6\nG0 X1\nM2\n"}) {
+    EXPECT_TRUE(check(write("p.ngc", body) + tools, on)["proposals"].empty()) << body;
+  }
+}
+
+// The highest whole speed at which every thread can be followed: one turn a minute more is too much.
+TEST_F(Proposals, of_a_spindle_speed_let_the_axes_follow) {
+  const std::string on = machine({-100, 100}, {-100, 100});
+  std::mt19937_64 random(passo::test::seed());
+  const auto between = [&](double low, double high) { return std::uniform_real_distribution(low, high)(random); };
+  for (int trial = 0; trial < 12; ++trial) {
+    SCOPED_TRACE(trial);
+    const double fast = between(1600, 5000);
+    const auto body = [pitch = between(2, 6), x = between(0, 40)](double rpm) {
+      return fmt::format("G21 G90\nS{:.2f} M3\nG0 Z10\nG33 X{:.3f} Z-10 K{:.4f}\nG0 Z10\nG33 Z-20 K1\nM5\nM2\n", rpm, x,
+                         pitch);
+    };
+    const nlohmann::json json = check(write("p.ngc", body(fast)), on);
+    EXPECT_FALSE(json["good"]);
+    ASSERT_EQ(json["proposals"].size(), 1U) << json;
+    EXPECT_EQ(json["proposals"][0]["kind"], "spindle-speed");
+    const double rpm = json["proposals"][0]["spindle_rpm"];
+    EXPECT_TRUE(check(write("q.ngc", body(rpm)), on)["good"]) << rpm;
+    EXPECT_FALSE(check(write("q.ngc", body(rpm + 1)), on)["good"]) << rpm;
+  }
+}
+
+// A spindle that is slower than S cuts thicker chips, unless the feeds are slower too.
+TEST_F(Proposals, of_a_slower_feed_where_the_spindle_is_slower) {
+  const std::string on = machine({-100, 100}, {-100, 100});
+  const std::string limited = write("limited.toml", passo::test::read(on) + "\n[tool]\nmax_rpm = 10000\n");
+  const std::string body = "G21 G90\nS{} M3\nG4 P1\nG1 X50 F600\nM5\nM2\n";
+  const nlohmann::json json = check(write("p.ngc", fmt::format(fmt::runtime(body), 13'000)), limited);
+  EXPECT_TRUE(json["good"]);
+  ASSERT_EQ(json["proposals"].size(), 1U) << json;
+  EXPECT_EQ(json["proposals"][0]["kind"], "spindle-speed");
+  EXPECT_EQ(json["proposals"][0]["spindle_rpm"], 10'000);
+  EXPECT_EQ(json["proposals"][0]["feed_percent"], 76);
+  EXPECT_TRUE(check(write("p.ngc", fmt::format(fmt::runtime(body), 10'000)), limited)["proposals"].empty());
+  const std::string by_turn = "G21 G90\nS13000 M3\nG4 P1\nG95 G1 X50 F0.1\nM5\nM2\n";
+  EXPECT_TRUE(check(write("p.ngc", by_turn), limited)["proposals"].empty()) << "such feeds are slower by themselves";
+}
+
+// What the daemon works out beside the machine has the same proposals.
+class ServedProposals : public passo::test::ServedHttp {
+ protected:
+  nlohmann::json proposals_for(const std::string& program) {
+    const auto id = json("POST", "/programs?name=p.ngc", program).value("id", 0);
+    json("POST", "/study", fmt::format(R"({{"study": "motors", "program": {}}})", id));
+    EXPECT_TRUE(until([&] { return json("GET", "/study")["state"] != "running"; }));
+    const nlohmann::json study = json("GET", "/study");
+    EXPECT_EQ(study["state"], "done") << study;
+    return study["report"]["proposals"];
+  }
+};
+
+TEST_F(ServedProposals, come_with_the_report_of_a_study) {
+  std::filesystem::create_directories(path("data"));
+  write("data/tool.tbl", "T1 P1 Z10 D6\n");
+  const std::string machine = write("m.toml",
+                                    "name = \"served\"\n[board]\nclock_hz = 16_000_000\n"
+                                    "max_event_rate_hz = 100_000\n" +
+                                        axis_text('X', {0, 100}) + axis_text('Z', {-50, 50}));
+  serve({"-m", machine, "--data", path("data")});
+  const nlohmann::json zero = proposals_for("G21 G90\nG0 X-12.4\nX50\nM2\n");
+  ASSERT_EQ(zero.size(), 1U) << zero;
+  EXPECT_EQ(zero[0]["zeros"]["G54"]["X"], 13);
+  const nlohmann::json tools = proposals_for("G21 G90\nT4 M6\nG0 X5\nM2\n");
+  ASSERT_EQ(tools.size(), 1U) << tools;
+  EXPECT_EQ(tools[0]["tools"], nlohmann::json({4}));
+  EXPECT_TRUE(proposals_for("G21 G90\nT1 M6\nG0 X5\nM2\n").empty());
 }
 
 }  // namespace

@@ -1,5 +1,5 @@
-// What the daemon works out beside the machine: the torque that each line of a program needs (as `passo check`), and
-// limits for the motors (as `passo tune`).
+// What the daemon works out beside the machine: the torque that each line of a program needs, and proposals for a program
+// that does not run (as `passo check`), and limits for the motors (as `passo tune`).
 import { computed, effect, signal } from '@preact/signals';
 import { attempt } from '../core/notices';
 import type { Program } from './api';
@@ -26,7 +26,16 @@ export interface Tuning {
   axes: { axis: string; velocity: number; acceleration: number; jerk: number; bound: string; ringing_hz: number; way: number; time_s: number }[];
   values: { key: string; before: number; after: number }[];
 }
+// With what a program would run that does not, or not well. `words` are English; the values are for words in other languages.
+export type Proposal = { words: string } & (
+  | { kind: 'work-zero'; zeros: Record<string, Record<string, number>> } // machine coordinates, by work system and axis
+  | { kind: 'axis-too-short'; axis: string; needed: number; travel: number }
+  | { kind: 'tools'; tools: number[] }
+  | { kind: 'spindle-speed'; spindle_rpm: number; feed_percent: number }
+  | { kind: 'override'; feed_percent: number; rapid_percent: number }
+);
 interface MotorsReport {
+  proposals: Proposal[];
   margin: { verdict: Verdict; worst_lines: LoadedLine[] } | null;
 }
 interface Study<Report> {
@@ -78,17 +87,26 @@ export function readLoads(csv: string): Uint16Array {
   return lines;
 }
 
-const keyOf = (program: Program): string => `${program.id} ${program.moves} ${program.seconds}`;
+// A program that is bad may be good after the next check: with another zero, or more tools.
+const keyOf = (program: Program): string =>
+  `${program.id} ${program.moves} ${program.seconds} ${program.state === 'bad' ? program.checks : ''}`;
+const proposed = signal<{ key: string; proposals: Proposal[] } | null>(null);
+export const proposalsFor = (program: Program): Proposal[] => (proposed.value?.key === keyOf(program) ? proposed.value.proposals : []);
 const moreLines = 2_000_000; // beyond, nobody waits for it
 
 async function askLoads(program: Program): Promise<void> {
   const key = keyOf(program);
-  motorLoads.value = { key, state: 'running', words: '', verdict: 'safe', worst: [], most: 0, lines: none };
+  const moves = program.state === 'good'; // a bad one has no load, but perhaps proposals
+  proposed.value = { key, proposals: [] };
+  motorLoads.value = moves ? { key, state: 'running', words: '', verdict: 'safe', worst: [], most: 0, lines: none } : null;
   const found = await study<MotorsReport>({ study: 'motors', program: program.id });
   if (found === null) {
     if (motorLoads.value?.key === key) motorLoads.value = null;
+    if (proposed.value?.key === key) proposed.value = null;
     return;
   }
+  proposed.value = { key, proposals: found.report?.proposals ?? [] };
+  if (!moves) return;
   const margin = found.report?.margin ?? null;
   const state = found.state === 'failed' ? 'failed' : margin === null ? 'unknown' : 'done';
   const lines = state === 'done' ? readLoads(await (await ask('GET', '/study/loads', undefined, 60_000)).text()) : none;
@@ -111,8 +129,8 @@ export const loadsOfShown = computed(() => {
 export function followStudies(): void {
   effect(() => {
     const program = shown.value;
-    if (wanting.value === 0 || !isLive.value || program?.state !== 'good' || program.lines > moreLines) return;
-    if (motorLoads.peek()?.key === keyOf(program)) return;
+    if (wanting.value === 0 || !isLive.value || program === null || program.lines > moreLines) return;
+    if ((program.state !== 'good' && program.state !== 'bad') || proposed.peek()?.key === keyOf(program)) return;
     void attempt(() => askLoads(program));
   });
 }

@@ -21,6 +21,7 @@ import { Button } from '../parts/button';
 import { DropZone } from '../parts/drop_zone';
 import { Icon, type IconName } from '../parts/icon';
 import { MotorLoad } from '../parts/motor_load';
+import { Proposals } from '../parts/proposals';
 import { picked } from '../scene/stage';
 import { isDrawing } from './make_forms';
 import { takeDrawings } from './make_order';
@@ -119,6 +120,7 @@ function ShownProgram() {
       </div>
       <MotorLoad program={program} />
       <Findings program={program} />
+      <Proposals program={program} />
     </section>
   );
 }

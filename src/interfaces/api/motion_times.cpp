@@ -5,11 +5,6 @@
 
 #include "passo/activity/nominal_time.hpp"
 #include "passo/activity/stage_options.hpp"
-#include "passo/diagnostics/diagnostic.hpp"
-#include "passo/drive/backlash_options.hpp"
-#include "passo/interpreter/machine_answers.hpp"
-#include "passo/path/backlash_taker.hpp"
-#include "passo/trajectory/planner.hpp"
 
 namespace passo {
 
@@ -40,22 +35,13 @@ std::optional<MotionTimes> time_motion(const MotionTiming& wanted, const Machine
                                        const std::function<bool()>& goes_on) {
   constexpr unsigned items_between_looks = 64;
   const MotionLimits limits = motion_limits(machine);
-  Diagnostics findings;  // after a good check only what is known already
-  Program activity(ProgramReader::from_text(wanted.name, wanted.text), machine, wanted.options, no_answers(), findings);
-  // A loop that only a probe ends goes on as far as the check has followed it.
-  std::uint64_t segments = 0;
-  activity.path().watch([&](const PathItem& item) { segments += std::holds_alternative<Segment>(item) ? 1 : 0; });
-  StepOptions steps = step_options(machine);
-  steps.start = wanted.options.start;
-  BacklashTaker path(activity, backlash_options(steps, false));
-  Planner planner(path, limits);
-  planner.set_feed_override(wanted.factors.feed);
-  planner.set_rapid_override(wanted.factors.rapids);
+  PlannedProgram program(ProgramReader::from_text(wanted.name, wanted.text), machine, wanted.options, wanted.check,
+                         wanted.factors);
   MotionTimes times;
   Seconds nominal{0};
   Seconds planned{0};
   MotionItem item;
-  for (unsigned items = 1; (!wanted.check.probes || segments < wanted.check.moves) && planner.next(item); ++items) {
+  for (unsigned items = 1; program.next(item); ++items) {
     if (items % items_between_looks == 0 && !goes_on()) return {};
     if (const auto* move = std::get_if<PlannedMove>(&item)) {
       nominal += nominal_time_of(*move, limits);

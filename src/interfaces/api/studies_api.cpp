@@ -5,6 +5,7 @@
 #include "api_json.hpp"
 
 #include "passo/interpreter/parameter_file.hpp"
+#include "passo/interpreter/tool_table_file.hpp"
 
 namespace passo {
 namespace {
@@ -90,6 +91,8 @@ WebAnswer StudiesApi::begin(const ApiCall& call) {
     order.program = program->text_to_keep();
     order.dialect = dialect_name(program->dialect);
     order.parameters = parameter_file_text(shared_.programs.parameters());
+    // Where nobody has given a table, no tool is missing.
+    if (!shared_.programs.tools().name.empty()) order.tools = tool_table_text(shared_.programs.tools());
   }
   if (!shared_.options.studies->begin(order)) return error_answer(409, "study.busy", "no study can begin now");
   study_ = study.get<std::string>();

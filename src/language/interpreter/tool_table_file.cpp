@@ -234,4 +234,10 @@ std::string tool_table_text(std::string_view text, LengthUnits units, const Tool
   return result;
 }
 
+std::string tool_table_text(const ToolTable& table) {
+  std::string lines;
+  for (const auto& [number, tool] : table.all()) lines += fmt::format("T{} P{}\n", number, tool.pocket);
+  return tool_table_text(lines, LengthUnits::mm, table);
+}
+
 }  // namespace passo

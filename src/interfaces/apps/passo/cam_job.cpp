@@ -4,6 +4,7 @@
 #include <filesystem>
 
 #include "named_files.hpp"
+#include "picture_names.hpp"
 
 namespace passo {
 
@@ -131,8 +132,8 @@ bool outputs_are_good(const CamMillArguments& arguments, const std::string& edge
   files.writes("--output", arguments.output);
   files.writes("--picture", arguments.picture);
   if (!files.are_apart()) return false;
-  if (!arguments.picture.empty() && !picture_format_of(arguments.picture)) {
-    fail(exit_bad_program, fmt::format("--picture: '{}' should end in .svg or .png", arguments.picture));
+  if (const std::string why = refuse_picture(arguments.picture); !why.empty()) {
+    fail(exit_bad_program, why);
     return false;
   }
   const bool has_no_room = arguments.json && (arguments.output.empty() || arguments.output == "-");

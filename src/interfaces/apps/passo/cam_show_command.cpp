@@ -3,6 +3,7 @@
 
 #include "cam_job.hpp"
 #include "named_files.hpp"
+#include "picture_names.hpp"
 #include "program_input.hpp"
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
@@ -91,9 +92,7 @@ int cam_show(const CamShowArguments& arguments) {
   files.writes("--picture", arguments.picture);
   if (!files.are_apart()) return exit_bad_program;
   const std::optional<PictureFormat> format = picture_format_of(arguments.picture);
-  if (!arguments.picture.empty() && !format) {
-    return fail(exit_bad_program, fmt::format("--picture: '{}' should end in .svg or .png", arguments.picture));
-  }
+  if (const std::string why = refuse_picture(arguments.picture); !why.empty()) return fail(exit_bad_program, why);
   Diagnostics findings;
   const BoardJob job = read_board_job(arguments.files, findings);
   for (const BoardFile& file : job.files) {

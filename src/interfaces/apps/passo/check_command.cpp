@@ -14,6 +14,7 @@
 #include "fit_proposals.hpp"
 #include "named_files.hpp"
 #include "operator_prompt.hpp"
+#include "picture_names.hpp"
 #include "program_input.hpp"
 #include "program_messages.hpp"
 #include "progress_display.hpp"
@@ -131,9 +132,7 @@ bool measures_motion(const CheckArguments& arguments) {
 
 // What is wrong with the options. Empty: nothing.
 std::string refusal_of(const CheckArguments& arguments) {
-  if (!arguments.picture.empty() && !picture_format_of(arguments.picture)) {
-    return arguments.picture + ": a picture's name ends in .svg or .png";
-  }
+  if (std::string why = refuse_picture(arguments.picture); !why.empty()) return why;
   const bool draws_margin = arguments.colour_by == "margin";
   if (!arguments.colour_by.empty() && (!draws_margin || arguments.picture.empty() || arguments.motion)) {
     return "--colour-by margin is for a --picture without --motion";
@@ -320,10 +319,8 @@ int check(const CheckArguments& arguments) {
   }
   const int written = write_files(arguments, *machine, first, page, path, track);
   if (written != exit_done) return written;
-  const Unfit unfit{*program, *machine, *options};
-  std::vector<Proposal> proposals;
-  if (!page) proposals = proposals_for_travel(unfit, first.findings);
-  if (page && !stock) proposals = proposals_for_motors(unfit, first.result, *page);
+  const std::vector<Proposal> proposals =
+      proposals_of({*program, *machine, *options}, first.result, first.findings, page && !stock ? &*page : nullptr);
   print(arguments, *machine, first, page, stock, proposals);
   if (page && page->lost()) {
     return fail(exit_failed, "the motors would lose steps: this part would be scrap [check.steps-lost]");

@@ -10,9 +10,7 @@
 #include "passo/activity/stage_options.hpp"
 #include "passo/base/counted.hpp"
 #include "passo/base/sensible_number.hpp"
-#include "passo/drive/backlash_options.hpp"
 #include "passo/report/summary_builder.hpp"
-#include "passo/trajectory/planner.hpp"
 #include "passo/verdict/margin_words.hpp"
 
 namespace passo {
@@ -241,9 +239,8 @@ std::string LineLoads::text() const {
 
 CheckPage judge(ProgramReader program, const MachineDescription& machine, const InterpreterOptions& options,
                 const ProgramCheck& check, const CheckWatchers& watchers, const std::function<void(double)>& progress,
-                const JudgedOverrides& overrides) {
-  Diagnostics findings;  // after a good check only what is known already
-  Program activity(std::move(program), machine, options, no_answers(), findings, check.nominal_time);
+                const MotionFactors& factors) {
+  PlannedProgram planned(std::move(program), machine, options, check, factors);
   std::vector<Axis> axes;
   AxisSet axis_set;
   for (const AxisDescription& axis : machine.axes) {
@@ -254,22 +251,11 @@ CheckPage judge(ProgramReader program, const MachineDescription& machine, const 
   MarginSurvey survey(surveyed_motors(machine), step_grid(machine));
   SpeedSurvey speeds(motion_limits(machine), axis_set);
   CheckPage page;
-  std::uint64_t segments = 0;
-  activity.operations().watch([&](const Operation& operation) { builder.watch_operation(operation); });
-  activity.path().watch([&](const PathItem& item) {
-    builder.watch_path(item);
-    if (std::holds_alternative<Segment>(item)) ++segments;
-  });
-  StepOptions steps = step_options(machine);
-  steps.start = options.start;
-  BacklashTaker path_with_rests(activity, backlash_options(steps, false));
-  Planner planner(path_with_rests, motion_limits(machine));
-  planner.set_feed_override(overrides.feeds);
-  planner.set_rapid_override(overrides.rapids);
+  planned.operations().watch([&](const Operation& operation) { builder.watch_operation(operation); });
+  planned.path().watch([&](const PathItem& item) { builder.watch_path(item); });
   constexpr unsigned items_between_looks = 1024;
   MotionItem item;
-  // A loop that only a probe ends goes on as far as the check has followed it.
-  for (unsigned items = 1; (!check.probes || segments < check.moves) && planner.next(item); ++items) {
+  for (unsigned items = 1; planned.next(item); ++items) {
     const auto* move = std::get_if<PlannedMove>(&item);
     double load = 0;
     if (move != nullptr && watchers.loads != nullptr) survey.set_cut(watchers.loads->of(*move));
@@ -287,7 +273,7 @@ CheckPage judge(ProgramReader program, const MachineDescription& machine, const 
       watchers.path->watch(item, move != nullptr ? move->segment.work_zero : Point());
     }
     if (move == nullptr && std::get<Action>(item).kind == Action::Kind::tool_change) ++page.tool_changes;
-    if (items % items_between_looks == 0) progress(activity.nominal_time() / check.nominal_time);
+    if (items % items_between_looks == 0) progress(planned.nominal_time() / check.nominal_time);
   }
   page.summary = builder.summary();
   page.speed = speeds.report();

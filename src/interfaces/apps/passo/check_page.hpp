@@ -15,6 +15,7 @@
 #include "passo/gcode/program_reader.hpp"
 #include "passo/report/path_recorder.hpp"
 #include "passo/report/summary.hpp"
+#include "passo/session/planned_program.hpp"
 #include "passo/verdict/load_track.hpp"
 #include "passo/verdict/margin_survey.hpp"
 #include "passo/verdict/speed_survey.hpp"
@@ -52,17 +53,11 @@ struct CheckWatchers {
   LineLoads* lines = nullptr;
 };
 
-// The speeds at which the motion is judged, as an operator sets them: 1 is 100 %.
-struct JudgedOverrides {
-  double feeds = 1;
-  double rapids = 1;
-};
-
-// Plans a program that was checked, judges its motion, and plays it over a line. `progress` is told now and then which
-// share is done.
+// Plans a program that was checked, at these overrides, judges its motion, and plays it over a line. `progress` is told
+// now and then which share is done.
 CheckPage judge(ProgramReader program, const MachineDescription& machine, const InterpreterOptions& options,
                 const ProgramCheck& check, const CheckWatchers& watchers, const std::function<void(double)>& progress,
-                const JudgedOverrides& overrides = {});
+                const MotionFactors& factors = {});
 
 // A line of the program that loses less than this against its feed is not told as slow.
 inline constexpr Seconds notable_loss{0.005};

@@ -8,6 +8,7 @@
 #include "commands.hpp"
 #include "curve_arguments.hpp"
 #include "named_files.hpp"
+#include "picture_names.hpp"
 #include "program_input.hpp"
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -276,10 +277,8 @@ int chords(const ChordsArguments& arguments) {
     fine = *method;
   }
   if (!arguments.picture.empty()) {
+    if (const std::string why = refuse_picture(arguments.picture); !why.empty()) return fail(exit_bad_program, why);
     const std::optional<PictureFormat> format = picture_format_of(arguments.picture);
-    if (!format) {
-      return fail(exit_bad_program, fmt::format("--picture: '{}' should end in .svg or .png", arguments.picture));
-    }
     const int code = fine ? draw_pulses_of(*curve, *choice, *scale, *fine, arguments, *format)
                           : draw(*curve, *choice, arguments, *format);
     // A picture is an answer by itself. The numbers are written too only if a file for them is named.

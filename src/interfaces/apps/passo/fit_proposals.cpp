@@ -2,12 +2,17 @@
 
 #include <algorithm>
 #include <array>
+#include <charconv>
 #include <cmath>
+#include <iterator>
 #include <limits>
 #include <optional>
+#include <string_view>
 
 #include <fmt/format.h>
 
+#include "passo/activity/stage_options.hpp"
+#include "passo/interpreter/operation.hpp"
 #include "passo/interpreter/saved_offsets.hpp"
 #include "passo/path/path_builder.hpp"
 
@@ -15,6 +20,7 @@ namespace passo {
 namespace {
 
 constexpr double slack = 1e-6;  // as of the check of the travel
+constexpr std::string_view unknown_tool = "gcode.unknown-tool";
 
 int zero_parameter(int system, Axis axis) {
   return work_offset_parameter(system) + static_cast<int>(index_of(axis));
@@ -33,10 +39,13 @@ void set_zero(InterpreterOptions& options, int system, Axis axis, double zero) {
   options.parameters[zero_parameter(system, axis)] = zero / unit_of_parameter(options, axis);
 }
 
+bool has(const Diagnostics& findings, Severity severity, std::string_view code) {
+  return std::ranges::any_of(findings.all(),
+                             [&](const Diagnostic& one) { return one.severity == severity && one.code == code; });
+}
+
 bool leaves_travel(const Diagnostics& findings) {
-  return std::ranges::any_of(findings.all(), [](const Diagnostic& one) {
-    return one.severity == Severity::error && one.code == travel_exceeded;
-  });
+  return has(findings, Severity::error, travel_exceeded);
 }
 
 struct Span {
@@ -140,8 +149,7 @@ Proposal too_short(const AxisDescription& axis, const Span& span) {
           .values = {{"axis", letter}, {"needed", needed}, {"travel", there}}};
 }
 
-}  // namespace
-
+// For a program that leaves the travel. Nothing where another work zero does not help, as for G53.
 std::vector<Proposal> proposals_for_travel(const Unfit& unfit, const Diagnostics& findings) {
   if (!leaves_travel(findings)) return {};
   const ZeroFollower follower(unfit);
@@ -178,6 +186,7 @@ std::vector<Proposal> proposals_for_travel(const Unfit& unfit, const Diagnostics
            .values = {{"zeros", zeros}}}};
 }
 
+// For a program without errors whose motors lose steps: see `page`. Up to five times the time of a check.
 std::vector<Proposal> proposals_for_motors(const Unfit& unfit, const ProgramCheck& check, const CheckPage& page) {
   bool feeds = false;
   bool rapids = false;
@@ -189,7 +198,7 @@ std::vector<Proposal> proposals_for_motors(const Unfit& unfit, const ProgramChec
     const double factor = percent / 100.0;
     const CheckPage slower =
         judge(unfit.program.again(), unfit.machine, unfit.options, check, {}, [](double /*share*/) {},
-              {.feeds = feeds ? factor : 1, .rapids = rapids ? factor : 1});
+              {.feed = feeds ? factor : 1, .rapids = rapids ? factor : 1});
     return slower.margin.verdict == Verdict::safe;
   };
   // Slower is nearly always safer, so halving finds the fastest; what it finds was tried in any case.
@@ -205,6 +214,144 @@ std::vector<Proposal> proposals_for_motors(const Unfit& unfit, const ProgramChec
   return {{.kind = "override",
            .words = fmt::format("with {} at {} % the motors keep their steps (checked)", what, best),
            .values = {{"feed_percent", feeds ? best : 100}, {"rapid_percent", rapids ? best : 100}}}};
+}
+
+std::vector<std::int32_t> unknown_tools(const Diagnostics& findings) {
+  std::vector<std::int32_t> tools;
+  for (const Diagnostic& one : findings.all()) {
+    if (one.severity != Severity::error || one.code != unknown_tool) continue;
+    // The word itself, as T3 or D5. What comes of an expression is not proposed.
+    const std::size_t at = one.place.column;
+    if (at >= one.text.size()) continue;
+    const char* const first = one.text.data() + at;
+    const char* const end = one.text.data() + std::min(one.text.size(), at + one.place.length - 1);
+    std::int32_t number = 0;
+    if (const auto read = std::from_chars(first, end, number); read.ec != std::errc() || read.ptr != end) continue;
+    if (std::ranges::find(tools, number) == tools.end()) tools.push_back(number);
+  }
+  return tools;
+}
+
+// The highest spindle speed with which no axis of a thread is too fast. Infinite: no move follows the spindle.
+class ThreadSpeed {
+ public:
+  explicit ThreadSpeed(const MachineDescription& machine) : limits_(motion_limits(machine)) {}
+
+  void watch(const PathItem& item) {
+    const auto* const segment = std::get_if<Segment>(&item);
+    if (segment == nullptr || segment->lock == SpindleLock::none || !(segment->pitch > Mm(0))) return;
+    const double fastest_feed = speed_within(segment->curve.steepest(), fastest, limits_);
+    constexpr double seconds_per_minute = 60;
+    highest_ = std::min(highest_, fastest_feed / segment->pitch.value() * seconds_per_minute);
+  }
+  double revolutions_per_minute() const { return highest_; }
+
+ private:
+  MotionLimits limits_;
+  double highest_ = std::numeric_limits<double>::infinity();
+};
+
+// What a program asks of the spindle.
+struct AskedOfSpindle {
+  double most = 0;                 // rpm
+  bool feeds_by_the_turn = false;  // G95: such feeds are slower by themselves where the spindle is slower
+};
+
+AskedOfSpindle asked_of_spindle(const Unfit& unfit) {
+  AskedOfSpindle asked;
+  Diagnostics unheard;
+  static_cast<void>(
+      check_program(unfit.program.again(), unfit.machine, unfit.options, unheard, {}, [&](const Operation& operation) {
+        if (const auto* speed = std::get_if<operation::SetSpindleSpeed>(&operation.what)) {
+          asked.most = std::max(asked.most, speed->revolutions_per_minute);
+        } else if (const auto* mode = std::get_if<operation::SetFeedMode>(&operation.what)) {
+          asked.feeds_by_the_turn = asked.feeds_by_the_turn || mode->mode == FeedMode::units_per_revolution;
+        }
+      }));
+  return asked;
+}
+
+// For a program that calls for tools which are not in the table. Nothing where more than the tools is wrong.
+std::vector<Proposal> proposals_for_tools(const Unfit& unfit, const Diagnostics& findings) {
+  constexpr int most_rounds = 10;  // a check names so many errors only
+  InterpreterOptions options = unfit.options;
+  std::vector<std::int32_t> added;
+  Diagnostics then;
+  std::vector<std::int32_t> missing = unknown_tools(findings);
+  for (int round = 0; round < most_rounds && !missing.empty(); ++round) {
+    for (const std::int32_t number : missing) {
+      if (options.tools.add({.number = number, .pocket = number})) added.push_back(number);
+    }
+    then.clear();
+    static_cast<void>(check_program(unfit.program.again(), unfit.machine, options, then));
+    missing = unknown_tools(then);
+  }
+  if (added.empty() || then.any_error()) return {};
+  std::string lines;
+  for (const std::int32_t number : added) lines += fmt::format("{}T{} P{}", lines.empty() ? "" : ", ", number, number);
+  return {
+      {.kind = "tools",
+       .words = fmt::format("with {} in the tool table the program passes (checked, with a length and a diameter of "
+                            "0: add those of the real tool as Z and D): {}",
+                            added.size() == 1 ? "this tool" : "these tools", lines),
+       .values = {{"tools", added}}}};
+}
+
+// For a program that an axis cannot follow the spindle in. Nothing where more than that is wrong.
+std::vector<Proposal> proposals_for_threads(const Unfit& unfit, const Diagnostics& findings) {
+  if (!has(findings, Severity::error, "path.thread-too-fast")) return {};
+  ThreadSpeed speed(unfit.machine);
+  Diagnostics unheard;
+  static_cast<void>(check_program(unfit.program.again(), unfit.machine, unfit.options, unheard,
+                                  [&](const PathItem& item) { speed.watch(item); }));
+  const double rpm = std::floor(speed.revolutions_per_minute() * (1 + slack));
+  if (!(rpm >= 1) || !std::isfinite(rpm)) return {};
+  // A spindle that turns no faster does what a smaller S would do.
+  MachineDescription slower = unfit.machine;
+  slower.tool.highest_rpm = rpm;
+  Diagnostics then;
+  static_cast<void>(check_program(unfit.program.again(), slower, unfit.options, then));
+  if (then.any_error()) return {};
+  return {{.kind = "spindle-speed",
+           .words = fmt::format("with S{:g} at most the axes can follow the spindle (checked)", rpm),
+           .values = {{"spindle_rpm", rpm}, {"feed_percent", 100}}}};
+}
+
+// For a program without errors that asks for a faster spindle than there is.
+std::vector<Proposal> proposals_for_spindle(const Unfit& unfit, const ProgramCheck& check,
+                                            const Diagnostics& findings) {
+  if (!has(findings, Severity::warning, "path.spindle-too-fast") || check.probes) return {};
+  const AskedOfSpindle asked = asked_of_spindle(unfit);
+  const double limit = unfit.machine.tool.highest_rpm;
+  if (!(limit > 0 && asked.most > limit) || asked.feeds_by_the_turn) return {};
+  constexpr int least_override = 10;
+  const int percent = static_cast<int>(std::floor(100 * limit / asked.most * (1 + slack)));
+  if (percent < least_override) return {};
+  const CheckPage slower = judge(unfit.program.again(), unfit.machine, unfit.options, check, {},
+                                 [](double /*share*/) {}, {.feed = percent / 100.0});
+  if (slower.lost()) return {};
+  return {{.kind = "spindle-speed",
+           .words = fmt::format("with S{:g} at most and the feeds at {} % no tooth cuts more than the program asks for "
+                                "(checked): {} in motion",
+                                limit, percent, clock_words(slower.summary.cutting_time + slower.summary.rapid_time)),
+           .values = {{"spindle_rpm", limit}, {"feed_percent", percent}}}};
+}
+
+}  // namespace
+
+std::vector<Proposal> proposals_of(const Unfit& unfit, const ProgramCheck& check, const Diagnostics& findings,
+                                   const CheckPage* page) {
+  std::vector<Proposal> all;
+  const auto add = [&all](std::vector<Proposal> more) { std::ranges::move(more, std::back_inserter(all)); };
+  if (!check.good) {
+    add(proposals_for_travel(unfit, findings));
+    add(proposals_for_tools(unfit, findings));
+    add(proposals_for_threads(unfit, findings));
+  } else if (page != nullptr) {
+    add(proposals_for_spindle(unfit, check, findings));
+    add(proposals_for_motors(unfit, check, *page));
+  }
+  return all;
 }
 
 std::string to_text(const std::vector<Proposal>& proposals) {

@@ -2,8 +2,11 @@
 //
 // Each proposal is verified before it is told: the program was checked once more, by the same code, with that change.
 //
-//   beyond the travel   another work zero, as the G10 L2 that sets it; or which axis is too short, and by how much
-//   steps are lost      slower feeds or rapids, as an override
+//   beyond the travel     another work zero, as the G10 L2 that sets it; or which axis is too short, and by how much
+//   tools are missing     the lines for the tool table
+//   a thread is too fast  a slower spindle
+//   S above the limit     the spindle's highest speed, with feeds that leave each tooth its chip
+//   steps are lost        slower feeds or rapids, as an override
 #pragma once
 
 #include <string>
@@ -17,7 +20,7 @@
 namespace passo {
 
 struct Proposal {
-  std::string kind;  // "work-zero", "axis-too-short", "override"
+  std::string kind;  // "work-zero", "axis-too-short", "tools", "spindle-speed", "override"
   std::string words;
   nlohmann::ordered_json values;  // more keys for programs
 };
@@ -28,10 +31,10 @@ struct Unfit {
   const InterpreterOptions& options;
 };
 
-// For a program that leaves the travel. Nothing where another work zero does not help, as for G53.
-std::vector<Proposal> proposals_for_travel(const Unfit& unfit, const Diagnostics& findings);
-// For a program without errors whose motors lose steps: see `page`. Up to five times the time of a check.
-std::vector<Proposal> proposals_for_motors(const Unfit& unfit, const ProgramCheck& check, const CheckPage& page);
+// `page`: what the check of a good program has judged. Null: the motors are not asked. Up to six times the time of a
+// check.
+std::vector<Proposal> proposals_of(const Unfit& unfit, const ProgramCheck& check, const Diagnostics& findings,
+                                   const CheckPage* page);
 
 // A line for each, with a line end.
 std::string to_text(const std::vector<Proposal>& proposals);

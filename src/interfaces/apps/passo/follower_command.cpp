@@ -9,6 +9,7 @@
 
 #include "board_opening.hpp"
 #include "commands.hpp"
+#include "picture_names.hpp"
 #include "program_input.hpp"
 #include "run_outputs.hpp"
 #include <fmt/format.h>
@@ -276,9 +277,7 @@ int follower_sim(const FollowerArguments& arguments) {
   for (const std::string& path : arguments.traces) {
     if (!is_trace_name(path)) return fail(exit_bad_program, path + ": a trace's name ends in .vcd or .csv");
   }
-  if (!arguments.picture.empty() && !picture_format_of(arguments.picture)) {
-    return fail(exit_bad_program, arguments.picture + ": a picture's name ends in .svg or .png");
-  }
+  if (const std::string why = refuse_picture(arguments.picture); !why.empty()) return fail(exit_bad_program, why);
   const Lines lines = lines_of(arguments);
   if (!lines) return fail(exit_bad_program, lines.error());
   const std::filesystem::path image =

@@ -6,6 +6,7 @@
 
 #include "commands.hpp"
 #include "named_files.hpp"
+#include "picture_names.hpp"
 #include "program_input.hpp"
 #include "progress_display.hpp"
 #include "pulse_table.hpp"
@@ -125,7 +126,7 @@ void print_table(const std::vector<StudiedMethod>& studied, const StepMove& move
 
 int draw(const std::vector<StudiedMethod>& studied, const StepMove& move, const std::string& path) {
   const std::optional<PictureFormat> format = picture_format_of(path);
-  if (!format) return fail(exit_bad_program, fmt::format("--picture: '{}' should end in .svg or .png", path));
+  if (const std::string why = refuse_picture(path); !why.empty()) return fail(exit_bad_program, why);
   for (const StudiedMethod& one : studied) {
     if (one.measures.pulses <= most_pictured_pulses) continue;
     return fail(exit_bad_program, fmt::format("--picture: {} pulses are too many to be seen; {} are the most",

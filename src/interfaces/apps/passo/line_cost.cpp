@@ -7,12 +7,10 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
-#include "passo/activity/stage_options.hpp"
 #include "passo/base/counted.hpp"
-#include "passo/drive/backlash_options.hpp"
 #include "passo/link/await.hpp"
 #include "passo/report/line_words.hpp"
-#include "passo/trajectory/planner.hpp"
+#include "passo/session/planned_program.hpp"
 
 namespace passo {
 namespace {
@@ -27,15 +25,10 @@ std::string so_often(int count) {
 
 Seconds planned_time(ProgramReader program, const MachineDescription& machine, const InterpreterOptions& options,
                      const ProgramCheck& check) {
-  Diagnostics unheard;
-  Program activity(std::move(program), machine, options, no_answers(), unheard, check.nominal_time);
-  StepOptions steps = step_options(machine);
-  steps.start = options.start;
-  BacklashTaker path_with_rests(activity, backlash_options(steps, false));
-  Planner planner(path_with_rests, motion_limits(machine));
+  PlannedProgram planned(std::move(program), machine, options, check);
   Seconds time{0};
   MotionItem item;
-  while (planner.next(item)) {
+  while (planned.next(item)) {
     const auto* move = std::get_if<PlannedMove>(&item);
     time += move != nullptr ? move->duration() : std::get<Action>(item).dwell;
   }

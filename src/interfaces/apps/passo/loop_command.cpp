@@ -7,6 +7,7 @@
 
 #include "commands.hpp"
 #include "named_files.hpp"
+#include "picture_names.hpp"
 #include "program_input.hpp"
 #include "run_outputs.hpp"
 #include <fmt/format.h>
@@ -225,9 +226,7 @@ Status<OutputError> write_file(const std::string& path, const LoopStudy& study) 
 }  // namespace
 
 int loop(const LoopArguments& arguments) {
-  if (!arguments.picture.empty() && !picture_format_of(arguments.picture)) {
-    return fail(exit_bad_program, arguments.picture + ": a picture's name ends in .svg or .png");
-  }
+  if (const std::string why = refuse_picture(arguments.picture); !why.empty()) return fail(exit_bad_program, why);
   if (!outputs_are_apart({arguments.picture}, arguments.output)) return exit_bad_program;
   const auto study = studied(arguments);
   if (!study) return fail(exit_bad_program, study.error());

@@ -8,6 +8,7 @@
 #include "commands.hpp"
 #include "motor_trial.hpp"
 #include "named_files.hpp"
+#include "picture_names.hpp"
 #include "program_input.hpp"
 #include "run_outputs.hpp"
 #include <fmt/format.h>
@@ -218,7 +219,7 @@ Result<MotorSetup, MotorError> setup_of(const MotorArguments& arguments, const M
 int motor(const MotorArguments& arguments) {
   if (!outputs_are_apart(arguments.pictures, "")) return exit_bad_program;
   for (const std::string& path : arguments.pictures) {
-    if (!is_picture_name(path)) return fail(exit_bad_program, path + ": a picture's name ends in .svg or .png");
+    if (const std::string why = refuse_picture(path); !why.empty()) return fail(exit_bad_program, why);
   }
   const Result<MotorScene, MotorError> scene = scene_of(arguments);
   if (!scene) return fail(exit_bad_program, scene.error().message);

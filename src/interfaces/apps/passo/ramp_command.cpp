@@ -7,6 +7,7 @@
 
 #include "commands.hpp"
 #include "named_files.hpp"
+#include "picture_names.hpp"
 #include "program_input.hpp"
 #include "ramp_limit.hpp"
 #include "ramp_scene.hpp"
@@ -176,9 +177,7 @@ int ramp(const RampArguments& arguments) {
   }
   const RampRequest request = ramp_request_of(arguments);
   if (!arguments.picture.empty()) {
-    if (!picture_format_of(arguments.picture)) {
-      return fail(exit_bad_program, arguments.picture + ": a picture's name ends in .svg or .png");
-    }
+    if (const std::string why = refuse_picture(arguments.picture); !why.empty()) return fail(exit_bad_program, why);
     const int code = draw(request, arguments.picture);
     if (code != exit_done || arguments.output.empty()) return code;
   }

@@ -5,6 +5,7 @@
 #include <cstdio>
 #include <iterator>
 
+#include "picture_names.hpp"
 #include "program_input.hpp"
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
@@ -97,8 +98,7 @@ std::string limit_table(const RampArguments& arguments) {
 }
 
 int draw_limits(const RampArguments& arguments) {
-  const std::optional<PictureFormat> format = picture_format_of(arguments.picture);
-  if (!format) return fail(exit_bad_program, arguments.picture + ": a picture's name ends in .svg or .png");
+  if (const std::string why = refuse_picture(arguments.picture); !why.empty()) return fail(exit_bad_program, why);
   RampLimitScene scene{.table_sizes = sizes_of(arguments), .rate = {}, .accelerations = {}};
   if (arguments.max_rate) scene.rate = Hertz(*arguments.max_rate);
   for (const double usual : usual_accelerations) {
@@ -113,7 +113,7 @@ int draw_limits(const RampArguments& arguments) {
   auto file = OutputFile::open(arguments.picture);
   if (!file) return fail(exit_failed, file.error().message);
   const PictureOptions options{
-      .format = *format,
+      .format = *picture_format_of(arguments.picture),
       .program = "What a ramp table can do",
       .machine =
           "a table of N entries ends at f = \u221A(a N pg / \u03C0):  a_lim = \u03C0 f\u00B2 / "

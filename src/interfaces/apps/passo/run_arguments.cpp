@@ -1,5 +1,6 @@
 #include "run_arguments.hpp"
 
+#include "picture_names.hpp"
 #include "program_input.hpp"
 #include "run_outputs.hpp"
 
@@ -11,8 +12,9 @@ bool keeps_journal(const RunArguments& arguments) {
 
 bool names_are_good(const RunArguments& arguments) {
   for (const std::string& path : arguments.pictures) {
-    if (is_picture_name(path)) continue;
-    fail(exit_bad_program, path + ": a picture's name ends in .svg or .png");
+    const std::string why = refuse_picture(path);
+    if (why.empty()) continue;
+    fail(exit_bad_program, why);
     return false;
   }
   for (const std::string& path : arguments.traces) {

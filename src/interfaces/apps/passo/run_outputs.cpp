@@ -110,9 +110,6 @@ RunOutputs::RunOutputs(RunOutputs&&) noexcept = default;
 RunOutputs& RunOutputs::operator=(RunOutputs&&) noexcept = default;
 RunOutputs::~RunOutputs() = default;
 
-bool is_picture_name(const std::string& path) {
-  return picture_format_of(path).has_value();
-}
 bool is_trace_name(const std::string& path) {
   return ends_with(path, ".vcd") || ends_with(path, ".csv");
 }

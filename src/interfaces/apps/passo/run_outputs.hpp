@@ -19,8 +19,7 @@
 
 namespace passo {
 
-// Whether the end of a name is that of a picture, or of a trace.
-bool is_picture_name(const std::string& path);
+// Whether the end of a name is that of a trace.
 bool is_trace_name(const std::string& path);
 
 class RunOutputs {

@@ -10,6 +10,7 @@ namespace {
 constexpr const char* studied_machine = "machine.toml";
 constexpr const char* studied_program = "program.ngc";
 constexpr const char* studied_offsets = "work.var";
+constexpr const char* studied_tools = "tool.tbl";
 constexpr const char* found_loads = "loads.csv";
 constexpr const char* found_curves = "curves.svg";
 
@@ -30,6 +31,10 @@ bool ServedStudies::begin(const StudyOrder& order) {
     if (!written) return false;
     words = {"passo",   "check",     "--machine",    studied_machine, "--dialect", order.dialect,
              "--loads", found_loads, "--parameters", studied_offsets, "--json",    studied_program};
+    if (!order.tools.empty()) {
+      if (!write_content(folder_.path(studied_tools), order.tools)) return false;
+      words.insert(words.end(), {"--tools", studied_tools});
+    }
   }
   if (!process_.begin(folder_.name(), words)) return false;
   result_.state = StudyResult::State::running;
@@ -41,8 +46,8 @@ const StudyResult& ServedStudies::look() {
   if (!end) return result_;
   result_.words = content_of(folder_.path(LowProcess::said_file)).substr(0, LowProcess::longest_words);
   result_.report = content_of(folder_.path(LowProcess::printed_file));
-  // 1: it has found what is wrong, and tells it.
-  const bool good = WIFEXITED(*end) && WEXITSTATUS(*end) <= 1 && result_.report.starts_with("{");
+  // 1 and 2: it has found what is wrong, and tells it.
+  const bool good = WIFEXITED(*end) && WEXITSTATUS(*end) <= 2 && result_.report.starts_with("{");
   result_.state = good ? StudyResult::State::done : StudyResult::State::failed;
   if (!good && result_.words.empty()) result_.words = words_of_end(*end);
   return result_;

@@ -9,6 +9,7 @@
 #include <thread>
 
 #include "named_files.hpp"
+#include "picture_names.hpp"
 #include "program_input.hpp"
 #include "progress_display.hpp"
 #include "simulate_options.hpp"
@@ -52,7 +53,7 @@ std::string refusal_of(const SimulateArguments& arguments) {
     return "--compare: " + arguments.compare + " is an image; expected a body (.stl), a height map (.csv) or a program";
   }
   for (const std::string& picture : arguments.pictures) {
-    if (!picture_format_of(picture)) return picture + ": a picture's name ends in .svg or .png";
+    if (std::string why = refuse_picture(picture); !why.empty()) return why;
   }
   return "";
 }

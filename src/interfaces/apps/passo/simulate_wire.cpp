@@ -8,6 +8,7 @@
 #include <thread>
 
 #include "named_files.hpp"
+#include "picture_names.hpp"
 #include "program_input.hpp"
 #include "simulate_options.hpp"
 #include "simulated_path.hpp"
@@ -364,7 +365,7 @@ int simulate_foam(const SimulateArguments& arguments, const WireJobOfProgram& jo
 
 int simulate_wire(const SimulateArguments& arguments) {
   for (const std::string& picture : arguments.pictures) {
-    if (!picture_format_of(picture)) return fail(exit_bad_program, picture + ": a picture's name ends in .svg or .png");
+    if (const std::string why = refuse_picture(picture); !why.empty()) return fail(exit_bad_program, why);
   }
   LengthArguments lengths(1);
   const std::vector<WireKerf> kerfs = kerfs_of("--wire", arguments.wire, std::nullopt, lengths);

@@ -6,6 +6,7 @@
 
 #include "commands.hpp"
 #include "named_files.hpp"
+#include "picture_names.hpp"
 #include "program_input.hpp"
 #include "run_outputs.hpp"
 #include "tuning_run.hpp"
@@ -192,9 +193,7 @@ int write_copy(const TuneArguments& arguments, const std::string& text, const st
 }  // namespace
 
 int tune(const TuneArguments& arguments) {
-  if (!arguments.picture.empty() && !picture_format_of(arguments.picture)) {
-    return fail(exit_bad_program, arguments.picture + ": a picture's name ends in .svg or .png");
-  }
+  if (const std::string why = refuse_picture(arguments.picture); !why.empty()) return fail(exit_bad_program, why);
   NamedFiles files;
   files.reads("the machine file", arguments.machine);
   files.writes("--output", arguments.output);

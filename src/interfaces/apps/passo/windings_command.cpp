@@ -6,6 +6,7 @@
 #include <memory>
 
 #include "commands.hpp"
+#include "picture_names.hpp"
 #include "program_input.hpp"
 #include "run_outputs.hpp"
 #include "study_moves.hpp"
@@ -114,9 +115,7 @@ int windings(const WindingsArguments& arguments) {
   for (const std::string& path : arguments.traces) {
     if (!is_trace_name(path)) return fail(exit_bad_program, path + ": a trace's name ends in .vcd or .csv");
   }
-  if (!arguments.picture.empty() && !picture_format_of(arguments.picture)) {
-    return fail(exit_bad_program, arguments.picture + ": a picture's name ends in .svg or .png");
-  }
+  if (const std::string why = refuse_picture(arguments.picture); !why.empty()) return fail(exit_bad_program, why);
   const int full_steps = arguments.full_steps;
   RampArguments ramp = arguments.ramp;
   // A ramp counts the driver's steps, of which there may be several to a full step.

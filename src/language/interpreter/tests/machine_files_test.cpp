@@ -113,6 +113,11 @@ TEST(ToolTableFile, is_written_with_what_changed_and_all_else_as_it_was) {
             "; tools\r\n\nT1  P4 Z+2.25\tD3 X-0.5 ; mill Z9\nt2 P2 D6 Q3\n\nT3 P3 X0;no end");
 }
 
+TEST(ToolTableFile, is_written_without_a_file_before) {
+  const std::string text = "T1 P4 Z1.5 D3\nT7 P7\n";
+  EXPECT_EQ(tool_table_text(tools_of(text)), text);
+}
+
 TEST(ToolTableFile, is_written_in_the_units_of_the_machine) {
   const std::string text = "T1 P1 Z1 A1\n";
   ToolTable table = tools_of(text, LengthUnits::inch);

@@ -14,6 +14,7 @@
 #include "passo/activity/program.hpp"
 #include "passo/interpreter/interpreter.hpp"
 #include "passo/machine_file/machine_description.hpp"
+#include "passo/session/planned_program.hpp"
 #include "passo/units/units.hpp"
 
 namespace passo {
@@ -37,13 +38,6 @@ class MotionTimes {
   std::vector<Point> points_{Point()};
   Point last_;
   Seconds apart_{0};  // the least planned time between two points
-};
-
-// The overrides that change how fast a program moves.
-struct MotionFactors {
-  double feed = 1;
-  double rapids = 1;
-  friend bool operator==(const MotionFactors&, const MotionFactors&) = default;
 };
 
 // A program that was checked, and is to be timed.

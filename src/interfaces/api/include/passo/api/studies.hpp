@@ -22,6 +22,7 @@ struct StudyOrder {
   std::string program;     // its text
   std::string dialect;     // "linuxcnc" or "grbl"
   std::string parameters;  // the text of a parameter file: offsets
+  std::string tools;       // the text of a tool table; empty: none
   double margin = 0.3;     // of `tune`: the share of the torque that is never asked for
 };
 
