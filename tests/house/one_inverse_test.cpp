@@ -17,7 +17,7 @@ const std::map<std::string, std::string> readers = {
     {"src/machine/activity/stage_options.cpp", "makes the rows of it"},
     {"src/machine/activity/machine_plant.cpp", "the driver's steps to a step of the motor, and the counts of an encoder"},
     {"src/check/tuning/axis_tuner.cpp", "what the board can do for a motor"},
-    {"src/interfaces/api/status_json.cpp", "says what the machine file says"},
+    {"src/interfaces/api/api_json.cpp", "says what the machine file says"},
     {"src/interfaces/grbl/grbl_settings.cpp", "says what the machine file says"},
     {"src/interfaces/grbl/kept_settings.cpp", "writes the machine file"},
     {"src/check/verdict/margin_survey.cpp", "a field of its own"},
