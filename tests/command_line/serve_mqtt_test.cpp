@@ -79,8 +79,9 @@ class ServeMqtt : public passo::test::CommandLine {
   }
   // The first text with these words. Empty: none came.
   std::string text_with(const std::string& topic, const std::string& wanted) const {
-    for (int i = 0; i < 200; ++i) {
+    for (int i = 0; i < 500; ++i) {
       if (std::string text = kept(topic); text.find(wanted) != std::string::npos) return text;
+      usleep(20'000);  // the status is published once a second
     }
     return {};
   }

@@ -15,7 +15,8 @@ namespace fs = std::filesystem;
 // file, and need not be true of a machine.
 const std::map<std::string, std::string> readers = {
     {"src/machine/activity/stage_options.cpp", "makes the rows of it"},
-    {"src/machine/activity/machine_plant.cpp", "the driver's steps to a step of the motor, and the counts of an encoder"},
+    {"src/machine/activity/machine_plant.cpp",
+     "the driver's steps to a step of the motor, and the counts of an encoder"},
     {"src/check/tuning/axis_tuner.cpp", "what the board can do for a motor"},
     {"src/interfaces/api/api_json.cpp", "says what the machine file says"},
     {"src/interfaces/grbl/grbl_settings.cpp", "says what the machine file says"},

@@ -37,12 +37,8 @@ struct FreeTypeEnd {
 
 class Letterer {
  public:
-  Letterer(const Lettering& lettering,
-           const std::string& name, Diagnostics& diagnostics)
-      : lettering_(lettering),
-        name_(name),
-        diagnostics_(diagnostics),
-        builder_(name, diagnostics) {
+  Letterer(const Lettering& lettering, const std::string& name, Diagnostics& diagnostics)
+      : lettering_(lettering), name_(name), diagnostics_(diagnostics), builder_(name, diagnostics) {
     builder_.layer("");
   }
 
@@ -104,8 +100,8 @@ bool Letterer::open(std::string_view font) {
     return refuse("engrave.no-font", "the letters of this font are pictures, no outlines",
                   "a TrueType or OpenType font");
   }
-  const HarfBuzzThing<hb_blob_t> blob(hb_blob_create(font.data(), static_cast<unsigned>(font.size()),
-                                                               HB_MEMORY_MODE_READONLY, nullptr, nullptr));
+  const HarfBuzzThing<hb_blob_t> blob(
+      hb_blob_create(font.data(), static_cast<unsigned>(font.size()), HB_MEMORY_MODE_READONLY, nullptr, nullptr));
   const HarfBuzzThing<hb_face_t> shapes(hb_face_create(blob.get(), 0));
   shaper_.reset(hb_font_create(shapes.get()));
   hb_font_set_scale(shaper_.get(), face->units_per_EM, face->units_per_EM);
@@ -127,8 +123,7 @@ double Letterer::capital_height() const {
 
 void Letterer::write(std::string_view words, double base_line) {
   const HarfBuzzThing<hb_buffer_t> buffer(hb_buffer_create());
-  hb_buffer_add_utf8(buffer.get(), words.data(), static_cast<int>(words.size()), 0,
-                               static_cast<int>(words.size()));
+  hb_buffer_add_utf8(buffer.get(), words.data(), static_cast<int>(words.size()), 0, static_cast<int>(words.size()));
   hb_buffer_guess_segment_properties(buffer.get());
   hb_shape(shaper_.get(), buffer.get(), nullptr, 0);
   unsigned count = 0;

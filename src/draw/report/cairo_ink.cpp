@@ -4,9 +4,8 @@
 #include <string_view>
 #include <utility>
 
-#include <cairo.h>
-
 #include "characters.hpp"
+#include <cairo.h>
 
 namespace passo {
 namespace {
@@ -61,10 +60,7 @@ std::string drawable(std::string_view text) {
 class CairoInk final : public Ink {
  public:
   CairoInk(const PictureOptions& options, OutputFile& file)
-      : file_(file),
-        surface_(paper_of(options)),
-        owned_(cairo_create(surface_.get())),
-        context_(owned_.get()) {
+      : file_(file), surface_(paper_of(options)), owned_(cairo_create(surface_.get())), context_(owned_.get()) {
     cairo_set_line_cap(context_, CAIRO_LINE_CAP_ROUND);
     cairo_set_line_join(context_, CAIRO_LINE_JOIN_ROUND);
     // With this, letters keep their shape and distance at any scale.
@@ -130,7 +126,7 @@ class CairoInk final : public Ink {
   }
   double text_width(const std::string& text, const Font& font) override {
     cairo_select_font_face(context_, "sans-serif", CAIRO_FONT_SLANT_NORMAL,
-                                  font.bold ? CAIRO_FONT_WEIGHT_BOLD : CAIRO_FONT_WEIGHT_NORMAL);
+                           font.bold ? CAIRO_FONT_WEIGHT_BOLD : CAIRO_FONT_WEIGHT_NORMAL);
     cairo_set_font_size(context_, font.size);
     cairo_text_extents_t extents;
     cairo_text_extents(context_, drawable(text).c_str(), &extents);

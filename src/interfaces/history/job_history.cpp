@@ -33,9 +33,7 @@ constexpr std::int64_t number_of(HistoryState state) {
 // One statement. Values are bound in order, and columns read in order.
 class Statement {
  public:
-  Statement(sqlite3* database, const char* sql) {
-    sqlite3_prepare_v2(database, sql, -1, &statement_, nullptr);
-  }
+  Statement(sqlite3* database, const char* sql) { sqlite3_prepare_v2(database, sql, -1, &statement_, nullptr); }
   Statement(const Statement&) = delete;
   Statement& operator=(const Statement&) = delete;
   ~Statement() { sqlite3_finalize(statement_); }
@@ -92,9 +90,7 @@ Result<std::unique_ptr<JobHistory>, std::string> JobHistory::open(const std::str
   const int opened = sqlite3_open_v2(file.c_str(), &database, flags, nullptr);
   std::unique_ptr<JobHistory> history(new JobHistory(database));
   const auto failed = [&](const std::string& reason) { return Failure{file + ": " + reason}; };
-  const auto reason = [&] {
-    return std::string(database != nullptr ? sqlite3_errmsg(database) : "no memory");
-  };
+  const auto reason = [&] { return std::string(database != nullptr ? sqlite3_errmsg(database) : "no memory"); };
   if (opened != SQLITE_OK) return failed(reason());
   sqlite3_db_config(database, SQLITE_DBCONFIG_DEFENSIVE, 1, nullptr);
   // Another program that writes would be at the same machine. The lock lasts until the end.
@@ -323,8 +319,7 @@ bool JobHistory::keep() {
     unwritten_alarms_.erase(unwritten_alarms_.begin());
   }
   if (is_kept_) return !is_behind();
-  is_kept_ =
-      sqlite3_wal_checkpoint_v2(database_, nullptr, SQLITE_CHECKPOINT_TRUNCATE, nullptr, nullptr) == SQLITE_OK;
+  is_kept_ = sqlite3_wal_checkpoint_v2(database_, nullptr, SQLITE_CHECKPOINT_TRUNCATE, nullptr, nullptr) == SQLITE_OK;
   return is_kept_ && !is_behind();
 }
 

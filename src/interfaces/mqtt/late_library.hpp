@@ -6,7 +6,8 @@
 //     PASSO_FUNCTION(some_open);
 //   };
 //
-// Their types are those of the library's header, so a wrong one does not compile. A library stays open. Private to mqtt/.
+// Their types are those of the library's header, so a wrong one does not compile. A library stays open. Private to
+// mqtt/.
 #pragma once
 
 #include <dlfcn.h>

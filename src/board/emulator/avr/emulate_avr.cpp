@@ -1,6 +1,6 @@
 // passo-emulate-avr MCU FIRMWARE.elf PINS [encoder=N,S,D,R,F,BIT]: an emulated ATmega in lock-step with the program
-// that started it. The protocol is that of src/board/emulator/pico/emulated_pico.js; cycles are the chip's, of 16 MHz. A
-// watched pin counts when it falls, too: windings do, and drivers whose pulses are low. The request's words about the
+// that started it. The protocol is that of src/board/emulator/pico/emulated_pico.js; cycles are the chip's, of 16 MHz.
+// A watched pin counts when it falls, too: windings do, and drivers whose pulses are low. The request's words about the
 // encoder are not needed.
 //
 // This program is linked with libsimavr, which is under the GPL, version 3. So whoever gives it away does so under

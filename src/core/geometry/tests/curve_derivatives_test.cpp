@@ -19,7 +19,9 @@ void expect_same_derivatives(const Curve& curve) {
     const CurveDerivatives at = derivatives_at(curve, s);
     EXPECT_EQ(at.first.values, curve.tangent(s).values) << share;
     EXPECT_EQ(at.second.values, curve.second_derivative(s).values) << share;
-    EXPECT_EQ(at.third.values, curve.third_derivative(s).values) << share;
+    // Curve takes the angle of the third by another order of the same operations.
+    const Point third = curve.third_derivative(s);
+    for (std::size_t i = 0; i < axis_count; ++i) EXPECT_NEAR(at.third.values[i], third.values[i], 1e-15) << share;
   }
 }
 

@@ -74,7 +74,8 @@ TEST(RunSummary, reads_as_a_person_wants_it) {
 }
 
 TEST(RunSummary, is_in_inches_if_the_program_is) {
-  test::expect_golden("src/draw/report/tests/golden/small_summary_inches.txt", to_text(small_job(LengthUnits::inch), false));
+  test::expect_golden("src/draw/report/tests/golden/small_summary_inches.txt",
+                      to_text(small_job(LengthUnits::inch), false));
 }
 
 TEST(RunSummary, names_the_work_systems_as_programs_do) {

@@ -103,7 +103,8 @@ TEST(Fuzz, damaged_programs_are_interpreted_or_refused) {
   Random random(test::seed());
   SCOPED_TRACE("PASSO_SEED=" + std::to_string(test::seed()));
   const char letters[] = "GMXYZIJKRPO0123456789.-[]#<>()/% \n=+*";
-  for (const auto& entry : fs::directory_iterator(fs::path(PASSO_SOURCE_DIR) / "src/language/interpreter/tests/golden")) {
+  for (const auto& entry :
+       fs::directory_iterator(fs::path(PASSO_SOURCE_DIR) / "src/language/interpreter/tests/golden")) {
     if (entry.path().extension() != ".ngc") continue;
     const std::string whole = contents(entry.path().string());
     for (int i = 0; i < 200; ++i) {

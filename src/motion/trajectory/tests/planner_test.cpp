@@ -11,7 +11,8 @@ TEST(Planner, a_single_move_is_a_trapezoid_and_a_short_one_a_triangle) {
   path.emplace_back(Action{.kind = Action::Kind::dwell, .dwell = Seconds(0.5)});
   path.emplace_back(line(xyz(10, 0), xyz(10.5, 0), 20));
   path.emplace_back(Action{.kind = Action::Kind::program_end});
-  expect_golden("src/motion/trajectory/tests/golden/trapezoid_and_triangle.txt", to_text(plan(path, equal_limits(100, 500))));
+  expect_golden("src/motion/trajectory/tests/golden/trapezoid_and_triangle.txt",
+                to_text(plan(path, equal_limits(100, 500))));
 }
 
 TEST(Planner, a_square_slows_at_its_corners) {

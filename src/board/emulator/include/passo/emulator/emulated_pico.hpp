@@ -1,5 +1,6 @@
-// EmulatedPico: a Raspberry Pi Pico, emulated by a program of its own (src/board/emulator/pico, rp2040js on node). A pin is a
-// GPIO. Cycles are the chip's, of 128 MHz. Needs node, and `npm ci` in src/board/emulator/pico (scripts/install.sh).
+// EmulatedPico: a Raspberry Pi Pico, emulated by a program of its own (src/board/emulator/pico, rp2040js on node). A
+// pin is a GPIO. Cycles are the chip's, of 128 MHz. Needs node, and `npm ci` in src/board/emulator/pico
+// (scripts/install.sh).
 #pragma once
 
 #include <memory>

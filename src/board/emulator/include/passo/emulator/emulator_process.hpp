@@ -1,9 +1,9 @@
 // EmulatorProcess: a chip with its firmware, emulated by a program of its own. The two run in lock-step: the emulator
 // does nothing but what run() asks for, so the same calls give the same figures everywhere.
 //
-// Every emulator speaks the same protocol, which src/board/emulator/pico/emulated_pico.js describes: requests and answers on
-// its standard input and output. So an emulator may have a licence that Passo's own program may not be bound by.
-// The protocol knows 32 pins. Which of the chip's pins these are is agreed on when the emulator is started.
+// Every emulator speaks the same protocol, which src/board/emulator/pico/emulated_pico.js describes: requests and
+// answers on its standard input and output. So an emulator may have a licence that Passo's own program may not be bound
+// by. The protocol knows 32 pins. Which of the chip's pins these are is agreed on when the emulator is started.
 #pragma once
 
 #include <cstdint>
