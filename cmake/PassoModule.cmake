@@ -4,8 +4,7 @@
 # include/passo/NAME/. What it may use is read from docs/layers.txt, the only place where that is written.
 # TESTS become one test program NAME_tests. They are compiled several at a time (a unity build); those whose own names
 # clash with the others' are TESTS_APART. With PASSO_TOGETHER the same is done with SOURCES, except APART. EACH_ALONE:
-# all are compiled apart, because names clash, or because results that are compared to the last bit must not depend on
-# what the compiler sees at once: it folds exp(), pow() of constants to other last bits than the library.
+# the names of too many clash.
 # The presets dev and clang compile each file alone, so each includes what it uses.
 #
 # PASSO_LAYER_LINES: its rows. PASSO_FOLDER_<module>: where a module is.

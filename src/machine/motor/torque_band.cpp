@@ -64,7 +64,7 @@ void TorqueBand::try_steady(RadiansPerSecond fastest) {
 }
 
 TorqueRange TorqueBand::of_curve(RadiansPerSecond speed) const {
-  const auto [low, high] = std::minmax(weak_.pull_out(speed).value, strong_.pull_out(speed).value);
+  const auto [low, high] = std::minmax({weak_.pull_out(speed).value, strong_.pull_out(speed).value});
   return {{factor_low_ * low}, {factor_high_ * high}};
 }
 
