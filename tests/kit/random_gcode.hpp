@@ -13,6 +13,7 @@
 #include <string>
 
 #include "kit/in_full.hpp"
+#include "kit/seed.hpp"
 #include "kit/stage_test.hpp"
 #include <fmt/format.h>
 #include <gtest/gtest.h>
@@ -303,11 +304,6 @@ struct RandomJob {
   MachineDescription machine;
   std::string program;
 };
-
-inline std::uint64_t number_of(const char* name, std::uint64_t otherwise) {
-  const char* const text = std::getenv(name);
-  return text != nullptr ? std::strtoull(text, nullptr, 10) : otherwise;
-}
 
 // Calls `try_one` for PASSO_RUNS numbers from PASSO_SEED on, each time with the number's job and generator. Ends at the
 // first failure. Without PASSO_RUNS there are `runs_otherwise` numbers, or fewer as PASSO_ONE_IN says. Each job depends

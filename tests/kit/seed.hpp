@@ -8,17 +8,16 @@
 
 namespace passo::test {
 
-inline std::uint64_t seed() {
-  const char* const given = std::getenv("PASSO_SEED");
-  const std::uint64_t value = given != nullptr ? std::strtoull(given, nullptr, 10) : 20261121;
-  std::printf("PASSO_SEED=%llu\n", static_cast<unsigned long long>(value));
-  return value;
+// A number that is set from outside, as PASSO_RUNS, or else another one.
+inline std::uint64_t number_of(const char* name, std::uint64_t otherwise) {
+  const char* const text = std::getenv(name);
+  return text != nullptr ? std::strtoull(text, nullptr, 10) : otherwise;
 }
 
-// How many trials a random test makes: PASSO_RUNS, or as many as a developer waits for.
-inline int trials(int usual) {
-  const char* const given = std::getenv("PASSO_RUNS");
-  return given != nullptr ? std::atoi(given) : usual;
+inline std::uint64_t seed() {
+  const std::uint64_t value = number_of("PASSO_SEED", 20261121);
+  std::printf("PASSO_SEED=%llu\n", static_cast<unsigned long long>(value));
+  return value;
 }
 
 }  // namespace passo::test

@@ -252,9 +252,9 @@ void die_at_random(std::uint64_t seed) {
 }
 
 TEST(JobRestartAtRandom, ends_as_if_nothing_had_been) {
-  for (int i = 0; i < test::trials(12) && !testing::Test::HasFailure(); ++i) {
+  for (std::uint64_t i = 0; i < test::number_of("PASSO_RUNS", 12) && !testing::Test::HasFailure(); ++i) {
     SCOPED_TRACE(fmt::format("PASSO_SEED={}, trial {}", seed(), i));
-    die_at_random(seed() + static_cast<std::uint64_t>(i));
+    die_at_random(seed() + i);
   }
 }
 

@@ -208,9 +208,9 @@ void cut_at_random(std::uint64_t seed) {
 }
 
 TEST(ReenteredAtRandom, makes_the_same_part) {
-  for (int i = 0; i < test::trials(3) && !testing::Test::HasFailure(); ++i) {
+  for (std::uint64_t i = 0; i < test::number_of("PASSO_RUNS", 3) && !testing::Test::HasFailure(); ++i) {
     SCOPED_TRACE(fmt::format("PASSO_SEED={}, trial {}", seed(), i));
-    cut_at_random(seed() + static_cast<std::uint64_t>(i));
+    cut_at_random(seed() + i);
   }
 }
 

@@ -136,7 +136,7 @@ FoundRoute find_route(std::string_view method, std::string_view path) {
   path.remove_prefix(api_root.size());
   for (const ApiRoute& one : routes) {
     if (!matches(one.path, path, found.id)) continue;
-    if (one.method == method) found.route = &one;
+    if (one.method == method) return {.route = &one, .id = found.id};
     found.allowed += found.allowed.empty() ? "" : ", ";
     found.allowed += one.method;
   }
