@@ -136,7 +136,7 @@ function(passo_test name)
   target_include_directories(${name} PRIVATE "${PROJECT_SOURCE_DIR}/tests")  # "kit/…", what tests share
   target_compile_definitions(${name} PRIVATE
     PASSO_SOURCE_DIR="${PROJECT_SOURCE_DIR}" PASSO_ONE_IN=${ARG_ONE_IN}
-    $<$<BOOL:${PASSO_SANITIZE}>:PASSO_SANITIZED> ${ARG_DEFINITIONS})
+    $<$<BOOL:${PASSO_SANITIZE}>:PASSO_SANITIZED> $<$<TARGET_EXISTS:motion_uno>:PASSO_MAKES_FIRMWARE> ${ARG_DEFINITIONS})
   if(NOT TARGET passo_test_headers)
     passo_test_headers()
   endif()

@@ -46,9 +46,7 @@ TEST_F(HomeCommand, finds_the_place_and_says_where_it_rests) {
 
 TEST_F(HomeCommand, homes_an_emulated_board) {
   const Outcome outcome = passo("home --board sim:uno --json" + near_machine());
-  if (outcome.err.find("is not there") != std::string::npos) {
-    GTEST_SKIP() << outcome.err;
-  }
+  if (lacks_an_emulator(outcome)) GTEST_SKIP() << outcome.err;
   EXPECT_EQ(outcome.code, 0) << outcome.err;
   const nlohmann::json all = nlohmann::json::parse(outcome.out, nullptr, false);
   EXPECT_EQ(all["homed"], true);
@@ -145,7 +143,7 @@ TEST_F(HomeCommand, goes_before_a_run) {
   EXPECT_EQ(all["position_mm"]["X"], 2);
   EXPECT_NEAR(all["position_mm"]["Z"], 4.6, 1.0 / 640);
   const Outcome emulated = passo(command + " --board sim:uno");
-  if (emulated.err.find("is not there") == std::string::npos) {
+  if (!lacks_an_emulator(emulated)) {
     EXPECT_EQ(emulated.code, 0) << emulated.err;
     EXPECT_EQ(nlohmann::json::parse(emulated.out, nullptr, false)["steps"], all["steps"]);
   }

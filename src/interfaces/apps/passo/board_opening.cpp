@@ -16,7 +16,7 @@ namespace {
 
 fs::path built_file(const fs::path& name) {
   std::error_code none;
-  return fs::read_symlink("/proc/self/exe", none).parent_path() / "src" / "chip" / name;
+  return fs::read_symlink("/proc/self/exe", none).parent_path() / PASSO_IMAGES_FOLDER / name;
 }
 
 }  // namespace
