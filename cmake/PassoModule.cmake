@@ -26,8 +26,11 @@ option(PASSO_TOGETHER "Compile several sources of a module at a time" ${together
 add_library(passo_together INTERFACE)
 target_compile_options(passo_together INTERFACE -Wno-shadow $<$<CXX_COMPILER_ID:GNU>:-Wno-subobject-linkage>)
 
-# What waits for people, files and lines, and tests: a third less time to compile, and they run hardly longer.
+# What waits for people, files and lines: a third less time to compile, and it runs hardly longer.
 set(PASSO_LESS_OPTIMISED $<$<CONFIG:Release>:-O1>)
+# Tests: those that calculate have their oracles optimised a little; all others are not optimised at all.
+set(PASSO_TEST_OPTIMISATION_ON $<$<CONFIG:Release>:-O1>)
+set(PASSO_TEST_OPTIMISATION_OFF $<$<CONFIG:Release>:-O0>)
 
 function(passo_layers module out)
   foreach(line IN LISTS PASSO_LAYER_LINES)
@@ -68,7 +71,11 @@ function(passo_module module)
   endif()
 
   if(ARG_TESTS AND PASSO_BUILD_TESTS AND (NOT PASSO_SANITIZE OR module IN_LIST PASSO_SANITIZED_MODULES))
-    passo_test(${module}_tests SOURCES ${ARG_TESTS} APART ${ARG_TESTS_APART} LIBRARIES passo_${module})
+    set(calculates "")
+    if(PASSO_FOLDER_${module} MATCHES "/src/(core|board|study|motion|machine)/")
+      set(calculates CALCULATES)
+    endif()
+    passo_test(${module}_tests ${calculates} SOURCES ${ARG_TESTS} APART ${ARG_TESTS_APART} LIBRARIES passo_${module})
   endif()
 endfunction()
 
@@ -102,24 +109,32 @@ function(passo_headers_once name)
 endfunction()
 
 
-# GoogleTest's headers, compiled once for all test programs.
+# GoogleTest's headers, compiled once for all test programs that calculate, and once for all others, with what most of
+# these include too.
 function(passo_test_headers)
+  find_package(fmt REQUIRED)
+  find_package(nlohmann_json REQUIRED)
   file(CONFIGURE OUTPUT "${PROJECT_BINARY_DIR}/test_headers.cpp" CONTENT "")
-  add_library(passo_test_headers OBJECT "${PROJECT_BINARY_DIR}/test_headers.cpp")
-  target_link_libraries(passo_test_headers PRIVATE GTest::gmock GTest::gtest passo_compiler)
-  target_compile_options(passo_test_headers PRIVATE ${PASSO_LESS_OPTIMISED})
-  target_precompile_headers(passo_test_headers PRIVATE <gmock/gmock.h> <gtest/gtest.h>)
+  foreach(calculates IN ITEMS ON OFF)
+    set(name passo_test_headers_${calculates})
+    add_library(${name} OBJECT "${PROJECT_BINARY_DIR}/test_headers.cpp")
+    target_link_libraries(${name} PRIVATE GTest::gmock GTest::gtest passo_compiler)
+    target_compile_options(${name} PRIVATE ${PASSO_TEST_OPTIMISATION_${calculates}})
+    target_precompile_headers(${name} PRIVATE <gmock/gmock.h> <gtest/gtest.h>)
+  endforeach()
+  target_link_libraries(passo_test_headers_OFF PRIVATE fmt::fmt nlohmann_json::nlohmann_json)
+  target_precompile_headers(passo_test_headers_OFF PRIVATE <fmt/format.h> <nlohmann/json.hpp>)
 endfunction()
 
 
 # passo_test(NAME SOURCES file… [APART file…] LIBRARIES target… [LABELS label…] [DEFINITIONS name=value…] [ONE_IN number] [COST seconds]
-#            [ALONE])
+#            [ALONE] [CALCULATES])
 #
 # A GoogleTest program; APART as for passo_module. Tests without a label are fast: a developer runs them at every change. ONE_IN: of the trials of
 # random tests they make one in so many (tests/kit/in_full.hpp). COST: how long they take, as for passo_slow_test.
-# ALONE: no other test runs beside it.
+# ALONE: no other test runs beside it. CALCULATES: its own code is worth optimising.
 function(passo_test name)
-  cmake_parse_arguments(ARG "ALONE" "ONE_IN;COST" "SOURCES;APART;LIBRARIES;LABELS;DEFINITIONS" ${ARGN})
+  cmake_parse_arguments(ARG "ALONE;CALCULATES" "ONE_IN;COST" "SOURCES;APART;LIBRARIES;LABELS;DEFINITIONS" ${ARGN})
   if(PASSO_SANITIZE)
     set(ARG_ONE_IN 8)  # a trial takes ten times as long
   elseif(PASSO_TESTS_IN_FULL OR NOT ARG_ONE_IN)
@@ -132,15 +147,18 @@ function(passo_test name)
   endif()
   target_link_libraries(${name} PRIVATE ${ARG_LIBRARIES} GTest::gmock GTest::gtest_main passo_compiler
     $<$<BOOL:${PASSO_TOGETHER}>:passo_together>)
-  target_compile_options(${name} PRIVATE ${PASSO_LESS_OPTIMISED})
+  set(calculates OFF)
+  if(ARG_CALCULATES)
+    set(calculates ON)
+  else()
+    target_link_libraries(${name} PRIVATE fmt::fmt nlohmann_json::nlohmann_json)  # parts of the compiled headers
+  endif()
+  target_compile_options(${name} PRIVATE ${PASSO_TEST_OPTIMISATION_${calculates}})
   target_include_directories(${name} PRIVATE "${PROJECT_SOURCE_DIR}/tests")  # "kit/…", what tests share
   target_compile_definitions(${name} PRIVATE
     PASSO_SOURCE_DIR="${PROJECT_SOURCE_DIR}" PASSO_ONE_IN=${ARG_ONE_IN}
     $<$<BOOL:${PASSO_SANITIZE}>:PASSO_SANITIZED> $<$<TARGET_EXISTS:motion_uno>:PASSO_MAKES_FIRMWARE> ${ARG_DEFINITIONS})
-  if(NOT TARGET passo_test_headers)
-    passo_test_headers()
-  endif()
-  target_precompile_headers(${name} REUSE_FROM passo_test_headers)
+  target_precompile_headers(${name} REUSE_FROM passo_test_headers_${calculates})
   set(properties TIMEOUT 600)
   if(ARG_LABELS)
     list(APPEND properties LABELS "${ARG_LABELS}")

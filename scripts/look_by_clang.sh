@@ -5,7 +5,7 @@ set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
 
 cmake --preset look >/dev/null
-cmake --build build/look --parallel "$(nproc)" --target passo_test_headers passo_standard_headers
+cmake --build build/look --parallel "$(nproc)" --target passo_test_headers_{ON,OFF} passo_standard_headers
 tests=no
 [[ ${1-} == --tests ]] && tests=yes
 # An object has one name in both builds.

@@ -4,19 +4,19 @@
 
 namespace {
 
+using passo::test::checkout;
+using passo::test::on_router;
 using passo::test::Outcome;
 using passo::test::read;
 using testing::HasSubstr;
 using testing::Not;
 
-const std::string source = PASSO_SOURCE_DIR;
-const std::string bracket = source + "/examples/parts/bracket.svg";
-const std::string router = " -m " + source + "/examples/machines/router.toml";
+const std::string bracket = checkout + "/examples/parts/bracket.svg";
 
 class CamPart : public passo::test::CommandLine {
  protected:
   void expect_cuts_well(const std::string& program, const std::string& stock) const {
-    const Outcome checked = passo("check " + program + router);
+    const Outcome checked = passo("check " + program + on_router);
     EXPECT_EQ(checked.code, 0) << checked.err;
     EXPECT_THAT(checked.out, HasSubstr("no errors"));
     EXPECT_THAT(checked.out + checked.err, Not(HasSubstr("warning")));
@@ -66,7 +66,7 @@ TEST_F(CamPart, letters_are_carved_and_a_machine_can_run_it) {
   EXPECT_EQ(made.code, 0) << made.err;
   EXPECT_THAT(made.out, HasSubstr("tool 1: V of 60 degrees, 6 mm: "));
   EXPECT_THAT(made.out, HasSubstr(" mm deep at most\n"));
-  const Outcome checked = passo("check " + path("e.ngc") + router);
+  const Outcome checked = passo("check " + path("e.ngc") + on_router);
   EXPECT_THAT(checked.out, HasSubstr("no errors"));
   const Outcome flat =
       passo("cam engrave " + bracket + " --layer pocket --angle 90 --depth -2 --clear 2 -o " + path("f.ngc"));
@@ -81,7 +81,7 @@ TEST_F(CamPart, lines_of_letters_and_plots_are_followed) {
   const Outcome letters = passo("cam engrave --text 'No 7' --font simplex --depth -0.2 -o " + path("l.ngc"));
   EXPECT_EQ(letters.code, 0) << letters.err;
   EXPECT_THAT(letters.out, HasSubstr("0.2 mm deep, 0.2309 mm wide\n"));
-  EXPECT_THAT(passo("check " + path("l.ngc") + router).out, HasSubstr("no errors"));
+  EXPECT_THAT(passo("check " + path("l.ngc") + on_router).out, HasSubstr("no errors"));
   const std::string plot = write("p.plt", "IN;SP1;PU400,400;PD800,400;");
   const Outcome lines = passo("cam engrave " + plot + " --on-line --depth -0.5 --spindle 0");
   EXPECT_EQ(lines.code, 0) << lines.err;
@@ -99,19 +99,19 @@ TEST_F(CamPart, an_inlay_has_a_pocket_and_a_mirrored_plug) {
   EXPECT_EQ(plug.code, 0) << plug.err;
   EXPECT_THAT(plug.out, HasSubstr("drawn: X -35 to -5"));
   EXPECT_THAT(plug.out, HasSubstr("4.5 mm deep at most"));
-  EXPECT_THAT(passo("check " + path("plug.ngc") + router).out, HasSubstr("no errors"));
+  EXPECT_THAT(passo("check " + path("plug.ngc") + on_router).out, HasSubstr("no errors"));
   EXPECT_THAT(passo("cam engrave " + svg + " --tool 4 --inlay plug").err, HasSubstr("--tool: expected 5.2 mm or more"));
 }
 
 TEST_F(CamPart, foam_is_cut_by_two_ends_of_a_wire) {
-  const std::string foam = source + "/examples/foam";
+  const std::string foam = checkout + "/examples/foam";
   const std::string wing = "cam wire " + foam + "/naca2412.dat " + foam + "/naca0010.dat --chord 220,140 ";
   const Outcome made =
       passo(wing + "--span 900 --width 600 --kerf 1.2 --zero -30,-60 -o " + path("w.ngc") + " -p " + path("w.png"));
   EXPECT_EQ(made.code, 0) << made.err;
   EXPECT_THAT(made.out, HasSubstr("right: "));
   EXPECT_THAT(made.out, HasSubstr("0 mm² of what stays lost"));
-  const std::string foam_cutter = " -m " + source + "/examples/machines/foam.toml";
+  const std::string foam_cutter = " -m " + checkout + "/examples/machines/foam.toml";
   EXPECT_THAT(passo("check " + path("w.ngc") + foam_cutter).out, HasSubstr("no errors"));
   const Outcome letter = passo("cam wire " + bracket + " --layer pocket --kerf 1");
   EXPECT_THAT(letter.err, HasSubstr("[wire.several-lines]"));

@@ -5,13 +5,14 @@
 
 namespace {
 
+using passo::test::checkout;
+using passo::test::on_router;
 using passo::test::Outcome;
 using passo::test::read;
 using testing::HasSubstr;
 using testing::Not;
 
-const std::string source = PASSO_SOURCE_DIR;
-const std::string flower = source + "/examples/reliefs/flower.png";
+const std::string flower = checkout + "/examples/reliefs/flower.png";
 
 class CamRelief : public passo::test::CommandLine {
  protected:
@@ -32,7 +33,7 @@ TEST_F(CamRelief, three_cutters_carve_a_picture_and_a_machine_can_run_it) {
   EXPECT_THAT(program, HasSubstr("(from flower.png: 240 x 240 pixels, 16 bit grey, luminance)"));
   EXPECT_THAT(program, HasSubstr("(MSG, tool 3: ball nose, 0.8 mm)\nT3 M6\n"));
   EXPECT_GT(std::filesystem::file_size(path("f.png")), 10'000U);
-  const Outcome checked = passo("check " + path("f.ngc") + " -m " + source + "/examples/machines/router.toml");
+  const Outcome checked = passo("check " + path("f.ngc") + on_router);
   EXPECT_EQ(checked.code, 0) << checked.err;
   EXPECT_THAT(checked.out, HasSubstr("no errors"));
 }
@@ -41,7 +42,7 @@ TEST_F(CamRelief, starts_the_spindle_unless_told_otherwise) {
   const std::string small = flower + " --width 10 --step 1 -o " + path("s.ngc");
   EXPECT_EQ(relief(small).code, 0);
   EXPECT_THAT(read(path("s.ngc")), HasSubstr("\nM3 S12000\n"));
-  const Outcome checked = passo("check " + path("s.ngc") + " -m " + source + "/examples/machines/router.toml");
+  const Outcome checked = passo("check " + path("s.ngc") + on_router);
   EXPECT_THAT(checked.out + checked.err, Not(HasSubstr("spindle stands")));
   EXPECT_EQ(relief(small + " --spindle 0").code, 0);
   EXPECT_THAT(read(path("s.ngc")), Not(HasSubstr("M3")));
@@ -75,7 +76,7 @@ TEST_F(CamRelief, contours_offsets_arcs_and_held_removal_run_on_a_machine_and_cu
   EXPECT_EQ(made.code, 0) << made.err;
   EXPECT_THAT(made.out, HasSubstr(" of them arcs, "));
   EXPECT_THAT(made.out, HasSubstr(" mm3 a minute\n"));
-  const Outcome checked = passo("check " + program + " -m " + source + "/examples/machines/router.toml");
+  const Outcome checked = passo("check " + program + on_router);
   EXPECT_EQ(checked.code, 0) << checked.err;
   EXPECT_THAT(checked.err, Not(HasSubstr("warning")));
   const Outcome cut = passo("simulate " + program + " --tool 1=flat:4 --tool 2=ball:2 --cell 0.2 --compare " +

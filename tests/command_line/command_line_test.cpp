@@ -11,18 +11,18 @@ namespace {
 
 namespace fs = std::filesystem;
 using namespace std::string_literals;
+using passo::test::checkout;
+using passo::test::on_router;
 using passo::test::Outcome;
 using passo::test::read;
 
-const fs::path source_dir = PASSO_SOURCE_DIR;
-const std::string router = (source_dir / "examples" / "machines" / "router.toml").string();
-const std::string engrave = (source_dir / "examples" / "engrave.ngc").string();
+const std::string engrave = checkout + "/examples/engrave.ngc";
 
 class CommandLine : public passo::test::CommandLine {
  protected:
   // Runs a program text on the router.
   Outcome run_text(const std::string& text, const std::string& options = "") const {
-    return passo("run " + write("p.ngc", text) + " -m " + router + " " + options);
+    return passo("run " + write("p.ngc", text) + on_router + options);
   }
 };
 
@@ -37,7 +37,7 @@ TEST_F(CommandLine, a_wrong_command_line_exits_with_2) {
   EXPECT_EQ(passo("").code, 2);
   EXPECT_EQ(passo("fly").code, 2);
   EXPECT_EQ(passo("run " + engrave).code, 2);
-  EXPECT_EQ(passo("run " + engrave + " -m " + router + " --colour").code, 2);
+  EXPECT_EQ(passo("run " + engrave + on_router + "--colour").code, 2);
 }
 
 TEST_F(CommandLine, json_tells_time_steps_and_position_of_each_axis) {
@@ -195,7 +195,7 @@ TEST_F(CommandLine, findings_tell_their_rule_and_the_calls_as_text_and_as_data) 
   EXPECT_EQ(outcome.code, 2);
   EXPECT_NE(outcome.err.find("= rule: RS274/NGC 3.5.4, dwell\n"), std::string::npos) << outcome.err;
   EXPECT_NE(outcome.err.find("= in o<slot>, called at " + path("p.ngc") + ":2\n"), std::string::npos) << outcome.err;
-  const Outcome data = passo("check --json " + path("p.ngc") + " -m " + router);
+  const Outcome data = passo("check --json " + path("p.ngc") + on_router);
   const auto finding = nlohmann::json::parse(data.out)["findings"][0];
   EXPECT_EQ(finding["rule"], "RS274/NGC 3.5.4, dwell");
   EXPECT_EQ(finding["calls"].size(), 1U);
@@ -207,7 +207,7 @@ TEST_F(CommandLine, a_loop_that_does_nothing_is_stopped_at_its_o_word_after_as_m
   const std::string program = write("p.ngc", "#1=0\no7 while [#1 LT 50]\n#1=[#1+1]\no7 endwhile\nM2\n");
   EXPECT_EQ(passo("canon " + program).code, 0);
   EXPECT_EQ(passo("canon --loop-limit 50 " + program).code, 0);
-  for (const std::string& command : {"canon "s, "explain "s, "check -m " + router + " ", "run -m " + router + " "}) {
+  for (const std::string& command : {"canon "s, "explain "s, "check" + on_router, "run" + on_router}) {
     const Outcome outcome = passo(command + "--loop-limit 49 " + program);
     EXPECT_EQ(outcome.code, 2) << command;
     EXPECT_NE((outcome.out + outcome.err).find(":2:1: error: the loop went round 49 times"), std::string::npos)
@@ -219,7 +219,7 @@ TEST_F(CommandLine, a_loop_that_does_nothing_is_stopped_at_its_o_word_after_as_m
 TEST_F(CommandLine, a_program_that_never_ends_is_an_error_wherever_it_is_read) {
   const std::string typo = write("typo.ngc", "#1=0\no1 while [#1 LT 5]\nG0 X#1\n#1=[#1+1\no1 endwhile\nM2\n");
   const std::string moving = write("moving.ngc", "o1 while [1]\nG0 X1\nG0 X2\no1 endwhile\nM2\n");
-  for (const std::string& command : {"canon "s, "explain "s, "check -m " + router + " ", "run -m " + router + " "}) {
+  for (const std::string& command : {"canon "s, "explain "s, "check" + on_router, "run" + on_router}) {
     const Outcome bad = passo(command + typo);
     EXPECT_EQ(bad.code, 2) << command;
     EXPECT_NE((bad.out + bad.err).find(":4:4: error: the bracket that opens here is not closed"), std::string::npos)
@@ -239,13 +239,13 @@ TEST_F(CommandLine, crlf_cr_and_a_byte_order_mark_are_fine) {
 }
 
 TEST_F(CommandLine, a_missing_program_exits_with_2_and_a_missing_machine_with_3) {
-  EXPECT_EQ(passo("run " + path("none.ngc") + " -m " + router).code, 2);
+  EXPECT_EQ(passo("run " + path("none.ngc") + on_router).code, 2);
   EXPECT_EQ(passo("run " + engrave + " -m " + path("none.toml")).code, 3);
-  EXPECT_EQ(passo("run " + dir_.string() + " -m " + router).code, 2);
+  EXPECT_EQ(passo("run " + dir_.string() + on_router).code, 2);
 }
 
 TEST_F(CommandLine, a_mistake_in_the_machine_file_names_line_and_nearest_key) {
-  std::string text = read(router);
+  std::string text = read(checkout + "/examples/machines/router.toml");
   text.replace(text.find("max_velocity_mm_s"), 17, "max_velocty_mm_s");
   const Outcome outcome = passo("run " + engrave + " -m " + write("m.toml", text));
   EXPECT_EQ(outcome.code, 3);
@@ -254,14 +254,14 @@ TEST_F(CommandLine, a_mistake_in_the_machine_file_names_line_and_nearest_key) {
 }
 
 TEST_F(CommandLine, a_program_from_standard_input_runs) {
-  const Outcome outcome = passo("run - -m " + router + " --json", "printf 'G21 F600\\nG1 X1\\nM2\\n' |");
+  const Outcome outcome = passo("run -" + on_router + "--json", "printf 'G21 F600\\nG1 X1\\nM2\\n' |");
   ASSERT_EQ(outcome.code, 0) << outcome.err;
   EXPECT_EQ(nlohmann::json::parse(outcome.out)["steps"]["X"]["net"], 640);
 }
 
 TEST_F(CommandLine, check_finds_what_run_would_refuse_and_runs_nothing) {
-  EXPECT_EQ(passo("check " + engrave + " -m " + router).code, 0);
-  EXPECT_EQ(passo("check " + write("p.ngc", "G1 X1\n") + " -m " + router).code, 2);
+  EXPECT_EQ(passo("check " + engrave + on_router).code, 0);
+  EXPECT_EQ(passo("check " + write("p.ngc", "G1 X1\n") + on_router).code, 2);
 }
 
 TEST_F(CommandLine, parameters_go_from_one_run_to_the_next) {
@@ -286,7 +286,7 @@ TEST_F(CommandLine, a_tool_table_counts_in_the_units_of_the_machine) {
   EXPECT_NE(passo("canon " + program + " -t " + table).out.find("OFFSET(0.0000 0.0000 50.8000,"), std::string::npos);
   EXPECT_NE(passo("canon " + program + " -t " + table + " --machine-units mm").out.find("OFFSET(0.0000 0.0000 2.0000,"),
             std::string::npos);
-  const Outcome run = passo("run " + program + " -m " + router + " --json --tools " + table);
+  const Outcome run = passo("run " + program + on_router + "--json --tools " + table);
   ASSERT_EQ(run.code, 0) << run.err;
   EXPECT_DOUBLE_EQ(nlohmann::json::parse(run.out)["position_mm"]["Z"], 3.0);
 }
@@ -296,8 +296,7 @@ TEST_F(CommandLine, a_good_run_writes_the_tools_that_it_set) {
   ASSERT_EQ(run_text("G21\nG10 L1 P2 Z3.25\nM2\n", "--tools " + table).code, 0);
   EXPECT_EQ(read(table), "; my tools\nT2 P1 Z3.25 ; drill\nT1 P7 D3\n");
   EXPECT_EQ(run_text("G21\nG10 L1 P2 Z4\nG12\nM2\n", "--tools " + table).code, 2);
-  EXPECT_EQ(passo("check " + write("t.ngc", "G21\nG10 L1 P2 Z5\nM2\n") + " -m " + router + " --tools " + table).code,
-            0);
+  EXPECT_EQ(passo("check " + write("t.ngc", "G21\nG10 L1 P2 Z5\nM2\n") + on_router + "--tools " + table).code, 0);
   EXPECT_EQ(read(table), "; my tools\nT2 P1 Z3.25 ; drill\nT1 P7 D3\n");
 }
 
@@ -306,7 +305,7 @@ TEST_F(CommandLine, canon_alone_has_the_example_tools_of_rs274) {
   const Outcome canon = passo("canon " + program);
   EXPECT_NE(canon.out.find("OFFSET(0.0000 0.0000 0.5110,"), std::string::npos) << canon.out;
   EXPECT_NE(canon.err.find("the offset of tool 1 is that of an example"), std::string::npos) << canon.err;
-  EXPECT_NE(passo("check " + program + " -m " + router).err.find("taken as zero"), std::string::npos);
+  EXPECT_NE(passo("check " + program + on_router).err.find("taken as zero"), std::string::npos);
 }
 
 TEST_F(CommandLine, what_is_wrong_in_a_file_of_the_machine_is_told_with_its_place) {

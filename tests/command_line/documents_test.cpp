@@ -8,17 +8,16 @@
 namespace {
 
 namespace fs = std::filesystem;
+using passo::test::checkout;
 using passo::test::Outcome;
 using passo::test::read;
-
-const fs::path source_dir = PASSO_SOURCE_DIR;
 
 class Documents : public passo::test::CommandLine {};
 
 TEST_F(Documents, each_picture_is_drawn_by_the_command_beside_it) {
   const std::string program = "build/release/passo ";
   std::size_t drawn = 0;
-  for (const auto& entry : fs::recursive_directory_iterator(source_dir / "docs")) {
+  for (const auto& entry : fs::recursive_directory_iterator(checkout + "/docs")) {
     if (entry.path().extension() != ".md") continue;
     std::istringstream text(read(entry.path()));
     for (std::string line; std::getline(text, line);) {
@@ -30,9 +29,10 @@ TEST_F(Documents, each_picture_is_drawn_by_the_command_beside_it) {
       const std::size_t picture = line.find("docs/pictures/");
       if (!line.starts_with(program) || picture == std::string::npos) continue;
       const std::string name = line.substr(picture, line.find(' ', picture) - picture);
-      EXPECT_TRUE(fs::exists(source_dir / name)) << name << " of " << entry.path() << ": scripts/pictures.sh draws it";
+      EXPECT_TRUE(fs::exists(checkout + "/" + name))
+          << name << " of " << entry.path() << ": scripts/pictures.sh draws it";
       line.replace(picture, name.size(), path("picture" + fs::path(name).extension().string()));
-      const Outcome outcome = passo(line.substr(program.size()), "cd " + source_dir.string() + " &&");
+      const Outcome outcome = passo(line.substr(program.size()), "cd " + checkout + " &&");
       EXPECT_EQ(outcome.code, 0) << line << "\n" << outcome.err;
       EXPECT_GT(fs::file_size(path("picture" + fs::path(name).extension().string())), 1000U);
       ++drawn;
@@ -54,7 +54,7 @@ std::string in_one_line(const std::string& text) {
 TEST_F(Documents, each_command_that_stands_with_its_output_prints_that) {
   const std::string prompt = "$ build/release/passo ";
   std::size_t run = 0;
-  for (const auto& entry : fs::recursive_directory_iterator(source_dir / "docs")) {
+  for (const auto& entry : fs::recursive_directory_iterator(checkout + "/docs")) {
     if (entry.path().extension() != ".md") continue;
     std::istringstream text(read(entry.path()));
     std::string line;
@@ -67,7 +67,7 @@ TEST_F(Documents, each_command_that_stands_with_its_output_prints_that) {
       const std::string command = line.substr(prompt.size());
       std::string shown;
       while (std::getline(text, line) && !line.starts_with("```") && !line.starts_with("$ ")) shown += line + "\n";
-      const Outcome outcome = passo(command, "cd " + source_dir.string() + " &&");
+      const Outcome outcome = passo(command, "cd " + checkout + " &&");
       const std::string printed = in_one_line(outcome.out + outcome.err);
       std::size_t at = 0;
       for (std::size_t begin = 0; begin < shown.size();) {

@@ -5,10 +5,9 @@
 
 namespace {
 
+using passo::test::on_router;
 using passo::test::Outcome;
 using testing::HasSubstr;
-
-const std::string on_router = " -m " + std::string(PASSO_SOURCE_DIR) + "/examples/machines/router.toml ";
 
 class JogCommand : public passo::test::CommandLine {
  protected:

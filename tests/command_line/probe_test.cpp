@@ -5,26 +5,25 @@
 
 namespace {
 
+using passo::test::checkout;
+using passo::test::on_router;
 using passo::test::Outcome;
 using passo::test::read;
 using testing::HasSubstr;
 
-const std::string source_dir = PASSO_SOURCE_DIR;
-const std::string router = " -m " + source_dir + "/examples/machines/router.toml ";
-
 class Probe : public passo::test::CommandLine {
  protected:
   Outcome run_text(const std::string& text, const std::string& options) const {
-    return passo("run " + write("p.ngc", text) + router + options);
+    return passo("run " + write("p.ngc", text) + on_router + options);
   }
 };
 
 TEST_F(Probe, finds_the_corner_as_the_manual_shows) {
-  const std::string manual = read(source_dir + "/docs/manual/probing.md");
+  const std::string manual = read(checkout + "/docs/manual/probing.md");
   const std::string block = " --touch X42.3:90,Y31.75:70,Z-50:-11.2 ";
   ASSERT_THAT(manual, HasSubstr(block));
-  const Outcome outcome =
-      passo("run " + source_dir + "/examples/probe-corner.ngc" + router + block + "--parameters " + path("corner.var"));
+  const Outcome outcome = passo("run " + checkout + "/examples/probe-corner.ngc" + on_router + block + "--parameters " +
+                                path("corner.var"));
   ASSERT_EQ(outcome.code, 0) << outcome.err;
   EXPECT_EQ(outcome.err, "");
   ASSERT_THAT(outcome.out, HasSubstr("\nProbe, mm\n"));

@@ -11,12 +11,12 @@ namespace {
 
 namespace fs = std::filesystem;
 using passo::test::Outcome;
+using passo::test::router_file;
 using testing::HasSubstr;
 using testing::IsEmpty;
 using testing::StartsWith;
 
 const fs::path machines = fs::path(PASSO_SOURCE_DIR) / "examples" / "machines";
-const std::string router_file = (machines / "router.toml").string();
 
 // The first part of the text that the expression fits; empty: none.
 std::string found(const std::string& text, const std::string& expression) {

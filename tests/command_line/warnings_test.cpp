@@ -6,15 +6,11 @@
 namespace {
 
 namespace fs = std::filesystem;
+using passo::test::contains;
+using passo::test::examples;
 using passo::test::Outcome;
 using passo::test::read;
-
-const fs::path examples = fs::path(PASSO_SOURCE_DIR) / "examples";
-const std::string router_file = (examples / "machines" / "router.toml").string();
-
-bool contains(const std::string& text, const std::string& part) {
-  return text.find(part) != std::string::npos;
-}
+using passo::test::router_file;
 
 class Warnings : public passo::test::CommandLine {
  protected:

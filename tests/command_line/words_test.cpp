@@ -11,17 +11,14 @@ namespace {
 
 namespace fs = std::filesystem;
 using namespace std::string_literals;
+using passo::test::contains;
+using passo::test::examples;
 using passo::test::Outcome;
 using passo::test::read;
+using passo::test::router_file;
 using testing::Test;
 
-const fs::path examples = fs::path(PASSO_SOURCE_DIR) / "examples";
-const std::string router_file = (examples / "machines" / "router.toml").string();
 const std::string relay_file = (examples / "machines" / "forty-eight.toml").string();
-
-bool contains(const std::string& text, const std::string& part) {
-  return text.find(part) != std::string::npos;
-}
 
 // What a command writes on a terminal of its own.
 std::string on_a_terminal(const std::string& command) {

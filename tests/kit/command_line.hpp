@@ -18,6 +18,15 @@ namespace passo::test {
 
 namespace fs = std::filesystem;
 
+inline const std::string checkout = PASSO_SOURCE_DIR;
+inline const fs::path examples = fs::path(checkout) / "examples";
+inline const std::string router_file = (examples / "machines" / "router.toml").string();
+inline const std::string on_router = " -m " + router_file + " ";
+
+inline bool contains(const std::string& text, const std::string& part) {
+  return text.find(part) != std::string::npos;
+}
+
 struct Outcome {
   int code = -1;
   std::string out;
