@@ -1,0 +1,31 @@
+// Rows that several operations have. Private to operations/.
+#pragma once
+
+#include <initializer_list>
+#include <vector>
+
+#include "passo/operations/cam_arguments.hpp"
+
+namespace passo {
+
+inline constexpr CamFor cli = CamFor::command_line;
+inline constexpr CamFor experts = CamFor::experts;
+
+std::vector<CamOption> all_of(std::initializer_list<std::vector<CamOption>> parts);
+
+// What all milling of drawings has. `layer`: for whom --layer matters.
+std::vector<CamOption> mill_rows(CamMillArguments& arguments, CamFor layer = experts);
+// How the cutter goes around an edge: depths, tabs, ramps, leads.
+std::vector<CamOption> edge_rows(CamOutlineArguments& arguments);
+
+// Of the program, and of lengths without a unit.
+CamOption units_row(std::string& units);
+CamOption join_row(std::string& join);
+CamOption ramp_row(double& degrees);
+CamOption clearance_row(std::string& clearance, const char* help);
+CamOption spindle_row(std::uint32_t& spindle);
+CamOption layer_row(std::vector<std::string>& layers, const char* help, CamFor matters_to = experts);
+CamOption output_row(std::string& output);
+CamOption picture_row(std::string& picture, const char* help);
+
+}  // namespace passo
