@@ -11,117 +11,107 @@ std::vector<CamOption> all_of(std::initializer_list<std::vector<CamOption>> part
 }
 
 CamOption units_row(std::string& units) {
+  using enum CamKind;
   return {"units",
           &units,
-          CamKind::choice,
+          choice,
           "of the program, and of lengths without a unit: mm, cm or inch",
           {.choices = {"mm", "cm", "inch"}, .matters_to = experts}};
 }
 
 CamOption join_row(std::string& join) {
-  return {
-      "join", &join, CamKind::length, "ends of lines that are no farther apart are joined", {.matters_to = experts}};
+  using enum CamKind;
+  return {"join", &join, length, "ends of lines that are no farther apart are joined", experts_only};
 }
 
-CamOption ramp_row(double& degrees) {
+CamOption ramp_row(double& angle) {
+  using enum CamKind;
   return {"ramp",
-          &degrees,
-          CamKind::degrees,
+          &angle,
+          degrees,
           "go down along the way, this steep in degrees; 0: straight down",
           {.range = CamRange{0, 60}}};
 }
 
 CamOption clearance_row(std::string& clearance, const char* help) {
-  return {"clearance", &clearance, CamKind::length, help, {.is_of_machine = true}};
+  using enum CamKind;
+  return {"clearance", &clearance, length, help, {.is_of_machine = true}};
 }
 
 CamOption spindle_row(std::uint32_t& spindle) {
-  return {"spindle", &spindle, CamKind::turns, "turns a minute; 0: the program leaves the spindle alone"};
+  using enum CamKind;
+  return {"spindle", &spindle, turns, "turns a minute; 0: the program leaves the spindle alone"};
 }
 
 CamOption layer_row(std::vector<std::string>& layers, const char* help, CamFor matters_to) {
-  return {"layer", &layers, CamKind::text, help, {.matters_to = matters_to, .is_of_job = true}};
+  using enum CamKind;
+  return {"layer", &layers, text, help, {.matters_to = matters_to, .is_of_job = true}};
 }
 
 CamOption output_row(std::string& output) {
+  using enum CamKind;
   return {"output",
           &output,
-          CamKind::file,
+          file,
           "write the program to a file; without it to standard output",
           {.matters_to = cli, .is_of_job = true, .letter = "o"}};
 }
 
 CamOption picture_row(std::string& picture, const char* help) {
-  return {"picture", &picture, CamKind::file, help, {.matters_to = cli, .is_of_job = true, .letter = "p"}};
+  using enum CamKind;
+  return {"picture", &picture, file, help, {.matters_to = cli, .is_of_job = true, .letter = "p"}};
 }
 
 std::vector<CamOption> mill_rows(CamMillArguments& a, CamFor layer) {
+  using enum CamKind;
   return {
       output_row(a.output),
       picture_row(a.picture, "draw what is milled, and the rapids (FILE.svg or FILE.png)"),
-      {"json",
-       &a.json,
-       CamKind::flag,
-       "what was done, for scripts; needs --output",
-       {.matters_to = cli, .is_of_job = true}},
+      {"json", &a.json, flag, "what was done, for scripts; needs --output", {.matters_to = cli, .is_of_job = true}},
       units_row(a.units),
       {"input",
        &a.input,
-       CamKind::choice,
+       choice,
        "DXF: unit of the file's numbers; without it as the file says",
        {.choices = {"mm", "cm", "inch"}, .matters_to = experts, .is_of_job = true}},
-      {"scale",
-       &a.scale,
-       CamKind::number,
-       "DXF: the numbers times this are in the unit of --input, without it of --units",
-       {.matters_to = experts, .is_of_job = true}},
+      {"scale", &a.scale, number, "DXF: the numbers times this are in the unit of --input, without it of --units",
+       experts_of_one_job},
       layer_row(a.layers, "DXF, KiCad: read this layer; may be given again. Without it all that are on", layer),
       {"zero",
        &a.zero,
-       CamKind::place,
+       place,
        "where X0 Y0 is: file, lower-left of the board, or X,Y",
        {.choices = {"file", "lower-left"}, .is_of_job = true}},
       {"mirror",
        &a.mirror,
-       CamKind::choice,
+       choice,
        "the board is turned over: x from left to right, y from top to bottom",
        {.choices = {"x", "y"}, .is_of_job = true}},
-      {"mirror-at",
-       &a.mirror_at,
-       CamKind::length,
-       "about this X or Y of the drawing; without it 0",
-       {.matters_to = experts, .is_of_job = true}},
-      {"align",
-       &a.align,
-       CamKind::length,
-       "X,Y,X,Y: turned over so that these two holes change places",
-       {.matters_to = experts, .is_of_job = true}},
-      {"conventional", &a.conventional, CamKind::flag, "conventional milling; without it climb milling"},
+      {"mirror-at", &a.mirror_at, length, "about this X or Y of the drawing; without it 0", experts_of_one_job},
+      {"align", &a.align, length, "X,Y,X,Y: turned over so that these two holes change places", experts_of_one_job},
+      {"conventional", &a.conventional, flag, "conventional milling; without it climb milling"},
       clearance_row(a.clearance, "height of the rapids above the board"),
-      {"feed", &a.feed, CamKind::feed, "a minute, along the way"},
-      {"plunge-feed", &a.plunge_feed, CamKind::feed, "a minute, straight down"},
+      {"feed", &a.feed, feed, "a minute, along the way"},
+      {"plunge-feed", &a.plunge_feed, feed, "a minute, straight down"},
       spindle_row(a.spindle),
-      {"park", &a.park, CamKind::length, "X,Y at the start, at tool changes and at the end", {.matters_to = experts}},
+      {"park", &a.park, length, "X,Y at the start, at tool changes and at the end", experts_only},
   };
 }
 
 std::vector<CamOption> edge_rows(CamOutlineArguments& a) {
+  using enum CamKind;
   return {
-      {"tool", &a.tool, CamKind::length, "diameter of the cutter"},
-      {"depth", &a.depth, CamKind::length, "of the cut, below 0", {.is_of_machine = true}},
-      {"step", &a.step, CamKind::length, "how deep a turn goes, at most"},
+      {"tool", &a.tool, length, "diameter of the cutter"},
+      {"depth", &a.depth, length, "of the cut, below 0", {.is_of_machine = true}},
+      {"step", &a.step, length, "how deep a turn goes, at most"},
       join_row(a.join),
-      {"tabs", &a.tabs, CamKind::number, "so many tabs hold each board", {.range = CamRange{0, 1000}}},
-      {"tab",
-       &a.tab_places,
-       CamKind::length,
-       "a tab near X,Y; may be given again",
-       {.matters_to = experts, .is_of_job = true}},
-      {"tab-width", &a.tab_width, CamKind::length, "of the tab that stays"},
-      {"tab-height", &a.tab_height, CamKind::length, "of the tab, above the full depth"},
+      {"tabs", &a.tabs, number, "so many tabs hold each board", {.range = CamRange{0, 1000}}},
+      {"tab", &a.tab_places, length, "a tab near X,Y; may be given again", experts_of_one_job},
+      {"tab-width", &a.tab_width, length, "of the tab that stays"},
+      {"tab-height", &a.tab_height, length, "of the tab, above the full depth"},
       ramp_row(a.ramp),
-      {"lead", &a.lead, CamKind::length, "come to the edge on a quarter of a circle of this radius"},
-      {"dog-bones", &a.dog_bones, CamKind::flag, "cut inner corners so that a sharp corner fits in"},
+      {"lead", &a.lead, length, "come to the edge on a quarter of a circle of this radius"},
+      {"dog-bones", &a.dog_bones, flag, "cut inner corners so that a sharp corner fits in"},
   };
 }
 

@@ -10,6 +10,10 @@ namespace passo {
 
 inline constexpr CamFor cli = CamFor::command_line;
 inline constexpr CamFor experts = CamFor::experts;
+inline const CamTraits experts_only{.matters_to = experts};
+inline const CamTraits of_one_job{.is_of_job = true};
+inline const CamTraits experts_of_one_job{.matters_to = experts, .is_of_job = true};
+inline const CamTraits are_needed{.is_required = true};  // of drawings
 
 std::vector<CamOption> all_of(std::initializer_list<std::vector<CamOption>> parts);
 
@@ -21,7 +25,7 @@ std::vector<CamOption> edge_rows(CamOutlineArguments& arguments);
 // Of the program, and of lengths without a unit.
 CamOption units_row(std::string& units);
 CamOption join_row(std::string& join);
-CamOption ramp_row(double& degrees);
+CamOption ramp_row(double& angle);
 CamOption clearance_row(std::string& clearance, const char* help);
 CamOption spindle_row(std::uint32_t& spindle);
 CamOption layer_row(std::vector<std::string>& layers, const char* help, CamFor matters_to = experts);

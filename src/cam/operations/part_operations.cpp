@@ -4,24 +4,23 @@
 namespace passo {
 namespace {
 
-constexpr const char* drawings = "drawings: SVG, DXF or HPGL";
+constexpr const char* vector_drawings = "drawings: SVG, DXF or HPGL";
 
 CamOption sheet_row(std::string& sheet) {
-  return {"sheet",
-          &sheet,
-          CamKind::length,
-          "W,H of the material, from X0 Y0 on: a drawing beyond it is refused, the picture shows it",
-          {.matters_to = experts}};
+  using enum CamKind;
+  return {"sheet", &sheet, length,
+          "W,H of the material, from X0 Y0 on: a drawing beyond it is refused, the picture shows it", experts_only};
 }
 
 }  // namespace
 
 std::vector<CamOption> cam_options_of(CamProfileArguments& a) {
+  using enum CamKind;
   return all_of({
-      {{"FILE", &a.files, CamKind::drawings, drawings, {.is_required = true}},
+      {{"FILE", &a.files, drawings, vector_drawings, are_needed},
        {"side",
         &a.side,
-        CamKind::choice,
+        choice,
         "part: outside of what is drawn, inside in its holes; outside, inside: of each loop; on: the line",
         {.choices = {"part", "outside", "inside", "on"}}}},
       edge_rows(a),
@@ -31,19 +30,20 @@ std::vector<CamOption> cam_options_of(CamProfileArguments& a) {
 }
 
 std::vector<CamOption> cam_options_of(CamPocketArguments& a) {
+  using enum CamKind;
   return all_of({
-      {{"FILE", &a.files, CamKind::drawings, drawings, {.is_required = true}},
-       {"tool", &a.tool, CamKind::length, "diameter of the cutter"},
-       {"depth", &a.depth, CamKind::length, "of the pocket, below 0", {.is_of_machine = true}},
-       {"step", &a.step, CamKind::length, "how deep a layer is, at most"},
+      {{"FILE", &a.files, drawings, vector_drawings, are_needed},
+       {"tool", &a.tool, length, "diameter of the cutter"},
+       {"depth", &a.depth, length, "of the pocket, below 0", {.is_of_machine = true}},
+       {"step", &a.step, length, "how deep a layer is, at most"},
        {"step-over",
         &a.step_over,
-        CamKind::percent,
+        percent,
         "from loop to loop, percent of the cutter's diameter",
         {.range = CamRange{1, 95}}},
        {"engagement",
         &a.engagement,
-        CamKind::degrees,
+        degrees,
         "never more than this angle of the cutter in the stock, degrees (constant engagement); 0: loops",
         {.range = CamRange{0, 150}, .matters_to = experts}},
        join_row(a.join),
@@ -56,67 +56,57 @@ std::vector<CamOption> cam_options_of(CamPocketArguments& a) {
 namespace {
 
 std::vector<CamOption> letter_rows(CamEngraveArguments& a) {
+  using enum CamKind;
   return {
-      {"text", &a.text, CamKind::text, "letters instead of a drawing"},
+      {"text", &a.text, text, "letters instead of a drawing"},
       {"font",
        &a.font,
-       CamKind::file,
+       file,
        "font of outlines (.ttf, .otf) or of single lines (.lff, .jhf), or simplex: such a one that is built in",
        {.choices = {"simplex"}}},
-      {"height", &a.height, CamKind::length, "of a capital letter"},
+      {"height", &a.height, length, "of a capital letter"},
       {"text-align",
        &a.text_align,
-       CamKind::choice,
+       choice,
        "where X0 is in a line of text: left, middle or right",
        {.choices = {"left", "middle", "right"}}},
-      {"around", &a.around, CamKind::length,
+      {"around", &a.around, length,
        "the text stands on a circle of this radius about X0 Y0; below 0 inside, at the bottom"},
-      {"arc",
-       &a.arc,
-       CamKind::text,
-       "FROM,TO: spread the text on this part of the circle, in degrees from X on, counterclockwise",
-       {.matters_to = experts}},
+      {"arc", &a.arc, text,
+       "FROM,TO: spread the text on this part of the circle, in degrees from X on, counterclockwise", experts_only},
       {"turn",
        &a.turn,
-       CamKind::degrees,
+       degrees,
        "the whole text about X0 Y0, degrees counterclockwise",
        {.range = CamRange{-3600, 3600}, .matters_to = experts}},
-      {"on-line",
-       &a.on_line,
-       CamKind::flag,
-       "follow the lines of the drawing, open ones too, --depth deep",
-       {.matters_to = experts}},
+      {"on-line", &a.on_line, flag, "follow the lines of the drawing, open ones too, --depth deep", experts_only},
       {"line-space",
        &a.line_space,
-       CamKind::number,
+       number,
        "from line to line, in heights",
        {.range = CamRange{0.1, 100}, .matters_to = experts}},
   };
 }
 
 std::vector<CamOption> carving_rows(CamEngraveArguments& a) {
+  using enum CamKind;
   return {
-      {"angle", &a.angle, CamKind::degrees, "between the flanks of the cutter, degrees", {.range = CamRange{5, 170}}},
-      {"tip", &a.tip, CamKind::length, "width of its tip"},
-      {"tool", &a.tool, CamKind::length, "its diameter, the widest that it carves"},
-      {"depth", &a.depth, CamKind::length,
-       "the deepest, below 0; without it as the cutter's width allows, on lines -0.3mm"},
-      {"step",
-       &a.step,
-       CamKind::length,
-       "how much deeper it goes at a time; without it to the depth at once",
-       {.matters_to = experts}},
-      {"clear", &a.clear, CamKind::length, "diameter of a flat cutter that clears what is wider, before"},
-      {"clear-step", &a.clear_step, CamKind::length, "how deep a layer of it is, at most", {.matters_to = experts}},
+      {"angle", &a.angle, degrees, "between the flanks of the cutter, degrees", {.range = CamRange{5, 170}}},
+      {"tip", &a.tip, length, "width of its tip"},
+      {"tool", &a.tool, length, "its diameter, the widest that it carves"},
+      {"depth", &a.depth, length, "the deepest, below 0; without it as the cutter's width allows, on lines -0.3mm"},
+      {"step", &a.step, length, "how much deeper it goes at a time; without it to the depth at once", experts_only},
+      {"clear", &a.clear, length, "diameter of a flat cutter that clears what is wider, before"},
+      {"clear-step", &a.clear_step, length, "how deep a layer of it is, at most", experts_only},
       {"inlay",
        &a.inlay,
-       CamKind::choice,
+       choice,
        "pocket: carve the hole of an inlay; plug: its mirrored counterpart, which stays",
        {.choices = {"pocket", "plug"}, .matters_to = experts}},
-      {"inlay-depth", &a.inlay_depth, CamKind::length, "of the pocket", {.matters_to = experts}},
-      {"glue-gap", &a.glue_gap, CamKind::length, "room below the plug, for glue", {.matters_to = experts}},
-      {"saw-gap", &a.saw_gap, CamKind::length, "between the faces of both, for the saw", {.matters_to = experts}},
-      {"margin", &a.margin, CamKind::length, "cleared around the plug", {.matters_to = experts}},
+      {"inlay-depth", &a.inlay_depth, length, "of the pocket", experts_only},
+      {"glue-gap", &a.glue_gap, length, "room below the plug, for glue", experts_only},
+      {"saw-gap", &a.saw_gap, length, "between the faces of both, for the saw", experts_only},
+      {"margin", &a.margin, length, "cleared around the plug", experts_only},
       join_row(a.join),
   };
 }
@@ -124,8 +114,9 @@ std::vector<CamOption> carving_rows(CamEngraveArguments& a) {
 }  // namespace
 
 std::vector<CamOption> cam_options_of(CamEngraveArguments& a) {
+  using enum CamKind;
   return all_of({
-      {{"FILE", &a.files, CamKind::drawings, "drawings: SVG, DXF or HPGL; what closed lines enclose is carved"}},
+      {{"FILE", &a.files, drawings, "drawings: SVG, DXF or HPGL; what closed lines enclose is carved"}},
       letter_rows(a),
       carving_rows(a),
       mill_rows(a),
