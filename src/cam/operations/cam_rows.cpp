@@ -62,6 +62,33 @@ CamOption picture_row(std::string& picture, const char* help) {
   return {"picture", &picture, file, help, {.matters_to = cli, .is_of_job = true, .letter = "p"}};
 }
 
+CamOption input_row(std::string& input, const char* help) {
+  const CamTraits traits{.choices = {"mm", "cm", "inch"}, .matters_to = experts, .is_of_job = true};
+  return {"input", &input, CamKind::choice, help, traits};
+}
+
+CamOption scale_row(std::optional<double>& scale) {
+  return {"scale", &scale, CamKind::number,
+          "DXF: the numbers times this are in the unit of --input, without it of --units", experts_of_one_job};
+}
+
+CamOption zero_row(std::string& zero, const char* help) {
+  return {"zero", &zero, CamKind::place, help, {.choices = {"file", "lower-left"}, .is_of_job = true}};
+}
+
+CamOption mirror_row(std::string& mirror) {
+  const char* const help = "the board is turned over: x from left to right, y from top to bottom";
+  return {"mirror", &mirror, CamKind::choice, help, {.choices = {"x", "y"}, .is_of_job = true}};
+}
+
+CamOption mirror_at_row(std::string& place) {
+  return {"mirror-at", &place, CamKind::length, "about this X or Y of the drawing; without it 0", experts_of_one_job};
+}
+
+CamOption park_row(std::string& park) {
+  return {"park", &park, CamKind::length, "X,Y at the start, at tool changes and at the end", experts_only};
+}
+
 std::vector<CamOption> mill_rows(CamMillArguments& a, CamFor layer) {
   using enum CamKind;
   return {
@@ -69,32 +96,19 @@ std::vector<CamOption> mill_rows(CamMillArguments& a, CamFor layer) {
       picture_row(a.picture, "draw what is milled, and the rapids (FILE.svg or FILE.png)"),
       {"json", &a.json, flag, "what was done, for scripts; needs --output", {.matters_to = cli, .is_of_job = true}},
       units_row(a.units),
-      {"input",
-       &a.input,
-       choice,
-       "DXF: unit of the file's numbers; without it as the file says",
-       {.choices = {"mm", "cm", "inch"}, .matters_to = experts, .is_of_job = true}},
-      {"scale", &a.scale, number, "DXF: the numbers times this are in the unit of --input, without it of --units",
-       experts_of_one_job},
+      input_row(a.input, "DXF: unit of the file's numbers; without it as the file says"),
+      scale_row(a.scale),
       layer_row(a.layers, "DXF, KiCad: read this layer; may be given again. Without it all that are on", layer),
-      {"zero",
-       &a.zero,
-       place,
-       "where X0 Y0 is: file, lower-left of the board, or X,Y",
-       {.choices = {"file", "lower-left"}, .is_of_job = true}},
-      {"mirror",
-       &a.mirror,
-       choice,
-       "the board is turned over: x from left to right, y from top to bottom",
-       {.choices = {"x", "y"}, .is_of_job = true}},
-      {"mirror-at", &a.mirror_at, length, "about this X or Y of the drawing; without it 0", experts_of_one_job},
+      zero_row(a.zero, "where X0 Y0 is: file, lower-left of the board, or X,Y"),
+      mirror_row(a.mirror),
+      mirror_at_row(a.mirror_at),
       {"align", &a.align, length, "X,Y,X,Y: turned over so that these two holes change places", experts_of_one_job},
       {"conventional", &a.conventional, flag, "conventional milling; without it climb milling"},
       clearance_row(a.clearance, "height of the rapids above the board"),
       {"feed", &a.feed, feed, "a minute, along the way"},
       {"plunge-feed", &a.plunge_feed, feed, "a minute, straight down"},
       spindle_row(a.spindle),
-      {"park", &a.park, length, "X,Y at the start, at tool changes and at the end", experts_only},
+      park_row(a.park),
   };
 }
 

@@ -24,6 +24,13 @@ std::vector<CamOption> edge_rows(CamOutlineArguments& arguments);
 
 // Of the program, and of lengths without a unit.
 CamOption units_row(std::string& units);
+// Of the numbers in the files.
+CamOption input_row(std::string& input, const char* help);
+CamOption scale_row(std::optional<double>& scale);
+CamOption zero_row(std::string& zero, const char* help);
+CamOption mirror_row(std::string& mirror);
+CamOption mirror_at_row(std::string& place);
+CamOption park_row(std::string& park);
 CamOption join_row(std::string& join);
 CamOption ramp_row(double& angle);
 CamOption clearance_row(std::string& clearance, const char* help);

@@ -40,18 +40,10 @@ std::vector<CamOption> cam_options_of(CamWireArguments& a) {
       {"heat", &a.heat, number, "S of M3, which heats the wire; without it the program leaves it alone"},
       join_row(a.join),
       units_row(a.units),
-      {"input",
-       &a.input,
-       choice,
-       "unit of a DXF file's numbers: mm, cm or inch; without it as it says",
-       {.choices = {"mm", "cm", "inch"}, .matters_to = experts}},
+      input_row(a.input, "unit of a DXF file's numbers: mm, cm or inch; without it as it says"),
       {"scale", &a.scale, number, "drawings: the numbers times this", experts_only},
       layer_row(a.layers, "read this layer; may be given again. Without it all that are on"),
-      {"zero",
-       &a.zero,
-       place,
-       "where X0 Y0 is: file, lower-left of the left profile, or X,Y",
-       {.choices = {"file", "lower-left"}}},
+      zero_row(a.zero, "where X0 Y0 is: file, lower-left of the left profile, or X,Y"),
   };
 }
 
