@@ -3,6 +3,10 @@ import { fill, language, languageOf, sayCount } from '../src/core/language';
 import { en } from '../src/lang/en';
 import { fr } from '../src/lang/fr';
 import { it as italian } from '../src/lang/it';
+import { en as camEn } from '../src/lang/cam/en';
+import { fr as camFr } from '../src/lang/cam/fr';
+import { it as camItalian } from '../src/lang/cam/it';
+import { zh as camZh } from '../src/lang/cam/zh';
 import { en as moreEn } from '../src/lang/more/en';
 import { fr as moreFr } from '../src/lang/more/fr';
 import { it as moreItalian } from '../src/lang/more/it';
@@ -23,10 +27,12 @@ describe('languages', () => {
     };
     same(en, [italian, fr, zh]);
     same(moreEn, [moreItalian, moreFr, moreZh]);
+    same(camEn, [camItalian, camFr, camZh]);
   });
 
   it('says each thing once: no later table hides a word of the first', () => {
     expect(Object.keys(moreEn).filter((key) => key in en)).toEqual([]);
+    expect(Object.keys(camEn).filter((key) => key in en || key in moreEn)).toEqual([]);
   });
 
   it('fills in values, and leaves what it does not know', () => {

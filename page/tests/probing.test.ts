@@ -1,10 +1,14 @@
 import { describe, expect, it } from 'vitest';
 import { fields, fieldsOf, kinds, waysOf } from '../src/machine/probing';
+import { description } from './description';
 import { viewsOf } from '../src/parts/cycle_picture';
 import { readLoads } from '../src/machine/studies';
 import { blockOf, cellOf } from '../src/scene/stock_cutter';
 import { noteLoads, type PathPoints } from '../src/scene/path_data';
 
+interface Numbers {
+  properties: Record<string, { default: number; minimum: number; maximum: number; 'x-cycles': string[] }>;
+}
 const usual = (kind: (typeof kinds)[number]): Record<string, number> => Object.fromEntries(fieldsOf(kind).map((one) => [one.name, one.usual]));
 
 describe('the picture of a cycle', () => {
@@ -33,8 +37,14 @@ describe('the picture of a cycle', () => {
     const map = viewsOf('map', '', { ...usual('map'), columns: 3, rows: 2, size_x: 40, size_y: 30, x: 5, y: 1 })[0];
     expect(map?.touches).toEqual([[5, 1], [25, 1], [45, 1], [45, 31], [25, 31], [5, 31]]);
   });
-  it('has a usual value within each range', () => {
-    for (const one of fields) expect(one.usual >= one.low && one.usual <= one.high, one.name).toBe(true);
+  it('has the ranges and usual values of the daemon', () => {
+    const { ProbingNumbers } = description().components.schemas as unknown as { ProbingNumbers: Numbers };
+    expect(fields.map((one) => one.name).sort()).toEqual(Object.keys(ProbingNumbers.properties).sort());
+    for (const one of fields) {
+      const daemon = ProbingNumbers.properties[one.name];
+      expect({ default: one.usual, minimum: one.low, maximum: one.high }, one.name).toMatchObject({ default: daemon?.default, minimum: daemon?.minimum, maximum: daemon?.maximum });
+      expect(daemon?.['x-cycles'], one.name).toEqual(expect.arrayContaining([...one.of]));
+    }
   });
 });
 

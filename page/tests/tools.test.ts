@@ -3,6 +3,7 @@ import { describe, expect, it } from 'vitest';
 import { mapTarget } from '../src/machine/programs';
 import type { Program } from '../src/machine/api';
 import { formFor, forms, isDrawing } from '../src/pages/make_forms';
+import { knowOperations } from './description';
 import { readChunks } from '../src/scene/path_data';
 import { isGoodTool, readToolFile } from '../src/scene/tool_file';
 
@@ -57,14 +58,15 @@ describe('a height map', () => {
 });
 
 describe('the forms of Make', () => {
-  const at = (job: string) => forms.find((one) => one.job === job) ?? forms[0];
+  knowOperations();
+  const at = (job: string) => forms.value.find((one) => one.job === job);
   it('make a whole board of several files, of a zip, and one job of one file', () => {
-    expect(formFor(['a-F_Cu.gbr', 'a.drl'], at('drill')).job).toBe('board');
-    expect(formFor(['board.zip'], at('profile')).job).toBe('board');
-    expect(formFor(['a.drl'], at('profile')).job).toBe('drill');
-    expect(formFor(['a.drl'], at('board')).job).toBe('board');
-    expect(formFor(['root.dat', 'tip.dat'], at('profile')).job).toBe('wire');
-    expect(formFor(['a.svg', 'b.svg'], at('pocket')).job).toBe('pocket');
+    expect(formFor(['a-F_Cu.gbr', 'a.drl'], at('drill'))?.job).toBe('board');
+    expect(formFor(['board.zip'], at('profile'))?.job).toBe('board');
+    expect(formFor(['a.drl'], at('profile'))?.job).toBe('drill');
+    expect(formFor(['a.drl'], at('board'))?.job).toBe('board');
+    expect(formFor(['root.dat', 'tip.dat'], at('profile'))?.job).toBe('wire');
+    expect(formFor(['a.svg', 'b.svg'], at('pocket'))?.job).toBe('pocket');
   });
   it('take drawings, and leave programs alone', () => {
     for (const name of ['a.zip', 'a.kicad_pcb', 'a.hpgl', 'a.TIF', 'a.GTL']) expect(isDrawing(name), name).toBe(true);

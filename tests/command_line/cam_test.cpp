@@ -3,6 +3,7 @@
 
 #include "kit/command_line.hpp"
 #include <gmock/gmock.h>
+#include <nlohmann/json.hpp>
 
 namespace {
 
@@ -135,6 +136,19 @@ TEST_F(CamDrill, layers_of_a_job_are_told_and_drawn) {
   EXPECT_NE(wrong.code, 0);
   EXPECT_THAT(wrong.err, HasSubstr("x.gbr:4:1: error"));
   EXPECT_THAT(wrong.err, HasSubstr("[gerber.no-aperture]"));
+}
+
+// The operations of the API, which a test holds to their description.
+TEST_F(CamDrill, is_a_command_as_all_operations_are) {
+  const nlohmann::json document = nlohmann::json::parse(read(PASSO_SOURCE_DIR "/docs/api/openapi.json"));
+  const auto& body = document["paths"]["/cam"]["post"]["requestBody"]["content"]["application/json"]["schema"];
+  EXPECT_GE(body["properties"]["job"]["enum"].size(), 9U);
+  for (const auto& job : body["properties"]["job"]["enum"]) {
+    const auto name = job.get<std::string>();
+    const Outcome help = passo("cam " + name + " --help");
+    EXPECT_EQ(help.code, 0) << name;
+    EXPECT_THAT(help.out, HasSubstr("passo cam " + name + " ")) << "examples";
+  }
 }
 
 }  // namespace

@@ -4,6 +4,11 @@ import { en, type Words } from '../lang/en';
 import { fr } from '../lang/fr';
 import { it } from '../lang/it';
 import { zh } from '../lang/zh';
+import { en as camEn } from '../lang/cam/en';
+import { fr as camFr } from '../lang/cam/fr';
+import { it as camIt } from '../lang/cam/it';
+import type { CamWords } from '../lang/cam/words';
+import { zh as camZh } from '../lang/cam/zh';
 import { en as moreEn } from '../lang/more/en';
 import { fr as moreFr } from '../lang/more/fr';
 import { it as moreIt } from '../lang/more/it';
@@ -15,8 +20,8 @@ export const languages = { en: 'English', it: 'Italiano', fr: 'Français', zh: '
 export type Language = keyof typeof languages;
 export type Key = keyof AllWords;
 
-type AllWords = Words & MoreWords;
-const tables: Record<Language, AllWords> = { en: { ...en, ...moreEn }, it: { ...it, ...moreIt }, fr: { ...fr, ...moreFr }, zh: { ...zh, ...moreZh } };
+type AllWords = Words & MoreWords & CamWords;
+const tables: Record<Language, AllWords> = { en: { ...en, ...moreEn, ...camEn }, it: { ...it, ...moreIt, ...camIt }, fr: { ...fr, ...moreFr, ...camFr }, zh: { ...zh, ...moreZh, ...camZh } };
 
 export function languageOf(wanted: readonly string[]): Language {
   for (const one of wanted) {
@@ -38,6 +43,8 @@ export function followLanguage(): void {
     document.documentElement.lang = language.value;
   });
 }
+
+export const isKey = (text: string): text is Key => text in tables.en;
 
 // The words of a key. {name} stands for a value: say('line', {n: 4}).
 export function say(key: Key, values: Record<string, string | number> = {}): string {

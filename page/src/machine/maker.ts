@@ -44,6 +44,34 @@ export interface BoardReport {
   holes: '' | 'pins' | 'probe';
   steps: BoardStep[];
 }
+// What GET /cam/operations says of an operation: JSON Schema, and more.
+export interface CamOption {
+  'x-kind': string;
+  'x-for'?: 'experts' | 'programs';
+  'x-of-job'?: boolean;
+  'x-of-machine'?: boolean;
+  enum?: string[];
+  examples?: string[];
+  default?: string | number;
+}
+export interface CamOperation {
+  title: string; // "drill"
+  'x-accepts': string; // ".svg,.dxf"
+  'x-most-files'?: number;
+  'x-instead-of-files'?: string;
+  'x-parts'?: string[];
+  properties: Record<string, CamOption>;
+}
+export const operations = signal<readonly CamOperation[]>([]);
+
+// They do not change while the daemon runs.
+export async function needOperations(): Promise<void> {
+  if (operations.value.length > 0) return;
+  await attempt(async () => {
+    operations.value = (await get<{ operations: CamOperation[] }>('/cam/operations')).operations;
+  });
+}
+
 export const make = signal<Make | null>(null);
 // Counts the orders that have ended, so that each has a picture of its own.
 export const madeCount = signal(0);

@@ -12,6 +12,7 @@ import type { HistoryJob, Program } from '../machine/api';
 import { ask, post, remove, upload } from '../machine/api';
 import { isLive, status } from '../machine/connection';
 import { alarms, ended, keeps, queue, refreshHistory } from '../machine/history';
+import { needOperations } from '../machine/maker';
 import { beOwner } from '../machine/owner';
 import { pathBox, pathIndex } from '../machine/path_index';
 import { checkProgram, chosen, deleteProgram, isListed, leaveOut, programs, sending, sendProgram, shown, shownId, timeOf } from '../machine/programs';
@@ -30,6 +31,7 @@ const mostFindings = 100;
 const linesShown = 3; // of the other lines with the same warning
 
 async function take(files: readonly File[]): Promise<void> {
+  await needOperations();
   const drawings = files.filter((file) => isDrawing(file.name));
   for (const file of files) if (!isDrawing(file.name)) await attempt(() => sendProgram(file));
   if (drawings.length === 0) return;

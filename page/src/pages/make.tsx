@@ -12,7 +12,7 @@ import { DropZone } from '../parts/drop_zone';
 import { Choice } from '../parts/view_dialog';
 import { forms, usualOf, withUnit, type Field, type Form } from './make_forms';
 import { BoardLayers, BoardSteps } from './make_board';
-import { ask, fieldsOf, formNow, isOwn, job, layers, lookAtMake, partsOf, pick, picked, set, takeDrawings, valuesOf } from './make_order';
+import { ask, fieldsOf, formNow, job, layers, lookAtMake, partsOf, pick, picked, set, takeDrawings, valuesOf } from './make_order';
 
 function Drawings({ form }: { form: Form }) {
   const files = make.value?.files ?? [];
@@ -69,12 +69,12 @@ function OneField({ form, field }: { form: Form; field: Field }) {
     );
   }
   const files = field.kind === 'file' ? (make.value?.files ?? []).map((name) => [name, name] as const) : [];
-  const choices = [...(field.choices ?? []).map(([one, title]) => [one, say(title)] as const), ...files];
+  const choices = [...field.choices.map(([one, title]) => [one, say(title)] as const), ...files];
   return (
     <label class="make-field">
       <span class="dim">{say(field.title)}</span>
       <select value={words} onChange={(event) => set(form, field.option, event.currentTarget.value)}>
-        <option value="">{say(field.without ?? 'make.usual')}</option>
+        <option value="">{field.without !== null && say(field.without)}</option>
         {choices.map(([one, title]) => (
           <option key={one} value={one}>
             {title}
@@ -130,6 +130,7 @@ export function MakePage() {
     void needFile();
   }, [isLive.value]);
   const form = formNow();
+  if (form === undefined) return null;
   return (
     <div class="make">
       <div class="pins-side">
@@ -137,7 +138,7 @@ export function MakePage() {
           <Choice
             title={say('make.job')}
             value={form.job}
-            all={forms.map((one) => [one.job, say(one.title)] as const)}
+            all={forms.value.map((one) => [one.job, say(one.title)] as const)}
             set={(to) => {
               job.value = to;
               ask(formNow());
@@ -148,7 +149,7 @@ export function MakePage() {
         <section class="panel" aria-label={say(form.title)}>
           <h2>{say(form.title)}</h2>
           <Fields form={form} fields={form.fields} />
-          {form.more !== undefined && (
+          {form.more.length > 0 && (
             <details>
               <summary>{say('make.more')}</summary>
               <Fields form={form} fields={form.more} />
@@ -159,7 +160,7 @@ export function MakePage() {
               <summary>
                 {say(part.title)}: {say('make.board.options')}
               </summary>
-              <Fields form={part} fields={fieldsOf(part).filter((field) => isOwn(form, field))} />
+              <Fields form={part} fields={fieldsOf(part).filter((field) => !field.ofJob)} />
             </details>
           ))}
           <p class="dim">{say('make.lengths', { unit: lengthUnit() })}</p>

@@ -1,14 +1,14 @@
 // What is to be made: the job, its drawings, and what was filled in. It outlives a look at another page.
 import { signal } from '@preact/signals';
 import { kept } from '../core/kept';
-import { make, order, refreshMake, sendDrawing, type Options } from '../machine/maker';
+import { make, needOperations, order, refreshMake, sendDrawing, type Options } from '../machine/maker';
 import { formFor, forms, ofMachine, withUnit, type Field, type Form } from './make_forms';
 
 type Values = Record<string, string | boolean>;
 const isTable = (value: unknown): value is Record<string, Values> => typeof value === 'object' && value !== null;
 // What was filled in, by job.
 const filled = kept<Record<string, Values>>('make', {}, isTable);
-export const job = signal(forms[0].job);
+export const job = signal('');
 export const picked = signal<readonly string[]>([]);
 // What a person says of a board's files, by their names: 'top copper'.
 export const layers = signal<Readonly<Record<string, string>>>({});
@@ -16,20 +16,18 @@ export const layers = signal<Readonly<Record<string, string>>>({});
 // A page that comes anew shows what was made last.
 let isNew = true;
 export async function lookAtMake(): Promise<void> {
-  await refreshMake();
+  await Promise.all([refreshMake(), needOperations()]);
   const last = make.value?.job ?? '';
-  if (isNew && picked.value.length === 0 && forms.some((one) => one.job === last)) job.value = last;
+  if (isNew && picked.value.length === 0 && forms.value.some((one) => one.job === last)) job.value = last;
   isNew = false;
 }
 
 export const valuesOf = (form: Form): Values => filled.value[form.job] ?? {};
-export const formNow = (): Form => forms.find((one) => one.job === job.value) ?? forms[0];
-export const fieldsOf = (form: Form): readonly Field[] => [...form.fields, ...(form.more ?? [])];
+// Undefined: the operations are not known yet.
+export const formNow = (): Form | undefined => forms.value.find((one) => one.job === job.value) ?? forms.value[0];
+export const fieldsOf = (form: Form): readonly Field[] => [...form.fields, ...form.more];
 // The forms whose fields belong to this one: what a board needs.
-export const partsOf = (form: Form): readonly Form[] => (form.parts ?? []).flatMap((name) => forms.find((one) => one.job === name) ?? []);
-
-// Of a form in another one: without what that one decides itself.
-export const isOwn = (form: Form, field: Field): boolean => !(form.decides ?? []).includes(field.option);
+export const partsOf = (form: Form): readonly Form[] => form.parts.flatMap((name) => forms.value.find((one) => one.job === name) ?? []);
 
 const filledIn = (value: string | boolean | undefined): string | boolean | undefined => (typeof value === 'string' ? value.trim() : value);
 
@@ -39,7 +37,8 @@ function optionsOf(form: Form, without: (field: Field) => boolean = () => false)
   return Object.fromEntries(all.flatMap(([field, value]) => (value === undefined ? [] : [[field.option, withUnit(field, value)]])));
 }
 
-export function ask(form: Form): void {
+export function ask(form: Form | undefined): void {
+  if (form === undefined) return;
   const options = optionsOf(form);
   // Letters need no drawing, and have none.
   const hasText = form.withoutFiles !== undefined && options[form.withoutFiles] !== undefined;
@@ -47,10 +46,10 @@ export function ask(form: Form): void {
   const named = fieldsOf(form).filter((field) => field.kind === 'file').map((field) => options[field.option]);
   const files = hasText ? [] : picked.value.filter((one) => !named.includes(one)).slice(0, form.most);
   if (files.length === 0 && !hasText) return;
-  if (form.parts === undefined) return order({ job: form.job, files, options });
+  if (form.parts.length === 0) return order({ job: form.job, files, options });
   const known = new Set(make.value?.job === form.job ? make.value.report?.files.map((one) => one.name) : []);
   const told = Object.entries(layers.value).filter(([name]) => known.has(name));
-  const profile = Object.fromEntries(partsOf(form).map((part) => [part.job, optionsOf(part, (field) => !isOwn(form, field))]));
+  const profile = Object.fromEntries(partsOf(form).map((part) => [part.job, optionsOf(part, (field) => field.ofJob)]));
   order({ job: form.job, files, options: { ...options, as: told.map(([name, layer]) => `${name}=${layer}`) }, profile });
 }
 
@@ -64,9 +63,13 @@ export function setLayer(name: string, layer: string): void {
   ask(formNow());
 }
 
+function takeForm(names: readonly string[]): void {
+  job.value = formFor(names, formNow())?.job ?? job.value;
+}
+
 export function pick(name: string, isPicked: boolean): void {
   picked.value = isPicked ? [...picked.value, name] : picked.value.filter((one) => one !== name);
-  if (isPicked) job.value = formFor([name], formNow()).job;
+  if (isPicked) takeForm([name]);
   ask(formNow());
 }
 
@@ -75,10 +78,10 @@ export async function takeDrawings(files: readonly File[]): Promise<void> {
   for (const file of files) await sendDrawing(file);
   const known = new Set(make.value?.files ?? []);
   const names = files.map((file) => file.name).filter((name) => known.has(name));
-  const last = files.at(-1);
-  if (last !== undefined) job.value = formFor(files.map((file) => file.name), formNow()).job;
+  if (files.length > 0) takeForm(files.map((file) => file.name));
   const form = formNow();
-  if (form.parts !== undefined) picked.value = [...new Set([...picked.value, ...names])];
+  if (form === undefined) return;
+  if (form.parts.length > 0) picked.value = [...new Set([...picked.value, ...names])];
   else if (picked.value.length === 0) picked.value = (make.value?.files ?? []).slice(-(form.most ?? 1));
   ask(form);
 }

@@ -37,6 +37,7 @@ constexpr ApiRoute routes[] = {
     {"POST", "/cam", "beginCam", anybody, json, &CamApi::begin},
     {"POST", "/cam/files", "sendCamFile", anybody, bytes, &CamApi::keep_file, Needs::maker},
     {"DELETE", "/cam/files", "clearCamFiles", anybody, none, &CamApi::clear_files, Needs::maker},
+    {"GET", "/cam/operations", "getCamOperations", anybody, none, &CamApi::operations},
     {"GET", "/cam/page", "getCamPage", anybody, none, &CamApi::page, Needs::maker},
     {"GET", "/cam/picture", "getCamPicture", anybody, none, &CamApi::picture, Needs::maker},
     // As these were called before; for one version.

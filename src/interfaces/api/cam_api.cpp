@@ -1,25 +1,16 @@
 #include "cam_api.hpp"
 
 #include <algorithm>
-#include <array>
 #include <charconv>
-#include <cmath>
 #include <utility>
 
 #include "api_json.hpp"
+#include "cam_schema.hpp"
 #include <fmt/format.h>
 
 namespace passo {
 namespace {
 
-constexpr std::array<std::string_view, 9> jobs = {"profile", "pocket", "engrave", "drill", "isolate",
-                                                  "outline", "board",  "relief",  "wire"};
-// Whose options a board's order may have, too.
-constexpr std::array<std::string_view, 3> board_tables = {"drill", "isolate", "outline"};
-// Options that name files of this computer, or that belong to the program itself.
-constexpr std::array<std::string_view, 7> own_options = {"output",  "picture",  "json", "profile",
-                                                         "machine", "remember", "help"};
-constexpr std::size_t longest_value = 200;
 constexpr std::size_t most_options = 60;
 constexpr std::size_t most_values = 200;
 
@@ -38,117 +29,80 @@ bool has(const List& list, std::string_view one) {
   return std::ranges::find(list, one) != std::ranges::end(list);
 }
 
-bool is_digit(char c) {
-  return c >= '0' && c <= '9';
-}
-
-bool is_option(std::string_view name) {
-  return !name.empty() && name.size() < 40 && name.front() != '-' && !has(own_options, name) &&
-         std::ranges::all_of(name, [](char c) { return (c >= 'a' && c <= 'z') || is_digit(c) || c == '-'; });
-}
-
-// Lengths, names and numbers: 1/32in has a slash between digits, and no other value has one.
-bool is_value(std::string_view value) {
-  if (value.size() > longest_value || value.find("..") != std::string_view::npos) return false;
-  for (std::size_t i = 0; i < value.size(); ++i) {
-    const char c = value[i];
-    if (c == '/') {
-      if (i == 0 || i + 1 == value.size() || !is_digit(value[i - 1]) || !is_digit(value[i + 1])) return false;
-    } else if (static_cast<unsigned char>(c) < 0x20 || c == 0x7f || c == '\\') {
-      return false;
-    }
-  }
-  return true;
-}
-
 struct MakeOption {
   std::string name;
   std::optional<std::string> value;  // empty: a flag
 };
 
-// Empty, with a reason: the options are none.
-std::optional<std::vector<MakeOption>> options_of(const Json& json, std::string& reason) {
-  std::vector<MakeOption> options;
-  if (!json.is_object() || json.size() > most_options) {
-    reason = "\"options\": expected an object";
-    return {};
-  }
+// The error: the options are none.
+Result<std::vector<MakeOption>, std::string> options_of(const CamOperation& operation, const Json& json,
+                                                        const std::vector<std::string>& files) {
+  std::vector<MakeOption> all;
+  if (!json.is_object() || json.size() > most_options) return Failure{"\"options\": expected an object"};
+  const std::vector<CamOption> rows = operation.options();
   for (const auto& [name, value] : json.items()) {
-    reason = fmt::format("there is no option \"{}\" here", name.substr(0, 40));
-    if (!is_option(name)) return {};
-    if (value.is_boolean()) {
-      if (value.get<bool>()) options.push_back({name, {}});
-      continue;
-    }
-    reason = fmt::format("\"{}\": expected a text, a number, true or false, or a list of texts", name);
-    for (const Json& one : value.is_array() ? value : Json::array({value})) {
-      const bool is_number = one.is_number() && std::isfinite(one.get<double>());
-      if (!is_number && !one.is_string()) return {};
-      const std::string text = is_number ? fmt::format("{}", one.get<double>()) : one.get<std::string>();
-      if (text.empty()) continue;
-      if (!is_value(text) || options.size() >= most_values) return {};
-      options.push_back({name, text});
+    const CamOption* const row = find_ordered(rows, name);
+    if (row == nullptr) return Failure{fmt::format("{} has no option \"{}\"", operation.name, name.substr(0, 40))};
+    const auto texts = ordered_values(*row, value, files);
+    if (!texts) return Failure{texts.error()};
+    for (const std::string& text : *texts) {
+      if (all.size() >= most_values) return Failure{fmt::format("\"{}\": there are too many values", name)};
+      all.push_back({name, row->kind == CamKind::flag ? std::nullopt : std::optional(text)});
     }
   }
-  reason.clear();
-  return options;
+  return all;
 }
 
-// As lines of a profile (machine_file/option_profile.hpp). Empty, with a reason: there is no such profile.
-std::optional<std::string> profile_of(const Json& json, std::string& reason) {
+// As lines of a profile (machine_file/option_profile.hpp). The error: there is no such profile.
+Result<std::string, std::string> profile_of(const CamOperation& operation, const Json& json,
+                                            const std::vector<std::string>& files) {
   std::string text;
-  if (!json.is_object()) {
-    reason = "\"profile\": expected an object";
-    return {};
-  }
+  if (!json.is_object()) return Failure{"\"profile\": expected an object"};
   for (const auto& [table, values] : json.items()) {
-    reason = fmt::format("\"profile\": there is no table \"{}\"", table.substr(0, 40));
-    if (!has(board_tables, table)) return {};
-    const auto options = options_of(values, reason);
-    if (!options) return {};
+    if (!has(operation.parts, table)) {
+      return Failure{fmt::format("\"profile\": there is no table \"{}\"", table.substr(0, 40))};
+    }
+    const auto options = options_of(*find_cam_operation(table), values, files);
+    if (!options) return Failure{options.error()};
     text += fmt::format("[{}]\n", table);
     std::string last;
     for (const auto& [name, value] : *options) {
-      reason = fmt::format("\"{}\": expected one value", name);
-      if (std::exchange(last, name) == name) return {};
+      if (std::exchange(last, name) == name) return Failure{fmt::format("\"{}\": expected one value", name)};
       // A JSON text is a TOML text, too.
       text += fmt::format("{} = {}\n", name,
                           value ? Json(*value).dump(-1, ' ', true, Json::error_handler_t::replace) : "true");
     }
   }
-  reason.clear();
   return text;
 }
 
-// Empty, with a reason: the body is no order. `kept`: names of the files that were sent.
-std::optional<MakeOrder> order_from(const Json& said, const std::vector<std::string>& kept, std::string& reason) {
+// The error: the body is no order. `kept`: names of the files that were sent.
+Result<MakeOrder, std::string> order_from(const Json& said, const std::vector<std::string>& kept) {
   MakeOrder order;
   const Json job = said.value("job", Json());
-  if (!job.is_string() || !has(jobs, job.get<std::string>())) {
-    reason = "\"job\": expected one of GET /cam";
-    return {};
-  }
-  order.job = job.get<std::string>();
+  const CamOperation* const operation = job.is_string() ? find_cam_operation(job.get<std::string>()) : nullptr;
+  if (operation == nullptr) return Failure{"\"job\": expected one of GET /cam"};
+  order.job = operation->name;
   const Json files = said.value("files", Json());
   const Json& said_options = said.contains("options") ? said["options"] : Json::object();
-  const bool has_letters = order.job == "engrave" && said_options.is_object() && said_options.contains("text");
-  reason = "\"files\": expected names of files that were sent";
-  if (!files.is_array() || (files.empty() && !has_letters)) return {};
+  const bool needs_no_files = said_options.is_object() && said_options.contains(operation->instead_of_files);
+  const Failure no_files{"\"files\": expected names of files that were sent"};
+  if (!files.is_array() || (files.empty() && !needs_no_files)) return no_files;
   for (const Json& one : files) {
-    if (!one.is_string() || !has(kept, one.get<std::string>())) return {};
+    if (!one.is_string() || !has(kept, one.get<std::string>())) return no_files;
     order.files.push_back(one.get<std::string>());
   }
-  const auto options = options_of(said_options, reason);
-  if (!options) return {};
+  const auto options = options_of(*operation, said_options, kept);
+  if (!options) return Failure{options.error()};
   for (const auto& [name, value] : *options) {
     order.options.push_back("--" + name + (value ? "=" + *value : std::string()));
   }
-  if (order.job != "board") {
-    reason = "\"profile\": only a board has one";
-    return said.contains("profile") ? std::nullopt : std::optional(std::move(order));
+  if (operation->parts.empty()) {
+    if (said.contains("profile")) return Failure{fmt::format("\"profile\": {} has none", operation->name)};
+    return order;
   }
-  const auto profile = profile_of(said.contains("profile") ? said["profile"] : Json::object(), reason);
-  if (!profile) return {};
+  const auto profile = profile_of(*operation, said.contains("profile") ? said["profile"] : Json::object(), kept);
+  if (!profile) return Failure{profile.error()};
   order.profile = *profile;
   return order;
 }
@@ -160,6 +114,8 @@ WebAnswer CamApi::state_answer(unsigned status) {
   const Maker& maker = *shared_.options.maker;
   const MakeResult& result = shared_.options.maker->look();
   const Json report = Json::parse(result.report, nullptr, false);
+  Json jobs = Json::array();
+  for (const CamOperation& operation : cam_operations()) jobs.push_back(operation.name);
   return json_answer(status, {{"jobs", jobs},
                               {"files", maker.files()},
                               {"state", name_of(result.state)},
@@ -174,6 +130,12 @@ WebAnswer CamApi::state_answer(unsigned status) {
 
 WebAnswer CamApi::look(const ApiCall&) {
   return state_answer();
+}
+
+WebAnswer CamApi::operations(const ApiCall&) {
+  Json all = Json::array();
+  for (const CamOperation& operation : cam_operations()) all.push_back(schema_of(operation));
+  return json_answer(200, {{"operations", std::move(all)}});
 }
 
 WebAnswer CamApi::picture(const ApiCall& call) {
@@ -222,11 +184,10 @@ WebAnswer CamApi::begin(const ApiCall& call) {
   }
   if (shared_.options.maker == nullptr) return no_maker();
   Maker& maker = *shared_.options.maker;
-  std::string reason;
-  auto order = order_from(said, maker.files(), reason);
-  if (!order) return bad_body(reason);
+  auto order = order_from(said, maker.files());
+  if (!order) return bad_body(order.error());
   const MachineFileAccess& file = shared_.options.machine_access;
-  if (order->job == "board" && file.read) order->machine = file.read().value_or("");
+  if (!find_cam_operation(order->job)->parts.empty() && file.read) order->machine = file.read().value_or("");
   if (!maker.begin(*order)) {
     if (maker.look().state == MakeResult::State::running)
       return error_answer(409, "make.busy", "another program is being made");

@@ -19,6 +19,7 @@ class CamApi {
   CamApi(const ApiShared& shared, const JobRunner& jobs) : shared_(shared), jobs_(jobs) {}
 
   WebAnswer look(const ApiCall& call);
+  WebAnswer operations(const ApiCall& call);
   WebAnswer begin(const ApiCall& call);
   WebAnswer keep_file(const ApiCall& call);
   WebAnswer clear_files(const ApiCall& call);

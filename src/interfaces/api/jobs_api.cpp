@@ -3,9 +3,11 @@
 #include <algorithm>
 #include <charconv>
 #include <utility>
+#include <vector>
 
 #include "api_json.hpp"
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include "passo/api/deleted_lines.hpp"
 #include "passo/probing/probing_cycle.hpp"
@@ -41,7 +43,9 @@ std::optional<ProbingCycle> cycle_from(const Json& body, std::uint64_t& program,
   const Json name = body.value("cycle", Json());
   const auto kind = name.is_string() ? kind_named(name.get<std::string>()) : std::nullopt;
   if (!kind) {
-    reason = "cycle: expected surface, edge, corner, bore, boss, tool, angle or map";
+    std::vector<std::string_view> known;
+    for (const ProbingKind one : all_probing_kinds()) known.push_back(name_of(one));
+    reason = fmt::format("cycle: expected one of {}", fmt::join(known, ", "));
     return {};
   }
   ProbingCycle cycle{.kind = *kind};

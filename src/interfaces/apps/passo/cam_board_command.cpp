@@ -361,7 +361,7 @@ std::string heed_words(BoardJob& job, const std::vector<std::string>& told) {
 int make_all(BoardMaker& maker, const BoardJob& job, CamDrillArguments drill, CamIsolateArguments isolate,
              CamOutlineArguments outline) {
   const std::filesystem::path& folder = maker.folder();
-  if (isolate.tools.empty() && isolate.v.empty()) isolate.tools = "0.2mm";
+  if (isolate.tools.empty() && isolate.v.empty()) isolate.tools = usual_isolation_tool;
   maker.tell_files();
   int code = maker.make(std::move(drill), std::move(isolate), std::move(outline));
   if (code != exit_done) return code;

@@ -4,7 +4,7 @@
 #include <functional>
 #include <string>
 
-#include "cam_arguments.hpp"
+#include "cam_commands.hpp"
 #include "length_arguments.hpp"
 #include "program_input.hpp"
 

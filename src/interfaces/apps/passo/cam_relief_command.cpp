@@ -5,7 +5,7 @@
 #include <numbers>
 #include <thread>
 
-#include "cam_arguments.hpp"
+#include "cam_commands.hpp"
 #include "length_argument.hpp"
 #include "named_files.hpp"
 #include "program_input.hpp"
@@ -81,14 +81,14 @@ ReliefShape shape_of(const CamReliefArguments& arguments, ReliefReading& read) {
 }
 
 ReliefTool tool_of(ReliefReading& read, const char* option, const std::string& cutter, const std::string& step,
-                   const std::string& feed, double removal, const CamReliefArguments& arguments) {
+                   const std::string& feed, std::optional<double> removal, const CamReliefArguments& arguments) {
   constexpr Mm fastest{100'000};
   ReliefTool tool;
   tool.cutter = read.cutter(option, cutter);
   if (!step.empty()) tool.step_over = read.length(fmt::format("{}-step", option).c_str(), step, least_length, Mm(100));
   tool.feed = read.length("--feed", feed.empty() ? arguments.feed : feed, Mm(1), fastest);
   tool.plunge = read.length("--plunge", arguments.plunge, Mm(1), fastest);
-  tool.removal = removal;
+  tool.removal = removal.value_or(0);
   if (!arguments.feed_most.empty()) tool.fastest = read.length("--feed-most", arguments.feed_most, Mm(1), fastest);
   return tool;
 }

@@ -12,13 +12,12 @@
 #include <fmt/ranges.h>
 
 #include "passo/machine_file/option_profile.hpp"
+#include "passo/operations/cam_operation.hpp"
 
 namespace passo {
 namespace {
 
 using Words = std::vector<std::string>;
-
-const Words commands_with_options = {"drill", "isolate", "outline"};
 
 // "--tool=0.2" is of "tool".
 std::string_view option_of_word(std::string_view word) {
@@ -26,12 +25,11 @@ std::string_view option_of_word(std::string_view word) {
   return word.substr(0, word.find('='));
 }
 
-// Options that speak of a drawing or of one job.
-bool is_of_the_job(std::string_view option) {
-  constexpr std::array<std::string_view, 15> names{"output",    "picture", "json",  "edge",    "layer",
-                                                   "scale",     "input",   "zeros", "zero",    "mirror",
-                                                   "mirror-at", "align",   "tab",   "machine", "remember"};
-  return std::ranges::find(names, option) != names.end();
+// Of an operation's options, or of those that ask for remembered ones.
+bool is_kept(std::string_view operation, std::string_view name) {
+  const std::vector<CamOption> options = find_cam_operation(operation)->options();
+  const CamOption* const option = find_option(options, name);
+  return option != nullptr && !option->traits.is_of_job;
 }
 
 // Whether what is given takes the place of what is kept: the same option, or another word for it.
@@ -77,9 +75,10 @@ int parse_words(CamArguments& all, const std::string& file, const OptionSection&
   CLI::App cam;
   CamArguments read;
   CLI::App& command = *cam.add_subcommand(section.name);
-  if (section.name == "drill") add_drill_options(command, read);
-  if (section.name == "isolate") add_isolate_options(command, read);
-  if (section.name == "outline") add_outline_options(command, read);
+  if (section.name == "drill") add_options(command, cam_options_of(read.drill));
+  if (section.name == "isolate") add_options(command, cam_options_of(read.isolate));
+  if (section.name == "outline") add_options(command, cam_options_of(read.outline));
+  add_remember_options(command, read);
   std::ranges::reverse(words);  // CLI11 wants the last word first
   try {
     cam.parse(std::move(words));
@@ -126,7 +125,8 @@ std::string text_of(const std::vector<OptionSection>& sections) {
 // Empty without a file. Nothing: it is wrong, which was said.
 std::optional<std::vector<OptionSection>> sections_of(const std::string& file) {
   Diagnostics findings;
-  auto sections = read_option_profile(file, commands_with_options, findings);
+  const auto parts = find_cam_operation("board")->parts;
+  auto sections = read_option_profile(file, {parts.begin(), parts.end()}, findings);
   show(findings);
   return sections;
 }
@@ -165,7 +165,7 @@ int use_remembered(const CLI::App& command, CamArguments& all) {
   const bool is_to_remember = all.remember;
   if (const int code = parse_words(all, file, *section, given); code != exit_done || !is_to_remember) return code;
   for (const std::string& word : given.options) {
-    if (!is_of_the_job(option_of_word(word))) section->words.push_back(word);
+    if (is_kept(name, option_of_word(word))) section->words.push_back(word);
   }
   const int code = write_text(file, text_of(sections));
   if (code == exit_done) note("the options are remembered in " + file);
@@ -176,7 +176,7 @@ int read_profile(CamArguments& all) {
   const bool has_machine = !all.board.machine.empty();
   const std::string remembered = has_machine ? remembered_file(all.board.machine) : "";
   std::string file = all.board.profile;
-  if (all.remember && (file.empty() || !has_machine))
+  if (all.board.remember && (file.empty() || !has_machine))
     return fail(exit_bad_program, "--remember: expected --profile FILE and -m FILE, too");
   if (file.empty() && has_machine && std::filesystem::exists(remembered)) {
     file = remembered;
@@ -188,7 +188,7 @@ int read_profile(CamArguments& all) {
   for (const OptionSection& section : *sections) {
     if (const int code = parse_words(all, file, section, {{}, {"board"}}); code != exit_done) return code;
   }
-  if (!all.remember) return exit_done;
+  if (!all.board.remember) return exit_done;
   const int code = write_text(remembered, text_of(*sections));
   if (code == exit_done) note("the options are remembered in " + remembered);
   return code;

@@ -7,6 +7,8 @@
 
 #include <sys/wait.h>
 
+#include "passo/operations/cam_operation.hpp"
+
 namespace passo {
 namespace {
 
@@ -19,9 +21,8 @@ constexpr const char* board_machine = ".made/machine.toml";
 constexpr std::string_view board_job = "board";
 
 std::string picture_file(const std::string& job) {
-  return std::string(made_folder) + (job == board_job  ? "/board.svg"
-                                     : job == "relief" ? "/picture.png"
-                                                       : "/picture.svg");
+  return std::string(made_folder) + (job == board_job ? "/board" : "/picture") +
+         find_cam_operation(job)->picture_ending;
 }
 
 // The name stands in the program and in its picture.
@@ -110,7 +111,7 @@ const MakeResult& ServedMaker::look() {
   if (!good) result_.names.clear();
   result_.has_page = good && result_.job == board_job;
   if (good && fs::exists(folder_.path(picture_file(result_.job)), none)) {
-    result_.picture_type = result_.job == "relief" ? "image/png" : "image/svg+xml";
+    result_.picture_type = picture_file(result_.job).ends_with(".png") ? "image/png" : "image/svg+xml";
   }
   return result_;
 }

@@ -1,7 +1,7 @@
-// The commands of `passo cam`, a function each, and their arguments.
+// The arguments of the operations of `passo cam`, a struct each. What stands in a member before anything is said is the
+// default, and stands nowhere else. cam_options_of() describes the members.
 //
-// `given`: what was read already, instead of the files. `made`: what is printed otherwise. Null: nothing.
-// Lengths are texts for parse_length(); a number without a unit is in `units`.
+// Lengths are texts with a unit, or without one in `units`; commas divide several.
 #pragma once
 
 #include <cstdint>
@@ -9,25 +9,9 @@
 #include <string>
 #include <vector>
 
-#include "commands.hpp"
-
-#include "passo/base/counted.hpp"
-#include "passo/cam/board_layer.hpp"
+#include "passo/operations/cam_option.hpp"
 
 namespace passo {
-
-// What a command would read from its files, if it was read already.
-struct CamSources {
-  std::vector<Drawing> drills = {};
-  BoardLayer layer = {};  // of the copper, or of the edge
-  Region board = {};      // inside the edge; empty: there is none
-};
-
-// What a command has made.
-struct CamMade {
-  std::vector<std::string> tools = {};  // for the operator, in the order in which they are used
-  std::string summary = {};
-};
 
 struct CamDrillArguments {
   std::vector<std::string> files;   // DXF or Excellon
@@ -58,9 +42,9 @@ struct CamDrillArguments {
   std::uint64_t route_steps = 200'000'000;  // of shorten_route()
   bool plain = false;                       // no canned cycles
 };
-int cam_drill(const CamDrillArguments& arguments, const CamSources* given = nullptr, CamMade* made = nullptr);
+std::vector<CamOption> cam_options_of(CamDrillArguments& arguments);
 
-// What both have.
+// What all milling has.
 struct CamMillArguments {
   std::vector<std::string> files;   // Gerber or DXF
   std::string output;               // empty: standard output
@@ -83,6 +67,9 @@ struct CamMillArguments {
   std::uint32_t spindle = 12000;  // turns a minute; 0: the program leaves the spindle alone
 };
 
+// Of a board whose options name no cutter.
+inline constexpr const char* usual_isolation_tool = "0.2mm";
+
 struct CamIsolateArguments : CamMillArguments {
   std::string edge;  // file of the board's edge; empty: none
   std::string join = "0.1mm";
@@ -96,7 +83,7 @@ struct CamIsolateArguments : CamMillArguments {
   bool voronoi = false;  // ways midway between the islands
   std::string tolerance = "0.004mm";
 };
-int cam_isolate(const CamIsolateArguments& arguments, const CamSources* given = nullptr, CamMade* made = nullptr);
+std::vector<CamOption> cam_options_of(CamIsolateArguments& arguments);
 
 struct CamOutlineArguments : CamMillArguments {
   std::string tool = "2mm";
@@ -111,12 +98,12 @@ struct CamOutlineArguments : CamMillArguments {
   std::string lead;  // empty: none
   bool dog_bones = false;
 };
-int cam_outline(const CamOutlineArguments& arguments, const CamSources* given = nullptr, CamMade* made = nullptr);
+std::vector<CamOption> cam_options_of(CamOutlineArguments& arguments);
 
 struct CamProfileArguments : CamOutlineArguments {
   std::string side = "part";  // outside, inside or on
 };
-int cam_profile(const CamProfileArguments& arguments);
+std::vector<CamOption> cam_options_of(CamProfileArguments& arguments);
 
 struct CamPocketArguments : CamMillArguments {
   std::string tool = "3mm";
@@ -127,7 +114,7 @@ struct CamPocketArguments : CamMillArguments {
   double engagement = 0;  // degrees; 0: loops
   double ramp = 5;        // degrees
 };
-int cam_pocket(const CamPocketArguments& arguments);
+std::vector<CamOption> cam_options_of(CamPocketArguments& arguments);
 
 struct CamEngraveArguments : CamMillArguments {
   std::string text;  // empty: the files are carved
@@ -153,10 +140,9 @@ struct CamEngraveArguments : CamMillArguments {
   std::string margin = "5mm";       // around the plug
   std::string join = "0.1mm";
 };
-int cam_engrave(const CamEngraveArguments& arguments);
+std::vector<CamOption> cam_options_of(CamEngraveArguments& arguments);
 
 struct CamWireArguments : CamMillArguments {
-  CamWireArguments() { feed = "200mm"; }
   std::string axes;             // XY or XYUV; empty: as the profiles need
   std::string keep = "inside";  // outside or line
   std::string kerf = "1mm";     // or WIDTH@SPEED,...
@@ -173,7 +159,7 @@ struct CamWireArguments : CamMillArguments {
   std::string join = "0.1mm";
   std::optional<std::uint32_t> heat;
 };
-int cam_wire(const CamWireArguments& arguments);
+std::vector<CamOption> cam_options_of(CamWireArguments& arguments);
 
 // The three commands at once, on all files of a board.
 struct CamBoardArguments {
@@ -189,16 +175,9 @@ struct CamBoardArguments {
   std::string join;                  // of the edge's ends; empty: as the outline's options say
   std::vector<std::string> told;     // FILE=LAYER: what the user says of files
   bool json = false;                 // what was made, on standard output
+  bool remember = false;             // the options of the profile, for the machine
 };
-int cam_board(const CamBoardArguments& arguments, CamDrillArguments drill, CamIsolateArguments isolate,
-              CamOutlineArguments outline);
-
-struct CamShowArguments {
-  std::vector<std::string> files;  // Gerber and drill files, folders, zip archives
-  std::string picture;             // .svg or .png; empty: none
-  bool json = false;
-};
-int cam_show(const CamShowArguments& arguments);
+std::vector<CamOption> cam_options_of(CamBoardArguments& arguments);
 
 // Lengths without a unit are in mm. Cutters are texts for parse_cutter().
 struct CamReliefArguments {
@@ -229,7 +208,7 @@ struct CamReliefArguments {
   double ramp_angle = 5;       // degrees
   std::string feed = "1000mm";
   std::string plunge = "300mm";
-  double removal = 0;              // mm3 a minute; 0: the feed does not look at it
+  std::optional<double> removal;   // mm3 a minute; empty: the feed does not look at it
   std::string feed_most;           // empty: as `feed`
   std::string rough;               // a cutter; empty: no roughing
   std::string rough_way = "rows";  // or offsets
@@ -237,14 +216,14 @@ struct CamReliefArguments {
   std::string rough_down = "2mm";
   std::string rough_stock = "0.3mm";
   std::string rough_feed;  // empty: as `feed`
-  double rough_removal = 0;
+  std::optional<double> rough_removal;
   std::string rest;  // a cutter; empty: no rest finishing
   std::string rest_step;
   std::string rest_least = "0.05mm";
   std::string rest_feed;  // empty: as `feed`
-  double rest_removal = 0;
+  std::optional<double> rest_removal;
   std::uint32_t spindle = 12000;  // turns a minute; 0: the program leaves the spindle alone
 };
-int cam_relief(const CamReliefArguments& arguments);
+std::vector<CamOption> cam_options_of(CamReliefArguments& arguments);
 
 }  // namespace passo

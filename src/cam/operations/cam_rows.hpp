@@ -1,0 +1,42 @@
+// Rows that several operations have. Private to operations/.
+#pragma once
+
+#include <initializer_list>
+#include <vector>
+
+#include "passo/operations/cam_arguments.hpp"
+
+namespace passo {
+
+inline constexpr CamFor cli = CamFor::command_line;
+inline constexpr CamFor experts = CamFor::experts;
+inline const CamTraits experts_only{.matters_to = experts};
+inline const CamTraits of_one_job{.is_of_job = true};
+inline const CamTraits experts_of_one_job{.matters_to = experts, .is_of_job = true};
+inline const CamTraits are_needed{.is_required = true};  // of drawings
+
+std::vector<CamOption> all_of(std::initializer_list<std::vector<CamOption>> parts);
+
+// What all milling of drawings has. `layer`: for whom --layer matters.
+std::vector<CamOption> mill_rows(CamMillArguments& arguments, CamFor layer = experts);
+// How the cutter goes around an edge: depths, tabs, ramps, leads.
+std::vector<CamOption> edge_rows(CamOutlineArguments& arguments);
+
+// Of the program, and of lengths without a unit.
+CamOption units_row(std::string& units);
+// Of the numbers in the files.
+CamOption input_row(std::string& input, const char* help);
+CamOption scale_row(std::optional<double>& scale);
+CamOption zero_row(std::string& zero, const char* help);
+CamOption mirror_row(std::string& mirror);
+CamOption mirror_at_row(std::string& place);
+CamOption park_row(std::string& park);
+CamOption join_row(std::string& join);
+CamOption ramp_row(double& angle);
+CamOption clearance_row(std::string& clearance, const char* help);
+CamOption spindle_row(std::uint32_t& spindle);
+CamOption layer_row(std::vector<std::string>& layers, const char* help, CamFor matters_to = experts);
+CamOption output_row(std::string& output);
+CamOption picture_row(std::string& picture, const char* help);
+
+}  // namespace passo

@@ -1,0 +1,34 @@
+// CamOperation: one operation of `passo cam`, which makes programs of drawings or pictures. What is made is told by its
+// options (cam_option.hpp); the rows are all that the command line, the API and the page know of it beforehand.
+#pragma once
+
+#include <array>
+#include <span>
+#include <string_view>
+#include <vector>
+
+#include "passo/operations/cam_option.hpp"
+
+namespace passo {
+
+struct CamOperation {
+  const char* name;                         // "drill"
+  const char* purpose;                      // a line of the help
+  const char* accepts;                      // endings of the files that it reads: ".svg,.dxf"
+  const char* examples;                     // what the help says after the options
+  std::vector<CamOption> (*options)();      // with their defaults
+  const char* instead_of_files = "";        // the option with which it needs no files
+  std::span<const char* const> parts = {};  // operations whose options a profile may have
+  const char* picture_ending = ".svg";
+};
+
+// In the order in which the page offers them. Of several operations that read a file, the first one is tried.
+std::span<const CamOperation> cam_operations();
+
+// Null: there is none of this name.
+const CamOperation* find_cam_operation(std::string_view name);
+
+// Null: there is none of this name.
+const CamOption* find_option(std::span<const CamOption> options, std::string_view name);
+
+}  // namespace passo
