@@ -14,6 +14,7 @@
 #include <thread>
 
 #include "cost.hpp"
+#include "kit/level_png.hpp"
 
 #include "passo/carve/dropped_cutter.hpp"
 #include "passo/carve/level_picture.hpp"
@@ -67,7 +68,7 @@ LevelPicture flower_picture(std::size_t side) {
 
 int write_picture(std::size_t side, const char* path) {
   std::ofstream file(path, std::ios::binary);
-  file << write_level_picture(flower_picture(side));
+  file << test::png_of_levels(flower_picture(side));
   return file ? 0 : 1;
 }
 

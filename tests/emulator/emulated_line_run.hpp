@@ -61,7 +61,7 @@ class EmulatedLineRun {
     static_cast<void>((*board)->run(Seconds(0.01)));
     expect_same_way(log.steps, reference_);
     expect_within_limits(machine_, log.steps);
-    return {.frames = line.frames(), .faults = line.faults(), .recoveries = job.drive().refiller()->recoveries()};
+    return {.frames = line.frames(), .faults = line.faults(), .recoveries = job.drive().ledger()->recoveries()};
   }
 
   // Cuts the line before each `stride`th frame.

@@ -68,8 +68,8 @@ LineProbing run(const Kind& kind, const MachineDescription& machine, const Spoil
   result.contacts = oracle.contacts;
   result.releases = oracle.releases;
   result.end = oracle.place();
-  result.recoveries = job.drive().refiller()->recoveries();
-  result.longest_ahead = job.drive().refiller()->longest_ahead();
+  result.recoveries = job.drive().ledger()->recoveries();
+  result.longest_ahead = job.drive().ledger()->longest_ahead();
   test::expect_within_limits(machine, log.steps);
   return result;
 }

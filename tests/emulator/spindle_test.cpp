@@ -75,7 +75,7 @@ TurnedPart turn(const Kind& kind, const std::string& program, const MachineDescr
   }
   EXPECT_FALSE(diagnostics.any_error()) << render(diagnostics, false);
   result.error = job.link().error();
-  result.rests = job.drive().refiller()->recoveries();
+  result.rests = job.drive().ledger()->recoveries();
   return result;
 }
 

@@ -110,7 +110,7 @@ void expect_no_standstill(const LongProgram& program, const StepTiming& wanted) 
                           {.board = board->get()});
   ASSERT_FALSE(job.unsuited()) << *job.unsuited();
   std::vector<BoardSegment> played;
-  job.drive().refiller()->watch_executed([&](const LinkItem& item) {
+  job.drive().ledger()->watch_executed([&](const LinkItem& item) {
     if (const auto* segment = std::get_if<BoardSegment>(&item)) played.push_back(*segment);
   });
   Seconds asked{0};

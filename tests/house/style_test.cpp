@@ -1,6 +1,8 @@
 // The part of the style that clang-format and clang-tidy do not know.
 #include <algorithm>
+#include <cctype>
 #include <iterator>
+#include <map>
 #include <regex>
 #include <sstream>
 
@@ -26,6 +28,43 @@ TEST(Style, a_file_is_named_after_what_it_holds) {
       std::ranges::replace(name, '-', '_');
       std::istringstream words(name);
       for (std::string word; std::getline(words, word, '_');) EXPECT_FALSE(empty_words.contains(word)) << file;
+    }
+  }
+}
+
+// "grbl_controller" of "GrblController".
+std::string file_name_of(const std::string& type) {
+  std::string name;
+  for (const char c : type) {
+    if (std::isupper(static_cast<unsigned char>(c)) != 0 && !name.empty()) name += '_';
+    name += static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+  }
+  return name;
+}
+
+// How many functions of other places' classes a source defines: "GrblController" -> 17.
+std::map<std::string, int> members_in(const fs::path& file) {
+  static const std::regex member(R"(^(?:[\w:<>,&* ]+ )?[*&]?(\w+)::~?\w+\()");
+  std::map<std::string, int> members;
+  for (const std::string& line : lines_of(file)) {
+    std::smatch found;
+    if (line.empty() || line[0] == ' ' || line.find("::") == std::string::npos) continue;
+    if (std::regex_search(line, found, member)) ++members[found[1]];
+  }
+  return members;
+}
+
+// A class that has grown beyond one file: each of its files begins with its name. A file that is the source of a header
+// has that header's name.
+TEST(Style, a_file_that_holds_a_part_of_a_class_is_named_after_the_class) {
+  constexpr int worth_a_name = 3;
+  for (const fs::path& file : files_below("src", {".cpp"})) {
+    const std::string stem = file.stem().string();
+    if (text_of(file).find(stem + ".hpp\"") != std::string::npos) continue;
+    for (const auto& [type, count] : members_in(file)) {
+      const std::string home = file_name_of(type);
+      if (count < worth_a_name || !fs::exists(project_root() / file.parent_path() / (home + ".cpp"))) continue;
+      EXPECT_TRUE(stem.starts_with(home)) << file << " holds a part of " << type;
     }
   }
 }

@@ -85,8 +85,8 @@ class DrivenBoard {
   bool is_remote() const { return remote_; }
   // Lets the virtual machine do what the real board has done.
   void follow(MotionDrive& drive) {
-    if (!shadow_ || drive.refiller() == nullptr) return;
-    drive.refiller()->watch_executed([this](const LinkItem& item) { send(*shadow_, item); });
+    if (!shadow_ || drive.ledger() == nullptr) return;
+    drive.ledger()->watch_executed([this](const LinkItem& item) { send(*shadow_, item); });
   }
   void catch_up() {
     if (shadow_) drain(*shadow_);
@@ -127,7 +127,7 @@ class DrivenProgram {
   }
   // Switches on the outputs that are on at the place where the job is resumed.
   void resume() {
-    if (on_.resume_at && drive_.refiller() != nullptr) {
+    if (on_.resume_at && drive_.ledger() != nullptr) {
       drive_.switch_on(on_.resume_at->outputs, on_.resume_at->spindle_wait);
     }
   }

@@ -44,7 +44,7 @@ inline Outcome run(const MachineDescription& machine, const std::string& program
   EXPECT_FALSE(diagnostics.any_error());
   EXPECT_FALSE(job.link().error()) << message_of(*job.link().error());
   outcome.steps = log.steps;
-  if (job.drive().refiller() != nullptr) outcome.recoveries = job.drive().refiller()->recoveries();
+  if (job.drive().ledger() != nullptr) outcome.recoveries = job.drive().ledger()->recoveries();
   return outcome;
 }
 

@@ -100,7 +100,7 @@ struct Meddling {
 };
 
 struct RunOptions {
-  std::optional<Commitment> live = live_commitment;
+  Commitment live = live_commitment;
   Meddling* meddling = nullptr;
 };
 
@@ -112,9 +112,9 @@ struct Ending {
 
 inline Ending run(const std::string& program, const MachineDescription& machine, const RunOptions& options = {}) {
   Diagnostics diagnostics;
-  DrivenProgram job(ProgramReader::from_text("t", program), machine, InterpreterOptions(), diagnostics);
+  DrivenProgram job(ProgramReader::from_text("t", program), machine, InterpreterOptions(), diagnostics,
+                    {.live = options.live});
   Watch watch(job, machine);
-  if (options.live) job.drive().go_live(*options.live);
   while (job.advance()) {
     if (options.meddling != nullptr) options.meddling->act(job.drive());
   }

@@ -178,7 +178,7 @@ TEST_P(OnEachProgram, a_broken_line_does_not_lose_the_side_of_the_backlash) {
     run.line().cut(Seconds(cut), Seconds(0.9));
     while (run.advance()) {
     }
-    recoveries += run.drive().refiller()->recoveries();
+    recoveries += run.drive().ledger()->recoveries();
     EXPECT_LE(farthest(plant.places, wanted.places), 1 + 1e-9);
     EXPECT_LE(farthest(wanted.places, plant.places), 1 + 1e-9);
     EXPECT_LE(between(plant.places.back(), wanted.places.back()), 1e-9);

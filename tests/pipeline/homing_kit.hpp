@@ -87,10 +87,10 @@ inline void note(const DrivenHoming& homing, Homed& result) {
   result.error = homing.drive().link().error();
   result.place = homing.place();
   result.axes = homing.path().homed();
-  const Refiller* const refiller = homing.drive().refiller();
-  if (refiller == nullptr) return;
-  result.recoveries = refiller->recoveries();
-  result.longest_ahead = refiller->longest_ahead();
+  const RefillLedger* const ledger = homing.drive().ledger();
+  if (ledger == nullptr) return;
+  result.recoveries = ledger->recoveries();
+  result.longest_ahead = ledger->longest_ahead();
 }
 
 // Along the direction of homing, from where the axis stood.

@@ -114,10 +114,10 @@ Reaction reaction_to_hold(const std::string& program, const MachineDescription& 
   double asked = 0;
   for (const bool held : {false, true}) {
     Diagnostics diagnostics;
-    DrivenProgram job(ProgramReader::from_text("t", program), machine, InterpreterOptions(), diagnostics);
+    DrivenProgram job(ProgramReader::from_text("t", program), machine, InterpreterOptions(), diagnostics,
+                      {.live = live_commitment});
     job.machine().add_observer(steps[held ? 1 : 0]);
     MotionDrive& drive = job.drive();
-    drive.go_live();
     while (job.advance() && drive.state() != State::held) {
       if (!held || asked > 0 || drive.now().value() < at) continue;
       drive.hold();
@@ -168,9 +168,9 @@ TEST(MidRun, a_stop_ends_at_rest_on_the_path_with_the_outputs_off_and_the_place_
   for (const std::string& program : {lines(), arcs(), dense(), cycles()}) {
     for (int i = 0; i < 5; ++i) {
       Diagnostics diagnostics;
-      DrivenProgram job(ProgramReader::from_text("t", program), machine, InterpreterOptions(), diagnostics);
+      DrivenProgram job(ProgramReader::from_text("t", program), machine, InterpreterOptions(), diagnostics,
+                        {.live = live_commitment});
       MotionDrive& drive = job.drive();
-      drive.go_live();
       Point place;
       double speed = 0;
       job.motion().watch([&](const MotionItem& item) {
@@ -216,9 +216,8 @@ class Switched {
  public:
   explicit Switched(const std::string& program, bool jerk = false)
       : machine_(jerk ? with_jerk_limits(example_machine("router")) : example_machine("router")),
-        job_(ProgramReader::from_text("t", program), machine_, InterpreterOptions(), diagnostics_) {
-    job_.drive().go_live();
-  }
+        job_(ProgramReader::from_text("t", program), machine_, InterpreterOptions(), diagnostics_,
+             {.live = live_commitment}) {}
   MotionDrive& drive() { return job_.drive(); }
   const VirtualMachine& machine() { return job_.machine(); }
   // To the time, or to the end.

@@ -88,8 +88,8 @@ Probed run(const std::string& program, const MachineDescription& machine, const 
   result.stopped_by_probe = job.drive().stopped_by_probe();
   result.outputs = job.machine().counts().outputs;
   result.end = end_of(job.machine(), machine);
-  result.recoveries = job.drive().refiller()->recoveries();
-  result.longest_ahead = job.drive().refiller()->longest_ahead();
+  result.recoveries = job.drive().ledger()->recoveries();
+  result.longest_ahead = job.drive().ledger()->longest_ahead();
   test::expect_within_limits(machine, log.steps);
   return result;
 }

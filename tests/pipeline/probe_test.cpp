@@ -35,12 +35,11 @@ Probed run(const std::string& program, const MachineDescription& machine, const 
   Probed result;
   IdealPlant plant = plant_of(machine, options.start, {box});
   test::DrivenProgram job(ProgramReader::from_text("t", program), machine, options, result.diagnostics,
-                          {.plant = &plant});
+                          {.plant = &plant, .live = random != nullptr ? live_commitment : endless_commitment});
   ContactOracle oracle(machine, box);
   job.machine().add_observer(oracle);
   MotionDrive& drive = job.drive();
   drive.probe().watch([&](const ProbeOutcome& outcome) { result.outcomes.push_back(outcome); });
-  if (random != nullptr) drive.go_live();
   while (job.advance()) {
     if (random == nullptr) continue;
     if (drive.state() == MotionDrive::State::running && random->chance(0.01)) drive.hold();

@@ -68,7 +68,7 @@ void expect_nearly_the_fastest(test::Machines machines) {
   int too_long = 0;
   const auto try_one = [&](std::uint64_t number, const test::RandomJob& job, test::Random&) {
     const std::clock_t begin = std::clock();
-    const test::Ending ending = test::run(job.program, job.machine, {.live = {}});
+    const test::Ending ending = test::run(job.program, job.machine, {.live = endless_commitment});
     effort.add(static_cast<double>(std::clock() - begin) / CLOCKS_PER_SEC, number);
     if (static_cast<double>(std::clock() - begin) / CLOCKS_PER_SEC > allowed_seconds) ++too_long;
     const MotionProof& proof = ending.proof;
@@ -138,7 +138,7 @@ TEST(RotaryCorners, are_passed_nearly_as_fast_as_can_be) {
   for (int i = 0; i < 30; ++i) program += "G1 Y.0863 A.74\nG1 A1.14\n";
   for (const double tolerance : {0.001, 0.005, 0.02, 0.1}) {
     machine.path_tolerance = Mm(tolerance);
-    const test::Ending ending = test::run(program + "M2\n", machine, {.live = {}});
+    const test::Ending ending = test::run(program + "M2\n", machine, {.live = endless_commitment});
     for (const std::string& fault : ending.proof.faults()) ADD_FAILURE() << fault;
     EXPECT_LT(ending.proof.times_bound(), 1.012) << "within " << tolerance << " mm";
   }
@@ -156,7 +156,7 @@ TEST(ArcCorners, are_passed_as_fast_as_corners_between_lines) {
       for (int i = 1; i <= 6; ++i)
         program +=
             fmt::format("G1 X{}\n{} X{} Y{}{}\n", 5 * i, leg, 5 * i, 5 * i, leg == std::string("G2") ? " R50" : "");
-      const test::Ending ending = test::run(program + "M2\n", machine, {.live = {}});
+      const test::Ending ending = test::run(program + "M2\n", machine, {.live = endless_commitment});
       for (const std::string& fault : ending.proof.faults()) ADD_FAILURE() << fault;
       return ending.proof.time.value();
     };
@@ -169,7 +169,7 @@ TEST(UnevenAxes, play_a_short_arc_nearly_as_fast_as_can_be) {
   MachineDescription machine = even_machine({Axis::x, Axis::y}, 50, MmPerSecond(200), MmPerSecond2(130));
   machine.axes[0].acceleration = MmPerSecond2(32);
   const std::string program = "G21 G90 F30000\nG2 X-0.012965 Y0.027477 I0.084315 J0.056581\nM2\n";
-  const test::Ending ending = test::run(program, machine, {.live = {}});
+  const test::Ending ending = test::run(program, machine, {.live = endless_commitment});
   for (const std::string& fault : ending.proof.faults()) ADD_FAILURE() << fault;
   EXPECT_LT(ending.proof.times_bound(), 1.01);
 }
@@ -178,7 +178,7 @@ TEST(UnevenAxes, play_a_short_arc_nearly_as_fast_as_can_be) {
 TEST(UnevenAxes, follow_chords_nearly_as_fast_as_can_be) {
   test::Random random = test::Random::of(811503309);
   const test::RandomJob job(random);
-  const test::Ending ending = test::run(job.program, job.machine, {.live = {}});
+  const test::Ending ending = test::run(job.program, job.machine, {.live = endless_commitment});
   for (const std::string& fault : ending.proof.faults()) ADD_FAILURE() << fault;
   EXPECT_LT(ending.proof.times_bound(), 1.012);
 }
@@ -195,7 +195,7 @@ TEST(FeedChanges, cost_nothing_on_a_nearly_straight_path) {
     program +=
         fmt::format("G1 X{:.6f} Y{:.6f} Z{:.6f} F{}\n", 0.1301019 * parts, -0.0136874 * parts, 0.4869851 * parts, feed);
   }
-  const test::Ending ending = test::run(program + "M2\n", machine, {.live = {}});
+  const test::Ending ending = test::run(program + "M2\n", machine, {.live = endless_commitment});
   for (const std::string& fault : ending.proof.faults()) ADD_FAILURE() << fault;
   EXPECT_LT(ending.proof.times_bound(), 1.005);
 }
@@ -207,7 +207,7 @@ TEST(RandomMotion, is_nearly_the_fastest_where_jerk_in_bends_decides) {
     SCOPED_TRACE("PASSO_SEED=" + std::to_string(number));
     test::Random random = test::Random::of(number);
     const test::RandomJob job(random);
-    const test::Ending ending = test::run(job.program, job.machine, {.live = {}});
+    const test::Ending ending = test::run(job.program, job.machine, {.live = endless_commitment});
     for (const std::string& fault : ending.proof.faults()) ADD_FAILURE() << fault;
     EXPECT_LT(ending.proof.times_bound(), 1.2);
     EXPECT_GE(ending.proof.times_bound(), 1 - rounding);
@@ -222,7 +222,7 @@ TEST(RandomMotion, keeps_to_the_torque_where_its_curve_bends) {
     SCOPED_TRACE("PASSO_SEED=" + std::to_string(number));
     test::Random random = test::Random::of(number);
     const test::RandomJob job = test::RandomJob::of(machines, number, random);
-    const test::Ending ending = test::run(job.program, job.machine, {.live = {}});
+    const test::Ending ending = test::run(job.program, job.machine, {.live = endless_commitment});
     for (const std::string& fault : ending.proof.faults()) ADD_FAILURE() << fault;
   }
 }

@@ -74,7 +74,7 @@ inline Played play(const std::string& program, const MachineDescription& machine
   }
   EXPECT_FALSE(diagnostics.any_error()) << render(diagnostics, false);
   Played played{.cuts = thread.cuts, .time = job.drive().now().value(), .error = job.link().error()};
-  if (job.drive().refiller() != nullptr) played.rests = job.drive().refiller()->recoveries();
+  if (job.drive().ledger() != nullptr) played.rests = job.drive().ledger()->recoveries();
   played.outputs = job.machine().counts().outputs;
   return played;
 }

@@ -1,12 +1,12 @@
 #include "passo/link/board_session.hpp"
 
 #include <algorithm>
-#include <cassert>
 #include <cmath>
 #include <cstdlib>
 #include <span>
 #include <utility>
 
+#include "passo/base/ensure.hpp"
 #include "passo/wire/announcement.hpp"
 
 namespace passo {
@@ -17,19 +17,22 @@ namespace {
 constexpr int most_refusals = 8;  // of one frame
 constexpr int sure_of_status = 2;
 
-// A peer that talks, and neither answers nor takes nor executes anything, is given up after this many times the
-// patience. No item has so long between two of its events.
-constexpr double most_patiences = 2;
-
 constexpr std::size_t most_gibberish = 256;
 
-// Limit switches and the emergency stop.
-constexpr std::uint16_t stopping_inputs = 0xFF | input_emergency_stop;
+// In bytes, of the frames on the wire that a small board has not taken. It keeps 256 received bytes; the rest is for
+// questions. A board with many places takes frames as fast as they come.
+constexpr std::size_t most_under_way_to_small = 224;
+constexpr int many_places = 200;
+
+// What a step generator hands on, and no board refuses.
+bool is_playable(const BoardSegment& segment) {
+  return segment.events > 0 && std::abs(segment.change) <= largest_change;
+}
 
 }  // namespace
 
 BoardSession::BoardSession(BoardPort& port, const LineCare& care)
-    : port_(port), care_(care), heard_(port.elapsed()), quiet_since_(heard_) {
+    : port_(port), silence_(care, port.elapsed()), window_(port, silence_.may_lose()) {
   decoder_.set_motors(max_motors);
 }
 
@@ -43,9 +46,9 @@ BoardSession::Progress BoardSession::poll(Seconds most) {
     return progress;
   }
   do {
-    const Seconds patience = std::max(quiet_since_ + care_.answer_within - port_.elapsed(), Seconds(0));
+    const Seconds patience = silence_.until_question(port_.elapsed());
     const Seconds left = std::max(end - port_.elapsed(), Seconds(0));
-    const bool heard = hear(std::min(endless ? care_.answer_within : patience, left));
+    const bool heard = hear(std::min(endless ? silence_.care().answer_within : patience, left));
     progress.heard = progress.heard || heard;
     mind_silence(heard, endless);
   } while (!error_ && !news_ && end - port_.elapsed() > hardly_any);
@@ -55,75 +58,68 @@ BoardSession::Progress BoardSession::poll(Seconds most) {
 
 // True: the board has to say something.
 bool BoardSession::expects() const {
-  return awaited_ || phase_ == Phase::greeting || phase_ == Phase::naming || busy() ||
-         (may_lose() && (!kept_.empty() || !answered_));
+  return questions_.awaited() || handshake_.is_under_way() || busy() ||
+         (silence_.may_lose() && (window_.keeps_any() || !questions_.answered()));
 }
 
 // Silence counts from now on, if nothing was expected before.
 void BoardSession::begin_to_expect() {
-  if (!expects()) progressed_ = heard_ = quiet_since_ = port_.elapsed();
+  if (!expects()) silence_.begin(port_.elapsed());
 }
 
 // Asks again, or gives up, after a silence. An endless wait expects something in any case.
 void BoardSession::mind_silence(bool heard, bool endless) {
-  const Seconds now = port_.elapsed();
   if (error_) return;
-  if (heard) quiet_since_ = now;
-  if (!endless && !expects()) {
-    progressed_ = heard_ = quiet_since_ = now;
-  } else if (!may_lose()) {
-    if (!heard && endless) error_ = LinkError::no_answer;
-  } else if (now - heard_ > care_.patience) {
-    error_ = LinkError::no_answer;
-  } else if (now - progressed_ > most_patiences * care_.patience) {
-    error_ = LinkError::no_progress;
-  } else if ((!heard && (endless || care_.answer_within - (now - quiet_since_) <= hardly_any)) || overdue()) {
-    quiet_since_ = now;
-    ask_again();
-  }
+  const Seconds now = port_.elapsed();
+  if (heard) silence_.note_byte(now);
+  if (!endless && !expects()) return silence_.begin(now);
+  error_ = silence_.verdict(now, endless && !heard);
+  if (error_ || (!silence_.is_to_ask_again(now, heard, endless) && !overdue())) return;
+  silence_.note_asked_again(now);
+  ask_again();
 }
 
 // True: the board takes too long to take what was sent, or to answer the hello.
 bool BoardSession::overdue() const {
-  const Seconds now = port_.elapsed();
-  if (phase_ == Phase::greeting || phase_ == Phase::naming) return now - greeted_ > care_.answer_within;
-  return !kept_.empty() && now - moved_on_ > care_.answer_within;
+  if (handshake_.is_under_way()) return silence_.is_overdue(handshake_.said(), now());
+  return window_.keeps_any() && silence_.is_overdue(silence_.traffic(), now());
 }
 
 void BoardSession::ask_again() {
-  if (phase_ == Phase::greeting) return say_hello();
-  if (phase_ == Phase::naming) return say_session();
-  ask(awaited_.value_or(Question::status));
+  if (handshake_.phase() == Handshake::Phase::greeting) return say_hello();
+  if (handshake_.phase() == Handshake::Phase::naming) return say_session();
+  ask(questions_.awaited().value_or(Question::status));
 }
 
 void BoardSession::send(const BoardSegment& segment) {
-  assert(segment.events > 0 && std::abs(segment.change) <= largest_change);
-  assert(error_ || room() > 0);
+  ensure(is_playable(segment));
+  ensure(error_ || room() > 0);
   const BoardSegment for_board = twins_.for_board(segment);
-  const bool begins = status_ && !busy() && status_->executed == sent_;
-  send_counted(for_board, motors_);
+  const bool begins = status() && !busy() && status()->executed == sent();
+  send_counted(for_board, motors());
   if (!sent_segments_.keeps()) return;
-  if (begins) sent_segments_.stand_at(status_->positions);
-  sent_segments_.add(sent_, for_board, port_.elapsed());
+  if (begins) sent_segments_.stand_at(status()->positions);
+  sent_segments_.add(sent(), for_board, port_.elapsed());
 }
 
 void BoardSession::send(const BoardOutputs& outputs) {
-  assert(error_ || room() > 0);
-  outputs_timed_out_ = false;
+  ensure(error_ || room() > 0);
+  mirror_.end_timeout();
   send_counted(outputs);
 }
 
 ItemNumber BoardSession::replace(ItemNumber after, std::span<const LinkItem> items) {
-  assert(!items.empty() && room() >= static_cast<int>(items.size()));
-  const auto number = static_cast<ItemNumber>(sent_ + 1);
-  Announcement announcement(number, after, motors_);
+  ensure(error_ || (!items.empty() && room() >= static_cast<int>(items.size())));
+  const ItemNumber number = window_.next();
+  Announcement announcement(number, after, motors());
   frames_.clear();
   for (const LinkItem& item : items) {
-    Frame& frame = frames_.emplace_back();
+    SendWindow::Frame& frame = frames_.emplace_back();
     frame.number = static_cast<ItemNumber>(number + frames_.size());
     const auto sequence = static_cast<std::uint8_t>(frame.number);
     if (const auto* segment = std::get_if<BoardSegment>(&item)) {
-      frame.size = encode(twins_.for_board(*segment), motors_, sequence, frame.bytes);
+      ensure(is_playable(*segment));
+      frame.size = encode(twins_.for_board(*segment), motors(), sequence, frame.bytes);
     } else {
       frame.size = encode(std::get<BoardOutputs>(item), sequence, frame.bytes);
     }
@@ -141,8 +137,8 @@ ItemNumber BoardSession::replace(ItemNumber after, std::span<const LinkItem> ite
 
 void BoardSession::await(Question question) {
   begin_to_expect();
-  progressed_ = port_.elapsed();
-  awaited_ = question;
+  silence_.note_progress(port_.elapsed());
+  questions_.await(question);
   ask(question);
 }
 
@@ -150,8 +146,8 @@ void BoardSession::await(Question question) {
 void BoardSession::watch_probe(ProbeUntil until, std::uint8_t limit) {
   twins_.watch(limit);
   if (!probe_.wish(until, limit)) return;
-  status_.reset();
-  answered_ = true;  // what went before is over
+  mirror_.forget_status();
+  questions_.forget_sent();  // what went before is over
   await(Question::watch);
 }
 
@@ -160,25 +156,22 @@ void BoardSession::recall_contact() {
 }
 
 void BoardSession::read_spindle() {
-  turned_.reset();
-  answered_ = true;  // what went before is over
+  static_cast<void>(questions_.take_turned());
+  questions_.forget_sent();  // what went before is over
   await(Question::spindle);
 }
 
 void BoardSession::rehearse(std::size_t bytes) {
-  rehearsed_ = port_.elapsed();
-  for (const std::uint64_t end = bytes_sent_ + bytes; bytes_sent_ < end && !error_;) {
-    say(Session{.number = session_, .silence = silence_}, std::uint8_t{0});
+  questions_.begin_rehearsal(port_.elapsed());
+  for (const std::uint64_t end = bytes_sent() + bytes; bytes_sent() < end && !error_;) {
+    say(Session{.number = handshake_.session(), .silence = handshake_.wanted().silence}, std::uint8_t{0});
   }
   read_spindle();
 }
 
 // Ends the wait, if this is the answer that was awaited.
 void BoardSession::settle(Question answered) {
-  if (awaited_ != answered) return;
-  awaited_.reset();
-  news_ = true;
-  if (answered == Question::spindle && rehearsed_) answer_time_ = port_.elapsed() - *std::exchange(rehearsed_, {});
+  if (questions_.settle(answered, port_.elapsed())) news_ = true;
 }
 
 bool BoardSession::hear(Seconds most) {
@@ -190,50 +183,52 @@ bool BoardSession::hear(Seconds most) {
 }
 
 void BoardSession::read(std::uint8_t byte) {
-  if (phase_ == Phase::before_hello && byte >= ' ' && byte < 127 && gibberish_.size() < most_gibberish) {
+  if (handshake_.before_hello() && byte >= ' ' && byte < 127 && gibberish_.size() < most_gibberish) {
     gibberish_ += static_cast<char>(byte);
   }
   if (decoder_.feed(byte) != Decoded::frame) return;
-  heard_ = port_.elapsed();
+  silence_.note_frame(port_.elapsed());
   take(decoder_.frame());
 }
 
 // The question goes behind all that was sent.
 void BoardSession::ask() {
-  question_waits_ = on_wire_ != sent_;
-  if (!question_waits_) ask(usual_question_);
+  questions_.hold_back(window_.waits());
+  if (!window_.waits()) ask(questions_.usual());
 }
 
 void BoardSession::ask(Question question) {
   begin_to_expect();
-  moved_on_ = port_.elapsed();
-  asked_behind_ = on_wire_;
-  last_question_ = question;
-  if (std::exchange(answered_, false)) unanswered_since_ = moved_on_;
+  const Seconds now = port_.elapsed();
+  silence_.note_traffic(now);
+  const std::uint8_t number = questions_.put(question, window_.on_wire(), now);
   const std::uint8_t limit = question == Question::watch ? probe_.limit() : std::uint8_t{0};
-  const std::uint8_t motors = phase_ == Phase::before_hello ? std::uint8_t{max_motors} : motors_;
-  say(Ask{.motors = motors, .question = question, .limit = limit}, ++question_);
+  say(Ask{.motors = handshake_.positions(), .question = question, .limit = limit}, number);
 }
 
 void BoardSession::take(const WireFrame& frame) {
   switch (frame.type) {
-    case MessageType::hello_reply:
-      if (phase_ == Phase::greeting) decode(frame, board_.emplace());
-      return;
+    case MessageType::hello_reply: {
+      HelloReply reply;
+      decode(frame, reply);
+      return handshake_.note(reply);
+    }
     case MessageType::credit: {
       Credit credit;
       decode(frame, credit);
-      if (phase_ == Phase::before_hello || !board_) return;
+      if (handshake_.before_hello() || !board()) return;
       take(credit);
       // The board seems to have dropped what was sent. Ask to be sure.
-      if (may_lose() && holds_nothing_of(credit) && executed_ != sent_) ask(Question::status);
+      if (silence_.may_lose() && holds_nothing_of(credit) && busy()) ask(Question::status);
       return;
     }
     case MessageType::status: {
       BoardStatus status;
-      decode(frame, phase_ == Phase::before_hello ? std::uint8_t{max_motors} : motors_, status);
-      if (awaited_ == Question::watch && probe_.is_confirmed_by(status, executed_)) twins_.settle(status.positions);
-      if (phase_ != Phase::before_hello) twins_.for_host(status.positions);
+      decode(frame, handshake_.positions(), status);
+      if (questions_.awaited() == Question::watch && probe_.is_confirmed_by(status, executed())) {
+        twins_.settle(status.positions);
+      }
+      if (!handshake_.before_hello()) twins_.for_host(status.positions);
       return take(status);
     }
     case MessageType::error: {
@@ -253,8 +248,8 @@ void BoardSession::take(const WireFrame& frame) {
     }
     case MessageType::captured: {
       Captured captured;
-      decode(frame, phase_ == Phase::before_hello ? std::uint8_t{max_motors} : motors_, captured);
-      if (phase_ != Phase::before_hello) twins_.for_host(captured.positions);
+      decode(frame, handshake_.positions(), captured);
+      if (!handshake_.before_hello()) twins_.for_host(captured.positions);
       return take(captured);
     }
     case MessageType::turned: {
@@ -262,100 +257,103 @@ void BoardSession::take(const WireFrame& frame) {
       decode(frame, turned);
       return take(turned);
     }
-    case MessageType::about: decode(frame, about_.emplace()); return settle(Question::about);
+    case MessageType::about: {
+      About about;
+      decode(frame, about);
+      mirror_.note(about);
+      return settle(Question::about);
+    }
     default:
-      if (!may_lose()) error_ = LinkError::refused;
+      if (!silence_.may_lose()) error_ = LinkError::refused;
       return;
   }
 }
 
 // A board that does not know yet how its switches are wired may take them for closed.
 void BoardSession::take(const Fault& fault) {
-  if (phase_ == Phase::before_hello || !is_set_up()) return;
-  stopped_by_ = fault.inputs;
-  inputs_ |= fault.inputs;
+  if (handshake_.before_hello() || !handshake_.is_set_up()) return;
+  mirror_.note_stop(fault.inputs);
   error_ = LinkError::stopped;
 }
 
 // Ignores a credit that a later credit has overtaken, and a credit that is impossible.
 void BoardSession::take(const Credit& credit) {
-  const int more = later_by(credit.executed, executed_);
-  const auto more_taken = static_cast<std::uint8_t>(credit.taken - static_cast<std::uint8_t>(taken_));
-  const auto taken = static_cast<ItemNumber>(taken_ + more_taken);
-  if (more < 0 || later_by(taken, sent_) > 0 || later_by(credit.executed, taken) > 0) return;
-  if (credit.free > board_->capacity) return;
-  const ItemNumber before = taken_;
+  const int more = later_by(credit.executed, executed());
+  const ItemNumber before = window_.taken();
+  const auto more_taken = static_cast<std::uint8_t>(credit.taken - static_cast<std::uint8_t>(before));
+  const auto taken = static_cast<ItemNumber>(before + more_taken);
+  if (more < 0 || later_by(taken, sent()) > 0 || later_by(credit.executed, taken) > 0) return;
+  if (!board() || credit.free > board()->capacity) return;
   note_taken(credit.taken);
-  if (more == 0 && taken_ == before && credit.free <= free_) return;
-  if (more != 0) progressed_ = port_.elapsed();
-  executed_ = credit.executed;
-  free_ = credit.free;
+  if (more == 0 && window_.taken() == before && credit.free <= mirror_.free()) return;
+  if (more != 0) silence_.note_progress(port_.elapsed());
+  mirror_.note_items(credit.executed, credit.free);
   news_ = true;
 }
 
 bool BoardSession::holds_nothing_of(const Credit& credit) const {
-  return taken_ == sent_ && credit.taken == static_cast<std::uint8_t>(sent_) && credit.free == board_->capacity;
+  return board() && credit.free == board()->capacity && window_.untaken() == 0 &&
+         credit.taken == static_cast<std::uint8_t>(sent());
 }
 
 void BoardSession::take(const BoardStatus& status) {
-  if (status_ && status.event != status_->event) progressed_ = port_.elapsed();
-  status_ = status;
-  status_time_ = port_.elapsed();
-  if (phase_ == Phase::before_hello) {
-    inputs_ = status.inputs;
+  if (mirror_.note(status, port_.elapsed())) silence_.note_progress(port_.elapsed());
+  if (handshake_.before_hello()) {
+    mirror_.set_inputs(status.inputs);
     return settle(Question::status);
   }
   if ((status.state & board_manual) != 0) {
     error_ = LinkError::manual;
     return;
   }
-  const bool is_asked_for_more = last_question_ == Question::spindle && status.answers == question_;
+  const bool is_asked_for_more = questions_.last() == Question::spindle && status.answers == questions_.number();
   if (is_asked_for_more && (status.state & board_encodes) == 0) return doubt(LinkError::no_encoder, Question::spindle);
-  note_inputs(status);
-  if (usual_question_ == Question::status) note_answer(status.taken);
+  if (mirror_.note_inputs(status, probe_.input())) news_ = true;
+  if (questions_.usual() == Question::status) note_answer(status.taken);
   note_probe(probe_.note(status));
-  if (awaited_ == Question::watch && probe_.is_confirmed_by(status, executed_)) {
+  if (questions_.awaited() == Question::watch && probe_.is_confirmed_by(status, executed())) {
     probe_.confirm(status);
     settle(Question::watch);
   }
-  const bool is_known = session_ != 0 && status.session == session_;
+  const bool has_session = handshake_.session() != 0;
+  const bool is_known = has_session && status.session == handshake_.session();
   // Before the board has heard of the session it is no wonder.
-  if (!is_known && session_ != 0 && phase_ == Phase::ready) return doubt(LinkError::was_reset);
+  if (!is_known && has_session && handshake_.phase() == Handshake::Phase::ready) return doubt(LinkError::was_reset);
   const bool slipped = is_known && (status.state & board_slipped) != 0;
-  if (slipped && !standstill_ && !note_standstill(status)) return;
+  if (slipped && !standstill() && !note_standstill(status)) return;
   if (is_known && (status.state & board_trusted) == 0) {
     if ((status.inputs & drivers_timed_out) != 0) return doubt(LinkError::drivers_off);
     // A board that has stood still is not trusted either, and goes on. One that stops forgets that it stood still.
     if (!slipped) {
-      stopped_by_ = inputs_ & stopping_inputs;
+      mirror_.note_stop();
       return doubt(LinkError::stopped);
     }
   }
   // What is in doubt answers nothing: the counts of a board that was reset are not those of the motors.
-  if (status.answers == question_) settle(Question::status);
+  if (status.answers == questions_.number()) settle(Question::status);
   if (!is_known) return;
   doubts_ = 0;
-  note_timeout(status);
+  mirror_.note_timeout(status, sent());
   const Credit credit{.executed = status.executed, .taken = status.taken, .free = status.free};
   note_progress(credit, status.answers);
-  rests_ = holds_nothing_of(credit) && (status.state & (board_moves | board_replaces)) == 0;
-  news_ = news_ || rests_;
+  mirror_.note_rest(holds_nothing_of(credit) && (status.state & (board_moves | board_replaces)) == 0);
+  news_ = news_ || rests();
 }
 
 void BoardSession::note_progress(const Credit& credit, std::uint8_t answers) {
   take(credit);
-  if (answers != question_ && !(repeating_ && answers == repeated_before_)) return;
+  if (answers != questions_.number() && !window_.awaits_answer(answers)) return;
   // A frame that was sent before the question and has not arrived before it is lost.
-  repeating_ = false;
-  if (later_by(asked_behind_, taken_) > 0) return repeat();
+  window_.go_on();
+  if (later_by(questions_.behind(), window_.taken()) > 0) return repeat();
   put_frames_on_wire();
   // The answer that tells where the spindle is was lost, or the question was.
-  if (!answered_ && usual_question_ == Question::spindle) ask();
+  if (!answered() && questions_.usual() == Question::spindle) ask();
 }
 
 void BoardSession::take(const Turned& turned) {
-  if (phase_ == Phase::before_hello) return;
-  turned_ = turned;
+  if (handshake_.before_hello()) return;
+  questions_.note_turned(turned);
   note_answer(turned.progress.taken);
   note_progress(turned.progress, turned.answers);
   settle(Question::spindle);
@@ -375,36 +373,20 @@ bool BoardSession::note_standstill(const BoardStatus& status) {
     ask(Question::status);
     return false;
   }
-  standstill_ = status;
+  mirror_.note_standstill(status);
   news_ = true;
   return true;
 }
 
 void BoardSession::take(const Captured& captured) {
   if ((captured.input & captured_kept) != 0) {
-    if (awaited_ == Question::kept) probe_.recall(captured, motors_);
+    if (questions_.awaited() == Question::kept) probe_.recall(captured, motors());
     return settle(Question::kept);
   }
   const auto pressed =
       static_cast<std::uint16_t>(captured.input & ~(probe_.input() | captured_kept | captured_released));
-  pressed_ |= pressed;
-  inputs_ |= pressed;
-  news_ = news_ || pressed != 0;
+  if (mirror_.note_pressed(pressed)) news_ = true;
   note_probe(probe_.note(captured));
-}
-
-void BoardSession::note_inputs(const BoardStatus& status) {
-  const auto inputs = static_cast<std::uint16_t>(status.inputs & ~(passo::outputs_timed_out | drivers_timed_out));
-  const auto pressed = static_cast<std::uint16_t>(inputs & ~inputs_ & ~unsigned{probe_.input()});
-  pressed_ |= pressed;
-  news_ = news_ || pressed != 0;
-  inputs_ = inputs;
-}
-
-// A status from before the last outputs says nothing of now.
-void BoardSession::note_timeout(const BoardStatus& status) {
-  if (status.taken != static_cast<std::uint8_t>(sent_)) return;
-  outputs_timed_out_ = (status.inputs & passo::outputs_timed_out) != 0;
 }
 
 void BoardSession::note_probe(ProbeWatch::News news) {
@@ -416,15 +398,14 @@ void BoardSession::note_probe(ProbeWatch::News news) {
 }
 
 void BoardSession::note_answer(std::uint8_t taken) {
-  if (answered_ || static_cast<std::uint8_t>(sent_) != taken) return;
-  answered_ = news_ = true;
+  if (static_cast<std::uint8_t>(sent()) != taken || !questions_.note_answered(port_.elapsed())) return;
+  news_ = true;
   // What was sent must be done, too, and what was asked answered.
-  if (!busy() && !awaited_) progressed_ = port_.elapsed();
-  answer_time_ = port_.elapsed() - unanswered_since_;
+  if (!busy() && !questions_.awaited()) silence_.note_progress(port_.elapsed());
 }
 
 void BoardSession::take(const ErrorReport& error) {
-  if (phase_ == Phase::before_hello || error_) return;
+  if (handshake_.before_hello() || error_) return;
   switch (error.reason) {
     case WireError::bad_frame:
     case WireError::out_of_sequence:
@@ -438,25 +419,65 @@ void BoardSession::take(const ErrorReport& error) {
       refusals_ = error.expected == refused_ ? refusals_ + 1 : 1;
       refused_ = error.expected;
       if (refusals_ == most_refusals) error_ = LinkError::refused;
-      if (error.reason == WireError::bad_value && awaited_ == Question::watch && probe_.watches_several()) {
+      if (error.reason == WireError::bad_value && questions_.awaited() == Question::watch && probe_.watches_several()) {
         error_ = LinkError::cannot_watch;
         return;
       }
       break;
   }
-  if (!may_lose()) error_ = LinkError::refused;
+  if (!silence_.may_lose()) error_ = LinkError::refused;
   note_taken(static_cast<std::uint8_t>(error.expected - 1));
   // A complaint during a repetition is about older frames. If it is not, the answer to the question after the
   // repetition tells.
-  if (!repeating_) repeat();
+  if (!window_.awaits_answer()) repeat();
 }
 
 template <class Message, class... More>
 void BoardSession::send_counted(const Message& message, More... more) {
   if (error_) return;
-  Frame frame{.number = static_cast<ItemNumber>(sent_ + 1)};
+  SendWindow::Frame frame{.number = window_.next()};
   frame.size = encode(message, more..., static_cast<std::uint8_t>(frame.number), frame.bytes);
   send_frame(frame);
+}
+
+// Sends the next frame that is counted.
+void BoardSession::send_frame(const SendWindow::Frame& frame) {
+  if (error_) return;
+  begin_to_expect();
+  mirror_.note_rest(false);
+  const Seconds now = port_.elapsed();
+  questions_.note_sent(now);
+  silence_.note_traffic(now);
+  window_.push(frame);
+  put_frames_on_wire();
+}
+
+void BoardSession::put_frames_on_wire() {
+  if (error_ || !window_.fill(most_under_way())) return;
+  if (questions_.release()) ask(questions_.usual());
+}
+
+std::size_t BoardSession::most_under_way() const {
+  const bool is_small = board() && board()->capacity < many_places;
+  return is_small ? most_under_way_to_small : SendWindow::no_limit;
+}
+
+void BoardSession::note_taken(std::uint8_t sequence) {
+  if (!window_.note_taken(sequence)) return;
+  silence_.note_progress(port_.elapsed());
+  silence_.note_traffic(port_.elapsed());
+  news_ = true;
+  put_frames_on_wire();
+}
+
+// A question after the repeated frames tells whether they have arrived. Nothing else is sent meanwhile.
+void BoardSession::repeat() {
+  if (error_ || !window_.keeps_any()) return;
+  window_.repeat(most_under_way());
+  if (!window_.waits()) questions_.hold_back(false);
+  ask(questions_.usual());
+  // Without a session no answer tells the progress.
+  if (handshake_.session() != 0) window_.await_answer(questions_.number());
 }
 
 }  // namespace passo

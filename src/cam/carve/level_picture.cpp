@@ -137,19 +137,17 @@ void on_write(png_structp png, png_bytep from, png_size_t count) {
 }
 void on_flush(png_structp) {}
 
-// `pixels`: big-endian samples, all rows.
-bool write_png(PngWriting& writing, std::size_t columns, std::size_t rows, int bits, int colour_type,
-               const std::uint8_t* pixels, std::size_t row_bytes) {
+bool write_png(PngWriting& writing, std::size_t columns, std::size_t rows, const std::uint8_t* colours) {
   writing.png = png_create_write_struct(PNG_LIBPNG_VER_STRING, nullptr, nullptr, on_warning);
   if (writing.png == nullptr) return false;
   writing.info = png_create_info_struct(writing.png);
   if (writing.info == nullptr) return false;
   if (setjmp(png_jmpbuf(writing.png)) != 0) return false;
   png_set_write_fn(writing.png, &writing, on_write, on_flush);
-  png_set_IHDR(writing.png, writing.info, static_cast<png_uint_32>(columns), static_cast<png_uint_32>(rows), bits,
-               colour_type, PNG_INTERLACE_NONE, PNG_COMPRESSION_TYPE_DEFAULT, PNG_FILTER_TYPE_DEFAULT);
+  png_set_IHDR(writing.png, writing.info, static_cast<png_uint_32>(columns), static_cast<png_uint_32>(rows), 8,
+               PNG_COLOR_TYPE_RGB, PNG_INTERLACE_NONE, PNG_COMPRESSION_TYPE_DEFAULT, PNG_FILTER_TYPE_DEFAULT);
   png_write_info(writing.png, writing.info);
-  for (std::size_t y = 0; y < rows; ++y) png_write_row(writing.png, pixels + y * row_bytes);
+  for (std::size_t y = 0; y < rows; ++y) png_write_row(writing.png, colours + y * columns * 3);
   png_write_end(writing.png, writing.info);
   return true;
 }
@@ -187,22 +185,9 @@ LevelPicture read_level_picture(const std::string& name, std::string_view bytes,
   return std::move(reading.picture);
 }
 
-std::string write_level_picture(const LevelPicture& picture) {
-  std::vector<std::uint8_t> pixels;
-  pixels.reserve(picture.levels.size() * 2);
-  for (const std::uint16_t level : picture.levels) {
-    pixels.push_back(static_cast<std::uint8_t>(level >> 8U));
-    pixels.push_back(static_cast<std::uint8_t>(level & 0xFFU));
-  }
-  PngWriting writing;
-  const bool done =
-      write_png(writing, picture.columns, picture.rows, 16, PNG_COLOR_TYPE_GRAY, pixels.data(), picture.columns * 2);
-  return done ? std::move(writing.bytes) : std::string();
-}
-
 std::string write_colour_picture(std::size_t columns, std::size_t rows, const std::vector<std::uint8_t>& colours) {
   PngWriting writing;
-  const bool done = write_png(writing, columns, rows, 8, PNG_COLOR_TYPE_RGB, colours.data(), columns * 3);
+  const bool done = write_png(writing, columns, rows, colours.data());
   return done ? std::move(writing.bytes) : std::string();
 }
 

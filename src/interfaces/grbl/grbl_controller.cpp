@@ -42,16 +42,15 @@ bool is_question(const std::string& line) {
 }  // namespace
 
 GrblController::GrblController(const MachineDescription& machine, MachineSession& session, OpenProgram& program)
-    : machine_(machine), session_(session), program_(program) {
+    : machine_(machine), session_(session), program_(program), store_(machine) {
   alarm_ = has_lost_place();
 }
 
 void GrblController::connect() {
   is_here_ = true;
   input_.clear();
-  offset_in_ = 0;
-  overrides_in_ = 1;
-  pace_.reset();
+  report_turns_.begin();
+  lease_.end();
   say(std::string(grbl_banner));
   if (!drives_) say("[MSG:Another client drives the machine]\r\n");
   if (alarm_) say("[MSG:'$H'|'$X' to unlock]\r\n");
@@ -63,7 +62,7 @@ void GrblController::start_up() {
 
 // Not while the controller is locked: they may move the machine.
 void GrblController::run_startup() {
-  for (const std::string& line : memory_.startup) {
+  for (const std::string& line : store_.memory().startup) {
     if (alarm_) return;
     if (line.empty()) continue;
     const auto wrong = program_.take(line, session_.now());
@@ -124,7 +123,7 @@ void GrblController::disconnect() {
 }
 
 void GrblController::receive(std::string_view bytes) {
-  heard_at_ = session_.now();
+  lease_.note_byte(session_.now());
   input_.receive(bytes, [this](std::uint8_t byte) { act(byte); });
   start_up();
 }
@@ -142,7 +141,7 @@ void GrblController::turn(const std::vector<MachineChange>& changes) {
   }
   if (resets_ && !session_.busy() && session_.state() != MachineState::offline) end_reset();
   share_changed_offsets();
-  mind_jog_lease();
+  if (jogs() && lease_.is_over(session_.now())) cancel_jog();
   begin_stream();
   take_lines();
   end_stream();
@@ -346,7 +345,7 @@ std::string GrblController::pins() const {
 }
 
 GrblUnits GrblController::units() const {
-  return {.axes = grbl_axes_of(machine_), .inches = memory_.choices.inches};
+  return {.axes = grbl_axes_of(machine_), .inches = store_.memory().choices.inches};
 }
 
 }  // namespace passo

@@ -107,10 +107,6 @@ void GrblSender::override_feed(int percent) {
   urgent_ += steps_to(feed_percent_, percent, '\x90', '\x91');
 }
 
-void GrblSender::override_rapids(int percent) {
-  act(percent > 75 ? '\x95' : percent > 37 ? '\x96' : '\x97');
-}
-
 void GrblSender::override_spindle(int percent) {
   urgent_ += steps_to(spindle_percent_, percent, '\x99', '\x9A');
 }

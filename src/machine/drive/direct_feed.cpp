@@ -49,11 +49,6 @@ DirectFeed::DirectFeed(const Stages& stages, const Options& options)
   apply(live_);
 }
 
-void DirectFeed::commit(const Commitment& live) {
-  live_ = live;
-  apply(commitment());
-}
-
 // The commitment for motion that does not follow a spindle.
 Commitment DirectFeed::commitment() const {
   return attention_ == Attention::probes ? probing : live_;

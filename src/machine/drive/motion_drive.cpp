@@ -1,30 +1,19 @@
 #include "passo/drive/motion_drive.hpp"
 
 #include <algorithm>
-#include <cassert>
 #include <cmath>
 #include <utility>
 
+#include "make_feed.hpp"
 #include <fmt/format.h>
-
-#include "passo/drive/backlash_options.hpp"
-#include "passo/drive/direct_feed.hpp"
-#include "passo/path/run_up.hpp"
 
 namespace passo {
 namespace {
-
-constexpr double no_feed = 0.01;
 
 // The holds that somebody has to take back. A hold for a feed of zero ends by itself when the feed rises.
 constexpr HoldReasons asked_holds{HoldReason::operator_hold, HoldReason::door,       HoldReason::program_stop,
                                   HoldReason::tool_change,   HoldReason::await_line, HoldReason::line_end,
                                   HoldReason::stop};
-
-BacklashOptions backlash_of(StepOptions steps, const DriveOptions& options) {
-  if (options.begin_at) steps.downs = AxisSet();
-  return backlash_options(steps, options.tails || options.begin_at);
-}
 
 }  // namespace
 
@@ -32,28 +21,27 @@ MotionDrive::MotionDrive(Source<PathItem>& path, const MotionLimits& limits, con
                          BoardSession& board, AnswerBook& answers, const DriveOptions& options)
     : board_(board),
       answers_(answers),
-      watched_path_(path),
-      backlash_taker_(watched_path_, backlash_of(steps, options)),
-      path_(backlash_taker_),
-      line_stops_(path_),
-      planner_(line_stops_, limits),
-      watched_motion_(planner_),
-      step_generator_(watched_motion_, steps),
-      watched_items_(step_generator_),
-      feed_(make_feed(options, steps)),
+      pipeline_(path, limits, steps, options),
+      feed_(make_feed({.path = pipeline_.path(),
+                       .planner = pipeline_.planner(),
+                       .generator = pipeline_.generator(),
+                       .items = pipeline_.items(),
+                       .link = board_,
+                       .outputs = outputs_},
+                      steps, options)),
       probe_(board_, answers, steps.kinematics),
-      spindle_({.planner = planner_, .feed = *feed_, .link = board_}, limits, options.counts_per_turn,
+      spindle_({.planner = pipeline_.planner(), .feed = *feed_, .link = board_}, limits, options.counts_per_turn,
                steps.clock.tick_rate),
-      pause_end_(options.not_before),
-      spindle_wait_(options.spindle_wait),
-      spindle_run_up_(options.spindle_run_up),
+      switching_({.order = outputs_, .feed = *feed_, .link = board_, .script = script_},
+                 {.not_before = options.not_before,
+                  .spindle_wait = options.spindle_wait,
+                  .spindle_run_up = options.spindle_run_up}),
+      holds_(pipeline_.planner()),
       waits_at_optional_(options.waits_at_optional) {
-  line_stops_.stop_at_lines(options.stops_at_lines);
-  backlash_taker_.ask_after_probe([this, motors = steps] { return backlash_at_rest(motors); });
-  watched_path_.watch([this](const PathItem& item) { watch(item); });
-  watched_motion_.watch([this](const MotionItem& item) { watch(item); });
+  pipeline_.path_items().watch([this](const PathItem& item) { watch(item); });
+  pipeline_.motion().watch([this](const MotionItem& item) { watch(item); });
   if (options.guards_by_probe) probe_.guard_other_moves();
-  await_pause_end();
+  switching_.await_pause_end();
   // Whoever used the board before may have been stopped amid a probe move.
   script_.then([this] { probe_.ask_to_watch_others(); });
   script_.until([this] { return board_.settled(); });
@@ -62,50 +50,9 @@ MotionDrive::MotionDrive(Source<PathItem>& path, const MotionLimits& limits, con
 
 MotionDrive::~MotionDrive() = default;
 
-BacklashAtRest MotionDrive::backlash_at_rest(const StepOptions& steps) const {
-  const AxisSet downs = step_generator_.downs();
-  return {.downs = downs, .place = steps.kinematics.axes(step_generator_.place().exact(), downs, steps.start)};
-}
-
-std::unique_ptr<Feed> MotionDrive::make_feed(const DriveOptions& options, const StepOptions& steps) {
-  if (options.begin_at || options.may_stop_at_lines) path_.keep();
-  if (options.begin_at) path_.begin_at(*options.begin_at, options.lead_in);
-  if (!options.tails && !options.may_stop_at_lines) path_.forget_passed();
-  if (!options.tails) {
-    auto direct = std::make_unique<DirectFeed>(DirectFeed::Stages{.path = path_,
-                                                                  .planner = planner_,
-                                                                  .generator = step_generator_,
-                                                                  .items = watched_items_,
-                                                                  .link = board_,
-                                                                  .outputs = outputs_},
-                                               DirectFeed::Options{.live = options.live,
-                                                                   .follows_spindle = options.counts_per_turn > 0,
-                                                                   .waits_for_operator = options.waits_for_operator,
-                                                                   .reads_again = options.may_stop_at_lines});
-    direct_ = direct.get();
-    return direct;
-  }
-  auto refiller = std::make_unique<Refiller>(Refiller::Stages{.path = path_,
-                                                              .planner = planner_,
-                                                              .generator = step_generator_,
-                                                              .items = watched_items_,
-                                                              .link = board_,
-                                                              .outputs = outputs_},
-                                             steps, *options.tails, options.waits_for_operator);
-  if (options.counts_per_turn > 0) refiller->guard_threads();
-  refiller_ = refiller.get();
-  return refiller;
-}
-
-void MotionDrive::go_live(const Commitment& live) {
-  if (direct_ != nullptr) direct_->commit(live);
-}
-
-// From the first segment that follows the spindle, the feed no longer reads far ahead.
 void MotionDrive::watch(const PathItem& item) {
   const auto* segment = std::get_if<Segment>(&item);
-  if (segment == nullptr || segment->lock == SpindleLock::none || !spindle_.exists()) return;
-  if (direct_ != nullptr) direct_->expect_thread();
+  if (segment != nullptr && segment->lock != SpindleLock::none && spindle_.exists()) feed_->expect_thread();
 }
 
 void MotionDrive::watch(const MotionItem& item) {
@@ -114,7 +61,7 @@ void MotionDrive::watch(const MotionItem& item) {
   feed_->watch(item);
   if (move == nullptr) return;
   // Over a line, not all given motion is executed, so the end is not known here.
-  if (probe_.is_running() && !feed_->is_remote()) end_of_probe_ = move->segment.tool_at(move->to);
+  if (probe_.is_running() && !feed_->is_remote()) probe_.note_end(move->segment.tool_at(move->to));
   if (spindle_.exists() && move->segment.reverse_at > Mm(0)) watch_tap(*move);
   if (move->segment.heeds.spindle_override == outputs_.heeds_override()) return;
   outputs_.heed_override(move->segment.heeds.spindle_override);
@@ -164,7 +111,7 @@ void MotionDrive::wait(Seconds most) {
 
 // When the drive must look again even without news.
 Seconds MotionDrive::due() const {
-  const Seconds next = std::max(awaits_index_ ? spindle_.looks_at() : Seconds(0), pause_end_);
+  const Seconds next = std::max(awaits_index_ ? spindle_.looks_at() : Seconds(0), switching_.pause_end());
   return next - now() > hardly_any ? next : Seconds(std::numeric_limits<double>::infinity());
 }
 
@@ -176,19 +123,22 @@ bool MotionDrive::follow() {
   }
   if (!spindle_.follow()) return false;
   if (spindle_.trouble()) stop();
-  if (spindle_.turned_back()) change_holds(HoldReason::tap, true);
+  if (spindle_.turned_back()) holds_.change(HoldReason::tap, true);
   return true;
 }
 
 MotionDrive::Turn MotionDrive::take(Feed::Turn turn) {
-  holds_.set(HoldReason::line_lost, feed_->plays_tail());
+  holds_.note(HoldReason::line_lost, feed_->plays_tail());
   switch (turn) {
     case Feed::Turn::goes_on: break;
     case Feed::Turn::waits: return Turn::waits;
     case Feed::Turn::rests_in_hold: come_to_rest(); break;
     case Feed::Turn::at_action: act(feed_->take_action()); break;
     case Feed::Turn::lost_thread: lose_thread(); break;
-    case Feed::Turn::outputs_off: switch_on_again(); break;
+    case Feed::Turn::outputs_off:
+      ++output_timeouts_;
+      switching_.switch_on_again();
+      break;
     case Feed::Turn::ended: return end();
   }
   return Turn::goes_on;
@@ -210,9 +160,7 @@ void MotionDrive::begin_probe(const Action& action) {
   script_.then([this, action] { probe_.ask_to_watch(action); });
   script_.until([this] { return board_.settled(); });
   script_.then([this, action] {
-    probe_.begin(action, step_generator_.downs());
-    contact_seen_ = false;
-    end_of_probe_.reset();
+    probe_.begin(action, pipeline_.generator().downs());
     feed_->attend(attention());
   });
 }
@@ -221,28 +169,27 @@ void MotionDrive::end_probe(const Action& action) {
   script_.then([this] { probe_.recall(); });
   script_.until([this] { return board_.settled(); });
   script_.then([this, place = action.place] {
-    probe_.find(end_of_probe_.value_or(place));
+    probe_.find(place);
     probe_.ask_to_watch_others();
   });
   script_.until([this] { return board_.settled(); });
   script_.then([this] {
     probe_.end();
     feed_->attend(attention());
-    contact_seen_ = false;
     // The contact may have come when the path had already ended.
-    change_holds(HoldReason::probe_contact, false);
+    holds_.change(HoldReason::probe_contact, false);
   });
 }
 
 void MotionDrive::await_index(const Action& action) {
-  if (!spindle_.exists()) return hold_speed(action);
+  if (!spindle_.exists()) return switching_.hold_speed(action);
   awaits_index_ = true;
   spindle_.begin_await(action.outputs.revolutions_per_minute);
   script_.until([this] { return spindle_.await_index(); });
   script_.then([this] {
     awaits_index_ = false;
     if (!spindle_.trouble()) return;
-    holds_.add(HoldReason::stop);
+    holds_.note(HoldReason::stop);
     rest_in_hold();
   });
 }
@@ -260,27 +207,26 @@ void MotionDrive::turn_tap(const Action& action) {
 
 // Pulled only when all before is executed, so the machine rests.
 void MotionDrive::await_line() {
-  holds_.add(HoldReason::await_line);
+  holds_.note(HoldReason::await_line);
   rest_in_hold();
 }
 
 bool MotionDrive::pass_await_line(PathMode last) {
-  if (direct_ == nullptr || state_ != State::running) return false;
-  return planner_.go_on(last);
+  if (feed_->is_remote() || state_ != State::running) return false;
+  return pipeline_.planner().go_on(last);
 }
 
 void MotionDrive::drop() {
   dropped_to_.reset();
   if (state_ != State::running && state_ != State::holding) return;
   feed_->brake();
-  change_holds(HoldReason::drop, true);
+  holds_.change(HoldReason::drop, true);
 }
 
 void MotionDrive::look_at_probe() {
-  if (contact_seen_ || !probe_.contact()) return;
-  contact_seen_ = true;
+  if (!probe_.is_new_contact()) return;
   feed_->brake();
-  if (probe_.is_running()) return change_holds(HoldReason::probe_contact, true);  // whatever M53 says
+  if (probe_.is_running()) return holds_.change(HoldReason::probe_contact, true);  // whatever M53 says
   stopped_by_probe_ = true;
   stop();
 }
@@ -292,33 +238,15 @@ Attention MotionDrive::attention() const {
   return probe_.guards() ? Attention::guards_probe : Attention::none;
 }
 
-void MotionDrive::change_holds(HoldReason reason, bool holds) {
-  if (holds_.has(reason) == holds) return;
-  holds_.set(reason, holds);
-  tell_planner();
-}
-
-// The planner takes back both of its holds at once, so the one that remains is told again.
-void MotionDrive::tell_planner() {
-  const bool holds = holds_.any_of(heeded_holds);
-  const bool stops = holds_.any_of(sure_holds);
-  if ((planner_holds_ && !holds) || (planner_stops_ && !stops)) {
-    planner_.resume();
-    planner_holds_ = planner_stops_ = false;
-  }
-  if (holds && !std::exchange(planner_holds_, holds)) planner_.hold();
-  if (stops && !std::exchange(planner_stops_, stops)) planner_.stop();
-}
-
 // The motion has come to rest. If the hold was taken back meanwhile, the machine does not stay at rest.
 void MotionDrive::come_to_rest() {
   if (holds_.any_of({HoldReason::probe_contact, HoldReason::tap, HoldReason::drop})) {
-    planner_.drop_to_action();
-    if (const auto rest = feed_->drop()) end_of_probe_ = dropped_to_ = rest;
-    holds_.remove(HoldReason::probe_contact);
-    holds_.remove(HoldReason::tap);
-    holds_.remove(HoldReason::drop);
-    tell_planner();
+    pipeline_.planner().drop_to_action();
+    if (const auto rest = feed_->drop()) {
+      dropped_to_ = rest;
+      probe_.note_end(*rest);
+    }
+    holds_.end({HoldReason::probe_contact, HoldReason::tap, HoldReason::drop});
   } else {
     rest_at_line();
   }
@@ -341,8 +269,7 @@ void MotionDrive::lose_thread() {
 
 // At rest. `error`: why the work could not go on, if that is why it ends.
 void MotionDrive::switch_off_and_end(std::optional<LinkError> error) {
-  script_.then([this] { feed_->switch_outputs({}); });
-  script_.until([this] { return feed_->settled(); });
+  switching_.switch_off();
   script_.then([this, error] {
     end();
     if (error) board_.fail(*error);
@@ -356,43 +283,32 @@ MotionDrive::Turn MotionDrive::end() {
 
 void MotionDrive::hold(HoldReason reason) {
   if (state_ == State::ended || stopped() || holds_.has(reason)) return;
-  change_holds(reason, true);
+  holds_.change(reason, true);
   if (state_ == State::running) state_ = State::holding;
 }
 
 void MotionDrive::resume(HoldReason reason) {
   if (state_ == State::ended || stopped() || !holds_.has(reason)) return;
-  change_holds(reason, false);
+  holds_.change(reason, false);
   if (holds_.any_of(asked_holds)) return;
-  if (state_ == State::held) let_outputs_go();
+  if (state_ == State::held) switching_.let_go();
   state_ = State::running;
 }
 
-void MotionDrive::let_outputs_go() {
-  const bool spindle_stands = outputs_.spindle_stands();
-  if (!spindle_stands && !outputs_.all_stand()) return await_pause_end();
-  outputs_.stop_spindle(false);
-  outputs_.stop_all(false);
-  switch_on(outputs_.ordered(), spindle_wait_);
-}
-
 void MotionDrive::set_feed_override(double factor) {
-  feed_override_ = factor;
-  planner_.set_feed_override(factor);
-  mind_feed();
+  holds_.set_feed_override(factor);
+  change_feed();
 }
 
 void MotionDrive::set_adaptive_feed(double factor) {
-  adaptive_feed_ = factor;
-  planner_.set_adaptive_feed(factor);
-  mind_feed();
+  holds_.set_adaptive_feed(factor);
+  change_feed();
 }
 
-void MotionDrive::mind_feed() {
-  const double feed = std::min({feed_override_, adaptive_feed_, feed_override_ * adaptive_feed_});
-  holds_.set(HoldReason::zero_feed, feed < no_feed);
+// A machine that rested for a feed of zero goes on by itself.
+void MotionDrive::change_feed() {
   if (state_ != State::held || holds_.any_of(asked_holds)) return;
-  let_outputs_go();
+  switching_.let_go();
   state_ = State::running;
 }
 
@@ -404,8 +320,7 @@ void MotionDrive::set_spindle_override(double factor) {
 void MotionDrive::tell_outputs() {
   if (state_ == State::ended) return;
   if (state_ != State::held) return feed_->pass_on_outputs();
-  script_.then([this] { feed_->switch_outputs(outputs_.tell()); });
-  script_.until([this] { return feed_->settled(); });
+  switching_.switch_as_ordered();
 }
 
 void MotionDrive::switch_mist(bool on) {
@@ -420,14 +335,7 @@ void MotionDrive::switch_flood(bool on) {
 
 void MotionDrive::stop_spindle(bool stands) {
   if (state_ != State::held || stopped()) return;
-  if (stands == outputs_.spindle_stands()) return;
-  outputs_.stop_spindle(stands);
-  tell_outputs();
-  if (!stands) pause_end_ = now() + run_up_time({}, outputs_.in_force(), spindle_run_up_);
-}
-
-void MotionDrive::await_pause_end() {
-  script_.until([this] { return pause_end_ - now() <= hardly_any; });
+  if (stands != outputs_.spindle_stands()) switching_.stop_spindle(stands);
 }
 
 void MotionDrive::stop_outputs() {
@@ -438,7 +346,7 @@ void MotionDrive::stop_outputs() {
 
 void MotionDrive::stop() {
   if (state_ == State::ended || stopped()) return;
-  change_holds(HoldReason::stop, true);
+  holds_.change(HoldReason::stop, true);
   feed_->cut_dwell();
   if (std::exchange(awaits_index_, false))
     script_.clear();
@@ -450,28 +358,7 @@ void MotionDrive::stop() {
 }
 
 void MotionDrive::switch_on(const OutputState& outputs, Seconds spindle_wait) {
-  OutputState spindle = outputs;
-  spindle.mist = spindle.flood = false;
-  const auto order = [this](const OutputState& wanted) {
-    script_.then([this, wanted] {
-      outputs_.order(wanted);
-      feed_->switch_outputs(outputs_.tell());
-    });
-    script_.until([this] { return feed_->settled(); });
-  };
-  order(spindle);
-  if (spindle.spindle != SpindleDirection::off) {
-    const Seconds wait = std::max(spindle_wait, run_up_time({}, spindle, spindle_run_up_));
-    script_.then([this, wait] { pause_end_ = now() + wait; });
-    await_pause_end();
-  }
-  if (spindle != outputs) order(outputs);
-}
-
-// The machine rests. What the program has ordered is as it was before motion goes on.
-void MotionDrive::switch_on_again() {
-  ++output_timeouts_;
-  switch_on(outputs_.ordered(), spindle_wait_);
+  switching_.switch_on(outputs, spindle_wait);
 }
 
 std::optional<std::string> unsuited(const BoardSession& board, const StepOptions& steps, bool wants_encoder) {

@@ -16,6 +16,8 @@ void ProbeMove::begin(const Action& action, AxisSet downs) {
               .contact = start_,
               .rest = start_};
   running_ = true;
+  contact_seen_ = false;
+  end_.reset();
   answers_.note(outcome_);
 }
 
@@ -24,14 +26,16 @@ void ProbeMove::recall() {
   if (!outcome_.refused) link_.recall_contact();
 }
 
-void ProbeMove::find(const Point& rest) {
+void ProbeMove::find(const Point& planned_end) {
   if (outcome_.refused) return;
+  const Point rest = end_.value_or(planned_end);
   outcome_.rest = rest;
   outcome_.touched = contact();
   outcome_.contact = outcome_.touched ? contact_place(link_.probe_report(), rest) : rest;
 }
 
 void ProbeMove::end() {
+  contact_seen_ = false;
   answers_.note(outcome_);
   for (const auto& watcher : watchers_) watcher(outcome_);
 }

@@ -1,7 +1,8 @@
 #include "passo/drive/rewindable_path.hpp"
 
-#include <cassert>
 #include <utility>
+
+#include "passo/base/ensure.hpp"
 
 namespace passo {
 
@@ -38,7 +39,7 @@ bool RewindablePath::pull(PathItem& item) {
 }
 
 void RewindablePath::begin_at(const PathPlace& place, std::vector<PathItem> lead_in) {
-  assert(keeps_ && kept_.empty() && next_ == 0);
+  ensure(keeps_ && kept_.empty() && next_ == 0);
   left_out_ = first_ = next_ = place.item;
   rewound_ = place;
   if (lead_in.empty()) return;
@@ -58,14 +59,14 @@ PathPlace RewindablePath::behind(const PathPlace& place, const MotionItem& motio
 }
 
 void RewindablePath::rewind(const PathPlace& place) {
-  assert(keeps_ && place.item >= first_ && place.item <= first_ + kept_.size());
+  ensure(keeps_ && place.item >= first_ && place.item <= first_ + kept_.size());
   next_ = place.item;
   rewound_ = place;
   ++rewinds_;
 }
 
 Point RewindablePath::point_at(const PathPlace& place) const {
-  assert(place.item >= first_ && place.item < first_ + kept_.size());
+  ensure(place.item >= first_ && place.item < first_ + kept_.size());
   const PathItem& item = kept_[place.item - first_];
   if (const auto* action = std::get_if<Action>(&item)) return action->place;
   return std::get<Segment>(item).tool_at(place.s);

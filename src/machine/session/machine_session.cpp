@@ -10,9 +10,7 @@
 #include "panel.hpp"
 #include "work.hpp"
 
-#include "passo/activity/machine_plant.hpp"
 #include "passo/activity/stage_options.hpp"
-#include "passo/kinematics/kinematics.hpp"
 
 namespace passo {
 namespace {
@@ -44,18 +42,13 @@ constexpr MachineFault fault_of(LinkError error) {
   }
 }
 
-// False: some axes have no switches, and stand where they stood.
-bool homes_all_axes(const MachineDescription& machine) {
-  return machine.homing.size() == machine.axes.size();
-}
-
 }  // namespace
 
 MachineSession::MachineSession(const MachineDescription& machine, BoardPort& port, const SessionOptions& options)
     : machine_(machine),
       options_(options),
       board_(port, options.care),
-      position_(options.start),
+      place_(machine, options.start),
       panel_(std::make_unique<Panel>(board_)) {
   options_.greeting = with_machine(options_.greeting, machine, options_.over_a_line);
 }
@@ -103,7 +96,7 @@ void MachineSession::go_online(Seconds most) {
   if (!board_.ready()) return;
   const bool wants_encoder = options_.over_a_line && machine_.spindle.counts_per_turn > 0;
   if (const auto words = unsuited(board_, passo::step_options(machine_), wants_encoder)) {
-    trouble_words_ = *words;
+    trouble_.words = *words;
     move_to(MachineEvent::lose_board);
     return;
   }
@@ -116,58 +109,29 @@ void MachineSession::go_online(Seconds most) {
     if (!board_.status()) return;
   }
   enabled_at_ = now();
-  place_.reset();
-  stand_at(position_);
+  place_.forget_board();
+  stand_at(position());
   move_to(MachineEvent::ready);
 }
 
-// From here on the board's counts are those of that place. What the board has below a step stays.
 void MachineSession::stand_at(const KnownPosition& position) {
-  position_ = position;
-  trust_before_ = position.trust;
-  lost_before_ = position.is_lost;
-  mismatch_.reset();
-  if (place_) {
-    const MotorSteps steps = steps_at(machine_, position.place, position.downs);
-    for (std::size_t m = 0; m < machine_.axes.size(); ++m) place_->set_steps(m, steps[m]);
-  }
-  count_from_here();
+  place_.stand_at(position, watched_status());
   ++version_;
 }
 
-void MachineSession::count_from_here() {
-  if (!watches_counts() || !board_.status()) return;
-  const MotorSteps steps = place_ ? steps_of(*place_) : steps_at(machine_, position_.place, position_.downs);
-  zero_counts_.emplace();
-  for (std::size_t m = 0; m < machine_.axes.size(); ++m) {
-    (*zero_counts_)[m] = std::int64_t{board_.status()->positions[m]} - steps[m];
-  }
-}
-
-MotorSteps MachineSession::steps_of(const BoardPlace& place) const {
-  MotorSteps steps{};
-  for (std::size_t m = 0; m < machine_.axes.size(); ++m) steps[m] = place.steps(m);
-  return steps;
-}
-
-// The board may not stand where it stood. What the place was trusted for is kept: the board's counts may still prove
-// the place, also after a reset that fails.
-void MachineSession::doubt_place() {
-  if (position_.trust != Trust::unknown) trust_before_ = position_.trust;
-  if (!position_.is_lost) lost_before_ = false;
-  position_.trust = Trust::unknown;
-  position_.is_lost = true;
+// What the board has told last, if its counts are compared with what was commanded.
+const BoardStatus* MachineSession::watched_status() const {
+  return watches_counts() && board_.status() ? &*board_.status() : nullptr;
 }
 
 void MachineSession::begin_reset() {
   board_.hang_up();
-  trouble_.reset();
-  trouble_words_.clear();
+  trouble_ = {};
   greeted_ = false;
   switches_off_ = true;
   asks_place_ = options_.over_a_line;
   if (asks_place_) board_.inquire(Question::status);
-  doubt_place();
+  place_.doubt();
   move_to(MachineEvent::reset);
 }
 
@@ -176,15 +140,7 @@ void MachineSession::find_place_again() {
   const BoardStatus& status = *board_.status();
   const bool knows = status.session == options_.greeting.session && status.motors == machine_.motor_count() &&
                      (status.state & board_trusted) != 0 && (status.state & (board_manual | board_moves)) == 0;
-  place_.reset();
-  if (!knows || !zero_counts_) {
-    trust_before_ = Trust::unknown;
-    return;
-  }
-  position_.trust = trust_before_;
-  position_.is_lost = lost_before_;
-  const MotorPlace motors = steps_since(*zero_counts_, status.positions);
-  position_.place = kinematics_of(machine_).axes(motors, position_.downs, position_.place);
+  place_.find_again(status, knows);
 }
 
 // A check needs no board, but hears what the board says.
@@ -262,55 +218,14 @@ std::pair<Outcome, std::optional<ActivityFault>> MachineSession::judge_work() co
 // Takes over the place at rest. If the board was lost, the place is not known until the board answers again.
 void MachineSession::note_place() {
   if (board_.error() && !is_of_work(*board_.error())) return;
-  place_ = work_->drive->place();
-  position_.downs = work_->drive->downs();
-  position_.place = place_of(*place_, position_.downs);
-  const bool agrees = !work_->finishing || counts_agree();
+  place_.rest_at(work_->drive->place(), work_->drive->downs());
+  const bool agrees = !work_->finishing || place_.agrees_with(watched_status());
+  if (!agrees) note({.kind = MachineChange::Kind::position_lost});
   const bool is_homed = work_->homing != nullptr && work_->homing->done() && !work_->drive->stopped();
   // The second motor of an axis has turned alone: of the first one the counts know nothing more.
-  if (work_->homing != nullptr && board_.forget_shifts() && !is_homed) doubt_place();
-  if (!agrees) return;
+  if (work_->homing != nullptr && board_.forget_shifts() && !is_homed) place_.doubt();
   // The path is done when the last pull-off has been planned: it may have been stopped since.
-  if (!is_homed) return;
-  position_.place = home_place();
-  if (position_.trust != Trust::unknown || homes_all_axes(machine_)) {
-    position_.trust = Trust::homed;
-    position_.is_lost = false;
-  }
-  mismatch_.reset();
-  count_from_here();
-}
-
-// The switches have told where the homed axes stand. The other axes keep their places.
-Point MachineSession::home_place() {
-  Point place = position_.place;
-  for (const HomedAxis& homed : work_->homing->homed()) place[homed.axis] = homed.place;
-  const Kinematics kinematics = kinematics_of(machine_);
-  for (std::size_t m = 0; m < kinematics.rows().size(); ++m) {
-    const MotorRow& motor = kinematics.rows()[m];
-    const bool is_homed = std::ranges::any_of(
-        work_->homing->homed(), [&](const HomedAxis& homed) { return motor.steps.factor_of(homed.axis) != 0; });
-    if (is_homed) place_->set_steps(m, std::llround(motor.steps_at(place, position_.downs)));
-  }
-  return place;
-}
-
-// Counts that differ are told once: what comes after is compared from there on.
-bool MachineSession::counts_agree() {
-  if (!board_.status() || !zero_counts_) return true;
-  const BoardStatus& status = *board_.status();
-  for (std::size_t m = 0; m < machine_.axes.size(); ++m) {
-    const std::int64_t counted = std::int64_t{status.positions[m]} - (*zero_counts_)[m];
-    if (counted == place_->steps(m)) continue;
-    mismatch_ = CountMismatch{.motor = m, .counted = counted, .commanded = place_->steps(m)};
-    position_.trust = Trust::unknown;
-    position_.is_lost = true;
-    note({.kind = MachineChange::Kind::position_lost});
-    count_from_here();
-    return false;
-  }
-  if (position_.trust == Trust::commanded) position_.trust = Trust::counted;
-  return true;
+  if (agrees && is_homed) place_.home(work_->homing->homed(), watched_status());
 }
 
 // The drive brakes and switches the outputs off before it fails the link, so the line is noted now.
@@ -327,11 +242,10 @@ void MachineSession::mind_board() {
   if (!board_.error() || state_ == MachineState::alarm || state_ == MachineState::fault) return;
   const LinkError error = *board_.error();
   if (busy() && is_of_work(error)) return;  // the drive ends by itself
-  trouble_ = error;
-  trouble_words_ = words_of(error);
+  trouble_ = {.error = error, .words = words_of(error)};
   if (busy()) end_work();
-  doubt_place();
-  place_.reset();
+  place_.doubt();
+  place_.forget_board();
   const bool lost = error != LinkError::stopped && error != LinkError::drivers_off && error != LinkError::stood_still;
   move_to(lost ? MachineEvent::lose_board : MachineEvent::stop_at_once);
 }
@@ -400,16 +314,16 @@ MachineStatus MachineSession::status() const {
   status.version = version_;
   status.time = now();
   status.state = state_;
-  status.position = position_;
+  status.position = position();
   status.lost_place = lost_place().has_value();
-  status.now_at = now_at_;
-  status.speed_now = speed_now_;
-  status.ahead = position_.place;
+  status.now_at = live_place_.at();
+  status.speed_now = live_place_.speed();
+  status.ahead = position().place;
   status.inputs = board_.inputs();
   status.overrides = overrides_;
   status.stops = stops_;
-  status.trouble = trouble_;
-  status.trouble_words = trouble_words_;
+  status.trouble = trouble_.error;
+  status.trouble_words = trouble_.words;
   if (!busy() || !work_->drive) return status;
   const MotionDrive& drive = *work_->drive;
   status.holds = drive.holds();
@@ -447,8 +361,8 @@ const Program* MachineSession::program() const {
 const HomingPath* MachineSession::homing() const {
   return work_ ? work_->homing : nullptr;
 }
-const Refiller* MachineSession::refiller() const {
-  return work_ && work_->drive ? work_->drive->refiller() : nullptr;
+const RefillLedger* MachineSession::ledger() const {
+  return work_ && work_->drive ? work_->drive->ledger() : nullptr;
 }
 
 }  // namespace passo

@@ -3,12 +3,15 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <cstdlib>
 #include <optional>
 #include <tuple>
 
 #include "board_model.hpp"
 #include "event_stream.hpp"
 #include "segment_fitter.hpp"
+
+#include "passo/base/ensure.hpp"
 
 namespace passo {
 
@@ -91,6 +94,7 @@ class StepGenerator::Implementation {
   bool enough() const { return events_.size() > fitter_.longest() || stream_.now() - board_.time() >= longest_wait_; }
 
   bool send(const BoardSegment& segment, BoardItem& item) {
+    ensure(segment.events > 0 && std::abs(segment.change) <= largest_change);  // and BoardSession takes no other
     board_.play(segment);
     item = segment;
     return true;

@@ -58,7 +58,7 @@ constexpr double smallest_way = 1e-11;
 constexpr double smallest_rest = 0.02;
 constexpr double smallest_part = 0.2;
 constexpr double shortest_rest = 0.01;
-// Times the unseen jump: the profile accepts as much (most_above_cap, jerk_phases.cpp).
+// Times the unseen jump: the profile accepts as much (most_above_cap, jerk_profile_phases.cpp).
 constexpr double most_unseen_jump = 4;
 
 // Even if all steps were halvings, about 53 would exhaust the digits of a double.

@@ -2,6 +2,7 @@
 
 #include <string>
 
+#include "kit/level_png.hpp"
 #include <gmock/gmock.h>
 
 #include "passo/carve/relief_surface.hpp"
@@ -29,7 +30,7 @@ LevelPicture all_levels() {
 
 TEST(LevelPicture, keeps_all_16_bits) {
   const LevelPicture picture = all_levels();
-  const ReadPicture read = read_picture(write_level_picture(picture));
+  const ReadPicture read = read_picture(test::png_of_levels(picture));
   EXPECT_EQ(read.words, "");
   EXPECT_EQ(read.picture.kind, "16 bit grey");
   EXPECT_EQ(read.picture.levels, picture.levels);
@@ -44,7 +45,7 @@ TEST(LevelPicture, of_colours_has_their_luminance) {
 }
 
 TEST(LevelPicture, that_is_cut_off_or_changed_anywhere_is_refused_with_a_reason) {
-  const std::string whole = write_level_picture(all_levels());
+  const std::string whole = test::png_of_levels(all_levels());
   for (std::size_t size = 0; size + 12 < whole.size(); size += 1 + whole.size() / 200) {
     const ReadPicture read = read_picture(std::string_view(whole).substr(0, size));
     EXPECT_EQ(read.picture.columns, 0U) << size;
@@ -63,11 +64,11 @@ TEST(LevelPicture, that_is_cut_off_or_changed_anywhere_is_refused_with_a_reason)
 TEST(LevelPicture, that_is_too_large_is_refused_before_memory_is_taken) {
   LevelPicture wide{.columns = 65536, .rows = 2};
   wide.levels.assign(2 * 65536, 0);
-  EXPECT_THAT(read_picture(write_level_picture(wide)).words, HasSubstr("65,535 a side"));
+  EXPECT_THAT(read_picture(test::png_of_levels(wide)).words, HasSubstr("65,535 a side"));
   LevelPicture thin{.columns = 1, .rows = 5};
   thin.levels.assign(5, 0);
-  EXPECT_THAT(read_picture(write_level_picture(thin)).words, HasSubstr("less than two rows or columns"));
-  EXPECT_THAT(read_picture(write_level_picture(all_levels()), PixelLevel::alpha).words, HasSubstr("no alpha channel"));
+  EXPECT_THAT(read_picture(test::png_of_levels(thin)).words, HasSubstr("less than two rows or columns"));
+  EXPECT_THAT(read_picture(test::png_of_levels(all_levels()), PixelLevel::alpha).words, HasSubstr("no alpha channel"));
 }
 
 HeightGrid relief(const ReliefShape& shape) {

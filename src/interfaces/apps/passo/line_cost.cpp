@@ -59,8 +59,8 @@ std::optional<LineCost> line_cost(ProgramReader program, const MachineDescriptio
   const Answered answered = answer_of(session.take_changes(), *ticket);
   if (answered.fault) cost.trouble = answered.fault->message();
   cost.over = Seconds(static_cast<double>(opened->machine().now().count) / machine.board.clock.value());
-  cost.rests = session.refiller()->recoveries();
-  cost.slowdowns = session.refiller()->slowdowns();
+  cost.rests = session.ledger()->recoveries();
+  cost.slowdowns = session.ledger()->slowdowns();
   return cost;
 }
 

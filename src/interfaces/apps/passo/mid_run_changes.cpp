@@ -58,8 +58,8 @@ std::optional<CableCut> read_cable_cut(const std::string& text) {
 
 void TailWatch::look(const MachineSession& session, const VirtualMachine& machine,
                      const MachineDescription& description) {
-  const Refiller* const refiller = session.refiller();
-  if (refiller == nullptr || static_cast<std::size_t>(refiller->recoveries()) == tails_.size()) return;
+  const RefillLedger* const ledger = session.ledger();
+  if (ledger == nullptr || static_cast<std::size_t>(ledger->recoveries()) == tails_.size()) return;
   std::int64_t last_step = 0;
   for (const MotorCounts& motor : machine.counts().motors) last_step = std::max(last_step, motor.last_step.count);
   tails_.push_back({.rest = Seconds(static_cast<double>(last_step) / description.board.clock.value()),

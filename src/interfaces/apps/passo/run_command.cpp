@@ -72,9 +72,9 @@ void add_board(RunSummary& summary, OpenedMachine& opened, const MachineDescript
   board.events = static_cast<std::uint64_t>(counts.events - before.counts.events);
   board.frames = opened.frames_sent() - before.frames;
   board.bytes = opened.bytes_sent() - before.bytes;
-  if (const Refiller* refiller = opened.session().refiller(); refiller != nullptr && link.board()) {
+  if (const RefillLedger* ledger = opened.session().ledger(); ledger != nullptr && link.board()) {
     board.held_items = link.board()->capacity;
-    board.rests = refiller->recoveries();
+    board.rests = ledger->recoveries();
   }
   const Point place = kinematics_of(machine).axes(motors_of(counts));
   for (std::size_t m = 0; m < machine.axes.size(); ++m) {
@@ -95,7 +95,7 @@ void stop(MachineSession& session) {
 
 // Tells how often the board had to brake by itself.
 void tell_tails(const MachineSession& session) {
-  const int rests = session.refiller()->recoveries();
+  const int rests = session.ledger()->recoveries();
   if (rests == 0) return;
   fmt::print(stderr,
              "passo: nothing had come to the board in time, {}: it came to rest on the path, and went on from there\n",

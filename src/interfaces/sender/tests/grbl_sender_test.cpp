@@ -136,8 +136,6 @@ TEST(GrblSender, overrides_in_grbls_steps) {
   EXPECT_EQ(bytes_of(), "\x90\x91\x91\x93\x93\x93");
   pair.sender.override_feed(5);
   EXPECT_EQ(bytes_of(), "\x90\x92\x92\x92\x92\x92\x92\x92\x92\x92");
-  pair.sender.override_rapids(50);
-  EXPECT_EQ(bytes_of(), "\x96");
   pair.sender.override_spindle(89);
   EXPECT_EQ(bytes_of(), "\x99\x9B\x9D");
 }

@@ -156,6 +156,7 @@ class RefillerTest : public testing::TestWithParam<double> {
               .link = board,
               .outputs = outputs};
     }
+    const RefillLedger& ledger() { return *refiller.ledger(); }
     test::ListSource<PathItem> source;
     RewindablePath path{source};
     Planner planner{path, limits(GetParam())};
@@ -190,8 +191,8 @@ TEST_P(RefillerTest, keeps_a_board_with_many_places_going_without_a_rest) {
   EXPECT_EQ(play(street), Feed::Turn::ended);
   EXPECT_FALSE(street.board.error());
   EXPECT_EQ(street.board.steps(), 6000);
-  EXPECT_EQ(street.refiller.recoveries(), 0);
-  EXPECT_GT(street.refiller.refills(), 5U);
+  EXPECT_EQ(street.ledger().recoveries(), 0);
+  EXPECT_GT(street.ledger().refills(), 5U);
   EXPECT_NEAR(street.refiller.ahead().value(), 0, 1e-9);
 }
 
@@ -203,7 +204,7 @@ TEST_P(RefillerTest, takes_up_again_where_the_tail_came_to_rest) {
   EXPECT_FALSE(street.board.error());
   EXPECT_EQ(street.board.steps(), 6000);
   EXPECT_EQ(street.board.reversals(), 0);
-  EXPECT_GE(street.refiller.recoveries(), 1);
+  EXPECT_GE(street.ledger().recoveries(), 1);
 }
 
 TEST_P(RefillerTest, never_sends_more_than_a_board_with_few_places_holds) {
@@ -229,7 +230,7 @@ TEST_P(RefillerTest, goes_slower_where_tails_are_long) {
   EXPECT_EQ(play(street), Feed::Turn::ended);
   EXPECT_FALSE(street.board.error());
   EXPECT_EQ(street.board.steps(), 0);
-  EXPECT_GT(street.refiller.slowdowns(), 0);
+  EXPECT_GT(street.ledger().slowdowns(), 0);
 }
 
 // Over many short lines too. Here A turns a degree for each 10 nm of the path, which has 1 µm/s then: what is slow was
@@ -250,7 +251,7 @@ TEST_P(RefillerTest, goes_slower_where_tails_are_long_and_an_axis_mostly_turns) 
   EXPECT_EQ(play(street), Feed::Turn::ended);
   EXPECT_FALSE(street.board.error());
   EXPECT_EQ(street.board.steps(), 30'000);
-  EXPECT_GT(street.refiller.slowdowns(), 0);
+  EXPECT_GT(street.ledger().slowdowns(), 0);
 }
 
 TEST_P(RefillerTest, sends_a_dwell_of_hours_to_a_board_with_few_places) {
@@ -279,7 +280,7 @@ TEST_P(RefillerTest, rests_in_a_hold_and_goes_on) {
   street.planner.resume();
   EXPECT_EQ(play(street), Feed::Turn::ended);
   EXPECT_EQ(street.board.steps(), 6000);
-  EXPECT_EQ(street.refiller.recoveries(), 0);
+  EXPECT_EQ(street.ledger().recoveries(), 0);
 }
 
 INSTANTIATE_TEST_SUITE_P(Jerk, RefillerTest, testing::Values(0.0, 25'000.0));

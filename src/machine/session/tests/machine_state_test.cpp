@@ -32,17 +32,12 @@ std::set<MachineState> reachable_from(MachineState start) {
   return found;
 }
 
-TEST(MachineStates, each_cell_has_one_next_state_or_none) {
+// A second row would never count, and a row that changes nothing hides a missing one.
+TEST(MachineStates, no_cell_has_two_rows_and_every_row_changes_the_state) {
   std::set<std::pair<MachineState, MachineEvent>> cells;
   for (const Transition& one : transitions) {
     EXPECT_TRUE(cells.insert({one.from, one.event}).second) << name_of(one.from) << ", " << name_of(one.event);
     EXPECT_NE(one.from, one.to) << name_of(one.from) << ", " << name_of(one.event) << ": nothing changes";
-  }
-  for (const MachineState state : all_states) {
-    for (const MachineEvent event : all_events) {
-      EXPECT_EQ(next_state(state, event).has_value(), cells.contains({state, event}))
-          << name_of(state) << ", " << name_of(event);
-    }
   }
 }
 

@@ -39,9 +39,7 @@ LevelPicture read_level_picture(const std::string& name, std::string_view bytes,
 // Whether these are the first bytes of a kind of picture that is read: PNG or TIFF.
 bool is_level_picture(std::string_view bytes);
 
-// A PNG of the levels, 16 bit grey. Empty: it could not be made.
-std::string write_level_picture(const LevelPicture& picture);
-// A PNG of bytes R, G, B of each pixel, row by row downwards.
+// A PNG of bytes R, G, B of each pixel, row by row downwards. Empty: it could not be made.
 std::string write_colour_picture(std::size_t columns, std::size_t rows, const std::vector<std::uint8_t>& colours);
 
 }  // namespace passo

@@ -18,6 +18,7 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "passo/activity/open_program.hpp"
@@ -25,7 +26,9 @@
 #include "passo/grbl/grbl_memory.hpp"
 #include "passo/grbl/grbl_reports.hpp"
 #include "passo/grbl/grbl_settings.hpp"
-#include "passo/grbl/kept_settings.hpp"
+#include "passo/grbl/grbl_store.hpp"
+#include "passo/grbl/poll_lease.hpp"
+#include "passo/grbl/report_turns.hpp"
 #include "passo/machine_file/machine_description.hpp"
 #include "passo/session/machine_session.hpp"
 
@@ -60,12 +63,15 @@ class GrblController {
   // Settings are written into the machine file, whose text is `text`. They count from the next start on. `write`
   // replaces the file by a text, and returns false if that is not possible, or if the file is no longer the text it is
   // given first.
-  using WriteFile = std::function<bool(const std::string& before, const std::string& after)>;
-  void keep_settings(std::string text, WriteFile write);
+  void keep_settings(std::string text, GrblStore::WriteFile write) {
+    store_.keep_settings(std::move(text), std::move(write));
+  }
 
   // What the controller keeps over a restart begins as `memory`, and goes to `write` when a sender has changed it;
   // `write` returns false if that is not possible.
-  void remember(GrblMemory memory, std::function<bool(const GrblMemory&)> write);
+  void remember(GrblMemory memory, GrblStore::WriteMemory write) {
+    store_.remember(std::move(memory), std::move(write));
+  }
   // Offsets of the work systems, and the homes of G28 and G30, are shared with others: `share` gets those that a sender
   // has changed, once the machine rests. take_offsets() takes theirs; call while nothing moves for the senders.
   void share_offsets(std::function<void(const SavedParameters&)> share) { share_offsets_ = std::move(share); }
@@ -96,8 +102,6 @@ class GrblController {
   void act(std::uint8_t byte);
   void act_as_watcher(std::uint8_t byte);
   void report_status();
-  void note_question();
-  void mind_jog_lease();
   bool is_executing() const;
   void hold();
   void resume();
@@ -167,11 +171,8 @@ class GrblController {
   MachineSession& session_;
   OpenProgram& program_;
   GrblInput input_;
-  GrblMemory memory_;
-  std::function<bool(const GrblMemory&)> write_memory_;
+  GrblStore store_;
   std::function<void(const SavedParameters&)> share_offsets_;
-  std::optional<KeptSettings> kept_;
-  WriteFile write_file_;
   std::vector<std::string> replies_;
   Waits waits_ = Waits::none;
   std::function<void()> after_stop_;
@@ -185,17 +186,11 @@ class GrblController {
   bool checks_ = false;  // $C
   bool drives_ = true;   // senders may move the machine
   bool resets_ = false;  // the machine comes to rest for a reset
-  int offset_in_ = 0;    // reports until the work offset is shown again; 0: in the next
-  int overrides_in_ = 1;
-  Point told_offset_;
-  OutputState told_outputs_;
-  Overrides told_overrides_;
+  ReportTurns report_turns_;
   bool wait_told_ = false;        // where the program waits for a person now
   bool has_started_ = false;      // the start lines have had their turn
   bool offsets_changed_ = false;  // a sender has changed them, and nobody has heard of it
-  Seconds heard_at_{0};           // any byte of the sender
-  Seconds asked_at_{0};           // for the status
-  std::optional<Seconds> pace_;
+  PollLease lease_;               // on a jog
 };
 
 }  // namespace passo

@@ -80,9 +80,8 @@ class GrblSender {
 
   void hold();
   void resume();
-  // Percent; as near as Grbl comes: feed and spindle 10 to 200, rapids 25, 50 or 100.
+  // Percent, 10 to 200, as near as Grbl comes.
   void override_feed(int percent);
-  void override_rapids(int percent);
   void override_spindle(int percent);
   // Brakes on the path, and drops what the machine holds. stopped() tells when that is done; the place is then known
   // still, if the machine has told that it rests. Homing is reset at once.

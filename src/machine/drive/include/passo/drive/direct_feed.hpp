@@ -7,22 +7,13 @@
 #include <utility>
 
 #include "passo/drive/feed.hpp"
-#include "passo/drive/outputs_order.hpp"
-#include "passo/stepgen/step_generator.hpp"
-#include "passo/trajectory/planner.hpp"
+#include "passo/drive/feed_stages.hpp"
 
 namespace passo {
 
 class DirectFeed final : public Feed {
  public:
-  struct Stages {
-    RewindablePath& path;
-    Planner& planner;
-    StepGenerator& generator;
-    Source<BoardItem>& items;  // the generator's, seen by those who watch
-    Link& link;
-    OutputsOrder& outputs;
-  };
+  using Stages = FeedStages;
   struct Options {
     Commitment live;
     bool follows_spindle = false;     // in the parts of the path that say so
@@ -31,9 +22,6 @@ class DirectFeed final : public Feed {
   };
   // All stages outlive the feed.
   DirectFeed(const Stages& stages, const Options& options);
-
-  // Sets how far ahead to commit while there is nothing to attend to.
-  void commit(const Commitment& live);
 
   Turn advance() override;
   bool plans() const override { return waiting_.empty() && !action_ && !ended_; }
@@ -53,9 +41,9 @@ class DirectFeed final : public Feed {
   std::optional<Point> drop() override;
   void read_again() override;
   void cut_dwell() override;
-
-  // The path comes to a part that follows the spindle. From here on the feed does not read far ahead.
-  void expect_thread();
+  // From here on the feed does not read far ahead.
+  void expect_thread() override;
+  RefillLedger* ledger() override { return nullptr; }
 
  private:
   bool send_waiting();
@@ -64,7 +52,7 @@ class DirectFeed final : public Feed {
 
   Stages stages_;
   Options options_;
-  Commitment live_;
+  Commitment live_;   // while there is nothing to attend to
   Commitment ahead_;  // what the stages were told last
   Attention attention_ = Attention::none;
   BoardItem item_;

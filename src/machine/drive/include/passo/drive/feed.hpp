@@ -46,6 +46,8 @@ enum class Attention : std::uint8_t {
   follows,       // the motion follows the spindle
 };
 
+class RefillLedger;
+
 class Feed {
  public:
   enum class Turn : std::uint8_t {
@@ -99,6 +101,12 @@ class Feed {
   virtual void read_again() = 0;
   // Skips the rest of a dwell.
   virtual void cut_dwell() = 0;
+  // The path comes to a part that follows the spindle.
+  virtual void expect_thread() = 0;
+
+  // What was sent in refills, and what the board has played of it. Null: items go to the board directly, and are played
+  // as they are sent.
+  virtual RefillLedger* ledger() = 0;
 };
 
 }  // namespace passo

@@ -3,60 +3,34 @@
 //
 // The lower half of the street: planner, step generator, feed, link. Motion that the planner has given is committed and
 // played unchanged. A change makes the planner plan anew from the end of the committed motion, on the path and within
-// the limits. So a change takes effect after the committed time. Each part has one task: the feed brings items to the
-// board, HoldReasons say why the machine is to rest, ProbeMove tells what the probe finds, SpindleTracker keeps motion
-// in step with the spindle.
+// the limits. So a change takes effect after the committed time. Each part has one task: MotionPipeline has the stages,
+// the feed brings items to the board, PlannerHolds know why the machine is to rest, OutputsAtRest switches outputs in a
+// pause, ProbeMove tells what the probe finds, SpindleTracker keeps motion in step with the spindle.
 //
 // No function of a drive waits. advance() does what can be done now. When advance() returns `waits`, the owner lets the
 // board go on with turn() or wait(). See docs/decisions/0017 and 0065.
 #pragma once
 
+#include <cstdint>
 #include <limits>
 #include <memory>
 #include <optional>
 #include <string>
-#include <vector>
 
 #include "passo/base/source.hpp"
 #include "passo/base/tap.hpp"
-#include "passo/drive/feed.hpp"
-#include "passo/drive/holds.hpp"
-#include "passo/drive/line_stops.hpp"
-#include "passo/drive/outputs_order.hpp"
+#include "passo/drive/drive_options.hpp"
+#include "passo/drive/motion_pipeline.hpp"
+#include "passo/drive/outputs_at_rest.hpp"
+#include "passo/drive/planner_holds.hpp"
 #include "passo/drive/probe_move.hpp"
-#include "passo/drive/refiller.hpp"
-#include "passo/drive/rewindable_path.hpp"
+#include "passo/drive/refill_ledger.hpp"
 #include "passo/drive/script.hpp"
 #include "passo/drive/spindle_tracker.hpp"
 #include "passo/interpreter/machine_answers.hpp"
 #include "passo/link/board_session.hpp"
-#include "passo/path/backlash_taker.hpp"
-#include "passo/stepgen/step_generator.hpp"
-#include "passo/trajectory/planner.hpp"
 
 namespace passo {
-
-class DirectFeed;
-
-struct DriveOptions {
-  // For a board at the end of a line. The items that the board holds always end at rest, and after a broken line the
-  // drive goes on from there. Empty: items go to the board directly.
-  std::optional<TailOptions> tails = {};
-  Commitment live = endless_commitment;  // only for a board without a line
-  // Where to begin in the middle of a path. Another host has done all before this place.
-  std::optional<PathPlace> begin_at = {};
-  // Leads from where the machine stands to `begin_at`, and ends at rest. Empty: the machine stands there.
-  std::vector<PathItem> lead_in = {};
-  Seconds not_before{0};            // no motion before this time on the board's side
-  Seconds spindle_wait{0};          // before motion goes on, after the board had switched its outputs off
-  Seconds spindle_run_up{0};        // from rest to 1000 turns a minute; the wait is at least as long as that takes
-  int counts_per_turn = 0;          // counts of the spindle's encoder; 0: nothing follows the spindle
-  bool guards_by_probe = false;     // a touch outside a probe move stops the drive
-  bool waits_for_operator = false;  // at stops (M0, M1) and tool changes (M6)
-  bool waits_at_optional = true;    // at M1 too, if it waits for the operator at all
-  bool stops_at_lines = false;      // rests in a hold after each line of the program
-  bool may_stop_at_lines = false;   // stop_at_lines() may be called later
-};
 
 class MotionDrive {
  public:
@@ -83,15 +57,13 @@ class MotionDrive {
   void wait(Seconds most);
 
   State state() const { return state_; }
-  const HoldReasons& holds() const { return holds_; }
+  const HoldReasons& holds() const { return holds_.reasons(); }
   // The outputs as the program and the operator have ordered them.
   OutputState outputs() const { return outputs_.in_force(); }
   // The time on the board's side.
   Seconds now() const { return board_.now(); }
   // How long the motion lasts that is planned and not played yet. Nothing can be changed for that time.
   Seconds committed() const { return feed_->ahead(); }
-  // Changes how far ahead the drive commits. Only for a board without a line, at any time.
-  void go_live(const Commitment& live = live_commitment);
 
   // Brings the machine to rest on the path, as soon as the limits and the program (M53) allow. The hold lasts until
   // resume() takes back the same reason.
@@ -121,7 +93,7 @@ class MotionDrive {
   void set_feed_override(double factor);
   void set_adaptive_feed(double factor);
   // Multiplies the speed of rapids; above 0, at most 1.
-  void set_rapid_override(double factor) { planner_.set_rapid_override(factor); }
+  void set_rapid_override(double factor) { pipeline_.planner().set_rapid_override(factor); }
   // The operator's switches for coolant. They count until the program switches the same itself.
   void switch_mist(bool on);
   void switch_flood(bool on);
@@ -146,20 +118,18 @@ class MotionDrive {
   ProbeMove& probe() { return probe_; }
 
   // For watchers of motion and items. Watchers are added before the first advance().
-  Tap<MotionItem>& motion() { return watched_motion_; }
-  Tap<BoardItem>& items() { return watched_items_; }
-  // Tail statistics; null: the drive has no tails.
-  Refiller* refiller() { return refiller_; }
-  const Refiller* refiller() const { return refiller_; }
+  Tap<MotionItem>& motion() { return pipeline_.motion(); }
+  Tap<BoardItem>& items() { return pipeline_.items(); }
+  // What was sent in refills and played of them; null: the drive sends none.
+  RefillLedger* ledger() { return feed_->ledger(); }
+  const RefillLedger* ledger() const { return feed_->ledger(); }
   const BoardSession& link() const { return board_; }
   // Where the board stands, for the next drive on this board. Valid at rest, after the end.
-  BoardPlace place() const { return step_generator_.place(); }
+  BoardPlace place() const { return pipeline_.generator().place(); }
   // The axes whose backlash is then taken up for motion down.
-  AxisSet downs() const { return step_generator_.downs(); }
+  AxisSet downs() const { return pipeline_.generator().downs(); }
 
  private:
-  BacklashAtRest backlash_at_rest(const StepOptions& steps) const;
-  std::unique_ptr<Feed> make_feed(const DriveOptions& options, const StepOptions& steps);
   void watch(const PathItem& item);
   void watch(const MotionItem& item);
   void pass_on_outputs();
@@ -170,63 +140,40 @@ class MotionDrive {
   void begin_probe(const Action& action);
   void end_probe(const Action& action);
   void await_index(const Action& action);
-  void hold_speed(const Action& action);
   void turn_tap(const Action& action);
   void wait_for_operator(const Action& action);
   void await_line();
   void look_at_probe();
   Attention attention() const;
-  void change_holds(HoldReason reason, bool holds);
-  void tell_planner();
-  void mind_feed();
+  void change_feed();
   void come_to_rest();
   void rest_at_line();
   void rest_in_hold();
   void lose_thread();
-  void switch_on_again();
   void tell_outputs();
-  void let_outputs_go();
-  void await_pause_end();
   void switch_off_and_end(std::optional<LinkError> error);
   Turn end();
   Seconds due() const;
 
   BoardSession& board_;
   AnswerBook& answers_;
-  Tap<PathItem> watched_path_;
-  BacklashTaker backlash_taker_;  // rests where an axis with backlash turns back
-  RewindablePath path_;
-  LineStops line_stops_;
-  Planner planner_;  // segments -> phases
-  Tap<MotionItem> watched_motion_;
-  StepGenerator step_generator_;  // phases -> board segments
-  Tap<BoardItem> watched_items_;
+  MotionPipeline pipeline_;  // path -> board segments
   OutputsOrder outputs_;
-  DirectFeed* direct_ = nullptr;  // the feed, if it is a DirectFeed
-  Refiller* refiller_ = nullptr;
   std::unique_ptr<Feed> feed_;  // board segments -> wire
   ProbeMove probe_;
   SpindleTracker spindle_;
   Script script_;  // the steps to do at rest
-  Seconds pause_end_{0};
-  Seconds spindle_wait_;
-  Seconds spindle_run_up_;
+  OutputsAtRest switching_;
   int output_timeouts_ = 0;
   bool awaits_index_ = false;
 
   State state_ = State::running;
-  HoldReasons holds_;
-  bool planner_holds_ = false;  // what the planner was told last
-  bool planner_stops_ = false;
+  PlannerHolds holds_;
   std::optional<Action> waits_for_;
   std::uint64_t stops_ = 0;
   bool waits_at_optional_;
   bool reads_again_ = false;  // at the next rest, because lines were planned ahead
-  double feed_override_ = 1;
-  double adaptive_feed_ = 1;
-  bool contact_seen_ = false;  // the contact that the board watches for now
   bool stopped_by_probe_ = false;
-  std::optional<Point> end_of_probe_;  // where motion in a probe move ends, if not at the move's end
   std::optional<Point> dropped_to_;
   Point end_of_tap_;  // where the committed motion ends
 };

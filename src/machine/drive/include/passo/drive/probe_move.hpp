@@ -6,6 +6,7 @@
 #pragma once
 
 #include <functional>
+#include <optional>
 #include <utility>
 #include <vector>
 
@@ -40,10 +41,14 @@ class ProbeMove {
   bool is_running() const { return running_; }
   // True: what the board watches for has happened.
   bool contact() const { return link_.probe_report().happened; }
+  // The same, once for each watch.
+  [[nodiscard]] bool is_new_contact() { return contact() && !std::exchange(contact_seen_, true); }
+  // Motion in the move ends there, if not at the move's end.
+  void note_end(const Point& end) { end_ = end; }
   // After the move, at rest: recall() asks what the board has kept, unless the move was refused. When the board has
-  // answered, find() works out the outcome. `rest`: where the machine stands.
+  // answered, find() works out the outcome. `planned_end`: of the move.
   void recall();
-  void find(const Point& rest);
+  void find(const Point& planned_end);
   // Tells the outcome to `answers` and to the watchers.
   void end();
 
@@ -55,6 +60,8 @@ class ProbeMove {
   Kinematics kinematics_;
   bool guards_ = false;
   bool running_ = false;
+  bool contact_seen_ = false;
+  std::optional<Point> end_;
   Point start_;
   AxisSet downs_;
   ProbeOutcome outcome_;

@@ -21,12 +21,13 @@
 
 #include "passo/activity/program.hpp"
 #include "passo/base/result.hpp"
-#include "passo/drive/refiller.hpp"
+#include "passo/drive/refill_ledger.hpp"
 #include "passo/link/board_session.hpp"
 #include "passo/machine_file/machine_description.hpp"
-#include "passo/plant/motor_steps.hpp"
+#include "passo/session/live_place.hpp"
 #include "passo/session/machine_status.hpp"
 #include "passo/session/request.hpp"
+#include "passo/session/tracked_place.hpp"
 
 namespace passo {
 
@@ -56,7 +57,7 @@ class MachineSession {
   BoardSession& board() { return board_; }
   const BoardSession& board() const { return board_; }
   // Says where the machine stands, before greet() or the first turn(), if that depends on the board's status.
-  void start_at(const KnownPosition& position) { position_ = position; }
+  void start_at(const KnownPosition& position) { place_.start_at(position); }
   // Greets the board before the first turn(), if the greeting depends on the board's status. Otherwise the greeting
   // comes from SessionOptions.
   void greet(const Greeting& greeting);
@@ -81,22 +82,17 @@ class MachineSession {
   // Something is going on, or rests and goes on later.
   bool busy() const;
   // Why this board cannot drive the machine, as a sentence without a full stop.
-  const std::string& trouble_words() const { return trouble_words_; }
+  const std::string& trouble_words() const { return trouble_.words; }
 
   // What is going on, or else what ended last, for reports. Null: nothing of this kind.
   const MotionDrive* drive() const;
   const Program* program() const;
   const HomingPath* homing() const;
-  const Refiller* refiller() const;
+  const RefillLedger* ledger() const;
   // How the board's counts differed from what was commanded, if they did. The position is then lost.
-  struct CountMismatch {
-    std::size_t motor = 0;
-    std::int64_t counted = 0;  // from machine zero
-    std::int64_t commanded = 0;
-  };
-  const std::optional<CountMismatch>& mismatch() const { return mismatch_; }
+  const std::optional<CountMismatch>& mismatch() const { return place_.mismatch(); }
   // Over a line, when the machine is ready: the board's counts at machine zero.
-  const std::optional<MotorSteps>& zero_counts() const { return zero_counts_; }
+  const std::optional<MotorSteps>& zero_counts() const { return place_.zero_counts(); }
   // Why no program may begin, as far as the board's switches tell: a limit switch is closed, so the board would not
   // stop at that end any more. Empty: nothing is in the way.
   std::optional<Refusal> closed_limit() const;
@@ -106,6 +102,11 @@ class MachineSession {
  private:
   class Work;
   class Panel;
+  // What keeps the machine from working until a reset.
+  struct Trouble {
+    std::optional<LinkError> error = {};  // none: the board does not suit the machine
+    std::string words = {};
+  };
 
   // One function for each request.
   using Answer = Result<Ticket, Refusal>;
@@ -142,13 +143,11 @@ class MachineSession {
   Seconds clock_of(const Work& work) const;
 
   void go_online(Seconds most);
-  void doubt_place();
   void begin_reset();
   void find_place_again();
   void stand_at(const KnownPosition& position);
-  void count_from_here();
-  Point place_of(const BoardPlace& place, AxisSet downs) const;
-  MotorSteps steps_of(const BoardPlace& place) const;
+  const KnownPosition& position() const { return place_.position(); }
+  const BoardStatus* watched_status() const;
 
   void turn_work(Seconds most);
   void turn_check();
@@ -156,8 +155,6 @@ class MachineSession {
   void end_work();
   std::pair<Outcome, std::optional<ActivityFault>> judge_work() const;
   void note_place();
-  Point home_place();
-  [[nodiscard]] bool counts_agree();
   bool mind_lines(Seconds most);
   void go_on_after_drop();
   void mind_lease();
@@ -171,7 +168,6 @@ class MachineSession {
   std::string words_of(LinkError error) const;
   void look_at_panel();
   void look_at_place();
-  void hear_place();
   std::string words_of_stop() const;
   bool watches_counts() const { return options_.over_a_line || options_.tells_place; }
 
@@ -188,22 +184,13 @@ class MachineSession {
   bool greeted_ = false;
   bool asks_place_ = false;    // the board is asked for its place before another hello
   bool switches_off_ = false;  // after another hello: what was going on may have left something on
-  KnownPosition position_;
-  Trust trust_before_ = Trust::unknown;    // the trust before the place was doubted
-  bool lost_before_ = false;               // and whether it was lost then
-  std::optional<BoardPlace> place_;        // where the board stands, exact below a step; empty: as after a hello
-  std::optional<MotorSteps> zero_counts_;  // the board's counts at machine zero
-  std::optional<CountMismatch> mismatch_;
+  TrackedPlace place_;
   std::unique_ptr<Work> work_;  // what is going on, or what ended last
   std::unique_ptr<Panel> panel_;
   Overrides overrides_;
   ChosenStops stops_;
-  Point now_at_;  // as the board has told last, for tells_place
-  MmPerSecond speed_now_{0};
-  Seconds place_heard_{0};
-  Seconds place_asked_{0};
-  std::optional<LinkError> trouble_;
-  std::string trouble_words_;
+  LivePlace live_place_;  // for tells_place
+  Trouble trouble_;
   std::deque<MachineChange> changes_;
   std::vector<Ticket> waiting_holds_;  // answered when the machine rests
   Ticket last_ticket_ = 0;

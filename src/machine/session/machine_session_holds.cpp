@@ -56,7 +56,7 @@ void MachineSession::mind_door() {
 }
 
 void MachineSession::note_tails() {
-  const Refiller* const tails = work_->drive->refiller();
+  const RefillLedger* const tails = work_->drive->ledger();
   for (; tails != nullptr && work_->recoveries_told < tails->recoveries(); ++work_->recoveries_told) {
     note({.kind = MachineChange::Kind::rested_by_tail});
   }

@@ -46,7 +46,7 @@ void GrblController::take_command(const std::string& text) {
   if (!at_rest && !shows) return answer(GrblError::not_idle);
   if (text == "$$") {
     std::string all;
-    for (const GrblSetting& setting : grbl_settings(kept_ ? kept_->machine() : machine_, memory_.choices)) {
+    for (const GrblSetting& setting : grbl_settings(store_.machine(), store_.memory().choices)) {
       all += fmt::format("${}={}\r\n", setting.number, setting.value);
     }
     say(std::move(all));
@@ -57,7 +57,7 @@ void GrblController::take_command(const std::string& text) {
     return answer(GrblError::none);
   }
   if (text == "$I") {
-    say(build_text(memory_.build));
+    say(build_text(store_.memory().build));
     return answer(GrblError::none);
   }
   if (text.starts_with("$I=")) return take_build(text.substr(build_words_from));
@@ -138,7 +138,7 @@ void GrblController::sleep() {
 
 void GrblController::take_startup_line(const std::string& text) {
   if (text == "$N") {
-    say(fmt::format("$N0={}\r\n$N1={}\r\n", memory_.startup[0], memory_.startup[1]));
+    say(fmt::format("$N0={}\r\n$N1={}\r\n", store_.memory().startup[0], store_.memory().startup[1]));
     return answer(GrblError::none);
   }
   const bool is_good = text.size() >= 4 && (text[2] == '0' || text[2] == '1') && text[3] == '=';
@@ -149,7 +149,7 @@ void GrblController::take_startup_line(const std::string& text) {
   if (const auto wrong = line.empty() ? std::nullopt : program_.judge(line)) {
     return answer(number_of(*wrong));
   }
-  GrblMemory memory = memory_;
+  GrblMemory memory = store_.memory();
   memory.startup[text[2] == '0' ? 0 : 1] = line;
   answer(keep_memory(memory) ? GrblError::none : GrblError::bad_statement);
 }
@@ -157,24 +157,16 @@ void GrblController::take_startup_line(const std::string& text) {
 // Senders and shops tell machines apart by these words, which stand in the answer to $I.
 void GrblController::take_build(const std::string& text) {
   if (text.size() > GrblMemory::longest) return answer(GrblError::line_too_long_to_keep);
-  GrblMemory memory = memory_;
+  GrblMemory memory = store_.memory();
   memory.build = text;
   answer(keep_memory(memory) ? GrblError::none : GrblError::bad_statement);
 }
 
-void GrblController::remember(GrblMemory memory, std::function<bool(const GrblMemory&)> write) {
-  memory_ = std::move(memory);
-  write_memory_ = std::move(write);
-}
-
 // False, with a message: nothing has changed.
 bool GrblController::keep_memory(const GrblMemory& memory) {
-  if (write_memory_ && !write_memory_(memory)) {
-    say("[MSG:Nothing has changed: the file cannot be written]\r\n");
-    return false;
-  }
-  memory_ = memory;
-  return true;
+  if (store_.keep(memory)) return true;
+  say("[MSG:Nothing has changed: the file cannot be written]\r\n");
+  return false;
 }
 
 bool GrblController::is_door_open() const {
@@ -188,7 +180,7 @@ void GrblController::restore(const std::string& text) {
   const bool all = text == "$RST=*";
   const bool settings = all || text == "$RST=$";
   if (!settings && text != "$RST=#") return answer(GrblError::bad_statement);
-  GrblMemory memory = all ? GrblMemory() : memory_;
+  GrblMemory memory = all ? GrblMemory() : store_.memory();
   memory.choices = GrblChoices();
   if (settings && !keep_memory(memory)) return answer(GrblError::bad_statement);
   if (text != "$RST=$") {
@@ -217,7 +209,7 @@ void GrblController::take_setting(const std::string& text) {
   if (value_error != std::errc() || !std::isfinite(value)) return answer(GrblError::bad_number);
   if (value_end != value_last) return answer(GrblError::bad_statement);
   if (value < 0) return answer(GrblError::negative_value);
-  GrblMemory memory = memory_;
+  GrblMemory memory = store_.memory();
   if (number == 10) {
     memory.choices.status_mask = static_cast<unsigned>(std::lround(std::min(value, 255.0)));
   } else if (number == 13) {
@@ -228,28 +220,15 @@ void GrblController::take_setting(const std::string& text) {
   answer(keep_memory(memory) ? GrblError::none : GrblError::bad_statement);
 }
 
-void GrblController::keep_settings(std::string text, WriteFile write) {
-  kept_.emplace(std::move(text));
-  write_file_ = std::move(write);
-}
-
 // The machine goes on with what it began with: its place is counted in steps of that.
 void GrblController::keep_setting(int number, double value) {
   // A sender that writes back what it has read changes nothing.
-  const MachineDescription& machine = kept_ ? kept_->machine() : machine_;
-  if (has_setting(machine, memory_.choices, number, value)) return answer(GrblError::none);
-  if (!kept_) return answer(GrblError::bad_statement);
-  std::string reason;
-  auto after = kept_->with(number, value, reason);
-  if (after && !write_file_(kept_->text(), *after)) {
-    after.reset();
-    reason = "The machine file cannot be written, or was changed meanwhile";
-  }
-  if (!after) {
-    say(fmt::format("[MSG:{}]\r\n", reason));
+  if (has_setting(store_.machine(), store_.memory().choices, number, value)) return answer(GrblError::none);
+  if (!store_.keeps_settings()) return answer(GrblError::bad_statement);
+  if (const auto reason = store_.keep(number, value)) {
+    say(fmt::format("[MSG:{}]\r\n", *reason));
     return answer(GrblError::bad_statement);
   }
-  kept_->take(std::move(*after));
   say("[MSG:Kept in the machine file, counts from the next start on]\r\n");
   answer(GrblError::none);
 }

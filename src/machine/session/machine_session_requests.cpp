@@ -116,7 +116,7 @@ std::string MachineSession::words_of_stop() const {
 }
 
 std::string MachineSession::alarm_words() const {
-  if (trouble_ == LinkError::drivers_off) return "the drivers were switched off";
+  if (trouble_.error == LinkError::drivers_off) return "the drivers were switched off";
   const std::uint16_t inputs = board_.stopped_by();
   return inputs == 0 ? "the motors were stopped at once" : stop_cause(inputs, machine_).what;
 }
@@ -161,9 +161,9 @@ MachineSession::Answer MachineSession::begin(MachineEvent event, std::unique_ptr
 
 StepOptions MachineSession::step_options() const {
   StepOptions options = passo::step_options(machine_);
-  options.start = position_.place;
-  options.place = place_;
-  options.downs = position_.downs;
+  options.start = position().place;
+  options.place = place_.on_board();
+  options.downs = position().downs;
   return options;
 }
 
@@ -185,7 +185,7 @@ MachineSession::Answer MachineSession::take(request::Start& start) {
   auto work = std::make_unique<Work>();
   if (start.from && start.lead_in.empty()) start.stands = start.from->point;
   const bool is_on_path = start.from && start.stands;
-  if (is_on_path) stand_at({.place = *start.stands, .trust = position_.trust, .downs = start.from->downs});
+  if (is_on_path) stand_at({.place = *start.stands, .trust = position().trust, .downs = start.from->downs});
   if (start.findings != nullptr) work->findings = start.findings;
   const int counts = machine_.spindle.counts_per_turn;
   // Over a line, a tap does not follow the spindle while it reverses: the tool rests meanwhile, and a floating holder
@@ -194,7 +194,7 @@ MachineSession::Answer MachineSession::take(request::Start& start) {
   work->answers = AnswerBook(
       {.probes = start.answers_probes, .taps = !options_.over_a_line && counts > 0 && !has_jerk_limit(machine_)});
   InterpreterOptions interpretation = start.options;
-  if (!start.from) interpretation.start = position_.place;
+  if (!start.from) interpretation.start = position().place;
   auto program = std::make_unique<Program>(std::move(start.program), machine_, interpretation, work->answers,
                                            *work->findings, start.nominal_time, std::move(start.known_probes));
   work->program = program.get();
@@ -218,7 +218,7 @@ MachineSession::Answer MachineSession::take(request::Start& start) {
                                const BoardRest& rest) { tell(without_lead_in(from, lead_in, rest)); };
   }
   put_on_drive(*work, options, start.live);
-  if (is_on_path && work->drive->refiller() != nullptr) {
+  if (is_on_path && work->drive->ledger() != nullptr) {
     work->drive->switch_on(start.from->outputs, start.from->spindle_wait);
   }
   return begin(MachineEvent::begin_run, std::move(work));
@@ -244,14 +244,14 @@ MachineSession::Answer MachineSession::take(request::DropLines&) {
   if (!busy() || work_->lines == nullptr) return refusal(RefusalCode::nothing_runs, "no lines are queued");
   const Ticket ticket = ++last_ticket_;
   waiting_holds_.push_back(ticket);
-  work_->lines->drop(position_.place);
+  work_->lines->drop(position().place);
   if (!std::exchange(work_->drops, true)) work_->drive->drop();
   return ticket;
 }
 
 Seconds MachineSession::clock_of(const Work& work) const {
-  const Refiller* const refiller = work.drive->refiller();
-  return refiller != nullptr ? refiller->executed_time() : now();
+  const RefillLedger* const ledger = work.drive->ledger();
+  return ledger != nullptr ? ledger->executed_time() : now();
 }
 
 // Puts the work's activity on a drive, and connects all watchers.
@@ -263,13 +263,13 @@ void MachineSession::put_on_drive(Work& work, const DriveOptions& options, bool 
   work.drive = std::make_unique<MotionDrive>(*work.path, limits, step_options(), board_, answers, options);
   MotionDrive& drive = *work.drive;
   Watchers& watchers = work.watchers;
-  work.ahead = position_.place;
+  work.ahead = position().place;
   if (knows_ahead) {
     drive.motion().watch([this, &work, limits](const MotionItem& item) {
       const auto* move = std::get_if<PlannedMove>(&item);
       const Seconds time = move != nullptr ? move->duration() : std::get<Action>(item).dwell;
-      const Refiller* const refiller = work.drive->refiller();
-      const Seconds ends = refiller != nullptr ? refiller->given_time() : now() + work.drive->committed();
+      const RefillLedger* const ledger = work.drive->ledger();
+      const Seconds ends = ledger != nullptr ? ledger->given_time() : now() + work.drive->committed();
       const Seconds begins = ends - time;
       if (move == nullptr) {
         if (time > Seconds(0)) work.progress_ahead.plan(time, begins, ends, clock_of(work));
@@ -284,16 +284,16 @@ void MachineSession::put_on_drive(Work& work, const DriveOptions& options, bool 
   if (work.program != nullptr && watchers.operations) work.program->operations().watch(watchers.operations);
   if (work.program != nullptr && watchers.path) work.program->path().watch(watchers.path);
   if (watchers.planned) drive.motion().watch(watchers.planned);
-  if (watchers.motion && drive.refiller() == nullptr) drive.motion().watch(watchers.motion);
+  if (watchers.motion && drive.ledger() == nullptr) drive.motion().watch(watchers.motion);
   if (watchers.items) drive.items().watch(watchers.items);
   drive.probe().watch([this, &work](const ProbeOutcome& outcome) {
     if (work.watchers.probe) work.watchers.probe(outcome);
     note({.kind = MachineChange::Kind::probed, .probe = outcome});
   });
-  if (Refiller* const refiller = drive.refiller()) {
-    if (watchers.motion) refiller->watch_motion(watchers.motion);
-    if (watchers.executed) refiller->watch_executed(watchers.executed);
-    if (watchers.rests) refiller->watch_rests(watchers.rests);
+  if (RefillLedger* const ledger = drive.ledger()) {
+    if (watchers.motion) ledger->watch_motion(watchers.motion);
+    if (watchers.executed) ledger->watch_executed(watchers.executed);
+    if (watchers.rests) ledger->watch_rests(watchers.rests);
   }
   if (work.is_program() && overrides_ != Overrides()) put_overrides_on(drive);
 }
@@ -310,7 +310,7 @@ MachineSession::Answer MachineSession::take(request::Jog& jog) {
   }
   if (auto refused = refuse_way(jog.way.direction)) return Failure{*refused};
   auto work = std::make_unique<Work>();
-  work->activity = std::make_unique<JogLine>(machine_, position_.place, jog.way, position_.trust != Trust::unknown);
+  work->activity = std::make_unique<JogLine>(machine_, position().place, jog.way, position().trust != Trust::unknown);
   work->lease = jog.lease;
   work->lease_end = now() + jog.lease;
   put_on_drive(*work, drive_options(), true);
@@ -330,7 +330,7 @@ MachineSession::Answer MachineSession::take(request::Home&) {
     return refusal(RefusalCode::no_switches, "no axis has a switch to be homed by, a table [axis.X.home]");
   }
   auto work = std::make_unique<Work>();
-  auto path = std::make_unique<HomingPath>(machine_, work->answers, position_.place);
+  auto path = std::make_unique<HomingPath>(machine_, work->answers, position().place);
   work->homing = path.get();
   work->activity = std::move(path);
   DriveOptions options = drive_options();
@@ -344,12 +344,13 @@ MachineSession::Answer MachineSession::take(request::Probe& probe) {
   if (!is_finite(probe.target) || !(probe.speed > MmPerSecond(0)) || !std::isfinite(probe.speed.value())) {
     return refusal(RefusalCode::bad_value, "a probe move needs a place to go to, and a speed above 0");
   }
-  if (position_.trust != Trust::unknown && leaves_travel(machine_, probe.target)) {
+  if (position().trust != Trust::unknown && leaves_travel(machine_, probe.target)) {
     return refusal(RefusalCode::bad_value, "the probe move would leave the machine's travel");
   }
-  if (auto refused = refuse_way(probe.target - position_.place)) return Failure{*refused};
+  if (auto refused = refuse_way(probe.target - position().place)) return Failure{*refused};
   auto work = std::make_unique<Work>();
-  work->activity = std::make_unique<ProbeLine>(position_.place, probe.target, probe.speed, probe.toward, work->answers);
+  work->activity =
+      std::make_unique<ProbeLine>(position().place, probe.target, probe.speed, probe.toward, work->answers);
   put_on_drive(*work, drive_options(), true);
   return begin(MachineEvent::begin_probe, std::move(work));
 }
@@ -358,7 +359,7 @@ MachineSession::Answer MachineSession::take(request::Check& check) {
   if (auto refused = refuse(MachineEvent::begin_check)) return Failure{*refused};
   auto work = std::make_unique<Work>();
   if (check.findings != nullptr) work->findings = check.findings;
-  check.options.start = position_.place;
+  check.options.start = position().place;
   work->checker = std::make_unique<ProgramChecker>(std::move(check.program), machine_, check.options, *work->findings);
   return begin(MachineEvent::begin_check, std::move(work));
 }
@@ -471,7 +472,7 @@ MachineSession::Answer MachineSession::take(request::SetPosition& set) {
   if (state_ != MachineState::idle) return Failure{why_not()};
   if (!is_finite(set.position.place)) return refusal(RefusalCode::bad_value, "a place has a number for each axis");
   KnownPosition position = set.position;
-  position.downs = position_.downs;  // the motors stand where they stood
+  position.downs = this->position().downs;  // the motors stand where they stood
   stand_at(position);
   return at_once();
 }

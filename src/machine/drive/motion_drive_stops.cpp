@@ -8,25 +8,13 @@ namespace passo {
 void MotionDrive::wait_for_operator(const Action& action) {
   ++stops_;
   outputs_.take_over(action);
-  script_.then([this] { feed_->switch_outputs(outputs_.tell()); });
-  script_.until([this] { return feed_->settled(); });
+  switching_.switch_as_ordered();
   if (action.kind == Action::Kind::optional_stop && !waits_at_optional_) return;
   script_.then([this, action] {
     waits_for_ = action;
-    holds_.add(action.kind == Action::Kind::tool_change ? HoldReason::tool_change : HoldReason::program_stop);
+    holds_.note(action.kind == Action::Kind::tool_change ? HoldReason::tool_change : HoldReason::program_stop);
     rest_in_hold();
   });
-}
-
-// At rest before a thread that no encoder guides: the spindle turns as the program says when the thread begins.
-void MotionDrive::hold_speed(const Action& action) {
-  outputs_.heed_override(action.heeds.spindle_override);
-  if (!outputs_.is_news()) return;
-  const Seconds wait = spindle_run_up_ * (outputs_.change_of_speed() / 1000);
-  script_.then([this] { feed_->switch_outputs(outputs_.tell()); });
-  script_.until([this] { return feed_->settled(); });
-  script_.then([this, wait] { pause_end_ = now() + wait; });
-  await_pause_end();
 }
 
 void MotionDrive::done() {
@@ -37,8 +25,8 @@ void MotionDrive::done() {
 }
 
 void MotionDrive::stop_at_lines(bool wanted) {
-  if (wanted == line_stops_.stops()) return;
-  line_stops_.stop_at_lines(wanted);
+  if (wanted == pipeline_.line_stops().stops()) return;
+  pipeline_.line_stops().stop_at_lines(wanted);
   reads_again_ = false;
   if (!wanted || state_ == State::ended || stopped()) return;
   if (state_ == State::held) return feed_->read_again();
@@ -49,7 +37,7 @@ void MotionDrive::stop_at_lines(bool wanted) {
 // The machine rests, and nobody has asked for that: a line has ended.
 void MotionDrive::rest_at_line() {
   if (std::exchange(reads_again_, false)) feed_->read_again();
-  if (line_stops_.stops() && !holds_.any_of(lasting_holds)) holds_.add(HoldReason::line_end);
+  if (pipeline_.line_stops().stops() && !holds_.any_of(lasting_holds)) holds_.note(HoldReason::line_end);
 }
 
 }  // namespace passo

@@ -7,17 +7,6 @@
 namespace passo {
 namespace {
 
-// How many reports lie between two that show the work offset, or the overrides: at rest, and while the machine moves.
-constexpr int offset_each_at_rest = 10;
-constexpr int offset_each = 30;
-constexpr int overrides_each_at_rest = 10;
-constexpr int overrides_each = 20;
-
-// A jog of a sender that asks for the status is cancelled when nothing was heard of the sender for its pace of asking
-// and this time more. A sender that asks more slowly than that does not ask.
-constexpr Seconds jog_lease{0.25};
-constexpr Seconds slowest_pace{1};
-
 int percent(double factor) {
   return static_cast<int>(std::lround(factor * 100));
 }
@@ -35,7 +24,7 @@ double changed(double factor, int by) {
 void GrblController::act(std::uint8_t byte) {
   if (!drives_) return act_as_watcher(byte);
   switch (byte) {
-    case '?': note_question(); return report_status();
+    case '?': lease_.note_question(session_.now()); return report_status();
     case '!': return jogs() ? cancel_jog() : hold();
     case '~': return resume();
     case 0x18: return reset();
@@ -72,19 +61,6 @@ void GrblController::act_as_watcher(std::uint8_t byte) {
   }
 }
 
-void GrblController::note_question() {
-  const Seconds now = session_.now();
-  const bool asks_often = now - asked_at_ <= slowest_pace;
-  pace_ = asks_often ? std::optional(now - asked_at_) : std::nullopt;
-  asked_at_ = now;
-}
-
-// A sender that asks for the status again and again, and no longer does, hangs or is out of reach. So its key-up may
-// never come.
-void GrblController::mind_jog_lease() {
-  if (pace_ && jogs() && session_.now() - heard_at_ > *pace_ + jog_lease) cancel_jog();
-}
-
 // True: a line of the program moves the machine, or is held.
 bool GrblController::is_executing() const {
   return session_.busy() && session_.state() != MachineState::await_line && !program_.jogs();
@@ -92,7 +68,6 @@ bool GrblController::is_executing() const {
 
 void GrblController::report_status() {
   const MachineStatus status = session_.status();
-  const bool rests = is_idle() || alarm_;
   GrblStatus report;
   report.state = state_name();
   report.machine_place = status.now_at;
@@ -107,19 +82,8 @@ void GrblController::report_status() {
   report.feed_override = percent(status.overrides.feed);
   report.rapid_override = percent(status.overrides.rapids);
   report.spindle_override = percent(status.overrides.spindle);
-  // What has changed is shown at once, the offset first. Else the two take turns, as in grbl.
-  const bool has_moved = report.work_offset != told_offset_;
-  const bool is_news = status.outputs != told_outputs_ || status.overrides != told_overrides_;
-  report.shows_offset = has_moved || (offset_in_ <= 0 && !is_news);
-  report.shows_overrides = !report.shows_offset && (is_news || overrides_in_ <= 0);
-  if (report.shows_overrides) {
-    told_outputs_ = status.outputs;
-    told_overrides_ = status.overrides;
-  }
-  offset_in_ = report.shows_offset ? (rests ? offset_each_at_rest : offset_each) - 1 : offset_in_ - 1;
-  overrides_in_ = report.shows_overrides ? (rests ? overrides_each_at_rest : overrides_each) - 1 : overrides_in_ - 1;
-  if (report.shows_offset) told_offset_ = report.work_offset;
-  say(status_text(report, units(), memory_.choices.status_mask));
+  report_turns_.choose(report, status.overrides, is_idle() || alarm_);
+  say(status_text(report, units(), store_.memory().choices.status_mask));
 }
 
 // At rest too: then the next motion waits for a resume.

@@ -1,0 +1,14 @@
+#include "passo/base/ensure.hpp"
+
+#include <gtest/gtest.h>
+
+namespace passo {
+namespace {
+
+TEST(Ensure, ends_the_program_in_every_build_where_a_condition_is_false) {
+  ensure(true);
+  EXPECT_DEATH(ensure(false), "this is a bug: .*ensure_test.cpp");
+}
+
+}  // namespace
+}  // namespace passo

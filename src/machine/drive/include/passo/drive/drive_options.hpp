@@ -1,0 +1,34 @@
+// DriveOptions: what a drive is to do besides its path.
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "passo/drive/feed.hpp"
+#include "passo/drive/rewindable_path.hpp"
+#include "passo/drive/tail_options.hpp"
+#include "passo/path/segment.hpp"
+
+namespace passo {
+
+struct DriveOptions {
+  // For a board at the end of a line. The items that the board holds always end at rest, and after a broken line the
+  // drive goes on from there. Empty: items go to the board directly.
+  std::optional<TailOptions> tails = {};
+  Commitment live = endless_commitment;  // only for a board without a line
+  // Where to begin in the middle of a path. Another host has done all before this place.
+  std::optional<PathPlace> begin_at = {};
+  // Leads from where the machine stands to `begin_at`, and ends at rest. Empty: the machine stands there.
+  std::vector<PathItem> lead_in = {};
+  Seconds not_before{0};            // no motion before this time on the board's side
+  Seconds spindle_wait{0};          // before motion goes on, after the board had switched its outputs off
+  Seconds spindle_run_up{0};        // from rest to 1000 turns a minute; the wait is at least as long as that takes
+  int counts_per_turn = 0;          // counts of the spindle's encoder; 0: nothing follows the spindle
+  bool guards_by_probe = false;     // a touch outside a probe move stops the drive
+  bool waits_for_operator = false;  // at stops (M0, M1) and tool changes (M6)
+  bool waits_at_optional = true;    // at M1 too, if it waits for the operator at all
+  bool stops_at_lines = false;      // rests in a hold after each line of the program
+  bool may_stop_at_lines = false;   // stop_at_lines() may be called later
+};
+
+}  // namespace passo

@@ -1,0 +1,49 @@
+// MotionPipeline: the stages from a path to board items, one behind the other: rests for backlash, the path that can be
+// taken up again, rests after lines, the planner, the step generator. Between them, watchers see what passes.
+//
+// Place on the street: the drive pulls nothing here. Its feed pulls items(), and with them all stages.
+#pragma once
+
+#include "passo/base/source.hpp"
+#include "passo/base/tap.hpp"
+#include "passo/drive/drive_options.hpp"
+#include "passo/drive/line_stops.hpp"
+#include "passo/drive/rewindable_path.hpp"
+#include "passo/path/backlash_taker.hpp"
+#include "passo/stepgen/step_generator.hpp"
+#include "passo/trajectory/planner.hpp"
+
+namespace passo {
+
+class MotionPipeline {
+ public:
+  // `path` outlives the pipeline.
+  MotionPipeline(Source<PathItem>& path, const MotionLimits& limits, const StepOptions& steps,
+                 const DriveOptions& options);
+  MotionPipeline(const MotionPipeline&) = delete;
+  MotionPipeline& operator=(const MotionPipeline&) = delete;
+
+  Tap<PathItem>& path_items() { return path_items_; }
+  Tap<MotionItem>& motion() { return motion_; }
+  Tap<BoardItem>& items() { return items_; }
+
+  RewindablePath& path() { return path_; }
+  LineStops& line_stops() { return line_stops_; }
+  Planner& planner() { return planner_; }
+  StepGenerator& generator() { return generator_; }
+  const StepGenerator& generator() const { return generator_; }
+
+ private:
+  BacklashAtRest backlash_at_rest(const StepOptions& steps) const;
+
+  Tap<PathItem> path_items_;
+  BacklashTaker backlash_taker_;  // rests where an axis with backlash turns back
+  RewindablePath path_;
+  LineStops line_stops_;
+  Planner planner_;  // segments -> phases
+  Tap<MotionItem> motion_;
+  StepGenerator generator_;  // phases -> board segments
+  Tap<BoardItem> items_;
+};
+
+}  // namespace passo

@@ -1,0 +1,53 @@
+// OutputsAtRest: how outputs are switched while the machine rests, one after the other: first the spindle, then a wait
+// until it turns as ordered, then the coolant. The steps go into the drive's script.
+#pragma once
+
+#include "passo/drive/feed.hpp"
+#include "passo/drive/outputs_order.hpp"
+#include "passo/drive/script.hpp"
+#include "passo/link/link.hpp"
+
+namespace passo {
+
+class OutputsAtRest {
+ public:
+  struct Parts {
+    OutputsOrder& order;
+    Feed& feed;
+    const Link& link;
+    Script& script;
+  };
+  struct Times {
+    Seconds not_before{0};      // the first pause ends at this time on the board's side
+    Seconds spindle_wait{0};    // after the board had switched its outputs off
+    Seconds spindle_run_up{0};  // from rest to 1000 turns a minute; the wait is at least as long as that takes
+  };
+  // All parts outlive this.
+  OutputsAtRest(const Parts& parts, const Times& times) : parts_(parts), times_(times), pause_end_(times.not_before) {}
+
+  // The board hears what is ordered.
+  void switch_as_ordered();
+  void switch_off();
+  void switch_on(const OutputState& outputs, Seconds spindle_wait);
+  // As they were before the board switched them off.
+  void switch_on_again() { switch_on(parts_.order.ordered(), times_.spindle_wait); }
+  // What was stopped in a hold is switched on again. Nothing was: only the pause is waited for.
+  void let_go();
+  // The spindle alone stops, or turns again.
+  void stop_spindle(bool stands);
+  // Before a thread that no encoder guides: the spindle turns as the program says when the thread begins.
+  void hold_speed(const Action& action);
+
+  void await_pause_end();
+  Seconds pause_end() const { return pause_end_; }
+
+ private:
+  void pause(Seconds time) { pause_end_ = parts_.link.now() + time; }
+  void await_feed();
+
+  Parts parts_;
+  Times times_;
+  Seconds pause_end_;  // on the board's side
+};
+
+}  // namespace passo

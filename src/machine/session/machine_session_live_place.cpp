@@ -1,0 +1,47 @@
+// MachineSession: where the machine is while it moves, as its board tells.
+#include <optional>
+
+#include "work.hpp"
+
+#include "passo/activity/stage_options.hpp"
+#include "passo/kinematics/kinematics.hpp"
+
+namespace passo {
+namespace {
+
+// How often a board is asked where it is. Over a line, each question takes time of the line.
+constexpr Seconds between_places{0.016};
+constexpr Seconds between_places_over_a_line{0.05};
+
+}  // namespace
+
+std::optional<Refusal> MachineSession::lost_place() const {
+  if (!options_.needs_place || position().trust != Trust::unknown) return {};
+  const bool homes_all_axes = machine_.homing.size() == machine_.axes.size();
+  if (!homes_all_axes && !position().is_lost) return {};
+  return Refusal{.code = RefusalCode::place_unknown,
+                 .message = homes_all_axes
+                                ? "where the machine stands is not known: home it first"
+                                : "where the machine stands is not known: jog it to a known place, and confirm it"};
+}
+
+// Asks the board where it is, and takes over what it has told.
+void MachineSession::look_at_place() {
+  if (!options_.tells_place) return;
+  if (!busy()) return live_place_.rest_at(position().place);
+  // At rest the drive knows the place itself: a question of before the rest may be answered after the rest.
+  const bool rests = work_->drive && work_->drive->state() == MotionDrive::State::held;
+  if (rests) live_place_.rest_at(place_.point_of(work_->drive->place(), work_->drive->downs()));
+  if (board_.error() || !zero_counts()) return;
+  const auto heard = board_.status() ? std::optional(board_.status_time()) : std::nullopt;
+  if (!rests && heard && live_place_.is_news(*heard)) {
+    const MotorPlace motors = steps_since(*zero_counts(), board_.status()->positions);
+    live_place_.hear(kinematics_of(machine_).axes(motors, position().downs, live_place_.at()), *heard);
+  }
+  const Seconds between = options_.over_a_line ? between_places_over_a_line : between_places;
+  if (work_->finishing || !board_.settled() || !live_place_.is_due(now(), heard, between)) return;
+  live_place_.note_asked(now());
+  board_.ask();
+}
+
+}  // namespace passo
