@@ -19,6 +19,7 @@
 #include "passo/activity/stage_options.hpp"
 #include "passo/base/counted.hpp"
 #include "passo/job/state_file.hpp"
+#include "passo/judge/line_cost.hpp"
 #include "passo/link/await.hpp"
 
 namespace passo {
@@ -28,8 +29,6 @@ namespace {
 constexpr Seconds first_answer{4};
 constexpr Seconds answer{2};
 
-// A line may be slow, but a board that lives answers at once.
-constexpr LineCare virtual_line{.answer_within = Seconds(0.05), .patience = Seconds(3600)};
 constexpr LineCare real_line{.answer_within = Seconds(0.1), .patience = Seconds(60)};
 
 unsigned any_number(unsigned least, unsigned most) {
@@ -92,7 +91,7 @@ std::unique_ptr<OpenedMachine> OpenedMachine::open(const MachineDescription& mac
     if (wish.cut) opened->line_->cut(wish.cut->at, wish.cut->missing);
     opened->session_ = std::make_unique<MachineSession>(machine, *opened->line_,
                                                         SessionOptions{.over_a_line = true,
-                                                                       .care = virtual_line,
+                                                                       .care = virtual_line_care,
                                                                        .greeting = {.session = 1},
                                                                        .tells_place = wish.tells_place,
                                                                        .start = at_zero,
