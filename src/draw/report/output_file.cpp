@@ -10,7 +10,7 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-#include "passo/report/nameless_file.hpp"
+#include "passo/base/nameless_file.hpp"
 
 namespace passo {
 namespace {

@@ -2,9 +2,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <utility>
 
 #include "polyline_joining.hpp"
+
+#include "passo/interpreter/used_tools.hpp"
 
 namespace passo {
 namespace {
@@ -58,13 +61,8 @@ void PathRecorder::watch(const MotionItem& item, const Point& machine_minus_work
 }
 
 void PathRecorder::change_tool(std::int32_t tool) {
-  const auto found = std::ranges::find(tools_, tool);
-  if (found == tools_.end() && tools_.size() < most_tools) {
-    tool_ = static_cast<std::uint8_t>(tools_.size());
-    tools_.push_back(tool);
-  } else {
-    tool_ = static_cast<std::uint8_t>(std::min<std::ptrdiff_t>(found - tools_.begin(), most_tools - 1));
-  }
+  const auto itself = [tool] { return tool; };
+  tool_ = static_cast<std::uint8_t>(place_of_tool(tools_, tool, std::identity(), most_tools, itself));
 }
 
 void PathRecorder::watch_move(const PlannedMove& move, const Point& origin) {

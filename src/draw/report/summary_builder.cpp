@@ -8,6 +8,8 @@
 #include "passo/geometry/only_turns.hpp"
 #include "passo/interpreter/frame.hpp"
 #include "passo/interpreter/is_any_of.hpp"
+#include "passo/interpreter/tool_table.hpp"
+#include "passo/interpreter/used_tools.hpp"
 
 namespace passo {
 namespace {
@@ -144,11 +146,8 @@ class SummaryBuilder::Implementation {
   }
 
   ToolSummary& tool_of(std::int32_t number) {
-    constexpr std::size_t most_tools = 1000;
-    const auto found = std::ranges::find(sum_.tools, number, &ToolSummary::tool);
-    if (found != sum_.tools.end()) return *found;
-    if (sum_.tools.size() == most_tools) return sum_.tools.back();
-    return sum_.tools.emplace_back(ToolSummary{.tool = number});
+    const auto fresh = [number] { return ToolSummary{.tool = number}; };
+    return sum_.tools[place_of_tool(sum_.tools, number, &ToolSummary::tool, ToolTable::most_tools, fresh)];
   }
 
   void add_work(std::size_t system, RunSummary& summary) const {

@@ -11,11 +11,11 @@
 #include "passo/activity/homing_repeats.hpp"
 #include "passo/api/api_job.hpp"
 #include "passo/api/api_routes.hpp"
-#include "passo/api/kept_job.hpp"
 #include "passo/api/mdi_lines.hpp"
 #include "passo/api/motion_owner.hpp"
 #include "passo/api/program_store.hpp"
 #include "passo/history/job_history.hpp"
+#include "passo/job/kept_job.hpp"
 
 namespace passo {
 

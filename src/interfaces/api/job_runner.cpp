@@ -52,8 +52,10 @@ std::string_view name_of(JobState state) {
 JobRunner::JobRunner(const ApiShared& shared, MdiLines& mdi) : shared_(shared), mdi_(mdi) {
   const ApiOptions& options = shared.options;
   if (options.keeper == nullptr || options.history == nullptr) return;
-  kept_ = std::make_unique<KeptJob>(shared.machine, shared.session, *options.keeper, *options.history, shared.programs,
-                                    KeptJob::Names{.made_by = options.version, .machine = options.machine_file});
+  kept_ = std::make_unique<KeptJob>(
+      shared.machine, shared.session, *options.keeper, *options.history,
+      [&programs = shared.programs](Dialect dialect) { return programs.options_of(dialect); },
+      KeptJob::Names{.made_by = options.version, .machine = options.machine_file});
   shared.session.listen_before_hello(
       [this](const BoardStatus& status, const Greeting& greeting) { kept_->hear(status, greeting); });
   if (options.broken_off) kept_->find(*options.broken_off);
@@ -83,13 +85,9 @@ Result<Reentry, ReentryProblem> JobRunner::way_to(const StoredProgram& program, 
   }
   InterpreterOptions options = shared_.programs.options_of(program);
   options.start = position.place;
-  const auto at = find_line(ProgramReader::from_text(program.name, program.text), shared_.machine, options, from);
-  if (!at) return Failure{ReentryProblem{.code = code_of(at.error().refusal), .why = message_of(at.error())}};
-  auto way = plan_reentry(shared_.machine, *at, position.place);
-  if (!way) {
-    return Failure{ReentryProblem{.code = code_of(way.error()), .why = std::string(message_of(way.error()))}};
-  }
-  return std::move(*way);
+  auto way = reentry_at_line(ProgramReader::from_text(program.name, program.text), shared_.machine, options, from);
+  if (way) return std::move(*way);
+  return Failure{ReentryProblem{.code = code_of(way.error().refusal), .why = message_of(way.error())}};
 }
 
 // Why nothing begins where the machine stands.

@@ -8,8 +8,8 @@
 #include <vector>
 
 #include "passo/api/api_job.hpp"
-#include "passo/api/kept_job.hpp"
 #include "passo/api/program_store.hpp"
+#include "passo/job/kept_job.hpp"
 #include "passo/session/machine_session.hpp"
 
 namespace passo {

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "passo/geometry/vector3.hpp"
+#include "passo/interpreter/used_tools.hpp"
 
 namespace passo {
 namespace {
@@ -167,9 +168,8 @@ void ProgramPath::add_reach(const Box& machine, const Box& work) {
 }
 
 std::uint16_t ProgramPath::tool_flags(double zero_z, bool feeds) {
-  auto found = std::ranges::find(tools_, tool_, &UsedTool::number);
-  if (found == tools_.end() && tools_.size() < most_tools) found = tools_.insert(found, {tool_, zero_z});
-  const auto index = std::min<std::size_t>(static_cast<std::size_t>(found - tools_.begin()), most_tools - 1);
+  const auto fresh = [&] { return UsedTool{tool_, zero_z}; };
+  const std::size_t index = place_of_tool(tools_, tool_, &UsedTool::number, most_tools, fresh);
   tools_[index].feeds |= feeds;
   return static_cast<std::uint16_t>(index << 1U);
 }

@@ -319,4 +319,13 @@ Result<Reentry, ReentryRefusal> plan_reentry(const MachineDescription& machine, 
   return way;
 }
 
+Result<Reentry, LineProblem> reentry_at_line(const ProgramReader& program, const MachineDescription& machine,
+                                             const InterpreterOptions& options, const LinePlace& wanted) {
+  const auto at = find_line(program, machine, options, wanted);
+  if (!at) return Failure{at.error()};
+  auto way = plan_reentry(machine, *at, options.start);
+  if (!way) return Failure{LineProblem{.refusal = way.error()}};
+  return std::move(*way);
+}
+
 }  // namespace passo

@@ -4,7 +4,7 @@
 #include <filesystem>
 #include <fstream>
 
-#include "folder_test.hpp"
+#include "kit/folder_test.hpp"
 #include <sys/wait.h>
 #include <unistd.h>
 

@@ -10,27 +10,25 @@
 #include "check_page.hpp"
 #include "check_report.hpp"
 #include "commands.hpp"
-#include "cut_loads.hpp"
+#include "cut_words.hpp"
 #include "fit_proposals.hpp"
+#include "line_cost.hpp"
 #include "named_files.hpp"
 #include "operator_prompt.hpp"
 #include "picture_names.hpp"
 #include "program_input.hpp"
 #include "program_messages.hpp"
 #include "progress_display.hpp"
+#include "stock_setup.hpp"
 #include <fmt/format.h>
 
-#include "passo/activity/machine_plant.hpp"
 #include "passo/activity/program.hpp"
 #include "passo/activity/stage_options.hpp"
 #include "passo/diagnostics/findings_json.hpp"
-#include "passo/link/await.hpp"
-#include "passo/machine/virtual_machine.hpp"
-#include "passo/proof/motion_proof.hpp"
+#include "passo/judge/motion_trial.hpp"
 #include "passo/proof/proof_text.hpp"
 #include "passo/report/motion_picture.hpp"
 #include "passo/report/output_file.hpp"
-#include "passo/session/machine_session.hpp"
 
 namespace passo {
 namespace {
@@ -47,42 +45,6 @@ nlohmann::ordered_json as_json(const Diagnostics& findings, const ProgramStops& 
           {"findings", findings_json(findings.all())},
           {"waits", stops.count()},
           {"waits_first_at", waits}};
-}
-
-// Plays the whole program on a virtual machine and measures its motion. `nominal` is the time for the progress line.
-MotionProof prove(ProgramReader program, const MachineDescription& machine, const InterpreterOptions& options,
-                  Seconds nominal, Diagnostics& findings, MotionRecorder* recorder) {
-  constexpr unsigned turns_between_looks = 1024;
-  MotionProver prover(proof_options(machine));
-  ProgressDisplay progress(program.name());
-  VirtualMachine board(machine.motor_count(), machine.board.clock, machine.board.highest_event_rate);
-  IdealPlant plant = plant_of(machine, options.start);
-  board.connect(plant);
-  board.wire(pin_setup(machine));
-  MachineSession session(machine, board, {.start = {.place = options.start, .trust = Trust::commanded}});
-  while (session.state() == MachineState::offline) session.turn(endless);
-  request::Start start{.program = std::move(program),
-                       .options = options,
-                       .nominal_time = nominal,
-                       .waits_for_operator = false,
-                       .live = false,
-                       .answers_probes = false,
-                       .findings = &findings};
-  start.watchers.path = [&](const PathItem& item) {
-    prover.watch(item);
-    if (recorder != nullptr) recorder->watch(item);
-  };
-  start.watchers.motion = [&](const MotionItem& item) {
-    prover.watch(item);
-    if (recorder != nullptr) recorder->watch(item);
-  };
-  start.watchers.items = [&](const BoardItem& item) { prover.watch(item); };
-  static_cast<void>(session.request(std::move(start)).has_value());
-  for (unsigned turns = 0; session.busy(); ++turns) {
-    session.turn(endless);
-    if (turns % turns_between_looks == 0) progress.update(session.program()->nominal_time() / nominal);
-  }
-  return prover.finish();
 }
 
 int draw(const MotionRecorder& motion, const MotionProof& proof, const CheckArguments& arguments) {
@@ -117,7 +79,14 @@ int measure(const CheckArguments& arguments, const MachineDescription& machine, 
             const InterpreterOptions& options, Seconds nominal, Diagnostics& findings) {
   MotionRecorder recorder(motion_limits(machine));
   const bool draws = !arguments.picture.empty();
-  const MotionProof proof = prove(std::move(program), machine, options, nominal, findings, draws ? &recorder : nullptr);
+  ProgressDisplay progress(program.name());
+  TrialWatchers watchers{.progress = [&](double share) { progress.update(share); }};
+  if (draws) {
+    watchers.path = [&](const PathItem& item) { recorder.watch(item); };
+    watchers.motion = [&](const MotionItem& item) { recorder.watch(item); };
+  }
+  const MotionProof proof = prove_motion(std::move(program), machine, options, nominal, findings, watchers);
+  progress.clear();
   std::fputs((arguments.json ? to_json(proof) : to_text(proof)).c_str(), stdout);
   if (draws) {
     const int code = draw(recorder, proof, arguments);
@@ -209,14 +178,14 @@ void look(const CheckArguments& arguments, const MachineDescription& machine, co
 }
 
 void print(const CheckArguments& arguments, const MachineDescription& machine, const FirstLook& first,
-           const std::optional<CheckPage>& page, const std::optional<CutOutcome>& cut,
+           const std::optional<Judgement>& page, const std::optional<CutOutcome>& cut,
            const std::vector<Proposal>& proposals) {
   if (arguments.json) {
     const auto replace = nlohmann::ordered_json::error_handler_t::replace;
     nlohmann::ordered_json json = as_json(first.findings, first.stops);
     if (page) add_to(json, *page, machine);
     if (cut) json["cut"] = as_json(*cut);
-    json["proposals"] = as_json(proposals);
+    json["proposals"] = passo::as_json(proposals);
     std::puts(json.dump(2, ' ', false, replace).c_str());
     return;
   }
@@ -236,11 +205,19 @@ std::optional<CutOutcome> cut(const CheckArguments& arguments, const MachineDesc
     fail(exit_bad_program, wishes.error());
     return std::nullopt;
   }
-  if (!read_tool_table(arguments.stock.tool_table, *wishes)) return std::nullopt;
+  if (!add_tool_shapes(arguments.stock.tool_table, *wishes)) return std::nullopt;
+  const StockJob job{program.again(), options, &machine};
+  Diagnostics known;  // the check has them
+  const FeedLook look = shown_feeds(job, *wishes, known);
+  const auto tools = told_shapes(job, *wishes, look);
+  if (!tools) return std::nullopt;
+  std::optional<HeightField> field = told_field(*wishes, look);
+  if (!field) return std::nullopt;
+  CutOutcome outcome =
+      cut_with_force(job, *wishes, look, *tools, std::move(*field),
+                     {.specific_force = *arguments.cutting_force, .revolutions_per_minute = arguments.spindle_speed});
   Diagnostics of_cut;
-  std::optional<CutOutcome> outcome = cut_by_program(
-      {program.again(), options, &machine}, *wishes,
-      {.specific_force = *arguments.cutting_force, .revolutions_per_minute = arguments.spindle_speed}, of_cut);
+  add_findings(outcome, of_cut);
   if (!arguments.json) show(of_cut);
   for (const Diagnostic& finding : of_cut.all()) findings.add(finding);
   return outcome;
@@ -248,7 +225,7 @@ std::optional<CutOutcome> cut(const CheckArguments& arguments, const MachineDesc
 
 // Draws and writes what the arguments ask for. Returns an exit code.
 int write_files(const CheckArguments& arguments, const MachineDescription& machine, const FirstLook& first,
-                const std::optional<CheckPage>& page, const PathRecorder& path, const LoadTrack& track) {
+                const std::optional<Judgement>& page, const PathRecorder& path, const LoadTrack& track) {
   if (page && !arguments.picture.empty()) {
     const int code = draw(path, machine, arguments);
     if (code != exit_done) return code;
@@ -298,7 +275,7 @@ int check(const CheckArguments& arguments) {
     stock = cut(arguments, *machine, *program, *options, first.findings);
     if (!stock) return exit_bad_program;
   }
-  std::optional<CheckPage> page;
+  std::optional<Judgement> page;
   PathRecorder path;
   LoadTrack track;
   LineLoads loads;
@@ -312,7 +289,7 @@ int check(const CheckArguments& arguments) {
                  [&](double share) { progress.update(share_of_first_look + (1 - share_of_first_look) * share); });
   }
   progress.clear();
-  if (page) page->line = line_cost(program->again(), *machine, *options, first.result, page->summary.time());
+  if (page) page->line = told_line_cost(*program, *machine, *options, first.result, page->summary.time());
   if (page && !arguments.loads.empty()) {
     const int code = write_text(arguments.loads, loads.text());
     if (code != exit_done) return code;

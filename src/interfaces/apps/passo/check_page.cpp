@@ -4,13 +4,12 @@
 #include <cmath>
 #include <utility>
 
+#include "line_cost.hpp"
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
-#include "passo/activity/stage_options.hpp"
 #include "passo/base/counted.hpp"
 #include "passo/base/sensible_number.hpp"
-#include "passo/report/summary_builder.hpp"
 #include "passo/verdict/margin_words.hpp"
 
 namespace passo {
@@ -63,7 +62,7 @@ std::string axis_words(const AxisSummary& moved, const AxisDescription& axis) {
 
 // The axes whose limits are reached, and for how much of the time. The motion's bounds with less than half a percent of
 // the time are left out.
-std::string speed_words(const CheckPage& page) {
+std::string speed_words(const Judgement& page) {
   const Seconds whole = page.summary.cutting_time + page.summary.rapid_time;
   if (!(whole > Seconds(0))) return "";
   std::string words = "speed           bounded, of the time in motion, by\n";
@@ -102,7 +101,7 @@ bool only_swings(const MarginVerdict& margin) {
       margin.worst, [](const MarginSpot& spot) { return spot.verdict != Verdict::safe && spot.want == Want::torque; });
 }
 
-std::string motor_words(const CheckPage& page) {
+std::string motor_words(const Judgement& page) {
   if (!page.knows_motors) return "";
   std::string words = fmt::format("motors          {}", name_of(page.margin.verdict));
   if (page.margin.verdict == Verdict::safe) words += ": they have the torque, weak ones too";
@@ -207,82 +206,7 @@ nlohmann::ordered_json work_json(const RunSummary& summary) {
 
 }  // namespace
 
-// The track wants the load of each phase, and the survey tells that of the last move. So the move comes in pieces.
-// Returns the greatest load.
-static double watch_in_phases(const PlannedMove& move, MarginSurvey& survey, LoadTrack& track) {
-  double most = 0;
-  PlannedMove piece;
-  piece.begin_on(move.segment);
-  piece.phase_count = 1;
-  for (const Phase& phase : move) {
-    piece.phases[0] = phase;
-    piece.to = &phase + 1 == move.end() ? move.to : (&phase + 1)->start;
-    survey.watch(piece);
-    most = std::max(most, survey.last_load());
-    track.add(phase.duration, piece.to - phase.start, survey.last_load(), move.segment.source.line);
-  }
-  return most;
-}
-
-void LineLoads::add(std::uint32_t line, double load) {
-  if (line >= loads_.size()) loads_.resize(line + 1, -1.0F);
-  loads_[line] = std::max(loads_[line], static_cast<float>(load));
-}
-
-std::string LineLoads::text() const {
-  std::string text = "line,load\n";
-  for (std::size_t line = 0; line < loads_.size(); ++line) {
-    if (loads_[line] >= 0) fmt::format_to(std::back_inserter(text), "{},{:.3f}\n", line, loads_[line]);
-  }
-  return text;
-}
-
-CheckPage judge(ProgramReader program, const MachineDescription& machine, const InterpreterOptions& options,
-                const ProgramCheck& check, const CheckWatchers& watchers, const std::function<void(double)>& progress,
-                const MotionFactors& factors) {
-  PlannedProgram planned(std::move(program), machine, options, check, factors);
-  std::vector<Axis> axes;
-  AxisSet axis_set;
-  for (const AxisDescription& axis : machine.axes) {
-    axes.push_back(axis.axis);
-    axis_set.add(axis.axis);
-  }
-  SummaryBuilder builder(axes);
-  MarginSurvey survey(surveyed_motors(machine), step_grid(machine));
-  SpeedSurvey speeds(motion_limits(machine), axis_set);
-  CheckPage page;
-  planned.operations().watch([&](const Operation& operation) { builder.watch_operation(operation); });
-  planned.path().watch([&](const PathItem& item) { builder.watch_path(item); });
-  constexpr unsigned items_between_looks = 1024;
-  MotionItem item;
-  for (unsigned items = 1; planned.next(item); ++items) {
-    const auto* move = std::get_if<PlannedMove>(&item);
-    double load = 0;
-    if (move != nullptr && watchers.loads != nullptr) survey.set_cut(watchers.loads->of(*move));
-    if (move != nullptr && watchers.track != nullptr) {
-      load = watch_in_phases(*move, survey, *watchers.track);
-    } else {
-      survey.watch(item);
-      load = survey.last_load();
-    }
-    if (move != nullptr) speeds.watch(*move);
-    if (move != nullptr && watchers.lines != nullptr) watchers.lines->add(move->segment.source.line, load);
-    builder.watch(item, move != nullptr ? move->segment.work_zero : Point());
-    if (watchers.path != nullptr) {
-      watchers.path->load_of_next(load);
-      watchers.path->watch(item, move != nullptr ? move->segment.work_zero : Point());
-    }
-    if (move == nullptr && std::get<Action>(item).kind == Action::Kind::tool_change) ++page.tool_changes;
-    if (items % items_between_looks == 0) progress(planned.nominal_time() / check.nominal_time);
-  }
-  page.summary = builder.summary();
-  page.speed = speeds.report();
-  page.margin = survey.verdict();
-  page.knows_motors = !page.margin.axes.empty();
-  return page;
-}
-
-std::string to_text(const CheckPage& page, const MachineDescription& machine) {
+std::string to_text(const Judgement& page, const MachineDescription& machine) {
   const RunSummary& summary = page.summary;
   std::string text =
       fmt::format("time            {} in motion", clock_words(summary.cutting_time + summary.rapid_time));
@@ -298,7 +222,7 @@ std::string to_text(const CheckPage& page, const MachineDescription& machine) {
   return text + speed_words(page) + motor_words(page);
 }
 
-void add_to(nlohmann::ordered_json& json, const CheckPage& page, const MachineDescription& machine) {
+void add_to(nlohmann::ordered_json& json, const Judgement& page, const MachineDescription& machine) {
   json["time_s"] = (page.summary.cutting_time + page.summary.rapid_time).value();
   json["dwell_s"] = page.summary.dwell_time.value();
   json["tool_changes"] = page.tool_changes;

@@ -5,6 +5,7 @@
 
 #include "check_style.hpp"
 #include "html_page.hpp"
+#include "line_cost.hpp"
 #include "time_chart.hpp"
 #include <fmt/format.h>
 
@@ -69,7 +70,7 @@ std::string badges(const CheckReport& report) {
   html += errors == 0 ? badge("good", "no errors") : badge("bad", counted(errors, "error"));
   if (warnings > 0) html += badge("doubt", counted(warnings, "warning"));
   if (report.page != nullptr) {
-    const CheckPage& page = *report.page;
+    const Judgement& page = *report.page;
     html += page.knows_motors
                 ? badge(class_of(page.margin.verdict), fmt::format("motors: {}", name_of(page.margin.verdict)))
                 : badge("quiet", "motors: not described");
@@ -78,7 +79,7 @@ std::string badges(const CheckReport& report) {
 }
 
 std::string figures(const CheckReport& report) {
-  const CheckPage& page = *report.page;
+  const Judgement& page = *report.page;
   std::string html = "<dl>";
   const auto add = [&html](const char* what, const std::string& value) {
     html += fmt::format("<div><dt>{}</dt><dd>{}</dd></div>", what, value);
@@ -128,7 +129,7 @@ std::string axes(const CheckReport& report) {
   return html;
 }
 
-std::string bounds(const CheckPage& page) {
+std::string bounds(const Judgement& page) {
   const Seconds whole = page.summary.cutting_time + page.summary.rapid_time;
   HtmlTable table({"bounded by", "#first in line", "#of the time", ""});
   for (const SpeedShare& share : page.speed.shares) {
@@ -171,7 +172,7 @@ std::string speed_chart(const CheckReport& report) {
 }
 
 std::string speed(const CheckReport& report) {
-  const CheckPage& page = *report.page;
+  const Judgement& page = *report.page;
   return "<h2>Speed, and what bounds it</h2>\n" + speed_chart(report) + bounds(page) +
          parts("Slowest lines: the most time lost against the programmed feed", page.speed.slowest, true) +
          parts("Fastest lines", page.speed.fastest, false);
@@ -222,7 +223,7 @@ std::string pictures(const CheckReport& report) {
 }
 
 std::string motors(const CheckReport& report) {
-  const CheckPage& page = *report.page;
+  const Judgement& page = *report.page;
   std::string html = "<h2>Motors</h2>\n";
   if (!page.knows_motors) {
     return html +

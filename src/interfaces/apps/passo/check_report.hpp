@@ -17,7 +17,7 @@ struct CheckReport {
   const MachineDescription& machine;
   const Diagnostics& findings;
   std::string waits;                // where the program waits for somebody; empty: nowhere
-  const CheckPage* page = nullptr;  // null: the program has errors
+  const Judgement* page = nullptr;  // null: the program has errors
   const PathRecorder& path;
   const LoadTrack& track;
 };

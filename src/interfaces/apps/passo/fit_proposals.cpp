@@ -1,370 +1,100 @@
 #include "fit_proposals.hpp"
 
-#include <algorithm>
-#include <array>
-#include <charconv>
-#include <cmath>
-#include <iterator>
-#include <limits>
-#include <optional>
-#include <string_view>
-
+#include "check_page.hpp"
 #include <fmt/format.h>
-
-#include "passo/activity/stage_options.hpp"
-#include "passo/interpreter/operation.hpp"
-#include "passo/interpreter/saved_offsets.hpp"
-#include "passo/path/path_builder.hpp"
+#include <nlohmann/json.hpp>
 
 namespace passo {
 namespace {
 
-constexpr double slack = 1e-6;  // as of the check of the travel
-constexpr std::string_view unknown_tool = "gcode.unknown-tool";
+using Json = nlohmann::ordered_json;
 
-int zero_parameter(int system, Axis axis) {
-  return work_offset_parameter(system) + static_cast<int>(index_of(axis));
-}
-
-// Of a parameter: lengths are in the machine's units, angles in degrees.
-double unit_of_parameter(const InterpreterOptions& options, Axis axis) {
-  return options.machine_units == LengthUnits::inch && !is_rotary(axis) ? mm_per_inch : 1;
-}
-
-double zero_of(const InterpreterOptions& options, int system, Axis axis) {
-  return saved_value(options.parameters, zero_parameter(system, axis)) * unit_of_parameter(options, axis);
-}
-
-void set_zero(InterpreterOptions& options, int system, Axis axis, double zero) {
-  options.parameters[zero_parameter(system, axis)] = zero / unit_of_parameter(options, axis);
-}
-
-bool has(const Diagnostics& findings, Severity severity, std::string_view code) {
-  return std::ranges::any_of(findings.all(),
-                             [&](const Diagnostic& one) { return one.severity == severity && one.code == code; });
-}
-
-bool leaves_travel(const Diagnostics& findings) {
-  return has(findings, Severity::error, travel_exceeded);
-}
-
-struct Span {
-  double low = std::numeric_limits<double>::infinity();
-  double high = -std::numeric_limits<double>::infinity();
-  bool any() const { return low <= high; }
-  void add(double from, double to) {
-    low = std::min(low, from);
-    high = std::max(high, to);
-  }
+struct Told {
+  const char* kind = "";
+  std::string words;
+  Json values;  // more keys for programs
 };
 
-// How far the program goes in machine coordinates in each work system, of the places that follow the system's zero.
-// They are found by playing the program twice, with zeros that differ by a little: G53, and the zeros that the program
-// sets itself, follow none.
-class ZeroFollower {
- public:
-  using Spans = std::array<PerAxis<Span>, work_systems + 1>;
-
-  explicit ZeroFollower(const Unfit& unfit) : machine_(unfit.machine), moved_options_(unfit.options) {
-    constexpr double endless_travel = 1e9;
-    for (AxisDescription& axis : machine_.axes) {
-      axis.travel_low = -endless_travel;
-      axis.travel_high = endless_travel;
-      for (int system = 1; system <= work_systems; ++system) {
-        set_zero(moved_options_, system, axis.axis, zero_of(unfit.options, system, axis.axis) + shift);
-      }
-    }
-    Diagnostics unheard;
-    Diagnostics unheard_too;
-    ProgramChecker here(unfit.program.again(), machine_, unfit.options, unheard);
-    ProgramChecker moved(unfit.program.again(), machine_, moved_options_, unheard_too);
-    std::optional<Segment> segment;
-    std::optional<Segment> other;
-    here.watch([&](const PathItem& item) { segment = segment_of(item); });
-    moved.watch([&](const PathItem& item) { other = segment_of(item); });
-    for (bool done = false; !done;) {
-      segment.reset();
-      other.reset();
-      done = here.go_on(1);
-      if (moved.go_on(1) != done || segment.has_value() != other.has_value()) return;  // another way
-      if (segment) add(*segment, *other, here.frame().work_system());
-    }
-    known_ = true;
+Told told(const proposal::WorkZeros& other) {
+  std::string lines;
+  Json zeros = Json::object();
+  int system = 0;
+  for (const auto& one : other.zeros) {
+    if (one.system != system) lines += fmt::format("{}G10 L2 P{}", lines.empty() ? "" : ", ", one.system);
+    system = one.system;
+    lines += fmt::format(" {}{:.10g}", letter_of(one.axis), one.zero);
+    zeros[name_of_system(system)][std::string(1, letter_of(one.axis))] = one.zero;
   }
-
-  // Whether the program goes the same way with both zeros.
-  bool known() const { return known_; }
-  const Spans& spans() const { return spans_; }
-
- private:
-  static constexpr double shift = 0.25;
-
-  static std::optional<Segment> segment_of(const PathItem& item) {
-    const auto* const segment = std::get_if<Segment>(&item);
-    return segment != nullptr ? std::optional(*segment) : std::nullopt;
-  }
-  void add(const Segment& segment, const Segment& moved, int system) {
-    const Curve& curve = segment.curve;
-    // A line begins where something else has ended.
-    const bool is_line = curve.shape() == Curve::Shape::line;
-    const Box box = is_line ? Box{curve.end(), curve.end()} : curve.extents();
-    for (const AxisDescription& axis : machine_.axes) {
-      const Axis one = axis.axis;
-      if (std::abs(moved.curve.end()[one] - curve.end()[one] - shift) > slack) continue;
-      spans_[static_cast<std::size_t>(system)][one].add(box.low[one], box.high[one]);
-    }
-  }
-
-  MachineDescription machine_;
-  InterpreterOptions moved_options_;
-  Spans spans_;
-  bool known_ = false;
-};
-
-// The least shift that brings the span into the travel: in whole millimetres if there is room for that, else in
-// thousandths.
-double shift_into(const Span& span, double low, double high) {
-  const double least = span.low < low - slack ? low - span.low : span.high > high + slack ? high - span.high : 0;
-  for (const double grid : {1.0, 0.001}) {
-    const double shift = std::copysign(std::ceil(std::abs(least) / grid - slack) * grid, least);
-    if (span.low + shift >= low - slack && span.high + shift <= high + slack) return shift;
-  }
-  return least;
+  return {.kind = "work-zero",
+          .words = "with another work zero the program fits the travel (checked): G21 " + lines,
+          .values = {{"zeros", zeros}}};
 }
 
-// What is told is what is checked.
-double rounded(double zero) {
-  constexpr double parts_of_mm = 1e4;
-  return std::round(zero * parts_of_mm) / parts_of_mm + 0.0;  // no -0
-}
-
-Proposal too_short(const AxisDescription& axis, const Span& span) {
-  const double needed = span.high - span.low;
-  const double there = axis.travel_high - axis.travel_low;
+Told told(const proposal::AxisTooShort& axis) {
   const char* const unit = is_rotary(axis.axis) ? "deg" : "mm";
   const std::string letter(1, letter_of(axis.axis));
   return {.kind = "axis-too-short",
           .words = fmt::format("{0} is too short by {1:.3f} {4}: the program needs {2:.3f} {4}, the travel has {3:.3f}",
-                               letter, needed - there, needed, there, unit),
-          .values = {{"axis", letter}, {"needed", needed}, {"travel", there}}};
+                               letter, axis.needed - axis.travel, axis.needed, axis.travel, unit),
+          .values = {{"axis", letter}, {"needed", axis.needed}, {"travel", axis.travel}}};
 }
 
-// For a program that leaves the travel. Nothing where another work zero does not help, as for G53.
-std::vector<Proposal> proposals_for_travel(const Unfit& unfit, const Diagnostics& findings) {
-  if (!leaves_travel(findings)) return {};
-  const ZeroFollower follower(unfit);
-  if (!follower.known()) return {};
-  std::vector<Proposal> short_axes;
-  InterpreterOptions options = unfit.options;
-  std::string words;
-  nlohmann::ordered_json zeros = nlohmann::ordered_json::object();
-  for (int system = 1; system <= work_systems; ++system) {
-    std::string line;
-    for (const AxisDescription& axis : unfit.machine.axes) {
-      const Span& span = follower.spans()[static_cast<std::size_t>(system)][axis.axis];
-      if (!span.any()) continue;
-      if (span.high - span.low > axis.travel_high - axis.travel_low + slack) {
-        short_axes.push_back(too_short(axis, span));
-        continue;
-      }
-      const double shift = shift_into(span, axis.travel_low, axis.travel_high);
-      if (shift == 0) continue;
-      const double zero = rounded(zero_of(unfit.options, system, axis.axis) + shift);
-      set_zero(options, system, axis.axis, zero);
-      line += fmt::format(" {}{:.10g}", letter_of(axis.axis), zero);
-      zeros[name_of_system(system)][std::string(1, letter_of(axis.axis))] = zero;
-    }
-    if (!line.empty()) words += fmt::format("{}G10 L2 P{}{}", words.empty() ? "" : ", ", system, line);
-  }
-  if (!short_axes.empty()) return short_axes;
-  if (words.empty()) return {};
-  Diagnostics then;
-  static_cast<void>(check_program(unfit.program.again(), unfit.machine, options, then));
-  if (leaves_travel(then) || then.errors() >= findings.errors()) return {};
-  return {{.kind = "work-zero",
-           .words = fmt::format("with another work zero the program fits the travel (checked): G21 {}", words),
-           .values = {{"zeros", zeros}}}};
-}
-
-// For a program without errors whose motors lose steps: see `page`. Up to five times the time of a check.
-std::vector<Proposal> proposals_for_motors(const Unfit& unfit, const ProgramCheck& check, const CheckPage& page) {
-  bool feeds = false;
-  bool rapids = false;
-  for (const MarginSpot& spot : page.margin.worst) {
-    if (spot.verdict != Verdict::safe) (spot.rapid ? rapids : feeds) = true;
-  }
-  if (!page.lost() || check.probes || !(feeds || rapids)) return {};
-  const auto is_safe_at = [&](int percent) {
-    const double factor = percent / 100.0;
-    const CheckPage slower =
-        judge(unfit.program.again(), unfit.machine, unfit.options, check, {}, [](double /*share*/) {},
-              {.feed = feeds ? factor : 1, .rapids = rapids ? factor : 1});
-    return slower.margin.verdict == Verdict::safe;
-  };
-  // Slower is nearly always safer, so halving finds the fastest; what it finds was tried in any case.
-  int best = 0;
-  for (int low = 0, high = 10; high - low > 1;) {
-    const int middle = (low + high) / 2;
-    const bool safe = is_safe_at(10 * middle);
-    if (safe) best = 10 * middle;
-    (safe ? low : high) = middle;
-  }
-  if (best == 0) return {};
-  const char* const what = feeds && rapids ? "feeds and rapids" : feeds ? "feeds" : "rapids";
-  return {{.kind = "override",
-           .words = fmt::format("with {} at {} % the motors keep their steps (checked)", what, best),
-           .values = {{"feed_percent", feeds ? best : 100}, {"rapid_percent", rapids ? best : 100}}}};
-}
-
-std::vector<std::int32_t> unknown_tools(const Diagnostics& findings) {
-  std::vector<std::int32_t> tools;
-  for (const Diagnostic& one : findings.all()) {
-    if (one.severity != Severity::error || one.code != unknown_tool) continue;
-    // The word itself, as T3 or D5. What comes of an expression is not proposed.
-    const std::size_t at = one.place.column;
-    if (at >= one.text.size()) continue;
-    const char* const first = one.text.data() + at;
-    const char* const end = one.text.data() + std::min(one.text.size(), at + one.place.length - 1);
-    std::int32_t number = 0;
-    if (const auto read = std::from_chars(first, end, number); read.ec != std::errc() || read.ptr != end) continue;
-    if (std::ranges::find(tools, number) == tools.end()) tools.push_back(number);
-  }
-  return tools;
-}
-
-// The highest spindle speed with which no axis of a thread is too fast. Infinite: no move follows the spindle.
-class ThreadSpeed {
- public:
-  explicit ThreadSpeed(const MachineDescription& machine) : limits_(motion_limits(machine)) {}
-
-  void watch(const PathItem& item) {
-    const auto* const segment = std::get_if<Segment>(&item);
-    if (segment == nullptr || segment->lock == SpindleLock::none || !(segment->pitch > Mm(0))) return;
-    const double fastest_feed = speed_within(segment->curve.steepest(), fastest, limits_);
-    constexpr double seconds_per_minute = 60;
-    highest_ = std::min(highest_, fastest_feed / segment->pitch.value() * seconds_per_minute);
-  }
-  double revolutions_per_minute() const { return highest_; }
-
- private:
-  MotionLimits limits_;
-  double highest_ = std::numeric_limits<double>::infinity();
-};
-
-// What a program asks of the spindle.
-struct AskedOfSpindle {
-  double most = 0;                 // rpm
-  bool feeds_by_the_turn = false;  // G95: such feeds are slower by themselves where the spindle is slower
-};
-
-AskedOfSpindle asked_of_spindle(const Unfit& unfit) {
-  AskedOfSpindle asked;
-  Diagnostics unheard;
-  static_cast<void>(
-      check_program(unfit.program.again(), unfit.machine, unfit.options, unheard, {}, [&](const Operation& operation) {
-        if (const auto* speed = std::get_if<operation::SetSpindleSpeed>(&operation.what)) {
-          asked.most = std::max(asked.most, speed->revolutions_per_minute);
-        } else if (const auto* mode = std::get_if<operation::SetFeedMode>(&operation.what)) {
-          asked.feeds_by_the_turn = asked.feeds_by_the_turn || mode->mode == FeedMode::units_per_revolution;
-        }
-      }));
-  return asked;
-}
-
-// For a program that calls for tools which are not in the table. Nothing where more than the tools is wrong.
-std::vector<Proposal> proposals_for_tools(const Unfit& unfit, const Diagnostics& findings) {
-  constexpr int most_rounds = 10;  // a check names so many errors only
-  InterpreterOptions options = unfit.options;
-  std::vector<std::int32_t> added;
-  Diagnostics then;
-  std::vector<std::int32_t> missing = unknown_tools(findings);
-  for (int round = 0; round < most_rounds && !missing.empty(); ++round) {
-    for (const std::int32_t number : missing) {
-      if (options.tools.add({.number = number, .pocket = number})) added.push_back(number);
-    }
-    then.clear();
-    static_cast<void>(check_program(unfit.program.again(), unfit.machine, options, then));
-    missing = unknown_tools(then);
-  }
-  if (added.empty() || then.any_error()) return {};
+Told told(const proposal::Tools& tools) {
   std::string lines;
-  for (const std::int32_t number : added) lines += fmt::format("{}T{} P{}", lines.empty() ? "" : ", ", number, number);
-  return {
-      {.kind = "tools",
-       .words = fmt::format("with {} in the tool table the program passes (checked, with a length and a diameter of "
-                            "0: add those of the real tool as Z and D): {}",
-                            added.size() == 1 ? "this tool" : "these tools", lines),
-       .values = {{"tools", added}}}};
+  for (const std::int32_t number : tools.numbers) {
+    lines += fmt::format("{}T{} P{}", lines.empty() ? "" : ", ", number, number);
+  }
+  return {.kind = "tools",
+          .words = fmt::format("with {} in the tool table the program passes (checked, with a length and a diameter of "
+                               "0: add those of the real tool as Z and D): {}",
+                               tools.numbers.size() == 1 ? "this tool" : "these tools", lines),
+          .values = {{"tools", tools.numbers}}};
 }
 
-// For a program that an axis cannot follow the spindle in. Nothing where more than that is wrong.
-std::vector<Proposal> proposals_for_threads(const Unfit& unfit, const Diagnostics& findings) {
-  if (!has(findings, Severity::error, "path.thread-too-fast")) return {};
-  ThreadSpeed speed(unfit.machine);
-  Diagnostics unheard;
-  static_cast<void>(check_program(unfit.program.again(), unfit.machine, unfit.options, unheard,
-                                  [&](const PathItem& item) { speed.watch(item); }));
-  const double rpm = std::floor(speed.revolutions_per_minute() * (1 + slack));
-  if (!(rpm >= 1) || !std::isfinite(rpm)) return {};
-  // A spindle that turns no faster does what a smaller S would do.
-  MachineDescription slower = unfit.machine;
-  slower.tool.highest_rpm = rpm;
-  Diagnostics then;
-  static_cast<void>(check_program(unfit.program.again(), slower, unfit.options, then));
-  if (then.any_error()) return {};
-  return {{.kind = "spindle-speed",
-           .words = fmt::format("with S{:g} at most the axes can follow the spindle (checked)", rpm),
-           .values = {{"spindle_rpm", rpm}, {"feed_percent", 100}}}};
+Told told(const proposal::SpindleForThread& spindle) {
+  const double rpm = spindle.revolutions_per_minute;
+  return {.kind = "spindle-speed",
+          .words = fmt::format("with S{:g} at most the axes can follow the spindle (checked)", rpm),
+          .values = {{"spindle_rpm", rpm}, {"feed_percent", 100}}};
 }
 
-// For a program without errors that asks for a faster spindle than there is.
-std::vector<Proposal> proposals_for_spindle(const Unfit& unfit, const ProgramCheck& check,
-                                            const Diagnostics& findings) {
-  if (!has(findings, Severity::warning, "path.spindle-too-fast") || check.probes) return {};
-  const AskedOfSpindle asked = asked_of_spindle(unfit);
-  const double limit = unfit.machine.tool.highest_rpm;
-  if (!(limit > 0 && asked.most > limit) || asked.feeds_by_the_turn) return {};
-  constexpr int least_override = 10;
-  const int percent = static_cast<int>(std::floor(100 * limit / asked.most * (1 + slack)));
-  if (percent < least_override) return {};
-  const CheckPage slower = judge(unfit.program.again(), unfit.machine, unfit.options, check, {},
-                                 [](double /*share*/) {}, {.feed = percent / 100.0});
-  if (slower.lost()) return {};
-  return {{.kind = "spindle-speed",
-           .words = fmt::format("with S{:g} at most and the feeds at {} % no tooth cuts more than the program asks for "
-                                "(checked): {} in motion",
-                                limit, percent, clock_words(slower.summary.cutting_time + slower.summary.rapid_time)),
-           .values = {{"spindle_rpm", limit}, {"feed_percent", percent}}}};
+Told told(const proposal::SpindleAndFeed& spindle) {
+  const double rpm = spindle.revolutions_per_minute;
+  return {.kind = "spindle-speed",
+          .words = fmt::format("with S{:g} at most and the feeds at {} % no tooth cuts more than the program asks for "
+                               "(checked): {} in motion",
+                               rpm, spindle.feed_percent, clock_words(spindle.motion)),
+          .values = {{"spindle_rpm", rpm}, {"feed_percent", spindle.feed_percent}}};
+}
+
+Told told(const proposal::SlowerMotion& slower) {
+  const bool feeds = slower.feed_percent < 100;
+  const bool rapids = slower.rapid_percent < 100;
+  const char* const what = feeds && rapids ? "feeds and rapids" : feeds ? "feeds" : "rapids";
+  return {.kind = "override",
+          .words = fmt::format("with {} at {} % the motors keep their steps (checked)", what,
+                               feeds ? slower.feed_percent : slower.rapid_percent),
+          .values = {{"feed_percent", slower.feed_percent}, {"rapid_percent", slower.rapid_percent}}};
+}
+
+Told told(const Proposal& proposal) {
+  return std::visit([](const auto& one) { return told(one); }, proposal);
 }
 
 }  // namespace
 
-std::vector<Proposal> proposals_of(const Unfit& unfit, const ProgramCheck& check, const Diagnostics& findings,
-                                   const CheckPage* page) {
-  std::vector<Proposal> all;
-  const auto add = [&all](std::vector<Proposal> more) { std::ranges::move(more, std::back_inserter(all)); };
-  if (!check.good) {
-    add(proposals_for_travel(unfit, findings));
-    add(proposals_for_tools(unfit, findings));
-    add(proposals_for_threads(unfit, findings));
-  } else if (page != nullptr) {
-    add(proposals_for_spindle(unfit, check, findings));
-    add(proposals_for_motors(unfit, check, *page));
-  }
-  return all;
-}
-
 std::string to_text(const std::vector<Proposal>& proposals) {
   std::string text;
-  for (const Proposal& proposal : proposals) text += fmt::format("proposal        {}\n", proposal.words);
+  for (const Proposal& proposal : proposals) text += fmt::format("proposal        {}\n", told(proposal).words);
   return text;
 }
 
 nlohmann::ordered_json as_json(const std::vector<Proposal>& proposals) {
-  nlohmann::ordered_json list = nlohmann::ordered_json::array();
+  Json list = Json::array();
   for (const Proposal& proposal : proposals) {
-    nlohmann::ordered_json json = {{"kind", proposal.kind}, {"words", proposal.words}};
-    json.update(proposal.values);
+    const Told one = told(proposal);
+    Json json = {{"kind", one.kind}, {"words", one.words}};
+    json.update(one.values);
     list.push_back(json);
   }
   return list;

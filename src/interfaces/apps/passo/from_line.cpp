@@ -21,21 +21,14 @@ bool is_agreed() {
 
 std::optional<Reentry> way_to_line(const RunArguments& arguments, const ProgramReader& program,
                                    const MachineDescription& machine, const InterpreterOptions& options, int& code) {
-  const auto refuse = [&](const LineProblem& problem) {
+  auto way = reentry_at_line(program, machine, options,
+                             {.line = arguments.from_line, .pass = arguments.pass, .after = Mm(arguments.after)});
+  if (!way) {
+    const LineProblem& problem = way.error();
     const bool is_pass = problem.refusal == ReentryRefusal::done_often || problem.refusal == ReentryRefusal::no_pass;
     code = fail(exit_bad_program,
                 fmt::format("--from-line {}: {}{} [{}]", arguments.from_line, message_of(problem),
                             is_pass ? fmt::format(", as --pass {}", problem.times) : "", code_of(problem.refusal)));
-  };
-  const auto at = find_line(program, machine, options,
-                            {.line = arguments.from_line, .pass = arguments.pass, .after = Mm(arguments.after)});
-  if (!at) {
-    refuse(at.error());
-    return {};
-  }
-  auto way = plan_reentry(machine, *at, options.start);
-  if (!way) {
-    refuse({.refusal = way.error()});
     return {};
   }
   fmt::print(stderr, "passo: what will happen (machine coordinates):\n");

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <deque>
 #include <string_view>
 #include <utility>
 #include <vector>
@@ -17,171 +16,11 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
-#include "passo/activity/program.hpp"
 #include "passo/base/counted.hpp"
-#include "passo/drive/program_stop.hpp"
-#include "passo/interpreter/saved_offsets.hpp"
-#include "passo/sender/grbl_code.hpp"
+#include "passo/sender/grbl_program.hpp"
 
 namespace passo {
 namespace {
-
-// The machine's own offsets, as saved parameters.
-void take_offsets(const GrblMachine& machine, InterpreterOptions& options) {
-  const double unit = options.machine_units == LengthUnits::inch ? 25.4 : 1;
-  const auto set = [&](int first, const Point& offset) {
-    for (int axis = 0; axis < 3; ++axis) {
-      options.parameters[first + axis] = offset.values[static_cast<std::size_t>(axis)] / unit;
-    }
-  };
-  options.parameters[work_system_parameter] = 1;
-  options.parameters[g92_active_parameter] = 0;
-  for (const auto& [name, offset] : machine.offsets) {
-    if (name == "G92") {
-      options.parameters[g92_active_parameter] = offset == Point() ? 0 : 1;
-      set(g92_parameter, offset);
-    } else if (name.size() == 3 && name[2] >= '4' && name[2] <= '9') {
-      set(work_offset_parameter(1 + name[2] - '4'), offset);
-    }
-  }
-}
-
-// Where the zero of G54 lies, machine coordinates.
-Point zero_of(const GrblMachine& machine) {
-  Point zero;
-  for (const char* name : {"G54", "G92"}) {
-    const auto found = machine.offsets.find(name);
-    if (found != machine.offsets.end()) zero = zero + found->second;
-  }
-  return zero;
-}
-
-// Reports what a Grbl machine cannot do, at its line, once for each reason.
-class Objections {
- public:
-  Objections(const std::string& program, Diagnostics& diagnostics) : program_(program), diagnostics_(diagnostics) {}
-  void note(const Operation& operation) {
-    if (operation.source.line == line_) return;
-    line_ = operation.source.line;
-    text_ = operation.text;
-    file_ = operation.file;
-  }
-  void add(const std::string& reason, std::uint32_t line) {
-    if (std::ranges::find(told_, reason) != told_.end()) return;
-    told_.push_back(reason);
-    diagnostics_.add({.code = "grbl.cannot",
-                      .file = file_.empty() ? program_ : file_,
-                      .place = {.line = line, .column = line == line_ && !text_.empty() ? 1U : 0U},
-                      .message = "a machine that speaks Grbl cannot do this: " + reason,
-                      .expected = "",
-                      .text = line == line_ ? text_ : ""});
-  }
-
- private:
-  const std::string& program_;
-  Diagnostics& diagnostics_;
-  std::uint32_t line_ = 0;
-  std::string text_;
-  std::string file_;
-  std::vector<std::string> told_;
-};
-
-std::uint32_t line_of(const PathItem& item) {
-  return std::visit([](const auto& one) { return one.source.line; }, item);
-}
-
-// The lines of a program in order, a few at a time, with its stops between them.
-class GrblProgram {
- public:
-  GrblProgram(const RunArguments& arguments, const ProgramReader& program, const MachineDescription& machine,
-              const InterpreterOptions& options, const Point& zero)
-      : arguments_(arguments),
-        program_(program.again()),
-        code_(zero),
-        checker_(program_.again(), machine, options, unheard_),
-        messages_(arguments.program.program, !arguments.quiet) {
-    checker_.watch([this](const PathItem& item) { take(item); });
-    checker_.watch_operations([this, tools = options.tools](const Operation& operation) {
-      words_.watch(operation, tools);
-      if (from_line_ == 0) messages_.show(operation, before_words);
-    });
-  }
-
-  // Begins at a line, after the way there.
-  void begin_at(const Reentry& way) {
-    for (const PathItem& item : way.lead_in) write(item);
-    from_line_ = way.at.line;
-  }
-  // Gives the sender lines, up to the next stop.
-  void feed(GrblSender& sender) {
-    while (sender.wants_lines() && !stop_ && !(ended_ && ready_.empty())) {
-      if (ready_.empty()) {
-        ended_ = checker_.go_on(1);
-        if (ended_) ready_.push_back({"G4P0", 0, Seconds(0), {}});  // answered when all motion is done
-        continue;
-      }
-      Ready next = std::move(ready_.front());
-      ready_.pop_front();
-      if (next.stop) stop_ = next.stop;
-      if (!next.text.empty()) sender.add(next.text, next.line, next.silence);
-    }
-  }
-  // The machine is to rest here until somebody goes on.
-  const std::optional<OperatorWait>& stop() const { return stop_; }
-  void go_on() { stop_.reset(); }
-  bool ended() const { return ended_ && ready_.empty(); }
-  std::uint64_t moves() const { return checker_.result().moves; }
-  Seconds nominal_time() const { return checker_.result().nominal_time; }
-
-  std::function<void()> before_words;
-
- private:
-  struct Ready {
-    std::string text;
-    std::uint32_t line = 0;
-    Seconds silence{0};
-    std::optional<OperatorWait> stop;
-  };
-
-  void take(const PathItem& item) {
-    if (from_line_ != 0 && !reaches(item)) return;
-    write(item);
-  }
-  // From the beginning of the line on. What was set before is in the way there.
-  bool reaches(const PathItem& item) {
-    const auto* segment = std::get_if<Segment>(&item);
-    if (segment == nullptr || segment->source.line != from_line_) return false;
-    from_line_ = 0;
-    Segment to_start = *segment;
-    to_start.curve = Curve::line(segment->curve.end(), segment->curve.start());
-    write(to_start);
-    return true;
-  }
-  void write(const PathItem& item) {
-    std::vector<std::string> lines;
-    if (!code_.write(item, lines)) return;  // the check has told it
-    const auto* action = std::get_if<Action>(&item);
-    const Seconds silence = action != nullptr && action->kind == Action::Kind::dwell ? action->dwell : Seconds(0);
-    for (std::string& text : lines) ready_.push_back({std::move(text), line_of(item), silence, {}});
-    if (action == nullptr || !is_program_stop(*action) || arguments_.yes) return;
-    const std::uint32_t line = action->source.line;
-    const OperatorWait wait{.kind = action->kind, .tool = action->tool, .line = line, .words = words_.at(line)};
-    words_.pass(line);
-    ready_.push_back({"G4P0", action->source.line, Seconds(0), wait});
-  }
-
-  const RunArguments& arguments_;
-  ProgramReader program_;
-  GrblCode code_;
-  Diagnostics unheard_;
-  ProgramChecker checker_;
-  ProgramMessages messages_;
-  WaitWords words_;
-  std::deque<Ready> ready_;
-  std::optional<OperatorWait> stop_;
-  std::uint32_t from_line_ = 0;
-  bool ended_ = false;
-};
 
 // Holds and overrides of the command line, at their times.
 class TimedBytes {
@@ -249,23 +88,21 @@ bool make_ready(OpenedGrbl& opened, const std::string& board, bool homes, int& c
 }
 
 // The program is checked before anything moves.
-ProgramCheck check_for_grbl(const ProgramReader& program, const MachineDescription& machine,
-                            const InterpreterOptions& options, const Point& zero) {
+ProgramCheck told_check(const ProgramReader& program, const MachineDescription& machine,
+                        const InterpreterOptions& options, const Point& zero) {
   Diagnostics findings;
-  Objections objections(program.name(), findings);
-  GrblCode code(zero);
-  std::vector<std::string> lines;
-  ProgramCheck check = check_program(
-      program.again(), machine, options, findings,
-      [&](const PathItem& item) {
-        lines.clear();
-        const auto written = code.write(item, lines);
-        if (!written) objections.add(written.error(), line_of(item));
-      },
-      [&](const Operation& operation) { objections.note(operation); });
-  check.good = check.good && !findings.any_error();
+  const ProgramCheck check = check_for_grbl(program, machine, options, zero, findings);
   show(findings);
   return check;
+}
+
+// Gives the sender lines, as many as it wants, up to the next stop.
+void feed(GrblSender& sender, GrblProgram& lines) {
+  while (sender.wants_lines()) {
+    const auto line = lines.next();
+    if (!line) return;
+    sender.add(line->text, line->line, line->silence);
+  }
 }
 
 struct GrblRunResult {
@@ -320,13 +157,14 @@ int stream(const RunArguments& arguments, OpenedGrbl& opened, GrblProgram& lines
            const MidRunChanges& changes) {
   GrblSender& sender = opened.sender();
   ProgressDisplay progress(arguments.program.program, !arguments.quiet);
-  lines.before_words = [&] { progress.clear(); };
+  ProgramMessages messages(arguments.program.program, !arguments.quiet);
+  lines.hear([&](const Operation& operation) { messages.show(operation, [&] { progress.clear(); }); });
   OperatorPrompt prompt(arguments.program.program);
   const Seconds begun = opened.now();
   const std::uint64_t lines_before = sender.lines_sent();
   TimedBytes timed(changes, begun);
   while (!(lines.ended() && !lines.stop() && sender.at_rest()) && !sender.stopped()) {
-    lines.feed(sender);
+    feed(sender, lines);
     opened.turn(OpenedGrbl::between_looks);
     if (interrupted_by() != 0 || timed.look(opened)) sender.stop();
     if (const std::string_view wait = opened.news_of_wait(); !wait.empty()) {
@@ -380,15 +218,15 @@ int run_on_grbl(const RunArguments& arguments, const MachineDescription& machine
   if (!opened || !make_ready(*opened, arguments.board, arguments.home, code)) return code;
   const GrblSender& sender = opened->sender();
   options.start = *sender.place();
-  take_offsets(sender.machine(), options);
-  const Point zero = zero_of(sender.machine());
-  const ProgramCheck check = check_for_grbl(program, machine, options, zero);
+  set_offsets(options, sender.machine());
+  const Point zero = first_work_zero(sender.machine());
+  const ProgramCheck check = told_check(program, machine, options, zero);
   if (!check.good) return exit_bad_program;
   if (!arguments.quiet)
     note("the program begins at " + opened->place_words() +
          " (machine coordinates), with the "
          "offsets of the machine");
-  GrblProgram lines(arguments, program, machine, options, zero);
+  GrblProgram lines(program, machine, options, zero, !arguments.yes);
   if (arguments.from_line > 0) {
     const auto way = way_to_line(arguments, program, machine, options, code);
     if (!way) return code;

@@ -1,8 +1,4 @@
-// LineCost: how much longer a program takes over a line to a board with few places, told before the run.
-//
-// The program is played over a virtual line to a virtual board with the places of the machine file, in virtual time:
-// just what `passo run --cut-cable-at` does. A minute of machining takes some tenths of a second,
-// with limits of jerk some seconds.
+// What a line to the board costs, as `passo check` tells it.
 #pragma once
 
 #include <optional>
@@ -10,34 +6,13 @@
 
 #include <nlohmann/json_fwd.hpp>
 
-#include "passo/activity/program.hpp"
-#include "passo/gcode/program_reader.hpp"
-#include "passo/interpreter/interpreter.hpp"
-#include "passo/machine_file/machine_description.hpp"
-#include "passo/units/units.hpp"
+#include "passo/judge/line_cost.hpp"
 
 namespace passo {
 
-struct LineCost {
-  int held_items = 0;        // the board's places
-  Seconds without{0};        // motion and dwells as planned
-  Seconds over{0};           // until the board has played the last event
-  int rests = 0;             // for want of more
-  int slowdowns = 0;         // where the speed is limited because the motion that brakes the machine has many items
-  std::string trouble = {};  // why the program does not come to its end over the line; empty: it does
-
-  Seconds cost() const { return over > without ? over - without : Seconds(0); }
-  double share() const { return without > Seconds(0) ? cost() / without : 0; }
-};
-
-// The motion and the dwells of a program that was checked, as planned: the time without a line.
-Seconds planned_time(ProgramReader program, const MachineDescription& machine, const InterpreterOptions& options,
-                     const ProgramCheck& check);
-
-// Plays a program that was checked over the line. `without` is its planned time. Empty: the machine file names no
-// places, or the way depends on a probe.
-std::optional<LineCost> line_cost(ProgramReader program, const MachineDescription& machine,
-                                  const InterpreterOptions& options, const ProgramCheck& check, Seconds without);
+// line_cost() with a progress line. Empty: it cannot be told. A board that refuses comes as a message.
+std::optional<LineCost> told_line_cost(const ProgramReader& program, const MachineDescription& machine,
+                                       const InterpreterOptions& options, const ProgramCheck& check, Seconds without);
 
 // A line for the page of `passo check`, with a line end.
 std::string to_text(const LineCost& cost);

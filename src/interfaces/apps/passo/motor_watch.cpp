@@ -9,7 +9,7 @@
 namespace passo {
 
 MotorWatch::MotorWatch(RotorPlant& plant, const MachineDescription& machine, Seconds begins)
-    : plant_(plant), begins_(begins), planned_(begins), motors_(machine.motor_count()) {
+    : plant_(plant), begins_(begins), lines_(begins), motors_(machine.motor_count()) {
   const Kinematics board = board_kinematics_of(machine);
   for (std::size_t m = 0; m < machine.axes.size(); ++m) {
     const AxisDescription& axis = machine.axes[m];
@@ -21,40 +21,17 @@ MotorWatch::MotorWatch(RotorPlant& plant, const MachineDescription& machine, Sec
   }
 }
 
-void MotorWatch::plan(const MotionItem& item) {
-  if (const auto* move = std::get_if<PlannedMove>(&item)) {
-    planned_ += move->duration();
-    const std::uint32_t line = move->segment.source.line;
-    if (!ahead_.empty() && ahead_.back().line == line) {
-      ahead_.back().end = planned_;
-    } else {
-      ahead_.push_back({.end = planned_, .line = line});
-    }
-    return;
-  }
-  const auto& action = std::get<Action>(item);
-  if (action.kind != Action::Kind::dwell) return;
-  planned_ += action.dwell;
-  ahead_.push_back({.end = planned_, .line = action.source.line});
-}
-
-std::uint32_t MotorWatch::line_at(Seconds time) const {
-  const auto found = std::ranges::lower_bound(ahead_, time, {}, &Planned::end);
-  if (found != ahead_.end()) return found->line;
-  return ahead_.empty() ? 0 : ahead_.back().line;
-}
-
 void MotorWatch::look(Seconds now) {
   for (std::size_t m = 0; m < motors_.size(); ++m) {
     const RotorRecord& record = plant_.record(m);
-    if (record.least_margin_at > looked_) motors_[m].worst_line = line_at(record.least_margin_at);
+    if (record.least_margin_at > looked_) motors_[m].worst_line = lines_.line_at(record.least_margin_at);
   }
   while (lines_of_losses_.size() < plant_.losses().size()) {
-    lines_of_losses_.push_back(line_at(plant_.losses()[lines_of_losses_.size()].time));
+    lines_of_losses_.push_back(lines_.line_at(plant_.losses()[lines_of_losses_.size()].time));
   }
-  if (fault_line_ == 0 && plant_.following_fault()) fault_line_ = line_at(plant_.following_fault()->time);
+  if (fault_line_ == 0 && plant_.following_fault()) fault_line_ = lines_.line_at(plant_.following_fault()->time);
   looked_ = now;
-  while (ahead_.size() > 1 && ahead_.front().end < now) ahead_.pop_front();
+  lines_.forget_before(now);
 }
 
 PhysicsSummary MotorWatch::finish(Seconds now) {

@@ -1,12 +1,10 @@
 // MotorWatch: what the motors of a machine with physics do during a run, with the program's lines.
-//
-// Motion is planned ahead of the board, so the watch keeps the lines whose motion has not been played yet.
 #pragma once
 
 #include <cstdint>
-#include <deque>
 #include <vector>
 
+#include "passo/job/motion_lines.hpp"
 #include "passo/machine_file/machine_description.hpp"
 #include "passo/plant/rotor_plant.hpp"
 #include "passo/report/summary.hpp"
@@ -20,7 +18,7 @@ class MotorWatch {
   MotorWatch(RotorPlant& plant, const MachineDescription& machine, Seconds begins);
 
   // What is planned, in order.
-  void plan(const MotionItem& item);
+  void plan(const MotionItem& item) { lines_.watch(item); }
   // Call after each turn of the session. `now`: the board's time.
   void look(Seconds now);
   // Lets the rotors come to rest. `now`: the board's time at the end.
@@ -32,17 +30,11 @@ class MotorWatch {
     double scale = 0;              // steps a unit of the axis; negative: it turns the other way
     std::uint32_t worst_line = 0;  // of the least margin
   };
-  struct Planned {
-    Seconds end{0};
-    std::uint32_t line = 0;
-  };
-  std::uint32_t line_at(Seconds time) const;
 
   RotorPlant& plant_;
   Seconds begins_;
-  Seconds planned_;
+  PlannedLines lines_;
   Seconds looked_{-1};
-  std::deque<Planned> ahead_;
   std::vector<Motor> motors_;  // of the board, each axis's second motor after all the first ones
   std::vector<std::uint32_t> lines_of_losses_;
   std::uint32_t fault_line_ = 0;  // of the following error beyond its limit

@@ -12,11 +12,14 @@
 #include "line_watch.hpp"
 #include "program_input.hpp"
 #include "run_signals.hpp"
+#include "state_folder.hpp"
 #include <fmt/format.h>
 
 #include "passo/activity/machine_plant.hpp"
 #include "passo/activity/stage_options.hpp"
 #include "passo/base/counted.hpp"
+#include "passo/job/state_file.hpp"
+#include "passo/judge/line_cost.hpp"
 #include "passo/link/await.hpp"
 
 namespace passo {
@@ -26,8 +29,6 @@ namespace {
 constexpr Seconds first_answer{4};
 constexpr Seconds answer{2};
 
-// A line may be slow, but a board that lives answers at once.
-constexpr LineCare virtual_line{.answer_within = Seconds(0.05), .patience = Seconds(3600)};
 constexpr LineCare real_line{.answer_within = Seconds(0.1), .patience = Seconds(60)};
 
 unsigned any_number(unsigned least, unsigned most) {
@@ -90,7 +91,7 @@ std::unique_ptr<OpenedMachine> OpenedMachine::open(const MachineDescription& mac
     if (wish.cut) opened->line_->cut(wish.cut->at, wish.cut->missing);
     opened->session_ = std::make_unique<MachineSession>(machine, *opened->line_,
                                                         SessionOptions{.over_a_line = true,
-                                                                       .care = virtual_line,
+                                                                       .care = virtual_line_care,
                                                                        .greeting = {.session = 1},
                                                                        .tells_place = wish.tells_place,
                                                                        .start = at_zero,
@@ -110,8 +111,7 @@ std::unique_ptr<OpenedMachine> OpenedMachine::open(const MachineDescription& mac
       return nullptr;
     }
     opened->claim_.emplace(std::move(*claim));
-    opened->place_file_.emplace(wish.board);
-    opened->record_ = opened->place_file_->read();
+    opened->kept_place_.emplace(state_file(state_folder(), wish.board, ".place"));
   }
   auto port = open_addressed(*address, opened->plant_.get(), pin_setup(machine));
   if (!port) {
@@ -137,21 +137,19 @@ OpenedMachine::~OpenedMachine() {
 }
 
 Result<KnownPosition, PlaceDoubt> OpenedMachine::place() const {
-  if (!place_file_) return KnownPosition{.place = Point(), .trust = Trust::commanded};
-  return place_of(record_, description_, before_);
+  if (!kept_place_) return KnownPosition{.place = Point(), .trust = Trust::commanded};
+  return kept_place_->place(description_, before_);
 }
 
 void OpenedMachine::stand_as_counted() {
-  if (const auto known = place()) return start_at(*known);
-  const auto counted = counted_place(record_, description_, before_);
-  const bool counts_on = counted && !record_->is_lost && (before_.state & board_trusted) != 0;
-  start_at({.place = counted.value_or(Point()), .trust = Trust::unknown, .is_lost = record_.has_value() && !counts_on});
+  start_at(kept_place_ ? kept_place_->counted(description_, before_)
+                       : KnownPosition{.place = Point(), .trust = Trust::commanded});
 }
 
 // Greeting and session number differ from those of the board's last session, and mean nothing else: 1 is every
 // stranger's.
 Greeting OpenedMachine::any_greeting() const {
-  if (!place_file_) return {.session = has_board() || line_ ? std::uint16_t{1} : std::uint16_t{0}};
+  if (!kept_place_) return {.session = has_board() || line_ ? std::uint16_t{1} : std::uint16_t{0}};
   return {.session = new_session_number(), .number = static_cast<std::uint8_t>(any_number(1, 255))};
 }
 
@@ -170,21 +168,10 @@ void OpenedMachine::stand_in_truth_at(const Point& place) {
   machine_.connect(*plant_);
 }
 
-// What a board has heard it never forgets as long as it has power. So the record is written before the board hears.
 void OpenedMachine::write_down(const KnownPosition& position, const MotorSteps& zero_counts,
                                const SessionNumbers& numbers) {
-  if (!place_file_) return;
-  PlaceRecord record{.machine = place_fingerprint(description_),
-                     .trust = position.trust,
-                     .zero_counts = {},
-                     .numbers = numbers,
-                     .is_lost = position.is_lost};
-  for (std::size_t m = 0; m < description_.axes.size(); ++m) {
-    record.zero_counts.push_back(static_cast<int>(zero_counts[m]));
-  }
-  if (record_ == record) return;
-  place_file_->write(record);
-  record_ = record;
+  if (!kept_place_ || kept_place_->keep(description_, position, zero_counts, numbers)) return;
+  note(kept_place_->path() + " cannot be written, so the next command will not know where the machine stands");
 }
 
 // A line that was lost changes nothing of what is written: the board counts on. A board that has stopped its motors at
@@ -324,14 +311,6 @@ void turn_to_the_end(OpenedMachine& machine, const std::function<void()>& look) 
     if (machine.is_on_a_line()) line.look(session.board());
     if (look) look();
   }
-}
-
-Answered answer_of(const std::vector<MachineChange>& changes, Ticket ticket) {
-  for (const MachineChange& change : changes) {
-    if (change.kind != MachineChange::Kind::answered || change.ticket != ticket) continue;
-    return {.outcome = change.outcome, .fault = change.fault};
-  }
-  return {.outcome = Outcome::stopped, .fault = {}};
 }
 
 }  // namespace passo

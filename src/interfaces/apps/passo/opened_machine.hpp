@@ -10,9 +10,10 @@
 
 #include "board_claim.hpp"
 #include "mid_run_changes.hpp"
-#include "place_file.hpp"
 
 #include "passo/activity/touchable.hpp"
+#include "passo/job/job_end.hpp"
+#include "passo/job/kept_place.hpp"
 #include "passo/machine/virtual_line.hpp"
 #include "passo/machine/virtual_machine.hpp"
 #include "passo/machine_file/machine_description.hpp"
@@ -109,8 +110,7 @@ class OpenedMachine {
   std::unique_ptr<BoardSession> shadow_;
   BoardStatus before_;
   std::optional<BoardClaim> claim_;
-  std::optional<PlaceFile> place_file_;  // for a board that outlives this program
-  std::optional<PlaceRecord> record_;    // as it is in the file
+  std::optional<KeptPlace> kept_place_;  // of a board that outlives this program
   SessionNumbers numbers_;
   bool greeted_ = false;
   std::uint64_t frames_asked_ = 0;
@@ -125,14 +125,5 @@ std::string words_of(const Refusal& refusal);
 void try_request(MachineSession& session, Request wanted);
 // Turns the session until nothing is going on. Ctrl-C brakes. `look`, if any, is called after each turn.
 void turn_to_the_end(OpenedMachine& machine, const std::function<void()>& look = {});
-// The result of a request that has been answered, and the reason.
-struct Answered {
-  Outcome outcome = Outcome::done;
-  std::optional<ActivityFault> fault = {};
-  std::optional<Refusal> refused = {};  // it never began
-
-  std::string message() const { return refused ? refused->message : fault ? fault->message() : std::string(); }
-};
-Answered answer_of(const std::vector<MachineChange>& changes, Ticket ticket);
 
 }  // namespace passo

@@ -6,10 +6,11 @@
 #include <utility>
 
 #include "program_input.hpp"
+#include "state_folder.hpp"
 #include <fmt/format.h>
 
 #include "passo/activity/stage_options.hpp"
-#include "passo/link/await.hpp"
+#include "passo/job/state_file.hpp"
 
 namespace passo {
 namespace {
@@ -27,16 +28,26 @@ std::string words_of(const ResumePoint& point, const MachineDescription& machine
   return fmt::format("{} {} (machine coordinates)", line, place_words(machine, point.point));
 }
 
-// Refuses a program that is not the journal's, or that was changed since.
-int refuse_changed(const FileStamp& now, const FileStamp& then, std::string_view code) {
-  if (now.name == then.name) return refuse(code, now.name + " was changed since the job began");
-  return refuse(code, fmt::format("the job that was not finished is of {}", then.name.empty() ? "-" : then.name));
+// Refuses a file that is not the journal's, or that was changed since.
+int refuse_changed(JobChange change, const FileStamp& now, const FileStamp& then) {
+  if (now.name == then.name) return refuse(code_of(change), now.name + " was changed since the job began");
+  return refuse(code_of(change),
+                fmt::format("the job that was not finished is of {}", then.name.empty() ? "-" : then.name));
+}
+
+int refuse(JobChange change, const JobIdentity& now, const JournalHead& then) {
+  switch (change) {
+    case JobChange::program: return refuse_changed(change, now.program, then.program);
+    case JobChange::machine: return refuse_changed(change, now.machine, then.machine);
+    case JobChange::version: break;
+  }
+  return refuse(code_of(change), "the job was begun by version " + then.made_by);
 }
 
 }  // namespace
 
 std::string ResumableRun::journal_of(const RunArguments& arguments) {
-  return arguments.journal.empty() ? state_file(arguments.board, ".journal") : arguments.journal;
+  return arguments.journal.empty() ? state_file(state_folder(), arguments.board, ".journal") : arguments.journal;
 }
 
 std::unique_ptr<ResumableRun> ResumableRun::open(const RunArguments& arguments, int& code) {
@@ -59,33 +70,37 @@ std::unique_ptr<ResumableRun> ResumableRun::open(const RunArguments& arguments, 
       return nullptr;
     }
   }
-  const std::optional<std::string> text = read_state_file(path);
-  if (text) run->before_ = Journal::read(*text);
-  run->head_.made_by = PASSO_VERSION;
-  run->head_.program = stamp_of(arguments.program.program);
-  run->head_.machine = stamp_of(arguments.machine);
-  if (!arguments.resume) {
-    // Is it a name that was mistyped? Of a file that is too long for a journal there is no text.
-    std::error_code none;
-    if (!text || Journal::is_journal(*text) || std::filesystem::is_empty(path, none)) return run;
-    code = fail(exit_bad_program, path + ": no journal of Passo's, and would be overwritten; name another file");
-    return nullptr;
-  }
-  const JournalHead& now = run->head_;
-  if (!text) {
-    code = refuse("resume.no-journal", path + " is not there: nothing on this board was left unfinished");
-  } else if (!run->before_) {
-    code = Journal::is_journal(*text) ? refuse("resume.torn-journal", path + " is not whole")
-                                      : refuse("resume.no-journal", path + " is no journal of Passo's");
-  } else if (const JournalHead& then = run->before_->head(); then.made_by != now.made_by) {
-    code = refuse("resume.other-version", "the job was begun by version " + then.made_by);
-  } else if (then.program != now.program) {
-    code = refuse_changed(now.program, then.program, "resume.program-changed");
-  } else if (then.machine != now.machine) {
-    code = refuse_changed(now.machine, then.machine, "resume.machine-changed");
-  }
+  FoundJournal found = run->file_.find();
+  run->now_ = {.made_by = PASSO_VERSION,
+               .program = stamp_of_file(arguments.program.program),
+               .machine = stamp_of_file(arguments.machine)};
+  code = run->judge_old(arguments, found);
   if (code != exit_done) return nullptr;
+  run->before_ = std::move(found.journal);
+  run->head_.made_by = run->now_.made_by;
+  run->head_.program = run->now_.program;
+  run->head_.machine = run->now_.machine;
   return run;
+}
+
+int ResumableRun::judge_old(const RunArguments& arguments, const FoundJournal& found) const {
+  using Kind = FoundJournal::Kind;
+  const std::string& path = file_.path();
+  if (!arguments.resume) {
+    // Is it a name that was mistyped?
+    if (found.kind != Kind::foreign) return exit_done;
+    return fail(exit_bad_program, path + ": no journal of Passo's, and would be overwritten; name another file");
+  }
+  switch (found.kind) {
+    case Kind::none:
+      return refuse("resume.no-journal", path + " is not there: nothing on this board was left unfinished");
+    case Kind::torn: return refuse("resume.torn-journal", path + " is not whole");
+    case Kind::empty:
+    case Kind::foreign: return refuse("resume.no-journal", path + " is no journal of Passo's");
+    case Kind::whole: break;
+  }
+  const auto change = change_since(found.journal->head(), now_);
+  return change ? refuse(*change, now_, found.journal->head()) : exit_done;
 }
 
 bool ResumableRun::suits(const Subject& subject, int& code) {
@@ -98,39 +113,42 @@ bool ResumableRun::suits(const Subject& subject, int& code) {
   return false;
 }
 
-bool ResumableRun::find_place(OpenedMachine& machine, const ProgramReader& program, const Subject& subject, int& code) {
+std::optional<JobEntry> ResumableRun::find_place(OpenedMachine& machine, const ProgramReader& program,
+                                                 const Subject& subject, int& code) {
   if (const auto stranger = refuse_stranger(*before_, machine.before())) {
     code = refuse(*stranger);
-    return false;
+    return {};
   }
   if (const auto words = machine.wait_for_rest()) {
     code = fail(exit_failed, "the board: " + *words);
-    return false;
+    return {};
   }
-  const auto found = resume_point_of(*before_, machine.before(), program, subject.machine, subject.options);
+  const BoardStatus& status = machine.before();
+  const auto found = resume_point_of(*before_, status, program, subject.machine, subject.options);
   if (!found) {
     if (found.error() == ResumeRefusal::rest_unknown && before_->torn() > 0) {
       code = refuse("resume.torn-journal", file_.path() + " is not whole, and the board's rest is not in it");
     } else {
       code = refuse(found.error());
     }
-    return false;
+    return {};
   }
-  point_ = *found;
-  head_ = head_of_resumption(before_->head(), machine.before(), *point_);
+  head_ = head_of_resumption(before_->head(), status, *found);
+  JobEntry entry = entry_at_rest(before_->head(), *found, status, subject.machine);
   const auto known = machine.place();
-  stands_ = place_by_counts(before_->head(), *point_, machine.before(), subject.machine);
-  machine.start_at({.place = stands_, .trust = known ? known->trust : Trust::counted});
-  fmt::print(stderr, "passo: goes on {}\n", words_of(*point_, subject.machine));
-  return true;
+  machine.start_at({.place = *entry.stands, .trust = known ? known->trust : Trust::counted});
+  fmt::print(stderr, "passo: goes on {}\n", words_of(*found, subject.machine));
+  return entry;
 }
 
 bool ResumableRun::begin(OpenedMachine& machine, const ProgramReader& program, const Subject& subject, int& code) {
   MachineSession& session = machine.session();
   const bool is_ready = session.state() != MachineState::offline;
   const BoardStatus status = is_ready ? *session.board().status() : machine.before();
+  std::optional<JobEntry> entry;
   if (resumes_) {
-    if (!find_place(machine, program, subject, code)) return false;
+    entry = find_place(machine, program, subject, code);
+    if (!entry) return false;
   } else {
     // The old journal knows the board as it was before the hello.
     if (before_ && !refuse_rest(*before_, machine.before())) {
@@ -145,14 +163,13 @@ bool ResumableRun::begin(OpenedMachine& machine, const ProgramReader& program, c
   const Greeting greeting = machine.any_greeting();
   head_.numbers.session = greeting.session;
   head_.numbers.greeting = is_ready ? std::uint8_t{0} : greeting.number;
-  if (!write_head(subject, code)) return false;
+  if (!write_head(subject, std::move(entry), code)) return false;
   if (is_ready) return machine.name_session(greeting.session, code);
   return machine.greet(greeting, code) && stands_there(session.board(), subject.machine, code);
 }
 
-bool ResumableRun::write_head(const Subject& subject, int& code) {
-  writer_.begin(head_);
-  if (!writer_.failed()) return true;
+bool ResumableRun::write_head(const Subject& subject, std::optional<JobEntry> entry, int& code) {
+  if (run_.begin(head_, std::move(entry))) return true;
   const std::string words = file_.path() + ": this journal cannot be written: " + file_.trouble();
   if (resumes_ || !subject.arguments.journal.empty()) {
     code = fail(exit_failed, words);
@@ -164,39 +181,25 @@ bool ResumableRun::write_head(const Subject& subject, int& code) {
 
 // Whether the board, which was greeted meanwhile, still stands where the job is to be resumed.
 bool ResumableRun::stands_there(const BoardSession& board, const MachineDescription& machine, int& code) const {
-  if (!point_ || (board.status() && stands_at(head_, *point_, *board.status(), machine))) return true;
+  const auto& entry = run_.entry();
+  if (!entry || (board.status() && stands_at(head_, entry->at, *board.status(), machine))) return true;
   code = refuse(ResumeRefusal::counts_differ);
   return false;
 }
 
-void ResumableRun::add_to(request::Start& start) {
-  if (point_) {
-    start.from = point_;
-    start.lead_in = way_back_of_probe(*point_, stands_);
-    start.stands = stands_;
-    start.known_probes = head_.probes;
-  }
-  start.watchers.probe = [this](const ProbeOutcome& outcome) { writer_.note(outcome); };
-  start.watchers.rests = [this](const BoardRest& rest) { writer_.note(rest); };
-}
-
 void ResumableRun::end(const MachineSession& session, const Answered& answered) {
-  const auto trouble = session.status().trouble;
-  const bool ended = !trouble && answered.outcome == Outcome::done;
-  const bool is_refused = answered.refused && answered.refused->code != RefusalCode::place_unknown;
-  const bool is_of_program = answered.fault && answered.fault->fault == MachineFault::program_wrong;
-  if (ended || (is_refused && !resumes_) || is_of_program) return file_.remove();
-  if (writer_.failed()) return note(file_.path() + ": this journal could not be written: " + file_.trouble());
-  if (trouble && *trouble != LinkError::no_answer) return;  // --resume would be refused
-  if (trouble) {
+  const JobEnd end = end_of_run(answered, session.status().trouble, resumes_);
+  if (end == JobEnd::over) return file_.remove();
+  if (!run_.is_written()) return note(file_.path() + ": this journal could not be written: " + file_.trouble());
+  if (end == JobEnd::board_in_fault) return;  // --resume would be refused
+  if (end == JobEnd::board_silent) {
     return note(
         "the program has not come to its end; if the board keeps its power, the same command with --resume goes "
         "on with it");
   }
-  const std::optional<std::string> text = read_state_file(file_.path());
-  const std::optional<Journal> journal = text ? Journal::read(*text) : std::nullopt;
+  const FoundJournal found = file_.find();
   const auto& status = session.board().status();
-  if (!journal || !status || refuse_rest(*journal, *status)) return;
+  if (!found.journal || !status || refuse_rest(*found.journal, *status)) return;
   note("the program has not come to its end; the same command with --resume goes on with it");
 }
 

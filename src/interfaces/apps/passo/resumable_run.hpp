@@ -8,12 +8,12 @@
 #include <string>
 
 #include "commands.hpp"
-#include "journal_file.hpp"
 #include "opened_machine.hpp"
 
 #include "passo/activity/program.hpp"
-#include "passo/journal/reentry.hpp"
-#include "passo/journal/resumption.hpp"
+#include "passo/job/job_identity.hpp"
+#include "passo/job/journal_file.hpp"
+#include "passo/job/journaled_run.hpp"
 
 namespace passo {
 
@@ -43,24 +43,26 @@ class ResumableRun {
   // Then greets the board with the head's numbers; if the machine is already ready, only names the session. If the
   // program cannot begin, shows a message and returns false. Call it after suits().
   [[nodiscard]] bool begin(OpenedMachine& machine, const ProgramReader& program, const Subject& subject, int& code);
-  void add_to(request::Start& start);
+  void add_to(request::Start& start) { run_.add_to(start); }
   // Call it after the run. Removes the journal if the program has come to its end, is wrong, or did not begin and was
   // not to be resumed. Otherwise the journal stays.
   void end(const MachineSession& session, const Answered& answered);
 
  private:
-  explicit ResumableRun(const std::string& path) : file_(path), writer_(file_) {}
-  bool find_place(OpenedMachine& machine, const ProgramReader& program, const Subject& subject, int& code);
-  bool write_head(const Subject& subject, int& code);
+  explicit ResumableRun(const std::string& path) : file_(path), run_(file_) {}
+  // What is in the place of the journal. Returns an exit code, with a message where the run cannot begin.
+  int judge_old(const RunArguments& arguments, const FoundJournal& found) const;
+  std::optional<JobEntry> find_place(OpenedMachine& machine, const ProgramReader& program, const Subject& subject,
+                                     int& code);
+  bool write_head(const Subject& subject, std::optional<JobEntry> entry, int& code);
   bool stands_there(const BoardSession& board, const MachineDescription& machine, int& code) const;
 
   JournalFile file_;
-  JournalWriter writer_;
+  JournaledRun run_;
+  JobIdentity now_;
   std::optional<Journal> before_;
   JournalHead head_;
   bool resumes_ = false;
-  std::optional<ResumePoint> point_;
-  Point stands_;  // where the machine stands: at the point, or on the way of a probe move
 };
 
 }  // namespace passo

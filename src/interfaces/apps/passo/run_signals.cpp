@@ -7,7 +7,7 @@
 #include "program_input.hpp"
 #include <unistd.h>
 
-#include "passo/report/nameless_file.hpp"
+#include "passo/base/nameless_file.hpp"
 
 namespace passo {
 namespace {

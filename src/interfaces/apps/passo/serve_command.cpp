@@ -18,6 +18,8 @@
 #include <fmt/format.h>
 
 #include "passo/grbl/grbl_controller.hpp"
+#include "passo/job/job_identity.hpp"
+#include "passo/job/state_file.hpp"
 #include "passo/report/output_file.hpp"
 #include "passo/transport/service_notice.hpp"
 

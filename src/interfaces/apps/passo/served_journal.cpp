@@ -5,7 +5,6 @@
 #include <filesystem>
 
 #include "program_input.hpp"
-#include <sys/stat.h>
 
 namespace passo {
 
@@ -21,23 +20,11 @@ std::unique_ptr<ServedJournal> ServedJournal::open(const std::string& folder, Op
 }
 
 bool ServedJournal::take_up(const Greeting& greeting) {
-  const auto journal = Journal::read(read());
-  if (!journal) return true;
-  found_ = broken_off(*journal, machine_.before(), greeting);
-  found_->noted_at = noted_at();
+  JournaledRun run(file_);
   // A virtual board lives and dies with its host.
-  if (!machine_.is_on_a_line()) found_->refused = ResumeRefusal::board_reset;
-  if (found_->refused) return true;
-  JournalWriter writer(file_);
-  writer.begin(found_->head);
-  if (writer.failed()) fail(exit_failed, file_.path() + ": this journal cannot be written: " + file_.trouble());
-  return !writer.failed();
-}
-
-double ServedJournal::noted_at() {
-  struct stat file {};
-  if (stat(file_.path().c_str(), &file) != 0) return 0;
-  return static_cast<double>(file.st_mtim.tv_sec) + static_cast<double>(file.st_mtim.tv_nsec) * 1e-9;
+  found_ = passo::take_up(*this, run, machine_.before(), greeting, machine_.is_on_a_line());
+  if (!run.is_written()) fail(exit_failed, file_.path() + ": this journal cannot be written: " + file_.trouble());
+  return run.is_written();
 }
 
 }  // namespace passo

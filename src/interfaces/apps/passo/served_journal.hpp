@@ -5,10 +5,10 @@
 #include <optional>
 #include <string>
 
-#include "journal_file.hpp"
 #include "opened_machine.hpp"
 
-#include "passo/api/kept_job.hpp"
+#include "passo/job/interrupted_job.hpp"
+#include "passo/job/journal_file.hpp"
 
 namespace passo {
 
@@ -23,9 +23,9 @@ class ServedJournal final : public JobKeeper {
   const std::optional<BrokenOff>& found() const { return found_; }
 
   JournalStore& store() override { return file_; }
-  std::string read() override { return read_state_file(file_.path()).value_or(""); }
+  std::string read() override { return file_.text(); }
   std::string trouble() override { return file_.trouble(); }
-  double noted_at() override;
+  double noted_at() override { return file_.written_at(); }
   void remove() override { file_.remove(); }
   std::uint16_t new_number() override { return machine_.new_session_number(); }
   void name_session(std::uint16_t number) override { machine_.begin_session(number); }

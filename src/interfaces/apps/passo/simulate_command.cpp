@@ -5,7 +5,6 @@
 #include <cstdio>
 #include <filesystem>
 #include <limits>
-#include <map>
 #include <thread>
 
 #include "named_files.hpp"
@@ -58,38 +57,16 @@ std::string refusal_of(const SimulateArguments& arguments) {
   return "";
 }
 
-// Cuts the field. `pass` is of the same program.
-CutSummary cut(const StockJob& job, const Wishes& wishes, const FeedLook& pass, const std::vector<ToolShape>& tools,
+// Cuts the field. `look` is of the same program.
+CutSummary cut(const StockJob& job, const Wishes& wishes, const FeedLook& look, const std::vector<ToolShape>& tools,
                unsigned threads, HeightField& field) {
-  const std::map<std::int32_t, std::size_t> places = pass.places();
   CutSummary summary(tools);
-  StockCutter cutter(field, {.tools = tools, .clamps = wishes.stock.clamps, .threads = threads},
-                     [&](const MoveCut& done) { summary.add(done); });
-  Diagnostics findings;  // the first look has shown them
-  SimulatedPath path(job.program.again(), options_above(job, pass, field), job.machine, findings);
   ProgressDisplay progress(job.program.name());
-  TipMove move;
-  for (std::uint64_t moves = 0; path.next(move); ++moves) {
-    constexpr std::uint64_t moves_between_looks = 8192;
-    if (moves % moves_between_looks == 0) progress.update(static_cast<double>(moves) / static_cast<double>(pass.moves));
-    // A tool that only goes to where another one is taken up need not have a shape.
-    const auto place = places.find(move.tool);
-    if (place == places.end() || move.segment->takes_up_backlash) continue;
-    cutter.cut(move.segment->curve, Vector3::of(move.zero),
-               {.line = move.segment->source.line,
-                .tool = place->second,
-                .rapid = move.segment->rapid,
-                .time = move.time,
-                .rounding = wishes.machine ? move.segment->tolerance : Mm(0)});
-  }
-  cutter.finish();
+  CutHooks hooks;
+  hooks.cut = [&](const MoveCut& done) { summary.add(done); };
+  hooks.progress = [&](double share) { progress.update(share); };
+  cut_stock(job, wishes.stock, look, tools, threads, field, hooks);
   return summary;
-}
-
-std::vector<std::int32_t> numbers_of(const FeedLook& pass) {
-  std::vector<std::int32_t> numbers;
-  for (const auto& [number, line] : pass.tools) numbers.push_back(number);
-  return numbers;
 }
 
 // The field as the target has it: the face of a body, or what another program leaves. Nothing, with a message.
@@ -115,11 +92,11 @@ std::optional<HeightField> target_of(const SimulateArguments& arguments, const W
   const std::optional<InterpreterOptions> options = interpreter_options(program);
   if (!reader || !options) return std::nullopt;
   const StockJob job{std::move(*reader), *options, wishes.machine ? &*wishes.machine : nullptr};
-  const FeedLook pass = look_at_feeds(job, wishes.stock, findings);
+  const FeedLook look = shown_feeds(job, wishes.stock, findings);
   if (findings.any_error()) return std::nullopt;
-  const auto tools = shapes_of(job, wishes.stock, pass);
+  const auto tools = told_shapes(job, wishes.stock, look);
   if (!tools) return std::nullopt;
-  cut(job, wishes, pass, *tools, threads, target);
+  cut(job, wishes, look, *tools, threads, target);
   return target;
 }
 
@@ -149,7 +126,7 @@ int write_files(const SimulateArguments& arguments, const Simulation& simulation
 
 // Reads the files of tools and machine into the wishes. Returns an exit code.
 int read_files(const SimulateArguments& arguments, Wishes& wishes) {
-  if (!read_tool_table(arguments.stock.tool_table, wishes.stock)) return exit_bad_program;
+  if (!add_tool_shapes(arguments.stock.tool_table, wishes.stock)) return exit_bad_program;
   if (arguments.machine.empty()) return exit_done;
   Diagnostics of_machine;
   wishes.machine = load_machine_file(arguments.machine, of_machine);
@@ -159,22 +136,22 @@ int read_files(const SimulateArguments& arguments, Wishes& wishes) {
 
 int simulate_job(const SimulateArguments& arguments, const Wishes& wishes, const StockJob& job) {
   Diagnostics errors;
-  const FeedLook pass = look_at_feeds(job, wishes.stock, errors);
+  const FeedLook look = shown_feeds(job, wishes.stock, errors);
   if (errors.any_error()) return exit_bad_program;
-  if (pass.moves == 0) return fail(exit_bad_program, "the program has no move [simulate.no-move]");
-  const auto tools = shapes_of(job, wishes.stock, pass);
+  if (look.moves == 0) return fail(exit_bad_program, "the program has no move [simulate.no-move]");
+  const auto tools = told_shapes(job, wishes.stock, look);
   if (!tools) return exit_bad_program;
-  Result<HeightField, std::string> field = stock_field(wishes.stock, pass);
-  if (!field) return fail(exit_bad_program, field.error());
+  std::optional<HeightField> field = told_field(wishes.stock, look);
+  if (!field) return exit_bad_program;
   const unsigned threads = arguments.threads > 0 ? arguments.threads : std::thread::hardware_concurrency();
 
   const double volume_before = field->volume();
-  CutSummary summary = cut(job, wishes, pass, *tools, threads, *field);
+  CutSummary summary = cut(job, wishes, look, *tools, threads, *field);
   Simulation simulation{.program = arguments.program.program,
                         .target = arguments.compare,
                         .field = std::move(*field),
                         .volume_before = volume_before,
-                        .numbers = numbers_of(pass),
+                        .numbers = look.numbers(),
                         .tools = *tools,
                         .summary = std::move(summary)};
   std::optional<HeightField> target;

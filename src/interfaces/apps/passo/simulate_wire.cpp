@@ -11,7 +11,6 @@
 #include "picture_names.hpp"
 #include "program_input.hpp"
 #include "simulate_options.hpp"
-#include "simulated_path.hpp"
 #include "stock_arguments.hpp"
 #include "wire_kerfs.hpp"
 #include <fmt/format.h>

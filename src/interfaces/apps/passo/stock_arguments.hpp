@@ -5,23 +5,9 @@
 #include <string>
 #include <string_view>
 
-#include "passo/base/result.hpp"
-#include "passo/geometry/tool_shape.hpp"
-#include "passo/machine_file/tool_shapes_file.hpp"
-#include "passo/stock/height_field.hpp"
+#include "passo/cutting/stock_job.hpp"
 
 namespace passo {
-
-// A range of X, Y or Z; nothing: the text does not say.
-struct WishedRange {
-  std::optional<double> low;
-  std::optional<double> high;
-};
-struct WishedBlock {
-  WishedRange x;
-  WishedRange y;
-  WishedRange z;
-};
 
 // "X0:100,Y0:80,Z-10:0". The failure is a message that names `option`.
 Result<WishedBlock, std::string> parse_block(const char* option, std::string_view text);

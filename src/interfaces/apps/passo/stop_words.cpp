@@ -2,29 +2,16 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <optional>
 
 #include "board_words.hpp"
 #include <fmt/format.h>
 
 #include "passo/activity/stage_options.hpp"
-#include "passo/geometry/euclid.hpp"
 #include "passo/session/stop_cause.hpp"
 
 namespace passo {
 namespace {
-
-// A move is looked at in straight pieces of about this length.
-constexpr double piece_length = 1;
-constexpr double most_pieces_of_a_move = 32;
-
-double distance_to(const Point& from, const Point& to, const Point& place) {
-  const Point way = to - from;
-  const double squared = dot(way, way);
-  const double share = squared > 0 ? std::clamp(dot(place - from, way) / squared, 0.0, 1.0) : 0;
-  return distance(place, from + way * share);
-}
 
 // Where the motors were by the board's counts when it said `status`.
 Point counted_place(OpenedMachine& opened, const MachineDescription& machine,
@@ -63,33 +50,6 @@ std::string remedy_for_place(const MachineDescription& machine, const std::strin
 }
 
 }  // namespace
-
-void LatestMotion::watch(const MotionItem& motion) {
-  const auto* move = std::get_if<PlannedMove>(&motion);
-  if (move == nullptr) return;
-  const double length = (move->to - move->from()).value();
-  const double count = std::clamp(std::ceil(length / piece_length), 1.0, most_pieces_of_a_move);
-  Point from = move->segment.curve.at(move->from());
-  for (double i = 1; i <= count; ++i) {
-    const Point to = move->segment.curve.at(move->from() + Mm(length * i / count));
-    pieces_.push_back({.line = move->segment.source.line, .from = from, .to = to});
-    from = to;
-  }
-  while (pieces_.size() > most_pieces) pieces_.pop_front();
-}
-
-std::uint32_t LatestMotion::line_at(const Point& place) const {
-  constexpr double as_near = 1e-3;  // mm, below a step
-  double nearest = std::numeric_limits<double>::infinity();
-  std::uint32_t line = 0;
-  for (const Piece& piece : pieces_) {
-    const double away = distance_to(piece.from, piece.to, place);
-    if (away >= nearest - as_near) continue;
-    nearest = away;
-    line = piece.line;
-  }
-  return line;
-}
 
 std::string stop_words(OpenedMachine& opened, const MachineDescription& machine, const std::string& program,
                        const LatestMotion& motion, std::uint32_t known_line) {

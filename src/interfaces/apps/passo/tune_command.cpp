@@ -9,13 +9,13 @@
 #include "picture_names.hpp"
 #include "program_input.hpp"
 #include "run_outputs.hpp"
-#include "tuning_run.hpp"
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
 #include "passo/activity/machine_plant.hpp"
 #include "passo/machine_file/toml_text.hpp"
 #include "passo/report/line_chart.hpp"
+#include "passo/tuning/tuning_run.hpp"
 
 namespace passo {
 namespace {

@@ -1,9 +1,12 @@
 // Tools of the table in a program: selecting them, changing them, their offsets, and G10.
+#include <functional>
 #include <sstream>
 
 #include "interpreted.hpp"
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+
+#include "passo/interpreter/used_tools.hpp"
 
 namespace passo {
 namespace {
@@ -139,6 +142,16 @@ TEST(Tools, examples_are_those_of_rs274) {
   EXPECT_THAT(inches, testing::ElementsAre(testing::DoubleEq(0.511), testing::DoubleEq(0.1), testing::DoubleEq(1.273),
                                            testing::DoubleEq(0)));
   EXPECT_EQ(options.tools.find(3)->diameter, Mm(0.201 * mm_per_inch));
+}
+
+TEST(UsedTools, are_in_the_order_of_their_first_use_and_the_last_stands_for_all_others) {
+  std::vector<std::int32_t> used;
+  std::vector<std::size_t> places;
+  for (const std::int32_t tool : {7, 3, 7, 9, 4, 3, 9}) {
+    places.push_back(place_of_tool(used, tool, std::identity(), 3, [tool] { return tool; }));
+  }
+  EXPECT_THAT(used, testing::ElementsAre(7, 3, 9));
+  EXPECT_THAT(places, testing::ElementsAre(0, 1, 0, 2, 2, 1, 2));
 }
 
 }  // namespace

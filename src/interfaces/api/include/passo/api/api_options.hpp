@@ -5,11 +5,11 @@
 #include <optional>
 #include <string>
 
-#include "passo/api/kept_job.hpp"
 #include "passo/api/maker.hpp"
 #include "passo/api/motion_times.hpp"
 #include "passo/api/studies.hpp"
 #include "passo/history/job_history.hpp"
+#include "passo/job/kept_job.hpp"
 #include "passo/web/web_server.hpp"
 
 namespace passo {

@@ -73,4 +73,8 @@ std::string words_of_shift(const MachineDescription& machine, const std::vector<
 Result<Reentry, ReentryRefusal> plan_reentry(const MachineDescription& machine, const ResumePoint& at,
                                              const Point& from);
 
+// Both at once: the way to a point of the program from options.start, where the machine stands.
+Result<Reentry, LineProblem> reentry_at_line(const ProgramReader& program, const MachineDescription& machine,
+                                             const InterpreterOptions& options, const LinePlace& wanted);
+
 }  // namespace passo

@@ -1,4 +1,4 @@
-#include "passo/report/nameless_file.hpp"
+#include "passo/base/nameless_file.hpp"
 
 #include <array>
 #include <atomic>

@@ -1,15 +1,11 @@
-#include "cut_loads.hpp"
+#include "passo/cutting/cut_loads.hpp"
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <deque>
 #include <numbers>
 #include <thread>
-
-#include "program_input.hpp"
-#include <fmt/format.h>
-#include <nlohmann/json.hpp>
+#include <utility>
 
 namespace passo {
 namespace {
@@ -119,17 +115,6 @@ void cut_feed(StockCutter& cutter, ForceMeter& meter, const TipMove& move, const
   }
 }
 
-void add_silent(std::uint32_t line, const std::string& program, Diagnostics& findings) {
-  if (line == 0) return;
-  findings.add({.severity = Severity::warning,
-                .code = "check.no-spindle-speed",
-                .file = program,
-                .place = {.line = line, .column = 0, .length = 1},
-                .message = "the tool cuts, and no spindle speed is known: the force of such cuts is left out",
-                .expected = "S and M3 in the program, or --spindle-speed",
-                .text = {}});
-}
-
 }  // namespace
 
 std::size_t CutLoads::add(const Segment& feed) {
@@ -166,76 +151,29 @@ double CutLoads::of(const PlannedMove& move) {
   return 0;
 }
 
-std::optional<CutOutcome> cut_by_program(const StockJob& job, const StockWishes& wishes, const CutMaterial& material,
-                                         Diagnostics& findings) {
-  Diagnostics known;  // the check has shown them
-  const FeedLook look = look_at_feeds(job, wishes, known);
-  const auto tools = shapes_of(job, wishes, look);
-  if (!tools) return std::nullopt;
-  Result<HeightField, std::string> field = stock_field(wishes, look);
-  if (!field) {
-    fail(exit_bad_program, field.error());
-    return std::nullopt;
-  }
+CutOutcome cut_with_force(const StockJob& job, const StockWishes& wishes, const FeedLook& look,
+                          const std::vector<ToolShape>& tools, HeightField field, const CutMaterial& material) {
   CutOutcome outcome{.loads = {},
                      .simulation = {.program = job.program.name(),
                                     .target = {},
-                                    .field = std::move(*field),
-                                    .numbers = {},
-                                    .tools = *tools,
-                                    .summary = CutSummary(*tools)},
+                                    .field = std::move(field),
+                                    .numbers = look.numbers(),
+                                    .tools = tools,
+                                    .summary = CutSummary(tools)},
                      .force = {}};
   Simulation& simulation = outcome.simulation;
   simulation.volume_before = simulation.field.volume();
-  for (const auto& [number, line] : look.tools) simulation.numbers.push_back(number);
-
   ForceMeter meter(outcome, material);
-  StockCutter cutter(simulation.field,
-                     {.tools = *tools, .clamps = wishes.clamps, .threads = std::thread::hardware_concurrency()},
-                     [&](const MoveCut& cut) { meter.watch(cut); });
-  SimulatedPath path(job.program.again(), options_above(job, look, simulation.field), job.machine, known);
-  const auto places = look.places();
-  TipMove move;
-  while (path.next(move)) {
-    const auto place = places.find(move.tool);
-    if (place == places.end() || move.segment->takes_up_backlash) continue;
-    const StockMove kind{.line = move.segment->source.line,
-                         .tool = place->second,
-                         .rapid = move.segment->rapid,
-                         .time = move.time,
-                         .rounding = move.segment->tolerance};
-    if (kind.rapid) {
-      cutter.cut(move.segment->curve, Vector3::of(move.zero), kind);
-    } else {
-      const double piece = std::max((*tools)[place->second].cutter.radius.value(), shortest_piece);
-      cut_feed(cutter, meter, move, kind, outcome.loads.add(*move.segment), piece);
-    }
-  }
-  cutter.finish();
+  CutHooks hooks;
+  hooks.cut = [&](const MoveCut& cut) { meter.watch(cut); };
+  hooks.feed = [&](StockCutter& cutter, const TipMove& move, const StockMove& kind) {
+    const double piece = std::max(tools[kind.tool].cutter.radius.value(), shortest_piece);
+    cut_feed(cutter, meter, move, kind, outcome.loads.add(*move.segment), piece);
+  };
+  cut_stock(job, wishes, look, tools, std::thread::hardware_concurrency(), simulation.field, hooks);
   meter.finish();
-  add_findings(simulation, findings);
-  add_silent(meter.silent_line(), simulation.program, findings);
+  outcome.silent_line = meter.silent_line();
   return outcome;
-}
-
-std::string to_text(const CutOutcome& cut) {
-  constexpr double mm3_a_cm3 = 1000;
-  const CutSummary& summary = cut.simulation.summary;
-  std::string text = fmt::format("cut             {:.2f} cm\u00B3 removed", summary.volume() / mm3_a_cm3);
-  if (summary.rate().value > 0) {
-    text += fmt::format(", {:.4g} mm\u00B3/s at most, line {}", summary.rate().value, summary.rate().line);
-  }
-  if (cut.force.value > 0) text += fmt::format("; {:.3g} N at most, line {}", cut.force.value, cut.force.line);
-  return text + "\n";
-}
-
-nlohmann::ordered_json as_json(const CutOutcome& cut) {
-  const CutSummary& summary = cut.simulation.summary;
-  return {{"removed_mm3", summary.volume()},
-          {"most_rate_mm3_s", summary.rate().value},
-          {"most_force_n", cut.force.value},
-          {"most_force_line", cut.force.line},
-          {"feeds_without_force", cut.loads.unknown()}};
 }
 
 }  // namespace passo

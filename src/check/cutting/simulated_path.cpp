@@ -1,4 +1,4 @@
-#include "simulated_path.hpp"
+#include "passo/cutting/simulated_path.hpp"
 
 #include <cmath>
 #include <utility>

@@ -1,10 +1,10 @@
-#include "passo/report/nameless_file.hpp"
+#include "passo/base/nameless_file.hpp"
 
 #include <csignal>
 #include <filesystem>
 #include <fstream>
 
-#include "folder_test.hpp"
+#include "kit/folder_test.hpp"
 #include <sys/wait.h>
 #include <unistd.h>
 

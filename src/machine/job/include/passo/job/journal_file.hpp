@@ -2,6 +2,7 @@
 // disk may keep an older state of the journal. That state does not know the board's rest, so it is refused.
 #pragma once
 
+#include <cstdint>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -12,18 +13,18 @@
 
 namespace passo {
 
-// The path of a file about a board, in XDG_STATE_HOME/passo or ~/.local/state/passo. Empty: neither is known. `ending`:
-// ".journal" or ".place".
-std::string state_file(const std::string& board, std::string_view ending);
-// Reads such a file. A file that is too long for a journal gives an empty text. Nothing: there is no readable file.
-std::optional<std::string> read_state_file(const std::string& path);
-// Writes such a file anew: all of it or nothing is on the disk, whatever happens meanwhile. Returns its descriptor,
-// open for writing; less than 0: it cannot be written, and this is -errno.
-int replace_state_file(const std::string& path, std::string_view text);
-// The stamp of a file as it is now. Standard input and pipes, which can be read only once, have a stamp without a name.
-FileStamp stamp_of(const std::string& path);
-// The stamp of a text that was read from the file `path`.
-FileStamp stamp_of_text(const std::string& path, std::string_view text);
+// What is in the place of a journal.
+struct FoundJournal {
+  enum class Kind : std::uint8_t {
+    none,     // no file
+    empty,    // a file without text
+    foreign,  // no journal of Passo's
+    torn,     // a journal, and not whole
+    whole,
+  };
+  Kind kind = Kind::none;
+  std::optional<Journal> journal = {};  // the whole one
+};
 
 class JournalFile final : public JournalStore {
  public:
@@ -36,6 +37,11 @@ class JournalFile final : public JournalStore {
   // Claims the journal for this program, as long as this object lives. The error is errno; EWOULDBLOCK: another program
   // writes the journal.
   [[nodiscard]] Status<int> claim();
+  // The text of the file. Empty: there is none.
+  std::string text() const;
+  FoundJournal find() const;
+  // When the file was last written; seconds since 1970. 0: there is none.
+  double written_at() const;
   [[nodiscard]] bool replace(std::string_view text) override;
   [[nodiscard]] bool overwrite(std::size_t offset, std::string_view bytes) override;
   bool append(std::string_view bytes) override;

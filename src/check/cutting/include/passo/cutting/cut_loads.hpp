@@ -15,13 +15,10 @@
 
 #include <cstdint>
 #include <optional>
-#include <string>
 #include <vector>
 
-#include "simulate_report.hpp"
-#include "stock_setup.hpp"
-#include <nlohmann/json_fwd.hpp>
-
+#include "passo/cutting/simulation.hpp"
+#include "passo/cutting/stock_job.hpp"
 #include "passo/trajectory/phase.hpp"
 
 namespace passo {
@@ -53,23 +50,20 @@ class CutLoads {
 };
 
 struct CutMaterial {
-  double specific_force = 0;                     // N/mm²
-  std::optional<double> revolutions_per_minute;  // of a spindle that the program does not command
+  double specific_force = 0;                          // N/mm²
+  std::optional<double> revolutions_per_minute = {};  // of a spindle that the program does not command
 };
 
 struct CutOutcome {
   CutLoads loads;
   Simulation simulation;
   LargestOf force;  // N, at the programmed speeds
+  // The first line that cuts and has no spindle speed, so that the force of such cuts is left out; 0: all have one.
+  std::uint32_t silent_line = 0;
 };
 
-// Cuts the stock by the program. Nothing, with a message: there is no such stock, or a tool has no shape. Troubles of
-// the cut, and feeds without a spindle speed, are findings.
-std::optional<CutOutcome> cut_by_program(const StockJob& job, const StockWishes& wishes, const CutMaterial& material,
-                                         Diagnostics& findings);
-
-// "cut             11.78 cm³ removed, ...".
-std::string to_text(const CutOutcome& cut);
-nlohmann::ordered_json as_json(const CutOutcome& cut);
+// Cuts the stock by the program. `look` is of the same program, `tools` its shapes, and `field` its stock before.
+CutOutcome cut_with_force(const StockJob& job, const StockWishes& wishes, const FeedLook& look,
+                          const std::vector<ToolShape>& tools, HeightField field, const CutMaterial& material);
 
 }  // namespace passo

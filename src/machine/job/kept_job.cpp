@@ -1,20 +1,15 @@
-#include "passo/api/kept_job.hpp"
+#include "passo/job/kept_job.hpp"
 
 #include <charconv>
 #include <utility>
-
-#include "passo/base/fingerprint.hpp"
 
 namespace passo {
 namespace {
 
 constexpr std::string_view stamp_title = "job ";
 
-FileStamp stamp_of(std::int64_t id, std::string_view text) {
-  Fingerprint fingerprint;
-  fingerprint.add(text);
-  return {
-      .name = std::string(stamp_title) + std::to_string(id), .size = text.size(), .fingerprint = fingerprint.value()};
+std::string title_of(std::int64_t number) {
+  return std::string(stamp_title) + std::to_string(number);
 }
 
 // The number of a job in the history, from the name in its stamp. 0: it is none.
@@ -26,32 +21,26 @@ std::int64_t number_of(std::string_view name) {
   return error == std::errc() && end == name.data() + name.size() ? number : 0;
 }
 
-}  // namespace
-
-BrokenOff broken_off(const Journal& journal, const BoardStatus& status, const Greeting& greeting) {
-  BrokenOff found{.head = journal.head(),
-                  .refused = refuse_rest(journal, status),
-                  .done = journal.done(),
-                  .farthest = journal.farthest()};
-  if (!found.refused && (status.state & board_moves) != 0) found.refused = ResumeRefusal::rest_unknown;
-  if (found.refused) return found;
-  found.head.place = found.done = found.farthest = *journal.place_of(status);
-  found.head.numbers = {.session_before = status.session,
-                        .executed_before = status.executed,
-                        .greeting = greeting.number,
-                        .session = greeting.session};
-  return found;
+std::string words_of(JobChange change, const JournalHead& then) {
+  switch (change) {
+    case JobChange::version: return "the job was begun by version " + then.made_by;
+    case JobChange::program: return "the history has another program under the job's number";
+    case JobChange::machine: return "the machine file is another, or was changed since";
+  }
+  return "";
 }
 
+}  // namespace
+
 KeptJob::KeptJob(const MachineDescription& machine, MachineSession& session, JobKeeper& keeper, JobHistory& history,
-                 const ProgramStore& programs, Names names)
+                 OptionsOf options_of, Names names)
     : machine_(machine),
       session_(session),
       keeper_(keeper),
       history_(history),
-      programs_(programs),
+      options_of_(std::move(options_of)),
       names_(std::move(names)),
-      writer_(keeper.store()) {}
+      run_(keeper.store()) {}
 
 void KeptJob::refuse(std::string_view code, std::string_view why) {
   interrupted_->code = code;
@@ -66,15 +55,9 @@ void KeptJob::find(const BrokenOff& found) {
   interrupted_->job = *job;
   interrupted_->journal = found;
   const std::string text = program();
-  if (stamp_of(number, text) != found.head.program) {
-    return refuse("resume.program-changed", "the history has another program under the job's number");
-  }
-  if (found.head.made_by != names_.made_by) {
-    return refuse("resume.other-version", "the job was begun by version " + found.head.made_by);
-  }
-  if (found.head.machine != names_.machine) {
-    return refuse("resume.machine-changed", "the machine file is another, or was changed since");
-  }
+  const JobIdentity now{
+      .made_by = names_.made_by, .program = stamp_of(title_of(number), text), .machine = names_.machine};
+  if (const auto change = change_since(found.head, now)) return refuse(code_of(*change), words_of(*change, found.head));
   find_way_back(text);
   if (found.refused) return refuse(code_of(*found.refused), message_of(*found.refused));
   interrupted_->point = find_resume_point(ProgramReader::from_text(job->name, text), machine_, options(),
@@ -124,11 +107,7 @@ Result<Reentry, ReentryProblem> KeptJob::reentry() {
 }
 
 void KeptJob::hear(const BoardStatus& status, const Greeting& greeting) {
-  const auto journal = Journal::read(keeper_.read());
-  if (!journal) return;
-  heard_ = broken_off(*journal, status, greeting);
-  heard_->noted_at = keeper_.noted_at();
-  if (!heard_->refused) writer_.begin(heard_->head);
+  if (auto found = take_up(keeper_, run_, status, greeting)) heard_ = std::move(found);
 }
 
 void KeptJob::look() {
@@ -144,8 +123,7 @@ void KeptJob::mind_place() {
   if (!is_sure || session_.state() != MachineState::idle || !status) return;
   interrupted_->code.clear();
   interrupted_->why.clear();
-  JournalHead head = interrupted_->journal.head;
-  if (stands_at(head, *interrupted_->point, *status, machine_)) return;
+  if (stands_at(interrupted_->journal.head, *interrupted_->point, *status, machine_)) return;
   refuse(code_of(ResumeRefusal::counts_differ), "the machine was moved since: move it back to the place of the job");
 }
 
@@ -160,8 +138,7 @@ std::string KeptJob::program() const {
 }
 
 InterpreterOptions KeptJob::options() const {
-  InterpreterOptions options =
-      programs_.options_of(interrupted_->job.dialect == "grbl" ? Dialect::grbl : Dialect::linuxcnc);
+  InterpreterOptions options = options_of_(interrupted_->job.dialect == "grbl" ? Dialect::grbl : Dialect::linuxcnc);
   options.start = interrupted_->journal.head.start;
   return options;
 }
@@ -171,19 +148,17 @@ void KeptJob::drop() {
   keeper_.remove();
 }
 
-bool KeptJob::write(const JournalHead& head) {
-  writer_.begin(head);
-  if (writer_.failed()) return false;
+bool KeptJob::write(const JournalHead& head, std::optional<JobEntry> entry) {
+  if (!run_.begin(head, std::move(entry))) return false;
   keeper_.name_session(head.numbers.session);
   return true;
 }
 
 bool KeptJob::begin(Beginning job) {
-  resumes_ = false;
   const auto& status = session_.board().status();
   if (!status || !session_.zero_counts()) return false;
   JournalHead head{.made_by = names_.made_by,
-                   .program = stamp_of(job.history, job.text),
+                   .program = stamp_of(title_of(job.history), job.text),
                    .machine = names_.machine,
                    .path = job.path,
                    .job_counts = {},
@@ -197,7 +172,7 @@ bool KeptJob::begin(Beginning job) {
   for (std::size_t m = 0; m < machine_.axes.size(); ++m) {
     head.job_counts.push_back(static_cast<int>((*session_.zero_counts())[m]));
   }
-  return write(head);
+  return write(head, {});
 }
 
 bool KeptJob::is_of(std::uint64_t path) {
@@ -210,48 +185,33 @@ bool KeptJob::is_of(std::uint64_t path) {
 
 bool KeptJob::reenter(std::uint64_t path) {
   if (!is_of(path)) return false;
-  auto way = reentry();
+  const auto way = reentry();
   if (!way) return false;
-  way_ = std::move(*way);
-  resumes_ = true;
-  JournalHead head = head_of_resumption(interrupted_->journal.head, *session_.board().status(), way_->at);
+  const JournalHead& before = interrupted_->journal.head;
+  JournalHead head = head_of_resumption(before, *session_.board().status(), way->at);
   for (std::size_t m = 0; m < machine_.axes.size(); ++m) {
     head.job_counts[m] = static_cast<int>((*session_.zero_counts())[m]);
   }
   head.numbers.greeting = 0;
   head.numbers.session = keeper_.new_number();
-  return write(head);
+  return write(head, entry_by_way(*way, before.probes));
 }
 
 bool KeptJob::resume(std::uint64_t path) {
   if (!is_of(path)) return false;
-  way_.reset();
   mind_place();
   if (!interrupted_->code.empty()) return false;
-  resumes_ = true;
   const BoardStatus& status = *session_.board().status();
-  stands_ = place_by_counts(interrupted_->journal.head, *interrupted_->point, status, machine_);
-  JournalHead head = head_of_resumption(interrupted_->journal.head, status, *interrupted_->point);
+  const JournalHead& before = interrupted_->journal.head;
+  JournalHead head = head_of_resumption(before, status, *interrupted_->point);
   head.numbers.greeting = 0;
   head.numbers.session = keeper_.new_number();
-  return write(head);
+  return write(head, entry_at_rest(before, *interrupted_->point, status, machine_));
 }
 
 void KeptJob::add_to(request::Start& start) {
-  if (resumes_) {
-    start.options = options();
-    start.from = way_ ? way_->at : *interrupted_->point;
-    start.known_probes = interrupted_->journal.head.probes;
-    start.known_probes.resize(start.from->probes);
-    if (way_) {
-      start.lead_in = way_->lead_in;
-    } else {
-      start.lead_in = way_back_of_probe(*start.from, stands_);
-      start.stands = stands_;
-    }
-  }
-  start.watchers.probe = [this](const ProbeOutcome& outcome) { writer_.note(outcome); };
-  start.watchers.rests = [this](const BoardRest& rest) { writer_.note(rest); };
+  if (run_.entry()) start.options = options();
+  run_.add_to(start);
 }
 
 void KeptJob::end(bool may_go_on) {

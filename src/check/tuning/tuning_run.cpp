@@ -1,11 +1,12 @@
-#include "tuning_run.hpp"
+#include "passo/tuning/tuning_run.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <iterator>
 
-#include "check_page.hpp"
 #include <fmt/format.h>
+
+#include "passo/judge/judgement.hpp"
 
 namespace passo {
 namespace {
@@ -89,7 +90,7 @@ MarginVerdict judged(const MachineDescription& machine, const std::string& progr
   for (const AxisDescription& axis : machine.axes) options.start[axis.axis] = middle_of(axis);
   Diagnostics findings;
   const ProgramCheck check = check_program(reader.again(), machine, options, findings);
-  return judge(reader.again(), machine, options, check, {}, [](double) {}).margin;
+  return judge(reader.again(), machine, options, check).margin;
 }
 
 // Asks for less of the axis. False: the axis is content.

@@ -1,0 +1,65 @@
+#include "passo/judge/judgement.hpp"
+
+#include <algorithm>
+
+#include "judged_program.hpp"
+
+namespace passo {
+namespace {
+
+const std::string with_tools =
+    "G21 G90 G64 P0.01\nT1 M6\n(start)\nG0 X10\nG1 X40 F600\nG4 P1.5\nT2 M6\nG1 Y10\nG0 X0 Y0\nM2\n";
+
+TEST(Judgements, tell_how_long_a_program_takes_and_how_far_it_goes) {
+  const test::JudgedProgram program(test::example_machine("router"), with_tools);
+  const Judgement judged = program.judge();
+  EXPECT_EQ(judged.tool_changes, 2U);
+  EXPECT_NEAR(judged.summary.dwell_time.value(), 1.5, 1e-9);
+  EXPECT_NEAR(judged.summary.cutting_distance.value(), 40, 1e-6);
+  EXPECT_GT(judged.summary.cutting_time, Seconds(4)) << "40 mm at 10 mm/s";
+  EXPECT_LT(judged.summary.cutting_time, Seconds(5));
+  EXPECT_FALSE(judged.knows_motors) << "the machine file does not describe them";
+  EXPECT_FALSE(judged.lost());
+  EXPECT_FALSE(judged.line);
+  EXPECT_NEAR(judged.summary.time().value(), program.planned_time().value(), 1e-9);
+}
+
+TEST(Judgements, are_slower_with_slower_overrides) {
+  const test::JudgedProgram program(test::example_machine("router"), with_tools);
+  const Judgement full = program.judge();
+  const Judgement half = program.judge({}, {.feed = 0.5});
+  EXPECT_GT(half.summary.cutting_time, 1.8 * full.summary.cutting_time);
+  EXPECT_NEAR(half.summary.rapid_time / full.summary.rapid_time, 1, 0.02) << "but for where a rapid meets a feed";
+}
+
+TEST(Judgements, know_the_motors_and_give_the_load_to_all_who_watch) {
+  const test::JudgedProgram program(test::example_machine("strong-router"), with_tools);
+  const Judgement alone = program.judge();
+  ASSERT_TRUE(alone.knows_motors);
+  ASSERT_FALSE(alone.margin.worst.empty());
+  PathRecorder path;
+  LoadTrack track;
+  LineLoads lines;
+  const Judgement watched = program.judge({.path = &path, .track = &track, .lines = &lines});
+  EXPECT_EQ(watched.margin.verdict, alone.margin.verdict) << "watching changes nothing";
+  EXPECT_EQ(watched.summary.time(), alone.summary.time());
+  EXPECT_FALSE(path.empty());
+  double most = 0;
+  for (const LoadTrack::Stretch& stretch : track.stretches()) most = std::max(most, stretch.load);
+  EXPECT_GT(most, 0);
+  EXPECT_THAT(lines.text(), testing::StartsWith("line,load\n4,"));
+  EXPECT_THAT(lines.text(), testing::HasSubstr("\n8,"));
+  EXPECT_THAT(lines.text(), testing::Not(testing::HasSubstr("\n6,"))) << "a dwell does not move";
+}
+
+TEST(LineLoads, are_the_greatest_of_each_line_that_moves) {
+  LineLoads loads;
+  loads.add(3, 0.25);
+  loads.add(1, 0);
+  loads.add(3, 0.5);
+  loads.add(3, 0.1);
+  EXPECT_EQ(loads.text(), "line,load\n1,0.000\n3,0.500\n");
+}
+
+}  // namespace
+}  // namespace passo

@@ -1,0 +1,160 @@
+#include "passo/sender/grbl_program.hpp"
+
+#include <algorithm>
+#include <string_view>
+#include <utility>
+#include <variant>
+#include <vector>
+
+#include "passo/drive/program_stop.hpp"
+#include "passo/interpreter/saved_offsets.hpp"
+
+namespace passo {
+namespace {
+
+// Answered when all motion is done.
+constexpr const char* wait_for_rest = "G4P0";
+
+// Reports what a Grbl machine cannot do, at its line, once for each reason.
+class Objections {
+ public:
+  Objections(const std::string& program, Diagnostics& diagnostics) : program_(program), diagnostics_(diagnostics) {}
+  void note(const Operation& operation) {
+    if (operation.source.line == line_) return;
+    line_ = operation.source.line;
+    text_ = operation.text;
+    file_ = operation.file;
+  }
+  void add(const std::string& reason, std::uint32_t line) {
+    if (std::ranges::find(told_, reason) != told_.end()) return;
+    told_.push_back(reason);
+    diagnostics_.add({.code = "grbl.cannot",
+                      .file = file_.empty() ? program_ : file_,
+                      .place = {.line = line, .column = line == line_ && !text_.empty() ? 1U : 0U},
+                      .message = "a machine that speaks Grbl cannot do this: " + reason,
+                      .expected = "",
+                      .text = line == line_ ? text_ : ""});
+  }
+
+ private:
+  const std::string& program_;
+  Diagnostics& diagnostics_;
+  std::uint32_t line_ = 0;
+  std::string text_;
+  std::string file_;
+  std::vector<std::string> told_;
+};
+
+std::uint32_t line_of(const PathItem& item) {
+  return std::visit([](const auto& one) { return one.source.line; }, item);
+}
+
+}  // namespace
+
+void set_offsets(InterpreterOptions& options, const GrblMachine& machine) {
+  const double unit = options.machine_units == LengthUnits::inch ? mm_per_inch : 1;
+  const auto set = [&](int first, const Point& offset) {
+    for (int axis = 0; axis < 3; ++axis) {
+      options.parameters[first + axis] = offset.values[static_cast<std::size_t>(axis)] / unit;
+    }
+  };
+  options.parameters[work_system_parameter] = 1;
+  options.parameters[g92_active_parameter] = 0;
+  for (const auto& [name, offset] : machine.offsets) {
+    if (name == "G92") {
+      options.parameters[g92_active_parameter] = offset == Point() ? 0 : 1;
+      set(g92_parameter, offset);
+    } else if (name.size() == 3 && name[2] >= '4' && name[2] <= '9') {
+      set(work_offset_parameter(1 + name[2] - '4'), offset);
+    }
+  }
+}
+
+Point first_work_zero(const GrblMachine& machine) {
+  Point zero;
+  for (const char* name : {"G54", "G92"}) {
+    const auto found = machine.offsets.find(name);
+    if (found != machine.offsets.end()) zero = zero + found->second;
+  }
+  return zero;
+}
+
+ProgramCheck check_for_grbl(const ProgramReader& program, const MachineDescription& machine,
+                            const InterpreterOptions& options, const Point& zero, Diagnostics& findings) {
+  Objections objections(program.name(), findings);
+  GrblCode code(zero);
+  std::vector<std::string> lines;
+  ProgramCheck check = check_program(
+      program.again(), machine, options, findings,
+      [&](const PathItem& item) {
+        lines.clear();
+        const auto written = code.write(item, lines);
+        if (!written) objections.add(written.error(), line_of(item));
+      },
+      [&](const Operation& operation) { objections.note(operation); });
+  check.good = check.good && !findings.any_error();
+  return check;
+}
+
+GrblProgram::GrblProgram(const ProgramReader& program, const MachineDescription& machine,
+                         const InterpreterOptions& options, const Point& zero, bool waits)
+    : code_(zero), checker_(program.again(), machine, options, unheard_), waits_(waits) {
+  checker_.watch([this](const PathItem& item) { take(item); });
+  checker_.watch_operations([this, tools = options.tools](const Operation& operation) {
+    words_.watch(operation, tools);
+    if (from_line_ == 0 && listener_) listener_(operation);
+  });
+}
+
+void GrblProgram::begin_at(const Reentry& way) {
+  for (const PathItem& item : way.lead_in) write(item);
+  from_line_ = way.at.line;
+}
+
+std::optional<GrblProgram::Line> GrblProgram::next() {
+  while (!stop_ && !ended()) {
+    if (ready_.empty()) {
+      ended_ = checker_.go_on(1);
+      if (ended_) ready_.push_back({.line = {.text = wait_for_rest}});
+      continue;
+    }
+    Ready next = std::move(ready_.front());
+    ready_.pop_front();
+    stop_ = std::move(next.stop);
+    return std::move(next.line);
+  }
+  return {};
+}
+
+void GrblProgram::take(const PathItem& item) {
+  if (from_line_ != 0 && !reaches(item)) return;
+  write(item);
+}
+
+// From the beginning of the line on. What was set before is in the way there.
+bool GrblProgram::reaches(const PathItem& item) {
+  const auto* segment = std::get_if<Segment>(&item);
+  if (segment == nullptr || segment->source.line != from_line_) return false;
+  from_line_ = 0;
+  Segment to_start = *segment;
+  to_start.curve = Curve::line(segment->curve.end(), segment->curve.start());
+  write(to_start);
+  return true;
+}
+
+void GrblProgram::write(const PathItem& item) {
+  std::vector<std::string> lines;
+  if (!code_.write(item, lines)) return;  // the check has told it
+  const std::uint32_t line = line_of(item);
+  const auto* action = std::get_if<Action>(&item);
+  const Seconds silence = action != nullptr && action->kind == Action::Kind::dwell ? action->dwell : Seconds(0);
+  for (std::string& text : lines) {
+    ready_.push_back({.line = {.text = std::move(text), .line = line, .silence = silence}});
+  }
+  if (action == nullptr || !is_program_stop(*action) || !waits_) return;
+  const OperatorWait wait{.kind = action->kind, .tool = action->tool, .line = line, .words = words_.at(line)};
+  words_.pass(line);
+  ready_.push_back({.line = {.text = wait_for_rest, .line = line}, .stop = wait});
+}
+
+}  // namespace passo
