@@ -14,6 +14,7 @@
 #include <gtest/gtest.h>
 
 #include "passo/proof/motion_proof.hpp"
+#include "passo/verdict/proof_options.hpp"
 
 namespace passo::test {
 

@@ -7,6 +7,7 @@
 #include "passo/link/await.hpp"
 #include "passo/machine/virtual_machine.hpp"
 #include "passo/session/machine_session.hpp"
+#include "passo/verdict/proof_options.hpp"
 
 namespace passo {
 

@@ -38,12 +38,6 @@ AccelerationCurve falling_limit(const AxisDescription& axis) {
   return AccelerationCurve::below(all, axis.acceleration);
 }
 
-// The exact curve. The referee does not rely on the planner's samples.
-std::function<MmPerSecond2(MmPerSecond)> proven_limit(const AxisDescription& axis) {
-  if (!axis.follows_torque()) return {};
-  return [axis](MmPerSecond speed) { return axis.acceleration_at(speed); };
-}
-
 }  // namespace
 
 bool has_jerk_limit(const MachineDescription& machine) {
@@ -108,21 +102,6 @@ StepOptions step_options(const MachineDescription& machine) {
   options.kinematics = kinematics_of(machine);
   options.bends = machine.motor_count() == machine.axes.size();
   options.clock = {.tick_rate = machine.board.clock, .highest_event_rate = machine.board.highest_event_rate};
-  return options;
-}
-
-ProofOptions proof_options(const MachineDescription& machine) {
-  ProofOptions options;
-  for (const AxisDescription& axis : machine.axes) {
-    options.axes.push_back({.axis = axis.axis,
-                            .step = axis.step(),
-                            .velocity = axis.velocity,
-                            .acceleration = axis.acceleration,
-                            .jerk = axis.jerk,
-                            .start_stop = axis.start_stop,
-                            .acceleration_at = proven_limit(axis)});
-  }
-  options.tick_rate = machine.board.clock;
   return options;
 }
 

@@ -10,7 +10,6 @@
 #include "passo/machine_file/machine_description.hpp"
 #include "passo/path/path_builder.hpp"
 #include "passo/path/path_smoother.hpp"
-#include "passo/proof/motion_proof.hpp"
 #include "passo/stepgen/step_generator.hpp"
 #include "passo/trajectory/planner.hpp"
 
@@ -31,6 +30,5 @@ StepOptions step_options(const MachineDescription& machine);
 // is taken up for motion down.
 std::array<std::int64_t, max_motors> steps_at(const MachineDescription& machine, const Point& place,
                                               AxisSet downs = {});
-ProofOptions proof_options(const MachineDescription& machine);
 
 }  // namespace passo

@@ -1,0 +1,11 @@
+// The limits of a machine as the referee of the motion measures them (passo/proof).
+#pragma once
+
+#include "passo/machine_file/machine_description.hpp"
+#include "passo/proof/motion_proof.hpp"
+
+namespace passo {
+
+ProofOptions proof_options(const MachineDescription& machine);
+
+}  // namespace passo
