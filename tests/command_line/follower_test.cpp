@@ -49,7 +49,7 @@ TEST_F(FollowerCommand, runs_an_uno_and_a_mega_and_writes_traces_and_pictures) {
 
 // What is flashed does the same as the file with the program's names.
 TEST_F(FollowerCommand, runs_the_file_that_is_flashed) {
-  const std::string images = (std::filesystem::path(PASSO_PROGRAM).parent_path() / "src" / "chip").string();
+  const std::string images = (std::filesystem::path(PASSO_PROGRAM).parent_path() / "src" / "board" / "chip").string();
   for (const std::string follower : {"first_board", "uno_two_on"}) {
     const std::string run = follower + " --clock 50 --axes XZ --time 0.3";
     const Outcome usual = sim(run);

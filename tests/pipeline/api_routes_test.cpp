@@ -8,6 +8,8 @@
 #include "api_kit.hpp"
 #include <gtest/gtest.h>
 
+#include "passo/api/program_store.hpp"
+
 namespace passo::test {
 namespace {
 

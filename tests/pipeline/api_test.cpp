@@ -14,6 +14,7 @@
 
 #include "passo/activity/homing_repeats.hpp"
 #include "passo/api/api_routes.hpp"
+#include "passo/api/program_store.hpp"
 #include "passo/api/web_api.hpp"
 
 namespace passo::test {
