@@ -25,7 +25,7 @@ afterAll(async () => {
 });
 
 const part = 'G21 G90 G17\nF1200\nG0 Z5\nG0 X10 Y10\nG1 Z-1\nG1 X40\nG1 Y30\nG1 X10\nG1 Y10\nG0 Z5\nM2\n';
-const choose = (page: Page, name: string): Promise<void> => page.getByRole('radio', { name, exact: true }).check({ force: true });
+const choose = (page: Page, name: string): Promise<void> => page.getByRole('radio', { name, exact: true }).check();
 const enter = async (page: Page, name: RegExp, value: string): Promise<void> => {
   const field = page.locator('.probing').getByRole('textbox', { name });
   await field.fill(value);

@@ -94,12 +94,14 @@ function Pad() {
 // In mm, whatever is shown.
 const stepsOf = { mm: [0.01, 0.1, 1, 10, 100], inch: [0.0254, 0.254, 2.54, 25.4, 127] } as const;
 
+const keysStates = ['jog.keys.on', 'jog.keys.field', 'jog.keys.off'] as const;
+
 function JogPanel() {
   const speed = jogSpeed({ x: 1 });
   const steps = stepsOf[units.value];
   const keysMove = windowHasFocus.value && !fieldHasKeys.value;
   const keysState = keysMove ? 'jog.keys.on' : windowHasFocus.value ? 'jog.keys.field' : 'jog.keys.off';
-  const keysHelp = keysState === 'jog.keys.field' ? 'jog.keys.leave' : jogStep.value === 0 ? 'jog.keys' : 'jog.keys.step';
+  const keysHelp = jogStep.value === 0 ? 'jog.keys' : 'jog.keys.step';
   const known = jogStep.value === 0 || steps.some((one) => one === jogStep.value);
   return (
     <section class="panel jog" aria-label={say('jog.title')}>
@@ -123,7 +125,14 @@ function JogPanel() {
       <p class={`keys-state ${keysMove ? 'on' : ''}`}>
         <Icon name={keysMove ? 'jog' : 'close'} />
         <span>
-          <b>{say(keysState)}</b> <span class="dim">{say(keysHelp)}</span>
+          {/* All texts share one place, as high as the longest: a field below that is pressed gets the focus, and must not move away under the pointer. */}
+          <span class="same-place">
+            {keysStates.map((one) => (
+              <span key={one} class={one === keysState ? '' : 'not-now'}>
+                <b>{say(one)}</b> <span class="dim">{say(one === 'jog.keys.field' ? 'jog.keys.leave' : keysHelp)}</span>
+              </span>
+            ))}
+          </span>
           {gamepad.value !== '' && <span> {say('jog.gamepad', { name: gamepad.value })}</span>}
         </span>
       </p>
