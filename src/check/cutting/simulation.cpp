@@ -7,14 +7,6 @@
 namespace passo {
 namespace {
 
-std::string place_in_words(const Vector3& place) {
-  return fmt::format("X{:.2f} Y{:.2f} Z{:.2f}", place.x, place.y, place.z);
-}
-
-std::string mm_in_words(double mm) {
-  return fmt::format("{:.3f} mm", mm);
-}
-
 struct TroubleWords {
   const char* code;
   const char* message;  // with the tool and the depth
@@ -38,6 +30,14 @@ TroubleWords words_of(CutTrouble::Kind kind) {
 }
 
 }  // namespace
+
+std::string place_in_words(const Vector3& place) {
+  return fmt::format("X{:.2f} Y{:.2f} Z{:.2f}", place.x, place.y, place.z);
+}
+
+std::string mm_in_words(double mm) {
+  return fmt::format("{:.3f} mm", mm);
+}
 
 void add_findings(const Simulation& simulation, Diagnostics& findings) {
   const auto add = [&](Severity severity, const char* code, std::uint32_t line, std::string message,

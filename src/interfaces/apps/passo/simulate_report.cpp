@@ -10,14 +10,6 @@
 namespace passo {
 namespace {
 
-std::string place_in_words(const Vector3& place) {
-  return fmt::format("X{:.2f} Y{:.2f} Z{:.2f}", place.x, place.y, place.z);
-}
-
-std::string mm_in_words(double mm) {
-  return fmt::format("{:.3f} mm", mm);
-}
-
 std::string tools_in_words(const Simulation& simulation) {
   std::string words;
   for (std::size_t i = 0; i < simulation.tools.size(); ++i) {

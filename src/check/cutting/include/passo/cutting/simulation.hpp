@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "passo/diagnostics/diagnostic.hpp"
+#include "passo/geometry/vector3.hpp"
 #include "passo/stock/cut_summary.hpp"
 #include "passo/stock/field_comparison.hpp"
 
@@ -22,6 +23,10 @@ struct Simulation {
   CutSummary summary;
   std::optional<FieldDifference> difference = {};
 };
+
+// "X1.00 Y2.00 Z3.00", and "0.125 mm": as findings and reports name them.
+std::string place_in_words(const Vector3& place);
+std::string mm_in_words(double mm);
 
 // Adds a finding for each trouble.
 void add_findings(const Simulation& simulation, Diagnostics& findings);
