@@ -1,10 +1,9 @@
-# passo_module(NAME [EACH_ALONE] [SOURCES file…] [APART file…] [LIBRARIES target…] [TESTS file…] [TESTS_APART file…])
+# passo_module(NAME [SOURCES file…] [APART file…] [LIBRARIES target…] [TESTS file…] [TESTS_APART file…])
 #
 # One module of the street: a static library passo_NAME with its public headers under
 # include/passo/NAME/. What it may use is read from docs/layers.txt, the only place where that is written.
 # TESTS become one test program NAME_tests. They are compiled several at a time (a unity build); those whose own names
-# clash with the others' are TESTS_APART. With PASSO_TOGETHER the same is done with SOURCES, except APART. EACH_ALONE:
-# the names of too many clash.
+# clash with the others' are TESTS_APART. With PASSO_TOGETHER the same is done with SOURCES, except APART.
 # The presets dev and clang compile each file alone, so each includes what it uses.
 #
 # PASSO_LAYER_LINES: its rows. PASSO_FOLDER_<module>: where a module is.
@@ -44,7 +43,7 @@ function(passo_layers module out)
 endfunction()
 
 function(passo_module module)
-  cmake_parse_arguments(ARG "EACH_ALONE" "" "SOURCES;APART;LIBRARIES;TESTS;TESTS_APART" ${ARGN})
+  cmake_parse_arguments(ARG "" "" "SOURCES;APART;LIBRARIES;TESTS;TESTS_APART" ${ARGN})
   passo_layers(${module} layers)
   list(TRANSFORM layers PREPEND "passo_")
 
@@ -55,7 +54,7 @@ function(passo_module module)
     if(PASSO_FOLDER_${module} MATCHES "/src/(interfaces|draw)/")
       target_compile_options(passo_${module} PRIVATE ${PASSO_LESS_OPTIMISED})
     endif()
-    if(PASSO_TOGETHER AND NOT ARG_EACH_ALONE)
+    if(PASSO_TOGETHER)
       set_target_properties(passo_${module} PROPERTIES UNITY_BUILD ON UNITY_BUILD_BATCH_SIZE 24)
       set_source_files_properties(${ARG_APART} PROPERTIES SKIP_UNITY_BUILD_INCLUSION ON)
       target_link_libraries(passo_${module} PRIVATE passo_together)

@@ -5,18 +5,13 @@
 #include <utility>
 
 #include "axis_ticks.hpp"
+#include "sheet.hpp"
 #include <fmt/format.h>
 
 namespace passo {
 namespace {
 
-const Colour paper{1, 1, 1};
-const Colour quiet_ink{0.48, 0.50, 0.54};
-const Pen grid{.colour = {0.90, 0.91, 0.92}, .width = 0.8};
-const Pen edge{.colour = {0.62, 0.64, 0.67}, .width = 1};
-const Font label{.size = 12};
-const Font heading{.size = 14, .colour = quiet_ink};
-constexpr double mark = 5;  // length of a tick
+using namespace sheet;
 
 // The place of a value on its axis, from 0 to 1.
 double share(const Chart::Axis& axis, double value) {
@@ -67,17 +62,17 @@ void Chart::draw_grid(bool x_labels) {
     canvas_.line({area_.x - mark, y}, {area_.x, y}, edge);
     canvas_.text({area_.x - mark - 5, y}, tick.label, label, Align::right);
   }
-  if (x_labels) canvas_.text({area_.x + area_.width / 2, area_.bottom() + 38}, x_.title, heading, Align::centre);
-  canvas_.text({area_.x, area_.y - 16}, y_.title, heading);
+  if (x_labels) canvas_.text({area_.x + area_.width / 2, area_.bottom() + 38}, x_.title, axis_title, Align::centre);
+  canvas_.text({area_.x, area_.y - 16}, y_.title, axis_title);
 }
 
 void Chart::draw_upper_scale(const std::string& title, double x_per_unit) {
   const auto width = [&](const std::string& text) { return canvas_.text_width(text, label) + 40; };
   const double end = x_.end / x_per_unit;
-  const double title_left = area_.right() - canvas_.text_width(title, heading);
-  canvas_.text({area_.right(), area_.y - 34}, title, heading, Align::right);
+  const double title_left = area_.right() - canvas_.text_width(title, axis_title);
+  canvas_.text({area_.right(), area_.y - 34}, title, axis_title, Align::right);
   // The left end of the edge is left free for the title of the other axis.
-  const double free_left = area_.x + canvas_.text_width(y_.title, heading) + 24;
+  const double free_left = area_.x + canvas_.text_width(y_.title, axis_title) + 24;
   for (const Tick& tick : ticks(0, end, area_.width / end, width)) {
     const double x = at(tick.value * x_per_unit, 0).x;
     canvas_.line({x, area_.y - mark}, {x, area_.y}, edge);

@@ -12,19 +12,14 @@
 namespace passo {
 namespace {
 
-const Colour ink{0.25, 0.27, 0.30};
-const Colour quiet_ink{0.48, 0.50, 0.54};
+using namespace sheet;
 const Colour tube_colour{0.86, 0.92, 0.98};
 const Colour chord_colour{0.12, 0.36, 0.75};
 const Colour limit_colour{0.82, 0.22, 0.20};
-const Font heading{.size = 14, .colour = quiet_ink};
-const Pen grid{.colour = {0.91, 0.92, 0.93}, .width = 0.8};
-const Pen edge{.colour = {0.62, 0.64, 0.67}, .width = 1};
 const Pen curve_pen{.colour = ink, .width = 1.1};
 const Pen chord_pen{.colour = chord_colour, .width = 1.4};
 const Pen tube_pen{.colour = tube_colour, .width = 14};
 const Pen limit_pen{.colour = limit_colour, .width = 1.2, .opacity = 1, .dashes = {7, 5}};
-using namespace sheet;
 
 double distance(const ChordDrawing::Sample& sample) {
   return length(sample.curve - sample.chord);
@@ -74,14 +69,14 @@ Extent extent_of(const ChordDrawing& drawing, double Vector3::*axis) {
 }
 
 // Both axes have the same scale, and the curve is in the middle. If there is more room, more of the plane is shown.
-struct Frame {
+struct ViewFrame {
   Area area;
   Scale right;
   Scale up;
   Spot spot(const View& view, const Vector3& place) const { return {right(place.*view.right), up(place.*view.up)}; }
 };
 
-Frame fitted(const ChordDrawing& drawing, const View& view, const Area& area) {
+ViewFrame fitted(const ChordDrawing& drawing, const View& view, const Area& area) {
   const Extent x = extent_of(drawing, view.right);
   const Extent y = extent_of(drawing, view.up);
   constexpr double inside = 44;  // free space on all sides, for the tube and the points
@@ -124,7 +119,7 @@ void draw_polyline(Canvas& canvas, const ChordDrawing& drawing, const Pen& pen, 
   canvas.stroke(pen);
 }
 
-void draw_ends(Canvas& canvas, const ChordDrawing& drawing, const View& view, const Frame& frame) {
+void draw_ends(Canvas& canvas, const ChordDrawing& drawing, const View& view, const ViewFrame& frame) {
   double way = 0;
   for (std::size_t i = 1; i < drawing.ends.size(); ++i) {
     way += length(drawing.ends[i] - drawing.ends[i - 1]) * frame.right.pixels;
@@ -137,8 +132,8 @@ void draw_ends(Canvas& canvas, const ChordDrawing& drawing, const View& view, co
 }
 
 void draw_view(Canvas& canvas, const ChordDrawing& drawing, const View& view, const Area& area, double factor) {
-  const Frame frame = fitted(drawing, view, area);
-  canvas.text({area.x + area.width / 2, area.y - 16}, view.name, heading, Align::centre);
+  const ViewFrame frame = fitted(drawing, view, area);
+  canvas.text({area.x + area.width / 2, area.y - 16}, view.name, axis_title, Align::centre);
   draw_horizontal_ticks(canvas, frame.right, area);
   draw_vertical_ticks(canvas, frame.up, area);
   const auto on_curve = [&](const ChordDrawing::Sample& sample) { return frame.spot(view, sample.curve); };
@@ -155,8 +150,8 @@ void draw_view(Canvas& canvas, const ChordDrawing& drawing, const View& view, co
   draw_ends(canvas, drawing, view, frame);
   canvas.end_clip();
   canvas.frame(area, edge);
-  canvas.text({area.x + area.width / 2, area.bottom() + 36}, view.right_name, heading, Align::centre);
-  canvas.text({area.x - 9, area.y - 16}, view.up_name, heading, Align::right);
+  canvas.text({area.x + area.width / 2, area.bottom() + 36}, view.right_name, axis_title, Align::centre);
+  canvas.text({area.x - 9, area.y - 16}, view.up_name, axis_title, Align::right);
 }
 
 double path_length(const ChordDrawing& drawing) {

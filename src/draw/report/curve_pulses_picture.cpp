@@ -5,6 +5,7 @@
 
 #include "canvas.hpp"
 #include "chart.hpp"
+#include "sheet.hpp"
 #include "step_view.hpp"
 #include <fmt/format.h>
 
@@ -13,8 +14,8 @@
 namespace passo {
 namespace {
 
-constexpr double margin = 48;
-const Colour chord_colour{0.45, 0.30, 0.62};
+using sheet::margin;
+const Colour chords_colour{0.45, 0.30, 0.62};
 const Colour chart_colour = step_look::one_axis;
 
 Place place_of(const StepPlace& place) {
@@ -51,7 +52,7 @@ void draw_view(Canvas& canvas, const CurvePulsesScene& scene, const std::vector<
   const auto stroke = [&](const Pen& pen) { canvas.stroke(pen); };
   canvas.move_to(view.spot(place_of(scene.chords.front())));
   for (const StepPlace& end : scene.chords) canvas.line_to(view.spot(place_of(end)));
-  stroke({.colour = chord_colour, .width = 1.4});
+  stroke({.colour = chords_colour, .width = 1.4});
   canvas.move_to(view.spot(curve.front().x, curve.front().y));
   for (const Spot& spot : curve) canvas.line_to(view.spot(spot.x, spot.y));
   stroke({.colour = step_look::ideal_colour, .width = 1.4});
@@ -60,7 +61,7 @@ void draw_view(Canvas& canvas, const CurvePulsesScene& scene, const std::vector<
   for (const StepPlace& end : scene.chords) {
     const Spot spot = view.spot(place_of(end));
     const Area ring{spot.x - radius, spot.y - radius, 2 * radius, 2 * radius};
-    canvas.frame(ring, {.colour = chord_colour, .width = 1.3});
+    canvas.frame(ring, {.colour = chords_colour, .width = 1.3});
   }
 }
 
@@ -100,13 +101,13 @@ Status<OutputError> draw_curve_pulses(const CurvePulsesScene& scene, const Pictu
   Canvas canvas(options, file);
   const double width = options.width;
   const double height = options.height;
-  canvas.fill({0, 0, width, height}, step_look::paper);
+  canvas.fill({0, 0, width, height}, sheet::paper);
   canvas.text({margin, 40}, options.program, step_look::title_font);
   canvas.text({margin, 70}, options.machine, step_look::caption_font);
   canvas.text({margin, 92}, figures(scene), step_look::caption_font);
   std::vector<StepKey> keys = step_keys();
   keys[0].text = "curve";
-  keys.push_back({"chords, ends rounded to steps", chord_colour, true});
+  keys.push_back({"chords, ends rounded to steps", chords_colour, true});
   draw_step_keys(canvas, keys, margin, 118);
 
   const std::vector<Shown> shown = shown_of(scene);

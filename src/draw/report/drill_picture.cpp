@@ -28,7 +28,7 @@ void draw_rapids(Canvas& canvas, const PlanView& view, const DrillPlan& plan, Dr
     canvas.move_to(view.spot(park));
     for (const DrillTarget& target : tool.targets) canvas.line_to(view.spot(target.points.front().at));
     canvas.line_to(view.spot(park));
-    canvas.stroke(rapid_pen);
+    canvas.stroke(rapids_pen);
   }
 }
 
@@ -86,7 +86,7 @@ Status<OutputError> draw_drill_plan(const DrillPlan& plan, DrawnPoint park, cons
                fmt::format("{} {:.4g} mm: {}", tool.is_mill ? "Mill" : "Drill", to_mm(tool.diameter).value(),
                            tool.holes + tool.slots));
   }
-  legend.line(rapid_pen, "Rapids");
+  legend.line(rapids_pen, "Rapids");
   return canvas.finish();
 }
 

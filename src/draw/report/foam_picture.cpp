@@ -19,8 +19,6 @@ namespace passo {
 namespace {
 
 constexpr Colour melted_colour{0.99, 0.99, 0.98};
-const Pen frame_pen{.colour = {0.62, 0.64, 0.67}, .width = 1};
-const Font heading{.size = 14, .colour = {0.48, 0.50, 0.54}};
 
 // The largest pieces have colours of their own; crumbs share the last one.
 const Colour& colour_of_piece(std::uint32_t piece) {
@@ -31,13 +29,6 @@ const Colour& colour_of_piece(std::uint32_t piece) {
                                                      {0.90, 0.86, 0.58},
                                                      {0.72, 0.72, 0.72}}};
   return colours[std::min<std::size_t>(piece, colours.size() - 1)];
-}
-
-std::uint32_t pixel_of(const Colour& colour, double bright) {
-  const auto channel = [&](double part) {
-    return static_cast<std::uint32_t>(std::lround(255 * std::clamp(part * bright, 0.0, 1.0)));
-  };
-  return 0xFF000000U | channel(colour.red) << 16U | channel(colour.green) << 8U | channel(colour.blue);
 }
 
 std::size_t number_of_cell(const FoamBlock& foam, std::size_t column, std::size_t row, std::size_t slice) {
@@ -264,10 +255,10 @@ Status<OutputError> draw_foam(const FoamDrawing& drawing, const PictureOptions& 
                 !drawing.has_two_faces ? "Both faces"
                 : slice == 0           ? "Left face"
                                        : "Right face",
-                heading, Align::right);
+                sheet::axis_title, Align::right);
     canvas.image(area,
                  face(drawing, slice, static_cast<int>(area.width) * scale, static_cast<int>(area.height) * scale));
-    canvas.frame(area, frame_pen);
+    canvas.frame(area, sheet::edge);
     draw_scales(canvas, extent, area);
     area.y += room + words;
   }

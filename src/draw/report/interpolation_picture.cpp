@@ -6,6 +6,7 @@
 
 #include "canvas.hpp"
 #include "chart.hpp"
+#include "sheet.hpp"
 #include "step_view.hpp"
 #include <fmt/format.h>
 
@@ -15,7 +16,7 @@
 namespace passo {
 namespace {
 
-constexpr double margin = 40;
+constexpr double border = 40;
 
 std::string coordinates(const Place& place) {
   return fmt::format("({})", fmt::join(place, ", "));
@@ -91,7 +92,7 @@ void draw_magnified(Canvas& canvas, const StepView& view, const std::vector<Show
   canvas.frame({corner.x, corner.y, side, side}, mark);
   canvas.line({corner.x + side / 2, corner.y + side / 2}, {near.frame().x + size / 2, near.frame().y + size / 2},
               {.colour = mark.colour, .width = 0.8, .dashes = {2, 3}});
-  canvas.fill(near.frame(), step_look::paper);
+  canvas.fill(near.frame(), sheet::paper);
   canvas.clip(near.frame());
   draw_step_lines(canvas, near);
   if (!inside.empty()) draw_pulses(canvas, near, inside);
@@ -104,7 +105,7 @@ void draw_magnified(Canvas& canvas, const StepView& view, const std::vector<Show
   const double y = is_high ? near.frame().bottom() + 10 : near.frame().y - 10;
   const double width = canvas.text_width(caption, step_look::tick_font);
   const double x = near.frame().x + size / 2;
-  canvas.fill({x - width / 2 - 3, y - 8, width + 6, 16}, step_look::paper);
+  canvas.fill({x - width / 2 - 3, y - 8, width + 6, 16}, sheet::paper);
   canvas.text({x, y}, caption, step_look::tick_font, Align::centre);
 }
 
@@ -283,7 +284,7 @@ void draw_panels(Canvas& canvas, const StepMove& move, const std::vector<Studied
     const Area cell{area.x + static_cast<double>(i % columns) * width,
                     area.y + static_cast<double>(i / columns) * height, width, height};
     const StudiedMethod& studied = methods[all[i].method];
-    canvas.text({cell.x, cell.y + 14}, title(studied.method), step_look::heading_font);
+    canvas.text({cell.x, cell.y + 14}, passo::title(studied.method), step_look::heading_font);
     canvas.text({cell.x, cell.y + 36}, figures(studied.measures), step_look::caption_font);
     canvas.text({cell.x, cell.y + 54}, deviations(studied.measures), step_look::caption_font);
     const std::vector<Shown> shown = followed(studied.method, move);
@@ -303,19 +304,19 @@ Status<OutputError> draw_interpolation(const StepMove& move, const std::vector<S
   Canvas canvas(options, file);
   const double width = options.width;
   const double height = options.height;
-  canvas.fill({0, 0, width, height}, step_look::paper);
-  canvas.text({margin, 36}, move_text(move), step_look::title_font);
+  canvas.fill({0, 0, width, height}, sheet::paper);
+  canvas.text({border, 36}, move_text(move), step_look::title_font);
   std::vector<StepKey> keys = step_keys();
   if (methods.size() == 1 && has_midlines(methods[0].method, move)) {
     keys.push_back({"middle of the cell's side: a slave steps where the ideal path is at it or past it",
                     step_look::midline_colour, true});
   }
-  draw_step_keys(canvas, keys, margin, 66);
+  draw_step_keys(canvas, keys, border, 66);
   const double charts = methods.size() == 1 && methods[0].measures.pulses > 0 ? 290 : 0;
-  draw_panels(canvas, move, methods, {margin, 92, width - 2 * margin, height - 92 - 16 - charts});
+  draw_panels(canvas, move, methods, {border, 92, width - 2 * border, height - 92 - 16 - charts});
   if (charts > 0) {
-    const double half = width / 2 - margin - 50;
-    draw_deviation(canvas, methods[0], move, {margin + 30, height - 190, half, 134});
+    const double half = width / 2 - border - 50;
+    draw_deviation(canvas, methods[0], move, {border + 30, height - 190, half, 134});
     draw_evenness(canvas, methods[0], move, {width / 2 + 50, height - 190, half, 134});
   }
   return canvas.finish();

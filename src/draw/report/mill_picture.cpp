@@ -59,12 +59,12 @@ void draw_rapids(Canvas& canvas, const PlanView& view, const MillTool& tool, Dra
   for (const MillRun& run : tool.runs) {
     canvas.move_to(view.spot(at));
     canvas.line_to(view.spot(run.front().at));
-    canvas.stroke(rapid_pen);
+    canvas.stroke(rapids_pen);
     at = run.back().at;
   }
   canvas.move_to(view.spot(at));
   canvas.line_to(view.spot(park));
-  canvas.stroke(rapid_pen);
+  canvas.stroke(rapids_pen);
 }
 
 void draw_mark(Canvas& canvas, Spot middle) {
@@ -126,7 +126,7 @@ Status<OutputError> draw_mill_plan(const MillScene& scene, const PictureOptions&
   for (std::size_t i = 0; i < std::min(most_named, scene.plan.tools.size()); ++i) {
     legend.patch(colour_of_tool(i), scene.plan.tools[i].words);
   }
-  legend.line(rapid_pen, "Rapids");
+  legend.line(rapids_pen, "Rapids");
   if (!scene.warned.empty() && !scene.warned_name.empty()) legend.patch(warning_colour, scene.warned_name);
   if (!scene.marks.empty()) legend.line({.colour = warning_colour, .width = 2}, scene.mark_name);
   return canvas.finish();

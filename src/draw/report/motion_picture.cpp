@@ -12,12 +12,11 @@
 namespace passo {
 namespace {
 
-const Colour tube_colour{0.90, 0.93, 0.97};
+const Colour tolerance_colour{0.90, 0.93, 0.97};
 const Pen programmed_pen{.colour = {0.45, 0.47, 0.50}, .width = 1.2, .dashes = {7, 5}};
 const Pen path_pen{.colour = {0.80, 0.40, 0.05}, .width = 2.2};
 const Pen speed_pen{.colour = {0.10, 0.33, 0.60}, .width = 2.4};
 const Pen cap_pen{.colour = {0.45, 0.47, 0.50}, .width = 1.4, .dashes = {7, 5}};
-const Pen zero_pen{.colour = {0.62, 0.64, 0.67}, .width = 1};
 const Colour cell_colour{0.10, 0.33, 0.60};
 // Everyone can tell blue, orange and green apart.
 const std::array<Pen, 3> axis_pens = {Pen{.colour = {0.10, 0.33, 0.60}, .width = 2.2},
@@ -103,13 +102,13 @@ class PathView {
     const Spot to = spot(piece.to);
     const double length = std::hypot(to.x - from.x, to.y - from.y);
     const double radius = piece.tolerance * scale_;
-    canvas_.disc(from, radius, tube_colour);
-    canvas_.disc(to, radius, tube_colour);
+    canvas_.disc(from, radius, tolerance_colour);
+    canvas_.disc(to, radius, tolerance_colour);
     if (!(length > 0)) return;
     const double x = -(to.y - from.y) / length * radius;
     const double y = (to.x - from.x) / length * radius;
     canvas_.fill({{from.x + x, from.y + y}, {to.x + x, to.y + y}, {to.x - x, to.y - y}, {from.x - x, from.y - y}},
-                 tube_colour);
+                 tolerance_colour);
   }
 
   Canvas& canvas_;
@@ -158,7 +157,7 @@ void draw_axes(Canvas& canvas, const Area& area, const MotionRecorder& motion, c
               {.title = quantity.title, .end = end, .begin = -end});
   chart.draw_grid(quantity.labels);
   const double last = axis_end(peaks.time);
-  chart.polyline({{0, 0}, {last, 0}}, zero_pen);
+  chart.polyline({{0, 0}, {last, 0}}, edge);
   if (quantity.limit > 0) {
     chart.polyline({{0, quantity.limit}, {last, quantity.limit}}, cap_pen);
     chart.polyline({{0, -quantity.limit}, {last, -quantity.limit}}, cap_pen);
@@ -175,7 +174,7 @@ void draw_axes(Canvas& canvas, const Area& area, const MotionRecorder& motion, c
 
 void draw_legend(Canvas& canvas, const Peaks& peaks, Spot place) {
   Legend legend(canvas, place);
-  legend.patch(tube_colour, "within the tolerance");
+  legend.patch(tolerance_colour, "within the tolerance");
   legend.line(programmed_pen, "programmed; limits");
   legend.line(path_pen, "planned path");
   if (peaks.phases <= most_dots) legend.dot(3, cell_colour, "a phase begins");

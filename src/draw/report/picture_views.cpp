@@ -4,18 +4,12 @@
 
 #include "axis_ticks.hpp"
 #include "path_drawing.hpp"
+#include "sheet.hpp"
 
 namespace passo {
 namespace {
 
-const Colour ink{0.25, 0.27, 0.30};
-const Colour quiet_ink{0.48, 0.50, 0.54};
-const Colour paper{1, 1, 1};
-const Pen grid{.colour = {0.90, 0.91, 0.92}, .width = 0.8};
-const Pen edge{.colour = {0.62, 0.64, 0.67}, .width = 1};
-const Font label{.size = 12, .colour = ink};
-const Font heading{.size = 14, .colour = quiet_ink};
-constexpr double mark = 5;            // length of a tick
+using namespace sheet;
 constexpr double axis_name_gap = 28;  // from the axis to its name, not counting the labels between them
 
 // The axes have the same colours as in most drawing programs.
@@ -145,9 +139,9 @@ void draw_flat_frame(Canvas& canvas, const Scene& scene, const Flat& flat, const
     canvas.text({area.x - mark - 4, y}, tick.label, label, Align::right);
   }
   canvas.frame(area, edge);
-  canvas.text({area.x + area.width / 2, area.bottom() + 36}, std::string{letter_of(flat.across)} + ", mm", heading,
+  canvas.text({area.x + area.width / 2, area.bottom() + 36}, std::string{letter_of(flat.across)} + ", mm", axis_title,
               Align::centre);
-  canvas.text({area.x - mark - 4, area.y - 16}, std::string{letter_of(flat.up)} + ", mm", heading, Align::right);
+  canvas.text({area.x - mark - 4, area.y - 16}, std::string{letter_of(flat.up)} + ", mm", axis_title, Align::right);
 }
 
 // One edge of the isometric box with its ticks. The axis runs along the edge, and the labels stand outside of the box.
@@ -184,7 +178,7 @@ void draw_edge(Canvas& canvas, const Scene& scene, const Projection& projection,
   middle[side.axis] = (scene.box.low[side.axis] + scene.box.high[side.axis]) / 2;
   const double way = axis_name_gap + widest_label(canvas, all);
   canvas.text(moved(projection.spot(middle), way * side.out_x, way * side.out_y),
-              std::string{letter_of(side.axis)} + ", mm", heading, side.align);
+              std::string{letter_of(side.axis)} + ", mm", axis_title, side.align);
 }
 
 // The isometric view, as large as possible, with room for the labels on the left, on the right and below. The widths of
@@ -193,7 +187,7 @@ Projection fitted_isometric(Canvas& canvas, const Scene& scene, const Area& area
   Projection projection = Projection::isometric();
   projection.fit(scene.box, area);
   const double left = widest_label(canvas, edge_ticks(scene, projection, Axis::z)) + axis_name_gap +
-                      canvas.text_width("Z, mm", heading);
+                      canvas.text_width("Z, mm", axis_title);
   const double right = widest_label(canvas, edge_ticks(scene, projection, Axis::y)) + axis_name_gap;
   projection.fit(scene.box, {area.x + left, area.y + 20, area.width - left - right, area.height - 76});
   return projection;
@@ -277,7 +271,7 @@ FlatView natural_view(const PathRecorder& path, bool is_lathe) {
 
 void draw_flat_view(Canvas& canvas, const Scene& scene, FlatView view, const Area& area) {
   const Flat flat = flat_of(view);
-  canvas.text({area.x + area.width / 2, area.y - 16}, flat.title, heading, Align::centre);
+  canvas.text({area.x + area.width / 2, area.y - 16}, flat.title, axis_title, Align::centre);
   Projection projection = Projection::flat(flat.across, flat.up);
   constexpr double margin = 0.06;
   projection.fit(scene.box, {area.x + margin * area.width, area.y + margin * area.height, area.width * (1 - 2 * margin),
@@ -291,7 +285,7 @@ void draw_flat_view(Canvas& canvas, const Scene& scene, FlatView view, const Are
 }
 
 void draw_isometric_view(Canvas& canvas, const Scene& scene, const Area& area) {
-  canvas.text({area.x + area.width / 2, area.y - 16}, "Isometric view", heading, Align::centre);
+  canvas.text({area.x + area.width / 2, area.y - 16}, "Isometric view", axis_title, Align::centre);
   const Projection projection = fitted_isometric(canvas, scene, area);
   draw_box(canvas, scene, projection);
 

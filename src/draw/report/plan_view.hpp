@@ -10,7 +10,7 @@
 
 namespace passo {
 
-inline const Pen rapid_pen{.colour = {0.62, 0.66, 0.71}, .width = 0.9};
+inline const Pen rapids_pen{.colour = {0.62, 0.66, 0.71}, .width = 0.9};
 
 inline const Colour& colour_of_tool(std::size_t tool) {
   static constexpr std::array<Colour, 6> colours = {{{0.12, 0.40, 0.70},

@@ -23,10 +23,10 @@ const std::array<Pen, 3> trace_pens = {Pen{.colour = {0.52, 0.70, 0.90}, .width 
                                        Pen{.colour = {0.05, 0.42, 0.25}, .width = 1.4}};
 const Pen ideal_pen{.colour = {0.35, 0.37, 0.40}, .width = 1.2, .dashes = {7, 5}};
 const Pen one_tick_pen{.colour = {0.45, 0.47, 0.50}, .width = 1, .dashes = {2, 4}};
-const Pen acceleration_pen{.colour = {0.55, 0.20, 0.45}, .width = 2.2};
+const Pen planned_acceleration_pen{.colour = {0.55, 0.20, 0.45}, .width = 2.2};
 constexpr double least_error = 0.001;  // ticks
 
-struct Extent {
+struct RampExtent {
   double time = 0;   // s
   double steps = 0;  // the last index
   double rate = 0;
@@ -36,8 +36,8 @@ struct Extent {
   bool back = false;  // some steps go back
 };
 
-Extent extent_of(const RampScene& scene) {
-  Extent extent;
+RampExtent extent_of(const RampScene& scene) {
+  RampExtent extent;
   for (const RampTrace& trace : scene.traces) {
     for (const RampSample& sample : trace.samples) {
       extent.time = std::max(extent.time, sample.end);
@@ -62,7 +62,7 @@ bool single(const RampScene& scene) {
   return !scene.traces.empty() && scene.traces.front().samples.size() <= most_single;
 }
 
-void draw_rates(Canvas& canvas, const Area& area, const RampScene& scene, const Extent& extent) {
+void draw_rates(Canvas& canvas, const Area& area, const RampScene& scene, const RampExtent& extent) {
   const double scale = per_second(extent.time);
   const double most = axis_end(extent.rate * 1.02);
   Chart chart(canvas, area, {.title = scale > 1 ? "Time, ms" : "Time, s", .end = axis_end(extent.time * scale)},
@@ -102,7 +102,7 @@ double power_above(double value) {
   return std::pow(10, std::ceil(std::log10(value) - 1e-9));
 }
 
-void draw_intervals(Canvas& canvas, const Area& area, const RampScene& scene, const Extent& extent) {
+void draw_intervals(Canvas& canvas, const Area& area, const RampScene& scene, const RampExtent& extent) {
   const double low = power_below(std::max(extent.least_ticks, 1.0));
   Chart chart(canvas, area, {.title = "Step", .end = axis_end(std::max(extent.steps, 1.0))},
               {.title = "Interval, ticks",
@@ -125,7 +125,7 @@ bool smooth_errors(const RampTrace& trace) {
   return std::ranges::any_of(trace.samples, [](const RampSample& sample) { return std::abs(sample.error) > 3; });
 }
 
-void draw_errors(Canvas& canvas, const Area& area, const RampScene& scene, const Extent& extent) {
+void draw_errors(Canvas& canvas, const Area& area, const RampScene& scene, const RampExtent& extent) {
   const double steps = axis_end(std::max(extent.steps, 1.0));
   Chart chart(canvas, area, {.title = "Step", .end = steps},
               {.title = "Error of the interval against the exact one, ticks",
@@ -151,7 +151,7 @@ void draw_errors(Canvas& canvas, const Area& area, const RampScene& scene, const
   chart.draw_frame();
 }
 
-void draw_acceleration(Canvas& canvas, const Area& area, const RampScene& scene, const Extent& extent) {
+void draw_acceleration(Canvas& canvas, const Area& area, const RampScene& scene, const RampExtent& extent) {
   const double scale = per_second(extent.time);
   double most = 0;
   std::vector<Spot> line;
@@ -164,7 +164,7 @@ void draw_acceleration(Canvas& canvas, const Area& area, const RampScene& scene,
               {.title = "Acceleration at the steps, rad/s\u00B2", .end = end, .begin = -end});
   chart.draw_grid();
   chart.polyline({{0, 0}, {axis_end(extent.time * scale), 0}}, one_tick_pen);
-  chart.polyline(line, acceleration_pen);
+  chart.polyline(line, planned_acceleration_pen);
   chart.draw_frame();
 }
 
@@ -182,7 +182,7 @@ Status<OutputError> draw_ramp_picture(const RampScene& scene, const PictureOptio
   const double height = options.height;
   begin_sheet(canvas, options);
 
-  const Extent extent = extent_of(scene);
+  const RampExtent extent = extent_of(scene);
   constexpr double left = margin + 52;
   constexpr double upper = 138;
   constexpr double between = 96;

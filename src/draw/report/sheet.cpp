@@ -7,7 +7,7 @@ namespace {
 
 constexpr double sample = 40;  // the length of a line
 constexpr double before_words = 12;
-constexpr double between = 44;  // entries
+constexpr double between_entries = 44;  // entries
 const Area patch_area{0, -8, 28, 16};
 
 // Cuts text out of the middle if the text is wider than `room`. The start of a name tells the job, the end tells the
@@ -36,7 +36,7 @@ void begin_sheet(Canvas& canvas, const PictureOptions& options) {
 
 void Legend::words(const std::string& words) {
   canvas_.text(place_, words, sheet::caption);
-  place_.x += canvas_.text_width(words, sheet::caption) + between;
+  place_.x += canvas_.text_width(words, sheet::caption) + between_entries;
 }
 
 void Legend::line(const Pen& pen, const std::string& words) {
@@ -60,9 +60,9 @@ void Legend::dot(double radius, const Colour& colour, const std::string& words) 
 }
 
 double Legend::width_of_lines(Canvas& canvas, const std::vector<std::string>& words) {
-  double width = -between;
+  double width = -between_entries;
   for (const std::string& entry : words) {
-    width += sample + before_words + canvas.text_width(entry, sheet::caption) + between;
+    width += sample + before_words + canvas.text_width(entry, sheet::caption) + between_entries;
   }
   return width;
 }

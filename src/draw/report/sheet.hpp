@@ -1,5 +1,5 @@
-// Sheet: what pictures of charts have in common: white paper, a title with a line below it, and a legend. Private to
-// report/.
+// Sheet: what pictures have in common: colours, fonts and pens, white paper, a title with a line below it, and a
+// legend. Private to report/.
 #pragma once
 
 #include <string>
@@ -10,12 +10,18 @@
 namespace passo {
 
 namespace sheet {
+inline constexpr Colour paper{1, 1, 1};
+inline constexpr Colour ink{0.25, 0.27, 0.30};
+inline constexpr Colour quiet_ink{0.48, 0.50, 0.54};
 inline const Font title{.size = 26, .colour = {0.13, 0.14, 0.17}, .bold = true};
 inline const Font subtitle{.size = 15, .colour = {0.40, 0.42, 0.46}};
 inline const Font caption{.size = 14};
 inline const Font label{.size = 12};
-inline const Colour paper{1, 1, 1};
+inline const Font axis_title{.size = 14, .colour = quiet_ink};
+inline const Pen grid{.colour = {0.90, 0.91, 0.92}, .width = 0.8};
+inline const Pen edge{.colour = {0.62, 0.64, 0.67}, .width = 1};
 inline constexpr double margin = 48;
+inline constexpr double mark = 5;  // length of a tick
 }  // namespace sheet
 
 // Fills the paper with white, and writes the title (options.program) and `words` below it.

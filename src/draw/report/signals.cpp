@@ -14,7 +14,7 @@ namespace {
 
 const Colour high_colour{0.93, 0.55, 0.10};
 const Colour low_colour{0.93, 0.94, 0.95};
-const Pen grid{.colour = {0.80, 0.82, 0.85}, .width = 1};
+const Pen time_grid{.colour = {0.80, 0.82, 0.85}, .width = 1};
 
 // The levels at each time at which a signal changes, and at the start.
 class Rows {
@@ -119,7 +119,7 @@ Status<OutputError> draw_signals(const Signals& signals, const PictureOptions& o
   }
   for (const Tick& mark : marks) {
     const double x = all.x + mark.value / time_end * all.width;
-    canvas.line({x, all.y}, {x, all.bottom()}, grid);
+    canvas.line({x, all.y}, {x, all.bottom()}, time_grid);
     canvas.text({x, all.bottom() + 16}, mark.label, label, Align::centre);
   }
   canvas.text({all.x + all.width / 2, all.bottom() + 42}, in_ms ? "Time, ms" : "Time, s", caption, Align::centre);

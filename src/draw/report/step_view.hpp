@@ -20,7 +20,6 @@ inline const Font title_font{.size = 24, .colour = {0.13, 0.14, 0.17}, .bold = t
 inline const Font heading_font{.size = 17, .colour = {0.13, 0.14, 0.17}, .bold = true};
 inline const Font caption_font{.size = 13, .colour = {0.40, 0.42, 0.46}};
 inline const Font tick_font{.size = 11, .colour = {0.40, 0.42, 0.46}};
-inline const Colour paper{1, 1, 1};
 inline const Colour ideal_colour{0.80, 0.22, 0.20};
 inline const Colour one_axis{0.16, 0.38, 0.70};
 inline const Colour together{0.93, 0.55, 0.10};

@@ -13,8 +13,6 @@ namespace {
 
 using namespace sheet;
 
-const Pen edge{.colour = {0.62, 0.64, 0.67}, .width = 1};
-
 // A bar of colours from `low` to `high`, with words at its ends and below.
 template <class ColourAt>
 void draw_bar(Canvas& canvas, const Area& area, const std::string& low, const std::string& high,

@@ -13,13 +13,6 @@ const Vector3 light = Vector3{-0.45, 0.45, 0.77} / length(Vector3{-0.45, 0.45, 0
 constexpr double dark = 0.42;        // what a face away from the light keeps of its colour
 constexpr double wall_share = 0.55;  // a wall's, seen from the side
 
-std::uint32_t pixel_of(const Colour& colour, double bright) {
-  const auto channel = [&](double part) {
-    return static_cast<std::uint32_t>(std::lround(255 * std::clamp(part * bright, 0.0, 1.0)));
-  };
-  return 0xFF000000U | channel(colour.red) << 16U | channel(colour.green) << 8U | channel(colour.blue);
-}
-
 Colour mixed(const Colour& a, const Colour& b, double share) {
   const auto mix = [&](double from, double to) { return from + (to - from) * share; };
   return {mix(a.red, b.red), mix(a.green, b.green), mix(a.blue, b.blue)};
@@ -30,6 +23,13 @@ std::size_t nearest_cell(double place, std::size_t cells) {
 }
 
 }  // namespace
+
+std::uint32_t pixel_of(const Colour& colour, double bright) {
+  const auto channel = [&](double part) {
+    return static_cast<std::uint32_t>(std::lround(255 * std::clamp(part * bright, 0.0, 1.0)));
+  };
+  return 0xFF000000U | channel(colour.red) << 16U | channel(colour.green) << 8U | channel(colour.blue);
+}
 
 StockShading::StockShading(const StockDrawing& drawing) : drawing_(drawing) {
   const HeightField& field = drawing.field;

@@ -8,6 +8,9 @@
 
 namespace passo {
 
+// A pixel of a PixelMap. bright: 1 is the colour itself.
+std::uint32_t pixel_of(const Colour& colour, double bright);
+
 // The colours of differences, and of what does not differ.
 inline constexpr Colour left_colour{0.16, 0.42, 0.86};
 inline constexpr Colour gouge_colour{0.86, 0.16, 0.14};

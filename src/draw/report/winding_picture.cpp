@@ -4,6 +4,7 @@
 #include "canvas.hpp"
 #include "chart.hpp"
 #include "sheet.hpp"
+#include "step_view.hpp"
 #include <fmt/format.h>
 
 #include "passo/report/winding_record.hpp"
@@ -12,15 +13,12 @@
 namespace passo {
 namespace {
 
-const Font heading{.size = 17, .colour = {0.13, 0.14, 0.17}, .bold = true};
 const Colour on_colour{0.93, 0.55, 0.10};
 const Colour off_colour{0.93, 0.94, 0.95};
-const Pen edge{.colour = {0.62, 0.64, 0.67}, .width = 1};
 const Pen phase_a{.colour = {0.10, 0.33, 0.60}, .width = 1.8};
 const Pen phase_b{.colour = {0.80, 0.40, 0.05}, .width = 1.8};
 const Pen rotor_pen{.colour = {0.05, 0.42, 0.25}, .width = 1.8};
 using namespace sheet;
-constexpr unsigned outputs = 4;
 
 // A motor stands at `place` from `from` to `to`, in units of the time axis.
 struct Stand {
@@ -50,8 +48,8 @@ std::vector<Stand> stands_of(const WindingScene& scene, std::size_t motor, doubl
 // Four lanes: filled where the output carries current.
 void draw_outputs(Canvas& canvas, const Area& area, const WindingScene& scene, const std::vector<Stand>& stands,
                   double time_end) {
-  const double lane = area.height / outputs;
-  for (unsigned f = 0; f < outputs; ++f) {
+  const double lane = area.height / winding_outputs;
+  for (unsigned f = 0; f < winding_outputs; ++f) {
     const Area row{area.x, area.y + f * lane + 4, area.width, lane - 8};
     canvas.fill(row, off_colour);
     // Stands that follow each other are one bar: seams would look like steps.
@@ -132,7 +130,7 @@ Status<OutputError> draw_windings(const WindingScene& scene, const PictureOption
   for (std::size_t motor = 0; motor < scene.motors.count; ++motor) {
     const double left = margin + static_cast<double>(motor) * column + 44;
     const double wide = column - 44 - margin;
-    canvas.text({left, 106}, "Motor " + axis_name(motor), heading);
+    canvas.text({left, 106}, "Motor " + axis_name(motor), step_look::heading_font);
     const std::vector<Stand> stands = stands_of(scene, motor, unit);
     draw_outputs(canvas, {left, 124, wide, space * 0.26}, scene, stands, time_end);
     draw_phases(canvas, {left, 124 + space * 0.33, wide, space * 0.27}, scene, stands, time_end);

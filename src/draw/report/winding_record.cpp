@@ -10,8 +10,7 @@
 namespace passo {
 namespace {
 
-constexpr unsigned outputs = 4;
-constexpr unsigned values_of_motor = outputs + 4;  // F1 to F4, place, A, B, degrees
+constexpr unsigned values_of_motor = winding_outputs + 4;  // F1 to F4, place, A, B, degrees
 
 // The code of a value in the VCD: printable signs from '!' on, two of them.
 std::string code(std::size_t motor, unsigned value) {
@@ -58,13 +57,13 @@ WindingVcd::WindingVcd(const WindingMotors& motors, OutputFile& file)
   const auto out = std::back_inserter(text);
   for (std::size_t motor = 0; motor < motors.count; ++motor) {
     const std::string name = axis_name(motor);
-    for (unsigned f = 0; f < outputs; ++f) {
+    for (unsigned f = 0; f < winding_outputs; ++f) {
       fmt::format_to(out, "$var wire 1 {} {}_F{} $end\n", code(motor, f), name, f + 1);
     }
-    fmt::format_to(out, "$var integer 32 {} {}_place $end\n", code(motor, outputs), name);
-    fmt::format_to(out, "$var real 64 {} {}_A $end\n", code(motor, outputs + 1), name);
-    fmt::format_to(out, "$var real 64 {} {}_B $end\n", code(motor, outputs + 2), name);
-    fmt::format_to(out, "$var real 64 {} {}_deg $end\n", code(motor, outputs + 3), name);
+    fmt::format_to(out, "$var integer 32 {} {}_place $end\n", code(motor, winding_outputs), name);
+    fmt::format_to(out, "$var real 64 {} {}_A $end\n", code(motor, winding_outputs + 1), name);
+    fmt::format_to(out, "$var real 64 {} {}_B $end\n", code(motor, winding_outputs + 2), name);
+    fmt::format_to(out, "$var real 64 {} {}_deg $end\n", code(motor, winding_outputs + 3), name);
   }
   text += "$upscope $end\n$enddefinitions $end\n#0\n$dumpvars\n";
   for (std::size_t motor = 0; motor < motors.count; ++motor) put_motor(text, motor);
@@ -75,12 +74,12 @@ void WindingVcd::put_motor(std::string& text, std::size_t motor) const {
   const std::int64_t place = place_[motor];
   const WindingState state = motors_.excitation.at(place);
   const auto out = std::back_inserter(text);
-  for (unsigned f = 0; f < outputs; ++f) fmt::format_to(out, "{:d}{}\n", state.on(f), code(motor, f));
-  fmt::format_to(out, "b{:032b} {}\n", static_cast<std::uint32_t>(place), code(motor, outputs));
-  fmt::format_to(out, "r{:.10g} {}\n", state.phase_a, code(motor, outputs + 1));
-  fmt::format_to(out, "r{:.10g} {}\n", state.phase_b, code(motor, outputs + 2));
+  for (unsigned f = 0; f < winding_outputs; ++f) fmt::format_to(out, "{:d}{}\n", state.on(f), code(motor, f));
+  fmt::format_to(out, "b{:032b} {}\n", static_cast<std::uint32_t>(place), code(motor, winding_outputs));
+  fmt::format_to(out, "r{:.10g} {}\n", state.phase_a, code(motor, winding_outputs + 1));
+  fmt::format_to(out, "r{:.10g} {}\n", state.phase_b, code(motor, winding_outputs + 2));
   fmt::format_to(out, "r{:.10g} {}\n", motors_.excitation.rotor_degrees(place, motors_.full_steps_per_turn),
-                 code(motor, outputs + 3));
+                 code(motor, winding_outputs + 3));
 }
 
 void WindingVcd::put_time(std::string& text, Seconds time) {

@@ -18,6 +18,8 @@
 
 namespace passo {
 
+inline constexpr unsigned winding_outputs = 4;  // of a motor: F1 to F4
+
 struct WindingMotors {
   Excitation excitation;
   std::int32_t full_steps_per_turn = 200;
