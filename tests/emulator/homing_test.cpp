@@ -146,11 +146,14 @@ TEST(EmulatedHoming, is_exact_where_the_line_was_cut) {
   cut_before_frames(uno, 1597);
   cut_before_frames(mega, 3191);
 }
-TEST(EmulatedHomingInFull, is_exact_where_the_line_was_cut) {
-  if (test::in_full() == 0) GTEST_SKIP() << "takes minutes: PASSO_IN_FULL=1";
+using EmulatedHomingInFull = test::InFull<::testing::Test>;
+TEST_F(EmulatedHomingInFull, is_exact_where_the_line_was_cut) {
   cut_before_frames(uno, 3 * test::in_full());
   cut_before_frames(mega, 7 * test::in_full());
-  if (test::missing(pico).empty()) cut_before_frames(pico, std::min<std::uint64_t>(29 * test::in_full(), 2111));
+}
+TEST_F(EmulatedHomingInFull, is_exact_where_the_line_was_cut_on_the_pico) {
+  if (const std::string why = test::missing(pico); !why.empty()) GTEST_SKIP() << why;
+  cut_before_frames(pico, std::min<std::uint64_t>(29 * test::in_full(), 2111));
 }
 
 }  // namespace

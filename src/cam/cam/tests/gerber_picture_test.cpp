@@ -23,7 +23,7 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr double nm_per_inch = 25.4e6;
-constexpr int most_pixels = 2500;  // along a side
+constexpr int most_pixels = PASSO_ONE_IN == 1 ? 2500 : 1600;  // along a side
 // gerbv moves what it draws to whole pixels, so its picture is finer, and the middle one of 5 x 5 pixels is compared.
 constexpr int finer = 5;
 
