@@ -25,7 +25,7 @@ class PromptTimer final : public MotionTimer {
   void begin(MotionTiming wanted) override {
     found_ = time_motion(wanted, machine_, [] { return true; });
   }
-  std::optional<MotionTimes> take() override { return std::exchange(found_, std::nullopt); }
+  std::optional<MotionTimes> take_times() override { return std::exchange(found_, std::nullopt); }
 
  private:
   const MachineDescription& machine_;
@@ -70,12 +70,12 @@ class ApiRun {
   Json post(const std::string& path, const std::string& body = "") { return ask("POST", path, body); }
   Json get(const std::string& path) { return ask("GET", path); }
 
-  void turn() {
-    run.session().turn(Seconds(0.005));
+  void poll() {
+    run.session().poll(Seconds(0.005));
     const auto changes = run.session().take_changes();
-    run.grbl().turn(changes);
-    api.heed(changes);
-    api.turn();
+    run.grbl().poll(changes);
+    api.on_change(changes);
+    api.poll();
     run.collect();
   }
   // Asks about the condition every 20 ms: a status costs more than a turn.
@@ -83,7 +83,7 @@ class ApiRun {
   bool turn_until(Condition condition, Seconds within = Seconds(300)) {
     const Seconds end = run.session().now() + within;
     while (!condition() && run.session().now() < end) {
-      for (int turns = 0; turns < 4; ++turns) turn();
+      for (int turns = 0; turns < 4; ++turns) poll();
     }
     return condition();
   }
@@ -91,7 +91,7 @@ class ApiRun {
     return turn_until([&] { return get("/status")["state"] == state; });
   }
   void pass(Seconds time) {
-    for (const Seconds end = run.session().now() + time; run.session().now() < end;) turn();
+    for (const Seconds end = run.session().now() + time; run.session().now() < end;) poll();
   }
   void own() {
     const Json answer = post("/owner", R"({"name": "test"})");
