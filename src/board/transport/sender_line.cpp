@@ -130,7 +130,7 @@ SenderLine::~SenderLine() {
 // A pseudo-terminal that nobody has open reports a hang-up.
 bool SenderLine::has_reader() const {
   pollfd one{.fd = sender_, .events = POLLIN, .revents = 0};
-  static_cast<void>(poll(&one, 1, 0));
+  static_cast<void>(::poll(&one, 1, 0));
   return (one.revents & POLLHUP) == 0;
 }
 

@@ -68,7 +68,7 @@ void ServeDaemon::wait() {
   std::vector<pollfd> all;
   for (const auto& line : lines_) line->add_to(all, may_read(*line));
   if (web_ != nullptr) web_->add_to(all);
-  static_cast<void>(poll(all.data(), all.size(), static_cast<int>(most.value() * 1e3)));
+  static_cast<void>(::poll(all.data(), all.size(), static_cast<int>(most.value() * 1e3)));
 }
 
 // One sender at a time; others are told that they have to wait.
