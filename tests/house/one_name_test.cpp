@@ -1,5 +1,7 @@
-// One name, one meaning: no two modules declare a type of one name, or a free function of one name and parameters.
-// Where two programs are linked from them the compiler may take either for both, and no tool has to say so.
+// One name, one meaning. In one namespace no two modules declare the same type, or a free function with the same name
+// and parameters: in a program that links both, the compiler may use either for both, and no tool has to report it.
+// Within a district a type's name is unique in all namespaces, because its readers omit the namespace. Two districts
+// may use one short name for two types, each in its own namespace.
 #include "declared_names.hpp"
 #include "source_tree.hpp"
 
@@ -19,11 +21,14 @@ class Doubles {
   void add(const std::string& module, const std::string& file, std::string_view text) {
     for (const DeclaredName& declared : declared_names(text)) {
       if (declared.name == "main") continue;
-      // A type's name has one meaning in every namespace: readers read it without.
-      const std::string name = declared.kind == DeclaredName::Kind::type
-                                   ? declared.name
-                                   : declared.scope + "::" + declared.name + "(" + declared.parameters + ")";
-      places_[name].push_back({module, file + ":" + std::to_string(declared.line)});
+      const Place place{module, file + ":" + std::to_string(declared.line)};
+      std::string name = declared.scope + "::" + declared.name;
+      if (declared.kind == DeclaredName::Kind::type) {
+        places_[district_of(file) + ": " + declared.name].push_back(place);
+      } else {
+        name += "(" + declared.parameters + ")";
+      }
+      places_[name].push_back(place);
     }
   }
 
@@ -44,6 +49,9 @@ class Doubles {
   }
 
  private:
+  // "src/motion/path/segment.hpp" -> "motion"
+  static std::string district_of(const fs::path& file) { return std::next(file.begin())->string(); }
+
   std::map<std::string, std::vector<Place>> places_;
 };
 
@@ -52,13 +60,13 @@ TEST(OneName, has_one_meaning_in_all_modules) {
   for (const fs::path& file : files_below("src", {".hpp", ".cpp"})) {
     if (!is_test(file)) doubles.add(module_of(file), file.string(), text_of(file));
   }
-  EXPECT_GT(doubles.names(), 900U);
+  EXPECT_GT(doubles.names(), 1800U);
   for (const std::string& found : doubles.found()) ADD_FAILURE() << "two modules declare " << found;
 }
 
 TEST(OneName, is_found_where_two_modules_declare_it) {
   Doubles doubles;
-  doubles.add("path", "a.hpp", R"(
+  doubles.add("path", "src/motion/a.hpp", R"(
     namespace passo {
     struct PlaneAxes { Axis first; };
     constexpr PlaneAxes axes_of(Plane plane) { return {}; }
@@ -68,9 +76,9 @@ TEST(OneName, is_found_where_two_modules_declare_it) {
     bool operator==(const Plane& a, const Plane& b);
     void print(const std::vector<Mm>& values, std::map<int, bool> names = {}, unsigned most = 3);
     })");
-  doubles.add("path", "b.hpp", "namespace passo { void only_in_path(int a); }");
-  doubles.add("path", "b.cpp", "namespace passo { void only_in_path(int b) {} }");
-  doubles.add("interpreter", "c.hpp", R"(
+  doubles.add("path", "src/motion/b.hpp", "namespace passo { void only_in_path(int a); }");
+  doubles.add("path", "src/motion/b.cpp", "namespace passo { void only_in_path(int b) {} }");
+  doubles.add("interpreter", "src/language/c.hpp", R"(
     namespace passo {
     class PlaneAxes final {};
     inline PlaneAxes axes_of(Plane) { if (true) { return {}; } return {}; }
@@ -81,20 +89,27 @@ TEST(OneName, is_found_where_two_modules_declare_it) {
     void print(const std::vector<Mm>& v, std::map<int, bool> n, unsigned m);
     })");
   const std::vector<std::string> expected = {
-      "Kind: a.hpp:5 c.hpp:5",
-      "PlaneAxes: a.hpp:3 c.hpp:3",
-      "Ring: a.hpp:7 c.hpp:7",
-      "Tag: a.hpp:6 c.hpp:6",
-      "passo::axes_of(Plane): a.hpp:4 c.hpp:4",
-      "passo::operator==(Plane, Plane): a.hpp:8 c.hpp:8",
-      "passo::print(std::vector<Mm>, std::map<int,bool>, unsigned): a.hpp:9 c.hpp:9",
+      "passo::Kind: src/motion/a.hpp:5 src/language/c.hpp:5",
+      "passo::PlaneAxes: src/motion/a.hpp:3 src/language/c.hpp:3",
+      "passo::Ring: src/motion/a.hpp:7 src/language/c.hpp:7",
+      "passo::axes_of(Plane): src/motion/a.hpp:4 src/language/c.hpp:4",
+      "passo::operator==(Plane, Plane): src/motion/a.hpp:8 src/language/c.hpp:8",
+      "passo::print(std::vector<Mm>, std::map<int,bool>, unsigned): src/motion/a.hpp:9 src/language/c.hpp:9",
   };
   EXPECT_EQ(doubles.found(), expected);
 }
 
+// `inner::Tag` of the test above is another type than `Tag` in another district, but not in the same one.
+TEST(OneName, is_unique_within_a_district_in_all_namespaces) {
+  Doubles doubles;
+  doubles.add("path", "src/motion/a.hpp", "namespace passo { struct Tag {}; }");
+  doubles.add("stepgen", "src/motion/b.hpp", "namespace passo::inner { struct Tag {}; }");
+  EXPECT_EQ(doubles.found(), std::vector<std::string>({"motion: Tag: src/motion/a.hpp:1 src/motion/b.hpp:1"}));
+}
+
 TEST(OneName, is_free_where_no_other_file_can_mean_it) {
   Doubles doubles;
-  doubles.add("path", "a.cpp", R"(
+  doubles.add("path", "src/motion/a.cpp", R"(
     #include "x.hpp"
     #define OPEN \
       struct Macro {
@@ -108,7 +123,7 @@ TEST(OneName, is_free_where_no_other_file_can_mean_it) {
     const auto text = "struct Quoted {"; const char brace = '{'; const auto raw = R"x(struct Raw {)x";
     void same_name(int a);
     })");
-  doubles.add("ramp", "b.cpp", R"(
+  doubles.add("ramp", "src/study/b.cpp", R"(
     namespace passo {
     namespace { struct Hidden {}; int hidden(int x) { return x; } }
     struct Other { struct Nested {}; void call(); enum class Kind { b }; };
@@ -119,7 +134,7 @@ TEST(OneName, is_free_where_no_other_file_can_mean_it) {
     constexpr int table[] = {1, 2};
     void same_name(double a);
     })");
-  doubles.add("wire", "c.hpp", "namespace passo { /* struct Commented {}; */ struct Commented {}; }");
+  doubles.add("wire", "src/board/c.hpp", "namespace passo { /* struct Commented {}; */ struct Commented {}; }");
   EXPECT_EQ(doubles.found(), std::vector<std::string>());
 }
 

@@ -72,14 +72,14 @@ class NotedStudies final : public Studies {
  public:
   bool begin(const StudyOrder& order) override {
     last = order;
-    result = {.state = StudyResult::State::done, .words = "said", .report = R"({"margin": null})"};
+    found = {.state = StudyResult::State::done, .words = "said", .report = R"({"margin": null})"};
     return true;
   }
-  const StudyResult& result() override { return result; }
+  const StudyResult& result() override { return found; }
   std::string loads() const override { return "line,load\n1,0.500\n"; }
   std::string picture() const override { return ""; }
   StudyOrder last;
-  StudyResult result;
+  StudyResult found;
 };
 
 TEST(ApiStudies, are_ordered_with_all_that_they_need) {
