@@ -250,7 +250,7 @@ TEST_F(Boards, are_flashed_by_avrdude_after_what_they_held_was_kept) {
   ASSERT_EQ(outcome.code, 0) << outcome.err;
   const std::string common = "-p atmega328p -c arduino -P /dev/x -b 115200 -D -U flash:";
   EXPECT_EQ(read(path("calls")), common + "r:" + path("old.hex") + ":i\n" + common + "w:" + path("new.hex") + ":i\n");
-  EXPECT_NE(outcome.out.find("The way back: avrdude"), std::string::npos);
+  EXPECT_NE(outcome.out.find("To restore the old firmware: avrdude"), std::string::npos);
   // A second attempt would keep our own program as what was there before.
   const Outcome again =
       passo("board flash uno -d /dev/x --backup " + path("old.hex") + " --image " + image(), fake_avrdude());
@@ -269,7 +269,8 @@ TEST_F(Boards, are_not_touched_when_the_first_look_fails_or_when_it_is_only_trie
   EXPECT_FALSE(std::filesystem::exists(path("calls")));
 }
 
-// What was kept before the write that failed stays, and is not read again: the board may hold half a program by now.
+// What was kept before the write that failed stays, and is not read again: the board's firmware may be incomplete by
+// now.
 TEST_F(Boards, are_flashed_again_after_a_write_that_failed) {
   const std::string flash = "board flash uno -d /dev/x --backup " + path("old.hex") + " --image " + image();
   for (int i = 0; i < 2; ++i) {
@@ -285,7 +286,7 @@ TEST_F(Boards, are_flashed_again_after_a_write_that_failed) {
   EXPECT_EQ(again.code, 0) << again.err;
   EXPECT_EQ(read(path("old.hex")), "what it held");
   EXPECT_EQ(read(path("calls")).find("flash:r"), std::string::npos);
-  EXPECT_NE(again.out.find("The way back: avrdude"), std::string::npos);
+  EXPECT_NE(again.out.find("To restore the old firmware: avrdude"), std::string::npos);
   // Done is done: from now on the file is the way back, and another flash may not overwrite it.
   const Outcome later = passo(flash, fake_avrdude());
   EXPECT_EQ(later.code, 2);
@@ -340,7 +341,7 @@ TEST_F(Boards, that_show_themselves_as_a_drive_get_no_file_for_another_chip) {
   EXPECT_NE(other.err.find("for another chip than the RP2040"), std::string::npos) << other.err;
   const Outcome cut = passo(flash + write("cut.uf2", uf2_block().substr(0, 500)));
   EXPECT_EQ(cut.code, 2);
-  EXPECT_NE(cut.err.find("this is no UF2 file, or cut short"), std::string::npos) << cut.err;
+  EXPECT_NE(cut.err.find("this is not a UF2 file, or it is truncated"), std::string::npos) << cut.err;
 }
 
 }  // namespace

@@ -129,7 +129,7 @@ TEST_F(CamMill, a_whole_board_gets_numbered_programs_and_a_page) {
     EXPECT_EQ(check(path("job/" + std::string(name))).code, 0) << name;
   }
   const std::string page = read(path("job/board.html"));
-  EXPECT_THAT(page, HasSubstr("Turn it over from left to right"));
+  EXPECT_THAT(page, HasSubstr("Flip it from left to right"));
   EXPECT_THAT(page, HasSubstr("<svg"));
   EXPECT_THAT(page, HasSubstr("<dt>Time</dt>"));
   EXPECT_THAT(page, Not(HasSubstr("<script")));
@@ -180,7 +180,7 @@ TEST_F(CamMill, what_a_file_is_can_be_said_and_the_steps_are_told_as_json) {
   EXPECT_THAT(read(path("job/board.svg")), HasSubstr("<svg"));
   const std::string board = "board " + path("") + " -o " + path("job");
   EXPECT_THAT(cam(board + " --as odd.gbr").err, HasSubstr("expected FILE=LAYER"));
-  EXPECT_THAT(cam(board + " --as odd.gbr=copper").err, HasSubstr("is no layer: expected top copper"));
+  EXPECT_THAT(cam(board + " --as odd.gbr=copper").err, HasSubstr("is not a layer: expected top copper"));
   EXPECT_THAT(cam(board + " --as odd.gbr=drill").err, HasSubstr("is no drill file"));
   EXPECT_THAT(cam(board + " --as board-PTH.drl=outline").err, HasSubstr("is a drill file"));
   EXPECT_EQ(cam(board + " --as none.gbr=outline").code, 2);

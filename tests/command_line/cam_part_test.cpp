@@ -110,7 +110,7 @@ TEST_F(CamPart, foam_is_cut_by_two_ends_of_a_wire) {
       passo(wing + "--span 900 --width 600 --kerf 1.2 --zero -30,-60 -o " + path("w.ngc") + " -p " + path("w.png"));
   EXPECT_EQ(made.code, 0) << made.err;
   EXPECT_THAT(made.out, HasSubstr("right: "));
-  EXPECT_THAT(made.out, HasSubstr("0 mm² of what stays lost"));
+  EXPECT_THAT(made.out, HasSubstr("0 mm² of the part lost"));
   const std::string foam_cutter = " -m " + checkout + "/examples/machines/foam.toml";
   EXPECT_THAT(passo("check " + path("w.ngc") + foam_cutter).out, HasSubstr("no errors"));
   const Outcome letter = passo("cam wire " + bracket + " --layer pocket --kerf 1");

@@ -177,7 +177,7 @@ INSTANTIATE_TEST_SUITE_P(
         Wrong{"one_point", "--curve 1000:0.4 --rotor-inertia 68", "at least 2 points"},
         Wrong{"pull_in_above", measured + "--pull-in 0:0.5,10:0", "pull-in cannot be above pull-out"},
         Wrong{"pull_in_alone", small_motor + "--supply 24 --pull-in 0:0.5,10:0", "--pull-in needs"},
-        Wrong{"odd_steps", measured + "--steps-per-rev 150", "a multiple of 4 full steps a revolution, not 150"},
+        Wrong{"odd_steps", measured + "--steps-per-rev 150", "must be a multiple of 4, not 150"},
         Wrong{"negative_voltage", small_motor + "--supply -24", "the supply voltage must be above 0 V, not -24"},
         Wrong{"zero_inertia", "--curve 0:1,10:0 --rotor-inertia 0", "rotor's inertia must be above 0"},
         Wrong{"not_a_number", small_motor + "--supply nan", "must be above 0 V, not nan"},

@@ -19,8 +19,7 @@ using passo::test::read;
 // About one and a half seconds.
 const std::string text =
     "G21 G90 G64 P.02 F3000 M3 S1000\nG4 P.1\nG2 X6 Y0 I3 J0\nG3 X9 I1.5\nG1 X4 Y3\nM8\nX12 Z-1\nX2 Y2\nG0 X5 Y1 "
-    "Z2\nM5 "
-    "M9\nM2\n";
+    "Z2\nM5 M9\nM2\n";
 
 class Resumed : public passo::test::ServedBoard {
  protected:
@@ -119,7 +118,7 @@ TEST_F(Resumed, after_ctrl_c_which_brakes_on_the_path_and_says_where) {
   EXPECT_EQ(run_until(8, SIGINT), 130);
   const std::string said = read(path("run.err"));
   EXPECT_NE(said.find("brakes on the path"), std::string::npos) << said;
-  EXPECT_NE(said.find("interrupted; the machine rests at X"), std::string::npos) << said;
+  EXPECT_NE(said.find("interrupted; the machine is stopped at X"), std::string::npos) << said;
   EXPECT_NE(said.find("--resume goes on"), std::string::npos) << said;
   const Outcome resumed = passo(command("--resume"));
   ASSERT_EQ(resumed.code, 0) << resumed.err;
@@ -129,7 +128,7 @@ TEST_F(Resumed, after_ctrl_c_which_brakes_on_the_path_and_says_where) {
 TEST_F(Resumed, after_the_terminal_was_closed_which_is_as_ctrl_c) {
   EXPECT_EQ(run_until(8, SIGHUP), 129);
   const std::string said = read(path("run.err"));
-  EXPECT_NE(said.find("interrupted; the machine rests at X"), std::string::npos) << said;
+  EXPECT_NE(said.find("interrupted; the machine is stopped at X"), std::string::npos) << said;
   const Outcome resumed = passo(command("--resume"));
   ASSERT_EQ(resumed.code, 0) << resumed.err;
   expect_counts_of_the_whole_program();
@@ -174,7 +173,7 @@ TEST_F(Resumed, is_not_needed_while_a_silent_board_is_waited_for_which_is_said_a
                       "when the board answers; if it does not, this ends in 60 s\n"),
             std::string::npos)
       << said;
-  EXPECT_NE(said.find("passo: the board answers again; it goes on\n"), std::string::npos) << said;
+  EXPECT_NE(said.find("passo: the board answers again; the program continues\n"), std::string::npos) << said;
   expect_counts_of_the_whole_program();
 }
 
@@ -188,10 +187,10 @@ TEST_F(Resumed, not_when_what_it_is_of_was_changed) {
   leave_unfinished();
   const std::string machine = machine_;
   machine_ = write("m.toml", read(machine) + "\n");
-  expect_refused("resume.machine-changed", "the job that was not finished is of " + machine);
+  expect_refused("resume.machine-changed", "the unfinished job is of " + machine);
   machine_ = machine;
   write("p.ngc", text + "(more)\n");
-  expect_refused("resume.program-changed", "p.ngc was changed since the job began");
+  expect_refused("resume.program-changed", "p.ngc was changed since the job started");
   write("p.ngc", text);
   expect_refused("resume.path-changed", "other options", "--resume --inches");
   EXPECT_EQ(passo(command("--resume")).code, 0);
@@ -212,7 +211,7 @@ TEST_F(Resumed, not_by_a_journal_that_was_torn) {
   leave_unfinished();
   const std::string whole = read(journal());
   write("j", whole.substr(0, 100));
-  expect_refused("resume.torn-journal", "is not whole");
+  expect_refused("resume.torn-journal", "is incomplete");
   std::string without_rests = whole;
   for (std::size_t i = whole.find("check ") + 24; i < whole.size(); ++i) {
     if (whole[i] != '\n' && whole[i] != ' ') without_rests[i] = '0';
@@ -220,7 +219,7 @@ TEST_F(Resumed, not_by_a_journal_that_was_torn) {
   write("j", without_rests);
   expect_refused("resume.torn-journal", "the board's rest is not in it");
   write("j", whole + std::string(2 << 20, '\n'));
-  expect_refused("resume.torn-journal", "is not whole");
+  expect_refused("resume.torn-journal", "is incomplete");
   write("j", whole);
   EXPECT_EQ(passo(command("--resume")).code, 0);
 }
@@ -344,7 +343,7 @@ TEST_F(Resumed, or_told_what_is_truly_wrong_with_the_journal) {
   EXPECT_NE(folder.err.find("this journal cannot be opened: Is a directory [journal.unreadable]"), std::string::npos)
       << folder.err;
   write("j", "bread, milk");
-  expect_refused("resume.no-journal", "is no journal of Passo's");
+  expect_refused("resume.no-journal", "is not a journal of Passo");
   EXPECT_EQ(read(journal()), "bread, milk");
 }
 

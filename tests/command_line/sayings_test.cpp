@@ -101,7 +101,7 @@ TEST_F(Sayings, a_finding_begins_with_a_name) {
                {"cam drill ''" + to, "passo: error: "},
                {"cam drill " + nothing + to, nothing + ": error: there is no hole"},
                {"cam drill " + nothing + " " + none + to, nothing + ", " + none + ": error: there is no hole"},
-               {"cam pocket " + nothing + " --tool 3" + to, nothing + ": error: there is no closed line"},
+               {"cam pocket " + nothing + " --tool 3" + to, nothing + ": error: these files have no closed contour"},
                {"cam pocket " + narrow + " --tool 3" + to, narrow + ": warning: the area at X10.5"},
                {"cam profile " + nothing + " --tool 3" + to, nothing + ": error: "},
                {"cam engrave " + nothing + to, nothing + ": error: "},
@@ -132,7 +132,7 @@ TEST_F(Sayings, lines_for_grbl_itself_are_named_and_percent_signs_passed_over) {
   std::string settings;
   for (int number = 0; number < 40; ++number) settings += "$" + std::to_string(number) + "=1 (of a machine)\r\n";
   const Outcome listed = passo("canon " + write("s.nc", settings));
-  EXPECT_THAT(listed.err, HasSubstr("s.nc: error: this is a list of settings of Grbl"));
+  EXPECT_THAT(listed.err, HasSubstr("s.nc: error: this is a list of Grbl settings"));
   EXPECT_THAT(listed.err, HasSubstr("\n1 error\n"));
 }
 

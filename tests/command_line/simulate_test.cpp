@@ -71,7 +71,7 @@ TEST_F(Simulate, holder_flutes_clamps_and_table_are_told) {
 TEST_F(Simulate, a_tool_without_a_shape_is_refused_with_a_hint) {
   const Outcome done = simulate(slots());
   EXPECT_EQ(done.code, 2);
-  EXPECT_THAT(done.err, HasSubstr("nobody says what shape T1 has [simulate.no-tool]"));
+  EXPECT_THAT(done.err, HasSubstr("no shape given for tool T1 [simulate.no-tool]"));
   EXPECT_THAT(done.err, HasSubstr("--tool 1=flat:6"));
 }
 

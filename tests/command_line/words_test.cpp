@@ -147,14 +147,14 @@ TEST_F(Words, a_file_of_another_kind_is_named) {
                {"p.ttf", "\0\1\0\0\0\x0C\0\x80"s, "a font"},
                {"q.lff", "# Format: LibreCAD Font 1\n# LetterSpacing: 2\n\n[0041] A\n", "a font"},
                {"r.jhf", "  699  1JZ\n  714  9MWRFRT RRYQZR[SZRY\n", "a font"},
-               {"s.dat", "NACA 0012\n 1.0 0.00126\n 0.95 0.00807\n 0.9 0.01448\n", "the section of a wing"},
+               {"s.dat", "NACA 0012\n 1.0 0.00126\n 0.95 0.00807\n 0.9 0.01448\n", "an airfoil file"},
                {"t.svgz", "\x1F\x8B\x08\0\0\0\0\0"s, "a compressed SVG drawing"},
                {"u.pdf", "%PDF-1.4\n", "a PDF document"},
                {"v.eps", "%!PS-Adobe-3.0 EPSF-3.0\n", "a PostScript document"},
                {"w.toml", "name = \"Foam cutter\"\n\n[axis.X]\nscrew_pitch_mm = 8\n",
-                "a TOML file, as of a machine or of tools"},
+                "a TOML file, e.g. a machine file or a tool table"},
                {"x.csv", "0,0,0.012\n10,0,0.015\n0,10,0.01\n", "a height map"},
-               {"y.obj", "# a cube\nv 0 0 0\nv 1 0 0\n", "a model of triangles (OBJ, PLY, OFF)"},
+               {"y.obj", "# a cube\nv 0 0 0\nv 1 0 0\n", "a mesh (OBJ, PLY, OFF)"},
                {"z.3mf", "PK\x03\x04\x14\0"s, "a 3MF model"}};
   for (const auto& file : files) {
     const std::string name = write(file.name, file.content);
@@ -296,7 +296,7 @@ TEST_F(Words, a_program_that_talks_without_end_is_not_shown_to_its_last_text) {
   for (const Outcome& outcome : {run(text), check(text)}) {
     EXPECT_EQ(outcome.code, 0);
     EXPECT_EQ(std::ranges::count(outcome.err, '\n'), 1001);
-    EXPECT_TRUE(contains(outcome.err, "p.ngc: note: the program says more than 1000 texts; the others are not shown"));
+    EXPECT_TRUE(contains(outcome.err, "p.ngc: note: the program has more than 1000 messages; the others are not shown"));
   }
 }
 

@@ -61,7 +61,7 @@ TEST(Dxf, units_come_from_the_header_or_are_told_or_guessed) {
   EXPECT_EQ(told.drawing.holes.at(0).at, nm(25'400'000, 0));
   EXPECT_THAT(told.drawing.notes, testing::ElementsAre(testing::HasSubstr("as told")));
   const ReadDxf silent = read_text(entities("0 CIRCLE 8 0 10 1 20 0 40 0.4"));
-  EXPECT_THAT(silent.drawing.notes, testing::ElementsAre(testing::HasSubstr("mm is guessed")));
+  EXPECT_THAT(silent.drawing.notes, testing::ElementsAre(testing::HasSubstr("mm is assumed")));
 }
 
 TEST(Dxf, a_drawing_that_is_off_by_ten_is_told) {

@@ -48,7 +48,7 @@ TEST(GrblStates, an_alarm_at_the_start_is_known_by_its_number) {
   reported.machine.state = "Alarm";
   reported.machine.own_report = [] { return std::string("<Alarm:1|MPos:0.000,0.000,0.000>"); };
   ASSERT_TRUE(reported.greet());
-  EXPECT_EQ(reported.sender.alarm_words(), "ALARM:1, a limit switch has closed; the place is lost");
+  EXPECT_EQ(reported.sender.alarm_words(), "ALARM:1, a limit switch closed; the position is lost");
 
   GrblPair untold;
   untold.machine.state = "Alarm";

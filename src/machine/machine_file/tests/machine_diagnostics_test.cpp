@@ -78,7 +78,7 @@ const Mistake mistakes[] = {
      "machine.wrong-type",
      {11, 11, 6},
      "tool.max_rpm is the text \"fast\"",
-     "a number, as in max_rpm = 10000"},
+     "a number, e.g. max_rpm = 10000"},
     {"a_number_for_text",
      "\"Test machine\"",
      "5",
