@@ -118,7 +118,7 @@ TEST_F(CamRelief, what_is_wrong_is_told_and_nothing_is_written) {
   refused(flower + " --way waterline", "--way: waterline not in");
   refused(flower + " --removal=-1", "--removal: expected a number from 0");
   refused(flower + " --feed-most 0", "--feed-most: expected 1 to 100000 mm, found '0'");
-  refused(flower + " -p view.svg", "should end in .png");
+  refused(flower + " -p view.svg", "expected a name that ends with .png");
   EXPECT_EQ(relief(flower + " -o " + flower).code, 2) << "the picture itself would be overwritten";
   EXPECT_FALSE(std::filesystem::exists(path("r.ngc")));
 }

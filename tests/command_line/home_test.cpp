@@ -163,7 +163,7 @@ TEST_F(HomeCommand, goes_before_a_run_that_is_resumed) {
                               machine + " --board " + board + " --journal " + path("j");
   const Outcome held = passo(command + " --hold-at 0.5");
   EXPECT_EQ(held.code, 0) << held.err;
-  EXPECT_THAT(held.err, HasSubstr("--resume goes on"));
+  EXPECT_THAT(held.err, HasSubstr("--resume continues"));
   const Outcome resumed = passo(command + " --resume");
   ASSERT_EQ(resumed.code, 0) << resumed.err;
   const nlohmann::json all = nlohmann::json::parse(resumed.out, nullptr, false);

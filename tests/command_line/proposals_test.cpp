@@ -172,8 +172,8 @@ TEST_F(Proposals, of_tools_are_in_words) {
                                 write("t.tbl", "T1 P1\n") + " -m " + on);
   EXPECT_EQ(outcome.code, 2);
   EXPECT_THAT(outcome.out,
-              HasSubstr("proposal        with this tool in the tool table the program passes (checked, with a length "
-                        "and a diameter of 0: add those of the real tool as Z and D): T5 P5\n"));
+              HasSubstr("proposal        with this tool in the tool table, the program passes the check (checked with "
+                        "length and diameter 0: add those of the real tool as Z and D): T5 P5\n"));
 }
 
 // Another error stays, or the number of the tool is worked out.

@@ -214,7 +214,7 @@ std::string tell_kind(BoardJob& job, std::string_view name, std::string_view wor
     is_found = true;
     const bool needs_drills = kind->role == BoardRole::drill;
     if (kind->role != BoardRole::unknown && needs_drills != file.drills.has_value()) {
-      return fmt::format("{} is {} drill file", file.name, needs_drills ? "no" : "a");
+      return fmt::format("{} is {} drill file", file.name, needs_drills ? "not a" : "a");
     }
     file.kind = *kind;
   }

@@ -95,7 +95,7 @@ class Meanings {
   std::string of_feed(double value) const {
     if (after_.modal.inverse_time()) return fmt::format("the move takes 1/{} minute", plain_number(value));
     return fmt::format("feed {} {}{}", plain_number(value), after_.modal.inches() ? "inches" : "mm",
-                       after_.modal.per_revolution() ? " a revolution" : " a minute");
+                       after_.modal.per_revolution() ? "/rev" : "/min");
   }
 
   // Straight moves and arcs end at their axis words. A cycle uses them in its own way.

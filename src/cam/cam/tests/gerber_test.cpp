@@ -216,8 +216,9 @@ TEST(Gerber, what_is_guessed_is_told) {
   const ReadGerber silent = read_all("%ADD10C,0.05*%D10*X10000Y0D03*");
   EXPECT_FALSE(silent.found.any_error());
   EXPECT_EQ(silent.layer.pads.at(0).at, (DrawnPoint{{25'400'000}, {0}}));
-  EXPECT_THAT(silent.notes(), testing::ElementsAre(testing::HasSubstr("inch is assumed"),
-                                                   testing::HasSubstr("2.4 digits are assumed"), testing::HasSubstr("no M02")));
+  EXPECT_THAT(silent.notes(),
+              testing::ElementsAre(testing::HasSubstr("inch is assumed"), testing::HasSubstr("2.4 digits are assumed"),
+                                   testing::HasSubstr("does not end with M02")));
   EXPECT_EQ(read_all("%ADD10C,1*%%FSLAX33Y33*%D10*X0Y0D03*G71*M02*").layer.apertures.at(0).across,
             Nanometres{1'000'000})
       << "the unit comes late";
@@ -226,7 +227,7 @@ TEST(Gerber, what_is_guessed_is_told) {
 TEST(Gerber, what_old_programs_write_beside_the_format_is_read) {
   const ReadGerber square = flashed("R,0.5");
   EXPECT_NEAR(square.area(), 0.25, 1e-9);
-  EXPECT_THAT(square.notes(), testing::Contains(testing::HasSubstr("as high as wide")));
+  EXPECT_THAT(square.notes(), testing::Contains(testing::HasSubstr("the height is assumed to be the same")));
   EXPECT_NEAR(macro_flashed("1,1,2,0,0*\n*").area(), macro_flashed("1,1,2,0,0*").area(), 1e-9)
       << "a lone * ends the macro";
   const ReadGerber point = flashed("R,0.5250.525");
@@ -234,7 +235,7 @@ TEST(Gerber, what_old_programs_write_beside_the_format_is_read) {
   EXPECT_THAT(point.notes(), testing::Contains(testing::HasSubstr("'0.5250.525' is read as 0.525")));
   const ReadGerber rest = read_mm("%ADD10C,2*X.015%\nD10*\nX0Y0D03*\n");
   EXPECT_NEAR(rest.area(), flashed("C,2").area(), 1e-9);
-  EXPECT_THAT(rest.notes(), testing::Contains(testing::HasSubstr("'X.015' behind the end of a command")));
+  EXPECT_THAT(rest.notes(), testing::Contains(testing::HasSubstr("'X.015' after the end of a command")));
 }
 
 TEST(Gerber, what_is_wrong_is_told_with_its_place) {

@@ -198,7 +198,7 @@ TEST(Svg, a_page_without_a_size_is_in_pixels) {
   ASSERT_EQ(pixels.drawing.holes.size(), 1U);
   EXPECT_NEAR(to_mm(pixels.drawing.holes[0].diameter).value(), 25.4, 1e-6);
   EXPECT_NEAR(to_mm(pixels.drawing.holes[0].at.y).value(), -25.4, 1e-6);
-  EXPECT_THAT(pixels.drawing.notes, testing::ElementsAre(HasSubstr("tells no size")));
+  EXPECT_THAT(pixels.drawing.notes, testing::ElementsAre(HasSubstr("has no size")));
   const ReadSvg box = svg("<svg viewBox='0 0 96 96'><circle cx='0' cy='96' r='48'/></svg>", {.scale = 2});
   EXPECT_NEAR(to_mm(box.drawing.holes[0].at.y).value(), 0, 1e-6);
   EXPECT_NEAR(to_mm(box.drawing.holes[0].diameter).value(), 50.8, 1e-6);
@@ -209,8 +209,7 @@ TEST(Svg, what_is_wrong_is_told_with_its_line) {
               HasSubstr("it.svg:3:3: error: the drawing cannot be read: mismatched tag"));
   EXPECT_THAT(svg("<html/>").words, HasSubstr("[svg.no-drawing]"));
   EXPECT_THAT(svg("").words, HasSubstr("[svg.syntax]"));
-  EXPECT_THAT(svg(page("\n<path d='M0 0 L1 x'/>")).words,
-              HasSubstr("it.svg:2:1: error: the data of this path is wrong"));
+  EXPECT_THAT(svg(page("\n<path d='M0 0 L1 x'/>")).words, HasSubstr("it.svg:2:1: error: the path data is wrong"));
   EXPECT_THAT(svg(page("<path d='L1 1'/>")).words, HasSubstr("M, the start of a path"));
   EXPECT_THAT(svg(page("<path d='M0 0 A1 1 0 2 0 5 5'/>")).words, HasSubstr("[svg.path]"));
   EXPECT_THAT(svg(page("<path d='M0 0z1 1'/>")).words, HasSubstr("[svg.path]"));

@@ -64,7 +64,7 @@ TEST(LevelPicture, that_is_cut_off_or_changed_anywhere_is_refused_with_a_reason)
 TEST(LevelPicture, that_is_too_large_is_refused_before_memory_is_taken) {
   LevelPicture wide{.columns = 65536, .rows = 2};
   wide.levels.assign(2 * 65536, 0);
-  EXPECT_THAT(read_picture(test::png_of_levels(wide)).words, HasSubstr("65,535 a side"));
+  EXPECT_THAT(read_picture(test::png_of_levels(wide)).words, HasSubstr("65,535 per side"));
   LevelPicture thin{.columns = 1, .rows = 5};
   thin.levels.assign(5, 0);
   EXPECT_THAT(read_picture(test::png_of_levels(thin)).words, HasSubstr("less than two rows or columns"));

@@ -60,7 +60,7 @@ TEST(HeightMap, tells_what_is_wrong_and_where) {
   EXPECT_THAT(read("0,0,1\n0,1e9,1\n").words, HasSubstr("it:2:3: error: '1e9' is not a valid length"));
   EXPECT_THAT(read("0,0,1\n0,1\n").words, HasSubstr("it:2:4: error: a number is missing"));
   EXPECT_THAT(read("0,0,1\n0,1,nan\n").words, HasSubstr("it:2:5: error: 'nan'"));
-  EXPECT_THAT(read("0,0,1,2\n").words, HasSubstr("it:1:7: error: there is more than a point"));
+  EXPECT_THAT(read("0,0,1,2\n").words, HasSubstr("it:1:7: error: there is more than one point"));
   EXPECT_THAT(read("0,0,1\n1,0,1\n0,1,1\n").words, HasSubstr("3 points in 2 columns and 2 rows do not fill a grid"));
   EXPECT_THAT(read("0,0,1\n1,0,1\n0,1,1\n0,1,1\n").words, HasSubstr("it:4:1: error: X0 Y1 has two heights"));
   EXPECT_THAT(read("0,0,1\n1,0,1\n").words, HasSubstr("are not enough for a surface"));

@@ -132,7 +132,7 @@ int board_info(const BoardInfoArguments& arguments) {
   for (const std::string& name : switches_of(*status)) switches += (switches.empty() ? "" : ", ") + name;
   fmt::print("{}\n", name_of(*about));
   fmt::print("  firmware      {}, protocol {}\n", version_of(*about), int{protocol_version});
-  fmt::print("  events        {} a second at most\n", about->highest_event_rate);
+  fmt::print("  events        at most {} per second\n", about->highest_event_rate);
   if (about->step_pulse > 0) fmt::print("  step pulse    {:.2f} us\n", about->step_pulse / 16.0);
   if (about->baud > 0) fmt::print("  line          {} baud at most\n", about->baud);
   fmt::print("  state         {}\n", state_of(*status));

@@ -11,11 +11,11 @@
 namespace passo {
 namespace {
 
-// "; perhaps run is meant", or nothing.
+// " (did you mean run?)", or nothing.
 std::string guess(std::string_view word, const std::vector<std::string>& known, std::string_view before = "") {
   const std::vector<std::string_view> names(known.begin(), known.end());
   const std::string_view meant = suggestion(word, names);
-  return meant.empty() ? std::string() : fmt::format("; did you mean {}{}?", before, meant);
+  return meant.empty() ? std::string() : fmt::format(" (did you mean {}{}?)", before, meant);
 }
 
 std::vector<std::string> commands_of(CLI::App& app) {

@@ -29,8 +29,8 @@ bool enter_was_pressed(Seconds within) {
 std::string what(const OperatorWait& wait) {
   switch (wait.kind) {
     case Action::Kind::tool_change: return fmt::format("tool {} (M6)", wait.tool);
-    case Action::Kind::optional_stop: return "the operator (M1)";
-    default: return "the operator (M0)";
+    case Action::Kind::optional_stop: return "optional stop (M1)";
+    default: return "program stop (M0)";
   }
 }
 

@@ -167,7 +167,7 @@ TEST(GrblDialects, another_firmware_is_no_machine_and_its_words_are_shown) {
   EXPECT_THAT(fault.message, HasSubstr("It said \"{\"r\""));
   fault = fault_of("\xfe\x80\x06\xf8");
   EXPECT_EQ(fault.code, "grbl.no-answer");
-  EXPECT_THAT(fault.message, HasSubstr("another rate (@BAUD)"));
+  EXPECT_THAT(fault.message, HasSubstr("another baud rate (@BAUD)"));
   for (const char* old : {"Grbl 0.9j ['$' for help]", "<Idle,MPos:0.000,0.000,0.000,WPos:0.000,0.000,0.000>"}) {
     fault = fault_of(old);
     EXPECT_EQ(fault.code, "grbl.too-old") << old;

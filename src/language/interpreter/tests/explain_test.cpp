@@ -39,7 +39,7 @@ TEST(Explain, a_move_is_said_with_its_ends_in_work_and_machine) {
   EXPECT_EQ(meaning(line, "G1"), "feed move");
   EXPECT_EQ(meaning(line, "X10"), "to X 10 mm (work), 35 mm (machine)");
   EXPECT_EQ(meaning(line, "Y-2.5"), "to Y -2.5 mm (work), -2.5 mm (machine)");
-  EXPECT_EQ(meaning(line, "F600"), "feed 600 mm a minute");
+  EXPECT_EQ(meaning(line, "F600"), "feed 600 mm/min");
   EXPECT_EQ(in_words(line.before.work), "X 1 mm, Y 0 mm, Z 0 mm");
   EXPECT_EQ(in_words(line.before.machine), "X 26 mm, Y 0 mm, Z 0 mm");
   EXPECT_EQ(in_words(line.after.work), "X 10 mm, Y -2.5 mm, Z 0 mm");

@@ -91,7 +91,7 @@ TEST(Limits, a_computed_label_in_a_skipped_line_needs_no_value) {
 TEST(Limits, a_label_is_used_for_one_if) {
   const Diagnostic error = error_of("o1 if [1]\nG0 X1\no1 endif\no1 if [1]\nG0 X2\no1 endif\nM2\n");
   EXPECT_EQ(error.place.line, 4U);
-  EXPECT_THAT(error.message, HasSubstr("the first one is at line 1"));
+  EXPECT_THAT(error.message, HasSubstr("the first one is in line 1"));
   EXPECT_EQ(errors_of("o9 sub\no1 if [1]\nG0 X1\no1 endif\no9 endsub\no1 if [1]\nG0 X2\no1 endif\no9 call\nM2\n"), 0U);
   EXPECT_EQ(errors_of("o3 repeat [3]\no1 if [1]\nG0 X1\no1 endif\no3 endrepeat\nM2\n"), 0U);
 }

@@ -115,7 +115,7 @@ TEST_F(SpindleTest, a_thread_that_an_axis_cannot_follow_is_refused_with_what_can
   go(0, 0, -15);
   EXPECT_EQ(
       told(),
-      "path.thread-too-fast: at 6000 rpm and 4.000 mm/rev, Z would have to move at 400.0 mm/s, and its limit is "
+      "path.thread-too-fast: at 6000 rpm and 4.000 mm/rev, Z would have to move at 400.0 mm/s, above its limit of "
       "100; S up to 1500, or up to 1.000 mm/rev");
   EXPECT_TRUE(diagnostics_.any_error());
   EXPECT_EQ(diagnostics_.all()[0].place.line, 4U);

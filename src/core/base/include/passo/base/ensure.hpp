@@ -12,7 +12,7 @@
 namespace passo {
 
 [[noreturn]] inline void end_by_bug(const char* file, int line) {
-  std::fprintf(stderr, "passo: internal error, please report it: assertion failed at %s:%d\n", file, line);
+  std::fprintf(stderr, "passo: this is a bug: %s:%d found what cannot be\n", file, line);
   std::abort();
 }
 
