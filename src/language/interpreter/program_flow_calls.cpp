@@ -37,13 +37,13 @@ bool ProgramFlow::may_call(Span span) {
     reporter_.error("gcode.calls-too-deep", span, fmt::format("calls are nested more than {} deep", deepest_call),
                     "a subroutine that does not call itself endlessly");
   } else if (idles || ++steps_ > options_.repeated_steps) {
-    reporter_.error(
-        "gcode.endless-calls", span,
-        idles ? fmt::format("{} were called without any action of the machine", counted(options_.idle_passes, "time"))
-              : fmt::format("the call from line {} reached {} passes, calls and operations",
-                            frames_.empty() ? block_at_.line : frames_.front().return_to.line - 1,
-                            options_.repeated_steps),
-        "a subroutine that does not call itself endlessly");
+    reporter_.error("gcode.endless-calls", span,
+                    idles ? fmt::format("subroutines were called {} without any action of the machine",
+                                        counted(options_.idle_passes, "time"))
+                          : fmt::format("the call from line {} reached {} passes, calls and operations",
+                                        frames_.empty() ? block_at_.line : frames_.front().return_to.line - 1,
+                                        options_.repeated_steps),
+                    "a subroutine that does not call itself endlessly");
   } else {
     return true;
   }
