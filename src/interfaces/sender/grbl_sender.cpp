@@ -221,9 +221,9 @@ GrblFault GrblSender::fault_of_greeting() const {
   if (!is_readable) {
     words += ", and its answer is unreadable: it may use another baud rate (@BAUD)";
   } else if (!heard.empty()) {
-    words += fmt::format(" as Grbl 1.1. It sent \"{}\"", heard.substr(0, most_shown));
+    words += fmt::format(" as Grbl 1.1 does. It sent \"{}\"", heard.substr(0, most_shown));
   } else {
-    words += " as Grbl 1.1";
+    words += " as Grbl 1.1 does";
   }
   return {.code = "grbl.no-answer", .message = std::move(words), .first_line = 0, .last_line = 0};
 }

@@ -162,9 +162,9 @@ TEST(GrblDialects, another_firmware_is_no_machine_and_its_words_are_shown) {
   };
   GrblFault fault = fault_of("echo:Unknown command: \"$I\"");
   EXPECT_EQ(fault.code, "grbl.no-answer");
-  EXPECT_THAT(fault.message, HasSubstr("It said \"echo:Unknown command: \"$I\"\""));
+  EXPECT_THAT(fault.message, HasSubstr("It sent \"echo:Unknown command: \"$I\"\""));
   fault = fault_of("{\"r\":{\"fv\":0.99},\"f\":[1,0,4]}");
-  EXPECT_THAT(fault.message, HasSubstr("It said \"{\"r\""));
+  EXPECT_THAT(fault.message, HasSubstr("It sent \"{\"r\""));
   fault = fault_of("\xfe\x80\x06\xf8");
   EXPECT_EQ(fault.code, "grbl.no-answer");
   EXPECT_THAT(fault.message, HasSubstr("another baud rate (@BAUD)"));

@@ -97,7 +97,7 @@ TEST(LoopAnswer, HasTheResponseAndItsFigures) {
   EXPECT_THAT(ultimate_answer(setup), HasSubstr("\"pi\":{\"kp\":0.04"));
   EXPECT_THAT(loop_answer(setup, Seconds(100)), HasSubstr("periods"));
   setup.to = 0;
-  EXPECT_THAT(loop_answer(setup, Seconds(0.02)), HasSubstr("no jump"));
+  EXPECT_THAT(loop_answer(setup, Seconds(0.02)), HasSubstr("a step other than 0"));
 }
 
 }  // namespace

@@ -87,7 +87,7 @@ TEST(CurvePulses, say_what_is_wrong) {
   EXPECT_THAT(*walk(up, again, {.name = MethodName::midpoint}).error, HasSubstr("for arcs"));
   const Ellipse most_of_a_circle = *Ellipse::flat({0, 0, 0}, Mm(5), Mm(5), {0}, {0}, {5});
   EqualChords coarse(most_of_a_circle, *ChordLength::of(Mm(30)));
-  EXPECT_THAT(*walk(most_of_a_circle, coarse, {.name = MethodName::lean}).error, HasSubstr("too far"));
+  EXPECT_THAT(*walk(most_of_a_circle, coarse, {.name = MethodName::lean}).error, HasSubstr("too large an angle"));
 }
 
 }  // namespace
