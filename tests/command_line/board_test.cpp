@@ -26,7 +26,7 @@ TEST_F(Boards, that_answer_say_what_they_are_and_how_they_are) {
   const std::string board = serve();
   const Outcome info = passo("board info " + board);
   ASSERT_EQ(info.code, 0) << info.err;
-  EXPECT_NE(info.out.find("no host has said hello"), std::string::npos) << info.out;
+  EXPECT_NE(info.out.find("no host has connected"), std::string::npos) << info.out;
   const auto json = nlohmann::json::parse(passo("board info --json " + board).out);
   EXPECT_EQ(json["status"]["positions"].size(), 8);
   EXPECT_EQ(json["status"]["moves"], false);
@@ -52,7 +52,7 @@ TEST_F(Boards, are_emulated_too) {
 
   const Outcome none = passo("board info sim:none");
   EXPECT_EQ(none.code, 1);
-  EXPECT_NE(none.err.find("there is an emulator of uno, uno_two_on"), std::string::npos) << none.err;
+  EXPECT_NE(none.err.find("there are emulators of uno, uno_two_on"), std::string::npos) << none.err;
 }
 
 TEST_F(Boards, run_a_program_by_their_firmware_on_an_emulated_chip) {
@@ -127,7 +127,7 @@ TEST_F(Boards, that_are_too_slow_or_make_too_short_pulses_are_refused_in_words) 
   EXPECT_EQ(slow.code, 0) << slow.err;
   const Outcome rate = passo(command + with("step_pulse_us = 1.0", "step_pulse_us = 1") + " --board sim:mega");
   EXPECT_EQ(rate.code, 1);
-  EXPECT_NE(rate.err.find("it makes at most 110000 events a second, and max_event_rate_hz = 150000"), std::string::npos)
+  EXPECT_NE(rate.err.find("it makes at most 110000 events/s, fewer than max_event_rate_hz = 150000"), std::string::npos)
       << rate.err;
 }
 
@@ -188,12 +188,12 @@ TEST_F(Boards, that_do_not_suit_a_machine_are_refused_with_words) {
   const Outcome clock =
       passo("run " + program + " -m " + (machines / "bench.toml").string() + from_here + " --board " + board);
   EXPECT_EQ(clock.code, 1);
-  EXPECT_NE(clock.err.find("18000000 ticks a second"), std::string::npos) << clock.err;
+  EXPECT_NE(clock.err.find("its clock has 18000000 Hz"), std::string::npos) << clock.err;
   const std::string probing = write("q.ngc", "G21 G38.2 Z-1 F60\nM2\n");
   const Outcome probe =
       passo("run " + probing + " -m " + (machines / "router.toml").string() + " --touch Z:-0.5 --board " + board);
   EXPECT_EQ(probe.code, 2);
-  EXPECT_NE(probe.err.find("--touch is for the virtual machine"), std::string::npos) << probe.err;
+  EXPECT_NE(probe.err.find("--touch is only for the simulated machine"), std::string::npos) << probe.err;
 }
 
 TEST_F(Boards, that_are_not_there_are_said_to_be_missing) {
@@ -203,7 +203,7 @@ TEST_F(Boards, that_are_not_there_are_said_to_be_missing) {
   EXPECT_NE(nonsense.err.find("expected virtual, serial:DEVICE"), std::string::npos) << nonsense.err;
   const Outcome list = passo("board list /dev/null --json");
   EXPECT_EQ(list.code, 0);
-  EXPECT_NE(list.out.find("no serial line"), std::string::npos) << list.out;
+  EXPECT_NE(list.out.find("not a serial port"), std::string::npos) << list.out;
 }
 
 // Six motors of a Mega, faster than 90 kHz.
@@ -250,33 +250,33 @@ TEST_F(Boards, are_flashed_by_avrdude_after_what_they_held_was_kept) {
   ASSERT_EQ(outcome.code, 0) << outcome.err;
   const std::string common = "-p atmega328p -c arduino -P /dev/x -b 115200 -D -U flash:";
   EXPECT_EQ(read(path("calls")), common + "r:" + path("old.hex") + ":i\n" + common + "w:" + path("new.hex") + ":i\n");
-  EXPECT_NE(outcome.out.find("The way back: avrdude"), std::string::npos);
+  EXPECT_NE(outcome.out.find("To restore the old firmware: avrdude"), std::string::npos);
   // A second attempt would keep our own program as what was there before.
   const Outcome again =
       passo("board flash uno -d /dev/x --backup " + path("old.hex") + " --image " + image(), fake_avrdude());
   EXPECT_EQ(again.code, 2);
-  EXPECT_NE(again.err.find("is there already"), std::string::npos);
+  EXPECT_NE(again.err.find("already exists"), std::string::npos);
 }
 
 TEST_F(Boards, are_not_touched_when_the_first_look_fails_or_when_it_is_only_tried) {
   const std::string flash = "board flash mega -d /dev/x --backup " + path("old.hex") + " --image ";
   const Outcome failed = passo(flash + image(), fake_avrdude(1));
   EXPECT_EQ(failed.code, 1);
-  EXPECT_NE(failed.err.find("is as it was"), std::string::npos) << failed.err;
+  EXPECT_NE(failed.err.find("is unchanged"), std::string::npos) << failed.err;
   EXPECT_FALSE(std::filesystem::exists(path("old.hex"))) << "what failed is no way back";
   std::filesystem::remove(path("calls"));
   EXPECT_EQ(passo(flash + image() + " --dry-run", fake_avrdude()).code, 0);
   EXPECT_FALSE(std::filesystem::exists(path("calls")));
 }
 
-// What was kept before the write that failed stays, and is not read again: the board may hold half a program by now.
+// What was kept before the write that failed stays, and is not read again: the board's firmware may be incomplete by
+// now.
 TEST_F(Boards, are_flashed_again_after_a_write_that_failed) {
   const std::string flash = "board flash uno -d /dev/x --backup " + path("old.hex") + " --image " + image();
   for (int i = 0; i < 2; ++i) {
     const Outcome failed = passo(flash, fake_avrdude(0, 1));
     EXPECT_EQ(failed.code, 1);
-    EXPECT_NE(failed.err.find("may hold half a program. The same command tries again"), std::string::npos)
-        << failed.err;
+    EXPECT_NE(failed.err.find("firmware may be incomplete. Repeat the command"), std::string::npos) << failed.err;
     EXPECT_NE(failed.err.find("stays in " + path("old.hex")), std::string::npos) << failed.err;
     write("old.hex", "what it held");
   }
@@ -285,20 +285,20 @@ TEST_F(Boards, are_flashed_again_after_a_write_that_failed) {
   EXPECT_EQ(again.code, 0) << again.err;
   EXPECT_EQ(read(path("old.hex")), "what it held");
   EXPECT_EQ(read(path("calls")).find("flash:r"), std::string::npos);
-  EXPECT_NE(again.out.find("The way back: avrdude"), std::string::npos);
+  EXPECT_NE(again.out.find("To restore the old firmware: avrdude"), std::string::npos);
   // Done is done: from now on the file is the way back, and another flash may not overwrite it.
   const Outcome later = passo(flash, fake_avrdude());
   EXPECT_EQ(later.code, 2);
-  EXPECT_NE(later.err.find("is there already"), std::string::npos) << later.err;
+  EXPECT_NE(later.err.find("already exists"), std::string::npos) << later.err;
 }
 
 TEST_F(Boards, are_given_no_image_that_is_damaged_or_too_large) {
   const std::string flash = "board flash uno -d /dev/x --dry-run --image ";
   const Outcome damaged = passo(flash + write("a.hex", ":10000000000102030405060708090A0B0C0D0E0F79\n:00000001FF\n"));
   EXPECT_EQ(damaged.code, 2);
-  EXPECT_NE(damaged.err.find("a.hex:1: no record"), std::string::npos) << damaged.err;
+  EXPECT_NE(damaged.err.find("a.hex:1: not a record"), std::string::npos) << damaged.err;
   const Outcome cut = passo(flash + write("b.hex", ":10000000000102030405060708090A0B0C0D0E0F78\n"));
-  EXPECT_NE(cut.err.find("ends before its end"), std::string::npos) << cut.err;
+  EXPECT_NE(cut.err.find("has no end record"), std::string::npos) << cut.err;
   const Outcome large = passo(flash + write("c.hex", ":017E00000081\n:00000001FF\n"));
   EXPECT_EQ(large.code, 2);
   EXPECT_NE(large.err.find("has room for 32256"), std::string::npos) << large.err;
@@ -337,10 +337,10 @@ TEST_F(Boards, that_show_themselves_as_a_drive_get_no_file_for_another_chip) {
   const std::string flash = "board flash pico -d " + path("drive") + " --image ";
   const Outcome other = passo(flash + write("other.uf2", uf2_block(0xe48bff59)));
   EXPECT_EQ(other.code, 2);
-  EXPECT_NE(other.err.find("for another chip than the RP2040"), std::string::npos) << other.err;
+  EXPECT_NE(other.err.find("is not for the RP2040"), std::string::npos) << other.err;
   const Outcome cut = passo(flash + write("cut.uf2", uf2_block().substr(0, 500)));
   EXPECT_EQ(cut.code, 2);
-  EXPECT_NE(cut.err.find("this is no UF2 file, or cut short"), std::string::npos) << cut.err;
+  EXPECT_NE(cut.err.find("this is not a UF2 file, or it is truncated"), std::string::npos) << cut.err;
 }
 
 }  // namespace

@@ -73,7 +73,7 @@ TEST_F(CamMill, ways_midway_between_islands_end_at_the_edge) {
   EXPECT_THAT(made.out, HasSubstr(", 0 of "));
   EXPECT_THAT(made.out, HasSubstr("3 islands, all apart"));
   EXPECT_EQ(check(path("v.ngc")).code, 0);
-  EXPECT_THAT(cam(options + " --clear").err, HasSubstr("--clear or --voronoi"));
+  EXPECT_THAT(cam(options + " --clear").err, HasSubstr("--clear and --voronoi cannot be combined"));
 }
 
 TEST_F(CamMill, a_gap_too_narrow_is_told) {
@@ -91,7 +91,7 @@ TEST_F(CamMill, a_cleared_back_is_turned_over_about_two_holes) {
           " --tool 1,0.2 --clear --align -5,7,25,7 --conventional --spindle 10000 -o " + path("b.ngc"));
   EXPECT_EQ(made.code, 0) << made.err;
   const std::string program = read(path("b.ngc"));
-  EXPECT_THAT(program, HasSubstr("turned over from left to right, about X10 mm"));
+  EXPECT_THAT(program, HasSubstr("flipped from left to right, about X10 mm"));
   EXPECT_THAT(program, HasSubstr("T2 M6"));
   EXPECT_THAT(program, HasSubstr("M3 S10000"));
   EXPECT_EQ(check(path("b.ngc")).code, 0);
@@ -108,11 +108,11 @@ TEST_F(CamMill, an_outline_keeps_its_arcs_and_has_tabs) {
 }
 
 TEST_F(CamMill, wrong_options_are_told) {
-  EXPECT_THAT(cam("isolate " + copper()).err, HasSubstr("expected a cutter: --tool 0.2"));
+  EXPECT_THAT(cam("isolate " + copper()).err, HasSubstr("expected a cutter, e.g. --tool 0.2"));
   EXPECT_THAT(cam("isolate " + copper() + " --v 200").err, HasSubstr("expected ANGLE,TIP"));
   EXPECT_THAT(cam("outline " + edge() + " --depth 2").err, HasSubstr("expected a length below 0"));
   EXPECT_THAT(cam("outline " + edge() + " --zero left").err, HasSubstr("expected file, lower-left or X,Y"));
-  EXPECT_THAT(cam("isolate " + copper() + " --tool 0.2 --align 1,2,3,4").err, HasSubstr("side by side"));
+  EXPECT_THAT(cam("isolate " + copper() + " --tool 0.2 --align 1,2,3,4").err, HasSubstr("the same Y or the same X"));
   EXPECT_EQ(cam("isolate nowhere.gbr --tool 0.2").code, 2);
 }
 
@@ -129,7 +129,7 @@ TEST_F(CamMill, a_whole_board_gets_numbered_programs_and_a_page) {
     EXPECT_EQ(check(path("job/" + std::string(name))).code, 0) << name;
   }
   const std::string page = read(path("job/board.html"));
-  EXPECT_THAT(page, HasSubstr("Turn it over from left to right"));
+  EXPECT_THAT(page, HasSubstr("Flip it from left to right"));
   EXPECT_THAT(page, HasSubstr("<svg"));
   EXPECT_THAT(page, HasSubstr("<dt>Time</dt>"));
   EXPECT_THAT(page, Not(HasSubstr("<script")));
@@ -146,7 +146,7 @@ TEST_F(CamMill, an_edge_with_gaps_is_joined_where_that_is_asked_for) {
   const std::string board = "board " + copper() + " " + open + " -o " + path("job");
   const Outcome refused = cam(board);
   EXPECT_EQ(refused.code, 2);
-  EXPECT_THAT(refused.err, HasSubstr("0.3 mm away: --join 0.3mm"));
+  EXPECT_THAT(refused.err, HasSubstr("0.3 mm away, so --join 0.3mm"));
   const Outcome made = cam(board + " --join 0.3mm");
   EXPECT_EQ(made.code, 0) << made.err;
   EXPECT_TRUE(std::filesystem::exists(path("job/2-outline.ngc")));
@@ -180,8 +180,8 @@ TEST_F(CamMill, what_a_file_is_can_be_said_and_the_steps_are_told_as_json) {
   EXPECT_THAT(read(path("job/board.svg")), HasSubstr("<svg"));
   const std::string board = "board " + path("") + " -o " + path("job");
   EXPECT_THAT(cam(board + " --as odd.gbr").err, HasSubstr("expected FILE=LAYER"));
-  EXPECT_THAT(cam(board + " --as odd.gbr=copper").err, HasSubstr("is no layer: expected top copper"));
-  EXPECT_THAT(cam(board + " --as odd.gbr=drill").err, HasSubstr("is no drill file"));
+  EXPECT_THAT(cam(board + " --as odd.gbr=copper").err, HasSubstr("is not a layer: expected top copper"));
+  EXPECT_THAT(cam(board + " --as odd.gbr=drill").err, HasSubstr("is not a drill file"));
   EXPECT_THAT(cam(board + " --as board-PTH.drl=outline").err, HasSubstr("is a drill file"));
   EXPECT_EQ(cam(board + " --as none.gbr=outline").code, 2);
   // What was read is told also where nothing can be made of it.
@@ -287,7 +287,7 @@ TEST_F(CamMill, a_board_without_an_edge_is_not_cut_out) {
   const Outcome made =
       cam("board " + path("board-F_Cu.gbr") + " " + path("board-Edge_Cuts.gbr") + " -o " + path("job"));
   EXPECT_EQ(made.code, 0) << made.err;
-  EXPECT_THAT(made.err, HasSubstr("no closed edge"));
+  EXPECT_THAT(made.err, HasSubstr("no closed outline"));
   EXPECT_TRUE(std::filesystem::exists(path("job/1-isolate-front.ngc")));
 }
 

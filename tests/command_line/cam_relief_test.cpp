@@ -20,11 +20,10 @@ class CamRelief : public passo::test::CommandLine {
 };
 
 TEST_F(CamRelief, three_cutters_carve_a_picture_and_a_machine_can_run_it) {
-  const Outcome made =
-      relief(flower +
-             " --width 20 --depth 3 --rough flat:4 --cutter ball:2 --rest ball:0.8 --scallop 0.2 --origin "
-             "center --spindle 12000 -o " +
-             path("f.ngc") + " -p " + path("f.png"));
+  const Outcome made = relief(flower +
+                              " --width 20 --depth 3 --rough flat:4 --cutter ball:2 --rest ball:0.8 --scallop 0.2 "
+                              "--origin center --spindle 12000 -o " +
+                              path("f.ngc") + " -p " + path("f.png"));
   EXPECT_EQ(made.code, 0) << made.err;
   EXPECT_EQ(made.err, "");
   EXPECT_THAT(made.out, HasSubstr("240 x 240 pixels, 16 bit grey, luminance\n20 x 20 mm, "));
@@ -68,14 +67,13 @@ TEST_F(CamRelief, contours_offsets_arcs_and_held_removal_run_on_a_machine_and_cu
     }
   }
   const std::string program = path("c.ngc");
-  const Outcome made =
-      relief(write("cone.csv", map) +
-             " --pitch 0.2 --cutter ball:2 --way contours --steep 25 --rough flat:4 --rough-way offsets "
-             "--rough-removal 900 --feed-most 2000 -o " +
-             program);
+  const Outcome made = relief(write("cone.csv", map) +
+                              " --pitch 0.2 --cutter ball:2 --way contours --steep 25 --rough flat:4 --rough-way "
+                              "offsets --rough-removal 900 --feed-most 2000 -o " +
+                              program);
   EXPECT_EQ(made.code, 0) << made.err;
   EXPECT_THAT(made.out, HasSubstr(" of them arcs, "));
-  EXPECT_THAT(made.out, HasSubstr(" mm3 a minute\n"));
+  EXPECT_THAT(made.out, HasSubstr(" mm3/min\n"));
   const Outcome checked = passo("check " + program + on_router);
   EXPECT_EQ(checked.code, 0) << checked.err;
   EXPECT_THAT(checked.err, Not(HasSubstr("warning")));
@@ -105,22 +103,22 @@ TEST_F(CamRelief, what_is_wrong_is_told_and_nothing_is_written) {
     EXPECT_THAT(outcome.err, HasSubstr(words)) << arguments;
   };
   refused(path("none.png"), "[picture.unreadable]");
-  refused(write("cut.png", read(flower).substr(0, 20'000)), "the picture is not read: the file ends too early");
+  refused(write("cut.png", read(flower).substr(0, 20'000)), "the picture cannot be read: the file ends too early");
   refused(write("noise.png", std::string("\x7f\0\1", 3)), "[surface.unknown-kind]");
   const std::string essay = write("essay.txt", "Dear reader,\nthis is no relief.\nNot at all.\n");
-  refused(essay, "this is no height map: 'this' is no length that is read");
+  refused(essay, "this is not a height map: 'this' is not a valid length");
   EXPECT_THAT(relief(essay).err, HasSubstr("1 error"));
   refused(write("logo.svg", "<svg xmlns='http://www.w3.org/2000/svg'/>\n"), "this is an SVG drawing");
   refused(flower + " --channel alpha", "it has no alpha channel");
   refused(flower + " --cutter ball", "--cutter: 'ball': expected ball:DIAMETER");
-  refused(flower + " --rest drill:1", "--rest: 'drill:1' is no cutter");
+  refused(flower + " --rest drill:1", "--rest: 'drill:1' is not a valid cutter");
   refused(flower + " --depth 300", "--depth: expected 0.001 to 250 mm, found '300'");
   refused(flower + " --pitch 0.001", "[relief.too-many-nodes]");
   refused(flower + " --origin top", "--origin: expected lower-left");
   refused(flower + " --way waterline", "--way: waterline not in");
   refused(flower + " --removal=-1", "--removal: expected a number from 0");
   refused(flower + " --feed-most 0", "--feed-most: expected 1 to 100000 mm, found '0'");
-  refused(flower + " -p view.svg", "should end in .png");
+  refused(flower + " -p view.svg", "expected a name that ends with .png");
   EXPECT_EQ(relief(flower + " -o " + flower).code, 2) << "the picture itself would be overwritten";
   EXPECT_FALSE(std::filesystem::exists(path("r.ngc")));
 }

@@ -63,7 +63,7 @@ TEST_F(CamDrill, the_classic_chain_makes_a_program_in_centimetres) {
 TEST_F(CamDrill, the_classic_chain_in_millimetres_runs_on_the_virtual_machine) {
   const Outcome made = drill(pads() + " --drill 0.075cm --clearance 0.2cm --depth -0.3cm -o " + path("fori.gc"));
   EXPECT_EQ(made.code, 0) << made.err;
-  EXPECT_THAT(made.err, HasSubstr("mm is guessed"));
+  EXPECT_THAT(made.err, HasSubstr("mm is assumed"));
   for (const char* name : {"forty-eight.toml", "pantograph.toml"}) {
     const Outcome checked = passo("check " + path("fori.gc") + " -m " + machine(name));
     EXPECT_EQ(checked.code, 0) << checked.err;
@@ -109,7 +109,7 @@ TEST_F(CamDrill, the_same_files_make_the_same_bytes) {
 TEST_F(CamDrill, what_is_wrong_is_told_and_nothing_is_written) {
   const Outcome rack = drill(drill_file() + " --tools 0.8 -o " + path("b.ngc"));
   EXPECT_EQ(rack.code, 2);
-  EXPECT_THAT(rack.err, HasSubstr("board.drl:15:1: error: no tool makes 1 hole or slot of 3.2 mm"));
+  EXPECT_THAT(rack.err, HasSubstr("board.drl:15:1: error: no tool can make 1 hole or slot of 3.2 mm"));
   const Outcome file = drill(write("broken.drl", "M48\nMETRIC\nT1C0.8\n%\nT1\nX1.0Yq\n") + " -o " + path("b.ngc"));
   EXPECT_EQ(file.code, 2);
   EXPECT_THAT(file.err, HasSubstr("broken.drl:6:5: error: 'Y' has no number [excellon.unknown-command]"));

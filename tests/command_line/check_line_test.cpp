@@ -68,7 +68,7 @@ TEST_F(CheckLine, is_within_two_hundredths_of_what_the_firmware_takes) {
 TEST_F(CheckLine, is_told_in_words_by_check_and_run) {
   const std::string program = write("p.ngc", bends_);
   EXPECT_THAT(passo("check " + program + " -m " + uno_).out,
-              HasSubstr("\nline            to a board with 42 places: "));
+              HasSubstr("\nserial link     to a board with a queue of 42 items: "));
   EXPECT_THAT(passo("run " + program + " -m " + uno_ + " --cut-cable-at 9999:1").out,
               HasSubstr("longer than without it: "));
 }

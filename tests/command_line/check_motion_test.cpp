@@ -67,7 +67,7 @@ TEST_F(CheckMotion, draws_the_motion) {
   EXPECT_THAT(passo::test::read(picture), testing::HasSubstr("<svg"));
   const Outcome wrong = check("G21 G0 X5\nM2\n", "--picture motion.jpeg");
   EXPECT_EQ(wrong.code, 2);
-  EXPECT_THAT(wrong.err, testing::HasSubstr("a picture's name ends in .svg or .png"));
+  EXPECT_THAT(wrong.err, testing::HasSubstr("the name of a picture must end with .svg or .png"));
 }
 
 TEST_F(CheckMotion, help_has_an_example) {

@@ -71,9 +71,9 @@ TEST_F(CheckReport, is_one_page_without_network_and_script) {
   const std::string page = read(path("r.html"));
   EXPECT_THAT(page, HasSubstr("<!DOCTYPE html>"));
   for (const char* part :
-       {">Axes<", ">Speed, and what bounds it<", ">Motors<", "Torque needed along the program",
-        ">The path, dark where little torque is left<", "aria-label=\"The path from the front, the right and above\"",
-        "id=\"flat-", "@media print"}) {
+       {">Axes<", ">Speed, and what limits it<", ">Motors<", "Torque needed along the program",
+        ">The toolpath, darker where the torque margin is small<",
+        "aria-label=\"The toolpath from the front, the right and above\"", "id=\"flat-", "@media print"}) {
     EXPECT_THAT(page, HasSubstr(part));
   }
   for (const char* foreign : {"<script", "<link", " src=\"http", "@import", "url(http"}) {

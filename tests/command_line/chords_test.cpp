@@ -148,18 +148,18 @@ TEST_F(ChordsCommand, what_is_wrong_is_said_and_exits_with_2) {
     EXPECT_EQ(outcome.out, "") << arguments;
     return outcome.err;
   };
-  EXPECT_THAT(wrong("spiral --from 0,0"), HasSubstr("'spiral' is none of line, arc, helix, ellipse"));
+  EXPECT_THAT(wrong("spiral --from 0,0"), HasSubstr("'spiral' is not one of line, arc, helix, ellipse"));
   EXPECT_THAT(wrong("arc --from 10,0 --to 0,10"), HasSubstr("--center is missing: X,Y or X,Y,Z in mm"));
   EXPECT_THAT(wrong("arc --from 10,0 --to '0;10' --center 0,0"),
               HasSubstr("--to: expected X,Y or X,Y,Z in mm, found '0;10'"));
-  EXPECT_THAT(wrong("arc --from 10,0 --to 0,11 --center 0,0"), HasSubstr("an arc keeps its radius"));
-  EXPECT_THAT(wrong("arc --from 0,0 --to 0,0 --center 0,0"), HasSubstr("needs a radius"));
+  EXPECT_THAT(wrong("arc --from 10,0 --to 0,11 --center 0,0"), HasSubstr("an arc has one radius"));
+  EXPECT_THAT(wrong("arc --from 0,0 --to 0,0 --center 0,0"), HasSubstr("the arc has no radius"));
   EXPECT_THAT(wrong("arc --from 10,0 --to 0,10 --center 0,0 --radii 1,2"), HasSubstr("--radii is not for --curve arc"));
   EXPECT_THAT(wrong("ellipse --center 0,0 --radii 10,0"), HasSubstr("above 0 mm"));
-  EXPECT_THAT(wrong("ellipse --center 0,0 --radii 10,5 --angles 30,30"), HasSubstr("angle to turn"));
+  EXPECT_THAT(wrong("ellipse --center 0,0 --radii 10,5 --angles 30,30"), HasSubstr("an angle other than 0"));
   EXPECT_THAT(wrong("parabola --vertex 0,0 --focus 0,10 --from -20,11 --to 0,0"),
-              HasSubstr("the parabola is at -20,10"));
-  EXPECT_THAT(wrong("parabola --vertex 0,0 --focus 0,0 --from 0,0 --to 1,1"), HasSubstr("two places"));
+              HasSubstr("at that height is -20,10"));
+  EXPECT_THAT(wrong("parabola --vertex 0,0 --focus 0,0 --from 0,0 --to 1,1"), HasSubstr("two different points"));
   EXPECT_THAT(wrong("bezier --from 0,0 --to 1,1"), HasSubstr("one --control"));
   EXPECT_THAT(wrong("nurbs --control 0,0 1,1"), HasSubstr("at least 4 control points, not 2"));
   EXPECT_THAT(wrong("nurbs --control 0,0 1,1 2,0 3,0 --knots 0 1 2"), HasSubstr("needs 8 knots, not 3"));
@@ -178,7 +178,7 @@ TEST_F(ChordsCommand, what_is_wrong_is_said_and_exits_with_2) {
   EXPECT_THAT(wrong(arc + "--feed 600 --period 0"), HasSubstr("above 0"));
   EXPECT_THAT(wrong(arc + "--feed 600 --period 5"), HasSubstr("shorter --period"));
   EXPECT_THAT(wrong(arc + "--fine lean"), HasSubstr("--steps-per-mm"));
-  EXPECT_THAT(wrong(arc + "--steps-per-mm 10 --fine wu"), HasSubstr("none of master-slave"));
+  EXPECT_THAT(wrong(arc + "--steps-per-mm 10 --fine wu"), HasSubstr("not one of master-slave"));
   EXPECT_THAT(wrong(arc + "--steps-per-mm 10 --fine midpoint"), HasSubstr("for arcs"));
   EXPECT_THAT(wrong("line --from 0,0 --to 5,5,5 --steps-per-mm 10 --fine slope-blocks"), HasSubstr("two axes"));
   EXPECT_TRUE(files().empty());

@@ -226,7 +226,7 @@ TEST_F(CommandLine, a_program_that_never_ends_is_an_error_wherever_it_is_read) {
         << command;
     const Outcome endless = passo(command + "--step-limit 3000 " + moving);
     EXPECT_EQ(endless.code, 2) << command;
-    EXPECT_NE((endless.out + endless.err).find(":1:1: error: the loop came to 3000 passes, calls and operations"),
+    EXPECT_NE((endless.out + endless.err).find(":1:1: error: the loop reached 3000 passes, calls and operations"),
               std::string::npos)
         << command;
   }

@@ -80,7 +80,7 @@ TEST_F(Explain, the_dialect_of_grbl_refuses_with_its_numbers) {
   EXPECT_THAT(unknown.err, HasSubstr("expected linuxcnc or grbl"));
   const Outcome deleting = passo("canon --dialect grbl --block-delete " + file);
   EXPECT_EQ(deleting.code, 2);
-  EXPECT_THAT(deleting.err, HasSubstr("grbl knows no --block-delete"));
+  EXPECT_THAT(deleting.err, HasSubstr("--block-delete does not work with --dialect grbl"));
 }
 
 }  // namespace

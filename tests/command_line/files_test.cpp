@@ -55,7 +55,7 @@ TEST_F(FilesOfACommand, that_a_program_may_call_are_not_overwritten) {
     const std::string before = read(called);
     const Outcome refused = passo(run_ + "--subs " + path("subs") + " -r " + called);
     EXPECT_EQ(refused.code, 2);
-    EXPECT_THAT(refused.err, HasSubstr("a program that others may call would be overwritten"));
+    EXPECT_THAT(refused.err, HasSubstr("would overwrite a program that other programs may call"));
     EXPECT_EQ(read(called), before);
   }
 }

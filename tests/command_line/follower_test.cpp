@@ -62,8 +62,8 @@ TEST_F(FollowerCommand, runs_the_file_that_is_flashed) {
     const std::string other = write("other.hex", "this is no program\n");
     const Outcome refused = sim(run + " --image " + other);
     EXPECT_EQ(refused.code, 1);
-    EXPECT_THAT(refused.err, testing::AnyOf(HasSubstr(other + " is no program for a PIC16F877A"),
-                                            HasSubstr("is " + other + " a follower's image?")));
+    EXPECT_THAT(refused.err, testing::AnyOf(HasSubstr(other + " is not firmware for a PIC16F877A"),
+                                            HasSubstr("check that " + other + " is follower firmware")));
   }
 }
 
@@ -77,14 +77,14 @@ TEST_F(FollowerCommand, holds_a_key_until_its_last_hold_is_over) {
 TEST_F(FollowerCommand, says_what_it_expected) {
   EXPECT_THAT(sim("uno_wave --key 6@0.1").err, HasSubstr("an Uno has no pins for a keypad"));
   EXPECT_THAT(sim("uno_wave --line button@0.1").err, HasSubstr("an Uno has no pins for a keypad"));
-  EXPECT_THAT(sim("first_board --clock 20 --from 5 --time 1").err, HasSubstr("the first pulse comes at 5 s"));
+  EXPECT_THAT(sim("first_board --clock 20 --from 5 --time 1").err, HasSubstr("the first pulse would come at 5 s"));
   EXPECT_THAT(sim("first_board --image nowhere.hex").err, HasSubstr("nowhere.hex: there is no such file"));
   EXPECT_EQ(sim("third_board").code, 2);
   EXPECT_THAT(sim("first_board --key 6").err, HasSubstr("expected KEY@FROM"));
   EXPECT_THAT(sim("first_board --line clock.w@1").err, HasSubstr("expected LINE@FROM"));
   EXPECT_THAT(sim("first_board --clock 10 --axes Q").err, HasSubstr("letters of XYZ"));
   EXPECT_THAT(sim("uno_wave --clock 1e6 --time 100").err, HasSubstr("more than 2000000 edges"));
-  EXPECT_THAT(sim("uno_wave --trace x.txt").err, HasSubstr("ends in .vcd or .csv"));
+  EXPECT_THAT(sim("uno_wave --trace x.txt").err, HasSubstr("must end with .vcd or .csv"));
 }
 
 }  // namespace

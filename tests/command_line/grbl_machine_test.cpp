@@ -54,7 +54,7 @@ TEST_F(GrblMachine, is_held_and_slowed_and_a_hold_may_end_the_run) {
   EXPECT_EQ(outcome.code, 0) << outcome.err;
   outcome = beside_a_machine(run(program, "-q --hold-at 0.2"));
   EXPECT_EQ(outcome.code, 1);
-  EXPECT_THAT(outcome.err, HasSubstr("held; the machine was last in the state Hold at X"));
+  EXPECT_THAT(outcome.err, HasSubstr("held; the machine was last in state Hold at X"));
 }
 
 TEST_F(GrblMachine, cannot_do_all_and_says_so) {
@@ -63,7 +63,7 @@ TEST_F(GrblMachine, cannot_do_all_and_says_so) {
                                         "; [ $? = 2 ] && " PASSO_PROGRAM " jog X1 -m " PASSO_SOURCE_DIR
                                         "/examples/machines/router.toml --board $L");
   EXPECT_EQ(outcome.code, 1);
-  EXPECT_THAT(outcome.err, HasSubstr("p.ngc:2:1: error: a machine that speaks Grbl cannot do this: its probe"));
+  EXPECT_THAT(outcome.err, HasSubstr("p.ngc:2:1: error: a machine with Grbl cannot do this: its probe"));
   EXPECT_THAT(outcome.err, HasSubstr("--resume and --journal"));
   EXPECT_THAT(outcome.err, HasSubstr("[board.grbl]"));
 }
@@ -120,13 +120,13 @@ TEST_F(FakeGrblMachine, that_takes_no_program_is_refused_in_words) {
   EXPECT_THAT(outcome_in(asleep, "home"), HasSubstr("[grbl.asleep]"));
   StrictGrbl nowhere;
   nowhere.own_report = [] { return std::string("<Idle|FS:0,0>"); };
-  EXPECT_THAT(outcome_in(nowhere, "run " + program()), HasSubstr("$10=1 makes them tell it [grbl.no-place]"));
+  EXPECT_THAT(outcome_in(nowhere, "run " + program()), HasSubstr("$10=1 adds it [grbl.no-place]"));
   StrictGrbl locked;
   locked.more_of_itself = "[FIRMWARE:grblHAL]\r\n";
   locked.own_report = [] { return std::string("<Alarm:11|MPos:0.000,0.000,0.000|FS:0,0>"); };
   locked.state = "Alarm";
   EXPECT_THAT(outcome_in(locked, "run " + program()),
-              HasSubstr("locked by an alarm (ALARM:11, it must be homed first). --home homes it"));
+              HasSubstr("locked by an alarm (ALARM:11, it must be homed first). Home it with --home"));
   StrictGrbl bare;
   bare.has_switches = false;
   const std::string words = outcome_in(bare, "home");
@@ -138,7 +138,7 @@ TEST_F(FakeGrblMachine, is_known_where_a_board_is_expected) {
   const FakeGrbl machine((StrictGrbl()));
   const auto outcome = passo("board info --wait 0.5 " + machine.address().substr(5));
   EXPECT_EQ(outcome.code, 1);
-  EXPECT_THAT(outcome.err, HasSubstr("answers as a machine with Grbl does"));
+  EXPECT_THAT(outcome.err, HasSubstr("is a machine with Grbl"));
 }
 
 TEST_F(FakeGrblMachine, that_is_held_by_somebody_is_waited_for_in_words) {

@@ -33,8 +33,8 @@ class HomeCommand : public passo::test::ServedBoard {
 TEST_F(HomeCommand, finds_the_place_and_says_where_it_rests) {
   const Outcome outcome = passo("home" + near_machine());
   EXPECT_EQ(outcome.code, 0) << outcome.err;
-  EXPECT_THAT(outcome.out, HasSubstr("Z: its switch closed 5.100 from where it stood; rests at 4.600\nX: "));
-  EXPECT_THAT(outcome.out, HasSubstr(" s: at rest in Z4.600 X-4.700 Y-4.700 (machine)\n"));
+  EXPECT_THAT(outcome.out, HasSubstr("Z: switch closed 5.100 from the start; stopped at 4.600\nX: "));
+  EXPECT_THAT(outcome.out, HasSubstr(" s; stopped at Z4.600 X-4.700 Y-4.700 (machine)\n"));
   const Outcome json = passo("home --json" + near_machine());
   EXPECT_EQ(json.code, 0);
   const nlohmann::json all = nlohmann::json::parse(json.out, nullptr, false);
@@ -163,7 +163,7 @@ TEST_F(HomeCommand, goes_before_a_run_that_is_resumed) {
                               machine + " --board " + board + " --journal " + path("j");
   const Outcome held = passo(command + " --hold-at 0.5");
   EXPECT_EQ(held.code, 0) << held.err;
-  EXPECT_THAT(held.err, HasSubstr("--resume goes on"));
+  EXPECT_THAT(held.err, HasSubstr("--resume continues"));
   const Outcome resumed = passo(command + " --resume");
   ASSERT_EQ(resumed.code, 0) << resumed.err;
   const nlohmann::json all = nlohmann::json::parse(resumed.out, nullptr, false);

@@ -124,10 +124,10 @@ TEST_F(Interpolate, what_is_wrong_is_said_and_exits_with_2) {
   EXPECT_THAT(wrong("--method lean --to 2147483648,0"), HasSubstr("2147483647"));
   EXPECT_THAT(wrong("--method lean --half-loaded --to 3,3"), HasSubstr("--method dda"));
   EXPECT_THAT(wrong("--method lean --to 3,3 --cw"), HasSubstr("--center"));
-  EXPECT_THAT(wrong("--compare --method lean --to 3,3"), HasSubstr("leave --method out"));
+  EXPECT_THAT(wrong("--compare --method lean --to 3,3"), HasSubstr("cannot be combined with --method"));
   EXPECT_THAT(interpolate("--compare --to 3,3 --picture " + path("p.pdf")).err, HasSubstr(".svg or .png"));
   EXPECT_THAT(interpolate("--method lean --to 200000,3 --picture " + path("p.png")).err, HasSubstr("too many"));
-  EXPECT_THAT(wrong("--method lean --to 3,3 --time 1 --feed 2"), HasSubstr("give one of them"));
+  EXPECT_THAT(wrong("--method lean --to 3,3 --time 1 --feed 2"), HasSubstr("give only one of them"));
   EXPECT_THAT(wrong("--method lean --to 3,3 --time 0"), HasSubstr("--time: expected a number above 0"));
   EXPECT_THAT(wrong("--method lean --to 3,3 --rule exact"), HasSubstr("--time or --feed"));
   EXPECT_THAT(wrong("--compare --to 3,3 --beats"), HasSubstr("one method"));

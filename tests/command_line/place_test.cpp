@@ -136,13 +136,13 @@ TEST_F(PlaceOfAMachine, at_a_closed_limit_switch_is_no_start) {
   const Outcome unknown = run("G21 G90 G0 X1");
   EXPECT_EQ(unknown.code, 1);
   EXPECT_THAT(unknown.err, HasSubstr("its motors were stopped at once"));
-  EXPECT_THAT(unknown.err, Not(HasSubstr("was not finished")));
+  EXPECT_THAT(unknown.err, Not(HasSubstr("was left unfinished")));
   for (int i = 0; i < 2; ++i) {
     const Outcome again = run("G21 G90 G0 X-1", "--from-here");
     EXPECT_EQ(again.code, 1);
     EXPECT_THAT(again.err, HasSubstr("the limit switch of X is closed: jog away from it, or home the machine, first "
                                      "[machine.limit-closed]"));
-    EXPECT_THAT(again.err, Not(HasSubstr("was not finished")));
+    EXPECT_THAT(again.err, Not(HasSubstr("was left unfinished")));
     const Outcome toward = passo("jog X-1 -F 3000" + on_board());
     EXPECT_EQ(toward.code, 1);
     EXPECT_THAT(toward.err, HasSubstr("the limit switch of X is closed at that end"));
@@ -152,7 +152,7 @@ TEST_F(PlaceOfAMachine, at_a_closed_limit_switch_is_no_start) {
   EXPECT_EQ(x(), -2);
   const Outcome moved = run("G21 G90 G0 X1", "--from-here");
   EXPECT_EQ(moved.code, 0) << moved.err;
-  EXPECT_THAT(moved.err, Not(HasSubstr("was not finished")));
+  EXPECT_THAT(moved.err, Not(HasSubstr("was left unfinished")));
 }
 
 // Each way off it that the words name, on one board, which is never started anew.

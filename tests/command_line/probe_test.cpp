@@ -50,7 +50,7 @@ TEST_F(Probe, touches_surfaces_in_files) {
   EXPECT_THAT(stl.err, HasSubstr("-5.000000"));
   const Outcome wrong = run_text(program, "--touch " + write("bad.csv", "0,0,1\n0,x,2\n"));
   EXPECT_EQ(wrong.code, 2);
-  EXPECT_THAT(wrong.err, HasSubstr("bad.csv:2:3: error: 'x' is no length"));
+  EXPECT_THAT(wrong.err, HasSubstr("bad.csv:2:3: error: 'x' is not a valid length"));
 }
 
 TEST_F(Probe, tells_what_it_found_in_the_json) {

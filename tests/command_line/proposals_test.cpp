@@ -101,8 +101,10 @@ TEST_F(Proposals, are_in_words) {
   const std::string on = machine({0, 100}, {0, 100});
   const Outcome outcome = passo("check " + write("p.ngc", "G21 G90\nG0 X-12.4 Y10\nX50\nM2\n") + " -m " + on);
   EXPECT_EQ(outcome.code, 2);
-  EXPECT_THAT(outcome.out, HasSubstr("proposal        with another work zero the program fits the travel (checked): "
-                                     "G21 G10 L2 P1 X13\n"));
+  EXPECT_THAT(
+      outcome.out,
+      HasSubstr(
+          "proposal        with another work zero, the program fits into the travel (checked): G21 G10 L2 P1 X13\n"));
 }
 
 // Moves in machine coordinates and zeros that the program sets follow no zero of the operator.
@@ -170,8 +172,8 @@ TEST_F(Proposals, of_tools_are_in_words) {
                                 write("t.tbl", "T1 P1\n") + " -m " + on);
   EXPECT_EQ(outcome.code, 2);
   EXPECT_THAT(outcome.out,
-              HasSubstr("proposal        with this tool in the tool table the program passes (checked, with a "
-                        "length and a diameter of 0: add those of the real tool as Z and D): T5 P5\n"));
+              HasSubstr("proposal        with this tool in the tool table, the program passes the check (checked with "
+                        "length and diameter 0: add those of the real tool as Z and D): T5 P5\n"));
 }
 
 // Another error stays, or the number of the tool is worked out.

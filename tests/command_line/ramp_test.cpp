@@ -205,13 +205,13 @@ TEST_F(RampCommand, bad_options_are_told_with_what_was_expected) {
   refused("--method exact --clock nan --steps-per-rev 200 --accel 1", "--clock nan");
   refused("--method exact --clock 1e6 --steps-per-rev 0 --accel 1", "--steps-per-rev 0");
   refused("--method exact " + motor + "--steps 0", "--steps 0: expected 1 to 536870912");
-  refused("--method exact " + motor + "--steps 5 --move 5", "expected one of them");
+  refused("--method exact " + motor + "--steps 5 --move 5", "expected either --steps (a ramp) or --move");
   refused("--method table " + motor + "--steps 5 --table-size 65536", "--table-size 65536: expected 1 to 65535");
   refused("--method table " + motor + "--move 5 --jerk 7", "--method exact");
   refused("--method exact " + motor + "--steps 5 --start-rate 3", "start rate");
   refused("--method exact " + motor + "--steps 5 --stop-after 3", "--stop-after is for a --move");
   refused("--method exact " + motor + "--steps 5 --reverse-after 3", "--reverse-after is for a --move");
-  refused("--method exact " + motor + "--move 9 --stop-after 3 --reverse-after 3", "expected one of them");
+  refused("--method exact " + motor + "--move 9 --stop-after 3 --reverse-after 3", "cannot be combined");
   refused("--print-table 0", "--print-table 0: expected 1 to 65535");
   refused("--print-table 256 --clock 1e9 --steps-per-rev 400 --accel 50", "16 bits");
   refused("--method exact " + motor + "--steps 5 --format c", "--format is for --print-table");

@@ -19,8 +19,7 @@ using passo::test::read;
 // About one and a half seconds.
 const std::string text =
     "G21 G90 G64 P.02 F3000 M3 S1000\nG4 P.1\nG2 X6 Y0 I3 J0\nG3 X9 I1.5\nG1 X4 Y3\nM8\nX12 Z-1\nX2 Y2\nG0 X5 Y1 "
-    "Z2\nM5 "
-    "M9\nM2\n";
+    "Z2\nM5 M9\nM2\n";
 
 class Resumed : public passo::test::ServedBoard {
  protected:
@@ -87,7 +86,7 @@ class Resumed : public passo::test::ServedBoard {
   void leave_unfinished() {
     const Outcome held = passo(command("--hold-at 0.4"));
     ASSERT_EQ(held.code, 0) << held.err;
-    ASSERT_NE(held.err.find("--resume goes on"), std::string::npos) << held.err;
+    ASSERT_NE(held.err.find("--resume continues"), std::string::npos) << held.err;
   }
   void expect_refused(const std::string& code, const std::string& words, const std::string& more = "--resume") const {
     const Outcome refused = passo(command(more));
@@ -106,7 +105,7 @@ TEST_F(Resumed, after_it_was_killed_twice_it_ends_where_it_would_have_ended) {
   // While the board still brakes: the other waits for its rest.
   const Outcome stopped = passo(command("--resume --hold-at 0.5"));
   EXPECT_EQ(stopped.code, 0) << stopped.err;
-  EXPECT_NE(stopped.err.find("goes on at line"), std::string::npos) << stopped.err;
+  EXPECT_NE(stopped.err.find("continues at line"), std::string::npos) << stopped.err;
   const Outcome resumed = passo(command("--resume"));
   ASSERT_EQ(resumed.code, 0) << resumed.err;
   expect_counts_of_the_whole_program();
@@ -118,9 +117,9 @@ TEST_F(Resumed, after_it_was_killed_twice_it_ends_where_it_would_have_ended) {
 TEST_F(Resumed, after_ctrl_c_which_brakes_on_the_path_and_says_where) {
   EXPECT_EQ(run_until(8, SIGINT), 130);
   const std::string said = read(path("run.err"));
-  EXPECT_NE(said.find("brakes on the path"), std::string::npos) << said;
-  EXPECT_NE(said.find("interrupted; the machine rests at X"), std::string::npos) << said;
-  EXPECT_NE(said.find("--resume goes on"), std::string::npos) << said;
+  EXPECT_NE(said.find("stopping on the path"), std::string::npos) << said;
+  EXPECT_NE(said.find("interrupted; the machine is stopped at X"), std::string::npos) << said;
+  EXPECT_NE(said.find("--resume continues"), std::string::npos) << said;
   const Outcome resumed = passo(command("--resume"));
   ASSERT_EQ(resumed.code, 0) << resumed.err;
   expect_counts_of_the_whole_program();
@@ -129,7 +128,7 @@ TEST_F(Resumed, after_ctrl_c_which_brakes_on_the_path_and_says_where) {
 TEST_F(Resumed, after_the_terminal_was_closed_which_is_as_ctrl_c) {
   EXPECT_EQ(run_until(8, SIGHUP), 129);
   const std::string said = read(path("run.err"));
-  EXPECT_NE(said.find("interrupted; the machine rests at X"), std::string::npos) << said;
+  EXPECT_NE(said.find("interrupted; the machine is stopped at X"), std::string::npos) << said;
   const Outcome resumed = passo(command("--resume"));
   ASSERT_EQ(resumed.code, 0) << resumed.err;
   expect_counts_of_the_whole_program();
@@ -155,7 +154,7 @@ TEST_F(Resumed, after_a_kill_that_left_the_spindle_to_the_board_which_has_switch
   EXPECT_EQ(status["outputs_timed_out"], true);
   EXPECT_EQ(status["moves"], false);
   const Outcome info = passo("board info " + board_);
-  EXPECT_NE(info.out.find("its outputs off: its host was silent"), std::string::npos) << info.out;
+  EXPECT_NE(info.out.find("its outputs are off because its host was silent"), std::string::npos) << info.out;
   const Outcome resumed = passo(command("--resume"));
   ASSERT_EQ(resumed.code, 0) << resumed.err;
   expect_counts_of_the_whole_program();
@@ -170,30 +169,30 @@ TEST_F(Resumed, is_not_needed_while_a_silent_board_is_waited_for_which_is_said_a
   };
   EXPECT_EQ(run_until(8, 0, silent), 0);
   const std::string said = read(path("run.err"));
-  EXPECT_NE(said.find("passo: the board is silent: is its cable out? The machine comes to rest on the path. It goes on "
-                      "when the board answers; if it does not, this ends in 60 s\n"),
+  EXPECT_NE(said.find("passo: the board does not answer; check its cable. The machine stops on the path. The program "
+                      "continues when the board answers, or ends in 60 s\n"),
             std::string::npos)
       << said;
-  EXPECT_NE(said.find("passo: the board answers again; it goes on\n"), std::string::npos) << said;
+  EXPECT_NE(said.find("passo: the board answers again; the program continues\n"), std::string::npos) << said;
   expect_counts_of_the_whole_program();
 }
 
 TEST_F(Resumed, twice_is_once_too_often) {
   leave_unfinished();
   EXPECT_EQ(passo(command("--resume")).code, 0);
-  expect_refused("resume.no-journal", "nothing on this board was left unfinished");
+  expect_refused("resume.no-journal", "there is no unfinished job on this board");
 }
 
 TEST_F(Resumed, not_when_what_it_is_of_was_changed) {
   leave_unfinished();
   const std::string machine = machine_;
   machine_ = write("m.toml", read(machine) + "\n");
-  expect_refused("resume.machine-changed", "the job that was not finished is of " + machine);
+  expect_refused("resume.machine-changed", "the unfinished job is of " + machine);
   machine_ = machine;
   write("p.ngc", text + "(more)\n");
-  expect_refused("resume.program-changed", "p.ngc was changed since the job began");
+  expect_refused("resume.program-changed", "p.ngc was changed since the job started");
   write("p.ngc", text);
-  expect_refused("resume.path-changed", "other options", "--resume --inches");
+  expect_refused("resume.path-changed", "the options", "--resume --inches");
   EXPECT_EQ(passo(command("--resume")).code, 0);
 }
 
@@ -212,15 +211,15 @@ TEST_F(Resumed, not_by_a_journal_that_was_torn) {
   leave_unfinished();
   const std::string whole = read(journal());
   write("j", whole.substr(0, 100));
-  expect_refused("resume.torn-journal", "is not whole");
+  expect_refused("resume.torn-journal", "is incomplete");
   std::string without_rests = whole;
   for (std::size_t i = whole.find("check ") + 24; i < whole.size(); ++i) {
     if (whole[i] != '\n' && whole[i] != ' ') without_rests[i] = '0';
   }
   write("j", without_rests);
-  expect_refused("resume.torn-journal", "the board's rest is not in it");
+  expect_refused("resume.torn-journal", "it does not contain the point at which the board stopped");
   write("j", whole + std::string(2 << 20, '\n'));
-  expect_refused("resume.torn-journal", "is not whole");
+  expect_refused("resume.torn-journal", "is incomplete");
   write("j", whole);
   EXPECT_EQ(passo(command("--resume")).code, 0);
 }
@@ -236,7 +235,7 @@ TEST_F(Resumed, with_the_program_from_a_pipe) {
     return outcome;
   };
   const Outcome held = through_the_pipe("--hold-at 0.4", text);
-  EXPECT_NE(held.err.find("--resume goes on"), std::string::npos) << held.err;
+  EXPECT_NE(held.err.find("--resume continues"), std::string::npos) << held.err;
   const Outcome other = through_the_pipe("--resume", "G21 G1 F3000 Z1\n" + text);
   EXPECT_NE(other.err.find("[resume.path-changed]"), std::string::npos) << other.err;
   const Outcome resumed = through_the_pipe("--resume", text);
@@ -246,7 +245,7 @@ TEST_F(Resumed, with_the_program_from_a_pipe) {
 TEST_F(Resumed, is_not_what_a_run_does_unasked_but_it_mentions_it) {
   leave_unfinished();
   const Outcome anew = passo(command("--hold-at 0.01"));
-  EXPECT_NE(anew.err.find("p.ngc was not finished on this board; --resume would have gone on"), std::string::npos)
+  EXPECT_NE(anew.err.find("p.ngc was left unfinished on this board; --resume would have continued"), std::string::npos)
       << anew.err;
 }
 
@@ -261,8 +260,8 @@ TEST_F(Resumed, not_while_the_job_still_runs) {
   });
   EXPECT_EQ(code, 130) << read(path("run.err"));
   EXPECT_EQ(again.code, 1);
-  EXPECT_NE(again.err.find("keeps this journal [journal.in-use]"), std::string::npos) << again.err;
-  EXPECT_EQ(again.err.find("was not finished"), std::string::npos) << again.err;
+  EXPECT_NE(again.err.find("in use by another passo [journal.in-use]"), std::string::npos) << again.err;
+  EXPECT_EQ(again.err.find("was left unfinished"), std::string::npos) << again.err;
   EXPECT_EQ(asked.code, 0) << "whoever only looks disturbs nobody: " << asked.err;
 }
 
@@ -329,7 +328,7 @@ TEST_F(Resumed, or_from_a_line_whose_steps_are_shown_first) {
 TEST_F(Resumed, only_over_a_line) {
   const Outcome alone = passo("run " + program_ + " -m " + machine_ + " --resume");
   EXPECT_EQ(alone.code, 2);
-  EXPECT_NE(alone.err.find("--resume and --journal are for a board that outlives the run"), std::string::npos);
+  EXPECT_NE(alone.err.find("--resume and --journal are only for boards that keep running"), std::string::npos);
   const Outcome unwritable =
       passo("run " + program_ + " -m " + machine_ + " --board " + board_ + from_here + " --journal /dev/null/j");
   EXPECT_EQ(unwritable.code, 1);
@@ -344,7 +343,7 @@ TEST_F(Resumed, or_told_what_is_truly_wrong_with_the_journal) {
   EXPECT_NE(folder.err.find("this journal cannot be opened: Is a directory [journal.unreadable]"), std::string::npos)
       << folder.err;
   write("j", "bread, milk");
-  expect_refused("resume.no-journal", "is no journal of Passo's");
+  expect_refused("resume.no-journal", "is not a journal of Passo");
   EXPECT_EQ(read(journal()), "bread, milk");
 }
 

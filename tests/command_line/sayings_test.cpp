@@ -66,8 +66,8 @@ TEST_F(Sayings, one_of_a_thing_has_no_plural) {
 
 TEST_F(Sayings, numbers_have_sensible_digits) {
   const std::string limit = "ramp --limit --table-size 256 --steps-per-rev 100 ";
-  EXPECT_THAT(all(limit + "--max-rate 280"), HasSubstr("for 280 Hz it needs an acceleration of at least 9.62113 rad"));
-  EXPECT_THAT(all(limit + "--accel 20"), HasSubstr("it reaches 403.701 Hz"));
+  EXPECT_THAT(all(limit + "--max-rate 280"), HasSubstr("280 Hz needs an acceleration of at least 9.62113 rad"));
+  EXPECT_THAT(all(limit + "--accel 20"), HasSubstr("reaches 403.701 Hz"));
   EXPECT_THAT(all(limit + "--max-rate 1234567.891"), HasSubstr("for 1234568 Hz"));
   const std::string table = all("ramp --print-table 256 --format asm --clock 2e6 --steps-per-rev 400 --accel 33.3");
   EXPECT_THAT(table, HasSubstr("f = 2000000 Hz"));
@@ -101,7 +101,7 @@ TEST_F(Sayings, a_finding_begins_with_a_name) {
                {"cam drill ''" + to, "passo: error: "},
                {"cam drill " + nothing + to, nothing + ": error: there is no hole"},
                {"cam drill " + nothing + " " + none + to, nothing + ", " + none + ": error: there is no hole"},
-               {"cam pocket " + nothing + " --tool 3" + to, nothing + ": error: there is no closed line"},
+               {"cam pocket " + nothing + " --tool 3" + to, nothing + ": error: these files have no closed contour"},
                {"cam pocket " + narrow + " --tool 3" + to, narrow + ": warning: the area at X10.5"},
                {"cam profile " + nothing + " --tool 3" + to, nothing + ": error: "},
                {"cam engrave " + nothing + to, nothing + ": error: "},
@@ -124,15 +124,16 @@ TEST_F(Sayings, lines_for_grbl_itself_are_named_and_percent_signs_passed_over) {
   for (const char* const dialect : {"", " --dialect grbl"}) {
     const Outcome outcome = passo("check " + program + " -m " + router_file + dialect);
     EXPECT_EQ(outcome.code, 2);
-    EXPECT_THAT(outcome.err, HasSubstr("h.nc:1:1: error: $H homes the machine: a command to Grbl, and no part of"));
+    EXPECT_THAT(outcome.err,
+                HasSubstr("h.nc:1:1: error: $H homes the machine: a system command of Grbl cannot be part of"));
     EXPECT_THAT(outcome.err, HasSubstr("passo home"));
-    EXPECT_THAT(outcome.err, HasSubstr("h.nc:2:1: error: $32= changes a setting of Grbl"));
+    EXPECT_THAT(outcome.err, HasSubstr("h.nc:2:1: error: $32= changes a Grbl setting"));
     EXPECT_THAT(outcome.err, HasSubstr("\n2 errors\n"));
   }
   std::string settings;
   for (int number = 0; number < 40; ++number) settings += "$" + std::to_string(number) + "=1 (of a machine)\r\n";
   const Outcome listed = passo("canon " + write("s.nc", settings));
-  EXPECT_THAT(listed.err, HasSubstr("s.nc: error: this is a list of settings of Grbl"));
+  EXPECT_THAT(listed.err, HasSubstr("s.nc: error: this is a list of Grbl settings"));
   EXPECT_THAT(listed.err, HasSubstr("\n1 error\n"));
 }
 

@@ -419,7 +419,7 @@ TEST_F(ServeHttp, tells_systemd_that_it_is_ready_lives_and_ends) {
 TEST_F(ServeHttp, can_be_checked_without_opening_anything) {
   const auto outcome = passo("serve --check --http 127.0.0.1:7080 --grbl-tcp 127.0.0.1:7071 --board serial:/dev/none");
   EXPECT_EQ(outcome.code, 0) << outcome.err;
-  EXPECT_THAT(outcome.out, HasSubstr("this can be served"));
+  EXPECT_THAT(outcome.out, HasSubstr("are valid"));
   write("m.toml", "nothing = 1\n");
   const std::string token = write("token", "short\n");
   EXPECT_EQ(passo("serve --check -m " + path("m.toml")).code, 3);

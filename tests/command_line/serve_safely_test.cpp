@@ -157,7 +157,7 @@ TEST_F(ServeSafely, holds_by_each_door_beside_700_idle_connections) {
   json("POST", "/programs/1/run", "", key);
   EXPECT_TRUE(until([&] { return is("Run"); }));
   const int sender = connected("tcp:127.0.0.1:");
-  hear(sender, "drives the machine]\r\n");
+  hear(sender, "is in control]\r\n");
   const int page = connected();
   say(page,
       "GET /api/v1/stream?hz=10 HTTP/1.1\r\nHost: 127.0.0.1\r\nUpgrade: websocket\r\nConnection: Upgrade\r\n"

@@ -192,7 +192,7 @@ TEST_F(ServeTroubles, waits_for_files_without_spinning) {
   EXPECT_TRUE(until([&] { return json("GET", "/status")["state"] == "Run"; }));
   const int page = stream();
   const int sender = connected("tcp:127.0.0.1:");
-  hear(sender, "drives the machine]\r\n");
+  hear(sender, "is in control]\r\n");
   json("POST", "/hold");
   EXPECT_TRUE(until([&] { return json("GET", "/status")["rests"] == true; }));
   limit(RLIMIT_NOFILE, open_files() + 1);

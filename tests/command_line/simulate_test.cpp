@@ -71,7 +71,7 @@ TEST_F(Simulate, holder_flutes_clamps_and_table_are_told) {
 TEST_F(Simulate, a_tool_without_a_shape_is_refused_with_a_hint) {
   const Outcome done = simulate(slots());
   EXPECT_EQ(done.code, 2);
-  EXPECT_THAT(done.err, HasSubstr("nobody says what shape T1 has [simulate.no-tool]"));
+  EXPECT_THAT(done.err, HasSubstr("no shape given for tool T1 [simulate.no-tool]"));
   EXPECT_THAT(done.err, HasSubstr("--tool 1=flat:6"));
 }
 
@@ -182,7 +182,7 @@ TEST_F(Simulate, a_hot_wire_leaves_what_lies_between_two_profiles) {
   EXPECT_TRUE(json["pieces"][1]["cut_free"]);
   EXPECT_EQ(json["gouges"]["cells"], 0);
 
-  EXPECT_THAT(simulate(program + " --wire 1").err, HasSubstr("expected --span"));
+  EXPECT_THAT(simulate(program + " --wire 1").err, HasSubstr("needs --span"));
   EXPECT_THAT(simulate(wire + "--compare " + program).err, HasSubstr("[surface.unknown-kind]"));
   EXPECT_EQ(simulate(wire + "--tool flat:6").code, 2);
   EXPECT_EQ(simulate(program + " --wire x").code, 2);

@@ -48,8 +48,8 @@ TEST_F(SpindleWords, a_thread_that_an_axis_cannot_follow_is_refused_by_check_and
     const Outcome checked = check(program, lathe);
     EXPECT_EQ(checked.code, 2) << thread << checked.err;
     EXPECT_TRUE(contains(checked.err, "p.ngc:4:")) << checked.err;
-    EXPECT_TRUE(contains(checked.err, "Z would have to move at 400.0 mm/s, and its limit is 100")) << checked.err;
-    EXPECT_TRUE(contains(checked.err, "S up to 1500, or up to 1.000 mm a turn")) << checked.err;
+    EXPECT_TRUE(contains(checked.err, "Z would have to move at 400.0 mm/s, above its limit of 100")) << checked.err;
+    EXPECT_TRUE(contains(checked.err, "S up to 1500, or up to 1.000 mm/rev")) << checked.err;
     const Outcome run = passo("run --yes " + path("p.ngc") + " -m " + lathe);
     EXPECT_EQ(run.code, 2) << thread;
     EXPECT_TRUE(contains(run.err, "[path.thread-too-fast]")) << run.err;
@@ -62,7 +62,7 @@ TEST_F(SpindleWords, the_thread_of_the_collection_is_refused) {
   const Outcome checked = passo("check " + (cases / "pitch.ngc").string() + " -m " + (cases / "lathe.toml").string());
   EXPECT_EQ(checked.code, 2);
   EXPECT_TRUE(contains(checked.err, "pitch.ngc:5:")) << checked.err;
-  EXPECT_TRUE(contains(checked.err, "400.0 mm/s, and its limit is 100")) << checked.err;
+  EXPECT_TRUE(contains(checked.err, "400.0 mm/s, above its limit of 100")) << checked.err;
 }
 
 TEST_F(SpindleWords, the_time_to_run_up_is_part_of_the_time) {

@@ -89,7 +89,7 @@ TEST_F(Tune, writes_a_copy_with_its_comments) {
   const Outcome outcome =
       passo("tune -m " + strong + " --axes Z --margin 0.5 -o " + path("copy.toml") + " -p " + path("curves.svg"));
   ASSERT_EQ(outcome.code, 0) << outcome.err;
-  EXPECT_THAT(outcome.out, HasSubstr("axis Z: 50 % of the weakest motor's torque are kept"));
+  EXPECT_THAT(outcome.out, HasSubstr("axis Z: 50 % of the guaranteed torque is reserved"));
   EXPECT_THAT(outcome.out, Not(HasSubstr("axis X")));
   EXPECT_THAT(passo::test::read(path("curves.svg")), HasSubstr("</svg>"));
   std::istringstream old_lines(passo::test::read(strong));

@@ -28,9 +28,9 @@ TEST_F(Waiting, a_run_on_a_terminal_asks_at_each_stop_of_the_program) {
   const std::string enters = "for i in 1 2 3; do sleep 0.5; echo; done; sleep 0.5";
   const Outcome outcome = type(enters, "run " + write("p.ngc", stops) + on_router);
   EXPECT_EQ(outcome.code, 0) << screen();
-  EXPECT_THAT(screen(), HasSubstr("waits at line 2: the operator (M0). Press Enter to go on."));
-  EXPECT_THAT(screen(), HasSubstr("waits at line 4: tool 2 (M6). Press Enter to go on."));
-  EXPECT_THAT(screen(), HasSubstr("waits at line 6: the operator (M1). Press Enter to go on."));
+  EXPECT_THAT(screen(), HasSubstr("waits at line 2: program stop (M0). Press Enter to continue."));
+  EXPECT_THAT(screen(), HasSubstr("waits at line 4: tool 2 (M6). Press Enter to continue."));
+  EXPECT_THAT(screen(), HasSubstr("waits at line 6: optional stop (M1). Press Enter to continue."));
 }
 
 TEST_F(Waiting, with_yes_nobody_is_asked) {
@@ -42,8 +42,10 @@ TEST_F(Waiting, with_yes_nobody_is_asked) {
 TEST_F(Waiting, without_a_terminal_the_virtual_machine_goes_on_and_says_what_it_would_wait_for) {
   const Outcome outcome = passo("run --json " + write("p.ngc", stops) + on_router);
   EXPECT_EQ(outcome.code, 0) << outcome.err;
-  EXPECT_THAT(outcome.err, HasSubstr("would wait for line 2: the operator (M0); line 4: tool 2 (M6); line 6: the "
-                                     "operator (M1)"));
+  EXPECT_THAT(
+      outcome.err,
+      HasSubstr(
+          "stops for the operator at line 2: program stop (M0); line 4: tool 2 (M6); line 6: optional stop (M1)"));
   EXPECT_EQ(nlohmann::json::parse(outcome.out)["position_mm"]["X"], 5);
 }
 
@@ -52,9 +54,9 @@ TEST_F(Waiting, without_a_terminal_a_program_on_a_board_ends_at_its_stop_and_can
       "run --json " + write("p.ngc", stops) + on_router + "--board " + serve("18000000") + " --journal " + path("j");
   const Outcome waits = passo(command + from_here);
   EXPECT_EQ(waits.code, 1) << waits.err;
-  EXPECT_THAT(waits.err, HasSubstr("waits at line 2: the operator (M0), and there is no terminal to ask on"));
+  EXPECT_THAT(waits.err, HasSubstr("waits at line 2: program stop (M0), and there is no terminal to ask on"));
   EXPECT_THAT(waits.err, HasSubstr("[run.waits]"));
-  EXPECT_THAT(waits.err, HasSubstr("the machine rests at X2.000"));
+  EXPECT_THAT(waits.err, HasSubstr("the machine is stopped at X2.000"));
   // What was not done yet is met again.
   const Outcome again = passo(command + " --resume");
   EXPECT_EQ(again.code, 1) << again.err;
@@ -67,9 +69,8 @@ TEST_F(Waiting, without_a_terminal_a_program_on_a_board_ends_at_its_stop_and_can
 TEST_F(Waiting, a_check_says_where_a_program_waits) {
   const Outcome told = passo("check " + write("p.ngc", stops) + on_router);
   EXPECT_EQ(told.code, 0);
-  EXPECT_THAT(told.out,
-              HasSubstr("p.ngc: waits for somebody at line 2: the operator (M0); line 4: tool 2 (M6); line 6: "
-                        "the operator (M1)\n"));
+  EXPECT_THAT(told.out, HasSubstr("p.ngc: stops for the operator at line 2: program stop (M0); line 4: tool 2 (M6); "
+                                  "line 6: optional stop (M1)\n"));
   const auto json = nlohmann::json::parse(passo("check --json " + path("p.ngc") + on_router).out);
   EXPECT_EQ(json["waits"], 3);
   EXPECT_EQ(json["waits_first_at"][1]["line"], 4);
@@ -82,16 +83,17 @@ TEST_F(Waiting, what_the_program_says_is_told_where_it_waits) {
   const std::string program =
       write("p.ngc", "G21 G90 F3000\n(MSG, Turn the plate)\n(MSG,and clamp it)\nM0\nG1 X3\nT2 M6\nT3 M6 (spare)\nM2\n");
   const std::string words =
-      "line 4: the operator (M0): Turn the plate, and clamp it; line 6: tool 2 (M6): 3 mm, two flutes; "
-      "line 7: tool 3 (M6): spare";
-  EXPECT_THAT(passo("check " + program + on_router + tools).out, HasSubstr("waits for somebody at " + words + "\n"));
+      "line 4: program stop (M0): Turn the plate, and clamp it; line 6: tool 2 (M6): 3 mm, two flutes; line 7: tool 3 "
+      "(M6): spare";
+  EXPECT_THAT(passo("check " + program + on_router + tools).out,
+              HasSubstr("stops for the operator at " + words + "\n"));
   const auto json = nlohmann::json::parse(passo("check --json " + program + on_router + tools).out);
   EXPECT_EQ(json["waits_first_at"][0]["message"], "Turn the plate\nand clamp it");
-  EXPECT_THAT(passo("run " + program + on_router + tools).err, HasSubstr("would wait for " + words));
+  EXPECT_THAT(passo("run " + program + on_router + tools).err, HasSubstr("stops for the operator at " + words));
   const Outcome outcome =
       type("for i in 1 2 3; do sleep 0.5; echo; done; sleep 0.5", "run " + program + on_router + tools);
   EXPECT_EQ(outcome.code, 0) << screen();
-  EXPECT_THAT(screen(), HasSubstr("waits at line 4: the operator (M0): Turn the plate, and clamp it. Press Enter"));
+  EXPECT_THAT(screen(), HasSubstr("waits at line 4: program stop (M0): Turn the plate, and clamp it. Press Enter"));
   EXPECT_THAT(screen(), HasSubstr("waits at line 6: tool 2 (M6): 3 mm, two flutes. Press Enter"));
 }
 

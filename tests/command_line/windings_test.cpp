@@ -60,7 +60,7 @@ TEST_F(WindingsCommand, what_is_wrong_is_said_and_exits_with_2) {
   EXPECT_THAT(wrong("--drive full --to 3,3 --time 1"), HasSubstr("--drive: expected two-on, wave, half-step"));
   EXPECT_THAT(wrong("--drive wave"), HasSubstr("--to X,Y..."));
   EXPECT_THAT(wrong("--drive wave --to 3,3"), HasSubstr("--time SECONDS"));
-  EXPECT_THAT(wrong("--drive wave --to 3,3 --time 1 --method wu"), HasSubstr("none of"));
+  EXPECT_THAT(wrong("--drive wave --to 3,3 --time 1 --method wu"), HasSubstr("not one of"));
   EXPECT_THAT(wrong("--drive wave --move 30"), HasSubstr("--clock, --accel"));
   EXPECT_THAT(wrong("--drive wave --to 3 --time 1 --trace " + path("w.txt")), HasSubstr(".vcd or .csv"));
   EXPECT_THAT(wrong("--drive wave --to 3 --time 1 --picture " + path("w.txt")), HasSubstr(".svg or .png"));

@@ -61,18 +61,18 @@ TEST_F(Words, an_unknown_command_or_option_names_the_one_that_was_meant) {
   const struct {
     const char* line;
     const char* meant;
-  } slips[] = {{"rum p.ngc", "perhaps run is meant"},
-               {"chek p.ngc", "perhaps check is meant"},
-               {"board lst", "perhaps list is meant"},
-               {"run p.ngc --machne r.toml", "perhaps --machine is meant"},
-               {"run p.ngc --pict a.png", "perhaps --picture is meant"},
-               {"canon --dialct=grbl p.ngc", "perhaps --dialect is meant"}};
+  } slips[] = {{"rum p.ngc", "did you mean run?"},
+               {"chek p.ngc", "did you mean check?"},
+               {"board lst", "did you mean list?"},
+               {"run p.ngc --machne r.toml", "did you mean --machine?"},
+               {"run p.ngc --pict a.png", "did you mean --picture?"},
+               {"canon --dialct=grbl p.ngc", "did you mean --dialect?"}};
   for (const auto& slip : slips) {
     const Outcome outcome = passo(slip.line);
     EXPECT_EQ(outcome.code, 2) << slip.line;
     EXPECT_TRUE(contains(outcome.err, slip.meant)) << outcome.err;
   }
-  EXPECT_FALSE(contains(passo("qwxyz").err, "perhaps"));
+  EXPECT_FALSE(contains(passo("qwxyz").err, "did you mean"));
 }
 
 TEST_F(Words, help_is_a_command_too) {
@@ -92,7 +92,7 @@ TEST_F(Words, a_wrong_count_is_refused_in_a_short_line) {
     EXPECT_EQ(outcome.code, 2) << count;
     EXPECT_LT(outcome.err.size(), 200U) << outcome.err;
   }
-  EXPECT_TRUE(contains(run("G21\nM2\n", "--passes 0").err, "expected a whole number from 1 on"));
+  EXPECT_TRUE(contains(run("G21\nM2\n", "--passes 0").err, "expected a whole number of 1 or more"));
 }
 
 TEST_F(Words, a_full_disk_fails_every_command_that_prints) {
@@ -147,14 +147,14 @@ TEST_F(Words, a_file_of_another_kind_is_named) {
                {"p.ttf", "\0\1\0\0\0\x0C\0\x80"s, "a font"},
                {"q.lff", "# Format: LibreCAD Font 1\n# LetterSpacing: 2\n\n[0041] A\n", "a font"},
                {"r.jhf", "  699  1JZ\n  714  9MWRFRT RRYQZR[SZRY\n", "a font"},
-               {"s.dat", "NACA 0012\n 1.0 0.00126\n 0.95 0.00807\n 0.9 0.01448\n", "the section of a wing"},
+               {"s.dat", "NACA 0012\n 1.0 0.00126\n 0.95 0.00807\n 0.9 0.01448\n", "an airfoil file"},
                {"t.svgz", "\x1F\x8B\x08\0\0\0\0\0"s, "a compressed SVG drawing"},
                {"u.pdf", "%PDF-1.4\n", "a PDF document"},
                {"v.eps", "%!PS-Adobe-3.0 EPSF-3.0\n", "a PostScript document"},
                {"w.toml", "name = \"Foam cutter\"\n\n[axis.X]\nscrew_pitch_mm = 8\n",
-                "a TOML file, as of a machine or of tools"},
+                "a TOML file, e.g. a machine file or a tool table"},
                {"x.csv", "0,0,0.012\n10,0,0.015\n0,10,0.01\n", "a height map"},
-               {"y.obj", "# a cube\nv 0 0 0\nv 1 0 0\n", "a model of triangles (OBJ, PLY, OFF)"},
+               {"y.obj", "# a cube\nv 0 0 0\nv 1 0 0\n", "a mesh (OBJ, PLY, OFF)"},
                {"z.3mf", "PK\x03\x04\x14\0"s, "a 3MF model"}};
   for (const auto& file : files) {
     const std::string name = write(file.name, file.content);
@@ -296,7 +296,8 @@ TEST_F(Words, a_program_that_talks_without_end_is_not_shown_to_its_last_text) {
   for (const Outcome& outcome : {run(text), check(text)}) {
     EXPECT_EQ(outcome.code, 0);
     EXPECT_EQ(std::ranges::count(outcome.err, '\n'), 1001);
-    EXPECT_TRUE(contains(outcome.err, "p.ngc: note: the program says more than 1000 texts; the others are not shown"));
+    EXPECT_TRUE(
+        contains(outcome.err, "p.ngc: note: the program has more than 1000 messages; the others are not shown"));
   }
 }
 

@@ -95,7 +95,7 @@ int main(int argc, char** argv) {
   const std::vector<DriveMode> drives(4, DriveMode::half_step);
   try {
     std::puts(
-        "| board | motors | kbaud | events a second, thousands | every edge | error, cycles | apart | pulse | set-up | "
+        "| board | motors | kbaud | events/s, thousands | every edge | error, cycles | apart | pulse | set-up | "
         "bytes lost |");
     std::puts("|---|---:|---:|---:|---|---:|---:|---:|---:|---:|");
     for (const bool changing : {false, true}) {

@@ -1,4 +1,4 @@
-// Starts `passo board serve`, a virtual board in the network, for each test that needs one.
+// Starts `passo board serve`, a simulated board in the network, for each test that needs one.
 #pragma once
 
 #include <csignal>

@@ -146,7 +146,7 @@ TEST_F(StreamPorts, what_cannot_be_opened_says_why) {
   EXPECT_NE(missing.error().find("/dev/no-such-line: No such file"), std::string::npos);
   const auto file = open_board({.kind = BoardAddress::Kind::serial, .place = "/dev/null", .port = ""});
   ASSERT_FALSE(file);
-  EXPECT_NE(file.error().find("no serial line"), std::string::npos);
+  EXPECT_NE(file.error().find("not a serial port"), std::string::npos);
   const auto rate = open_board({.kind = BoardAddress::Kind::serial, .place = "/dev/null", .port = "", .baud = 123'456});
   ASSERT_FALSE(rate);
   EXPECT_NE(rate.error().find("123456 baud"), std::string::npos);

@@ -38,7 +38,7 @@ Result<std::vector<std::uint8_t>, std::string> flash_of_elf(std::span<const std:
   constexpr std::uint32_t machine_arm = 40;
   constexpr std::uint32_t loaded = 1;
   if (elf.size() < header || get(elf, 0, 4) != 0x464c457f || elf[4] != 1 || get(elf, 18, 2) != machine_arm) {
-    return Failure<std::string>{"this is no program for an ARM processor (ELF, 32 bits)"};
+    return Failure<std::string>{"this is not a program for an ARM processor (ELF, 32 bits)"};
   }
   const std::size_t table = get(elf, 28, 4);
   const std::size_t entry = get(elf, 42, 2);
@@ -46,7 +46,7 @@ Result<std::vector<std::uint8_t>, std::string> flash_of_elf(std::span<const std:
   std::vector<std::uint8_t> flash;
   for (std::size_t i = 0; i < entries; ++i) {
     const std::size_t at = table + i * entry;
-    if (entry < 32 || at + 32 > elf.size()) return Failure<std::string>{"the program's headers are cut short"};
+    if (entry < 32 || at + 32 > elf.size()) return Failure<std::string>{"the program's headers are truncated"};
     const std::size_t offset = get(elf, at + 4, 4);
     const std::size_t place = get(elf, at + 12, 4);
     const std::size_t size = get(elf, at + 16, 4);
@@ -54,13 +54,13 @@ Result<std::vector<std::uint8_t>, std::string> flash_of_elf(std::span<const std:
     if (place < rp2040_flash || place - rp2040_flash + size > largest_flash) {
       return Failure<std::string>{"a part of the program lies outside the flash"};
     }
-    if (offset + size > elf.size()) return Failure<std::string>{"the program is cut short"};
+    if (offset + size > elf.size()) return Failure<std::string>{"the program is truncated"};
     const std::size_t begin = place - rp2040_flash;
     if (flash.size() < begin + size) flash.resize(begin + size, 0xff);
     std::copy_n(elf.begin() + static_cast<std::ptrdiff_t>(offset), size,
                 flash.begin() + static_cast<std::ptrdiff_t>(begin));
   }
-  if (flash.size() <= boot2_size) return Failure<std::string>{"the program has no boot code in front"};
+  if (flash.size() <= boot2_size) return Failure<std::string>{"the program does not start with boot code"};
   flash.resize((flash.size() + uf2_payload - 1) / uf2_payload * uf2_payload, 0xff);
   put(flash, boot2_size - 4, boot2_checksum(flash));
   return flash;
@@ -88,16 +88,17 @@ std::vector<std::uint8_t> uf2_of_flash(std::span<const std::uint8_t> flash) {
 }
 
 Result<std::vector<std::uint8_t>, std::string> flash_of_uf2(std::span<const std::uint8_t> uf2) {
-  if (uf2.empty() || uf2.size() % uf2_block_size != 0) return Failure<std::string>{"this is no UF2 file, or cut short"};
+  if (uf2.empty() || uf2.size() % uf2_block_size != 0)
+    return Failure<std::string>{"this is not a UF2 file, or it is truncated"};
   std::vector<std::uint8_t> flash;
   for (std::size_t at = 0; at < uf2.size(); at += uf2_block_size) {
     const auto block = uf2.subspan(at, uf2_block_size);
     if (get(block, 0, 4) != first_magic || get(block, 4, 4) != second_magic ||
         get(block, uf2_block_size - 4, 4) != last_magic) {
-      return Failure<std::string>{"this is no UF2 file"};
+      return Failure<std::string>{"this is not a UF2 file"};
     }
     if (get(block, 8, 4) != family_present || get(block, 28, 4) != rp2040_family) {
-      return Failure<std::string>{"this UF2 file is for another chip than the RP2040"};
+      return Failure<std::string>{"this UF2 file is not for the RP2040"};
     }
     const std::size_t address = get(block, 12, 4);
     const std::size_t size = get(block, 16, 4);

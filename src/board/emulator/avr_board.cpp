@@ -103,8 +103,8 @@ class AvrBoard final : public ProcessBoard {
 
  private:
   void start_emulator() {
-    start(std::make_unique<EmulatorProcess>(
-              words_, fmt::format("{} has ended: is {} a program for the {}?", words_[0], words_[2], words_[1])),
+    start(std::make_unique<EmulatorProcess>(words_, fmt::format("{} has ended; check that {} is firmware for the {}",
+                                                                words_[0], words_[2], words_[1])),
           steps_ | windings_);
   }
   // The emulator works out the same spindle as the plant: the commands come from the chip.

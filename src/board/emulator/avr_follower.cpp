@@ -72,7 +72,7 @@ class AvrFollower {
  private:
   std::unique_ptr<EmulatorProcess> start() const {
     return std::make_unique<EmulatorProcess>(
-        words_, fmt::format("{} has ended: is {} a follower's image?", words_[0], words_[2]));
+        words_, fmt::format("{} has ended; check that {} is follower firmware", words_[0], words_[2]));
   }
   Nanoseconds now() const { return begun_ + time_of(chip_->cycle()); }
   // All pins float, and the program begins at its beginning.

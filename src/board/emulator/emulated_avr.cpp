@@ -14,8 +14,8 @@ Result<std::string, std::string> avr_emulator() {
   if (fs::exists(beside, none)) return beside.string();
   if (fs::exists(PASSO_EMULATED_AVR, none)) return std::string(PASSO_EMULATED_AVR);
   return Failure<std::string>{
-      "passo-emulate-avr, which emulates the Uno and the Mega, is not there: scripts/start.sh builds it, if "
-      "libsimavr-dev and libelf-dev are installed"};
+      "passo-emulate-avr, which emulates the Uno and the Mega, is missing: scripts/start.sh builds it if libsimavr-dev "
+      "and libelf-dev are installed"};
 }
 
 std::uint32_t PinNumbers::number(Pin pin, bool when_drawn_low) {

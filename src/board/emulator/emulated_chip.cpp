@@ -46,7 +46,7 @@ EmulatedChip::EmulatedChip(const std::string& program, const std::string& mcu) {
   avr_global_logger_set(keep_silent);
   elf_firmware_t firmware = firmware_in(program);
   avr_.reset(avr_make_mcu_by_name(mcu.c_str()));
-  if (avr_ == nullptr) throw std::runtime_error("simavr knows no " + mcu);
+  if (avr_ == nullptr) throw std::runtime_error("simavr does not support " + mcu);
   avr_init(avr_.get());
   firmware.frequency = 16'000'000;
   avr_load_firmware(avr_.get(), &firmware);
@@ -93,7 +93,7 @@ void EmulatedChip::step() {
     avr_->interrupt_state = avr_has_pending_interrupts(avr_.get()) != 0 ? std::int8_t{1} : std::int8_t{0};
   }
   if (state == cpu_Done || state == cpu_Crashed)
-    throw std::runtime_error("the emulated program died at " + std::to_string(avr_->pc) + " cycle " +
+    throw std::runtime_error("the emulated program crashed at " + std::to_string(avr_->pc) + " cycle " +
                              std::to_string(avr_->cycle));
 }
 
@@ -137,7 +137,7 @@ void EmulatedChip::run(std::uint64_t most_cycles) {
   stopped_ = false;
   while (!stopped_) {
     step();
-    if (avr_->cycle > end) throw std::runtime_error("the emulated program does not come to its end");
+    if (avr_->cycle > end) throw std::runtime_error("the emulated program does not end");
   }
 }
 

@@ -9,7 +9,7 @@ namespace {
 constexpr const char* script = PASSO_EMULATED_PICO "/emulated_pico.js";
 constexpr const char* packages = PASSO_EMULATED_PICO "/node_modules/rp2040js";
 constexpr const char* died =
-    "the Pico's emulator has ended: is node installed, version 18 or later, and the file a UF2 of Passo's?";
+    "the Pico's emulator has ended; check that Node.js 18 or later is installed, and that the file is Passo's UF2";
 
 }  // namespace
 
@@ -17,7 +17,8 @@ Result<std::unique_ptr<EmulatedPico>, std::string> EmulatedPico::start(const std
                                                                        PicoSocket socket) {
   if (!std::filesystem::exists(packages)) {
     return Failure<std::string>{
-        std::string("the Pico's emulator is not installed: scripts/install.sh, or `npm ci` in ") + PASSO_EMULATED_PICO};
+        std::string("the Pico's emulator is not installed: run scripts/install.sh, or `npm ci` in ") +
+        PASSO_EMULATED_PICO};
   }
   std::unique_ptr<EmulatedPico> pico(new EmulatedPico(
       {"node", script, program, socket == PicoSocket::usb ? "usb" : "uart", std::to_string(pins.spindle_pwm),

@@ -30,7 +30,7 @@ avr_int_vector_t* match_of(avr_t& avr, std::uint16_t flags) {
     avr_int_vector_t* const vector = avr.interrupts.vector[i];
     if (vector->raised.reg == flags && vector->raised.bit == 1) return vector;
   }
-  throw std::runtime_error("simavr knows no compare match of a timer");
+  throw std::runtime_error("simavr does not support compare match of this timer");
 }
 
 // The handlers are replaced, not extended: simavr's own timers never learn that they run.

@@ -248,18 +248,18 @@ Result<FollowerRun, std::string> run_pic_follower(PicFollower board, const std::
                                                   std::span<const LineChange> lines, Nanoseconds end,
                                                   const std::filesystem::path& work, Turns turns) {
   if (!gpsim_is_here())
-    return Failure<std::string>{"gpsim, which emulates the PIC, is not installed: scripts/install.sh"};
+    return Failure<std::string>{"gpsim, which emulates the PIC, is not installed: run scripts/install.sh"};
   if (!std::filesystem::exists(image)) return Failure<std::string>{"no such image: " + image.string()};
   const PicPins pins = pins_of(board);
   std::filesystem::create_directories(work);
   std::filesystem::remove(work / "pins.log");
   write_script(work / "script.stc", pins, lines, end, turns);
   if (!run_gpsim(work, std::filesystem::absolute(image)) || !std::filesystem::exists(work / "pins.log")) {
-    return Failure<std::string>{"gpsim failed; the last that it said is: " + last_line_of(work / "said.txt")};
+    return Failure<std::string>{"gpsim failed; its last output: " + last_line_of(work / "said.txt")};
   }
   std::optional<FollowerRun> run = read_log(work / "pins.log", pins);
   std::filesystem::remove(work / "pins.log");  // some 10 MB
-  if (!run) return Failure{image.string() + " is no program for a PIC16F877A: it never writes to a port"};
+  if (!run) return Failure{image.string() + " is not firmware for a PIC16F877A: it never writes to a port"};
   return *std::move(run);
 }
 

@@ -92,7 +92,7 @@ class PicoBoard final : public ProcessBoard {
 Result<std::unique_ptr<EmulatedBoard>, std::string> start_pico_board(std::string_view kind,
                                                                      const std::string& program) {
   const auto* const board = std::ranges::find(pico_boards, kind, &PicoBoardPins::name);
-  if (board == std::end(pico_boards)) return Failure<std::string>{"no Pico is called " + std::string(kind)};
+  if (board == std::end(pico_boards)) return Failure<std::string>{"there is no Pico named " + std::string(kind)};
   auto pico = EmulatedPico::start(program, board->pins);
   if (!pico) return Failure{pico.error()};
   return std::unique_ptr<EmulatedBoard>(std::make_unique<PicoBoard>(std::move(*pico), board->pins));

@@ -9,7 +9,7 @@ constexpr std::string_view expected =
     ": expected virtual, serial:DEVICE, serial:DEVICE@BAUD, tcp:HOST:PORT, sim:BOARD or grbl:DEVICE";
 
 Failure<std::string> refuse(std::string_view text) {
-  return Failure{"'" + std::string(text) + "' is no board" + std::string(expected)};
+  return Failure{"'" + std::string(text) + "' is not a board" + std::string(expected)};
 }
 
 bool read_number(std::string_view text, unsigned low, unsigned high, unsigned& value) {

@@ -72,13 +72,13 @@ std::optional<int> hurry_adapter(int descriptor, const std::string& device, cons
 Result<int, std::string> open_serial_line(const std::string& device, unsigned baud) {
   const auto* speed = std::find_if(speeds.begin(), speeds.end(), [&](const Speed& one) { return one.baud == baud; });
   if (speed == speeds.end()) {
-    return Failure{std::to_string(baud) + " baud: no rate of a serial line; try 115200, 500000 or 1000000"};
+    return Failure{std::to_string(baud) + " baud is not a supported baud rate; try 115200, 500000 or 1000000"};
   }
   const int descriptor = open(device.c_str(), O_RDWR | O_NOCTTY | O_NONBLOCK | O_CLOEXEC);
   if (descriptor < 0) {
     const bool denied = errno == EACCES;
     return Failure{device + ": " + reason() +
-                   (denied ? " (whoever is in group dialout may: adduser NAME dialout)" : "")};
+                   (denied ? " (only members of the group dialout have access: adduser NAME dialout)" : "")};
   }
   // Two programs on one line would each get half of the answers.
   if (flock(descriptor, LOCK_EX | LOCK_NB) != 0) {
@@ -89,7 +89,7 @@ Result<int, std::string> open_serial_line(const std::string& device, unsigned ba
     static_cast<void>(hurry_adapter(descriptor, device));
     return descriptor;
   }
-  std::string message = device + ": no serial line: " + reason();
+  std::string message = device + ": not a serial port: " + reason();
   close(descriptor);
   return Failure{std::move(message)};
 }

@@ -77,7 +77,7 @@ bool AirfoilReader::read_points() {
     const std::optional<AirfoilPoint> point = airfoil_point(words);
     if (!point) {
       if (!may_be_title || !points_.empty()) {
-        refuse({lines_.number(), 1, 1}, line, "this is no point of a section", "an X and a Y, with blanks between");
+        refuse({lines_.number(), 1, 1}, line, "this is not a point of an airfoil", "X and Y, separated by spaces");
         return false;
       }
     } else if (points_.empty() && !counts_ && point->x > 1.5 && point->y > 1.5 && point->x == std::floor(point->x) &&
@@ -98,10 +98,10 @@ bool AirfoilReader::order_sides() {
   if (counts_) {
     const auto upper = static_cast<std::size_t>(counts_->x);
     if (upper + static_cast<std::size_t>(counts_->y) != points_.size()) {
-      refuse(
-          {}, "",
-          fmt::format("the file has {}, and says {} and {}", counted(points_.size(), "point"), counts_->x, counts_->y),
-          "as many points as the second line says");
+      refuse({}, "",
+             fmt::format("the file has {}, but declares {} and {}", counted(points_.size(), "point"), counts_->x,
+                         counts_->y),
+             "as many points as the second line declares");
       return false;
     }
     const auto middle = points_.begin() + static_cast<std::ptrdiff_t>(upper);
@@ -111,7 +111,7 @@ bool AirfoilReader::order_sides() {
     if (has_nose_twice) points_.erase(middle);
   }
   if (points_.size() >= fewest_of_airfoil) return true;
-  refuse({}, "", "a section of " + counted(points_.size(), "point"), "a name, and points around it");
+  refuse({}, "", "an airfoil of " + counted(points_.size(), "point"), "a name, then the points around the airfoil");
   return false;
 }
 
@@ -121,7 +121,7 @@ Drawing AirfoilReader::read(Mm chord) {
       points_.begin(), points_.end(), [](const AirfoilPoint& a, const AirfoilPoint& b) { return a.x < b.x; });
   const double width = most->x - least->x;
   if (!(width > 1e-6)) {
-    refuse({}, "", "all points of the section lie one above the other", "X from nose to tail");
+    refuse({}, "", "all points of the airfoil have the same X", "X from nose to tail");
     return builder_.take();
   }
   DrawnPath path{.is_closed = true, .layer = builder_.layer("")};

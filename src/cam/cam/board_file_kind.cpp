@@ -206,7 +206,7 @@ std::string short_name(const BoardFile& file) {
 std::string set_kind(BoardJob& job, std::string_view name, std::string_view words) {
   const std::optional<BoardFileKind> kind = kind_of_words(words);
   if (!kind) {
-    return fmt::format("'{}' is no layer: expected top copper, bottom copper, outline, drill or nothing", words);
+    return fmt::format("'{}' is not a layer: expected top copper, bottom copper, outline, drill or nothing", words);
   }
   bool is_found = false;
   for (BoardFile& file : job.files) {
@@ -214,11 +214,11 @@ std::string set_kind(BoardJob& job, std::string_view name, std::string_view word
     is_found = true;
     const bool needs_drills = kind->role == BoardRole::drill;
     if (kind->role != BoardRole::unknown && needs_drills != file.drills.has_value()) {
-      return fmt::format("{} is {} drill file", file.name, needs_drills ? "no" : "a");
+      return fmt::format("{} is {} drill file", file.name, needs_drills ? "not a" : "a");
     }
     file.kind = *kind;
   }
-  return is_found ? std::string() : fmt::format("there is no file '{}' among those that were read", name);
+  return is_found ? std::string() : fmt::format("the files that were read do not include '{}'", name);
 }
 
 }  // namespace passo

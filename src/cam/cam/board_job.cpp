@@ -44,7 +44,8 @@ bool JobReader::has_room_for(const std::string& path, std::size_t bytes) {
   ++files_;
   bytes_ += bytes;
   if (files_ <= most_board_files && bytes_ <= most_board_bytes) return true;
-  diagnostics_.add(of_file("board.too-large", path, "here the job exceeds 1,000 files or 256 MiB", "one board"));
+  diagnostics_.add(
+      of_file("board.too-large", path, "with this file, the job exceeds 1,000 files or 256 MiB", "one board"));
   return false;
 }
 
@@ -80,7 +81,7 @@ void JobReader::read_folder(const std::string& path) {
 
 void JobReader::read_file(const std::string& path) {
   const std::optional<std::string> bytes = read_bytes(
-      path, {.area = "board", .expected = "a Gerber file, a drill file, a board of KiCad, a folder or a zip archive"},
+      path, {.area = "board", .expected = "a Gerber file, a drill file, a KiCad board, a folder or a zip archive"},
       diagnostics_);
   if (!bytes || !has_room_for(path, bytes->size())) return;
   if (!looks_like_zip(*bytes)) return add(path, *bytes);
@@ -144,8 +145,8 @@ BoardJob JobReader::take(const std::string& path) {
                    [&](const BoardFile& a, const BoardFile& b) { return rank(a) < rank(b); });
   if (job_.files.empty() && !diagnostics_.any_error()) {
     diagnostics_.add(of_file("board.no-layers", job_.left_out.empty() ? path : job_.left_out.front(),
-                             "there is neither a Gerber file, nor a drill file, nor a board of KiCad",
-                             "what the layout program exports"));
+                             "there is no Gerber file, drill file or KiCad board",
+                             "the files that the layout program exports"));
   }
   return std::move(job_);
 }
@@ -170,8 +171,8 @@ void refuse_two_boards(const BoardJob& job, Diagnostics& diagnostics) {
       job.files, [&](const BoardFile& file) { return is_used(file) && file.board != whole->board; });
   if (other == job.files.end()) return;
   diagnostics.add(of_file("board.two-boards", other->name,
-                          fmt::format("this is not of '{}', which is a whole board", whole->board),
-                          "one board: the file of KiCad, or the folder with its layers"));
+                          fmt::format("this file does not belong to '{}', which is a whole board", whole->board),
+                          "one board: the KiCad file, or the folder with its layers"));
 }
 
 Region board_face(const BoardJob& job) {

@@ -60,7 +60,7 @@ BoardLayer layer_of(KicadBoard board, const std::string& path, const DrawingFile
   for (const std::string& name : wanted) {
     const auto found = std::ranges::find_if(board.copper, [&](const KicadLayer& one) { return one.name == name; });
     if (name != "Edge.Cuts" && found == board.copper.end()) {
-      diagnostics.add(of_file("kicad.no-layer", path, "there is no layer of copper '" + name + "'",
+      diagnostics.add(of_file("kicad.no-layer", path, "there is no copper layer '" + name + "'",
                               known + (known.empty() ? "--layer Edge.Cuts" : " or Edge.Cuts")));
       return layer;
     }
@@ -75,7 +75,7 @@ BoardLayer layer_of(KicadBoard board, const std::string& path, const DrawingFile
 BoardLayer read_board_layer(const std::string& path, const DrawingFileOptions& options, Diagnostics& diagnostics) {
   BoardLayer layer;
   layer.lines.file = path;
-  const FileKind kind{.area = "drawing", .expected = "a Gerber, DXF or drill file, or a board of KiCad"};
+  const FileKind kind{.area = "drawing", .expected = "a Gerber, DXF or drill file, or a KiCad board"};
   const std::optional<std::string> bytes = read_bytes(path, kind, diagnostics);
   if (!bytes) return layer;
   if (looks_like_kicad_board(*bytes)) {
@@ -102,8 +102,8 @@ Region covered_by(const BoardLayer& layer, const Region& board, Diagnostics& dia
   if (!layer.bare) return layer.face;
   if (board.empty()) {
     diagnostics.add(of_file("isolation.negative", layer.lines.file,
-                            "the layer is a negative, so it covers all of the board but what it draws",
-                            "the board's edge: --edge FILE, or a file that is the outline"));
+                            "the layer is a negative: its copper covers the whole board except the drawn areas",
+                            "the board outline: --edge FILE, or an outline file"));
     return {};
   }
   return united(layer.face, subtracted(board, *layer.bare));

@@ -21,8 +21,8 @@ void DrawingBuilder::add_path(DrawnPath path) {
 
 std::optional<Nanometres> DrawingBuilder::length(Mm value, const SourcePlace& place, std::string_view text) {
   if (std::abs(value.value()) <= to_mm(farthest_drawn).value()) return to_nanometres(value);  // false for a NaN
-  refuse("drawing.too-far", place, text, fmt::format("{:g} mm is no length of a drawing", value.value()),
-         fmt::format("at most {:g} mm; is the unit right?", to_mm(farthest_drawn).value()));
+  refuse("drawing.too-far", place, text, fmt::format("a length of {:g} mm is too large for a drawing", value.value()),
+         fmt::format("at most {:g} mm; check the unit", to_mm(farthest_drawn).value()));
   return std::nullopt;
 }
 
@@ -41,7 +41,7 @@ bool DrawingBuilder::has_room_for(std::size_t points, const SourcePlace& place, 
     return true;
   }
   is_full_ = true;
-  refuse("drawing.too-large", place, text, fmt::format("here the drawing exceeds {} points", most_drawn),
+  refuse("drawing.too-large", place, text, fmt::format("the drawing has more than {} points", most_drawn),
          "a smaller drawing, or fewer repeats");
   return false;
 }

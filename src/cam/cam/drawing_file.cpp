@@ -11,15 +11,16 @@ Drawing read_drawing(const std::string& path, const DrawingFileOptions& options,
   Drawing nothing;
   nothing.file = path;
   std::optional<std::string> bytes = read_bytes(
-      path, {.area = "drawing", .expected = "a drawing (DXF, SVG, SVGZ, HPGL), a drill file or a board of KiCad"},
+      path, {.area = "drawing", .expected = "a drawing (DXF, SVG, SVGZ, HPGL), a drill file or a KiCad board"},
       diagnostics);
   if (!bytes) return nothing;
   if (looks_like_gzip(*bytes)) {
     constexpr std::size_t most_unpacked = std::size_t{256} * 1024 * 1024;
     bytes = gunzip(*bytes, most_unpacked);
     if (!bytes) {
-      diagnostics.add(of_file("drawing.bad-gzip", path, "this compressed file is broken, or unpacks to over 256 MiB",
-                              "a drawing as SVGZ, or any drawing that gzip has compressed"));
+      diagnostics.add(of_file("drawing.bad-gzip", path,
+                              "the compressed file is damaged, or larger than 256 MiB when unpacked",
+                              "an SVGZ drawing, or another drawing compressed with gzip"));
       return nothing;
     }
   }
@@ -29,7 +30,7 @@ Drawing read_drawing(const std::string& path, const DrawingFileOptions& options,
   if (looks_like_kicad_board(*bytes)) return read_kicad_board(path, *bytes, diagnostics).drills;
   if (looks_like_excellon(*bytes)) return read_excellon(path, *bytes, options.excellon, diagnostics);
   diagnostics.add(of_file("drawing.unknown-kind", path,
-                          "this is no DXF or SVG drawing, no HPGL plot, no drill file, and no board of KiCad",
+                          "this is not a DXF or SVG drawing, HPGL plot, drill file or KiCad board",
                           "a file that begins with SECTION (DXF), <svg, IN; (HPGL), (kicad_pcb, or with M48, METRIC, "
                           "INCH or tools (Excellon)"));
   return nothing;

@@ -57,8 +57,8 @@ std::string words_on_scale(const Drawing& drawing) {
     for (const double factor : {0.1, 10.0, 1 / mm_per_inch, mm_per_inch}) {
       if (!is_usual(middle * factor)) continue;
       return fmt::format(
-          "the middle one of the holes is {:.4g} mm wide: off by {:.4g}? A factor of {:.4g} would make it "
-          "{:.4g} mm",
+          "the median hole diameter is {:.4g} mm; the scale may be wrong by {:.4g}: with a factor of {:.4g} it would "
+          "be {:.4g} mm",
           middle, factor < 1 ? 1 / factor : factor, factor, middle * factor);
     }
     return {};
@@ -67,10 +67,14 @@ std::string words_on_scale(const Drawing& drawing) {
   if (distances.size() < 4) return {};
   const double middle = middle_of(distances);
   if (middle > 12 && are_multiples(distances, half_pitch * 10)) {
-    return fmt::format("the holes are multiples of 12.7 mm apart: off by 10? A factor of 0.1 would make it 1.27 mm");
+    return fmt::format(
+        "the hole spacing is a multiple of 12.7 mm; the scale may be wrong by 10: with a factor of 0.1 it would be "
+        "1.27 mm");
   }
   if (middle < 1.2 && are_multiples(distances, half_pitch / 10)) {
-    return fmt::format("the holes are multiples of 0.127 mm apart: off by 10? A factor of 10 would make it 1.27 mm");
+    return fmt::format(
+        "the hole spacing is a multiple of 0.127 mm; the scale may be wrong by 10: with a factor of 10 it would be "
+        "1.27 mm");
   }
   return {};
 }

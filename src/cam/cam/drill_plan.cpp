@@ -85,7 +85,7 @@ void DrillPlanner::collect(const std::vector<Drawing>& drawings) {
       cuts_.push_back({&drawing, path.points.front().at, path.width, &path, path.line});
     }
   }
-  if (lines != 0) plan_.notes.push_back("left out, because it is no hole: " + counted(lines, "path"));
+  if (lines != 0) plan_.notes.push_back("ignored, because it is not a hole: " + counted(lines, "path"));
   drop_doubles();
 }
 
@@ -191,7 +191,7 @@ void DrillPlanner::mill(const WantedCut& cut) {
     diagnostics_.add({.code = "drill.bent-slot",
                       .file = cut.drawing->file,
                       .place = {cut.line, cut.line == 0 ? 0U : 1U, 1},
-                      .message = fmt::format("this bent slot is {} wide, and the cutter {}", mm_words(cut.width),
+                      .message = fmt::format("this bent slot is {} wide, but the cutter is {}", mm_words(cut.width),
                                              mm_words(*options_.mill)),
                       .expected = "a cutter as wide as the slot: --mill",
                       .text = ""});
@@ -223,7 +223,7 @@ void DrillPlanner::drill_slot(const WantedCut& cut, Nanometres drill) {
 void DrillPlanner::refuse(const WantedCut& first, std::size_t count) {
   const bool is_known = first.width.count != 0;
   const std::string what = counted(count, "hole or slot", "holes or slots");
-  std::string expected = "--drill D, which makes every hole with one drill";
+  std::string expected = "--drill D, to make every hole with one drill";
   if (is_known) {
     std::string rack;
     for (const Nanometres drill : options_.rack) rack += (rack.empty() ? "" : ", ") + mm_words(drill);
@@ -234,8 +234,8 @@ void DrillPlanner::refuse(const WantedCut& first, std::size_t count) {
       {.code = is_known ? "drill.no-tool" : "drill.no-diameter",
        .file = first.drawing->file,
        .place = {first.line, first.line == 0 ? 0U : 1U, 1},
-       .message = is_known ? fmt::format("no tool makes {} of {}; here is the first", what, mm_words(first.width))
-                           : fmt::format("the file does not say how wide {} are; here is the first", what),
+       .message = is_known ? fmt::format("no tool can make {} of {}; this is the first", what, mm_words(first.width))
+                           : fmt::format("the file does not give the diameter of {}; this is the first", what),
        .expected = std::move(expected),
        .text = ""});
 }
@@ -250,8 +250,8 @@ void DrillPlanner::finish() {
   if (slots_as_holes_ != 0) {
     plan_.notes.push_back(
         slots_as_holes_ == 1
-            ? "a slot is drilled as a row of holes; --mill D mills it"
-            : fmt::format("{} slots are drilled as rows of holes; --mill D mills them", slots_as_holes_));
+            ? "a slot is drilled as a row of holes; to mill it, give --mill D"
+            : fmt::format("{} slots are drilled as rows of holes; to mill them, give --mill D", slots_as_holes_));
   }
   for (auto& [diameter, tool] : drills_) plan_.tools.push_back(std::move(tool));
   if (!mill_.targets.empty()) {
@@ -264,7 +264,7 @@ void DrillPlanner::finish() {
                       .file = "",
                       .place = {},
                       .message = "there is no hole in these files",
-                      .expected = "circles or points of a DXF file, on layers that are read, or a drill file",
+                      .expected = "circles or points on the selected layers of a DXF file, or a drill file",
                       .text = ""});
   }
   for (DrillTool& tool : plan_.tools) order(tool);

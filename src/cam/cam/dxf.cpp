@@ -110,7 +110,7 @@ Drawing DxfExpansion::expand() {
   const double unit = choose_unit();
   add_all(document_.entities, {.xx = unit, .yy = unit}, std::nullopt, 0);
   if (!document_.has_end && !diagnostics_.any_error()) {
-    builder_.note("the file has no EOF at its end; perhaps a part is missing");
+    builder_.note("the file does not end with EOF, so it may be truncated");
   }
   note_what_is_left_out();
   Drawing drawing = builder_.take();
@@ -150,13 +150,13 @@ double DxfExpansion::choose_unit() {
   const double said = mm_of(document_.insert_units.value_or(0));
   if (options_.unit) {
     if (said > 0 && std::abs(said - options_.unit->value()) > 1e-9 * said) {
-      builder_.note(fmt::format("the drawing says that a 1 is {:g} mm; it is read as {:g} mm, as told", said,
+      builder_.note(fmt::format("the unit of the drawing is {:g} mm; it is read as {:g} mm, as requested", said,
                                 options_.unit->value()));
     }
     return options_.unit->value();
   }
   if (said > 0) return said;
-  builder_.note("the drawing names no unit; mm is guessed");
+  builder_.note("the drawing does not give its unit; mm is assumed");
   return 1;
 }
 
@@ -166,16 +166,16 @@ void DxfExpansion::note_what_is_left_out() {
     names += fmt::format("{}{} {}", names.empty() ? "" : ", ", count, name);
     if (names.size() > 200) break;
   }
-  if (!names.empty()) builder_.note("left out, because they are neither holes nor lines: " + names);
-  if (on_layers_off_ != 0) builder_.note("left out, on other layers: " + counted(on_layers_off_, "entity", "entities"));
-  if (in_paper_ != 0) builder_.note("left out, in paper space: " + counted(in_paper_, "entity", "entities"));
+  if (!names.empty()) builder_.note("ignored, because they are neither holes nor lines: " + names);
+  if (on_layers_off_ != 0) builder_.note("ignored, on other layers: " + counted(on_layers_off_, "entity", "entities"));
+  if (in_paper_ != 0) builder_.note("ignored, in paper space: " + counted(in_paper_, "entity", "entities"));
 }
 
 bool DxfExpansion::has_work_left(const DxfEntity& entity) {
   work_ += 1 + entity.count;
   if (work_ <= most_work) return true;
   if (!diagnostics_.any_error()) {
-    refuse(entity, "drawing.too-large", "blocks within blocks make this drawing larger than what is read",
+    refuse(entity, "drawing.too-large", "with its nested blocks, the drawing is too large",
            "a drawing with fewer repeats");
   }
   return false;
@@ -338,7 +338,7 @@ void DxfExpansion::add_points(const DxfEntity& entity, const std::vector<LocalPo
   }
   if (has_bent) {
     builder_.note(
-        fmt::format("line {}: arcs of a path that is stretched in one direction are read as lines", entity.line));
+        fmt::format("line {}: the arcs of a path scaled in one direction only are read as lines", entity.line));
   }
   builder_.add_path(std::move(path));
 }
@@ -416,14 +416,15 @@ void DxfExpansion::add_spline(const DxfEntity& entity, const DxfTransform& trans
 void DxfExpansion::add_insert(const DxfEntity& entity, const DxfTransform& transform, std::uint32_t layer, int depth) {
   const auto value = [&](int code, double otherwise) { return document_.number(entity, code, otherwise); };
   if (document_.blocks.size() <= entity.block || !document_.blocks[entity.block].is_defined) {
-    refuse(entity, "dxf.no-block", "this INSERT names no block of the drawing", "a block of the section BLOCKS");
+    refuse(entity, "dxf.no-block", "this INSERT names a block that the drawing does not have",
+           "a block in the section BLOCKS");
     return;
   }
   if (depth >= deepest_block || std::ranges::find(open_blocks_, entity.block) != open_blocks_.end()) {
-    refuse(
-        entity, "dxf.nested-too-deep",
-        fmt::format("the block '{}' is in itself, or over {} deep", document_.blocks[entity.block].name, deepest_block),
-        "blocks that end");
+    refuse(entity, "dxf.nested-too-deep",
+           fmt::format("the block '{}' contains itself, or is nested more than {} deep",
+                       document_.blocks[entity.block].name, deepest_block),
+           "blocks that do not contain themselves");
     return;
   }
   const DxfBlock& block = document_.blocks[entity.block];

@@ -162,7 +162,7 @@ bool DxfDocumentReader::read_entity(std::vector<DxfEntity>& entities) {
   }
   if (++entities_ > most_entities || document_.numbers.size() > most_numbers) {
     is_full_ = true;
-    groups_.refuse(group_.line, "drawing.too-large", "here the drawing exceeds what is read", "a smaller drawing");
+    groups_.refuse(group_.line, "drawing.too-large", "the drawing is too large", "a smaller drawing");
     return false;
   }
   std::uint32_t layer_of = layer("0");

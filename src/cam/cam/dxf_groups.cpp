@@ -71,8 +71,8 @@ bool DxfGroups::next_of_text(DxfGroup& group) {
   const auto [end, error] = std::from_chars(digits.data(), digits.data() + digits.size(), group.code);
   if (error != std::errc() || end != digits.data() + digits.size() || group.code < -5 || group.code > 1071) {
     has_failed_ = true;
-    refuse(lines_.number(), "dxf.bad-code", "this line should be a group code",
-           "a whole number from -5 to 1071; each is followed by a line with its value");
+    refuse(lines_.number(), "dxf.bad-code", "this line is not a group code",
+           "a whole number from -5 to 1071, followed by a line with the value");
     return false;
   }
   if (!lines_.next(line_)) return is_cut_off();
@@ -87,8 +87,8 @@ bool DxfGroups::next_of_text(DxfGroup& group) {
   if (fault == std::errc::result_out_of_range && stop == number.data() + number.size()) return true;  // 1e-400 is 0
   if (fault == std::errc() && stop == number.data() + number.size() && std::isfinite(group.number)) return true;
   has_failed_ = true;
-  refuse(group.line, "dxf.bad-number", fmt::format("the value of group {} is no number", group.code),
-         "a number, as in 12.5");
+  refuse(group.line, "dxf.bad-number", fmt::format("the value of group {} is not a number", group.code),
+         "a number, e.g. 12.5");
   return false;
 }
 

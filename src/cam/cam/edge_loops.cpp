@@ -201,14 +201,14 @@ void EdgeJoiner::refuse(std::size_t end) {
   const std::uint32_t line = open_[end / 2].line;
   std::string expected = "a closed line";
   if (nearest < 1e300) {
-    expected += fmt::format("; the next open end is {:.4g} mm away: --join {:.4g}mm", nearest / nanometres_per_mm,
-                            std::ceil(nearest / 1e4) / 100);
+    expected += fmt::format("; the next open end is {:.4g} mm away, so --join {:.4g}mm joins them",
+                            nearest / nanometres_per_mm, std::ceil(nearest / 1e4) / 100);
   }
   diagnostics_.add({.code = "outline.open",
                     .file = drawing_.file,
                     .place = {line, line == 0 ? 0U : 1U, 1},
-                    .message = fmt::format("the edge ends at X{:.4g} Y{:.4g} mm, and meets no other line",
-                                           to_mm(at.x).value(), to_mm(at.y).value()),
+                    .message = fmt::format("the outline is open: it ends at X{:.4g} Y{:.4g} mm", to_mm(at.x).value(),
+                                           to_mm(at.y).value()),
                     .expected = std::move(expected),
                     .text = ""});
 }

@@ -47,8 +47,7 @@ class ExcellonReader {
       read_line(trimmed(line_));
     }
     finish_route();
-    if (!ended_ && !diagnostics_.any_error())
-      builder_.note("the file has no M30 at its end; perhaps a part is missing");
+    if (!ended_ && !diagnostics_.any_error()) builder_.note("the file does not end with M30, so it may be truncated");
     return builder_.take();
   }
 
@@ -155,14 +154,14 @@ bool ExcellonReader::read_words(std::string_view text) {
     }
     if (letter == ';') break;
     if (letter < 'A' || letter > 'Z') {
-      return refuse({lines_.number(), column_of(begin), 1}, "excellon.unknown-command", "this is no drill command",
-                    "a letter and a number, as in X1.27");
+      return refuse({lines_.number(), column_of(begin), 1}, "excellon.unknown-command", "this is not a drill command",
+                    "a letter and a number, e.g. X1.27");
     }
     const std::size_t end = std::min(text.find_first_not_of("+-.0123456789", 1), text.size());
     words_.push_back({letter, text.substr(1, end - 1), column_of(begin)});
     if (end == 1) {
       return refuse({lines_.number(), column_of(begin), 1}, "excellon.unknown-command",
-                    fmt::format("'{}' has no number", letter), "a drill command, as in X1.27Y2.54, T1 or M30");
+                    fmt::format("'{}' has no number", letter), "a drill command, e.g. X1.27Y2.54, T1 or M30");
     }
     text.remove_prefix(end);
   }
@@ -173,7 +172,7 @@ std::optional<std::int64_t> ExcellonReader::count_of(const DrillWord& word) {
   std::int64_t value = 0;
   const auto [end, error] = std::from_chars(word.number.data(), word.number.data() + word.number.size(), value);
   if (error == std::errc() && end == word.number.data() + word.number.size() && value >= 0) return value;
-  refuse(place_of(word), "excellon.bad-number", fmt::format("'{}' is no whole number", word.number), "digits alone");
+  refuse(place_of(word), "excellon.bad-number", fmt::format("'{}' is not a whole number", word.number), "digits only");
   return std::nullopt;
 }
 
@@ -242,11 +241,11 @@ bool ExcellonReader::obey_g(const DrillWord& word, std::int64_t code) {
     case 40: return true;
     case 41:
     case 42:
-      builder_.note(fmt::format("line {}: cutter compensation (G{}) is left out; routes are cut on their line",
+      builder_.note(fmt::format("line {}: cutter compensation (G{}) is ignored; routes are cut along their line",
                                 lines_.number(), code));
       return true;
     default:
-      return refuse(place_of(word), "excellon.unsupported", fmt::format("G{} is not read", code),
+      return refuse(place_of(word), "excellon.unsupported", fmt::format("G{} is not supported", code),
                     "holes, slots (G85) and routes (G00 to G03)");
   }
 }
@@ -275,8 +274,9 @@ bool ExcellonReader::obey_m(const DrillWord& word, std::int64_t code) {
     case 98: return true;
     default: break;
   }
-  return refuse(place_of(word), "excellon.unsupported", fmt::format("M{}{} is not read", code, has_place ? " X Y" : ""),
-                "holes, slots and routes without patterns; export without step and repeat");
+  return refuse(place_of(word), "excellon.unsupported",
+                fmt::format("M{}{} is not supported", code, has_place ? " X Y" : ""),
+                "holes, slots and routes; export them without step and repeat");
 }
 
 // T1C0.8 in the header, T1 before its holes, or both in one. "T01" and "T1" are one tool; T0 is none, unless
@@ -288,7 +288,7 @@ bool ExcellonReader::choose_tool() {
   const std::optional<std::int64_t> number = count_of({'T', digits, word.column});
   if (!number) return false;
   if (*number > highest_tool) {
-    return refuse(place_of(word), "excellon.bad-number", fmt::format("T{} is no tool", *number), "T1 to T9999");
+    return refuse(place_of(word), "excellon.bad-number", fmt::format("T{} is not a tool", *number), "T1 to T9999");
   }
   finish_route();
   if (*number == 0 && word_of('C') == nullptr && !tools_.contains(0)) {
@@ -302,12 +302,12 @@ bool ExcellonReader::choose_tool() {
   if (diameter != nullptr) {
     const std::optional<Mm> value = numbers_.diameter(diameter->number);
     if (!value || value->value() < 0) {
-      return refuse(place_of(*diameter), "excellon.bad-number", fmt::format("'{}' is no diameter", diameter->number),
-                    "a number, as in T1C0.8");
+      return refuse(place_of(*diameter), "excellon.bad-number", fmt::format("'{}' is not a diameter", diameter->number),
+                    "a number, e.g. T1C0.8");
     }
     tool.diameter = builder_.length(*value, place_of(*diameter), line_);
   } else if (is_new && !in_header_) {
-    builder_.note(fmt::format("line {}: the file does not say how thick T{} is", lines_.number(), *number));
+    builder_.note(fmt::format("line {}: the file does not give the diameter of T{}", lines_.number(), *number));
   }
   if (!in_header_) tool_ = &tool;
   return true;
@@ -323,7 +323,7 @@ bool ExcellonReader::read_place(char x, char y, DrawnPoint& place) {
     last = word;
     const std::optional<Mm> number = numbers_.coordinate(word->number);
     if (!number) {
-      return refuse(place_of(*word), "excellon.bad-number", fmt::format("'{}' is no coordinate", word->number),
+      return refuse(place_of(*word), "excellon.bad-number", fmt::format("'{}' is not a coordinate", word->number),
                     "at most 15 digits, with or without a decimal point");
     }
     value[i] = incremental_ ? value[i] + number->value() : number->value();
@@ -336,8 +336,8 @@ bool ExcellonReader::read_place(char x, char y, DrawnPoint& place) {
 
 void ExcellonReader::drill(DrawnPoint at) {
   if (tool_ == nullptr) {
-    refuse(whole_line(), "excellon.no-tool", "a hole before its tool is chosen",
-           "T1, or another tool, on a line before");
+    refuse(whole_line(), "excellon.no-tool", "a hole without a selected tool",
+           "T1, or another tool, in an earlier line");
     return;
   }
   if (!builder_.has_room_for(1, whole_line(), line_)) return;
@@ -393,7 +393,7 @@ void ExcellonReader::arc_to(DrawnPoint from, DrawnPoint to) {
     if (sweep <= 1e-9) sweep += 2 * std::numbers::pi;
   }
   if (sweep > 1.5 * std::numbers::pi && chord < 1) {  // a full circle has no bulge
-    refuse(whole_line(), "excellon.bad-arc", "a full circle in one arc is not read", "two half circles");
+    refuse(whole_line(), "excellon.bad-arc", "a full circle as one arc is not supported", "two half circles");
     return;
   }
   if (!builder_.has_room_for(1, whole_line(), line_)) return;
@@ -404,8 +404,8 @@ void ExcellonReader::arc_to(DrawnPoint from, DrawnPoint to) {
 void ExcellonReader::begin_route() {
   finish_route();
   if (tool_ == nullptr) {
-    refuse(whole_line(), "excellon.no-tool", "a route before its tool is chosen",
-           "T1, or another tool, on a line before");
+    refuse(whole_line(), "excellon.no-tool", "a route without a selected tool",
+           "T1, or another tool, in an earlier line");
     return;
   }
   is_down_ = true;
@@ -436,8 +436,8 @@ void ExcellonReader::add_slot(DrawnPoint from) {
   if (!read_place('X', 'Y', end)) return;
   now_ = end;
   if (tool_ == nullptr) {
-    refuse(whole_line(), "excellon.no-tool", "a slot before its tool is chosen",
-           "T1, or another tool, on a line before");
+    refuse(whole_line(), "excellon.no-tool", "a slot without a selected tool",
+           "T1, or another tool, in an earlier line");
     return;
   }
   if (!builder_.has_room_for(2, whole_line(), line_)) return;

@@ -142,24 +142,24 @@ void ExcellonNumbers::guess(const Evidence& evidence, std::vector<std::string>& 
   } else if (!evidence.says_unit) {
     // No drill file has only drills below 0.3 mm, and none has drills of 0.3 inch alone.
     inch_ = evidence.largest_tool > 0 && evidence.largest_tool < 0.3;
-    notes.push_back(fmt::format("the file names no unit; {} is guessed from its {}", inch_ ? "inch" : "mm",
+    notes.push_back(fmt::format("the file does not give its unit; {} is assumed from its {}", inch_ ? "inch" : "mm",
                                 evidence.largest_tool > 0 ? "drills" : "silence"));
   }
   if (known_.zeros) zeros_ = *known_.zeros;
   if (!evidence.has_digits || evidence.says_zeros || known_.zeros) return;
   const std::size_t all = whole_digits() + decimals();
-  const char* reason = "nothing in the numbers tells";
+  const char* reason = "the numbers do not show it";
   if (evidence.starts_with_0 && !evidence.ends_with_0) {
     zeros_ = LeftOutZeros::trailing;
-    reason = "numbers begin with 0 and none ends with 0";
+    reason = "numbers start with 0, and none ends with 0";
   } else if (evidence.ends_with_0 && !evidence.starts_with_0) {
     zeros_ = LeftOutZeros::leading;
-    reason = "numbers end with 0 and none begins with 0";
+    reason = "numbers end with 0, and none starts with 0";
   } else if (evidence.starts_with_0 && evidence.ends_with_0) {
-    reason = "all zeros seem to be there";
+    reason = "no zeros seem to be omitted";
     if (evidence.most_digits != all) zeros_ = LeftOutZeros::leading;
   }
-  notes.push_back(fmt::format("the file does not say which zeros are left out; {} zeros is guessed: {}",
+  notes.push_back(fmt::format("the file does not say which zeros are omitted; '{} zeros' is assumed: {}",
                               zeros_ == LeftOutZeros::leading ? "leading" : "trailing", reason));
 }
 

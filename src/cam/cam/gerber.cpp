@@ -95,7 +95,7 @@ void GerberReader::find_unit(std::string_view text) {
     numbers_.is_inch = unit.find("IN") != std::string_view::npos || unit == "G70*";
     has_unit_ = true;
   }
-  if (!has_unit_) findings_.note("the file names no unit; inch is guessed, as old files mean it");
+  if (!has_unit_) findings_.note("the file does not give its unit; inch is assumed, as in old files");
 }
 
 GerberLayer GerberReader::read() {
@@ -125,16 +125,16 @@ void GerberReader::finish() {
   layer_.strokes.paths = std::move(image.strokes);
   for (const GerberAperture& aperture : layer_.apertures)
     layer_.strokes.layers.push_back(fmt::format("D{}", aperture.code));
-  if (!ended_ && !findings_.any_error()) findings_.note("the file has no M02 at its end; perhaps a part is missing");
+  if (!ended_ && !findings_.any_error()) findings_.note("the file does not end with M02, so it may be truncated");
   if (!findings_.full() && !plotter_.is_full()) {
     if (std::optional<Region> dark = composed(std::move(image), plotter_.budget())) {
       layer_.dark = std::move(*dark);
     } else {
-      findings_.refuse(0, 0, "gerber.too-large", "the lines of this layer cross too often to be united", "fewer lines");
+      findings_.refuse(0, 0, "gerber.too-large", "the lines of this layer cross too often to be merged", "fewer lines");
     }
   }
   layer_.is_negative = layer_.is_negative != old_codes_.is_negative();
-  if (layer_.is_negative) findings_.note("the layer is a negative: what it draws is what the board has not");
+  if (layer_.is_negative) findings_.note("the layer is a negative: the drawn areas are those without copper");
   layer_.strokes.notes = findings_.take_notes();
 }
 
@@ -166,8 +166,8 @@ bool GerberReader::read_words() {
     const std::size_t end = std::min(all.find_first_not_of("+-.0123456789", at + 1), all.size());
     const bool is_letter = std::string_view("NGDMXYIJ").find(letter) != std::string_view::npos;
     if (!is_letter || end == at + 1) {
-      return findings_.refuse(at, 1, "gerber.unknown-command", "this is no command of a Gerber file",
-                              "coordinates and a code, as in X100Y200D01*, or %...*%");
+      return findings_.refuse(at, 1, "gerber.unknown-command", "this is not a Gerber command",
+                              "coordinates and a code, e.g. X100Y200D01*, or %...*%");
     }
     const std::string_view number = all.substr(at + 1, end - at - 1);
     const bool is_operation = letter == 'D' && (number == "1" || number == "01" || number == "2" || number == "02" ||
@@ -184,7 +184,7 @@ std::optional<int> GerberReader::code_of(const GerberWord& word) {
   const auto [stop, error] = std::from_chars(word.number.data(), end, value);
   if (error == std::errc() && stop == end && value >= 0) return value;
   findings_.refuse(word.at, word.number.size() + 1, "gerber.bad-number",
-                   fmt::format("'{}' is no code", word.number.substr(0, 60)), "digits alone");
+                   fmt::format("'{}' is not a code", word.number.substr(0, 60)), "digits only");
   return std::nullopt;
 }
 
@@ -222,7 +222,7 @@ void GerberReader::obey_g(const GerberWord& word) {
     case 91: numbers_.format.is_incremental = *code == 91; return;
     default:
       findings_.refuse(word.at, word.number.size() + 1, "gerber.unknown-command",
-                       fmt::format("G{:02} is not read", *code),
+                       fmt::format("G{:02} is not supported", *code),
                        "G01 to G04, G36, G37, G54, G55, G70, G71, G74, G75, G90 or G91");
   }
 }
@@ -242,7 +242,7 @@ void GerberReader::obey_d(const GerberWord& word) {
 
 bool GerberReader::read_place(DrawnPoint& place, ArcWords& arc) {
   if (!has_format_) {
-    findings_.note("the file does not state how many digits its numbers have (FS); 2.4 is guessed");
+    findings_.note("the file does not give its number format (FS); 2.4 digits are assumed");
     has_format_ = true;
   }
   Nanometres i;
@@ -255,11 +255,11 @@ bool GerberReader::read_place(DrawnPoint& place, ArcWords& arc) {
     const std::optional<Nanometres> value = is_across ? numbers_.x(word.number) : numbers_.y(word.number);
     if (!value) {
       return findings_.refuse(word.at, word.number.size() + 1, "gerber.bad-number",
-                              fmt::format("'{}' is no coordinate", word.number.substr(0, 60)),
-                              "a sign and digits, at most 100 m; are the unit and the format right?");
+                              fmt::format("'{}' is not a coordinate", word.number.substr(0, 60)),
+                              "a sign and digits, at most 100 m; check the unit and the format");
     }
     if (word.number.find('.') != std::string_view::npos) {
-      findings_.note("numbers with decimal points are read as they stand");
+      findings_.note("numbers with a decimal point are read as written");
     }
     arc.has_any = arc.has_any || word.letter == 'I' || word.letter == 'J';
     (word.letter == 'X' ? x : word.letter == 'Y' ? y : word.letter == 'I' ? i : j) = *value;
@@ -272,7 +272,8 @@ bool GerberReader::read_place(DrawnPoint& place, ArcWords& arc) {
     return length < Nanometres{-farthest_drawn.count} || length > farthest_drawn;
   };
   if (is_far(x) || is_far(y)) {
-    return findings_.refuse(0, 0, "drawing.too-far", "this place is over 100 m from zero", "is the unit right?");
+    return findings_.refuse(0, 0, "drawing.too-far", "this position is over 100 m from zero",
+                            "coordinates within 100 m; check the unit");
   }
   x_ = x;
   y_ = y;
@@ -292,7 +293,9 @@ void GerberReader::operate() {
     case draw_code: return plotter_.draw_to(place, arc);
     case flash_code: return plotter_.flash(place);
     case move_code: return plotter_.move_to(place);
-    default: findings_.note("places before the first D01, D02 or D03 only move"); return plotter_.move_to(place);
+    default:
+      findings_.note("coordinates before the first D01, D02 or D03 are read as moves");
+      return plotter_.move_to(place);
   }
 }
 
@@ -321,15 +324,15 @@ void GerberReader::read_extended() {
   if (is_plain) return read_plain();
   // Of a second * within the % of a command, as in %ADD10C,.031*X.015%.
   const bool is_rest = code.size() == 2 && code[0] == 'X';
-  if (is_rest) return findings_.note(fmt::format("'{}' behind the end of a command is ignored", all.substr(0, 20)));
-  findings_.refuse(0, 0, "gerber.unknown-command", fmt::format("'{}' is not read", code),
+  if (is_rest) return findings_.note(fmt::format("'{}' after the end of a command is ignored", all.substr(0, 20)));
+  findings_.refuse(0, 0, "gerber.unknown-command", fmt::format("'{}' is not supported", code),
                    "FS, MO, AD, AM, AB, LP, LM, LR, LS, SR, TF, TA, TO, TD or an old code");
 }
 
 void GerberReader::read_format() {
   const std::optional<GerberFormat> format = read_gerber_format(words().substr(2));
   if (!format) {
-    findings_.refuse(0, 0, "gerber.bad-format", "this states no format", "as in FSLAX46Y46");
+    findings_.refuse(0, 0, "gerber.bad-format", "this is not a number format", "e.g. FSLAX46Y46");
     return;
   }
   numbers_.format = *format;
@@ -339,7 +342,7 @@ void GerberReader::read_format() {
 void GerberReader::read_unit() {
   const std::string_view unit = trimmed(words().substr(2));
   if (unit != "IN" && unit != "MM") {
-    findings_.refuse(0, 0, "gerber.bad-format", fmt::format("'{}' is no unit", unit.substr(0, 60)), "MOMM or MOIN");
+    findings_.refuse(0, 0, "gerber.bad-format", fmt::format("'{}' is not a unit", unit.substr(0, 60)), "MOMM or MOIN");
     return;
   }
   numbers_.is_inch = unit == "IN";
@@ -348,7 +351,7 @@ void GerberReader::read_unit() {
 void GerberReader::read_polarity() {
   const std::string_view polarity = trimmed(words().substr(2));
   if (polarity != "D" && polarity != "C") {
-    findings_.refuse(0, 0, "gerber.bad-mode", fmt::format("'{}' is no polarity", polarity.substr(0, 60)),
+    findings_.refuse(0, 0, "gerber.bad-mode", fmt::format("'{}' is not a polarity", polarity.substr(0, 60)),
                      "LPD, dark, or LPC, clear");
     return;
   }
@@ -364,7 +367,8 @@ void GerberReader::read_transformation() {
   const bool is_turn = kind == 'R' && number && std::abs(*number) <= 1e6;
   const bool is_scale = kind == 'S' && number && *number >= 1e-6 && *number <= 1e6;
   if (!is_mirror && !is_turn && !is_scale) {
-    findings_.refuse(0, 0, "gerber.bad-mode", fmt::format("'{}' transforms no aperture", value.substr(0, 60)),
+    findings_.refuse(0, 0, "gerber.bad-mode",
+                     fmt::format("'{}' is not an aperture transformation", value.substr(0, 60)),
                      "LMN, LMX, LMY, LMXY, LR and degrees, or LS and a factor above 0");
     return;
   }
@@ -391,7 +395,8 @@ void GerberReader::read_repeat() {
     const bool is_wrong = std::string_view("XYIJ").find(all[at]) == std::string_view::npos || !value || !length ||
                           (counts_here && !(*value >= 0 && *value <= 1e6));
     if (is_wrong) {
-      findings_.refuse(at, end - at, "gerber.bad-block", "this repeats nothing", "as in SRX3Y2I5.0J4.0, or SR");
+      findings_.refuse(at, end - at, "gerber.bad-block", "this step and repeat is empty",
+                       "e.g. SRX3Y2I5.0J4.0, or SR to end it");
       return;
     }
     const std::size_t axis = all[at] == 'X' || all[at] == 'I' ? 0 : 1;
@@ -402,7 +407,8 @@ void GerberReader::read_repeat() {
   for (std::size_t axis = 0; axis < 2; ++axis) {
     const double reach = counts[axis] * std::abs(static_cast<double>(steps[axis].count));
     if (reach <= static_cast<double>(farthest_drawn.count)) continue;
-    findings_.refuse(0, 0, "drawing.too-far", "the repeats go over 100 m", "is the unit right?");
+    findings_.refuse(0, 0, "drawing.too-far", "the repeats extend over more than 100 m",
+                     "coordinates within 100 m; check the unit");
     return;
   }
   plotter_.end_repeat();
@@ -417,7 +423,7 @@ void GerberReader::read_block() {
   if (name.empty()) return plotter_.end_block();
   const std::optional<double> code = name.front() == 'D' ? read_gerber_decimal(name.substr(1)) : std::nullopt;
   if (!code || !(*code >= 10 && *code <= 999'999'999)) {
-    findings_.refuse(0, 0, "gerber.bad-block", "this names no block", "ABD12, or AB to end it");
+    findings_.refuse(0, 0, "gerber.bad-block", "this does not name an aperture block", "e.g. ABD12, or AB to end it");
     return;
   }
   plotter_.begin_block(static_cast<std::uint32_t>(*code));

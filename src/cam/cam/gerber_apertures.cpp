@@ -24,16 +24,16 @@ bool GerberApertures::read_definition(Definition& definition) {
   std::size_t at = 2;
   while (at < words.size() && words[at] == ' ') ++at;
   const std::size_t d = at;
-  const auto expects = "D, a code from 10 on, a shape and its sizes, as in ADD10C,0.5";
+  const auto expects = "D, a code from 10 on, a shape and its sizes, e.g. ADD10C,0.5";
   if (at >= words.size() || words[at] != 'D') {
-    return findings_.refuse(at, 1, "gerber.bad-aperture", "this defines no aperture", expects);
+    return findings_.refuse(at, 1, "gerber.bad-aperture", "this does not define an aperture", expects);
   }
   std::uint64_t code = 0;
   for (++at; at < words.size() && is_code_digit(words[at]) && code <= highest_code; ++at) {
     code = code * 10 + static_cast<std::uint64_t>(words[at] - '0');
   }
   if (code < 10 || code > highest_code) {
-    return findings_.refuse(d, at - d, "gerber.bad-aperture", fmt::format("D{} is no aperture", code), expects);
+    return findings_.refuse(d, at - d, "gerber.bad-aperture", fmt::format("D{} is not an aperture", code), expects);
   }
   definition.code = static_cast<std::uint32_t>(code);
   const std::size_t comma = std::min(words.find(',', at), words.size());
@@ -56,7 +56,7 @@ bool GerberApertures::read_definition(Definition& definition) {
     const bool is_last_blank = end == words.size() && text.find_first_not_of(' ') == std::string_view::npos;
     if (is_last_blank) break;
     if (!value || std::abs(*value) > 1e7 || definition.values.size() >= most_values) {
-      return findings_.refuse(at, end - at, "gerber.bad-number", fmt::format("'{}' is no size", text.substr(0, 60)),
+      return findings_.refuse(at, end - at, "gerber.bad-number", fmt::format("'{}' is not a size", text.substr(0, 60)),
                               "a decimal number");
     }
     definition.values.push_back(*value);
@@ -86,7 +86,7 @@ bool GerberApertures::make_shape(const Definition& definition, PlotterAperture& 
   }
   return findings_.refuse(0, 0, "gerber.bad-aperture",
                           fmt::format("there is no shape '{}'", definition.shape.substr(0, 60)),
-                          "C, R, O, P, or a macro that %AM... defines above");
+                          "C, R, O, P, or a macro defined before by %AM...");
 }
 
 bool GerberApertures::make_standard(const Definition& definition, PlotterAperture& aperture) {
@@ -94,7 +94,7 @@ bool GerberApertures::make_standard(const Definition& definition, PlotterApertur
   std::vector<double> values = definition.values;
   if ((shape == 'R' || shape == 'O') && values.size() == 1) {
     findings_.note(
-        fmt::format("aperture D{} has a width and no height, and is taken for as high as wide", definition.code));
+        fmt::format("aperture D{} has a width but no height; the height is assumed to be the same", definition.code));
     values.push_back(values.front());
   }
   const std::size_t needed = shape == 'C' ? 1 : 2;
@@ -103,9 +103,9 @@ bool GerberApertures::make_standard(const Definition& definition, PlotterApertur
   };
   if (values.size() < needed) {
     return wrong(fmt::format("shape {} has {}", shape, counted(values.size(), "value")),
-                 shape == 'C'   ? "a diameter, and perhaps that of its hole"
-                 : shape == 'P' ? "a diameter, the number of corners, and perhaps an angle and a hole's diameter"
-                                : "width and height, and perhaps a hole's diameter");
+                 shape == 'C'   ? "a diameter, and optionally a hole diameter"
+                 : shape == 'P' ? "a diameter, the number of corners, and optionally an angle and a hole diameter"
+                                : "width and height, and optionally a hole diameter");
   }
   if (values[0] < 0 || (shape != 'P' && needed == 2 && values[1] < 0)) {
     return wrong("the size is below 0", "0 or more");
@@ -113,7 +113,7 @@ bool GerberApertures::make_standard(const Definition& definition, PlotterApertur
   const double nm = numbers_.nm_per_unit();
   const double first = values[0] * nm;
   if (first / 2 > static_cast<double>(farthest_drawn.count))
-    return wrong("the aperture is too large", "is the unit right?");
+    return wrong("the aperture is too large", "a smaller aperture; check the unit");
   if (!plotter_.has_room_for(4 * chords_of_arc(first / 2, std::numbers::pi / 2))) return false;
   switch (shape) {
     case 'C':
@@ -142,7 +142,7 @@ bool GerberApertures::cut_hole(const Definition& definition, std::size_t first, 
   const double across = values[first] * nm;
   const double up = values.size() > first + 1 ? values[first + 1] * nm : 0;
   if (across < 0 || up < 0) {
-    findings_.note(fmt::format("the hole of aperture D{} has a size below 0 and is left out", definition.code));
+    findings_.note(fmt::format("the hole of aperture D{} has a negative size and is ignored", definition.code));
     return true;
   }
   if (across == 0) return true;

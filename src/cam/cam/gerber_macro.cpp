@@ -179,11 +179,11 @@ bool MacroComposer::assign(Variables& variables) {
   const std::optional<double> index = equals == std::string_view::npos
                                           ? std::nullopt
                                           : read_gerber_decimal(words.substr(dollar + 1, equals - dollar - 1));
-  if (!index || !(*index >= 1 && *index <= 1e6)) return refuse(dollar, "this is no variable", "$4=$1x0.75");
+  if (!index || !(*index >= 1 && *index <= 1e6)) return refuse(dollar, "this is not a variable", "$4=$1x0.75");
   MacroExpression expression(words, equals + 1, variables);
   const std::optional<double> value = expression.value();
   if (!value || expression.at() != words.size()) {
-    return refuse(expression.at(), "this is no expression", "numbers, $1, + - x / and brackets");
+    return refuse(expression.at(), "this is not an expression", "numbers, $1, + - x / and brackets");
   }
   variables[static_cast<std::size_t>(*index)] = *value;
   return true;
@@ -198,10 +198,10 @@ bool MacroComposer::read_arguments(const Variables& variables) {
     at = expression.at();
     if (at == words.size() && !value && !numbers_.empty() && words.back() == ',') break;  // a comma too many
     if (!value || (at < words.size() && words[at] != ',')) {
-      return refuse(at, "this is no expression", "numbers, $1, + - x / and brackets, with commas between");
+      return refuse(at, "this is not an expression", "numbers, $1, + - x / and brackets, separated by commas");
     }
     if (!std::isfinite(*value) || std::abs(*value) > 1e9) {
-      return refuse(at, fmt::format("the value {:g} cannot be drawn", *value), "a number of reasonable size");
+      return refuse(at, fmt::format("the value {:g} cannot be drawn", *value), "a smaller number");
     }
     numbers_.push_back(*value);
     ++at;
@@ -254,10 +254,11 @@ bool MacroComposer::add_outline() {
   if (!has_arguments(2)) return false;
   const double corners = number(1);
   if (!(corners >= 1) || corners * 2 + 4 > static_cast<double>(numbers_.size())) {
-    return refuse(0,
-                  fmt::format("the outline of {:g} corner{} has {}", corners, plural_end(corners == 1),
-                              counted(numbers_.size(), "value")),
-                  "exposure, the number of corners, X and Y of each, the first again, and perhaps an angle");
+    return refuse(
+        0,
+        fmt::format("the outline of {:g} corner{} has {}", corners, plural_end(corners == 1),
+                    counted(numbers_.size(), "value")),
+        "exposure, the number of corners, X and Y of each corner and again of the first, and optionally an angle");
   }
   const auto count = static_cast<std::size_t>(corners);
   if (!limits_.has_room_for(count)) return false;

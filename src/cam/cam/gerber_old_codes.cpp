@@ -22,7 +22,7 @@ bool GerberOldCodes::read_axes(double& a, double& b) {
     const std::size_t end = std::min(words.find_first_of("AB", at + 1), words.size());
     const std::optional<double> value = read_gerber_decimal(words.substr(at + 1, end - at - 1));
     if ((words[at] != 'A' && words[at] != 'B') || !value || std::abs(*value) > 1e6) {
-      return findings_.refuse(at, end - at, "gerber.bad-number", "this is no value of an axis", "as in A1.5B2");
+      return findings_.refuse(at, end - at, "gerber.bad-number", "this is not a value of an axis", "e.g. A1.5B2");
     }
     (words[at] == 'A' ? a : b) = *value;
     at = end;
@@ -34,7 +34,7 @@ void GerberOldCodes::read_turn() {
   const std::string_view words = findings_.command.words;
   const std::optional<double> degrees = read_gerber_decimal(words.substr(2));
   if (!degrees || (*degrees != 0 && *degrees != 90 && *degrees != 180 && *degrees != 270)) {
-    findings_.refuse(2, 0, "gerber.bad-mode", "this turns no image", "IR0, IR90, IR180 or IR270");
+    findings_.refuse(2, 0, "gerber.bad-mode", "this is not an image rotation", "IR0, IR90, IR180 or IR270");
     return;
   }
   quarter_turns_ = static_cast<int>(*degrees / 90);
@@ -64,13 +64,13 @@ bool GerberOldCodes::read() {
     const DrawnPoint limit{farthest_drawn, farthest_drawn};
     if (std::abs(offset_.x.count) > limit.x.count || std::abs(offset_.y.count) > limit.y.count) {
       offset_ = {};
-      findings_.refuse(0, 0, "drawing.too-far", "the offset is over 100 m", "is the unit right?");
+      findings_.refuse(0, 0, "drawing.too-far", "the offset is over 100 m", "a smaller offset; check the unit");
     }
   } else if (code == "IR") {
     read_turn();
   } else if (code == "KO" || code == "IF") {
-    findings_.refuse(0, 0, "gerber.unsupported", fmt::format("{} is not read", code),
-                     code == "IF" ? "the included file's text instead" : "LPC, clear polarity, instead");
+    findings_.refuse(0, 0, "gerber.unsupported", fmt::format("{} is not supported", code),
+                     code == "IF" ? "the text of the included file instead" : "LPC, clear polarity, instead");
   } else {
     // Names, and what was for photo plotters.
     return code == "IN" || code == "LN" || code == "IJ" || code == "IO" || code == "IC" || code == "PF" || code == "RO";
@@ -78,7 +78,8 @@ bool GerberOldCodes::read() {
   const bool moves = code != "IP" && code != "KO" && code != "IF";
   const bool does = exchanges_axes_ || mirror_x_ != 1 || mirror_y_ != 1 || scale_x_ != 1 || scale_y_ != 1 ||
                     offset_ != DrawnPoint{} || quarter_turns_ != 0;
-  if (moves && does) findings_.note(fmt::format("the old code {} is obeyed: look at where the layer lies", code));
+  if (moves && does)
+    findings_.note(fmt::format("the deprecated code {} is applied; check the position of the layer", code));
   return true;
 }
 

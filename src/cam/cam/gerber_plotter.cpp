@@ -66,7 +66,7 @@ bool GerberPlotter::has_room_for(std::size_t points) {
     return true;
   }
   is_full_ = true;
-  return findings_.refuse(0, 0, "gerber.too-large", fmt::format("here the image exceeds {} points", most_points_),
+  return findings_.refuse(0, 0, "gerber.too-large", fmt::format("the image has more than {} points", most_points_),
                           "a smaller layer, or fewer repeats");
 }
 
@@ -74,7 +74,7 @@ bool GerberPlotter::can_unite(const std::vector<DrawnRing>& rings) {
   if (is_full_) return false;
   if (budget_.affords(rings)) return true;
   is_full_ = true;
-  return findings_.refuse(0, 0, "gerber.too-large", "the lines here cross too often to be united", "fewer lines");
+  return findings_.refuse(0, 0, "gerber.too-large", "the lines cross too often to be merged", "fewer lines");
 }
 
 void GerberPlotter::set_dark(bool is_dark) {
@@ -90,7 +90,8 @@ void GerberPlotter::set_modal(const GerberPlacement& modal) {
 
 void GerberPlotter::define(std::uint32_t code, PlotterAperture aperture) {
   finish_stroke();
-  if (apertures_.contains(code)) findings_.note(fmt::format("aperture D{} is defined twice; the last is used", code));
+  if (apertures_.contains(code))
+    findings_.note(fmt::format("aperture D{} is defined twice; the last definition is used", code));
   apertures_.insert_or_assign(code, std::move(aperture));
   tool_is_new_ = true;
 }
@@ -105,11 +106,14 @@ const PlotterAperture* GerberPlotter::aperture() {
   const auto found = apertures_.find(code_);
   if (found != apertures_.end()) return &found->second;
   if (code_ == 0) {
-    findings_.refuse(0, 0, "gerber.no-aperture", "this draws before an aperture is chosen", "D10, or another, before");
+    findings_.refuse(0, 0, "gerber.no-aperture", "this draws without a selected aperture",
+                     "D10, or another aperture, before");
   } else {
-    findings_.refuse(0, 0, "gerber.no-aperture", fmt::format("aperture D{} is not defined", code_),
-                     apertures_.empty() ? "%ADD10C,0.5*%; RS-274-D, with its apertures in another file, is not read"
-                                        : "one that %AD... defines above");
+    findings_.refuse(
+        0, 0, "gerber.no-aperture", fmt::format("aperture D{} is not defined", code_),
+        apertures_.empty()
+            ? "a definition such as %ADD10C,0.5*%; RS-274-D, with apertures in a separate file, is not supported"
+            : "an aperture defined before by %AD...");
   }
   return nullptr;
 }
@@ -144,14 +148,14 @@ bool GerberPlotter::find_arc(DrawnPoint to, const ArcWords& words, GerberArc& ar
   }
   if (quadrants == Quadrants::unknown) {
     quadrants = words.ij.x < 0 || words.ij.y < 0 ? Quadrants::multi : Quadrants::single;
-    findings_.note(fmt::format("the file has arcs and neither G74 nor G75; {} is guessed",
-                               quadrants == Quadrants::multi ? "G75, as I or J is negative" : "G74"));
+    findings_.note(fmt::format("the file has arcs, but neither G74 nor G75; {} is assumed",
+                               quadrants == Quadrants::multi ? "G75, because I or J is negative" : "G74"));
   }
   const bool counterclockwise = interpolation == Interpolation::counterclockwise;
   if (quadrants == Quadrants::single) {
     if (find_quarter(at_, to, words.ij, counterclockwise, arc)) return arc.sweep != 0;
-    return findings_.refuse(0, 0, "gerber.bad-arc", "no arc of a right angle or less joins these places",
-                            "I and J of a centre that does; or G75 before");
+    return findings_.refuse(0, 0, "gerber.bad-arc", "no arc of up to 90 degrees joins these points",
+                            "I and J of the arc's centre, or G75 before");
   }
   const Offset start = offset_of(at_);
   arc = {at_, to, {start.x + words.ij.x, start.y + words.ij.y}, 0};
@@ -160,7 +164,8 @@ bool GerberPlotter::find_arc(DrawnPoint to, const ArcWords& words, GerberArc& ar
       at_ == to ? (counterclockwise ? 2 * pi : -2 * pi) : sweep_of(angle, angle_at(to, arc.centre), counterclockwise);
   const double off = std::abs(radius_at(at_, arc.centre) - radius_at(to, arc.centre));
   constexpr double noticed = 10'000;  // nm: more than coordinates are rounded
-  if (off > noticed) findings_.note("an arc's ends are not at one distance from its centre; its radius changes evenly");
+  if (off > noticed)
+    findings_.note("the ends of an arc have different distances from its centre; the radius is interpolated");
   return true;
 }
 
@@ -240,7 +245,7 @@ void GerberPlotter::finish_stroke() {
 
 void GerberPlotter::flash(DrawnPoint place) {
   if (in_region_) {
-    findings_.refuse(0, 0, "gerber.bad-region", "a flash between G36 and G37", "D01 and D02 alone");
+    findings_.refuse(0, 0, "gerber.bad-region", "a flash between G36 and G37", "D01 and D02 only");
     return;
   }
   finish_stroke();
@@ -273,7 +278,7 @@ void GerberPlotter::begin_region() {
 
 void GerberPlotter::finish_contour() {
   if (way_.size() >= 3) {
-    if (way_.front() != way_.back()) findings_.note("a contour of a region is not closed; a line closes it");
+    if (way_.front() != way_.back()) findings_.note("a contour of a region is open; it is closed with a line");
     if (can_unite({way_})) image().add(filled({std::move(way_)}), is_dark_);
   }
   way_.clear();
@@ -287,7 +292,7 @@ void GerberPlotter::end_region() {
 GerberPlotter::Frame* GerberPlotter::push_frame() {
   finish_stroke();
   if (frames_.size() < most_frames) return &frames_.emplace_back();
-  findings_.refuse(0, 0, "gerber.nested-too-deep", "too many blocks, one in another",
+  findings_.refuse(0, 0, "gerber.nested-too-deep", "aperture blocks are nested too deep",
                    fmt::format("at most {}", most_frames));
   return nullptr;
 }
@@ -311,7 +316,7 @@ void GerberPlotter::end_block() {
   finish_stroke();
   if (frames_.size() > 1 && !frames_.back().is_block) end_repeat();
   if (frames_.size() <= 1 || !frames_.back().is_block) {
-    findings_.refuse(0, 0, "gerber.bad-block", "this ends a block that has not begun", "%ABD12*% before");
+    findings_.refuse(0, 0, "gerber.bad-block", "this ends a block that was not started", "%ABD12*% before");
     return;
   }
   pop_frame();
@@ -350,7 +355,7 @@ GerberImage GerberPlotter::finish() {
   end_region();
   finish_stroke();
   while (frames_.size() > 1) {
-    if (frames_.back().is_block) findings_.note(fmt::format("the block D{} has no end", frames_.back().code));
+    if (frames_.back().is_block) findings_.note(fmt::format("the block D{} is not closed", frames_.back().code));
     pop_frame();
   }
   return std::move(frames_.front().image);

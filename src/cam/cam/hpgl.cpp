@@ -16,8 +16,8 @@ constexpr double units_of_cm = 400;
 
 // What moves no pen: speed, force, widths of pens, fills, questions to the plotter.
 constexpr std::string_view silent_orders =
-    "VS FS AS AP AF AH PG RP NR PW WU PT FT PC NP CR MC MG PP TR LA UL SB RF TD CF PS SV KY GC GM GP EC EN ES IM IR "
-    "OA OC OD OE OF OG OH OI OK OL OO OP OS OT OW BP QL IW CS CA SS SA SD AD FI FN ";
+    "VS FS AS AP AF AH PG RP NR PW WU PT FT PC NP CR MC MG PP TR LA UL SB RF TD CF PS SV KY GC GM GP EC EN ES IM IR OA "
+    "OC OD OE OF OG OH OI OK OL OO OP OS OT OW BP QL IW CS CA SS SA SD AD FI FN ";
 
 }  // namespace
 
@@ -68,7 +68,8 @@ Drawing HpglPlotter::plot() {
   while (!diagnostics_.full() && !pen_.is_full()) {
     const std::optional<HpglCommand> command = words_.command();
     if (!command) {
-      if (!words_.at_end()) refuse(words_.place(), "hpgl.syntax", "this is no command of a plot", "two letters, as PU");
+      if (!words_.at_end())
+        refuse(words_.place(), "hpgl.syntax", "this is not an HPGL command", "two letters, e.g. PU");
       break;
     }
     line_ += static_cast<std::uint32_t>(
@@ -79,13 +80,13 @@ Drawing HpglPlotter::plot() {
   }
   pen_.end_path();
   DrawingBuilder& builder = pen_.builder();
-  for (const auto& [what, count] : left_out_) builder.note(fmt::format("left out: {} {}", count, what));
+  for (const auto& [what, count] : left_out_) builder.note(fmt::format("ignored: {} {}", count, what));
   if (!pen_.has_drawn() && !diagnostics_.any_error()) {
     diagnostics_.add({.code = "hpgl.no-drawing",
                       .file = name_,
                       .place = {},
-                      .message = "the pen draws nothing in this plot",
-                      .expected = "PD with places, arcs, circles or labels",
+                      .message = "the plot draws nothing",
+                      .expected = "PD with coordinates, arcs, circles or labels",
                       .text = ""});
   }
   return builder.take();
@@ -121,14 +122,14 @@ bool HpglPlotter::carry_out(const HpglCommand& command) {
   if (order == orders.end()) {
     if (command.is("IW")) leave_out("clipping windows");
     if (command.is("CS") || command.is("CA") || command.is("SD") || command.is("AD")) leave_out("choices of letters");
-    if (!knows(command)) leave_out(fmt::format("commands {}, which are not known", command.name()));
+    if (!knows(command)) leave_out(fmt::format("unknown commands {}", command.name()));
     words_.skip_to_end_of_command();
     return true;
   }
   const std::optional<Numbers> numbers = words_.numbers();
   if (!numbers) {
-    refuse(words_.place(), "hpgl.syntax", fmt::format("this is no number of {}", command.name()),
-           "numbers with commas between, then ';' or the next command");
+    refuse(words_.place(), "hpgl.syntax", fmt::format("this is not a number of {}", command.name()),
+           "numbers separated by commas, then ';' or the next command");
     return false;
   }
   if (numbers->size() < order->least) {
@@ -146,9 +147,9 @@ bool HpglPlotter::carry_out_text(const HpglCommand& command) {
     const std::size_t from = words_.place();
     const std::string_view text = words_.until(label_end_);
     if (from + text.size() >= text_.size()) {
-      refuse(command.place, "hpgl.label", "this label has no end",
-             label_end_ == '\x03' ? "the character ETX (code 3), or DT and another one before"
-                                  : fmt::format("'{}', as DT says", label_end_));
+      refuse(command.place, "hpgl.label", "this label is not closed",
+             label_end_ == '\x03' ? "the character ETX (code 3), or another terminator set by DT before"
+                                  : fmt::format("'{}', the terminator set by DT", label_end_));
       return true;
     }
     if (command.is("LB")) label(text);
@@ -160,7 +161,7 @@ bool HpglPlotter::carry_out_text(const HpglCommand& command) {
     label_end_ = end.value_or('\x03');
     words_.skip_to_end_of_command();
   } else if (command.is("SM")) {
-    if (words_.character()) leave_out("symbols at places");
+    if (words_.character()) leave_out("symbols at points");
     words_.skip_to_end_of_command();
   } else if (command.is("CO")) {
     words_.skip_comment();
@@ -227,8 +228,8 @@ void HpglPlotter::scale(const Numbers& n) {
   const bool is_flat = n.size() >= 4 && (has_factors ? n[1] == 0 || n[3] == 0 : n[0] == n[1] || n[2] == n[3]);
   if (is_flat || (!n.empty() && n.size() < 4)) {
     scaling_.clear();
-    refuse(words_.place() - 1, "hpgl.numbers", "these numbers are no scaling",
-           "the least and the greatest X, the least and the greatest Y");
+    refuse(words_.place() - 1, "hpgl.numbers", "these numbers are not a valid scaling",
+           "the smallest and the largest X, the smallest and the largest Y");
   }
   find_scaling();
 }
@@ -258,7 +259,7 @@ void HpglPlotter::line_type(const Numbers& n) {
   const double length = std::max(1.0, is_mm ? share * 100 / 0.025 : share * diagonal);
   const auto type = static_cast<std::size_t>(std::abs(n[0]));
   if (type == 0 || type >= patterns.size()) {
-    leave_out("line types that are not known");
+    leave_out("unknown line types");
     pen_.set_dashes({});
     return;
   }
@@ -311,7 +312,7 @@ void HpglPlotter::tick_length(const Numbers& n) {
 
 void HpglPlotter::label(std::string_view text) {
   if (const std::size_t unknown = write_label(text, labels_, pen_); unknown > 0) {
-    left_out_["characters, which the letters have not"] += unknown;
+    left_out_["characters that the font does not have"] += unknown;
   }
 }
 

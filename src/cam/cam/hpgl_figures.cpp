@@ -41,7 +41,7 @@ void HpglPlotter::go_along(const Numbers& n) {
   for (std::size_t i = 0; i + 1 < n.size() && !pen_.is_full(); i += 2) go(target(n[i], n[i + 1], is_relative_));
   if (n.size() % 2 != 0) {
     refuse(words_.place() - 1, "hpgl.numbers", "these places have " + counted(n.size(), "number"),
-           "an X and a Y for each place");
+           "X and Y for each point");
   }
 }
 
@@ -156,7 +156,7 @@ void HpglPlotter::bezier(const Numbers& n, bool is_relative) {
     if (!is_down_ && !is_polygon_) {
       go(curve[3]);
     } else if (!for_chords(std::span<const HpglSpot>(curve), 1, pen_.tolerance(), take)) {
-      refuse(words_.place(), "hpgl.numbers", "this curve is too large", "curves of at most some metres");
+      refuse(words_.place(), "hpgl.numbers", "this curve is too large", "curves of at most a few metres");
     }
   }
 }
@@ -224,7 +224,8 @@ void HpglPlotter::packed_line() {
   bool is_absolute = false;
   double unit = 1;
   const auto wrong = [&] {
-    refuse(words_.place() - 1, "hpgl.packed", "this is no number of a packed line (PE)", "digits of base 64 or 32");
+    refuse(words_.place() - 1, "hpgl.packed", "this is not a number of an encoded polyline (PE)",
+           "base 64 or base 32 digits");
   };
   while (const std::optional<char> next = words_.character()) {
     if (pen_.is_full()) return;

@@ -327,8 +327,8 @@ IsolationPlan plan_isolation(const Region& copper, const IsolationOptions& optio
     diagnostics.add({.code = "isolation.too-wide",
                      .file = "",
                      .place = {},
-                     .message = "the board is too wide for ways midway between its islands",
-                     .expected = "width and height of at most 1 m together",
+                     .message = "the board is too large for paths midway between its islands",
+                     .expected = "a sum of width and height of at most 1 m",
                      .text = ""});
     return {};
   }

@@ -150,7 +150,7 @@ void KicadBoardReader::note_once(const char* words) {
 bool KicadBoardReader::has_room_for(KicadItem item, std::size_t points) {
   points_ += points + 4;
   if (points_ <= most_gerber_points) return true;
-  if (!is_full_) text_.refuse(item, "kicad.too-large", "here the board has too many points", "at most 16 million");
+  if (!is_full_) text_.refuse(item, "kicad.too-large", "the board has too many points", "at most 16 million");
   is_full_ = true;
   return false;
 }
@@ -171,7 +171,8 @@ void KicadBoardReader::add_stroke(KicadItem item, Sheet& sheet, const DrawnPath&
 void KicadBoardReader::add_face(KicadItem item, Sheet& sheet, const DrawnRing& ring, Nanometres width) {
   if (ring.size() < 3 || !has_room_for(item, ring.size())) return;
   if (!budget_.affords(std::vector<const DrawnRing*>{&ring})) {
-    text_.refuse(item, "kicad.too-large", "the lines of this face cross too often", "a face that can be filled");
+    text_.refuse(item, "kicad.too-large", "the lines of this filled shape cross too often",
+                 "a shape that can be filled");
     is_full_ = true;
     return;
   }
@@ -271,7 +272,7 @@ void KicadBoardReader::read_pad(KicadItem item, const KicadFrame& around) {
   const bool is_bare = item.text(1) == "np_thru_hole";
   add_hole(item, drill, hole, !is_bare);
   if (item.has("remove_unused_layers") || item.has("remove_unused_layer")) {
-    note_once("pads keep their copper on all layers, also where it is not connected");
+    note_once("pads keep their copper on all layers, even where they are not connected");
   }
   for (Sheet* const one : sheets_of(item)) {
     const KicadPad pad = kicad_pad(text_, item, one->name);
@@ -375,9 +376,9 @@ GerberLayer KicadBoardReader::layer_of(Sheet& sheet) {
     if (count == 1) layer.strokes.notes.emplace_back(one);
     if (count > 1) layer.strokes.notes.push_back(fmt::format(fmt::runtime(more), count));
   };
-  note(sheet.texts, "a text on this layer is left out", "{} texts on this layer are left out");
-  note(sheet.unfilled, "a zone is not filled: fill it in KiCad (B), and save the board",
-       "{} zones are not filled: fill them in KiCad (B), and save the board");
+  note(sheet.texts, "a text on this layer is ignored", "{} texts on this layer are ignored");
+  note(sheet.unfilled, "a zone is not filled: fill it in KiCad (key B) and save the board",
+       "{} zones are not filled: fill them in KiCad (key B) and save the board");
   std::optional<Region> dark = composed(std::move(sheet.image), budget_);
   if (dark) {
     layer.dark = std::move(*dark);
@@ -385,8 +386,8 @@ GerberLayer KicadBoardReader::layer_of(Sheet& sheet) {
     diagnostics_.add({.code = "kicad.too-large",
                       .file = name_,
                       .place = {},
-                      .message = "the lines on " + sheet.name + " cross too often to be united",
-                      .expected = "a board that can be made",
+                      .message = "the lines on " + sheet.name + " cross too often to be merged",
+                      .expected = "a simpler board",
                       .text = ""});
   }
   return layer;
@@ -404,7 +405,7 @@ KicadBoard KicadBoardReader::read() {
     diagnostics_.add({.code = "kicad.no-board",
                       .file = name_,
                       .place = {},
-                      .message = "the board has no layer of copper",
+                      .message = "the board has no copper layer",
                       .expected = "(layers (0 \"F.Cu\" signal) ...)",
                       .text = ""});
   }

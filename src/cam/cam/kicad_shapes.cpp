@@ -183,7 +183,7 @@ DrawnPoint kicad_point(KicadText& text, KicadItem list) {
 KicadFrame kicad_frame(KicadText& text, KicadItem item, const KicadFrame& around) {
   const KicadItem at = item.find("at");
   if (!at) {
-    text.refuse(item, "kicad.no-place", fmt::format("({} ...) has no place", item.name()), "(at X Y)");
+    text.refuse(item, "kicad.no-place", fmt::format("({} ...) has no position", item.name()), "(at X Y)");
     return {};
   }
   return {around.placed(kicad_point(text, at)), at.word(2) ? std::fmod(text.number(at, 2), 360.0) : 0};
@@ -306,7 +306,7 @@ KicadPad kicad_pad(KicadText& text, KicadItem item, std::string_view layer) {
     pad.rings.push_back(rounded_rectangle_ring(pad.across, pad.up, share_of(text, from, "roundrect_rratio") * least,
                                                share_of(text, from, "chamfer_ratio") * least, chamfered_corners(from)));
   } else {
-    text.refuse(item, "kicad.bad-pad", fmt::format("'{}' is no shape of a pad", shape),
+    text.refuse(item, "kicad.bad-pad", fmt::format("'{}' is not a pad shape", shape),
                 "circle, rect, oval, trapezoid, roundrect or custom");
   }
   if (const KicadItem primitives = is_custom ? from.find("primitives") : KicadItem()) {

@@ -66,7 +66,7 @@ bool KicadText::read_word(std::string_view& word) {
   ++at_;
   while (at_ < text_.size() && text_[at_] != '"') at_ += text_[at_] == '\\' ? 2 : 1;
   if (at_ >= text_.size()) {
-    refuse_at(begin, 1, "kicad.cut-off", "the text that begins here has no end", "a second \"");
+    refuse_at(begin, 1, "kicad.cut-off", "the text that starts here is not closed", "a second \"");
     return false;
   }
   word = text_.substr(begin + 1, at_ - begin - 1);
@@ -84,7 +84,7 @@ bool KicadText::begins_with(std::string_view name) {
     skip_blanks();
     if (at_ < text_.size() && read_word(word) && word == name) return true;
   }
-  refuse_at(begin, 1, "kicad.no-board", "this is no board of KiCad", fmt::format("({} at the begin", name));
+  refuse_at(begin, 1, "kicad.no-board", "this is not a KiCad board", fmt::format("({} at the start", name));
   is_over_ = true;
   return false;
 }
@@ -111,12 +111,12 @@ KicadItem KicadText::next() {
     const bool too_many = nodes_.size() > most_nodes;
     if (too_many || parents.size() > deepest) {
       refuse_at(at_, 1, too_many ? "kicad.too-large" : "kicad.too-deep",
-                too_many ? "this item has too many words" : "too many lists, one in another",
+                too_many ? "this item has too many words" : "lists are nested too deep",
                 fmt::format("at most {}", too_many ? most_nodes : deepest));
       break;
     }
     if (at_ >= text_.size()) {
-      refuse_at(at_, 1, "kicad.cut-off", "the file ends in the midst of a list", ")");
+      refuse_at(at_, 1, "kicad.cut-off", "the file ends inside a list", ")");
       break;
     }
     std::string_view word;
@@ -155,7 +155,7 @@ double KicadText::number(KicadItem list, std::size_t place) {
   const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
   constexpr double most = 1e12;
   if (error == std::errc() && end == text.data() + text.size() && std::abs(value) <= most) return value;
-  refuse(found, "kicad.bad-number", fmt::format("'{}' is no number", found.name()), "a number, as in 1.27");
+  refuse(found, "kicad.bad-number", fmt::format("'{}' is not a number", found.name()), "a number, e.g. 1.27");
   return 0;
 }
 

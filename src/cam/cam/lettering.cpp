@@ -92,12 +92,12 @@ bool Letterer::open(std::string_view font) {
   library_.reset(library);
   const auto* const bytes = reinterpret_cast<const FT_Byte*>(font.data());
   if (!has_library || FT_New_Memory_Face(library, bytes, static_cast<FT_Long>(font.size()), 0, &face) != 0) {
-    return refuse("engrave.no-font", "this is no font that is read",
-                  "a TrueType or OpenType font, or one of single lines: .ttf, .otf, .lff or .jhf");
+    return refuse("engrave.no-font", "this font format is not supported",
+                  "an outline font (.ttf, .otf) or a single-line font (.lff, .jhf)");
   }
   face_.reset(face);
   if (!FT_IS_SCALABLE(face) || face->units_per_EM == 0) {
-    return refuse("engrave.no-font", "the letters of this font are pictures, no outlines",
+    return refuse("engrave.no-font", "the letters of this font are bitmaps, not outlines",
                   "a TrueType or OpenType font");
   }
   const HarfBuzzThing<hb_blob_t> blob(
@@ -155,7 +155,7 @@ void Letterer::write(std::string_view words, double base_line) {
 
 void Letterer::draw(std::uint32_t glyph, double x, double y, double middle) {
   if (FT_Load_Glyph(face_.get(), glyph, FT_LOAD_NO_SCALE | FT_LOAD_NO_BITMAP) != 0) {
-    refuse("engrave.no-font", fmt::format("letter {} of this font is broken", glyph), "another font");
+    refuse("engrave.no-font", fmt::format("letter {} of this font is damaged", glyph), "another font");
     return;
   }
   if (face_->glyph->format != FT_GLYPH_FORMAT_OUTLINE) return;

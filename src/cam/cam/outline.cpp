@@ -127,8 +127,8 @@ void OutlinePlanner::find_cuts() {
     diagnostics_.add({.code = "outline.no-edge",
                       .file = "",
                       .place = {},
-                      .message = "there is no closed edge in these files",
-                      .expected = "the outline of a board: lines and arcs that close",
+                      .message = "these files have no closed outline",
+                      .expected = "the outline of a board: closed lines and arcs",
                       .text = ""});
   }
 }
@@ -227,7 +227,7 @@ void OutlinePlanner::put_tabs(std::vector<CutTrack>& tracks) {
   for (std::size_t i = 0; i < tracks.size(); ++i) {
     if ((!cuts_[i].is_outside && !options_.openings_only) || options_.tabs == 0) continue;
     if (options_.tabs * wide > tracks[i].length() / 2) {
-      plan_.mill.notes.push_back(fmt::format("{} {} too many for an edge of {:.4g} mm: it has none",
+      plan_.mill.notes.push_back(fmt::format("{} {} too many for an edge of {:.4g} mm, so it gets none",
                                              counted(options_.tabs, "tab"), options_.tabs == 1 ? "is" : "are",
                                              tracks[i].length() / nanometres_per_mm));
       continue;

@@ -40,8 +40,8 @@ class PocketPlanner {
 
   PocketPlan plan() {
     if (area_.empty()) {
-      tell("pocket.no-area", Severity::error, "there is no closed line in these files",
-           "loops: what they enclose is cleared");
+      tell("pocket.no-area", Severity::error, "these files have no closed contour",
+           "closed contours around the areas to clear");
       return {};
     }
     tell_narrow_parts();
@@ -113,11 +113,11 @@ void PocketPlanner::tell_narrow_parts() {
     if (!grown(part, {-radius().count - wall_room.count - narrowest_.count}, pocket_chords).empty()) continue;
     const DrawnBox box = *bounds(part);
     tell("pocket.narrow", Severity::warning,
-         fmt::format("the area at X{:.4g} Y{:.4g} mm is narrower than the cutter{}: it stays",
+         fmt::format("the area at X{:.4g} Y{:.4g} mm is narrower than the cutter{}, and is not cleared",
                      to_mm({(box.least.x.count + box.most.x.count) / 2}).value(),
                      to_mm({(box.least.y.count + box.most.y.count) / 2}).value(),
                      narrowest_.count > 0 ? " needs for this engagement" : ""),
-         "a thinner cutter");
+         "a smaller cutter");
   }
 }
 
@@ -163,9 +163,9 @@ std::optional<PeelWay> PocketPlanner::peel_within(const Region& ground) {
     PeelWay way = peel(ground, {.cutter = options_.cutter, .most_degrees = aim, .climb = options_.climb});
     if (!way.is_whole) {
       tell("pocket.engagement", Severity::error,
-           fmt::format("this engagement needs a way of more than {:.4g} m",
+           fmt::format("this engagement needs a toolpath of more than {:.4g} m",
                        longest_peel * to_mm(radius()).value() / 1000),
-           "a greater --engagement, or a thicker cutter");
+           "a greater --engagement, or a larger cutter");
       return std::nullopt;
     }
     found = find_engagement({way.entry}, way.runs, options_.cutter);
@@ -178,7 +178,7 @@ std::optional<PeelWay> PocketPlanner::peel_within(const Region& ground) {
   tell("pocket.engagement", Severity::error,
        fmt::format("the cutter would be engaged {:.1f} degrees at X{:.4g} Y{:.4g} mm", found.most_degrees,
                    to_mm(found.at.x).value(), to_mm(found.at.y).value()),
-       "a greater --engagement, or a thinner cutter");
+       "a greater --engagement, or a smaller cutter");
   return std::nullopt;
 }
 

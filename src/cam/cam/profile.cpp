@@ -153,7 +153,7 @@ void ProfilePlanner::follow_lines() {
     diagnostics_.add({.code = "profile.no-line",
                       .file = "",
                       .place = {},
-                      .message = "there is no line in these files",
+                      .message = "these files have no lines",
                       .expected = "lines, arcs, curves or circles",
                       .text = ""});
   }

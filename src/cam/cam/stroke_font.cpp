@@ -75,7 +75,7 @@ bool StrokeFontReader::read_header(std::string_view line) {
     std::string_view number = trimmed(line.substr(found + std::string_view(key).size()));
     const std::string_view all = number;
     const std::optional<double> read = take_font_number(number);
-    if (!read) return refuse(all, "this is no distance of letters", "a number in units of the font");
+    if (!read) return refuse(all, "this is not a letter spacing", "a number in units of the font");
     *value = *read;
   }
   return true;
@@ -88,7 +88,7 @@ bool StrokeFontReader::begin_letter(std::string_view line) {
   std::uint32_t code = 0;
   const auto [end, fault] = std::from_chars(digits.data(), digits.data() + digits.size(), code, 16);
   if (fault != std::errc() || end == digits.data() + digits.size() || *end != ']' || code > 0x10FFFF) {
-    return refuse(line, "this is no code of a letter", "its hexadecimal number in brackets, as [0041]");
+    return refuse(line, "this is not a character code", "a hexadecimal number in brackets, e.g. [0041]");
   }
   letter_ = &font_.letters[static_cast<char32_t>(code)];
   *letter_ = {};
@@ -113,7 +113,7 @@ bool StrokeFontReader::copy_letter(std::string_view line) {
 // "x,y" or "x,y,Abulge": the bulge is that of the way to this point.
 bool StrokeFontReader::read_point(std::string_view part) {
   const std::string_view all = part;
-  const auto wrong = [&] { return refuse(all, "this is no point of a letter", "x,y or x,y,A and a bulge"); };
+  const auto wrong = [&] { return refuse(all, "this is not a point of a letter", "x,y or x,y,A with a bulge"); };
   const std::optional<double> x = take_font_number(part);
   if (!x || !part.starts_with(',')) return wrong();
   part.remove_prefix(1);
@@ -180,7 +180,7 @@ StrokeFont StrokeFontReader::read_lff() {
       return {};
     }
   }
-  if (font_.letters.empty()) refuse(line_, "this font has no letters", "lines as [0041] A, and strokes");
+  if (font_.letters.empty()) refuse(line_, "this font has no letters", "lines such as [0041] A, and strokes");
   font_.letters.try_emplace(U' ');
   constexpr double capital_of_lff = 9;
   finish(capital_of_lff, letter_space_);
@@ -196,7 +196,7 @@ bool StrokeFontReader::read_jhf_letter(std::string_view text, char32_t code) {
   const auto [end, fault] = std::from_chars(digits.data(), digits.data() + digits.size(), pairs);
   const bool is_whole = fault == std::errc() && end == digits.data() + digits.size();
   if (!is_whole || pairs < 1 || text.size() < head + 2 * pairs) {
-    return refuse(text, "this is no letter of a Hershey font", "a number, a count, and as many pairs of characters");
+    return refuse(text, "this is not a letter of a Hershey font", "a number, a count, and as many pairs of characters");
   }
   const auto value = [&](std::size_t i) { return static_cast<double>(static_cast<signed char>(text[head + i]) - 'R'); };
   const double left = value(0);
@@ -237,7 +237,7 @@ StrokeFont StrokeFontReader::read_jhf() {
     whole.clear();
   }
   if (!whole.empty() || font_.letters.empty()) {
-    refuse(line_, "the last letter of this font is not whole", "as many pairs of characters as it says");
+    refuse(line_, "the last letter of this font is incomplete", "as many pairs of characters as the count gives");
     return {};
   }
   constexpr double capital_of_jhf = 21;

@@ -106,7 +106,7 @@ double SvgExpansion::length(const SvgElement& element, std::string_view attribut
   if (text.empty() || text == "auto") return otherwise;
   const std::optional<double> value = svg_length(text, whole);
   if (value) return *value;
-  refuse(element, "svg.length", fmt::format("'{}' is no length that is read ({})", text.substr(0, 40), attribute),
+  refuse(element, "svg.length", fmt::format("'{}' is not a valid length ({})", text.substr(0, 40), attribute),
          "a number, with or without px, mm, cm, in, pt, pc or %");
   return otherwise;
 }
@@ -149,7 +149,7 @@ Drawing SvgExpansion::expand() {
   const bool has_page = page.width > 0 && page.height > 0;
   if (!has_page) {
     page = {300, 150};
-    builder_.note("the drawing tells no size: a 1 is read as a pixel, 1/96 inch, and its zero is X0 Y0");
+    builder_.note("the drawing has no size: its unit is read as a pixel (1/96 inch), and its zero is X0 Y0");
   }
   Place place{.transform = {.xx = pixel, .yy = -pixel, .dy = has_page ? pixel * page.height : 0},
               .view = page,
@@ -162,7 +162,7 @@ Drawing SvgExpansion::expand() {
   }
   if (const auto own = svg_transform(root.attribute("transform"))) place.transform = place.transform.after(*own);
   add_children(root, place);
-  for (const auto& [what, count] : left_out_) builder_.note(fmt::format("left out: {} {}", count, what));
+  for (const auto& [what, count] : left_out_) builder_.note(fmt::format("ignored: {} {}", count, what));
   for (const std::string& layer : options_.layers) {
     if (std::ranges::find(builder_.drawing().layers, layer) == builder_.drawing().layers.end()) {
       builder_.note(fmt::format("there is no layer '{}'", layer));
@@ -192,7 +192,8 @@ void SvgExpansion::add(std::uint32_t index, const Place& outer) {
   const SvgElement& element = document_.elements[index];
   if (++work_ > most_svg_work) {
     if (work_ == most_svg_work + 1) {
-      refuse(element, "svg.too-large", "the uses of this drawing expand to too many elements", "fewer uses");
+      refuse(element, "svg.too-large", "the <use> elements of this drawing expand to too many elements",
+             "fewer <use> elements");
     }
     return;
   }
@@ -205,7 +206,7 @@ void SvgExpansion::add(std::uint32_t index, const Place& outer) {
   if (!transform.empty()) {
     const std::optional<DxfTransform> own = svg_transform(transform);
     if (!own) {
-      refuse(element, "svg.transform", fmt::format("'{}' is no transform", transform.substr(0, 60)),
+      refuse(element, "svg.transform", fmt::format("'{}' is not a valid transform", transform.substr(0, 60)),
              "matrix, translate, scale, rotate, skewX or skewY, with their numbers");
       return;
     }
@@ -227,13 +228,14 @@ void SvgExpansion::add_use(const SvgElement& element, const Place& outer) {
   const std::string_view link = element.attribute("href");
   const auto found = link.starts_with('#') ? document_.ids.find(std::string(link.substr(1))) : document_.ids.end();
   if (found == document_.ids.end()) {
-    refuse(element, "svg.no-element", fmt::format("this use names no element of the drawing: '{}'", link.substr(0, 60)),
-           "# and the id of an element");
+    refuse(element, "svg.no-element",
+           fmt::format("this <use> refers to an element that the drawing does not have: '{}'", link.substr(0, 60)),
+           "'#' and the id of an element");
     return;
   }
   if (outer.uses >= deepest_svg_use) {
-    refuse(element, "svg.nested-too-deep", fmt::format("uses are one in the other, over {} deep", deepest_svg_use),
-           "uses that end");
+    refuse(element, "svg.nested-too-deep", fmt::format("<use> elements are nested more than {} deep", deepest_svg_use),
+           "<use> elements that do not contain themselves");
     return;
   }
   Place place = outer;
@@ -256,7 +258,7 @@ void SvgExpansion::draw(const SvgElement& element, const Place& place) {
     return;
   }
   if (draw_shape(element, place)) return;
-  if (element.name == "text") ++left_out_["texts, which are no paths"];
+  if (element.name == "text") ++left_out_["texts (convert them to paths)"];
   if (element.name == "image" || element.name == "foreignObject") ++left_out_["pictures and foreign objects"];
 }
 
@@ -327,7 +329,7 @@ void SvgExpansion::put_curve(DrawnPath& path, const SvgElement& element, const P
   const auto take = [&](double x, double y) { return put(path, element, place, {x, y}); };
   const double scale = place.transform.largest_scale();
   if (for_chords(std::span<const SvgSpot>(points), scale, options_.tolerance.value(), take)) return;
-  refuse(element, "svg.path", "this curve is too large", "curves of at most some metres");
+  refuse(element, "svg.path", "this curve is too large", "curves of at most a few metres");
 }
 
 void SvgExpansion::draw_ellipse(const SvgElement& element, const Place& place, SvgSpot middle, double rx, double ry) {
@@ -392,7 +394,7 @@ void SvgExpansion::draw_points(const SvgElement& element, const Place& place) {
     const std::optional<double> x = words.number();
     const std::optional<double> y = x ? words.number() : std::nullopt;
     if (!y) {
-      refuse(element, "svg.path", "these points are no pairs of numbers", "x,y x,y ...");
+      refuse(element, "svg.path", "these points are not pairs of numbers", "x,y x,y ...");
       return;
     }
     if (!put(path, element, place, {*x, *y})) return;
@@ -405,10 +407,9 @@ void SvgExpansion::draw_path(const SvgElement& element, const Place& place) {
   std::vector<SvgSubpath> subpaths;
   if (const auto flaw = read_svg_path(data, most_drawn, subpaths)) {
     const std::size_t from = flaw->place < 20 ? 0 : flaw->place - 20;
-    refuse(
-        element, "svg.path",
-        fmt::format("the data of this path is wrong at its character {}: '{}'", flaw->place + 1, data.substr(from, 40)),
-        flaw->expected);
+    refuse(element, "svg.path",
+           fmt::format("the path data is wrong at character {}: '{}'", flaw->place + 1, data.substr(from, 40)),
+           flaw->expected);
     return;
   }
   for (const SvgSubpath& subpath : subpaths) draw_subpath(element, place, subpath);

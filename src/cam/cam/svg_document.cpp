@@ -41,7 +41,7 @@ class SvgTreeReader {
     }
     if (diagnostics_.any_error()) return {};
     if (document_.elements.empty() || document_.elements.front().name != "svg") {
-      refuse("svg.no-drawing", "this is XML, but no SVG drawing", "<svg> as its outermost element");
+      refuse("svg.no-drawing", "this is XML, but not an SVG drawing", "<svg> as the outermost element");
       return {};
     }
     return std::move(document_);
@@ -59,8 +59,8 @@ class SvgTreeReader {
   void add(const char* name, const char** attributes) {
     if (document_.elements.size() >= most_svg_elements || open_.size() >= deepest_svg_element) {
       refuse("svg.too-large",
-             fmt::format("the drawing has more than {} elements, or more than {} one in the other", most_svg_elements,
-                         deepest_svg_element),
+             fmt::format("the drawing has more than {} elements, or they are nested more than {} deep",
+                         most_svg_elements, deepest_svg_element),
              "a smaller drawing");
       XML_StopParser(parser_, XML_FALSE);
       return;

@@ -68,7 +68,7 @@ class SvgPathReader {
       } else if (command == '\0' || command == 'z' || command == 'Z') {
         return flaw("a command of a path: M, L, H, V, C, S, Q, T, A or Z");
       }
-      if (subpaths_.empty() && command != 'M' && command != 'm') return flaw("M, with which a path begins");
+      if (subpaths_.empty() && command != 'M' && command != 'm') return flaw("M, the start of a path");
       if (!obey(command)) return flaw(expected_);
       // More numbers after those of a move are lines.
       if (command == 'M') command = 'L';

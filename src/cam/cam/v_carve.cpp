@@ -38,7 +38,7 @@ class VCarvePlanner {
     const auto axis = medial_axis(
         area_, {.least_turn = least_turn_of_corners, .tolerance_nm = static_cast<double>(options_.tolerance.count)});
     if (area_.empty() || !axis) {
-      refuse(area_.empty() ? "there is no closed line in these files" : "the drawing is wider than 4 m");
+      refuse(area_.empty() ? "these files have no closed contour" : "the drawing is wider than 4 m");
       return {};
     }
     nodes_ = axis->nodes;
@@ -68,17 +68,17 @@ class VCarvePlanner {
                       .file = "",
                       .place = {},
                       .message = std::move(message),
-                      .expected = "loops: what they enclose is carved",
+                      .expected = "closed contours around the areas to carve",
                       .text = ""});
   }
   void refuse_cutter() {
-    diagnostics_.add(
-        {.code = "engrave.narrow-cutter",
-         .file = "",
-         .place = {},
-         .message = fmt::format("the cutter is too narrow to begin {:.4g} mm deep", -to_mm(options_.start).value()),
-         .expected = "a wider --tool, a smaller --angle or less depth",
-         .text = ""});
+    diagnostics_.add({.code = "engrave.narrow-cutter",
+                      .file = "",
+                      .place = {},
+                      .message = fmt::format("the cutter is too narrow to start at a depth of {:.4g} mm",
+                                             -to_mm(options_.start).value()),
+                      .expected = "a wider --tool, a smaller --angle or a smaller depth",
+                      .text = ""});
   }
   Nanometres depth_at(double clearance) const {
     return {options_.start.count - std::llround((std::clamp(clearance, least_, most_) - least_) / slope_)};

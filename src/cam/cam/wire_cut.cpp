@@ -187,15 +187,15 @@ void WirePlanner::take_out_turned(const WireRow& row, const std::vector<std::siz
         way.places[k] = at;
       }
       if (!is_told) {
-        diagnostics_.add({.severity = Severity::warning,
-                          .code = "wire.narrow",
-                          .file = "",
-                          .place = {},
-                          .message = fmt::format("the {} profile turns more tightly at X{:.6g} Y{:.6g} mm than the "
-                                                 "wire melts",
-                                                 side, row[i].x / nanometres_per_mm, row[i].y / nanometres_per_mm),
-                          .expected = "a greater --feed or a thinner wire; what is lost is told",
-                          .text = ""});
+        diagnostics_.add(
+            {.severity = Severity::warning,
+             .code = "wire.narrow",
+             .file = "",
+             .place = {},
+             .message = fmt::format("the curve of the {} profile at X{:.6g} Y{:.6g} mm is tighter than the kerf allows",
+                                    side, row[i].x / nanometres_per_mm, row[i].y / nanometres_per_mm),
+             .expected = "a higher --feed or a thinner wire",
+             .text = ""});
       }
       is_told = true;
       i = end;
@@ -283,7 +283,7 @@ WirePlan WirePlanner::plan() {
     diagnostics_.add({.code = "wire.no-line",
                       .file = "",
                       .place = {},
-                      .message = "there is no line that a wire could follow",
+                      .message = "there is no line for the wire to follow",
                       .expected = "one line, arc, curve or circle for each side",
                       .text = ""});
     return {};

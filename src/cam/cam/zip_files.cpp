@@ -28,7 +28,7 @@ std::vector<NamedBytes> read_zip(const std::string& path, Diagnostics& diagnosti
     return std::vector<NamedBytes>();
   };
   const auto is_broken = [&](const std::string& what) {
-    return refuse("board.bad-zip", what + " is broken", "a zip file that other programs open");
+    return refuse("board.bad-zip", what + " is damaged", "a zip file that other programs can open");
   };
   const std::unique_ptr<void, CloseZip> zip(unzOpen64(path.c_str()));
   if (!zip) return is_broken("the archive");
@@ -49,8 +49,8 @@ std::vector<NamedBytes> read_zip(const std::string& path, Diagnostics& diagnosti
     constexpr uLong stored = 0;
     constexpr uLong deflated = 8;
     if (info.compression_method != stored && info.compression_method != deflated) {
-      return refuse("board.bad-zip", "'" + file.name + "' is packed in a way that is not read here",
-                    "files packed by deflate, as usual, or not packed");
+      return refuse("board.bad-zip", "'" + file.name + "' uses an unsupported compression method",
+                    "files compressed with deflate, or uncompressed");
     }
     if (unzOpenCurrentFile(zip.get()) != UNZ_OK) return is_broken("'" + file.name + "'");
     // What the archive says of sizes may be wrong: what comes is counted.
@@ -59,7 +59,7 @@ std::vector<NamedBytes> read_zip(const std::string& path, Diagnostics& diagnosti
     while ((got = unzReadCurrentFile(zip.get(), piece.data(), static_cast<unsigned>(piece.size()))) > 0) {
       bytes += static_cast<std::size_t>(got);
       if (bytes > most_board_bytes)
-        return refuse("board.too-large", "the archive unpacks to too much", "at most 256 MiB");
+        return refuse("board.too-large", "the unpacked archive is too large", "at most 256 MiB");
       file.bytes.append(piece.data(), static_cast<std::size_t>(got));
     }
     if (got < 0 || unzCloseCurrentFile(zip.get()) != UNZ_OK) return is_broken("'" + file.name + "'");

@@ -80,7 +80,7 @@ void read_rows(PngReading& reading) {
   const unsigned rows = png_get_image_height(png, info);
   const unsigned bits = png_get_bit_depth(png, info);
   if (columns > most_pixels_a_side || rows > most_pixels_a_side || std::size_t{columns} * rows > most_pixels) {
-    png_error(png, "it has more than 64 million pixels, or more than 65,535 a side");
+    png_error(png, "it has more than 64 million pixels, or more than 65,535 per side");
   }
   if (columns < 2 || rows < 2) png_error(png, "it has less than two rows or columns");
   const bool is_interlaced = png_get_interlace_type(png, info) != PNG_INTERLACE_NONE;
@@ -95,7 +95,7 @@ void read_rows(PngReading& reading) {
   if (reading.level == PixelLevel::alpha && channels != 2 && channels != 4) png_error(png, "it has no alpha channel");
   const std::size_t row_bytes = png_get_rowbytes(png, info);
   constexpr std::size_t most_interlaced = 400'000'000;
-  if (is_interlaced && row_bytes * rows > most_interlaced) png_error(png, "it is interlaced and too large for that");
+  if (is_interlaced && row_bytes * rows > most_interlaced) png_error(png, "it is too large for an interlaced picture");
   reading.pixels.resize(is_interlaced ? row_bytes * rows : row_bytes);
   if (is_interlaced) {
     for (unsigned y = 0; y < rows; ++y) reading.row_starts.push_back(&reading.pixels[row_bytes * y]);
@@ -165,12 +165,13 @@ bool is_level_picture(std::string_view bytes) {
 LevelPicture read_level_picture(const std::string& name, std::string_view bytes, PixelLevel level,
                                 Diagnostics& diagnostics) {
   if (!is_level_picture(bytes)) {
-    diagnostics.add(of_file("picture.unknown-kind", name, "this is no picture that is read", "a PNG or TIFF picture"));
+    diagnostics.add(
+        of_file("picture.unknown-kind", name, "this picture format is not supported", "a PNG or TIFF picture"));
     return {};
   }
   const auto refuse = [&](std::string_view fault) {
-    diagnostics.add(of_file("picture.broken", name, fmt::format("the picture is not read: {}", fault),
-                            fmt::format("a whole {} picture", is_png(bytes) ? "PNG" : "TIFF")));
+    diagnostics.add(of_file("picture.broken", name, fmt::format("the picture cannot be read: {}", fault),
+                            fmt::format("a complete {} picture", is_png(bytes) ? "PNG" : "TIFF")));
     return LevelPicture{};
   };
   if (!is_png(bytes)) {
@@ -181,7 +182,8 @@ LevelPicture read_level_picture(const std::string& name, std::string_view bytes,
   PngReading reading;
   reading.bytes = bytes;
   reading.level = level;
-  if (!read_png(reading)) return refuse(reading.fault[0] == 0 ? "no memory" : static_cast<const char*>(reading.fault));
+  if (!read_png(reading))
+    return refuse(reading.fault[0] == 0 ? "out of memory" : static_cast<const char*>(reading.fault));
   return std::move(reading.picture);
 }
 

@@ -40,8 +40,8 @@ HeightGrid completed(HeightGrid grid, const ReliefShape& shape, const std::strin
       (static_cast<double>(grid.columns) * parts + 2 * rim_x) * (static_cast<double>(grid.rows) * parts + 2 * rim_y);
   if (nodes > static_cast<double>(most_nodes)) {
     diagnostics.add(of_file("relief.too-many-nodes", name,
-                            fmt::format("{:.0f} million nodes are too many", nodes / 1e6),
-                            "at most 67 million: a greater --pitch, or a smaller --margin"));
+                            fmt::format("{:.0f} million grid points are too many", nodes / 1e6),
+                            "at most 67 million; a greater --pitch or a smaller --margin"));
     return {};
   }
   if (parts > 1) grid = grid.refined(static_cast<std::size_t>(parts));
@@ -89,12 +89,13 @@ HeightGrid relief_of(const Surface& body, const ReliefShape& shape, const std::s
     diagnostics.add(of_file("relief.bad-body", name, std::move(message), std::move(expected)));
     return HeightGrid{};
   };
-  if (!(across > 1e-6 && up > 1e-6)) return refuse("the body has no area, seen from above", "a body with a face");
+  if (!(across > 1e-6 && up > 1e-6))
+    return refuse("the model has no area when seen from above", "a model with faces that are visible from above");
   const Sides sides = sides_of(shape, across, up, Mm(across));
   const Mm depth = shape.depth.value_or(Mm(high * (sides.x.value() / across)));
   if (depth > deepest_relief) {
     return refuse(fmt::format("the body is {:.6g} mm high", depth.value()),
-                  "at most 250 mm: is the unit right? --depth");
+                  "at most 250 mm; check the unit and --depth");
   }
   const Mm pitch = shape.pitch.value_or(std::max(sides.x, sides.y) / 1000);
   const double columns = std::floor(sides.x / pitch + 0.5) + 1;

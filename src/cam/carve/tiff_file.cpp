@@ -223,7 +223,7 @@ std::string unread_compression(std::uint64_t compression) {
     case 32946: return "";
     case 2:
     case 3:
-    case 4: return "that of fax machines";
+    case 4: return "fax compression";
     case 6:
     case 7: return "JPEG";
     case 34712: return "JPEG 2000";

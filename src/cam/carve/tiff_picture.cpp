@@ -88,7 +88,7 @@ bool TiffReading::read_size() {
   if (columns == 0 || rows == 0) return refuse("it has no size");
   if (columns < 2 || rows < 2) return refuse("it has less than two rows or columns");
   if (columns > most_pixels_a_side || rows > most_pixels_a_side || columns * rows > most_pixels) {
-    return refuse("it has more than 64 million pixels, or more than 65,535 a side");
+    return refuse("it has more than 64 million pixels, or more than 65,535 per side");
   }
   layout_.columns = columns;
   layout_.rows = rows;
@@ -98,7 +98,8 @@ bool TiffReading::read_size() {
 bool TiffReading::read_samples() {
   const std::uint64_t samples = file_.number(TiffField::samples, 1);
   constexpr std::uint64_t most_samples = 16;
-  if (samples == 0 || samples > most_samples) return refuse(fmt::format("{} samples a pixel are not read", samples));
+  if (samples == 0 || samples > most_samples)
+    return refuse(fmt::format("{} samples per pixel are not supported", samples));
   layout_.samples = static_cast<unsigned>(samples);
   std::vector<std::uint64_t> bits = file_.numbers(TiffField::bits);
   if (bits.empty()) bits = {1};
@@ -106,24 +107,25 @@ bool TiffReading::read_samples() {
     return refuse("its samples differ in size");
   }
   if (bits.front() > 32 || !std::has_single_bit(bits.front())) {
-    return refuse(fmt::format("samples of {} are not read", counted(bits.front(), "bit")));
+    return refuse(fmt::format("samples of {} are not supported", counted(bits.front(), "bit")));
   }
   layout_.bits = static_cast<unsigned>(bits.front());
   const std::uint64_t kind = file_.number(TiffField::number_kind, 1);
-  if (kind == 0 || kind > 4) return refuse("its samples are no real numbers");
+  if (kind == 0 || kind > 4) return refuse("complex samples are not supported");
   layout_.kind = kind == 4 ? NumberKind::without_sign : static_cast<NumberKind>(kind);
   if (layout_.kind == NumberKind::floating && layout_.bits != 32) {
-    return refuse(fmt::format("floating-point numbers of {} are not read", counted(layout_.bits, "bit")));
+    return refuse(fmt::format("floating-point samples of {} are not supported", counted(layout_.bits, "bit")));
   }
-  if (layout_.kind == NumberKind::with_sign && layout_.bits < 8) return refuse("its samples are too small for a sign");
+  if (layout_.kind == NumberKind::with_sign && layout_.bits < 8)
+    return refuse("signed samples of this size are not supported");
   const std::uint64_t photometric = file_.number(TiffField::photometric, 1);
-  if (photometric > 3) return refuse("its colours are neither grey, nor red, green and blue, nor those of a palette");
+  if (photometric > 3) return refuse("its colours are not greyscale, RGB or a palette");
   layout_.photometric = static_cast<Photometric>(photometric);
   const bool is_colour = layout_.photometric == Photometric::colour;
   const unsigned colours = is_colour ? 3 : 1;
-  if (layout_.samples < colours) return refuse("its pixels have no three colours");
+  if (layout_.samples < colours) return refuse("its pixels have fewer than three colours");
   if (layout_.is_measured() && layout_.photometric != Photometric::black_is_zero) {
-    return refuse("its samples are measured numbers, and not grey");
+    return refuse("signed or floating-point samples are only supported in greyscale");
   }
   const std::vector<std::uint64_t> extra = file_.numbers(TiffField::extra_samples);
   if (!extra.empty() && layout_.samples > colours && (extra.front() == 1 || extra.front() == 2)) {
@@ -138,13 +140,14 @@ bool TiffReading::read_samples() {
 bool TiffReading::read_blocks() {
   layout_.compression = file_.number(TiffField::compression, 1);
   if (const std::string name = unread_compression(layout_.compression); !name.empty()) {
-    return refuse(fmt::format("its compression is not read ({}): save it without, or by LZW or Deflate", name));
+    return refuse(
+        fmt::format("its compression ({}) is not supported: save it uncompressed, or with LZW or Deflate", name));
   }
   layout_.predictor = file_.number(TiffField::predictor, 1);
   const bool is_floating = layout_.predictor == 3;
   if (layout_.predictor > 3 || layout_.predictor == 0 || (layout_.predictor == 2 && layout_.bits < 8) ||
       (is_floating && layout_.kind != NumberKind::floating)) {
-    return refuse("its predictor is none for such samples");
+    return refuse("its predictor does not suit its samples");
   }
   layout_.is_reversed = file_.number(TiffField::fill_order, 1) == 2;
   layout_.is_planar = file_.number(TiffField::planes, 1) == 2 && layout_.samples > 1;
@@ -163,7 +166,7 @@ bool TiffReading::read_blocks() {
   const std::size_t blocks = layout_.across() * layout_.down() * (layout_.is_planar ? layout_.samples : 1);
   // Very old files have one strip, and do not say how long it is.
   if (sizes_.empty() && offsets_.size() == 1) sizes_ = {std::numeric_limits<std::uint32_t>::max()};
-  if (offsets_.size() < blocks || sizes_.size() < blocks) return refuse("places of its strips or tiles are missing");
+  if (offsets_.size() < blocks || sizes_.size() < blocks) return refuse("offsets of its strips or tiles are missing");
   // No kind of compression makes more of a byte.
   constexpr std::uint64_t most_of_a_byte = 4000;
   std::uint64_t packed = 0;
@@ -176,7 +179,7 @@ bool TiffReading::read_blocks() {
 
 bool TiffReading::read_colours() {
   if (layout_.photometric != Photometric::palette) return true;
-  if (layout_.bits > 8) return refuse("it has a palette of too many colours");
+  if (layout_.bits > 8) return refuse("its palette has too many colours");
   const std::vector<std::uint64_t> colours = file_.numbers(TiffField::colours);
   const std::size_t count = std::size_t{1} << layout_.bits;
   if (colours.size() < 3 * count) return refuse("its palette is missing");
@@ -203,7 +206,7 @@ bool TiffReading::unpack(std::size_t index, std::size_t plane, std::size_t rows,
     bytes = turned;
   }
   std::optional<std::string> plain = unpacked(bytes, layout_.compression, layout_.row_bytes() * rows);
-  if (!plain) return refuse("its data are broken, or end too early");
+  if (!plain) return refuse("its data is damaged or truncated");
   out = std::move(*plain);
   undo_predictor(out, rows);
   return true;
@@ -317,7 +320,7 @@ void TiffReading::stretch() {
     most = std::max(most, std::isnan(height) ? most : height);
   }
   if (!(least < most)) {
-    refuse("its heights are all the same, or none is a number");
+    refuse("all its heights are the same, or none is a number");
     return;
   }
   for (std::size_t i = 0; i < heights_.size(); ++i) {

@@ -87,16 +87,15 @@ void HeightMapReader::read_line(std::string_view line) {
     if (fault != std::errc() || last != word.data() + word.size() || !(std::abs(values[i]) <= HeightMap::farthest)) {
       is_none_ = points_.empty();
       error(line_, at == std::string_view::npos ? words.size() : at, word.size(), line,
-            (is_none_ ? std::string("this is no height map: ") : std::string()) +
-                (word.empty() ? "a number is missing"
-                              : fmt::format("'{}' is no length that is read", word.substr(0, 40))),
+            (is_none_ ? std::string("this is not a height map: ") : std::string()) +
+                (word.empty() ? "a number is missing" : fmt::format("'{}' is not a valid length", word.substr(0, 40))),
             fmt::format("x, y and z of a point in mm, each at most {:g}", HeightMap::farthest));
       return;
     }
     at = words.find_first_not_of(between, end);
   }
   if (at != std::string_view::npos) {
-    error(line_, at, words.size() - at, line, "there is more than a point on this line", "x, y and z");
+    error(line_, at, words.size() - at, line, "there is more than one point on this line", "x, y and z");
     return;
   }
   points_.push_back({.x = values[0], .y = values[1], .z = values[2], .line = line_});
@@ -123,7 +122,7 @@ std::optional<HeightMap> HeightMapReader::grid() {
   rows = sorted_once(std::move(rows));
   if (columns.size() < 2 || rows.size() < 2) {
     error(0, 0, 1, "",
-          fmt::format("{} in {} and {} are no surface", counted(points_.size(), "point"),
+          fmt::format("{} in {} and {} are not enough for a surface", counted(points_.size(), "point"),
                       counted(columns.size(), "column"), counted(rows.size(), "row")),
           "a grid of at least two columns and two rows");
     return {};
@@ -131,7 +130,7 @@ std::optional<HeightMap> HeightMapReader::grid() {
   // Points may be missing or double, so the grid may be far larger than the file.
   if (columns.size() > points_.size() / rows.size()) {
     error(0, 0, 1, "",
-          fmt::format("{} in {} and {} are no whole grid", counted(points_.size(), "point"),
+          fmt::format("{} in {} and {} do not fill a grid", counted(points_.size(), "point"),
                       counted(columns.size(), "column"), counted(rows.size(), "row")),
           fmt::format("a point for each column and row: {}",
                       static_cast<double>(columns.size()) * static_cast<double>(rows.size())));

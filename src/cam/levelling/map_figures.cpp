@@ -58,11 +58,11 @@ MapFigures figures_of(const HeightMap& map) {
 std::string describe(const HeightMap& map) {
   const MapFigures figures = figures_of(map);
   std::string words =
-      fmt::format("{} x {} places, X{:.3f} to {:.3f}, Y{:.3f} to {:.3f}\n", map.columns().size(), map.rows().size(),
+      fmt::format("{} x {} points, X{:.3f} to {:.3f}, Y{:.3f} to {:.3f}\n", map.columns().size(), map.rows().size(),
                   map.columns().front(), map.columns().back(), map.rows().front(), map.rows().back());
   words += fmt::format("heights {:.3f} to {:.3f} mm, mean {:.3f}\n", figures.lowest, figures.highest, figures.mean);
   words +=
-      fmt::format("rises by {:.3f} mm over 100 mm of X, {:.3f} over 100 mm of Y; {:.3f} mm at most off that plane\n",
+      fmt::format("slope {:.3f} mm per 100 mm in X, {:.3f} mm per 100 mm in Y; at most {:.3f} mm from that plane\n",
                   100 * figures.rise_x, 100 * figures.rise_y, figures.farthest_off_plane);
   const double span = std::max(figures.highest - figures.lowest, bend_smallest);
   for (std::size_t row = map.rows().size(); row-- > 0;) {

@@ -14,90 +14,90 @@ constexpr const char* profile_examples =
 
 Examples:
   passo cam profile bracket.dxf --tool 3 --depth -6 --step 2 --tabs 4 -o bracket.ngc
-                                                           parts out of a sheet: around outside, inside in holes
+                                                           parts out of a sheet: outside their contours, inside their holes
   passo cam profile logo.svg --side on --tool 1 --depth -0.3 -o logo.ngc
-                                                           the cutter's middle on the lines, open ones too
+                                                           the cutter's centre follows the lines, also open ones
   passo cam profile window.svg --side inside --tool 2 --ramp 3 --lead 2 -o window.ngc
   passo cam profile sheet.svg --layer cut --zero lower-left -p sheet.png -o sheet.ngc
 
-Every option: docs/manual/parts.md.)";
+All options: docs/manual/parts.md.)";
 
 constexpr const char* pocket_examples =
     R"(Examples:
   passo cam pocket tray.svg --tool 6 --depth -8 --step 2 -o tray.ngc
   passo cam pocket sign.dxf --tool 1.5 --depth -1 --step-over 50 -p sign.png -o sign.ngc
-                                                           what the cutter cannot reach is red in the picture
+                                                           areas too narrow for the cutter are red in the picture
   passo cam pocket tray.svg --tool 6 --depth -12 --step 12 --engagement 60 -o tray.ngc
-                                                           all of the flutes, and never a slot: hard material
+                                                           full flute length, never a full slot: for hard materials
   passo cam pocket tray.svg --layer pocket --ramp 3 --conventional -o tray.ngc
 
-A loop in a loop is an island, which stays. Every option: docs/manual/parts.md.)";
+A contour inside another contour is an island, which stays. All options: docs/manual/parts.md.)";
 
 constexpr const char* engrave_examples =
     R"(Examples:
-  passo cam engrave --text "Passo" --height 20 --angle 60 -o name.ngc          depth follows the width of the strokes
+  passo cam engrave --text "Passo" --height 20 --angle 60 -o name.ngc          wider strokes are carved deeper
   passo cam engrave --text "LICEO 1923" --font Serif.otf --around 60 -o plate.ngc     on a circle of 60 mm radius
-  passo cam engrave --text "No. 7" --font simplex --depth -0.2 -o no7.ngc      letters of single lines, on the line
+  passo cam engrave --text "No. 7" --font simplex --depth -0.2 -o no7.ngc      single-line letters
   passo cam engrave --text "NORTH" --around 60 --arc 150,30 -o dial.ngc        spread from 150 to 30 degrees
-  passo cam engrave plot.hpgl --on-line --depth -0.2 -o plot.ngc               what a pen plotter would draw
+  passo cam engrave plot.hpgl --on-line --depth -0.2 -o plot.ngc               the lines that a pen plotter would draw
   passo cam engrave logo.svg --angle 90 --tool 6 --depth -2 --clear 2 -p logo.png -o logo.ngc
-                                                           wide areas get a flat floor by a cutter of 2 mm first
-  passo cam engrave sign.svg --angle 60 --tool 12 --step 2 -o sign.ngc         deep letters in layers of 2 mm
-  passo cam engrave star.svg --inlay pocket --clear 3 -o pocket.ngc            an inlay: the hole, and what fills it
+                                                           a 2 mm flat cutter clears wide areas first
+  passo cam engrave sign.svg --angle 60 --tool 12 --step 2 -o sign.ngc         deep letters, in layers of 2 mm
+  passo cam engrave star.svg --inlay pocket --clear 3 -o pocket.ngc            an inlay: the pocket, and the plug that fills it
   passo cam engrave star.svg --inlay plug --clear 3 -o plug.ngc
 
-"\n" in the text begins a new line. Every option: docs/manual/engraving.md.)";
+"\n" in the text begins a new line. All options: docs/manual/engraving.md.)";
 
 constexpr const char* drill_examples =
     R"(Lengths: a number in the unit of --units, or with a unit of its own: 2mm, 0.2cm, 30mil, 1/32in.
 
 Examples:
-  passo cam drill board.drl -o board.ngc                      a drill for each diameter, changed with M6
-  passo cam drill board.drl --tools 0.8,1.0,1.3 -o board.ngc  the drills at hand, each hole to the nearest
+  passo cam drill board.drl -o board.ngc                      one drill for each diameter, changed with M6
+  passo cam drill board.drl --tools 0.8,1.0,1.3 -o board.ngc  the available drills; each hole gets the nearest
   passo cam drill board.drl --mill 1 --depth -1.8 -o b.ngc    holes wider than 1 mm, and slots, are milled
   passo cam drill board.drl --zero lower-left -p board.svg -o board.ngc
-  passo cam drill pads.dxf --layer Pads --drill 0.8 -o b.ngc  one drill for all, of one layer
+  passo cam drill pads.dxf --layer Pads --drill 0.8 -o b.ngc  one drill for all holes of one layer
   passo cam drill board.kicad_pcb --mill 1 -o board.ngc       the holes of a KiCad board, without an export
   passo cam drill pads.dxf --scale 0.1 --units cm --drill 0.075 --clearance 0.2 --depth -0.3 -o fori.gc
-                                                              drawn in mm, made in cm: the classic chain
+                                                              drawing in mm, program in cm
 
-Every option, and what is read: docs/manual/cam.md.)";
+All options and file formats: docs/manual/cam.md.)";
 
 constexpr const char* isolate_examples =
     R"(Lengths: a number in the unit of --units, or with a unit of its own: 0.2mm, 0.02cm, 8mil.
 
 Examples:
-  passo cam isolate front.gbr --tool 0.2 -o front.ngc                one loop around the copper
+  passo cam isolate front.gbr --tool 0.2 -o front.ngc                one pass around the copper
   passo cam isolate front.gbr --v 30,0.1 --depth -0.08 -o front.ngc  a V-shaped cutter: 30 degrees, tip 0.1 mm
-  passo cam isolate front.gbr --tool 0.2 --width 0.6 -o front.ngc    as many loops as 0.6 mm of free ground need
+  passo cam isolate front.gbr --tool 0.2 --width 0.6 -o front.ngc    as many passes as a width of 0.6 mm needs
   passo cam isolate front.gbr --tool 1,0.2 --clear --edge edge.gbr -o front.ngc
-                                                          all other copper off, the wide cutter first
-  passo cam isolate front.gbr --v 60,0.1 --voronoi -o front.ngc      one way midway between each two islands
+                                                          all other copper removed, the wide cutter first
+  passo cam isolate front.gbr --v 60,0.1 --voronoi -o front.ngc      one path midway between neighbouring islands
   passo cam isolate back.gbr --tool 0.2 --mirror x --mirror-at 50 -p back.png -o back.ngc
-                                                          the back, turned over about X50
+                                                          the back, flipped about X50
   passo cam isolate front.gbr --v 30,0.1 -m router.toml --remember -o front.ngc
-                                                          next time -m router.toml alone is enough
+                                                          next time, -m router.toml is enough
   passo cam isolate board.kicad_pcb --layer B.Cu --edge board.kicad_pcb --tool 0.2 -o back.ngc
                                                           a layer of a KiCad board, without an export
 
-Every option, and what is proved: docs/manual/circuit-boards.md.)";
+All options, and the checks: docs/manual/circuit-boards.md.)";
 
 constexpr const char* outline_examples =
     R"(Examples:
-  passo cam outline edge.gbr --tool 2 --depth -1.8 --step 0.6 -o cut.ngc     in three turns
+  passo cam outline edge.gbr --tool 2 --depth -1.8 --step 0.6 -o cut.ngc     in three passes
   passo cam outline edge.gbr --tabs 4 --tab-width 3 --tab-height 0.5 -o cut.ngc
   passo cam outline edge.dxf --join 0.5 --ramp 5 -o cut.ngc                  ends up to 0.5 mm apart are joined
   passo cam outline edge.dxf --tab 10,0 --tab 40,30 --lead 2 -o cut.ngc
 
-Every option: docs/manual/circuit-boards.md.)";
+All options: docs/manual/circuit-boards.md.)";
 
 constexpr const char* board_examples =
     R"(Examples:
-  passo cam board gerbers/ -o job                    programs, a picture each, and job/board.html: what to do when
-  passo cam board board.kicad_pcb -o job             the same of a KiCad board, without an export
-  passo cam board board.zip --profile mine.toml -m router.toml -o job      with your options, and times
+  passo cam board gerbers/ -o job                    programs with pictures, and job/board.html: the steps in order
+  passo cam board board.kicad_pcb -o job             the same for a KiCad board, without an export
+  passo cam board board.zip --profile mine.toml -m router.toml -o job      with your options, and estimated times
   passo cam board gerbers/ --probe-holes --heights 9x6 -o job
-                                     the probe finds the board that was turned over, and how even it is
+                                     probing finds the flipped board, and measures its height map
 
 A profile has a table for each command: [drill], [isolate], [outline], with the options as keys:
 
@@ -105,39 +105,39 @@ A profile has a table for each command: [drill], [isolate], [outline], with the 
   tool = "1,0.2"
   clear = true
 
-Every option: docs/manual/circuit-boards.md.)";
+All options: docs/manual/circuit-boards.md.)";
 
 constexpr const char* relief_examples =
     R"(Cutters: ball:3, flat:6, bull:6:1 (corner radius), vee:60:6 or vee:60:6:0.2 (angle, diameter, tip),
-taper:1:5:6 (ball at the tip, degrees a side, diameter). Lengths: mm, or with a unit: 0.2cm, 30mil, 1/8in.
+taper:1:5:6 (ball at the tip, degrees per side, diameter). Lengths: mm, or with a unit: 0.2cm, 30mil, 1/8in.
 
 Examples:
-  passo cam relief face.png --width 80 --depth 4 -o face.ngc       rows with a 3 mm ball, ridges of 0.02 mm
+  passo cam relief face.png --width 80 --depth 4 -o face.ngc       rows with a 3 mm ball, scallops of 0.02 mm
   passo cam relief face.png --width 80 --depth 4 --rough flat:6 --cutter ball:3 --rest ball:1 -o face.ngc
                                                                    three cutters, changed with M6
   passo cam relief seal.png --mirror --invert --cutter vee:40:3:0.1 --scallop 0.01 -o seal.ngc
   passo cam relief part.stl --cutter ball:2 --way both --step 0.3 -p part.png -o part.ngc
   passo cam relief wall.stl --cutter bull:6:1 --way contours --rough flat:8 --rough-way offsets -o wall.ngc
-                                                                   constant heights where it is steep, offsets on each level
+                                                                   contours on steep areas; roughing by offsets on each level
   passo cam relief face.png --rough flat:6 --rough-removal 3000 --removal 150 --feed-most 2500 -o face.ngc
-                                                                   the feed holds what is cut, mm3 a minute
+                                                                   feed rates from target removal rates, mm3/min
   passo cam relief map.png --origin center --margin 5 --margin-level top --spindle 18000 -o map.ngc
 
-Every option, and what is promised: docs/manual/relief.md.)";
+All options, and what is guaranteed: docs/manual/relief.md.)";
 
 constexpr const char* wire_examples =
     R"(Lengths: a number in the unit of --units, or with a unit of its own: 6mm, 0.3cm, 1/8in.
 
 Examples:
-  passo cam wire letter.svg --kerf 1.2 --feed 300 -o letter.ngc      two axes: both ends of the wire move alike
+  passo cam wire letter.svg --kerf 1.2 --feed 300 -o letter.ngc      two axes: both ends of the wire move together
   passo cam wire root.dat tip.dat --chord 220,140 --span 900 --width 600 --kerf 1.2 -o wing.ngc -p wing.png
                                                  a tapered wing: X Y at its root, U V at its tip
-  passo cam wire root.dat tip.dat --chord 220,140 --right-at 60,0 --right-turn -2 --span 900 --width 600 -o wing.ngc
-                                                 the tip 60 mm further back, its nose turned 2 degrees down
+  passo cam wire root.dat tip.dat --chord 220,140 --right-at 60,0 --right-turn 2 --span 900 --width 600 -o wing.ngc
+                                                 the tip 60 mm further back, with 2 degrees of washout
   passo cam wire box.dxf lid.dxf --kerf 1.6@100,1.0@200,0.8@400 --span 900 --width 600 -o box.ngc
                                                  kerfs measured at three speeds
 
-Every option: docs/manual/hot-wire.md.)";
+All options: docs/manual/hot-wire.md.)";
 
 // The rows stand for what the arguments are before anything is said.
 template <class Arguments>
@@ -150,17 +150,17 @@ constexpr std::array board_parts = {"drill", "isolate", "outline"};
 
 constexpr std::array operations = {
     CamOperation{.name = "profile",
-                 .purpose = "cut along the lines of a drawing: around parts, or on the line",
+                 .purpose = "cut parts out along the contours of a drawing, or cut on its lines",
                  .accepts = ".svg,.dxf,.hpgl,.plt",
                  .examples = profile_examples,
                  .options = options_with_defaults<CamProfileArguments>},
     CamOperation{.name = "pocket",
-                 .purpose = "clear what the closed lines of a drawing enclose",
+                 .purpose = "clear the areas inside the closed contours of a drawing",
                  .accepts = ".svg,.dxf,.hpgl,.plt",
                  .examples = pocket_examples,
                  .options = options_with_defaults<CamPocketArguments>},
     CamOperation{.name = "engrave",
-                 .purpose = "carve texts and drawings with a V-shaped cutter",
+                 .purpose = "carve text and drawings with a V-shaped cutter",
                  .accepts = ".svg,.dxf,.hpgl,.plt,.ttf,.otf,.lff,.jhf",
                  .examples = engrave_examples,
                  .options = options_with_defaults<CamEngraveArguments>,
@@ -171,30 +171,31 @@ constexpr std::array operations = {
                  .examples = drill_examples,
                  .options = options_with_defaults<CamDrillArguments>},
     CamOperation{.name = "isolate",
-                 .purpose = "mill the copper of a layer free of the copper around it",
+                 .purpose = "isolation milling: mill around the tracks and pads of a copper layer",
                  .accepts = ".gbr,.gtl,.gbl,.dxf,.top,.bot,.kicad_pcb",
                  .examples = isolate_examples,
                  .options = options_with_defaults<CamIsolateArguments>},
     CamOperation{.name = "outline",
-                 .purpose = "cut boards out along their edge, and the openings in them",
+                 .purpose = "cut circuit boards and the openings in them out along their outline",
                  .accepts = ".gbr,.gko,.gm1,.dxf,.svg,.kicad_pcb",
                  .examples = outline_examples,
                  .options = options_with_defaults<CamOutlineArguments>},
-    CamOperation{.name = "board",
-                 .purpose = "everything for a board: drill, isolate and cut out, and what to do when",
-                 .accepts = ".zip,.gbr,.gtl,.gbl,.gko,.gm1,.gts,.gbs,.gto,.gbo,.gtp,.gbp,.top,.bot,.drl,.xln,.exc,.txt,"
-                            ".kicad_pcb",
-                 .examples = board_examples,
-                 .options = options_with_defaults<CamBoardArguments>,
-                 .parts = board_parts},
+    CamOperation{
+        .name = "board",
+        .purpose = "generate all programs of a circuit board (drill, isolate, outline), with step-by-step instructions",
+        .accepts =
+            ".zip,.gbr,.gtl,.gbl,.gko,.gm1,.gts,.gbs,.gto,.gbo,.gtp,.gbp,.top,.bot,.drl,.xln,.exc,.txt,.kicad_pcb",
+        .examples = board_examples,
+        .options = options_with_defaults<CamBoardArguments>,
+        .parts = board_parts},
     CamOperation{.name = "relief",
-                 .purpose = "carve a picture, or a body seen from above",
+                 .purpose = "carve a relief from a picture, or from a model seen from above",
                  .accepts = ".png,.tif,.tiff,.stl,.csv,.xyz",
                  .examples = relief_examples,
                  .options = options_with_defaults<CamReliefArguments>,
                  .picture_ending = ".png"},
     CamOperation{.name = "wire",
-                 .purpose = "cut foam with a hot wire: one profile, or one for each end of the wire",
+                 .purpose = "cut foam with a hot wire along one profile, or along one for each end of the wire",
                  .accepts = ".svg,.dxf,.hpgl,.plt,.dat",
                  .examples = wire_examples,
                  .options = options_with_defaults<CamWireArguments>},

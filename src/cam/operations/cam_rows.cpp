@@ -15,13 +15,13 @@ CamOption units_row(std::string& units) {
   return {"units",
           &units,
           choice,
-          "of the program, and of lengths without a unit: mm, cm or inch",
+          "unit of the program, and of lengths given without a unit: mm, cm or inch",
           {.choices = {"mm", "cm", "inch"}, .matters_to = experts}};
 }
 
 CamOption join_row(std::string& join) {
   using enum CamKind;
-  return {"join", &join, length, "ends of lines that are no farther apart are joined", experts_only};
+  return {"join", &join, length, "gap up to which the ends of lines are joined", experts_only};
 }
 
 CamOption ramp_row(double& angle) {
@@ -29,7 +29,7 @@ CamOption ramp_row(double& angle) {
   return {"ramp",
           &angle,
           degrees,
-          "go down along the way, this steep in degrees; 0: straight down",
+          "ramp angle of the descent along the toolpath, degrees; 0: straight down",
           {.range = CamRange{0, 60}}};
 }
 
@@ -40,7 +40,7 @@ CamOption clearance_row(std::string& clearance, const char* help) {
 
 CamOption spindle_row(std::uint32_t& spindle) {
   using enum CamKind;
-  return {"spindle", &spindle, turns, "turns a minute; 0: the program leaves the spindle alone"};
+  return {"spindle", &spindle, turns, "spindle speed, rpm; 0: no spindle commands in the program"};
 }
 
 CamOption layer_row(std::vector<std::string>& layers, const char* help, CamFor matters_to) {
@@ -53,7 +53,7 @@ CamOption output_row(std::string& output) {
   return {"output",
           &output,
           file,
-          "write the program to a file; without it to standard output",
+          "file for the program (default: standard output)",
           {.matters_to = cli, .is_of_job = true, .letter = "o"}};
 }
 
@@ -69,7 +69,7 @@ CamOption input_row(std::string& input, const char* help) {
 
 CamOption scale_row(std::optional<double>& scale) {
   return {"scale", &scale, CamKind::number,
-          "DXF: the numbers times this are in the unit of --input, without it of --units", experts_of_one_job};
+          "DXF: scale factor; the results are in the unit of --input, or else of --units", experts_of_one_job};
 }
 
 CamOption zero_row(std::string& zero, const char* help) {
@@ -77,36 +77,39 @@ CamOption zero_row(std::string& zero, const char* help) {
 }
 
 CamOption mirror_row(std::string& mirror) {
-  const char* const help = "the board is turned over: x from left to right, y from top to bottom";
+  const char* const help = "mirror for the other side: x, flipped left to right; y, flipped top to bottom";
   return {"mirror", &mirror, CamKind::choice, help, {.choices = {"x", "y"}, .is_of_job = true}};
 }
 
 CamOption mirror_at_row(std::string& place) {
-  return {"mirror-at", &place, CamKind::length, "about this X or Y of the drawing; without it 0", experts_of_one_job};
+  return {"mirror-at", &place, CamKind::length, "X or Y of the mirror axis, in the drawing (default: 0)",
+          experts_of_one_job};
 }
 
 CamOption park_row(std::string& park) {
-  return {"park", &park, CamKind::length, "X,Y at the start, at tool changes and at the end", experts_only};
+  return {"park", &park, CamKind::length, "X,Y: park position at the start, at tool changes and at the end",
+          experts_only};
 }
 
 std::vector<CamOption> mill_rows(CamMillArguments& a, CamFor layer) {
   using enum CamKind;
   return {
       output_row(a.output),
-      picture_row(a.picture, "draw what is milled, and the rapids (FILE.svg or FILE.png)"),
-      {"json", &a.json, flag, "what was done, for scripts; needs --output", {.matters_to = cli, .is_of_job = true}},
+      picture_row(a.picture, "picture of the milled areas and the rapids (FILE.svg or FILE.png)"),
+      {"json", &a.json, flag, "print a summary as JSON; needs --output", {.matters_to = cli, .is_of_job = true}},
       units_row(a.units),
-      input_row(a.input, "DXF: unit of the file's numbers; without it as the file says"),
+      input_row(a.input, "DXF: unit of the numbers in the file (default: as the file declares)"),
       scale_row(a.scale),
-      layer_row(a.layers, "DXF, KiCad: read this layer; may be given again. Without it all that are on", layer),
-      zero_row(a.zero, "where X0 Y0 is: file, lower-left of the board, or X,Y"),
+      layer_row(a.layers, "DXF, KiCad: layer to read; can be repeated (default: all visible layers)", layer),
+      zero_row(a.zero, "position of X0 Y0: file (the file's origin), lower-left (of the board), or X,Y"),
       mirror_row(a.mirror),
       mirror_at_row(a.mirror_at),
-      {"align", &a.align, length, "X,Y,X,Y: turned over so that these two holes change places", experts_of_one_job},
-      {"conventional", &a.conventional, flag, "conventional milling; without it climb milling"},
-      clearance_row(a.clearance, "height of the rapids above the board"),
-      {"feed", &a.feed, feed, "a minute, along the way"},
-      {"plunge-feed", &a.plunge_feed, feed, "a minute, straight down"},
+      {"align", &a.align, length, "X,Y,X,Y: two alignment holes; the mirror axis is midway between them",
+       experts_of_one_job},
+      {"conventional", &a.conventional, flag, "conventional milling (default: climb milling)"},
+      clearance_row(a.clearance, "clearance height: rapids run this far above the work"),
+      {"feed", &a.feed, feed, "feed rate along the toolpath, per minute"},
+      {"plunge-feed", &a.plunge_feed, feed, "feed rate straight down, per minute"},
       spindle_row(a.spindle),
       park_row(a.park),
   };
@@ -116,16 +119,16 @@ std::vector<CamOption> edge_rows(CamOutlineArguments& a) {
   using enum CamKind;
   return {
       {"tool", &a.tool, length, "diameter of the cutter"},
-      {"depth", &a.depth, length, "of the cut, below 0", {.is_of_machine = true}},
-      {"step", &a.step, length, "how deep a turn goes, at most"},
+      {"depth", &a.depth, length, "depth of the cut, a negative Z", {.is_of_machine = true}},
+      {"step", &a.step, length, "largest depth of one pass around the contour"},
       join_row(a.join),
-      {"tabs", &a.tabs, number, "so many tabs hold each board", {.range = CamRange{0, 1000}}},
-      {"tab", &a.tab_places, length, "a tab near X,Y; may be given again", experts_of_one_job},
-      {"tab-width", &a.tab_width, length, "of the tab that stays"},
-      {"tab-height", &a.tab_height, length, "of the tab, above the full depth"},
+      {"tabs", &a.tabs, number, "number of tabs that hold each part", {.range = CamRange{0, 1000}}},
+      {"tab", &a.tab_places, length, "X,Y: position near which a tab is placed; can be repeated", experts_of_one_job},
+      {"tab-width", &a.tab_width, length, "width of a tab"},
+      {"tab-height", &a.tab_height, length, "height of a tab above the full depth"},
       ramp_row(a.ramp),
-      {"lead", &a.lead, length, "come to the edge on a quarter of a circle of this radius"},
-      {"dog-bones", &a.dog_bones, flag, "cut inner corners so that a sharp corner fits in"},
+      {"lead", &a.lead, length, "radius of the lead-in, a quarter circle that meets the contour"},
+      {"dog-bones", &a.dog_bones, flag, "dog-bone relief cuts in inner corners, so that a square corner fits in"},
   };
 }
 

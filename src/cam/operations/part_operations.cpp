@@ -1,4 +1,4 @@
-// What is made of drawings: parts, pockets, letters, and foam.
+// The options of the operations for drawings: profile, pocket and engrave.
 #include "cam_rows.hpp"
 
 namespace passo {
@@ -9,7 +9,8 @@ constexpr const char* vector_drawings = "drawings: SVG, DXF or HPGL";
 CamOption sheet_row(std::string& sheet) {
   using enum CamKind;
   return {"sheet", &sheet, length,
-          "W,H of the material, from X0 Y0 on: a drawing beyond it is refused, the picture shows it", experts_only};
+          "W,H: size of the material, whose lower left corner is X0 Y0; a drawing that extends beyond it is refused",
+          experts_only};
 }
 
 }  // namespace
@@ -21,7 +22,7 @@ std::vector<CamOption> cam_options_of(CamProfileArguments& a) {
        {"side",
         &a.side,
         choice,
-        "part: outside of what is drawn, inside in its holes; outside, inside: of each loop; on: the line",
+        "side of the line: part (outside the contours, inside their holes), outside, inside, or on (the line)",
         {.choices = {"part", "outside", "inside", "on"}}}},
       edge_rows(a),
       mill_rows(a, CamFor::everyone),
@@ -34,17 +35,13 @@ std::vector<CamOption> cam_options_of(CamPocketArguments& a) {
   return all_of({
       {{"FILE", &a.files, drawings, vector_drawings, are_needed},
        {"tool", &a.tool, length, "diameter of the cutter"},
-       {"depth", &a.depth, length, "of the pocket, below 0", {.is_of_machine = true}},
-       {"step", &a.step, length, "how deep a layer is, at most"},
-       {"step-over",
-        &a.step_over,
-        percent,
-        "from loop to loop, percent of the cutter's diameter",
-        {.range = CamRange{1, 95}}},
+       {"depth", &a.depth, length, "depth of the pocket, a negative Z", {.is_of_machine = true}},
+       {"step", &a.step, length, "largest depth of a layer"},
+       {"step-over", &a.step_over, percent, "stepover, % of the cutter's diameter", {.range = CamRange{1, 95}}},
        {"engagement",
         &a.engagement,
         degrees,
-        "never more than this angle of the cutter in the stock, degrees (constant engagement); 0: loops",
+        "largest engagement angle of the cutter, degrees (adaptive clearing); 0: offset loops",
         {.range = CamRange{0, 150}, .matters_to = experts}},
        join_row(a.join),
        ramp_row(a.ramp)},
@@ -58,32 +55,32 @@ namespace {
 std::vector<CamOption> letter_rows(CamEngraveArguments& a) {
   using enum CamKind;
   return {
-      {"text", &a.text, text, "letters instead of a drawing"},
+      {"text", &a.text, text, "text to engrave, instead of a drawing"},
       {"font",
        &a.font,
        file,
-       "font of outlines (.ttf, .otf) or of single lines (.lff, .jhf), or simplex: such a one that is built in",
+       "outline font (.ttf, .otf) or single-line font (.lff, .jhf); simplex is a built-in single-line font",
        {.choices = {"simplex"}}},
-      {"height", &a.height, length, "of a capital letter"},
+      {"height", &a.height, length, "height of a capital letter"},
       {"text-align",
        &a.text_align,
        choice,
-       "where X0 is in a line of text: left, middle or right",
+       "alignment of the text at X0: left, middle or right",
        {.choices = {"left", "middle", "right"}}},
       {"around", &a.around, length,
-       "the text stands on a circle of this radius about X0 Y0; below 0 inside, at the bottom"},
-      {"arc", &a.arc, text,
-       "FROM,TO: spread the text on this part of the circle, in degrees from X on, counterclockwise", experts_only},
+       "radius of a circle about X0 Y0 that carries the text; negative: text inside the circle, at the bottom"},
+      {"arc", &a.arc, text, "FROM,TO: part of the circle that the text fills, degrees counterclockwise from X",
+       experts_only},
       {"turn",
        &a.turn,
        degrees,
-       "the whole text about X0 Y0, degrees counterclockwise",
+       "rotation of the text about X0 Y0, degrees counterclockwise",
        {.range = CamRange{-3600, 3600}, .matters_to = experts}},
-      {"on-line", &a.on_line, flag, "follow the lines of the drawing, open ones too, --depth deep", experts_only},
+      {"on-line", &a.on_line, flag, "engrave along the lines of the drawing, also open ones, at --depth", experts_only},
       {"line-space",
        &a.line_space,
        number,
-       "from line to line, in heights",
+       "line spacing, in letter heights",
        {.range = CamRange{0.1, 100}, .matters_to = experts}},
   };
 }
@@ -91,22 +88,23 @@ std::vector<CamOption> letter_rows(CamEngraveArguments& a) {
 std::vector<CamOption> carving_rows(CamEngraveArguments& a) {
   using enum CamKind;
   return {
-      {"angle", &a.angle, degrees, "between the flanks of the cutter, degrees", {.range = CamRange{5, 170}}},
-      {"tip", &a.tip, length, "width of its tip"},
-      {"tool", &a.tool, length, "its diameter, the widest that it carves"},
-      {"depth", &a.depth, length, "the deepest, below 0; without it as the cutter's width allows, on lines -0.3mm"},
-      {"step", &a.step, length, "how much deeper it goes at a time; without it to the depth at once", experts_only},
-      {"clear", &a.clear, length, "diameter of a flat cutter that clears what is wider, before"},
-      {"clear-step", &a.clear_step, length, "how deep a layer of it is, at most", experts_only},
+      {"angle", &a.angle, degrees, "included angle of the V-shaped cutter, degrees", {.range = CamRange{5, 170}}},
+      {"tip", &a.tip, length, "tip width of the V-shaped cutter"},
+      {"tool", &a.tool, length, "diameter of the V-shaped cutter, the widest groove that it can carve"},
+      {"depth", &a.depth, length,
+       "lowest Z, negative (default: as deep as the cutter's width allows; along lines -0.3mm)"},
+      {"step", &a.step, length, "depth of a layer (default: full depth in one pass)", experts_only},
+      {"clear", &a.clear, length, "diameter of a flat cutter that clears wide areas first"},
+      {"clear-step", &a.clear_step, length, "largest depth of a clearing layer", experts_only},
       {"inlay",
        &a.inlay,
        choice,
-       "pocket: carve the hole of an inlay; plug: its mirrored counterpart, which stays",
+       "half of an inlay: pocket (the recess) or plug (its mirrored counterpart)",
        {.choices = {"pocket", "plug"}, .matters_to = experts}},
-      {"inlay-depth", &a.inlay_depth, length, "of the pocket", experts_only},
-      {"glue-gap", &a.glue_gap, length, "room below the plug, for glue", experts_only},
-      {"saw-gap", &a.saw_gap, length, "between the faces of both, for the saw", experts_only},
-      {"margin", &a.margin, length, "cleared around the plug", experts_only},
+      {"inlay-depth", &a.inlay_depth, length, "depth of the inlay's pocket", experts_only},
+      {"glue-gap", &a.glue_gap, length, "gap for glue below the plug", experts_only},
+      {"saw-gap", &a.saw_gap, length, "gap for the saw between the faces of plug and pocket", experts_only},
+      {"margin", &a.margin, length, "width of the cleared area around the plug", experts_only},
       join_row(a.join),
   };
 }
@@ -116,7 +114,7 @@ std::vector<CamOption> carving_rows(CamEngraveArguments& a) {
 std::vector<CamOption> cam_options_of(CamEngraveArguments& a) {
   using enum CamKind;
   return all_of({
-      {{"FILE", &a.files, drawings, "drawings: SVG, DXF or HPGL; what closed lines enclose is carved"}},
+      {{"FILE", &a.files, drawings, "drawings: SVG, DXF or HPGL; closed contours are carved out"}},
       letter_rows(a),
       carving_rows(a),
       mill_rows(a),

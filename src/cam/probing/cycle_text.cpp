@@ -57,21 +57,21 @@ void CycleText::head(std::string_view start, std::string_view end) {
 
 // #1 #2 #3: the way of the touch. What the probe touched is kept in #5061 and the following.
 void CycleText::write_subs() {
-  line("#<_reach> = {:.4f} (how far a touch looks)", cycle_.reach);
-  line("#<_back> = {:.4f} (between the two touches)", cycle_.back);
+  line("#<_reach> = {:.4f} (largest length of a probe move)", cycle_.reach);
+  line("#<_back> = {:.4f} (retract between the two touches)", cycle_.back);
   line("#<_fast> = {:.4f} (speed of the first touch)", cycle_.fast);
   line("#<_slow> = {:.4f} (speed of the second touch)", cycle_.slow);
-  line("o<touch> sub (#1 #2 #3: the way)");
+  line("o<touch> sub (#1 #2 #3: the direction)");
   line("  G91");
   line("  G38.2 X[#1*#<_reach>] Y[#2*#<_reach>] Z[#3*#<_reach>] F#<_fast>");
   line("  G0 X[-#1*#<_back>] Y[-#2*#<_back>] Z[-#3*#<_back>]");
   line("  G38.2 X[#1*2*#<_back>] Y[#2*2*#<_back>] Z[#3*2*#<_back>] F#<_slow>");
   line("  G90");
   line("o<touch> endsub");
-  line("o<lower> sub (goes down to the work's Z #1, where nothing may be)");
+  line("o<lower> sub (moves down to the work Z #1; the path must be clear)");
   line("  G38.3 Z#1 F#<_fast>");
   line("  o<hit> if [#5070 EQ 1]");
-  line("    G38.2 Z[#1-0.01] (there is something: the probe is touched already, so the program ends here)");
+  line("    G38.2 Z[#1-0.01] (the probe is already triggered: something is in the way, so the program ends here)");
   line("  o<hit> endif");
   line("o<lower> endsub");
   line("G17 G21 G40 G80 G90 G94 {}", cycle_.kind == ProbingKind::tool ? "G49" : name_of_system(system_));
@@ -85,7 +85,7 @@ void CycleText::set_zero(char axis, int sign, double height) {
 }
 
 void CycleText::surface() {
-  head("above the work, within the reach", "above the place that was touched, by the clearance");
+  head("above the work, within the reach", "above the touched point, by the clearance");
   write_subs();
   touch(0, 0, -1);
   set_zero('Z', -1, cycle_.height);
@@ -95,7 +95,7 @@ void CycleText::surface() {
 
 void CycleText::edge() {
   const TouchWay way = *way_of(cycle_.side);
-  head("beside the edge, below the top of the work, within the reach", "off the edge, by the clearance");
+  head("next to the edge, below the top of the work, within the reach", "away from the edge, by the clearance");
   write_subs();
   touch(way.axis == 'X' ? way.sign : 0, way.axis == 'Y' ? way.sign : 0, 0);
   set_zero(way.axis, way.sign, 0);
@@ -147,7 +147,7 @@ void CycleText::go_to_middle() {
 }
 
 void CycleText::bore() {
-  head("in the bore, anywhere near its middle", "in the middle of the bore");
+  head("in the bore, near its centre", "in the centre of the bore");
   write_subs();
   go_to_middle();
   line("G10 L20 P{} X0 Y0", system_);
@@ -158,7 +158,7 @@ void CycleText::bore() {
 // Until both bores are known the system is not turned. What the bores are too near or too far is shared by both: the
 // midpoint between them lies where the program has it.
 void CycleText::bores() {
-  head("in the first bore, anywhere near its middle; there is room for the second within the reach",
+  head("in the first bore, near its centre; the second bore is within the reach of its nominal position",
        "above the second bore, by the clearance");
   write_subs();
   line("G10 L2 P{} R0", system_);
@@ -187,8 +187,9 @@ void CycleText::bores() {
   line("#<zero_y> = [{}+{:.6f}+#<way_y>/2-SIN[#<angle>]*{:.6f}-COS[#<angle>]*{:.6f}]", offset_of('Y'), cycle_.y, half_x,
        half_y);
   line("G10 L2 P{} X#<zero_x> Y#<zero_y> R#<angle>", system_);
-  line("(PRINT,found: X0 Y0 of {} is X{} Y{} in the machine, turned by #<angle> degrees; the bores are #<apart> apart)",
-       name_of_system(system_), offset_of('X'), offset_of('Y'));
+  line(
+      "(PRINT,found: X0 Y0 of {} is X{} Y{} in the machine, rotated by #<angle> degrees; the bores are #<apart> apart)",
+      name_of_system(system_), offset_of('X'), offset_of('Y'));
 }
 
 void CycleText::boss_side(char axis, int sign, double half, const char* name) {
@@ -202,7 +203,7 @@ void CycleText::boss_side(char axis, int sign, double half, const char* name) {
 }
 
 void CycleText::boss() {
-  head("above the boss, near its middle, within the reach", "above the middle of the boss, by the clearance");
+  head("above the boss, near its centre, within the reach", "above the centre of the boss, by the clearance");
   write_subs();
   line("#<middle_x> = #5420");
   line("#<middle_y> = #5421");
@@ -239,8 +240,8 @@ void CycleText::tool() {
 void CycleText::angle() {
   const TouchWay way = *way_of(cycle_.side);
   const bool along_x = way.axis == 'Y';
-  head("beside the edge, below the top of the work; the second place is ahead along the other axis",
-       "off the second place, by the clearance");
+  head("next to the edge, below the top of the work; the second point lies ahead along the other axis",
+       "away from the second point, by the clearance");
   write_subs();
   line("G10 L2 P{} R0", system_);
   const int x = along_x ? 0 : way.sign;
@@ -257,13 +258,13 @@ void CycleText::angle() {
   }
   go(way.axis, -way.sign * cycle_.clearance);
   line("G10 L2 P{} R#<angle>", system_);
-  line("(PRINT,found: {} is turned by #<angle> degrees)", name_of_system(system_));
+  line("(PRINT,found: {} is rotated by #<angle> degrees)", name_of_system(system_));
 }
 
 // Each height is logged with the place that was meant, as a line of a height map.
 void CycleText::map() {
-  head("Z0 is on the surface, and nothing is in the way at the height of the clearance",
-       "above the last place, by the clearance");
+  head("Z0 is on the surface, and nothing is in the way at the clearance height",
+       "above the last point, by the clearance");
   line("G17 G21 G40 G80 G90 G94 {}", name_of_system(system_));
   line("G0 Z{:.4f}", cycle_.clearance);
   const auto columns = static_cast<int>(cycle_.columns);

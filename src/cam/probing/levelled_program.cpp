@@ -90,8 +90,8 @@ void Leveller::check_lead(const Operation& operation, const Point& end) {
   const double beside = map_.distance_beside(end[Axis::x], end[Axis::y]);
   if (beside <= wish_.beside) return;
   refuse(operation, "level.beside",
-         fmt::format("X{:.3f} Y{:.3f} is {:.3f} mm beside the height map", end[Axis::x], end[Axis::y], beside),
-         fmt::format("a map that covers all that is milled, or at most {:g} mm beside it", wish_.beside));
+         fmt::format("X{:.3f} Y{:.3f} is {:.3f} mm outside the height map", end[Axis::x], end[Axis::y], beside),
+         fmt::format("a map that covers the whole milled area, or moves at most {:g} mm outside it", wish_.beside));
 }
 
 double Leveller::feed_of(const Point& end) const {
@@ -124,15 +124,15 @@ LevelledMove Leveller::move_to(const Operation& operation, const Point& end, boo
   move.levelled = !is_clear && (names_height || !is_of_machine);
   if (!rapid && !move.levelled && !std::exchange(told_height_, true)) {
     report(operation, Severity::warning, "level.height",
-           "this feed is not levelled: the program has not given a Z of the work yet",
+           "the height map is not applied to this feed move, because the program has not set a work Z yet",
            "a move to a Z in work coordinates before");
   }
   const bool is_assumed = !move.from_anywhere && (!known_.has(Axis::x) || !known_.has(Axis::y));
   if (move.levelled && is_assumed && !std::exchange(told_place_, true)) {
-    report(operation, Severity::warning, "level.place",
-           fmt::format("the program has not given X and Y of the work yet: X{:.3f} Y{:.3f} is assumed", end[Axis::x],
-                       end[Axis::y]),
-           "a move to X and Y in work coordinates before");
+    report(
+        operation, Severity::warning, "level.place",
+        fmt::format("the program has not set work X and Y yet; X{:.3f} Y{:.3f} is assumed", end[Axis::x], end[Axis::y]),
+        "a move to X and Y in work coordinates before");
   }
   if (names_height) {
     const bool becomes_known = at_ == LevelHeight::known || move.absolute.has(Axis::z);
@@ -157,7 +157,7 @@ void Leveller::handle_arc(const Operation& operation, const operation::ArcFeed& 
   LevelledMove move = move_to(operation, arc.end, false);
   if (move.levelled) check_lead(operation, arc.end);
   if (move.from_above && std::abs(arc.turns) > 1) {
-    refuse(operation, "level.height", "a helix of several turns begins at a height that the program has not given",
+    refuse(operation, "level.height", "a helix of several turns starts at a height that the program has not set",
            "a move to a Z before");
   }
   move.is_arc = true;
@@ -234,8 +234,8 @@ bool Leveller::handle(const Operation& operation) {
   } else if (auto line = plain_line_of(operation)) {
     if (!line->empty() && !is_off_already(*line)) add_line(std::move(*line));
   } else {
-    refuse(operation, "level.cannot", "this cannot be written as moves that are levelled",
-           "lines, arcs, cycles and what is between them; no probing, threads, taps, splines, inputs");
+    refuse(operation, "level.cannot", "the height map cannot be applied to this operation",
+           "lines, arcs and canned cycles; no probing, threading, tapping, splines or inputs");
   }
   return !std::holds_alternative<operation::ProgramEnd>(operation.what) &&
          !std::holds_alternative<operation::Finish>(operation.what);

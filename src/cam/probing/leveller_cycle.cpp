@@ -44,8 +44,7 @@ bool Leveller::keeps_cycle(const Operation& operation) {
     const bool is_known = at_ == LevelHeight::known;
     if (block.incremental || (is_known && !(cycle_.is_kept && block.to_start))) return false;
     if (!is_drilling(block.cycle) || is_known) {
-      refuse(operation, "level.height",
-             fmt::format("{} begins at a height that the program has not given", block.cycle),
+      refuse(operation, "level.height", fmt::format("{} starts at a height that the program has not set", block.cycle),
              "a move to a Z before the cycle");
     }
     emit_run();

@@ -37,8 +37,8 @@ void Leveller::read_block(const FrameBlock& block) {
   if (code == "G28.1" || code == "G30.1") return store_home(block);
   if (code == "G10") return read_tool_entry(block);
   if (code == "G52" || code == "G92") {
-    refuse(block, "level.offset", fmt::format("{} changes the zero of the work itself", code),
-           "offsets that are set before the program (G54 and others)");
+    refuse(block, "level.offset", fmt::format("{} changes the work zero", code),
+           "work offsets set before the program (e.g. G54)");
   }
 }
 
@@ -54,8 +54,8 @@ void Leveller::read_system(const FrameBlock& block) {
 void Leveller::read_tool_entry(const FrameBlock& block) {
   const auto kind = static_cast<int>(std::lround(block.value('L')));
   if (kind != 0 && kind != 1 && kind != 10 && kind != 11) {
-    return refuse(block, "level.offset", fmt::format("G10 L{} changes the zero of the work itself", kind),
-                  "offsets that are set before the program (G54 and others)");
+    return refuse(block, "level.offset", fmt::format("G10 L{} changes the work zero", kind),
+                  "work offsets set before the program (e.g. G54)");
   }
   emit_run();
   std::string line = fmt::format("G10 L{}", kind);
@@ -110,8 +110,8 @@ void Leveller::write_frame(const Operation& operation, const Frame& before) {
     g92_block_ = block.number;
     if (has_moved && any_levelled_) {
       return refuse(operation, "level.offset",
-                    fmt::format("{} changes the zero of the work after moves on the surface", block.place.name),
-                    "offsets that are set before the program (G54 and others)");
+                    fmt::format("{} changes the work zero after moves on the surface", block.place.name),
+                    "work offsets set before the program (e.g. G54)");
     }
     emit_run();
     add_line(block.place.name);

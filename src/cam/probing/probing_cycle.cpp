@@ -30,36 +30,35 @@ constexpr std::uint32_t has_ball = of({Kind::edge, Kind::corner, Kind::bore, Kin
 using C = ProbingCycle;
 constexpr double far = 1e5;  // mm
 constexpr ProbingField fields[] = {
-    {"system", &C::system, 1, 9, true, has_system, "work system that gets the result: 1 is G54, 9 is G59.3"},
+    {"system", &C::system, 1, 9, true, has_system, "work offset that stores the result: 1 is G54, 9 is G59.3"},
     {"ball", &C::ball, 0, 100, false, has_ball, "diameter of the probe's ball, mm"},
-    {"reach", &C::reach, 0.1, 1000, false, touches_twice, "how far a touch looks, mm"},
-    {"fast", &C::fast, 1, 10000, false, all, "speed of the first touch, of a map the only one, mm/min"},
-    {"slow", &C::slow, 1, 10000, false, touches_twice, "speed of the second touch, mm/min"},
-    {"back", &C::back, 0.01, 100, false, touches_twice, "between the two touches, mm"},
-    {"clearance", &C::clearance, 0.1, 1000, false, all, "how far the probe goes off what it has touched, mm"},
+    {"reach", &C::reach, 0.1, 1000, false, touches_twice, "largest length of a probe move, mm"},
+    {"fast", &C::fast, 1, 10000, false, all, "feed rate of the first touch (for a map the only one), mm/min"},
+    {"slow", &C::slow, 1, 10000, false, touches_twice, "feed rate of the second touch, mm/min"},
+    {"back", &C::back, 0.01, 100, false, touches_twice, "retract distance between the two touches, mm"},
+    {"clearance", &C::clearance, 0.1, 1000, false, all, "clearance from the touched surface after a touch, mm"},
     {"depth", &C::depth, 0.01, 1000, false, of({Kind::corner, Kind::boss, Kind::map}),
-     "how far below the top the sides are touched; of a map: how far below Z0 it looks, mm"},
-    {"height", &C::height, -1000, 1000, false, of({Kind::surface}), "the work's Z of what is touched, mm"},
+     "depth below the top at which the sides are touched; for a map: search depth below Z0, mm"},
+    {"height", &C::height, -1000, 1000, false, of({Kind::surface}), "work Z of the touched surface, mm"},
     {"inside", &C::inside, 0.1, 1000, false, of({Kind::corner}),
-     "how far from the corner the second side is touched, mm"},
+     "distance from the corner at which the second side is touched, mm"},
     {"size_x", &C::size_x, 0.01, 10000, false, of({Kind::boss, Kind::map}), "width along X, mm"},
     {"size_y", &C::size_y, 0.01, 10000, false, of({Kind::boss, Kind::map}), "width along Y, mm"},
-    {"along", &C::along, 0.1, 10000, false, of({Kind::angle}), "between the two places touched, mm"},
+    {"along", &C::along, 0.1, 10000, false, of({Kind::angle}), "distance of the two touched points, mm"},
     {"x", &C::x, -far, far, false, of({Kind::tool, Kind::bores, Kind::map}),
-     "in work coordinates the lower left corner of a map, or the first bore; the tool probe's place in the machine, "
-     "mm"},
-    {"y", &C::y, -far, far, false, of({Kind::tool, Kind::bores, Kind::map}), "the same along Y, mm"},
-    {"second_x", &C::second_x, -far, far, false, of({Kind::bores}), "the second bore in work coordinates, mm"},
-    {"second_y", &C::second_y, -far, far, false, of({Kind::bores}), "the same along Y, mm"},
-    {"fit", &C::fit, 0.001, 1000, false, of({Kind::bores}),
-     "how much nearer or farther apart the bores may be than they should, mm"},
-    {"columns", &C::columns, 2, 200, true, of({Kind::map}), "places along X"},
-    {"rows", &C::rows, 2, 200, true, of({Kind::map}), "places along Y"},
-    {"tool", &C::tool, 1, 99999, true, of({Kind::tool}), "number of the tool"},
+     "X of the lower left corner of a map or of the first bore, in work coordinates; X of the tool probe, in machine "
+     "coordinates, mm"},
+    {"y", &C::y, -far, far, false, of({Kind::tool, Kind::bores, Kind::map}), "Y of the same point, mm"},
+    {"second_x", &C::second_x, -far, far, false, of({Kind::bores}), "X of the second bore in work coordinates, mm"},
+    {"second_y", &C::second_y, -far, far, false, of({Kind::bores}), "Y of the second bore in work coordinates, mm"},
+    {"fit", &C::fit, 0.001, 1000, false, of({Kind::bores}), "bore spacing tolerance, mm"},
+    {"columns", &C::columns, 2, 200, true, of({Kind::map}), "number of points along X"},
+    {"rows", &C::rows, 2, 200, true, of({Kind::map}), "number of points along Y"},
+    {"tool", &C::tool, 1, 99999, true, of({Kind::tool}), "tool number"},
     {"travel_z", &C::travel_z, -far, far, false, of({Kind::tool}),
-     "the machine's Z at which nothing is in the way, mm"},
+     "clearance height: machine Z for moves to the tool probe, mm"},
     {"zero_z", &C::zero_z, -far, far, false, of({Kind::tool}),
-     "the machine's Z at which a tool of length 0 touches, mm"},
+     "machine Z at which a tool of length 0 touches the tool probe, mm"},
 };
 
 // Empty: all values are in their ranges.
@@ -102,15 +101,15 @@ std::string_view name_of(ProbingKind kind) {
 
 std::string_view purpose_of(ProbingKind kind) {
   switch (kind) {
-    case Kind::surface: return "finds the top of the work, and makes it Z0";
-    case Kind::edge: return "finds an edge of the work, and makes it X0 or Y0";
-    case Kind::corner: return "finds a corner of the work and its top, and makes them X0 Y0 Z0";
-    case Kind::bore: return "finds the middle of a bore, and makes it X0 Y0";
-    case Kind::boss: return "finds the middle of a boss, and makes it X0 Y0";
-    case Kind::tool: return "measures a tool on a fixed probe, and writes its length into the tool table";
-    case Kind::angle: return "finds the angle of an edge, and turns the work system by it";
-    case Kind::bores: return "finds two bores, and moves and turns the work system so that they lie as in the program";
-    case Kind::map: return "finds the heights of a surface at the places of a grid";
+    case Kind::surface: return "find the top of the work and set Z0 there";
+    case Kind::edge: return "find an edge of the work and set X0 or Y0 there";
+    case Kind::corner: return "find a corner of the work and its top, and set X0 Y0 Z0 there";
+    case Kind::bore: return "find the centre of a bore and set X0 Y0 there";
+    case Kind::boss: return "find the centre of a boss and set X0 Y0 there";
+    case Kind::tool: return "measure a tool on a fixed probe and write its length to the tool table";
+    case Kind::angle: return "find the angle of an edge and rotate the work coordinates by it";
+    case Kind::bores: return "find two bores, and shift and rotate the work coordinates to match the program";
+    case Kind::map: return "measure the height map of a surface";
   }
   return "";
 }
@@ -120,17 +119,17 @@ Result<std::string, std::string> probing_program(const ProbingCycle& cycle) {
   const bool has_way = cycle.kind == Kind::edge || cycle.kind == Kind::angle;
   if (has_way && !way_of(cycle.side)) {
     return Failure{
-        fmt::format("side: expected the way of the touch, x+, x-, y+ or y-, not '{}'", cycle.side.substr(0, 40))};
+        fmt::format("side: expected the probe direction, x+, x-, y+ or y-, not '{}'", cycle.side.substr(0, 40))};
   }
   if (cycle.kind == Kind::corner && !corner_of(cycle.side)) {
     return Failure{fmt::format("side: expected a corner, front-left, front-right, back-left or back-right, not '{}'",
                                cycle.side.substr(0, 40))};
   }
   if (cycle.kind == Kind::boss && !(cycle.clearance > cycle.ball / 2))
-    return Failure{std::string("clearance: expected more than half of the ball")};
+    return Failure{std::string("clearance: expected more than half of the ball's diameter")};
   const double apart = std::hypot(cycle.second_x - cycle.x, cycle.second_y - cycle.y);
   if (cycle.kind == Kind::bores && !(apart > cycle.fit))
-    return Failure{std::string("second_x, second_y: expected another place than that of the first bore")};
+    return Failure{std::string("second_x, second_y: expected another position than that of the first bore")};
   return cycle_text(cycle);
 }
 

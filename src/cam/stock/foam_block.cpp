@@ -63,7 +63,7 @@ Result<FoamBlock, FieldRefusal> FoamBlock::create(const StockBlock& block, Mm ce
   const double cells = columns * rows * static_cast<double>(slices);
   if (!(cells <= static_cast<double>(most_cells))) {
     return Failure{FieldRefusal{fmt::format(
-        "{} slices of {:g} x {:g} mm with cells of {:g} mm have {:.0f} million cells, and {} million are the most",
+        "{} slices of {:g} x {:g} mm with cells of {:g} mm have {:.0f} million cells; expected at most {} million",
         slices, size.x, size.y, cell.value(), cells / 1e6, most_cells / 1'000'000)}};
   }
   return FoamBlock(block, cell.value(), static_cast<std::size_t>(columns), static_cast<std::size_t>(rows), slices);

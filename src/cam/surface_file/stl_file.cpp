@@ -84,7 +84,7 @@ bool StlReader::add(const SurfaceTriangle& triangle) {
   if (all_.size() == most_triangles) return refuse("has too many triangles", fmt::format("at most {}", most_triangles));
   all_.push_back(triangle);
   return is_within(triangle) || refuse(fmt::format("triangle {} is too far away", all_.size()),
-                                       fmt::format("places of at most {:g} mm", farthest_surface));
+                                       fmt::format("coordinates of at most {:g} mm", farthest_surface));
 }
 
 bool StlReader::read_binary(std::size_t count) {
@@ -126,8 +126,8 @@ bool StlReader::refuse_word(std::string expected) {
                     .place = {.line = static_cast<std::uint32_t>(1 + std::ranges::count(before, '\n')),
                               .column = static_cast<std::uint32_t>(1 + word_ - line_begin),
                               .length = static_cast<std::uint32_t>(std::max<std::size_t>(1, found.size()))},
-                    .message = found.empty() ? std::string("the file ends amid a body")
-                                             : fmt::format("'{}' does not belong here", found),
+                    .message = found.empty() ? std::string("the file ends inside a solid")
+                                             : fmt::format("'{}' is not expected here", found),
                     .expected = std::move(expected),
                     .text = word_ - line_begin < longest
                                 ? std::string(bytes_.substr(line_begin, std::min(longest, line_end - line_begin)))

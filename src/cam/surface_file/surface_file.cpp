@@ -52,7 +52,7 @@ std::vector<SurfaceTriangle> read_triangles(const std::string& path, Diagnostics
   const auto bytes = read_bytes(path, {.area = "surface", .expected = "an STL file"}, diagnostics);
   if (!bytes) return {};
   if (looks_like_body(*bytes)) return read_stl(path, *bytes, diagnostics);
-  diagnostics.add(of_file("surface.unknown-kind", path, "this is no STL file", "a body in STL, text or binary"));
+  diagnostics.add(of_file("surface.unknown-kind", path, "this is not an STL file", "an STL model, text or binary"));
   return {};
 }
 

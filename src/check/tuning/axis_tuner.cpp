@@ -192,9 +192,10 @@ Result<AxisTuning, TuningRefusal> AxisTuner::propose(const TuningWish& wish) con
   if (coarse_steps_) band = band_to(top);
   const double start = swing_of_a_jump * (friction_at(0) - weight_) + weight_;
   if (start > share * band.of_curve({0}).low.value) {
-    return Failure{TuningRefusal{
-        fmt::format("friction and weight need {:.3g} N\u00B7m, and the weakest motor has {:.3g} with that margin",
-                    start, share * band.of_curve({0}).low.value)}};
+    return Failure{
+        TuningRefusal{fmt::format("friction and weight need {:.3g} N\u00B7m, but only {:.3g} N\u00B7m of the "
+                                  "guaranteed torque are available with that margin",
+                                  start, share * band.of_curve({0}).low.value)}};
   }
   const double torque_end = torque_ends_at(band, share, top);
   if (torque_end < top) bound = TuningBound::torque;
@@ -219,7 +220,7 @@ Result<AxisTuning, TuningRefusal> AxisTuner::propose(const TuningWish& wish) con
     top = std::max(calm, lower * choice.speed);
     bound = TuningBound::swing;
   }
-  return Failure{TuningRefusal{"the motor may swing out of step by itself at any speed; more microsteps may help"}};
+  return Failure{TuningRefusal{"the motor may lose steps through resonance at any speed; more microsteps may help"}};
 }
 
 }  // namespace passo

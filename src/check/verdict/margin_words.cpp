@@ -24,17 +24,17 @@ std::string rounded_down(double value) {
 std::string cause_of(const MarginSpot& spot) {
   if (spot.want == Want::calm) {
     return fmt::format(
-        "{} has torque enough at {} steps/s (it needs {:.3g} N\u00B7m, {:.3g} to {:.3g} are there), but the motor may "
-        "swing there by itself until it loses steps (mid-band instability)",
+        "{} has enough torque at {} steps/s (needs {:.3g} N\u00B7m, has {:.3g} to {:.3g}), but the motor may lose "
+        "steps there through resonance (mid-band instability)",
         letter_of(spot.axis), with_commas(spot.rate.value()), spot.needed.value, spot.there.low.value,
         spot.there.high.value);
   }
   std::string words = fmt::format("{} needs {:.3g} N\u00B7m at {} steps/s", letter_of(spot.axis), spot.needed.value,
                                   with_commas(spot.rate.value()));
-  if (spot.want == Want::jump) words += " to catch the swing after a jump of its torque";
+  if (spot.want == Want::jump) words += " to damp the oscillation after a jump of its torque";
   constexpr double notable = 5e-4;  // N·m
   if (spot.of_cut.value >= notable) words += fmt::format(", {:.3g} of it for the cut", spot.of_cut.value);
-  words += fmt::format(", {:.3g} to {:.3g} are there", spot.there.low.value, spot.there.high.value);
+  words += fmt::format(", and has {:.3g} to {:.3g}", spot.there.low.value, spot.there.high.value);
   return words;
 }
 

@@ -169,7 +169,7 @@ std::string describe(const SpeedBound& bound) {
     case SpeedBound::Kind::feed: return "the programmed feed";
     case SpeedBound::Kind::velocity: return fmt::format("the velocity of {}", letter);
     case SpeedBound::Kind::acceleration: return fmt::format("the acceleration of {}", letter);
-    case SpeedBound::Kind::bending: return fmt::format("the acceleration of {}, in a bend", letter);
+    case SpeedBound::Kind::bending: return fmt::format("the acceleration of {} in a curve", letter);
     case SpeedBound::Kind::torque: return fmt::format("the torque of {}'s motor", letter);
     case SpeedBound::Kind::jerk: return fmt::format("the jerk of {}", letter);
     case SpeedBound::Kind::passage: break;

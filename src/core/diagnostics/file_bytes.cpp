@@ -50,7 +50,7 @@ std::optional<std::string> read_bytes(const std::string& path, const FileKind& k
       return std::nullopt;
     }
     if (filled > kind.most) {
-      refuse("too-large", "the file is larger than what is read", fmt::format("at most {} MiB", kind.most >> 20U));
+      refuse("too-large", "the file is too large", fmt::format("at most {} MiB", kind.most >> 20U));
       return std::nullopt;
     }
     if (count < next) return bytes;

@@ -60,7 +60,7 @@ Result<QuadraticBezier, CurveError> parabola(const Vector3& vertex, const Vector
   }
   if (vertex.z != focus.z) return Failure{CurveError{"vertex and focus of a parabola must have the same Z"}};
   const double focal_length = length(focus - vertex);
-  if (!(focal_length > 0)) return Failure{CurveError{"vertex and focus of a parabola must be two places"}};
+  if (!(focal_length > 0)) return Failure{CurveError{"vertex and focus of a parabola must be two different points"}};
   const Vector3 axis = (focus - vertex) / focal_length;
   const Vector3 right = {axis.y, -axis.x, 0};
   const double a = from.value();

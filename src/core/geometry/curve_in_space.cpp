@@ -22,7 +22,7 @@ double growth_of(const Curve::ArcData& arc) {
 Result<CurveInSpace, CurveError> CurveInSpace::of(const Curve& curve) {
   const bool arc = curve.shape() == Curve::Shape::arc;
   if (arc && (!in_space(curve.arc_data().first) || !in_space(curve.arc_data().second))) {
-    return Failure{CurveError{"the arc turns in a plane outside X Y Z"}};
+    return Failure{CurveError{"the plane of the arc is outside X Y Z"}};
   }
   const auto bounded = [](const Point& point) { return is_in_bounds(Vector3::of(point)); };
   const Box box = curve.extents();

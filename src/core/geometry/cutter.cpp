@@ -92,7 +92,7 @@ std::string flaw_of(const Cutter& cutter) {
   if (!(cutter.radius <= largest)) return "a diameter of at most 500 mm";
   const double between = 2 * cutter.half_angle.value;
   if (between != 0 && !(between >= sharpest && between <= std::numbers::pi - sharpest)) {
-    return "an angle from 0.5 to 179.5 degrees between its flanks";
+    return "an included angle from 0.5 to 179.5 degrees";
   }
   if (!(cutter.flat >= Mm(0))) return "a corner radius of at most half the diameter";
   const bool tip_is_narrow = cutter.flat <= cutter.radius && cutter.corner <= cutter.radius;

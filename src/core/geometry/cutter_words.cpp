@@ -72,7 +72,8 @@ Result<Cutter, std::string> parse_cutter(std::string_view text) {
   const Shape* const shape = std::find_if(std::begin(shapes), std::end(shapes),
                                           [&](const Shape& candidate) { return candidate.name == name; });
   if (shape == std::end(shapes)) {
-    return Failure{fmt::format("'{}' is no cutter; expected ball:3, flat:6, bull:6:1, vee:60:6 or taper:1:5:6", text)};
+    return Failure{fmt::format(
+        "'{}' is not a valid cutter; expected e.g. ball:3, flat:6, bull:6:1, vee:60:6 or taper:1:5:6", text)};
   }
   const std::vector<double> n = colon == text.size() ? std::vector<double>() : numbers_of(text.substr(colon + 1));
   if (n.size() < shape->least || n.size() > shape->most) {
@@ -104,8 +105,8 @@ std::string describe(const Cutter& cutter) {
     }
     case Cutter::Kind::tapered_ball: break;
   }
-  return fmt::format("tapered ball, {:g} mm at the tip, {:g} degrees a side, {:g} mm", cutter.corner.value() * 2, angle,
-                     diameter);
+  return fmt::format("tapered ball, {:g} mm at the tip, {:g} degrees per side, {:g} mm", cutter.corner.value() * 2,
+                     angle, diameter);
 }
 
 }  // namespace passo

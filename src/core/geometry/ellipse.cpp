@@ -44,16 +44,16 @@ Result<Ellipse, CurveError> Ellipse::create(const Shape& shape) {
   const double major = length(shape.major);
   const double minor = length(shape.minor);
   if (!is_in_bounds(shape.centre) || !is_in_bounds(shape.major) || !is_in_bounds(shape.minor)) {
-    return Failure{CurveError{"centre and half axes of an ellipse must be within 100000 mm"}};
+    return Failure{CurveError{"centre and semi-axes of an ellipse must be within 100000 mm of the origin"}};
   }
-  if (!(major > 0) || !(minor > 0)) return Failure{CurveError{"both half axes of an ellipse must be longer than 0"}};
+  if (!(major > 0) || !(minor > 0)) return Failure{CurveError{"both semi-axes of an ellipse must be longer than 0"}};
   if (std::abs(dot(shape.major, shape.minor)) > 1e-9 * major * minor) {
-    return Failure{CurveError{"the half axes of an ellipse must be at a right angle"}};
+    return Failure{CurveError{"the semi-axes of an ellipse must be perpendicular"}};
   }
   if (!std::isfinite(shape.start.value) || !(std::abs(shape.sweep.value) <= most_turns * 2 * pi)) {
-    return Failure{CurveError{"the angles of an ellipse must be numbers, of a million turns at most"}};
+    return Failure{CurveError{"the angles of an ellipse must be at most a million turns"}};
   }
-  if (shape.sweep.value == 0) return Failure{CurveError{"an arc of an ellipse needs an angle to turn"}};
+  if (shape.sweep.value == 0) return Failure{CurveError{"an elliptical arc must have an angle other than 0"}};
   return Ellipse(shape);
 }
 

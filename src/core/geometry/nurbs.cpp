@@ -40,7 +40,7 @@ Checked check_points(const Nurbs::Definition& spline) {
   if (!std::ranges::all_of(spline.weights, good)) return wrong("the weights of a NURBS must be above 0");
   const auto [smallest, largest] = std::ranges::minmax(spline.weights);
   if (largest / smallest > Nurbs::most_weight_ratio) {
-    return wrong("the largest weight of a NURBS may be 10000 times the smallest, not more");
+    return wrong("the largest weight of a NURBS must be at most 10000 times the smallest");
   }
   return Unit{};
 }
@@ -55,17 +55,17 @@ Checked check_knots(int degree, const std::vector<double>& knots, std::size_t co
   if (!std::ranges::all_of(knots, [](double knot) { return std::isfinite(knot); })) {
     return wrong("the knots of a NURBS must be numbers");
   }
-  if (!std::ranges::is_sorted(knots)) return wrong("the knots of a NURBS may not go down");
+  if (!std::ranges::is_sorted(knots)) return wrong("the knots of a NURBS must not decrease");
   const double whole = knots[control_points] - knots[p];
-  if (!(whole > 0) || !std::isfinite(whole)) return wrong("the knots of a NURBS leave it no length");
+  if (!(whole > 0) || !std::isfinite(whole)) return wrong("with these knots, the NURBS has no length");
   for (std::size_t i = 0; i + 1 < knots.size(); ++i) {
     const double step = knots[i + 1] - knots[i];
-    if (step > 0 && !(step >= 1e-9 * whole)) return wrong("two knots of a NURBS are almost equal: make them equal");
+    if (step > 0 && !(step >= 1e-9 * whole)) return wrong("two knots of a NURBS are almost equal; make them equal");
   }
   // p + 1 equal knots inside would tear the curve apart.
   for (std::size_t i = 1; i + p < knots.size() - 1; ++i) {
     if (knots[i] == knots[i + p] && knots[i] > knots[p] && knots[i] < knots[control_points]) {
-      return wrong("a NURBS of degree " + std::to_string(degree) + " may have a knot inside at most " +
+      return wrong("a NURBS of degree " + std::to_string(degree) + " can repeat an inner knot at most " +
                    std::to_string(degree) + " times");
     }
   }

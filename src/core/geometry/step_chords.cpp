@@ -17,11 +17,11 @@ Result<StepPlace, CurveError> to_steps(const Vector3& place, const StepScale& sc
   StepPlace steps;
   for (std::size_t i = 0; i < space_axes; ++i) {
     if (!(scale.steps_per_mm[i] > 0)) {
-      return Failure{CurveError{std::string("the scale of ") + "XYZ"[i] + " must be above 0 steps a millimetre"}};
+      return Failure{CurveError{std::string("the scale of ") + "XYZ"[i] + " must be above 0 steps/mm"}};
     }
     const double exact = mm[i] * scale.steps_per_mm[i];
     if (!(std::abs(exact) <= most_steps)) {
-      return Failure{CurveError{std::string("a place on ") + "XYZ"[i] + " is more than 2^52 steps from zero"}};
+      return Failure{CurveError{std::string("a position on ") + "XYZ"[i] + " is more than 2^52 steps from zero"}};
     }
     steps[i] = Steps{std::llround(exact)};  // halves away from zero
   }

@@ -175,7 +175,7 @@ Status<OutputError> draw_board(const BoardJob& job, const PictureOptions& option
                        static_cast<double>(sides.size());
   for (std::size_t i = 0; box && i < sides.size(); ++i) {
     const Area area{sheet::margin + static_cast<double>(i) * (width + gap), 130, width, options.height - 180.0};
-    canvas.text({area.x + width / 2, 112}, sides[i].is_turned ? "Bottom, turned over" : sides[i].name, sheet::caption,
+    canvas.text({area.x + width / 2, 112}, sides[i].is_turned ? "Bottom, flipped" : sides[i].name, sheet::caption,
                 Align::centre);
     draw_side(canvas, job, sides[i], face, *box, area);
   }

@@ -196,11 +196,11 @@ void draw_deviation(Canvas& canvas, const ChordDrawing& drawing, const Area& are
 }
 
 std::string factor_text(double factor) {
-  return factor == 1 ? "to scale" : fmt::format("drawn {:g} \u00D7 as wide", factor);
+  return factor == 1 ? "to scale" : fmt::format("widened {:g} \u00D7", factor);
 }
 
 void draw_legend(Canvas& canvas, const ChordDrawing& drawing, double factor, double right, double y) {
-  const std::string times = factor == 1 ? "" : fmt::format(", distance from the curve drawn {:g} \u00D7", factor);
+  const std::string times = factor == 1 ? "" : fmt::format(", distance from the curve enlarged {:g} \u00D7", factor);
   const std::string limit = drawing.chord_length ? "Greatest distance" : "Tolerance";
   const std::array<const Pen*, 4> pens = {&curve_pen, &chord_pen, &tube_pen, &limit_pen};
   const std::vector<std::string> words = {"Curve", "Chords" + times, limit + ", " + factor_text(factor), limit};

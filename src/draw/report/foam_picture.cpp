@@ -228,8 +228,8 @@ void draw_legend(Canvas& canvas, const FoamDrawing& drawing, double height) {
   }
   if (drawing.pieces.pieces.size() > most) legend.patch(colour_of_piece(most), "smaller pieces");
   if (drawing.difference == nullptr) return;
-  legend.patch(left_colour, "left beside the target");
-  legend.patch(gouge_colour, "melted out of it");
+  legend.patch(left_colour, "foam left on the target");
+  legend.patch(gouge_colour, "melted into the target");
 }
 
 }  // namespace

@@ -178,7 +178,7 @@ struct RuleLook {
   const char* name;
   Colour colour;
 };
-const std::array<RuleLook, speed_rules> rule_looks = {{{"every pulse the same time", {0.55, 0.30, 0.65}},
+const std::array<RuleLook, speed_rules> rule_looks = {{{"all pulses equally long", {0.55, 0.30, 0.65}},
                                                        {"\u221An for a pulse of n axes", {0.93, 0.55, 0.10}},
                                                        {"exact", {0.18, 0.55, 0.34}}}};
 
@@ -206,7 +206,7 @@ void draw_deviation(Canvas& canvas, const StudiedMethod& studied, const StepMove
   const auto add = [&](const Followed& now) { curve.push_back({now.progress, now.deviation}); };
   static_cast<void>(follow(studied.method, move, add).has_value());
   const double most = axis_end(std::max(0.5, studied.measures.largest_deviation));
-  Chart chart(canvas, area, {.title = "share of the way"},
+  Chart chart(canvas, area, {.title = "fraction of the path"},
               {.title = "distance from the ideal path, steps", .end = most});
   chart.draw_grid();
   chart.polyline(curve, {.colour = step_look::one_axis, .width = 1.5});
@@ -220,7 +220,7 @@ void draw_evenness(Canvas& canvas, const StudiedMethod& studied, const StepMove&
     for (const Spot& spot : curve) most = std::max(most, std::abs(spot.y));
   }
   most = axis_end(most);
-  Chart chart(canvas, area, {.title = "share of the time"},
+  Chart chart(canvas, area, {.title = "fraction of the time"},
               {.title = "ahead of a point at constant speed, steps", .end = most, .begin = -most});
   chart.draw_grid();
   for (std::size_t rule = 0; rule < speed_rules; ++rule) {
@@ -308,7 +308,7 @@ Status<OutputError> draw_interpolation(const StepMove& move, const std::vector<S
   canvas.text({border, 36}, move_text(move), step_look::title_font);
   std::vector<StepKey> keys = step_keys();
   if (methods.size() == 1 && has_midlines(methods[0].method, move)) {
-    keys.push_back({"middle of the cell's side: a slave steps where the ideal path is at it or past it",
+    keys.push_back({"midline of the cell: a slave axis steps where the ideal path reaches or crosses it",
                     step_look::midline_colour, true});
   }
   draw_step_keys(canvas, keys, border, 66);

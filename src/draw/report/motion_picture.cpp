@@ -120,7 +120,7 @@ class PathView {
 };
 
 void draw_speed(Canvas& canvas, const Area& area, const MotionRecorder& motion, const Peaks& peaks) {
-  Chart chart(canvas, area, {.title = "Way, mm", .end = axis_end(peaks.way)},
+  Chart chart(canvas, area, {.title = "Distance, mm", .end = axis_end(peaks.way)},
               {.title = "Speed along the path, mm/s", .end = axis_end(1.3 * peaks.speed)});
   chart.draw_grid();
   std::vector<Spot> caps;
@@ -177,7 +177,7 @@ void draw_legend(Canvas& canvas, const Peaks& peaks, Spot place) {
   legend.patch(tolerance_colour, "within the tolerance");
   legend.line(programmed_pen, "programmed; limits");
   legend.line(path_pen, "planned path");
-  if (peaks.phases <= most_dots) legend.dot(3, cell_colour, "a phase begins");
+  if (peaks.phases <= most_dots) legend.dot(3, cell_colour, "start of a phase");
   for (std::size_t i = 0; i < peaks.axes.size(); ++i) {
     legend.line(axis_pens[i], std::string("axis ") + letter_of(peaks.axes[i]));
   }

@@ -104,7 +104,7 @@ void draw_rates(Canvas& canvas, const Chart& torque, const Chart& acceleration, 
     draw_dot(canvas, upper, pen.colour);
     draw_note(canvas, torque, upper, words + rate_text(rate));
   };
-  if (starting > 0 && starting <= end) draw(starting, pull_in_pen, "starts and stops at once up to ");
+  if (starting > 0 && starting <= end) draw(starting, pull_in_pen, "starts and stops without a ramp up to ");
   if (fastest && *fastest > 0 && *fastest <= end) draw(*fastest, pull_out_pen, "runs up to ");
 }
 
@@ -121,7 +121,7 @@ void draw_legend(Canvas& canvas, const Functions& motor, Spot place) {
   const bool has_load = motor.scene.load.inertia.value > 0;
   Legend legend(canvas, place);
   legend.line(pull_out_pen, "Pull-out");
-  legend.line(pull_in_pen, has_load ? "Pull-in with the load's inertia" : "Pull-in, no inertia but the rotor's");
+  legend.line(pull_in_pen, has_load ? "Pull-in with the load's inertia" : "Pull-in, rotor's inertia only");
   if (motor.has_friction()) legend.line(friction_pen, "Friction");
   legend.patch(start_shade, "starts and stops without a ramp");
   legend.patch(ramp_shade, "runs, but needs a ramp");
@@ -146,7 +146,7 @@ Status<OutputError> draw_motor_picture(const MotorScene& scene, const PictureOpt
   const Area lower_area{left, upper_area.bottom() + 48, upper_area.width, space - upper_area.height - 48};
   Chart torque(canvas, upper_area, {.title = "", .end = rates}, {.title = "Torque, N\u00B7m", .end = torques});
   Chart acceleration(canvas, lower_area, {.title = "Rate, full steps/s", .end = rates},
-                     {.title = "Acceleration left over, rad/s\u00B2", .end = accelerations});
+                     {.title = "Available acceleration, rad/s\u00B2", .end = accelerations});
   draw_torque(torque, motor);
   draw_acceleration(acceleration, motor);
   draw_rates(canvas, torque, acceleration, motor, rates);

@@ -18,7 +18,7 @@ namespace {
 std::string reason(int error) {
   switch (error) {
     case ENOENT: return "no such directory";
-    case ENOTDIR: return "a part of the path is no directory";
+    case ENOTDIR: return "a part of the path is not a directory";
     case EISDIR: return "it is a directory";
     case EACCES:
     case EPERM: return "permission denied";

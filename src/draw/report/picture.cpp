@@ -92,7 +92,7 @@ void draw_legend(Canvas& canvas, const PathRecorder& path, const Scene& scene, c
     draw_bar(canvas, "Feed, actual speed in mm/min", 0, path.fastest_feed().value() * seconds_per_minute, bar);
     x = bar.right() + between;
   } else if (path.fastest_feed() > MmPerSecond(0) && by == PathColour::margin) {
-    draw_bar(canvas, "Feed, needed torque in % of what is surely there", 0, 100, bar);
+    draw_bar(canvas, "Feed, needed torque in % of the guaranteed torque", 0, 100, bar);
     x = bar.right() + between;
   } else if (path.fastest_feed() > MmPerSecond(0)) {
     const double high = path.feed_extents().high[Axis::z] - scene.zero[Axis::z];

@@ -196,7 +196,7 @@ Projection fitted_isometric(Canvas& canvas, const Scene& scene, const Area& area
 // The text shown if nothing moved.
 void draw_no_motion(Canvas& canvas, const Area& area) {
   const Spot middle{area.x + area.width / 2, area.y + area.height / 2};
-  canvas.text(middle, "The program moves nothing.", {.size = 18, .colour = quiet_ink}, Align::centre);
+  canvas.text(middle, "The program has no moves.", {.size = 18, .colour = quiet_ink}, Align::centre);
 }
 
 void draw_box(Canvas& canvas, const Scene& scene, const Projection& projection) {

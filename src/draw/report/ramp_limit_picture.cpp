@@ -34,7 +34,7 @@ std::vector<Spot> curve_of(const RampLimitScene& scene, const Value& value) {
 }
 
 Chart::Axis steps_axis(const RampLimitScene& scene) {
-  return {.title = "Steps a revolution", .end = axis_end(scene.most_steps_per_turn)};
+  return {.title = "Steps per revolution", .end = axis_end(scene.most_steps_per_turn)};
 }
 
 void draw_least_accelerations(Canvas& canvas, const Area& area, const RampLimitScene& scene) {
@@ -85,8 +85,8 @@ void draw_legend(Canvas& canvas, const RampLimitScene& scene, Spot place) {
     legend.line(size_pens[i],
                 "table of " + counted(static_cast<std::uint32_t>(scene.table_sizes[i]), "entry", "entries"));
   }
-  if (scene.rate) legend.line(wanted_pen, fmt::format("{:g} steps/s wanted", scene.rate->value()));
-  legend.words("numbers at the curves: acceleration, rad/s\u00B2");
+  if (scene.rate) legend.line(wanted_pen, fmt::format("target: {:g} steps/s", scene.rate->value()));
+  legend.words("labels of the curves: acceleration, rad/s\u00B2");
 }
 
 }  // namespace

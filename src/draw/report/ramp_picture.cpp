@@ -128,7 +128,7 @@ bool smooth_errors(const RampTrace& trace) {
 void draw_errors(Canvas& canvas, const Area& area, const RampScene& scene, const RampExtent& extent) {
   const double steps = axis_end(std::max(extent.steps, 1.0));
   Chart chart(canvas, area, {.title = "Step", .end = steps},
-              {.title = "Error of the interval against the exact one, ticks",
+              {.title = "Error of the interval, ticks",
                .end = std::max(power_above(extent.error), 10.0),
                .begin = least_error,
                .logarithmic = true});

@@ -118,8 +118,8 @@ void draw_pulses(Canvas& canvas, const StepView& view, const std::vector<Shown>&
 std::vector<StepKey> step_keys() {
   return {{"ideal path", step_look::ideal_colour, true},
           {"one axis steps", step_look::one_axis, false},
-          {"several step at once", step_look::together, false},
-          {"waits for a pulse or more", step_look::waiting, false}};
+          {"several axes step", step_look::together, false},
+          {"no step for a pulse or more", step_look::waiting, false}};
 }
 
 void draw_step_keys(Canvas& canvas, const std::vector<StepKey>& keys, double x, double y) {

@@ -74,13 +74,13 @@ class Text {
   void turns(const RunSummary& summary) {
     const double all = summary.cutting_turn + summary.rapid_turn;
     if (!(all > 0)) return;
-    heading("Turning", "degrees; moves of A B C alone");
+    heading("Turning", "degrees; moves of A B C only");
     line("cutting", place(summary.cutting_turn, Axis::a), share(summary.cutting_turn, all));
     line("rapid", place(summary.rapid_turn, Axis::a), share(summary.rapid_turn, all));
   }
 
   void tools(const RunSummary& summary) {
-    heading("Tools", fmt::format("{}; feeds {} a minute; depth is the lowest Z at feed", unit(), unit()));
+    heading("Tools", fmt::format("{}; feeds in {}/min; depth is the lowest Z at feed", unit(), unit()));
     out_ += fmt::format("  {:4}{:>14}{:>14}{:>14}{:>20}{:>12}\n", "", "cutting", "rapid", "distance", "feed", "depth");
     for (const ToolSummary& tool : summary.tools) {
       out_ += fmt::format("  {:4}{:>14}{:>14}{:>14}{:>20}{:>12}\n",
@@ -90,7 +90,7 @@ class Text {
     }
     for (const ToolSummary& tool : summary.tools) {
       if (!tool.turn_feed) continue;
-      out_ += fmt::format("  {:4}turns {} degrees at feed, {} a minute\n",
+      out_ += fmt::format("  {:4}rotates {} degrees at feed, {}/min\n",
                           tool.tool > 0 ? fmt::format("T{}", tool.tool) : std::string("-"),
                           place(tool.cutting_turn, Axis::a), feeds(tool.turn_feed, Axis::a));
     }
@@ -133,10 +133,10 @@ class Text {
     if (board.busiest_second > 0) line("at most", sizes(board.busiest_second), "  in a second");
     if (board.held_items > 0) {
       line("holds", counted(board.held_items, "item"),
-           fmt::format("  and rested {} for want of more", so_often(board.rests)));
+           fmt::format("  and stopped {} because motion arrived too late", so_often(board.rests)));
     }
     if (board.stood_still) {
-      line("stopped", "amid motion", "  its events came too late, and steps may be lost");
+      line("stopped", "during motion", "  its events came too late, and steps may be lost");
     }
     if (!board.without_line) return;
     const Seconds cost = board.cost_of_line();
@@ -150,37 +150,37 @@ class Text {
   void holds(const RunSummary& summary) {
     heading("Holds", "s");
     for (const HoldSummary& hold : summary.holds) {
-      out_ += fmt::format("  at {:.3f}: slower after {:.1f} ms, at rest at {:.3f} in", hold.asked.value(),
+      out_ += fmt::format("  at {:.3f}: slower after {:.1f} ms, stopped at {:.3f} at", hold.asked.value(),
                           hold.reaction.value() * 1e3, hold.rest.value());
       add_place(summary, hold.place);
-      out_ += hold.resumed ? fmt::format("; went on at {:.3f}\n", hold.resumed->value()) : "; ended there\n";
+      out_ += hold.resumed ? fmt::format("; continued at {:.3f}\n", hold.resumed->value()) : "; ended there\n";
     }
   }
 
   void probes(const RunSummary& summary, const ProbeSummary& probes) {
     heading("Probe", unit_of_places(summary));
-    out_ += fmt::format("  {}, {} touched; at most {} from contact to rest\n", counted(probes.moves, "move"),
+    out_ += fmt::format("  {}, {} touched; at most {} from contact to stop\n", counted(probes.moves, "move"),
                         grouped(probes.touched), length(probes.farthest_overrun));
-    out_ += probes.last_touched ? "  the last touched at" : "  the last touched nothing, up to";
+    out_ += probes.last_touched ? "  the last one touched at" : "  the last one touched nothing, up to";
     add_place(summary, probes.last_contact);
-    out_ += ", at rest in";
+    out_ += ", stopped at";
     add_place(summary, probes.last_rest);
     out_ += " (machine)\n";
   }
 
   void tails(const RunSummary& summary) {
-    heading("Braked without the computer", "s");
+    heading("Stopped without the computer", "s");
     for (const TailSummary& tail : summary.tails) {
-      out_ += fmt::format("  at rest at {:.3f} in", tail.rest.value());
+      out_ += fmt::format("  stopped at {:.3f} at", tail.rest.value());
       add_place(summary, tail.place);
-      out_ += fmt::format("; went on at {:.3f}\n", tail.resumed.value());
+      out_ += fmt::format("; continued at {:.3f}\n", tail.resumed.value());
     }
   }
 
   void physics(const PhysicsSummary& physics) {
-    heading("Motors", fmt::format("{}; margin is the share of the torque that was left, at the worst", unit()));
+    heading("Motors", fmt::format("{}; margin is the smallest fraction of the torque that was left", unit()));
     out_ += fmt::format("  {:4}{:>12}{:>12}{:>12}{:>10}{:>8}{:>12}\n", "", "steps lost", "off by", "following",
-                        "margin", "line", "truly at");
+                        "margin", "line", "really at");
     for (const PhysicsSummary::Motor& motor : physics.motors) {
       out_ += fmt::format("  {:4}{:>12}{:>12}{:>12}{:>8.0f} %{:>8}{:>12}\n", letter_of(motor.axis),
                           grouped(motor.lost_steps), place(motor.lost, motor.axis),

@@ -81,7 +81,7 @@ std::vector<Spot> stair(const std::vector<Stand>& stands, const Value& value) {
 void draw_phases(Canvas& canvas, const Area& area, const WindingScene& scene, const std::vector<Stand>& stands,
                  double time_end) {
   Chart chart(canvas, area, {.title = "", .end = time_end},
-              {.title = "Current, share of rated", .end = 1.2, .begin = -1.2});
+              {.title = "Current, fraction of rated", .end = 1.2, .begin = -1.2});
   chart.draw_grid(false);
   const Excitation& excitation = scene.motors.excitation;
   chart.polyline(stair(stands, [&](std::int64_t place) { return excitation.at(place).phase_a; }), phase_a);

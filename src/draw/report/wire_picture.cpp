@@ -71,7 +71,7 @@ Status<OutputError> draw_wire_cut(const WireScene& scene, const PictureOptions& 
   const WirePlan& plan = scene.plan;
   double minutes = 0;
   for (const double time : plan.minutes) minutes += time;
-  begin_sheet(canvas, options, fmt::format("{:.1f} min of cutting at the feed", minutes));
+  begin_sheet(canvas, options, fmt::format("{:.1f} min of cutting at the feed rate", minutes));
   const double top = 100;
   const double height = options.height - 190.0;
   const double half = scene.has_four_axes ? height / 2 - 14 : height;

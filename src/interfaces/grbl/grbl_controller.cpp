@@ -52,7 +52,7 @@ void GrblController::connect() {
   report_turns_.begin();
   lease_.end();
   say(std::string(grbl_banner));
-  if (!drives_) say("[MSG:Another client drives the machine]\r\n");
+  if (!drives_) say("[MSG:Another client is in control]\r\n");
   if (alarm_) say("[MSG:'$H'|'$X' to unlock]\r\n");
 }
 
@@ -108,7 +108,7 @@ void GrblController::let_drive(bool drives) {
   checks_ = resets_ = false;
   alarm_ = has_lost_place();
   if (!session_.busy()) program_.go_on_at(session_.status().position.place);
-  say(drives ? "[MSG:This sender drives the machine]\r\n" : "[MSG:Another client drives the machine]\r\n");
+  say(drives ? "[MSG:This sender is in control]\r\n" : "[MSG:Another client is in control]\r\n");
 }
 
 void GrblController::disconnect() {

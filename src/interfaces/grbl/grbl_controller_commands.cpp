@@ -165,7 +165,7 @@ void GrblController::handle_build_info(const std::string& text) {
 // False, with a message: nothing has changed.
 bool GrblController::keep_memory(const GrblMemory& memory) {
   if (store_.keep(memory)) return true;
-  say("[MSG:Nothing has changed: the file cannot be written]\r\n");
+  say("[MSG:Nothing was changed: the file cannot be written]\r\n");
   return false;
 }
 
@@ -229,7 +229,7 @@ void GrblController::keep_setting(int number, double value) {
     say(fmt::format("[MSG:{}]\r\n", *reason));
     return answer(GrblError::bad_statement);
   }
-  say("[MSG:Kept in the machine file, counts from the next start on]\r\n");
+  say("[MSG:Saved in the machine file, takes effect at the next start]\r\n");
   answer(GrblError::none);
 }
 

@@ -8,7 +8,7 @@
 namespace passo {
 namespace {
 
-constexpr std::string_view title = "# What senders have set, kept by passo serve: $10, $13, $I, $N0, $N1.\n";
+constexpr std::string_view title = "# Settings made by senders, saved by passo serve: $10, $13, $I, $N0, $N1.\n";
 constexpr unsigned highest_mask = 255;
 
 bool is_plain(std::string_view text) {

@@ -24,7 +24,8 @@ std::optional<std::string> GrblStore::keep(int number, double value) {
   std::string reason;
   auto after = settings_->with(number, value, reason);
   if (!after) return reason;
-  if (!write_file_(settings_->text(), *after)) return "The machine file cannot be written, or was changed meanwhile";
+  if (!write_file_(settings_->text(), *after))
+    return "The machine file cannot be written, or was changed by another program";
   settings_->set_text(std::move(*after));
   return {};
 }

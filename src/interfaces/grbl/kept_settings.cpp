@@ -135,7 +135,7 @@ std::optional<std::string> KeptSettings::with(int number, double value, std::str
     return {};
   }
   const auto after = axis != nullptr ? with_scale(text_, *axis, value) : changed(text_, changes);
-  reason = "No sound machine has that value";
+  reason = "This value would make the machine file invalid";
   if (!after) return {};
   return has_setting(*described(*after), {}, number, value) ? after : std::nullopt;
 }

@@ -165,7 +165,7 @@ void GrblCode::set_outputs(const OutputState& wanted, std::vector<std::string>& 
 Status<std::string> GrblCode::write_action(const Action& action, std::vector<std::string>& lines) {
   switch (action.kind) {
     case Action::Kind::probe_begin:
-    case Action::Kind::probe_end: return cannot("its probe answers no program of ours: probe with its own sender");
+    case Action::Kind::probe_end: return cannot("Passo cannot read the result of its probe: probe with another sender");
     case Action::Kind::await_index:
     case Action::Kind::tap_turns: return cannot("it cannot follow the spindle");
     default: break;

@@ -31,7 +31,7 @@ class Objections {
     diagnostics_.add({.code = "grbl.cannot",
                       .file = file_.empty() ? program_ : file_,
                       .place = {.line = line, .column = line == line_ && !text_.empty() ? 1U : 0U},
-                      .message = "a machine that speaks Grbl cannot do this: " + reason,
+                      .message = "a machine with Grbl cannot do this: " + reason,
                       .expected = "",
                       .text = line == line_ ? text_ : ""});
   }

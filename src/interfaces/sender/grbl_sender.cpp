@@ -126,8 +126,8 @@ void GrblSender::stop() {
 }
 
 void GrblSender::lose() {
-  end_with(
-      fault_between_lines("grbl.line-lost", "the line is gone. The machine finishes what it holds, and then rests"));
+  end_with(fault_between_lines(
+      "grbl.line-lost", "the connection was lost. The machine finishes the motion in its buffer, and then stops"));
 }
 
 void GrblSender::enter(Stage stage) {
@@ -164,7 +164,7 @@ void GrblSender::check_silence() {
   const Seconds since = std::max(heard_, stage_since_);
   if (now_ - since < longest_silence + silence_of_oldest()) return;
   const char* const hint =
-      greets() ? ": it is off, has another rate (@BAUD), or is in an alarm that only a reset ends" : "";
+      greets() ? ": it is off, uses another baud rate (@BAUD), or is in an alarm that only a reset clears" : "";
   end_with(fault_between_lines(
       "grbl.no-answer", fmt::format("the machine has not answered for {:.0f} s{}", (now_ - since).value(), hint)));
 }
@@ -182,16 +182,18 @@ void GrblSender::check_lost_bytes() {
   // By its reports, not by the clock: a machine that is silent is not idle.
   if (reported_ - since < longest_idle + silence_of_oldest()) return;
   if (is_locked && greets()) {
-    return end_with({.code = "grbl.locked",
-                     .message = "the machine is in an alarm and answers no line: reset it, by its button or its power",
-                     .first_line = 0,
-                     .last_line = 0});
+    return end_with(
+        {.code = "grbl.locked",
+         .message =
+             "the machine is in an alarm and does not answer: reset it with its button, or switch its power off and on",
+         .first_line = 0,
+         .last_line = 0});
   }
   if (is_locked) return end_with(fault_between_lines("grbl.alarm", "the machine is locked by an alarm"));
   if (greets()) return end_with(fault_of_greeting());
   const Line& oldest = unanswered_.front();
   fail({.code = "grbl.lost-bytes",
-        .message = fmt::format("the machine is idle and has not answered \"{}\": bytes were lost on the line",
+        .message = fmt::format("the machine is idle, but has not answered \"{}\": bytes were lost on the serial link",
                                without_end(oldest.text)),
         .first_line = oldest.line,
         .last_line = oldest.line});
@@ -203,25 +205,25 @@ void GrblSender::check_standstill() {
   const bool has_nothing_to_do = unanswered_.empty() && (report_->state == "Idle" || report_->state == "Alarm");
   if (has_nothing_to_do || !words_of_grbl_wait(*report_).empty()) progress_ = now_;
   if (now_ - progress_ < longest_standstill + silence_of_oldest()) return;
-  fail(fault_between_lines(
-      "grbl.no-answer", fmt::format("the machine is in the state {}, and has neither moved nor answered for {:.0f} s",
-                                    report_->state, (now_ - progress_).value())));
+  fail(fault_between_lines("grbl.no-answer",
+                           fmt::format("the machine is in state {}, but has neither moved nor answered for {:.0f} s",
+                                       report_->state, (now_ - progress_).value())));
   stop();
 }
 
 GrblFault GrblSender::fault_of_greeting() const {
   constexpr std::size_t most_shown = 60;
-  std::string words = "the machine tells no state";
-  if (report_) words = "the machine does not tell what it is";
+  std::string words = "the machine does not report its state";
+  if (report_) words = "the machine does not identify itself";
   if (report_ && !unanswered_.empty()) words += fmt::format(" (to \"{}\")", without_end(unanswered_.front().text));
   const std::string& heard = last_line_heard_.empty() ? came_ : last_line_heard_;
   const bool is_readable = std::ranges::all_of(heard, [](char letter) { return letter >= ' ' && letter <= '~'; });
   if (!is_readable) {
-    words += ", and what it says is not readable: it may have another rate (@BAUD)";
+    words += ", and its answer is unreadable: it may use another baud rate (@BAUD)";
   } else if (!heard.empty()) {
-    words += fmt::format(", as Grbl 1.1 does. It said \"{}\"", heard.substr(0, most_shown));
+    words += fmt::format(" as Grbl 1.1 does. It sent \"{}\"", heard.substr(0, most_shown));
   } else {
-    words += ", as Grbl 1.1 does";
+    words += " as Grbl 1.1 does";
   }
   return {.code = "grbl.no-answer", .message = std::move(words), .first_line = 0, .last_line = 0};
 }
@@ -340,7 +342,7 @@ void GrblSender::hear(std::string_view line) {
   last_line_heard_ = line;
   if (is_report_of_old_grbl(line) || line.starts_with("Grbl 0.")) {
     return end_with({.code = "grbl.too-old",
-                     .message = "the machine has a Grbl older than 1.1, which Passo does not drive: flash Grbl 1.1",
+                     .message = "the machine has a Grbl older than 1.1, which Passo does not support: flash Grbl 1.1",
                      .first_line = 0,
                      .last_line = 0});
   }
@@ -388,8 +390,7 @@ void GrblSender::hear_greeting() {
     case Stage::braking: break;
   }
   end_with(fault_between_lines(
-      "grbl.restarted",
-      "the machine has started anew: its reset button, its power, or another program. It may have lost its place"));
+      "grbl.restarted", "the machine restarted (reset button, power or another program). Its position may be lost"));
   unanswered_.clear();
   unanswered_bytes_ = 0;
 }
@@ -411,7 +412,7 @@ void GrblSender::answer(std::optional<std::string_view> error) {
   if (stage_ == Stage::asking && report_->state == "Alarm") return;
   const auto number = read_code(*error);
   fail({.code = "grbl.error",
-        .message = fmt::format("the machine refuses \"{}\": error:{}{}{}", without_end(line.text), *error,
+        .message = fmt::format("the machine rejects \"{}\": error:{}{}{}", without_end(line.text), *error,
                                number ? ", " : "", number ? words_of_grbl_error(machine_.firmware, *number) : ""),
         .first_line = line.line,
         .last_line = line.line});

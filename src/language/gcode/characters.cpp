@@ -16,14 +16,14 @@ struct LookAlike {
   const char* meant;
 };
 
-constexpr const char* keyboard_minus = "'-' (minus sign of the keyboard)";
+constexpr const char* keyboard_minus = "'-' (the minus sign on the keyboard)";
 constexpr const char* space = "a plain space";
 constexpr const char* nothing = "nothing: this character is invisible";
 
 constexpr std::array look_alikes = {
     LookAlike{0x00A0, space},
     LookAlike{0x00AD, nothing},
-    LookAlike{0x00B0, "no unit: angles are in degrees"},
+    LookAlike{0x00B0, "no unit; angles are in degrees"},
     LookAlike{0x00B7, "'*'"},
     LookAlike{0x00D7, "'*'"},
     LookAlike{0x00F7, "'/'"},

@@ -66,7 +66,7 @@ Outcome binary(ExpressionOp op, double a, double b) {
     case ExpressionOp::atan: return {std::atan2(a, b) * degrees_per_radian};
     default: break;
   }
-  assert(false && "not an operation of two operands");
+  assert(false && "not a binary operation");
   return failure(Kind::not_finite, a);
 }
 
@@ -89,7 +89,7 @@ Outcome unary(ExpressionOp op, double a) {
     case ExpressionOp::tan: return {std::tan(a * radians_per_degree)};
     default: break;
   }
-  assert(false && "not an operation of one operand");
+  assert(false && "not a unary operation");
   return failure(Kind::not_finite, a);
 }
 

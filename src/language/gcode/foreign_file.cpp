@@ -7,30 +7,32 @@ namespace passo {
 namespace {
 
 constexpr std::string_view of_dwg = "G-code; save the drawing as DXF, which passo cam profile, pocket and drill read";
-constexpr std::string_view of_holes = "G-code, which passo cam drill makes of the holes";
-constexpr std::string_view of_lines = "G-code, which passo cam profile or passo cam pocket makes of the drawing";
+constexpr std::string_view of_holes = "G-code; passo cam drill generates it from the holes";
+constexpr std::string_view of_lines = "G-code; passo cam profile or passo cam pocket generates it from the drawing";
 constexpr std::string_view of_drawn_holes =
-    "G-code, which passo cam profile or pocket makes of the drawing, or passo cam drill of its holes";
-constexpr std::string_view of_plot = "G-code, which passo cam engrave --on-line or passo cam profile makes of the plot";
-constexpr std::string_view of_picture = "a PNG or TIFF of the picture, of which passo cam relief makes G-code";
-constexpr std::string_view of_png = "G-code, which passo cam relief makes of the picture";
-constexpr std::string_view of_font = "G-code, which passo cam engrave --text --font makes with the font";
-constexpr std::string_view of_airfoil = "G-code, which passo cam wire --chord makes of the section";
-constexpr std::string_view of_heights = "G-code; the heights are for passo run --heights, or for passo cam relief";
+    "G-code; passo cam profile or pocket generates it from the drawing, passo cam drill from its holes";
+constexpr std::string_view of_plot =
+    "G-code; passo cam engrave --on-line or passo cam profile generates it from the plot";
+constexpr std::string_view of_picture =
+    "G-code; save the picture as PNG or TIFF, from which passo cam relief generates it";
+constexpr std::string_view of_png = "G-code; passo cam relief generates it from the picture";
+constexpr std::string_view of_font = "G-code; passo cam engrave --text --font generates it with the font";
+constexpr std::string_view of_airfoil = "G-code; passo cam wire --chord generates it from the airfoil";
+constexpr std::string_view of_heights = "G-code; a height map is for passo level --map or passo cam relief";
 constexpr std::string_view of_description =
-    "G-code; the file is read by passo check PROGRAM --machine, or by passo simulate --tool-table";
+    "G-code; this file is for passo check PROGRAM --machine, or passo simulate --tool-table";
 constexpr std::string_view of_paper =
     "G-code; save the drawing as SVG or DXF, which passo cam profile, pocket and engrave read";
-constexpr std::string_view of_body = "an STL of the model, of which passo cam relief makes G-code";
-constexpr std::string_view of_stl = "G-code, which passo cam relief makes of the model, or a CAM program";
-constexpr std::string_view of_model = "G-code, which a CAM program makes of the model";
-constexpr std::string_view of_circuit = "G-code, which passo cam isolate or passo cam outline makes of the layer";
-constexpr std::string_view of_board = "G-code, which passo cam board makes of the board";
-constexpr std::string_view of_archive = "the program itself, unpacked";
+constexpr std::string_view of_body = "G-code; save the model as STL, from which passo cam relief generates it";
+constexpr std::string_view of_stl = "G-code; passo cam relief or a CAM program generates it from the model";
+constexpr std::string_view of_model = "G-code; a CAM program generates it from the model";
+constexpr std::string_view of_circuit = "G-code; passo cam isolate or passo cam outline generates it from the layer";
+constexpr std::string_view of_board = "G-code; passo cam board generates it from the board";
+constexpr std::string_view of_archive = "the unpacked program";
 constexpr std::string_view of_printer =
     "G-code for a machine that cuts, from a CAM program; nothing here heats or extrudes";
-constexpr std::string_view of_settings = "G-code; a sender gives such settings to a Grbl machine";
-constexpr std::string_view of_program = "G-code, which is text";
+constexpr std::string_view of_settings = "G-code; a sender transfers settings to a Grbl machine";
+constexpr std::string_view of_program = "G-code, which is plain text";
 
 constexpr ForeignFile png{"a PNG picture", of_png};
 constexpr ForeignFile jpeg{"a JPEG picture", of_picture};
@@ -45,10 +47,10 @@ constexpr ForeignFile pdf{"a PDF document", of_paper};
 constexpr ForeignFile postscript{"a PostScript document", of_paper};
 constexpr ForeignFile svgz{"a compressed SVG drawing", of_lines};
 constexpr ForeignFile font{"a font", of_font};
-constexpr ForeignFile airfoil{"the section of a wing", of_airfoil};
+constexpr ForeignFile airfoil{"an airfoil file", of_airfoil};
 constexpr ForeignFile heights{"a height map", of_heights};
-constexpr ForeignFile description{"a TOML file, as of a machine or of tools", of_description};
-constexpr ForeignFile model{"a model of triangles (OBJ, PLY, OFF)", of_body};
+constexpr ForeignFile description{"a TOML file, e.g. a machine file or a tool table", of_description};
+constexpr ForeignFile model{"a mesh (OBJ, PLY, OFF)", of_body};
 constexpr ForeignFile model_3mf{"a 3MF model", of_body};
 constexpr ForeignFile gerber{"a Gerber file", of_circuit};
 constexpr ForeignFile kicad{"a KiCad board", of_board};
@@ -59,7 +61,7 @@ constexpr ForeignFile gzip{"a gzip archive", of_archive};
 constexpr ForeignFile zip{"a ZIP archive", of_archive};
 constexpr ForeignFile elf{"a program for a computer or a board (ELF)", of_program};
 constexpr ForeignFile printer{"a program for a 3D printer", of_printer};
-constexpr ForeignFile settings{"a list of settings of Grbl", of_settings};
+constexpr ForeignFile settings{"a list of Grbl settings", of_settings};
 constexpr ForeignFile xml{"an XML file", of_program};
 
 // "dxf" of "Part.DXF"; empty: none.

@@ -15,13 +15,15 @@ struct Known {
   std::string_view expected;
 };
 constexpr Known known[] = {
-    {"H", "homes the machine", "the program without this line; passo home, or the sender, homes before the program"},
-    {"X", "ends an alarm of Grbl", "the program without this line; a person ends an alarm, who has seen its cause"},
+    {"H", "homes the machine",
+     "the program without this line; home with passo home or from the sender before the program"},
+    {"X", "clears an alarm of Grbl",
+     "the program without this line; the operator clears an alarm after removing its cause"},
     {"J=", "jogs", "G0 or G1 in the program, or passo jog"},
-    {"N", "is a line that Grbl executes when it starts", "its words in the program itself, where they are wanted"},
-    {"RST=", "resets settings of Grbl", "the program without this line; a sender resets them"},
+    {"N", "is a startup line of Grbl", "its words in the program itself, if they are needed"},
+    {"RST=", "resets Grbl settings", "the program without this line; reset them from the sender"},
 };
-constexpr std::string_view without = "the program without this line; a sender gives it to Grbl";
+constexpr std::string_view without = "the program without this line; send it from the sender";
 
 // In upper case and without blanks, as Grbl reads a line. Comments are not taken out.
 std::string as_grbl_reads(std::string_view line) {
@@ -42,9 +44,9 @@ std::optional<GrblCommand> grbl_command_in(std::string_view line) {
   const auto* const end = std::ranges::find_if_not(after, is_digit);
   const std::string_view number(after.begin(), end);
   if (!number.empty() && end != after.end() && *end == '=') {
-    return GrblCommand{fmt::format("${}= changes a setting of Grbl, and is no part of a program", number),
-                       "the program without this line; a sender changes the setting, and a machine of Passo has its "
-                       "own in the machine file"};
+    return GrblCommand{
+        fmt::format("${}= changes a Grbl setting, and cannot be part of a program", number),
+        "the program without this line; change the setting from the sender (Grbl) or in the machine file (Passo)"};
   }
   const bool is_function = !after.empty() && is_letter(after.front()) && after.find('[') != std::string_view::npos;
   const bool is_report = after.empty() || after == "$" || after == "#";
@@ -52,10 +54,12 @@ std::optional<GrblCommand> grbl_command_in(std::string_view line) {
   const auto* const found =
       std::ranges::find_if(known, [&](const Known& entry) { return after.starts_with(entry.name); });
   if (found == std::end(known)) {
-    return GrblCommand{fmt::format("{} is a command to Grbl, and no part of a program", text), std::string(without)};
+    return GrblCommand{fmt::format("{} is a system command of Grbl, and cannot be part of a program", text),
+                       std::string(without)};
   }
-  return GrblCommand{fmt::format("${} {}: a command to Grbl, and no part of a program", found->name, found->what),
-                     std::string(found->expected)};
+  return GrblCommand{
+      fmt::format("${} {}: a system command of Grbl cannot be part of a program", found->name, found->what),
+      std::string(found->expected)};
 }
 
 }  // namespace passo

@@ -177,7 +177,7 @@ bool LineParser::parse_line_number() {
     consume();
   }
   if (!any_digit) {
-    return fail("gcode.missing-value", n, 1, "N has no line number", "digits after N, as in N120");
+    return fail("gcode.missing-value", n, 1, "N has no line number", "digits after N, e.g. N120");
   }
   if (is_negative) return fail("gcode.negative-word", n, 1, "the line number is negative", "N of 0 or more");
   block_.line_number = std::string_view(first, static_cast<std::size_t>(token_end_ - first));
@@ -286,7 +286,7 @@ bool LineParser::parse_label(Control& control) {
   const double number = std::round(instruction.number);
   if (std::abs(number - instruction.number) > whole_number_tolerance || std::abs(number) > 1e9) {
     return fail("gcode.bad-o-word", first, label.span.length, "the label of the O-word is not a whole number",
-                "a whole number, as in O100, or a name, as in O<drill>");
+                "a whole number, e.g. O100, or a name, e.g. O<drill>");
   }
   block_.code.resize(label.first);
   control.label = symbols_.intern(std::to_string(static_cast<long long>(number)));
@@ -309,8 +309,8 @@ bool LineParser::parse_control_arguments(Control& control, const char* keyword) 
     if (!parse_expression(argument, at_)) return false;
   }
   if (control.arguments.size() < count.least) {
-    return fail("gcode.missing-value", keyword, name.length,
-                std::string(keyword, name.length) + " has nothing to decide by", "[expression] after it");
+    return fail("gcode.missing-value", keyword, name.length, std::string(keyword, name.length) + " has no condition",
+                "[expression] after it");
   }
   return true;
 }

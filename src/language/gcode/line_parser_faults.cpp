@@ -72,7 +72,7 @@ bool LineParser::fail_missing_value(const char* owner) {
   const NamedCharacter found = name_character(rest(at_));
   std::string cure = found.cure.empty() ? std::string(a_value) : found.cure;
   if (c == ',') cure = "a decimal point";
-  if (c == '=') cure = "the value right after the letter, as in X5";
+  if (c == '=') cure = "the value right after the letter, e.g. X5";
   const bool is_known = std::string_view("=+-*/.%)").find(c) != std::string_view::npos;  // has a meaning elsewhere
   return fail(is_known ? "gcode.missing-value" : "gcode.bad-character", at_, found.length,
               fmt::format("{} where a value should be", found.name), cure);
@@ -113,13 +113,14 @@ bool LineParser::fail_unexpected() {
     case '-':
     case '*':
       return fail("gcode.unexpected-text", at_, 1, fmt::format("{} outside brackets", found.name),
-                  "square brackets around an expression, as in X[1+2]");
+                  "square brackets around an expression, e.g. X[1+2]");
     case '/':
       if (at_ + 1 != end_ && at_[1] == '/') {
-        return fail("gcode.unexpected-text", at_, 2, "'//' starts no comment", "a comment after ';', or (in brackets)");
+        return fail("gcode.unexpected-text", at_, 2, "'//' does not start a comment",
+                    "a comment after ';', or (in brackets)");
       }
       return fail("gcode.unexpected-text", at_, 1, "'/' that is not at the start of its line",
-                  "block delete as the first character, or square brackets around a division, as in X[1/2]");
+                  "'/' as the first character (block delete), or square brackets around a division, e.g. X[1/2]");
     case '[':
     case ']':
     case '=':
@@ -195,7 +196,7 @@ bool LineParser::fail_assignment(const char* target) {
   const Span span = span_from(target);
   return fail("gcode.unexpected-text", target, span.length,
               fmt::format("parameter {} is not given a value", shortened({target, span.length})),
-              "'=' and the value, as in #1=2.5, or a letter before the '#', as in X#1");
+              "'=' and the value, e.g. #1=2.5, or a letter before the '#', e.g. X#1");
 }
 
 bool LineParser::fail_letter_o(const char* o) {

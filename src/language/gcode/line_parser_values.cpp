@@ -113,7 +113,7 @@ bool LineParser::parse_value(const char* owner) {
   if (is_digit(c) || c == '.') return parse_number(owner);
   if (nesting_ == deepest_expression && !at_end()) {
     return fail("gcode.expression-too-deep", at_, 1, "the expression is nested too deep",
-                "at most " + std::to_string(deepest_expression) + " levels; part of it in a parameter of its own");
+                "at most " + std::to_string(deepest_expression) + " levels; store a part of it in a parameter");
   }
   ++nesting_;
   bool good = false;
@@ -204,7 +204,7 @@ bool LineParser::parse_function(const char* owner) {
     if (!parse_function_argument(start)) return false;
     if (function.op == ExpressionOp::atan) {
       if (peek() != '/') {
-        return fail("gcode.unexpected-text", start, span_from(start).length, "ATAN has one argument only",
+        return fail("gcode.unexpected-text", start, span_from(start).length, "ATAN has only one argument",
                     "two: ATAN[y]/[x]");
       }
       consume();
@@ -225,7 +225,7 @@ bool LineParser::parse_function_argument(const char* name_start) {
   if (peek() == '[') return parse_brackets();
   const std::string_view name(name_start, static_cast<std::size_t>(token_end_ - name_start));
   return fail("gcode.unexpected-text", name_start, name.size(), std::string(name) + " has no [ after it",
-              "its argument in square brackets, as in SIN[30]");
+              "its argument in square brackets, e.g. SIN[30]");
 }
 
 bool LineParser::parse_exists(const char* name_start) {
@@ -236,7 +236,7 @@ bool LineParser::parse_exists(const char* name_start) {
   }
   if (!good) {
     return fail("gcode.unexpected-text", name_start, span_from(name_start).length,
-                "EXISTS is not asked about a parameter", "EXISTS[#<name>] or EXISTS[#5]");
+                "the argument of EXISTS is not a parameter", "EXISTS[#<name>] or EXISTS[#5]");
   }
   const char* const hash = at_;
   consume();
@@ -250,7 +250,7 @@ bool LineParser::parse_exists(const char* name_start) {
   }
   if (peek() != ']') {
     return fail("gcode.unexpected-text", name_start, span_from(name_start).length,
-                "EXISTS is asked about more than a parameter", "']' after the parameter, as in EXISTS[#<name>]");
+                "the argument of EXISTS is more than a parameter", "']' after the parameter, e.g. EXISTS[#<name>]");
   }
   consume();
   return emit(op, name_start, 0, symbol);
@@ -282,9 +282,8 @@ bool LineParser::parse_name(Symbol& symbol) {
 bool LineParser::emit(ExpressionOp op, const char* start, double number, Symbol symbol) {
   operands_ += static_cast<std::size_t>(effect_on_stack(op));
   if (operands_ > deepest_expression) {
-    return fail("gcode.expression-too-deep", start, span_from(start).length,
-                "the expression holds too many numbers at once",
-                "at most " + std::to_string(deepest_expression) + "; part of it in a parameter of its own");
+    return fail("gcode.expression-too-deep", start, span_from(start).length, "the expression is too complex",
+                "at most " + std::to_string(deepest_expression) + "; store a part of it in a parameter");
   }
   block_.code.push_back({op, span_from(start), number, symbol});
   return true;

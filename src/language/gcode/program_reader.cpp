@@ -350,7 +350,7 @@ bool ProgramReader::next_line(std::string_view& text, std::uint32_t& line, Diagn
     const std::size_t nul = text.find('\0');
     if (nul != std::string_view::npos) {
       state.report(diagnostics, "gcode.nul-byte", nul + 1, "a NUL byte in the line",
-                   "text; is the file damaged, or not G-code?", text);
+                   "plain text; the file may be damaged, or not G-code", text);
     }
     state.cursor = next;
     ++state.line;

@@ -14,8 +14,8 @@ bool ActiveComments::obey(const Block& block) {
     const bool says_nothing = comment.text.empty() && comment.kind == BlockComment::Kind::plain;
     if (says_nothing || block.text[comment.span.column - 1] == ';') continue;
     if (last != nullptr && last->kind != BlockComment::Kind::plain) {
-      reporter_.warning("gcode.hidden-comment", last->span, "only the last comment of a block is obeyed",
-                        "one comment a block");
+      reporter_.warning("gcode.hidden-comment", last->span, "only the last active comment of a block is executed",
+                        "one active comment per block");
     }
     last = &comment;
   }

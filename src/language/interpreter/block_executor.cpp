@@ -139,7 +139,7 @@ void BlockExecutor::execute(const Block& block) {
   words_.find_axes(block_.axis_words);
   if (words_.has_code(non_modal, code(4)) && !words_.has('P')) {
     fail("gcode.missing-word", words_.span(non_modal), "G4 without P",
-         words_.has('X') || words_.has('U') ? "P, the seconds to wait: X and U of other controls are P here"
+         words_.has('X') || words_.has('U') ? "P, the time to wait in seconds; other controls use X or U"
                                             : "P, the seconds to wait");
     return;
   }
@@ -389,7 +389,7 @@ bool BlockExecutor::check_words_used() {
     std::string expected = users.empty() ? fmt::format("no {}: no code that is supported uses it", word.letter)
                                          : fmt::format("{} with {}", word.letter, users);
     if (word.letter == 'E' && follows_digit(reporter_.block().text, word.span)) {
-      expected += "; a number has no exponent: 1000 for 1E3";
+      expected += "; numbers cannot have an exponent, so 1E3 is written 1000";
     }
     reporter_.error("gcode.unused-word", word.span, fmt::format("no code of this block uses the word {}", word.letter),
                     std::move(expected));
@@ -433,7 +433,7 @@ bool BlockExecutor::assign(const Block& block) {
     if (!assignment.index) {
       if (parameters_.set_named(assignment.symbol, assigned_[i])) continue;
       return fail("gcode.read-only-parameter", assignment.span,
-                  fmt::format("#<{}> tells what the machine does and cannot be set", symbols_.name(assignment.symbol)),
+                  fmt::format("#<{}> is a read-only system parameter", symbols_.name(assignment.symbol)),
                   "another name");
     }
     double index = 0;
@@ -441,14 +441,13 @@ bool BlockExecutor::assign(const Block& block) {
     const std::optional<double> whole = whole_within(index, 1, highest_parameter);
     if (!whole) {
       return fail("gcode.bad-parameter-number", assignment.index->span,
-                  fmt::format("{} is not the number of a parameter", plain_number(index)),
+                  fmt::format("{} is not a parameter number", plain_number(index)),
                   fmt::format("a whole number, 1 to {}", highest_parameter));
     }
     const auto number = static_cast<std::int64_t>(*whole);
     if (!Parameters::is_settable(number) || parameters_.is_machine_position(number)) {
       return fail("gcode.read-only-parameter", assignment.span,
-                  fmt::format("#{} tells what the machine does and cannot be set", plain_number(*whole)),
-                  "another parameter");
+                  fmt::format("#{} is a read-only system parameter", plain_number(*whole)), "another parameter");
     }
     parameters_.set(static_cast<int>(*whole), assigned_[i]);
   }

@@ -88,14 +88,14 @@ class Meanings {
 
   static std::string of_code(const WordValue& word) {
     const CodeEntry* const entry = code_of(word);
-    if (entry == nullptr) return "no code of the language";
+    if (entry == nullptr) return "not a code of this dialect";
     return std::string(entry->what);
   }
 
   std::string of_feed(double value) const {
     if (after_.modal.inverse_time()) return fmt::format("the move takes 1/{} minute", plain_number(value));
     return fmt::format("feed {} {}{}", plain_number(value), after_.modal.inches() ? "inches" : "mm",
-                       after_.modal.per_revolution() ? " a revolution" : " a minute");
+                       after_.modal.per_revolution() ? "/rev" : "/min");
   }
 
   // Straight moves and arcs end at their axis words. A cycle uses them in its own way.
@@ -120,9 +120,9 @@ class Meanings {
       case code(10): return "set " + given;
       case code(28):
       case code(30):
-        return fmt::format("this axis goes home, by way of {}{}", after_.modal.incremental() ? "+" : "", given);
-      case code(52): return "shift the work systems by " + given;
-      case code(92): return "this place is " + given + " from now on";
+        return fmt::format("this axis moves home through {}{}", after_.modal.incremental() ? "+" : "", given);
+      case code(52): return "shift all work offsets by " + given;
+      case code(92): return "this position is " + given + " from now on";
       default: return given;
     }
   }
@@ -142,8 +142,8 @@ class Meanings {
   }
 
   static std::string what_g10_sets(double kind) {
-    if (kind == 2) return "set the origin of a work system";
-    if (kind == 20) return "set a work system so that this place is at the axis words";
+    if (kind == 2) return "set the origin of a work offset";
+    if (kind == 20) return "set a work offset so that the current position gets these coordinates";
     return fmt::format("set an entry of the tool table, kind {}", plain_number(kind));
   }
 
@@ -186,21 +186,21 @@ const char* meaning_of(BlockComment::Kind kind) {
 
 const char* meaning_of(ControlKind kind) {
   switch (kind) {
-    case ControlKind::sub: return "a sub begins: passed over until it is called";
-    case ControlKind::endsub: return "the sub ends: back to where it was called";
-    case ControlKind::call: return "call of a sub";
-    case ControlKind::return_: return "back from the sub to where it was called";
-    case ControlKind::do_: return "a loop begins that asks at its end";
-    case ControlKind::while_: return "a loop that goes on while the value is not 0";
-    case ControlKind::endwhile: return "the loop's end: back to ask again";
+    case ControlKind::sub: return "start of a subroutine, which is skipped until it is called";
+    case ControlKind::endsub: return "end of the subroutine: return to the caller";
+    case ControlKind::call: return "call of a subroutine";
+    case ControlKind::return_: return "return from the subroutine to the caller";
+    case ControlKind::do_: return "start of a loop that tests its condition at the end";
+    case ControlKind::while_: return "a loop that repeats while the value is not 0";
+    case ControlKind::endwhile: return "end of the loop: test the condition again";
     case ControlKind::if_: return "only if the value is not 0";
-    case ControlKind::elseif: return "else, only if the value is not 0";
+    case ControlKind::elseif: return "otherwise, only if the value is not 0";
     case ControlKind::else_: return "else";
     case ControlKind::endif: return "end of the if";
-    case ControlKind::repeat: return "a loop of so many passes";
-    case ControlKind::endrepeat: return "the loop's end: back for the next pass";
+    case ControlKind::repeat: return "a loop with this number of passes";
+    case ControlKind::endrepeat: return "end of the loop: next pass";
     case ControlKind::break_: return "leave the loop";
-    case ControlKind::continue_: return "on with the next pass of the loop";
+    case ControlKind::continue_: return "continue with the next pass of the loop";
     default: return "a numbered program";
   }
 }
@@ -226,8 +226,8 @@ std::vector<WordValue> word_values(const Block& block, const Parameters& paramet
       name = index ? plain_number(*index) : std::string("?");
     }
     values.push_back({std::string(text_of(block, assignment.span)), 0, 0, true,
-                      value ? fmt::format("parameter #{} becomes {}", name, plain_number(*value))
-                            : fmt::format("parameter #{}: there is no value", name)});
+                      value ? fmt::format("parameter #{} is set to {}", name, plain_number(*value))
+                            : fmt::format("parameter #{}: no value", name)});
   }
   if (block.control) {
     std::string meaning = meaning_of(block.control->kind);

@@ -77,7 +77,7 @@ bool BlockWords::read_code(const Word& word, double value, Reporter& reporter) {
     reporter.error(
         "gcode.unknown-code", word.span, fmt::format("there is no {}", written),
         has_blank_between_digits(reporter.quote(word.span))
-            ? "a letter before the second number: a blank does not end a number"
+            ? "a letter before the second number; a space does not end a number"
             : cure_for_unknown_code(word.letter, readable ? static_cast<CodeNumber>(tenths) : CodeNumber{-1}));
     return false;
   }

@@ -29,7 +29,7 @@ bool CodeFamily::whole_word(char letter, double lowest, double highest, std::int
     return fail("gcode.not-whole", words_.span(letter),
                 is_whole(number) ? fmt::format("{} is {}, outside {} to {}", letter, plain_number(number),
                                                plain_number(lowest), plain_number(highest))
-                                 : fmt::format("{} is {}, which is not whole", letter, plain_number(number)),
+                                 : fmt::format("{} is {}, which is not a whole number", letter, plain_number(number)),
                 fmt::format("a whole number, {} to {}", plain_number(lowest), plain_number(highest)));
   }
   value = static_cast<std::int32_t>(*whole);
@@ -103,7 +103,8 @@ bool CodeFamily::apply_polar(Point& end) {
   for (const char beside : {'X', 'Y'}) {
     if (!words_.has(beside)) continue;
     return fail("gcode.bad-polar", words_.span(letter),
-                fmt::format("{} beside {}: both give a place in X and Y", letter, beside), "@ and ^, or X and Y");
+                fmt::format("{} and {} in one block: both set the position in X and Y", letter, beside),
+                "@ and ^, or X and Y");
   }
   const double x = end[Axis::x];
   const double y = end[Axis::y];
@@ -132,7 +133,7 @@ bool CodeFamily::check_feed() {
                 "F before the first feed move, or in its block");
   }
   if (state_.modal.per_revolution() && state_.spindles[0].speed == 0) {
-    return fail("gcode.missing-speed", motion_span(), "a feed for each revolution (G95) and no spindle speed",
+    return fail("gcode.missing-speed", motion_span(), "feed per revolution (G95) without a spindle speed",
                 "S before, or in this block");
   }
   return true;
@@ -157,8 +158,7 @@ bool CodeFamily::spindle_word(SpindleChoice choice, SpindleRange& range) {
   const int highest = state_.spindle_count - 1;
   const double number = words_['$'];
   if (number != std::round(number) || number < lowest || number > highest) {
-    return fail("gcode.no-such-spindle", words_.span('$'),
-                fmt::format("there is no spindle {} here", plain_number(number)),
+    return fail("gcode.no-such-spindle", words_.span('$'), fmt::format("there is no spindle {}", plain_number(number)),
                 highest == 0 ? std::string("$0: the machine has one spindle")
                              : fmt::format("$0 to ${}{}", highest, lowest < 0 ? ", or $-1 for all" : ""));
   }
@@ -207,7 +207,7 @@ bool CodeFamily::report_arc(const ArcCenter& arc) {
 }
 
 bool CodeFamily::fail_at_origin(char letter) {
-  return fail("gcode.bad-polar", words_.span(letter), "at the origin there is no angle to go on from",
+  return fail("gcode.bad-polar", words_.span(letter), "an incremental angle is not possible at the origin",
               "^ with @, in absolute distances (G90)");
 }
 

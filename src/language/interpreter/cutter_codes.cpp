@@ -43,7 +43,7 @@ bool CutterCodes::check() {
   if (!operations_.has_room()) {
     (void)cutter_.release();
     return fail("gcode.too-much-held", {1, 1}, "too many blocks between two moves with cutter compensation (G41, G42)",
-                fmt::format("at most {} operations before the tool moves on", OperationQueue::most_held));
+                fmt::format("at most {} operations before the next move", OperationQueue::most_held));
   }
   constexpr const char* cure = "G40 in a block before";
   constexpr const char* with = "with cutter compensation on (G41, G42)";
@@ -82,7 +82,7 @@ bool CutterCodes::start(CodeNumber number) {
                 "G17, or G18 on a lathe");
   }
   if (state_.modal[cutter_compensation] != code(40)) {
-    return fail("gcode.cutter-compensation", span, "cutter compensation is on already", "G40 in a block before");
+    return fail("gcode.cutter-compensation", span, "cutter compensation is already on", "G40 in a block before");
   }
   CutterSetup setup;
   setup.plane = state_.modal.plane();
@@ -112,8 +112,8 @@ bool CutterCodes::from_words(CodeNumber number, CutterSetup& setup) {
   if (!whole_word('L', 0, highest_orientation, orientation)) return false;
   setup.orientation = orientation;
   if (setup.plane == Plane::zx) return true;
-  return fail("gcode.cutter-compensation", words_.span('L'), "L, a lathe tool's orientation, outside the plane ZX",
-              "G18 before, or no L");
+  return fail("gcode.cutter-compensation", words_.span('L'),
+              "L, the orientation of a lathe tool, is only allowed in the plane ZX", "G18 before, or no L");
 }
 
 // G41 and G42: D is a tool's number. Without D or with D0, the tool in the spindle counts.
@@ -124,15 +124,16 @@ bool CutterCodes::from_table(CutterSetup& setup) {
   if (words_.has('D') && !whole_word('D', 0, highest_tool, number)) return false;
   if (number != 0) tool = state_.tools.find(number);
   if (tool == nullptr) {
-    return fail("gcode.unknown-tool", span, fmt::format("tool {} is not in the tool table", number),
-                state_.tools.name.empty() ? "a tool table: --tools FILE; G41.1 and G42.1 take the diameter itself"
-                                          : "the number of a tool in the table, or another table: --tools FILE; "
-                                            "G41.1 and G42.1 take the diameter itself");
+    return fail(
+        "gcode.unknown-tool", span, fmt::format("tool {} is not in the tool table", number),
+        state_.tools.name.empty()
+            ? "a tool table (--tools FILE), or G41.1 or G42.1 with the diameter"
+            : "the number of a tool in the table, another table (--tools FILE), or G41.1 or G42.1 with the diameter");
   }
   setup.radius = tool->diameter.value() / 2;
   setup.orientation = tool->orientation;
   if (setup.radius == 0) {
-    reporter_.warning("gcode.zero-tool-radius", span, "the tool's diameter is 0: nothing is compensated",
+    reporter_.warning("gcode.zero-tool-radius", span, "the tool's diameter is 0, so cutter compensation has no effect",
                       "a tool with a diameter in the tool table");
   }
   if (setup.plane == Plane::zx || setup.orientation == 0 || setup.orientation == 9) return true;
@@ -170,33 +171,35 @@ bool CutterCodes::report(CutterFault fault, Span span) {
       good = refuse("gcode.cutter-entry",
                     fmt::format("the first move with cutter compensation is not longer than the tool's radius of {}",
                                 plain_number(radius)),
-                    "a longer move in the plane, from beside the contour to where it begins");
+                    "a longer lead-in move in the plane, from outside the contour to its start");
       break;
     case CutterFault::entry_arc:
-      good = refuse("gcode.cutter-entry", "no arc leads from where the tool is to beside the end of this one",
-                    "a longer arc, or a straight move first");
+      good = refuse("gcode.cutter-entry",
+                    "cutter compensation cannot start on this arc: no offset arc joins the tool's position to its end",
+                    "a longer arc, or a straight lead-in move first");
       break;
     case CutterFault::arc_too_small:
       good =
           refuse("gcode.cutter-gouge",
-                 fmt::format("the tool, of a radius of {}, does not fit into the arc", plain_number(radius)), smaller);
+                 fmt::format("the tool with a radius of {} does not fit into the arc", plain_number(radius)), smaller);
       break;
     case CutterFault::no_room:
       good = refuse("gcode.cutter-gouge",
-                    fmt::format("the tool, of a radius of {}, does not fit into the corner before this move",
+                    fmt::format("the tool with a radius of {} does not fit into the corner before this move",
                                 plain_number(radius)),
                     smaller);
       break;
     case CutterFault::unreachable:
       good = refuse("gcode.cutter-gouge",
-                    fmt::format("the move before is too short for the corners at its ends: a tool with a radius of {} "
-                                "would cut into the contour",
+                    fmt::format("the previous move is too short for the corners at its ends: a tool with a radius of "
+                                "{} would cut into the contour",
                                 plain_number(radius)),
                     smaller);
       break;
     case CutterFault::cut_corner:
-      reporter_.warning("gcode.cutter-stop", span, "the stop before came in an inside corner: the tool cut into it",
-                        "the stop at another place of the contour");
+      reporter_.warning("gcode.cutter-stop", span,
+                        "the previous stop is in an inside corner, where the tool cuts into the contour",
+                        "the stop at another point of the contour");
       break;
   }
   return good;

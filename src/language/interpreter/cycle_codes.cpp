@@ -15,7 +15,7 @@ bool CycleCodes::check_cycle(std::string_view name) {
 
 bool CycleCodes::check_no_inverse_time(std::string_view name) {
   if (!state_.modal.inverse_time()) return true;
-  return fail("gcode.cycle-inverse-time", motion_span(), fmt::format("{} in inverse time feed (G93)", name),
+  return fail("gcode.cycle-inverse-time", motion_span(), fmt::format("{} in inverse time mode (G93)", name),
               "G94 or G95 before");
 }
 

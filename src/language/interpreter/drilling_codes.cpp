@@ -47,12 +47,12 @@ bool DrillingCodes::check_depths(const DrillingPlan& plan) {
   if (plan.retract < plan.bottom) {
     const char letter = words_.has('R') ? 'R' : letter_of(plan.axis);
     return fail("gcode.retract-below-bottom", words_.has(letter) ? words_.span(letter) : motion_span(),
-                fmt::format("R is below {}: the hole begins under its bottom", letter_of(plan.axis)),
+                fmt::format("R is below {}: the hole would start below its bottom", letter_of(plan.axis)),
                 fmt::format("R at or above {}", letter_of(plan.axis)));
   }
   if (pecks(plan.code) && (plan.retract - plan.bottom) / plan.peck > most_pecks) {
     return fail("gcode.peck-too-small", words_.has('Q') ? words_.span('Q') : motion_span(),
-                fmt::format("more than {:.0f} pecks a hole", most_pecks), "a larger Q");
+                fmt::format("more than {:.0f} pecks per hole", most_pecks), "a larger Q");
   }
   return true;
 }
@@ -79,7 +79,7 @@ bool DrillingCodes::check_spindle(CodeNumber number) {
     if (direction == (right ? SpindleDirection::clockwise : SpindleDirection::counterclockwise)) return true;
     return fail("gcode.cycle-spindle", motion_span(),
                 fmt::format("{} while the spindle {}", name,
-                            direction == SpindleDirection::off ? "does not turn" : "turns the other way"),
+                            direction == SpindleDirection::off ? "does not turn" : "turns in the other direction"),
                 right ? "M3 before, or in this block" : "M4 before, or in this block");
   }
   if (!stops_spindle(number) || direction != SpindleDirection::off) return true;
@@ -96,12 +96,12 @@ bool DrillingCodes::check_words(CodeNumber number, bool first, std::int32_t& hol
                 fmt::format("{}, {}", letter, what));
   };
   if (first && !words_.has(depth_letter)) return missing(depth_letter, "the bottom of the hole");
-  if (first && !words_.has('R')) return missing('R', "where the feed begins");
-  if (first && dwells(number) && !words_.has('P')) return missing('P', "the seconds to wait at the bottom");
+  if (first && !words_.has('R')) return missing('R', "the level at which the feed starts");
+  if (first && dwells(number) && !words_.has('P')) return missing('P', "the time to wait at the bottom in seconds");
   if (first && pecks(number) && !words_.has('Q')) return missing('Q', "the depth of one peck");
   for (const auto& [letter, axis] : aside_letters) {
     if (first && number == code(87) && !words_.has(letter)) {
-      return missing(letter, "how far the tool goes aside, or where the back bore begins");
+      return missing(letter, "the sideways offset of the tool, or the start of the back bore");
     }
   }
   if (takes('P') && is_negative('P')) {
@@ -114,7 +114,7 @@ bool DrillingCodes::check_words(CodeNumber number, bool first, std::int32_t& hol
   }
   if (takes('D') && is_negative('D')) {
     return fail("gcode.negative-word", words_.span('D'),
-                fmt::format("a peck that goes back by {}", plain_number(words_['D'])), "D of 0 or more");
+                fmt::format("a peck that retracts by {}", plain_number(words_['D'])), "D of 0 or more");
   }
   return !words_.has('L') || whole_word('L', 1, most_repeats, holes);
 }

@@ -95,15 +95,15 @@ bool FrameCodes::check_work_offset_words(int& system) {
     if (!whole_word('P', 0, work_systems, number)) return false;
   } else if (!speaks_grbl()) {  // grbl takes P0
     return fail("gcode.missing-word", words_.span(non_modal), "G10 without P",
-                "P, the work system: 1 to 9, or 0 for the active one");
+                "P, the work offset: 1 to 9, or 0 for the active one");
   }
   if (words_['L'] == 20 && words_.has('R') && !words_.is_of_another('R', non_modal)) {
-    return fail("gcode.unused-word", words_.span('R'), "R with G10 L20", "G10 L2 R… turns a work system");
+    return fail("gcode.unused-word", words_.span('R'), "R with G10 L20", "G10 L2 R… rotates a work offset");
   }
   for (const char letter : {'I', 'J', 'Q'}) {
     if (!words_.has(letter) || words_.is_of_another(letter, non_modal)) continue;
     return fail("gcode.unused-word", words_.span(letter), fmt::format("{} with G10 L{}", letter, words_['L']),
-                fmt::format("G10 L1 {}… is about a tool", letter));
+                fmt::format("G10 L1 {}… sets a tool", letter));
   }
   system = number == 0 ? system_of(state_.modal[work_system]) : number;
   return true;
@@ -186,19 +186,19 @@ bool FrameCodes::set_scaling() {
   constexpr char letters[] = {'I', 'J', 'K'};
   if (!words_.has('P') && !(words_.present() & LetterSet("IJK")).any()) {
     return fail("gcode.missing-word", words_.span(non_modal), "G51 without a factor",
-                "P, the factor of X Y Z, or I J K, one for each");
+                "P, one factor for X Y Z, or I J K, one factor each");
   }
   Scaling scaling = state_.scaling;
   if (!scaling.on) scaling.factors = {1, 1, 1};
   for (std::size_t i = 0; i < scaling.factors.size(); ++i) {
     const char letter = words_.has('P') ? 'P' : letters[i];
     if (words_.has('P') && words_.has(letters[i])) {
-      return fail("gcode.unused-word", words_.span(letters[i]), fmt::format("{} beside P in G51", letters[i]),
+      return fail("gcode.unused-word", words_.span(letters[i]), fmt::format("{} together with P in G51", letters[i]),
                   "P, or I J K");
     }
     if (!words_.has(letter)) continue;
     if (words_[letter] == 0) {
-      return fail("gcode.zero-scale", words_.span(letter), "a factor of 0 leaves nothing", "another factor");
+      return fail("gcode.zero-scale", words_.span(letter), "a scaling factor of 0", "a factor other than 0");
     }
     scaling.factors[i] = words_[letter];
   }

@@ -103,8 +103,8 @@ class GrblCheck {
   bool refuses_before_fault() {
     if (is_system_command()) {
       const std::optional<GrblCommand> command = grbl_command_in(block_.text);
-      return !fail(3, {1, 1}, command ? command->message : "a line with $ is a command to grbl itself, not G-code",
-                   command ? command->expected : "such commands outside programs");
+      return !fail(3, {1, 1}, command ? command->message : "a line with $ is a system command of Grbl, not G-code",
+                   command ? command->expected : "a program without system commands; the sender sends them");
     }
     for (const Word& word : block_.words) {
       if (is_no_letter(word)) return !take(word);
@@ -130,7 +130,7 @@ class GrblCheck {
 
   bool lines_shape() {
     if (is_system_command()) return !refuses_before_fault();
-    if (block_.percent) return fail(1, {1, 1}, "grbl knows no '%'", "no '%': a sender takes it out");
+    if (block_.percent) return fail(1, {1, 1}, "Grbl does not support '%'", "no '%'; senders remove it");
     std::size_t length = 0;
     std::size_t comment_at = 0;
     for (std::size_t i = 0; i < block_.text.size(); ++i) {
@@ -138,13 +138,14 @@ class GrblCheck {
       const bool in_comment = comment_at < block_.comments.size() && i + 1 >= block_.comments[comment_at].span.column;
       const char c = block_.text[i];
       if (!in_comment && c > ' ' && c != '/' && ++length > longest_grbl_line) {
-        return fail(11, {static_cast<std::uint32_t>(i + 1), 1}, "the line is too long for grbl",
-                    fmt::format("{} characters at most, without blanks and comments", longest_grbl_line));
+        return fail(11, {static_cast<std::uint32_t>(i + 1), 1}, "the line is too long for Grbl",
+                    fmt::format("at most {} characters, not counting spaces and comments", longest_grbl_line));
       }
     }
-    if (block_.control) return fail(20, block_.control->span, "grbl knows no O-words", "a program without them");
+    if (block_.control)
+      return fail(20, block_.control->span, "Grbl does not support O-words", "a program without O-words");
     if (!block_.assignments.empty()) {
-      return fail(1, block_.assignments.front().span, "grbl knows no parameters", "a program without them");
+      return fail(1, block_.assignments.front().span, "Grbl does not support parameters", "a program without O-words");
     }
     return true;
   }
@@ -161,7 +162,7 @@ class GrblCheck {
   static bool is_no_letter(const Word& word) { return word.letter == '@' || word.letter == '^' || word.letter == '$'; }
   bool take(const Word& word) {
     if (is_no_letter(word)) {
-      return fail(1, word.span, fmt::format("grbl knows no {}", word.letter), "letters");
+      return fail(1, word.span, fmt::format("Grbl does not support {}", word.letter), "letters");
     }
     const Instruction& value = block_.code[word.value.first];
     const std::string_view text = block_.text.substr(word.span.column - 1, word.span.length);
@@ -170,9 +171,10 @@ class GrblCheck {
     }
     const auto is_sign = [](char c) { return c == '-' || c == '+'; };
     if (std::ranges::count_if(text, is_sign) > 1)
-      return fail(2, word.span, "grbl takes one sign before a number", "a number");
+      return fail(2, word.span, "Grbl accepts only one sign before a number", "a number");
     if (!(accepted_letters | axes_).has(word.letter)) {
-      return fail(20, word.span, fmt::format("grbl knows no word {}", word.letter), "F I J K L N P R S T X Y Z");
+      return fail(20, word.span, fmt::format("Grbl does not support the word {}", word.letter),
+                  "F I J K L N P R S T X Y Z");
     }
     if (word.letter == 'G' || word.letter == 'M') return take_code(word, value.number);
     return take_value(word, value.number);
@@ -195,8 +197,8 @@ class GrblCheck {
       const bool whole_known = is_known(word.letter, code(whole));
       const bool digits_too_many = hundredths != 0 && (word.letter == 'M' || (whole_known && !has_fractions(whole)));
       return fail(digits_too_many ? 23 : 20, word.span,
-                  fmt::format("grbl does not know {}{}", word.letter, plain_number(value)),
-                  "a code of grbl 1.1, docs/gcode.md lists them");
+                  fmt::format("Grbl does not support {}{}", word.letter, plain_number(value)),
+                  "a code of Grbl 1.1, listed in docs/gcode.md");
     }
     const CodeEntry* const entry = find_code(word.letter, number);
     const std::size_t group = index_of(entry->group);
@@ -227,7 +229,8 @@ class GrblCheck {
 
   bool take_value(const Word& word, double value) {
     if (word.letter == 'T' && value > highest_grbl_tool) {
-      return fail(38, word.span, fmt::format("tool {} is above grbl's highest", plain_number(value)), "T255 at most");
+      return fail(38, word.span, fmt::format("tool {} is above Grbl's highest tool number", plain_number(value)),
+                  "T255 at most");
     }
     if (has(word.letter)) {
       return fail(25, word.span, fmt::format("a second {} in one block", word.letter), "each letter once");
@@ -256,7 +259,8 @@ class GrblCheck {
   // In grbl's order. Words without use come last of all: BlockExecutor finds them.
   bool words_suffice() {
     if (block_.line_number && line_number() > highest_line_number) {
-      return fail(27, {1, 1}, fmt::format("grbl takes no line number N{}", *block_.line_number), "N10000000 at most");
+      return fail(27, {1, 1}, fmt::format("the line number N{} is too large for Grbl", *block_.line_number),
+                  "N10000000 at most");
     }
     const CodeNumber motion = motion_of_block();
     if (is_inverse_time() && moves() && needs_feed(motion) && !has('F')) return fail_feed();
@@ -267,7 +271,7 @@ class GrblCheck {
     const CodeEntry* const tool_length = code_of(ModalGroup::tool_length);
     if (tool_length != nullptr && tool_length->number == code(43, 1) &&
         (present_ & axes_).bits() != LetterSet("Z").bits()) {
-      return fail(37, code_span_, "G43.1 offsets the axis Z alone", "Z, and no other axis word");
+      return fail(37, code_span_, "in Grbl, G43.1 offsets the Z axis only", "Z, and no other axis word");
     }
     if (non_modal != nullptr && non_modal->number == code(10) && !g10_suffices()) return false;
     if (non_modal != nullptr && non_modal->number == code(92) && !any_axis()) {
@@ -277,7 +281,7 @@ class GrblCheck {
       return fail(30, word_span('G', code(53)), "G53 without G0 or G1", "G53 G0 … or G53 G1 …");
     }
     if (motion == code(80) && any_axis()) {
-      return fail(31, first_axis_span(), "axis words while G80 is active, which moves nothing", "G0, G1, G2 or G3");
+      return fail(31, first_axis_span(), "axis words while G80 is active, so nothing moves", "G0, G1, G2 or G3");
     }
     if (tool_length != nullptr && tool_length->axes == AxisUse::none) idle_letters_ = axes_;
     if (uses_axes(ModalGroup::non_modal) || tool_length != nullptr) return true;
@@ -319,11 +323,11 @@ class GrblCheck {
     if (!any_axis()) return fail(26, code_span_, "G10 without axis words", "X, Y or Z");
     if (!has('P') && !has('L')) return fail(28, code_span_, "G10 needs L", "L2 or L20, and P0 to P6");
     const double kind = std::trunc(value('L'));
-    if (value('P') >= work_systems + 1) return fail(29, span('P'), "grbl has six work systems", "P0 to P6");
+    if (value('P') >= work_systems + 1) return fail(29, span('P'), "Grbl has six work offsets", "P0 to P6");
     if (kind != 2 && kind != 20) {
-      return fail(20, has('L') ? span('L') : code_span_, "grbl knows G10 L2 and L20", "L2 or L20");
+      return fail(20, has('L') ? span('L') : code_span_, "Grbl supports G10 L2 and L20 only", "L2 or L20");
     }
-    if (kind == 2 && has('R')) return fail(20, span('R'), "grbl does not turn work systems", "no R");
+    if (kind == 2 && has('R')) return fail(20, span('R'), "Grbl cannot rotate work offsets", "no R");
     return true;
   }
 
@@ -338,9 +342,9 @@ class GrblCheck {
     const CodeNumber plane = new_plane != nullptr ? new_plane->number : state_.modal[ModalGroup::plane];
     const LetterSet in_plane = plane == code(17) ? "XY" : plane == code(18) ? "XZ" : "YZ";
     const LetterSet offsets = plane == code(17) ? "IJ" : plane == code(18) ? "IK" : "JK";
-    if (!(present_ & in_plane).any()) return fail(32, at, "no axis word of the arc's plane", "one at least");
+    if (!(present_ & in_plane).any()) return fail(32, at, "no axis word of the arc's plane", "at least one");
     if (!has('R') && !(present_ & offsets).any()) {
-      return fail(35, at, "no centre in the arc's plane", "R, or one of I J K of the plane");
+      return fail(35, at, "no centre in the arc's plane", "R, or those of I J K that are in the plane");
     }
     if (!has('R')) idle_letters_ = LetterSet("IJK") - offsets;
     return true;

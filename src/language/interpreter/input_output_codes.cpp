@@ -26,7 +26,7 @@ bool InputOutputCodes::set_digital_output(CodeNumber number) {
   std::int32_t output = 0;
   if (!words_.has('P')) {
     return fail("gcode.missing-word", words_.span(input_output), fmt::format("{} without P", spelling('M', number)),
-                "P, the output");
+                "P, the number of the output");
   }
   if (!whole_word('P', 0, highest_channel, output)) return false;
   const bool on = number == code(62) || number == code(64);
@@ -39,7 +39,8 @@ bool InputOutputCodes::set_analog_output(bool with_motion) {
   for (const char letter : {'E', 'Q'}) {
     if (words_.has(letter)) continue;
     return fail("gcode.missing-word", words_.span(input_output),
-                fmt::format("{} without {}", with_motion ? "M67" : "M68", letter), "E, the output, and Q, its value");
+                fmt::format("{} without {}", with_motion ? "M67" : "M68", letter),
+                "E, the number of the output, and Q, its value");
   }
   if (!whole_word('E', 0, highest_channel, output)) return false;
   emit(operation::SetAnalogOutput{output, words_['Q'], with_motion});
@@ -54,7 +55,7 @@ bool InputOutputCodes::read_input() {
   if (analog == words_.has('P')) {
     return fail(analog ? "gcode.ambiguous-word" : "gcode.missing-word",
                 analog ? words_.span('E') : words_.span(input_output),
-                analog ? "M66 with P and E" : "M66 without P or E", "P, a digital input, or E, an analog one");
+                analog ? "M66 with P and E" : "M66 without P or E", "P for a digital input, or E for an analog one");
   }
   std::int32_t input = 0;
   std::int32_t until = 0;
@@ -65,8 +66,7 @@ bool InputOutputCodes::read_input() {
   }
   if (until != 0 && (!words_.has('Q') || words_['Q'] <= 0)) {
     return fail("gcode.bad-wait", words_.has('Q') ? words_.span('Q') : words_.span('L'),
-                fmt::format("M66 L{} waits, and there is no time after which it gives up", until),
-                "Q above 0, in seconds");
+                fmt::format("M66 L{} waits without a timeout", until), "Q, the timeout in seconds, above 0");
   }
   parameters_.set(input_parameter, until != 0 && block_.options.on_machine ? -1 : 0);
   emit(operation::ReadInput{input, analog, static_cast<Until>(until), Seconds(until != 0 ? words_['Q'] : 0)});
@@ -76,8 +76,8 @@ bool InputOutputCodes::read_input() {
 bool InputOutputCodes::run_user_code(CodeNumber number) {
   if (!block_.options.user_codes) {
     return fail("gcode.user-code", words_.span(user),
-                fmt::format("{} is a user code, and these are not allowed here", spelling('M', number)),
-                "the option --user-codes, if you know what it does");
+                fmt::format("{} is a user code, which is not allowed", spelling('M', number)),
+                "--user-codes, if the program runs correctly without this code");
   }
   emit(operation::UserCode{number / 10, words_.has('P') ? words_['P'] : -1, words_.has('Q') ? words_['Q'] : -1});
   return true;

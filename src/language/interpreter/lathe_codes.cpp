@@ -59,7 +59,7 @@ bool LatheCodes::check(CodeNumber number) {
   const std::string name = spelling('G', number);
   if (!words_.has('Q')) {
     return fail("gcode.missing-word", motion_span(), fmt::format("{} without Q", name),
-                "Q, the number of the sub with the contour");
+                "Q, the number of the subroutine with the contour");
   }
   if (state_.modal[plane] != code(18)) {
     return fail("gcode.wrong-plane", motion_span(), fmt::format("{} outside the plane ZX", name), "G18 before");
@@ -136,7 +136,7 @@ bool LatheCodes::contour_point(LathePoint& end) {
     const char letter = letter_of(axis);
     if (words_.has(increment) && (words_.has(letter) || incremental)) {
       return fail("gcode.bad-contour", words_.span(increment),
-                  fmt::format("{} beside {}, or in incremental distances (G91)", increment, letter),
+                  fmt::format("{} together with {}, or in incremental distances (G91)", increment, letter),
                   fmt::format("{} or {}, in G90", letter, increment));
     }
     if (words_.has(letter)) {
@@ -178,7 +178,8 @@ bool LatheCodes::contour_arc(LatheSegment& segment) {
 bool LatheCodes::add_corner(const LatheSegment& behind) {
   if (!words_.has('A') && !words_.has('C')) return true;
   if (words_.has('A') && words_.has('C')) {
-    return fail("gcode.bad-contour", words_.span('C'), "A and C on one corner", "A rounds it, C cuts it off");
+    return fail("gcode.bad-contour", words_.span('C'), "A and C on one corner",
+                "A, which rounds the corner, or C, which chamfers it");
   }
   LatheSegment corner;
   corner.shape = words_.has('A') ? Shape::fillet : Shape::chamfer;
@@ -199,7 +200,7 @@ bool LatheCodes::end_contour() {
   if (!contour_->good || reporter_.errors() != contour_->errors_before) return false;
   if (contour_->shape.segments.size() < 2) {
     return fail_contour("the contour has fewer than two lines and arcs",
-                        "a line to where the part begins, and the part");
+                        "a line to the start of the contour, then the contour");
   }
   if (!finishes(contour_->code)) lead_out();
   contour_->shape.segments.front().start = lathe_point(contour_->start);
@@ -274,14 +275,14 @@ bool LatheCodes::finish() {
 bool LatheCodes::report_contour(LatheFault fault) {
   switch (fault) {
     case LatheFault::not_monotonic:
-      return fail_contour("the contour turns back along its way", faces(contour_->code)
-                                                                      ? "X that only rises, or only falls"
-                                                                      : "Z that only rises, or only falls");
+      return fail_contour("the contour reverses its direction", faces(contour_->code)
+                                                                    ? "X that only increases or only decreases"
+                                                                    : "Z that only increases or only decreases");
     case LatheFault::corner:
-      return fail_contour("a corner of the contour cannot be rounded or cut off", "a smaller A or C");
+      return fail_contour("a corner of the contour cannot be rounded or chamfered", "a smaller A or C");
     case LatheFault::parallel:
     case LatheFault::vanished:
-      return fail_contour("the distance D leaves nothing of a part of the contour", "a smaller D, or wider arcs");
+      return fail_contour("with the offset D, a part of the contour disappears", "a smaller D, or wider arcs");
     default: return fail_contour("the contour cannot be cut in this way", "a contour without undercuts");
   }
 }

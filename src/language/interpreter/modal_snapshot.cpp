@@ -37,8 +37,8 @@ bool BlockExecutor::keep_modal_state(CodeNumber number) {
   } else if (here.valid) {
     restore(here);
   } else {
-    return fail("gcode.nothing-saved", words_.span(spindle), "M72, and nothing was saved here",
-                "M70 or M73 before, in the same sub");
+    return fail("gcode.nothing-saved", words_.span(spindle), "M72 without a saved modal state",
+                "M70 or M73 before, in the same subroutine");
   }
   return true;
 }

@@ -45,7 +45,7 @@ bool ModeCodes::set_feed_rate() {
     if (!feeds) {
       reporter_.warning(
           "gcode.unused-feed", words_.span('F'),
-          "F has no effect: in inverse time (G93) it counts for the G1, G2, G3, G5 or G5.1 of its own block",
+          "F has no effect: in inverse time mode (G93) it applies only to G1, G2, G3, G5 or G5.1 in the same block",
           "F with each feed move");
     }
     return true;  // used with the move, whose length it needs
@@ -53,7 +53,7 @@ bool ModeCodes::set_feed_rate() {
   const CodeEntry* const new_units = words_.code(length_units);
   if (new_units != nullptr && new_units->number != state_.modal[length_units]) {
     reporter_.warning("gcode.feed-before-units", words_.span('F'),
-                      fmt::format("F is taken in {} a minute: {} of the same block comes after it",
+                      fmt::format("F is read in {}/min, because {} in the same block takes effect after it",
                                   state_.modal.inches() ? "inches" : "millimetres", spelling(*new_units)),
                       fmt::format("{} in a block before", spelling(*new_units)));
   }
@@ -67,8 +67,8 @@ bool ModeCodes::set_path_mode(CodeNumber number) {
   const double unit = state_.length_unit();
   if (words_.has('R')) {
     reporter_.warning("gcode.unused-word", words_.span('R'),
-                      "R of G64 has no effect: it tunes the corners of LinuxCNC 2.10's own planner",
-                      "P, from which the speed in corners follows");
+                      "R of G64 has no effect: it is a tuning value of LinuxCNC 2.10's planner",
+                      "P, which determines the speed in corners");
   }
   state_.modal.set(path_mode, number);
   if (number == code(64)) {

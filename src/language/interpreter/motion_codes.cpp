@@ -93,7 +93,7 @@ bool MotionCodes::arc(bool clockwise) {
   state_.position = end;
   if (cutter_.leaving()) {
     return fail("gcode.arc-after-compensation", motion_span(), "an arc after cutter compensation ended (G40)",
-                "a straight move first, which leads the tool to the contour");
+                "a straight lead-out move first");
   }
   const PlaneAxes plane_axes = axes_of(state_.modal.plane());
   if (is_of_uvw(state_.modal.plane())) {
@@ -231,8 +231,8 @@ bool MotionCodes::threading(bool tapping) {
                 "K, the length of one revolution");
   }
   if (words_.has('F')) {
-    return fail("gcode.unused-word", words_.span('F'), fmt::format("F with {}, whose speed is the spindle's", name),
-                "no F");
+    return fail("gcode.unused-word", words_.span('F'),
+                fmt::format("F together with {}, whose speed follows from the spindle", name), "no F");
   }
   SpindleRange spindle;
   if (!spindle_word(SpindleChoice::one, spindle)) return false;

@@ -26,7 +26,7 @@ bool read_parameter_file(const std::string& path, SavedParameters& parameters, D
   if (!reader) {
     Diagnostic problem = reader.error();
     if (problem.code == "file.empty") return true;  // no parameters
-    problem.expected = "a parameter file, a line a parameter: its number, a tab, its value";
+    problem.expected = "a parameter file with one parameter per line: number, tab, value";
     diagnostics.add(std::move(problem));
     return false;
   }
@@ -38,8 +38,7 @@ bool read_parameter_file(const std::string& path, SavedParameters& parameters, D
     if (!fields.next_field(number) || number.text.starts_with('#') || number.text.starts_with(';')) continue;
     const std::optional<std::int32_t> index = whole_number_of(number.text);
     if (!index || *index < 1 || *index > highest_parameter) {
-      fields.error("parameters.bad-number", number,
-                   fmt::format("{} is not the number of a parameter", quoted(number.text)),
+      fields.error("parameters.bad-number", number, fmt::format("{} is not a parameter number", quoted(number.text)),
                    fmt::format("a whole number, 1 to {}", highest_parameter));
       continue;
     }
@@ -47,11 +46,11 @@ bool read_parameter_file(const std::string& path, SavedParameters& parameters, D
     if (!content) {
       const Field& place = value.text.empty() ? number : value;
       fields.error("parameters.bad-value", place, fmt::format("parameter {} has no value", *index),
-                   "a number behind it, as in 5221\t12.5");
+                   "a value after the number, e.g. 5221\t12.5");
       continue;
     }
     if (*index == work_system_parameter && !(*content >= 1 && *content <= work_systems)) {
-      fields.error("parameters.bad-value", value, fmt::format("there is no work system {}", quoted(value.text)),
+      fields.error("parameters.bad-value", value, fmt::format("there is no work offset {}", quoted(value.text)),
                    fmt::format("1 to {}", work_systems));
       continue;
     }
@@ -61,8 +60,8 @@ bool read_parameter_file(const std::string& path, SavedParameters& parameters, D
       continue;
     }
     if (const Field more = fields.rest(); !more.text.empty() && !more.text.starts_with('#')) {
-      fields.error("parameters.bad-value", more, fmt::format("{} behind the value", quoted(more.text)),
-                   "one number and one value a line");
+      fields.error("parameters.bad-value", more, fmt::format("{} after the value", quoted(more.text)),
+                   "one number and one value per line");
     }
   }
   return diagnostics.errors() == before;

@@ -35,8 +35,8 @@ bool ProbeCodes::probe(CodeNumber number) {
   state_.position = end;
   if (!check(number)) return false;
   if ((must_touch(number) || speaks_grbl()) && end == start) {
-    return fail("gcode.probe-too-short", motion_span(), "the probe move ends where it starts",
-                "an end away from here, in the direction in which to probe");
+    return fail("gcode.probe-too-short", motion_span(), "the probe move has no length",
+                "an end position in the direction of the probe move");
   }
   if (state_.modal.inverse_time()) emit_inverse_time_feed(length_of_way(start, end), false);
   emit(operation::TurnProbe{true});
@@ -62,12 +62,12 @@ void ProbeCodes::apply_outcome() {
     block_.ended = true;
     fail("gcode.probe-before", motion_span(),
          fmt::format("{} begins with the probe {} already", name, is_toward(number) ? "touched" : "free"),
-         is_toward(number) ? "a move away from what it touches before" : "the probe touched before");
+         is_toward(number) ? "a move first, away from the surface that it touches" : "the probe touched before");
   } else if (!outcome.touched && must_touch(number)) {
     block_.ended = true;
     fail("gcode.probe-untouched", motion_span(),
          fmt::format("{} came to its end, and the probe is still {}", name, is_toward(number) ? "free" : "touched"),
-         "a way that is long enough; or G38.3, G38.5, which go on, and a look at #5070");
+         "a longer move, or G38.3 or G38.5, which continue, and a test of #5070");
   }
 }
 

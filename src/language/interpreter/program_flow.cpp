@@ -138,8 +138,8 @@ void ProgramFlow::obey(const Control& control) {
 
 void ProgramFlow::begin_sub(Symbol label, const Control& control) {
   if (!frames_.empty()) {
-    stray(label, control, fmt::format("a sub inside the sub {}", label_text(frames_.back().sub)),
-          frames_.back().place.numbered ? "M99 before the next sub" : "endsub before the next sub");
+    stray(label, control, fmt::format("a subroutine inside the subroutine {}", label_text(frames_.back().sub)),
+          frames_.back().place.numbered ? "M99 before the next subroutine" : "endsub before the next subroutine");
     finish(End::error);
     return;
   }
@@ -147,7 +147,7 @@ void ProgramFlow::begin_sub(Symbol label, const Control& control) {
   const auto [known, added] = file_->subs.try_emplace(label.id, SubPlace{block_at_, after, false});
   if (!added && known->second.after.offset != after.offset) {
     stray(label, control,
-          fmt::format("a second sub {}; the first one is at line {}", label_text(label), known->second.at.line),
+          fmt::format("a second subroutine {}; the first one is in line {}", label_text(label), known->second.at.line),
           "another name");
   }
   skip_to({sub, label, block_at_, after}, kinds({endsub}));
@@ -156,13 +156,14 @@ void ProgramFlow::begin_sub(Symbol label, const Control& control) {
 void ProgramFlow::leave_sub(Symbol label, const Control& control) {
   // LinuxCNC does not look at the label of a return.
   if (frames_.empty() || (control.kind == endsub && frames_.back().sub != label)) {
-    stray(label, control, fmt::format("no sub {} is running", label_text(label)), "endsub with the label of its sub");
+    stray(label, control, fmt::format("the subroutine {} is not running", label_text(label)),
+          "endsub with the label of its subroutine");
     return;
   }
   const Frame frame = frames_.back();
   if (frame.place.numbered) {
     reporter_.error("gcode.mixed-subs", control.span,
-                    fmt::format("{} in the numbered program O{}, which begins at line {}",
+                    fmt::format("{} in the numbered program O{}, which starts in line {}",
                                 control.kind == endsub ? "endsub" : "return", label_text(label), frame.place.at.line),
                     "M99");
     return leave_frame();
@@ -197,7 +198,7 @@ void ProgramFlow::check_used_once(Symbol label, const Control& control) {
   const auto [first, added] = file_->ifs.try_emplace({inside, label.id}, block_at_);
   if (added || first->second.offset == block_at_.offset) return;
   stray(label, control,
-        fmt::format("a second if {}; the first one is at line {}", label_text(label), first->second.line),
+        fmt::format("a second if {}; the first one is in line {}", label_text(label), first->second.line),
         "another label");
 }
 
@@ -287,7 +288,7 @@ void ProgramFlow::leave_or_continue_loop(Symbol label, const Control& control) {
     }
     return;
   }
-  stray(label, control, fmt::format("no loop {} is running", label_text(label)),
+  stray(label, control, fmt::format("the loop {} is not running", label_text(label)),
         "break and continue with the label of their loop");
 }
 
@@ -335,8 +336,8 @@ void ProgramFlow::go_round(const Open& loop, ReaderPosition to) {
 bool ProgramFlow::may_go_on_with_cycle(Span repeated) {
   if (steps_ <= options_.repeated_steps) return true;
   reporter_.error("gcode.endless-cycle", repeated,
-                  fmt::format("the cycle came to {} operations", options_.repeated_steps),
-                  "fewer repetitions (L) or larger pecks (Q); or a higher --step-limit");
+                  fmt::format("the cycle reached {} operations", options_.repeated_steps),
+                  "fewer repetitions (L), larger pecks (Q), or a higher --step-limit");
   finish(End::error);
   return false;
 }
@@ -349,8 +350,8 @@ bool ProgramFlow::may_go_round(const Open& loop) {
   reporter_.error(
       "gcode.endless-loop", block_->control ? block_->control->span : Span{1, 1},
       idles ? fmt::format("the loop went round {}, and the machine did nothing", counted(options_.idle_passes, "time"))
-            : fmt::format("the loop came to {} passes, calls and operations", options_.repeated_steps),
-      idles ? "a loop that ends, or that moves" : "a loop that ends; or a higher --step-limit");
+            : fmt::format("the loop reached {} passes, calls and operations", options_.repeated_steps),
+      idles ? "a loop that ends, or that moves" : "a loop that ends, or a higher --step-limit");
   finish(End::error);
   return false;
 }
@@ -376,8 +377,8 @@ bool ProgramFlow::skip_to(const Open& from, Kinds wanted) {
       return false;
     }
     if (kind == sub && opening.kind == sub) {
-      stray(label, *block_->control, fmt::format("a sub inside the sub {}", label_text(opening.label)),
-            "endsub before the next sub");
+      stray(label, *block_->control, fmt::format("a subroutine inside the subroutine {}", label_text(opening.label)),
+            "endsub before the next subroutine");
       finish(End::error);
       return false;
     }
@@ -421,7 +422,7 @@ bool ProgramFlow::label_of_skipped(const Control& control, Symbol& label) const 
 
 bool ProgramFlow::argument(const Control& control, double& value) {
   if (!control.arguments.empty()) return value_of(*block_, control.arguments.front(), parameters_, reporter_, value);
-  reporter_.error("gcode.missing-condition", control.span, "the O-word needs a value", "[…] behind it");
+  reporter_.error("gcode.missing-condition", control.span, "the O-word needs a value", "[…] after it");
   return false;
 }
 

@@ -12,7 +12,7 @@ void ProgramFlow::call(Symbol label, const Control& control) {
   if (!may_call(control.span)) return;
   if (control.arguments.size() > sub_parameters) {
     reporter_.error("gcode.too-many-arguments", control.span,
-                    fmt::format("a call with {} arguments", control.arguments.size()), "30 at most: #1 to #30");
+                    fmt::format("a call with {} arguments", control.arguments.size()), "at most 30: #1 to #30");
     return;
   }
   std::array<double, sub_parameters> arguments{};
@@ -35,15 +35,15 @@ bool ProgramFlow::may_call(Span span) {
   const bool idles = ++idle_calls_ > options_.idle_passes;
   if (frames_.size() >= deepest_call) {
     reporter_.error("gcode.calls-too-deep", span, fmt::format("calls are nested more than {} deep", deepest_call),
-                    "a sub that does not call itself for ever");
+                    "a subroutine that does not call itself endlessly");
   } else if (idles || ++steps_ > options_.repeated_steps) {
-    reporter_.error(
-        "gcode.endless-calls", span,
-        idles ? fmt::format("the program called {}, and the machine did nothing", counted(options_.idle_passes, "time"))
-              : fmt::format("the call from line {} came to {} passes, calls and operations",
-                            frames_.empty() ? block_at_.line : frames_.front().return_to.line - 1,
-                            options_.repeated_steps),
-        "a sub that does not call itself again and again");
+    reporter_.error("gcode.endless-calls", span,
+                    idles ? fmt::format("subroutines were called {} without any action of the machine",
+                                        counted(options_.idle_passes, "time"))
+                          : fmt::format("the call from line {} reached {} passes, calls and operations",
+                                        frames_.empty() ? block_at_.line : frames_.front().return_to.line - 1,
+                                        options_.repeated_steps),
+                    "a subroutine that does not call itself endlessly");
   } else {
     return true;
   }
@@ -173,7 +173,7 @@ ProgramFlow::File* ProgramFlow::open_in(const std::string& folder, const std::st
 
 // Files that have the right name but not the sub are named too, because the sub may be spelled differently there.
 std::string ProgramFlow::places_looked_at(const std::string& file) const {
-  std::string places = "beside the program";
+  std::string places = "next to the program";
   for (const std::string& folder : options_.sub_folders) places += " or in " + folder;
   for (const auto& open : files_) {
     if (open.get() == file_) continue;

@@ -66,7 +66,7 @@ ProgramFlow::Followed ProgramFlow::end_program(const SubprogramJump& jump) {
   Frame frame = frames_.back();
   if (!frame.place.numbered) {
     reporter_.error("gcode.mixed-subs", jump.span,
-                    fmt::format("M99 in o{} sub, which begins at line {}", label_text(frame.sub), frame.place.at.line),
+                    fmt::format("M99 in o{} sub, which starts in line {}", label_text(frame.sub), frame.place.at.line),
                     fmt::format("o{0} endsub, or o{0} return", label_text(frame.sub)));
     leave_frame();
     return Followed::left_sub;
@@ -99,8 +99,8 @@ bool ProgramFlow::restart_main(const SubprogramJump& jump) {
 bool ProgramFlow::check_numbered_programs(Span span, std::string_view what) {
   if (options_.numbered_programs) return true;
   reporter_.error("gcode.no-numbered-programs", span,
-                  fmt::format("{} where the settings forbid numbered programs", what),
-                  "o<name> sub and o<name> call, or no [RS274NGC]DISABLE_FANUC_STYLE_SUB");
+                  fmt::format("{}, but the settings disable numbered programs", what),
+                  "o<name> sub and o<name> call, or the settings without [RS274NGC]DISABLE_FANUC_STYLE_SUB");
   return false;
 }
 
@@ -109,9 +109,9 @@ bool ProgramFlow::check_style(const SubPlace& place, Symbol label, Span span, st
   if (place.numbered != caller.empty()) return true;
   const std::string name = label_text(label);
   reporter_.error("gcode.mixed-subs", span,
-                  place.numbered
-                      ? fmt::format("O{} at line {} is a numbered program, called like a sub", name, place.at.line)
-                      : fmt::format("{} calls o{} sub, at line {}", caller, name, place.at.line),
+                  place.numbered ? fmt::format("O{} in line {} is a numbered program, but is called like a subroutine",
+                                               name, place.at.line)
+                                 : fmt::format("{} calls o{} sub, in line {}", caller, name, place.at.line),
                   place.numbered ? fmt::format("M98 P{}", name) : fmt::format("o{} call", name));
   return false;
 }

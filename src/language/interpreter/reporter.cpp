@@ -22,7 +22,7 @@ std::string_view domain_of(std::string_view text) {
   if (name == "LN") return "LN of more than 0";
   if (name == "ASIN") return "ASIN of -1 to 1";
   if (name == "ACOS") return "ACOS of -1 to 1";
-  return "a whole exponent: a negative number has no other powers";
+  return "a whole exponent; a negative number has no other powers";
 }
 
 SourcePlace place_of(std::uint32_t line, Span span) {
@@ -63,19 +63,19 @@ void Reporter::error(const EvaluationError& error) {
         return meet_again();
       }
       if (what.find("_hal[") != std::string::npos || what.find("_HAL[") != std::string::npos) {
-        return this->error("gcode.no-hal", error.span, fmt::format("there is no HAL here, and so no {}", what),
+        return this->error("gcode.no-hal", error.span, fmt::format("{} is a HAL pin, and Passo has no HAL", what),
                            "a parameter of the program; EXISTS[] of a HAL pin is 0");
       }
       return this->error("gcode.unknown-parameter", error.span, fmt::format("{} has no value", what),
-                         "a parameter that was set before; #1 to #5601, #<name>, or a predefined #<_name>");
+                         "a parameter that was set before: #1 to #5601, #<name>, or a predefined #<_name>");
     case Kind::bad_parameter_number:
-      return this->error("gcode.bad-parameter-number", error.span,
-                         fmt::format("{} is not the number of a parameter", operand), "a whole number, 1 to 5601");
+      return this->error("gcode.bad-parameter-number", error.span, fmt::format("{} is not a parameter number", operand),
+                         "a whole number, 1 to 5601");
     case Kind::division_by_zero:
       return this->error("gcode.division-by-zero", error.span, fmt::format("{} divides by zero", what),
                          "a divisor that is not zero");
     case Kind::domain:
-      return this->error("gcode.bad-operand", error.span, fmt::format("{} has no value for {}", what, operand),
+      return this->error("gcode.bad-operand", error.span, fmt::format("{} is not defined for {}", what, operand),
                          std::string(domain_of(what)));
     case Kind::not_finite:
       return this->error("gcode.overflow", error.span, fmt::format("{} is too large to compute", what), {});

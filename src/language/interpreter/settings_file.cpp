@@ -49,32 +49,35 @@ constexpr Unfollowed unfollowed[] = {
     {"RS274NGC", "REMAP", Severity::error, "", "codes are remapped"},
     {"RS274NGC", "FEATURES", Severity::error, " 0 4 8 12 ",
      "bits other than 4 (INI_VARS) and 8 (HAL_PIN_VARS) are set"},
-    {"RS274NGC", "RETAIN_G43", Severity::error, " 0 no false off ", "a tool offset follows the tool that is changed"},
-    {"RS274NGC", "OWORD_NARGS", Severity::error, " 0 no false off ", "#<n_args> counts the arguments of a call"},
-    {"RS274NGC", "NO_DOWNCASE_OWORD", Severity::error, " 0 no false off ",
-     "names of subs are not the same in any case"},
+    {"RS274NGC", "RETAIN_G43", Severity::error, " 0 no false off ", "the tool offset changes with the tool"},
+    {"RS274NGC", "OWORD_NARGS", Severity::error, " 0 no false off ", "#<n_args> is the number of arguments of a call"},
+    {"RS274NGC", "NO_DOWNCASE_OWORD", Severity::error, " 0 no false off ", "names of subroutines are case-sensitive"},
     {"RS274NGC", "OWORD_WARNONLY", Severity::warning, " 0 no false off ", "errors of O-words are warnings"},
     {"RS274NGC", "OWORD_WARN_ONLY", Severity::warning, " 0 no false off ", "errors of O-words are warnings"},
-    {"RS274NGC", "CENTER_ARC_RADIUS_TOLERANCE_INCH", Severity::error, "", "arcs are checked with another tolerance"},
-    {"RS274NGC", "CENTER_ARC_RADIUS_TOLERANCE_MM", Severity::error, "", "arcs are checked with another tolerance"},
-    {"RS274NGC", "PARAMETER_G73_PECK_CLEARANCE", Severity::error, "", "pecks have another clearance"},
-    {"RS274NGC", "PARAMETER_G83_PECK_CLEARANCE", Severity::error, "", "pecks have another clearance"},
+    {"RS274NGC", "CENTER_ARC_RADIUS_TOLERANCE_INCH", Severity::error, "",
+     "arcs are checked with a different tolerance"},
+    {"RS274NGC", "CENTER_ARC_RADIUS_TOLERANCE_MM", Severity::error, "", "arcs are checked with a different tolerance"},
+    {"RS274NGC", "PARAMETER_G73_PECK_CLEARANCE", Severity::error, "", "pecks have a different clearance"},
+    {"RS274NGC", "PARAMETER_G83_PECK_CLEARANCE", Severity::error, "", "pecks have a different clearance"},
     {"RS274NGC", "RS274NGC_STARTUP_CODE", Severity::warning, "", "these codes run before each program"},
     {"RS274NGC", "ON_ABORT_COMMAND", Severity::warning, "", "this command runs after an abort"},
     {"EMCIO", "RANDOM_TOOLCHANGER", Severity::error, " 0 ", "tools change their pockets"},
     {"EMCIO", "DB_PROGRAM", Severity::error, "", "tools come from a database"},
     {"EMCIO", "TOOL_CHANGE_WITH_SPINDLE_ON", Severity::error, " 0 ", "M6 leaves the spindle on"},
     {"EMCIO", "TOOL_CHANGE_QUILL_UP", Severity::error, " 0 ", "M6 moves Z up"},
-    {"EMCIO", "TOOL_CHANGE_AT_G30", Severity::error, " 0 ", "M6 moves to the place of G30"},
-    {"EMCIO", "TOOL_CHANGE_POSITION", Severity::warning, "", "M6 moves to this place"},
-    {"AXIS_A", "WRAPPED_ROTARY", Severity::error, " 0 no false off ", "the sign of A in G90 is the way round"},
-    {"AXIS_B", "WRAPPED_ROTARY", Severity::error, " 0 no false off ", "the sign of B in G90 is the way round"},
-    {"AXIS_C", "WRAPPED_ROTARY", Severity::error, " 0 no false off ", "the sign of C in G90 is the way round"},
-    {"AXIS_A", "LOCKING_INDEXER_JOINT", Severity::error, " -1 ", "A moves alone, unlocked, by G0"},
-    {"AXIS_B", "LOCKING_INDEXER_JOINT", Severity::error, " -1 ", "B moves alone, unlocked, by G0"},
-    {"AXIS_C", "LOCKING_INDEXER_JOINT", Severity::error, " -1 ", "C moves alone, unlocked, by G0"},
-    {"PYTHON", "TOPLEVEL", Severity::warning, "", "subs may be functions of Python"},
-    {"WIZARD", "WIZARD_ROOT", Severity::warning, "", "subs are looked for in this folder too"},
+    {"EMCIO", "TOOL_CHANGE_AT_G30", Severity::error, " 0 ", "M6 moves to the G30 position"},
+    {"EMCIO", "TOOL_CHANGE_POSITION", Severity::warning, "", "M6 moves to this position"},
+    {"AXIS_A", "WRAPPED_ROTARY", Severity::error, " 0 no false off ",
+     "in G90 the sign of A is the direction of rotation"},
+    {"AXIS_B", "WRAPPED_ROTARY", Severity::error, " 0 no false off ",
+     "in G90 the sign of B is the direction of rotation"},
+    {"AXIS_C", "WRAPPED_ROTARY", Severity::error, " 0 no false off ",
+     "in G90 the sign of C is the direction of rotation"},
+    {"AXIS_A", "LOCKING_INDEXER_JOINT", Severity::error, " -1 ", "A moves only by itself, unlocked, with G0"},
+    {"AXIS_B", "LOCKING_INDEXER_JOINT", Severity::error, " -1 ", "B moves only by itself, unlocked, with G0"},
+    {"AXIS_C", "LOCKING_INDEXER_JOINT", Severity::error, " -1 ", "C moves only by itself, unlocked, with G0"},
+    {"PYTHON", "TOPLEVEL", Severity::warning, "", "subroutines can be Python functions"},
+    {"WIZARD", "WIZARD_ROOT", Severity::warning, "", "subroutines are also searched in this folder"},
     {"TRAJ", "ANGULAR_UNITS", Severity::error, " deg degree 1 1.0 ", "angles are not in degrees"},
 };
 
@@ -90,7 +93,7 @@ void report_unfollowed(FieldReader& fields, std::string_view section, const Fiel
   for (const Unfollowed& setting : unfollowed) {
     if (key != key_of(setting.section, setting.name) || is_one_of(setting.harmless, value)) continue;
     const std::string message =
-        fmt::format("[{}]{} is not followed: with it, {}", setting.section, setting.name, setting.what);
+        fmt::format("[{}]{} is ignored; in LinuxCNC, it means that {}", setting.section, setting.name, setting.what);
     const std::string expected = setting.harmless.empty()
                                      ? std::string("no such setting")
                                      : fmt::format("one of these values:{}or no such setting", setting.harmless);
@@ -107,7 +110,7 @@ bool SettingsFile::read(const std::string& path, Diagnostics& diagnostics) {
   if (!reader) {
     Diagnostic problem = reader.error();
     if (problem.code == "file.empty") return true;
-    problem.expected = "settings in ini form: [SECTION] and NAME = VALUE";
+    problem.expected = "a settings file in INI format: [SECTION] and NAME = VALUE";
     diagnostics.add(std::move(problem));
     return false;
   }
@@ -130,7 +133,7 @@ bool SettingsFile::read(const std::string& path, Diagnostics& diagnostics) {
     const std::size_t equals = line.text.find('=');
     const std::string_view name = trimmed(line.text.substr(0, std::min(equals, line.text.size())));
     if (equals == std::string_view::npos || name.empty()) {
-      fields.error("settings.bad-line", line, fmt::format("{} is no setting", quoted(line.text)), "NAME = VALUE");
+      fields.error("settings.bad-line", line, fmt::format("'{}' is not a setting", quoted(line.text)), "NAME = VALUE");
     } else if (!set(section, name, without_comment(trimmed(line.text.substr(equals + 1))))) {
       fields.error("settings.too-many", line, fmt::format("more than {} settings", most_settings), "a shorter file");
       break;

@@ -21,7 +21,7 @@ bool SpindleCodes::set_mode(CodeNumber number) {
   if (number == code(96)) {
     if (!words_.has('S')) {
       return fail("gcode.missing-word", words_.span(spindle_mode), "G96 without S",
-                  "S, the surface speed: metres a minute, or feet with G20");
+                  "S, the surface speed in m/min, or in ft/min with G20");
     }
     limit = words_.has('D') ? words_['D'] : no_limit;
     if (limit <= 0) {
@@ -41,7 +41,7 @@ bool SpindleCodes::set_speed() {
   if (is_negative('S')) {
     return fail("gcode.negative-word", words_.span('S'),
                 fmt::format("the spindle speed is {}", plain_number(words_['S'])),
-                "S of 0 or more; M4 turns the other way");
+                "S of 0 or more; M4 reverses the direction");
   }
   for (std::uint8_t i = range.first; i < range.end; ++i) {
     state_.spindles[i].speed = never_negative('S');
@@ -84,7 +84,7 @@ bool SpindleCodes::orient() {
   if (words_.has('P') && !whole_word('P', 0, 2, way)) return false;
   if (words_.has('Q') && words_['Q'] <= 0) {
     return fail("gcode.negative-word", words_.span('Q'), "M19 waits " + number_and_noun(words_['Q'], "second"),
-                "Q above 0, or no Q: no wait");
+                "Q above 0, or no Q for no wait");
   }
   state_.spindles[range.first].direction = SpindleDirection::off;
   const bool turns = words_.has('R') || words_.has('P');

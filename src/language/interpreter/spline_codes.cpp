@@ -56,7 +56,7 @@ bool SplineCodes::check_axes() {
     const char letter = letter_of(axis);
     if (axis == Axis::x || axis == Axis::y || !words_.has(letter)) continue;
     return fail("gcode.spline-axis", words_.span(letter), fmt::format("{} in a spline, which lies in X and Y", letter),
-                "X and Y alone");
+                "X and Y only");
   }
   return true;
 }
@@ -80,14 +80,14 @@ bool SplineCodes::cubic() {
   if (!end_point(state_.position) || !check()) return false;
   const double unit = state_.length_unit();
   if (!words_.has('P') || !words_.has('Q')) {
-    return fail_pair("G5", 'P', 'Q', "P and Q, the way from the end to the control point before it");
+    return fail_pair("G5", 'P', 'Q', "P and Q, the offset from the end to the control point before it");
   }
   PlanePoint entry{scaled_way(Axis::x, words_['I'] * unit), scaled_way(Axis::y, words_['J'] * unit)};
   if (!words_.has('I') || !words_.has('J')) {
     if (words_.has('I') || words_.has('J') || !before) {
       return fail_pair("G5", 'I', 'J',
-                       "I and J, the way from the start to the control point after it; both may be left out where a "
-                       "G5 follows another and goes on in its direction");
+                       "I and J, the offset from the start to the control point after it; both can be omitted if a G5 "
+                       "continues in the direction of the previous G5");
     }
     entry = *before;
   }
@@ -110,7 +110,7 @@ bool SplineCodes::quadratic() {
   const Point start = state_.position;
   if (!end_point(state_.position) || !check()) return false;
   if (!words_.has('I') || !words_.has('J')) {
-    return fail_pair("G5.1", 'I', 'J', "I and J, the way from the start to the control point");
+    return fail_pair("G5.1", 'I', 'J', "I and J, the offset from the start to the control point");
   }
   if (!check_feed()) return false;
 
@@ -177,7 +177,7 @@ bool SplineCodes::add_nurbs_point(bool first) {
       return true;
     }
     return fail("gcode.missing-axis", motion_span(), "a control point without X and Y",
-                "X and Y; in the first block of G5.2 P alone is the weight of the start");
+                "X and Y; P without X and Y is only allowed in the first block of G5.2, as the weight of the start");
   }
   if (!words_.has('P')) {
     return fail("gcode.missing-word", motion_span(), "a control point without P", "P, its weight, above 0");
@@ -204,7 +204,7 @@ bool SplineCodes::end_nurbs() {
     return fail(
         "gcode.too-few-points", motion_span(),
         fmt::format("a NURBS of order {} with {}", nurbs_.order, counted(nurbs_.points.size(), "control point")),
-        fmt::format("{} at least; the start is the first, and a lower L needs fewer", nurbs_.order));
+        fmt::format("at least {}, including the start; a lower L needs fewer", nurbs_.order));
   }
   if (!check_nurbs_feed()) return false;
   emit(operation::NurbsFeed{nurbs_.points, nurbs_.order});

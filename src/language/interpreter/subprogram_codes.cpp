@@ -27,11 +27,11 @@ bool SubprogramCodes::call_or_leave(CodeNumber number) {
   for (const Word& word : reporter_.block().words) {
     if (word.span == words_.span(stopping) || (call && (word.letter == 'P' || word.letter == 'L'))) continue;
     return fail("gcode.unused-word", word.span, fmt::format("{} beside {}", word.letter, spelling('M', number)),
-                call ? "M98 P L alone in the block" : "M99 alone in the block");
+                call ? "only M98, P and L in the block" : "only M99 in the block");
   }
   if (const auto& assignments = reporter_.block().assignments; !assignments.empty()) {
     return fail("gcode.unused-word", assignments.front().span,
-                fmt::format("an assignment beside {}", spelling('M', number)), "a block of its own");
+                fmt::format("an assignment in the same block as {}", spelling('M', number)), "a block of its own");
   }
   SubprogramJump found;
   found.kind = call ? SubprogramJump::Kind::call : SubprogramJump::Kind::leave;
@@ -71,17 +71,18 @@ bool SubprogramCodes::check_macro_words(const SubprogramJump& call) {
   const Block& block = reporter_.block();
   if (!block.assignments.empty()) {
     return fail("gcode.unused-word", block.assignments.front().span,
-                fmt::format("an assignment beside {}", call.code()), "a block of its own");
+                fmt::format("an assignment in the same block as {}", call.code()), "a block of its own");
   }
   if (block.words.front().span != call.span) {
     return fail("gcode.macro-argument", block.words.front().span, fmt::format("a word before {}", call.code()),
-                fmt::format("{} first, its arguments behind it", call.code()));
+                fmt::format("{} first, then its arguments", call.code()));
   }
   for (const Word& word : block.words) {
     const bool taken = word.letter == 'P' || word.letter == 'L' || word.span == call.span;
     if (taken || (word.letter != 'G' && argument_letters.has(word.letter))) continue;
-    return fail("gcode.macro-argument", word.span, fmt::format("{} is no argument of a macro", word.letter),
-                "P, the program, L, how often, and A B C D E F H I J K M Q R S T U V W X Y Z");
+    return fail(
+        "gcode.macro-argument", word.span, fmt::format("{} cannot be an argument of a macro", word.letter),
+        "P (the program), L (the number of calls), and the arguments A B C D E F H I J K M Q R S T U V W X Y Z");
   }
   if (call.kind == Kind::find_macro && modal_macro_) {
     return fail("gcode.nested-macro", call.span, "G66 while another G66 is active", "G67 before");

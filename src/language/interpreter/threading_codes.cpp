@@ -51,8 +51,8 @@ bool ThreadingCodes::start() {
 bool ThreadingCodes::check_thread(const ThreadingPlan& plan) {
   const double length = std::abs(plan.end[Axis::z] - plan.start[Axis::z]);
   if (length == 0) {
-    return fail("gcode.bad-thread", motion_span(), "the thread has no length: it ends at the Z where it begins",
-                "Z, the thread's end");
+    return fail("gcode.bad-thread", motion_span(), "the thread has no length: its end has the Z of its start",
+                "Z, the end of the thread");
   }
   const int tapers = (plan.taper_at_start ? 1 : 0) + (plan.taper_at_end ? 1 : 0);
   if (tapers * std::abs(plan.taper) > length) {
@@ -83,10 +83,11 @@ bool ThreadingCodes::check_words() {
     char letter;
     const char* what;
   };
-  for (const auto& [letter, what] : {Needed{'P', "the length of one revolution"},
-                                     {'I', "from the drive line to the thread's crest, below 0 outside"},
-                                     {'J', "the depth of the first pass"},
-                                     {'K', "the depth of the thread"}}) {
+  for (const auto& [letter, what] :
+       {Needed{'P', "the length of one revolution"},
+        {'I', "the distance from the drive line to the thread's crest, below 0 for an external thread"},
+        {'J', "the depth of the first pass"},
+        {'K', "the depth of the thread"}}) {
     if (words_.has(letter)) continue;
     return fail("gcode.missing-word", motion_span(), fmt::format("G76 without {}", letter),
                 fmt::format("{}, {}", letter, what));
@@ -96,7 +97,7 @@ bool ThreadingCodes::check_words() {
                 fmt::format("{} of G76 is {}", letter, plain_number(words_[letter])), std::string(expected));
   };
   if (words_['P'] <= 0) return bad('P', "P above 0");
-  if (words_['I'] == 0) return bad('I', "I below 0 for a thread outside, above 0 for one inside");
+  if (words_['I'] == 0) return bad('I', "I below 0 for an external thread, above 0 for an internal thread");
   if (words_['J'] <= 0) return bad('J', "J above 0");
   if (words_['K'] <= words_['J']) return bad('K', "K above J");
   if (words_.has('Q') && std::abs(words_['Q']) > steepest_infeed) return bad('Q', "Q of 0 to 80 degrees");

@@ -19,7 +19,7 @@ bool ToolCodes::find_tool(std::int32_t number, Span span, const Tool*& tool) {
   tool = state_.tools.find(number);
   if (tool != nullptr || number == 0 || state_.tools.name.empty()) return true;
   return fail("gcode.unknown-tool", span, fmt::format("there is no tool {} in {}", number, state_.tools.name),
-              fmt::format("a line T{} P… in the tool table, or another table: --tools FILE", number));
+              fmt::format("a line T{} P… in the tool table, or another table (--tools FILE)", number));
 }
 
 bool ToolCodes::select() {
@@ -35,7 +35,8 @@ bool ToolCodes::change(CodeNumber number) {
   if (number == code(61)) {
     std::int32_t tool = 0;
     const Tool* known = nullptr;
-    if (!words_.has('Q')) return fail("gcode.missing-word", words_.span(tool_change), "M61 without Q", "Q, the tool");
+    if (!words_.has('Q'))
+      return fail("gcode.missing-word", words_.span(tool_change), "M61 without Q", "Q, the tool number");
     if (!whole_word('Q', 0, highest_tool, tool) || !find_tool(tool, words_.span('Q'), known)) return false;
     load_tool(tool);
     emit(operation::SetToolNumber{tool});
@@ -110,13 +111,13 @@ bool ToolCodes::tool_offset(Point& offset) {
 bool ToolCodes::reload_tools() {
   if (state_.tool != 0) {
     return fail("gcode.tool-loaded", words_.span('L'),
-                fmt::format("the tool table cannot be read again while tool {} is in the spindle", state_.tool),
+                fmt::format("the tool table cannot be reloaded while tool {} is in the spindle", state_.tool),
                 "T0 M6 before");
   }
   for (const Word& word : reporter_.block().words) {
     if (word.letter == 'G' || word.letter == 'L' || !(LetterSet("PRIJQ") | axis_letters).has(word.letter)) continue;
     if (words_.is_of_another(word.letter, ModalGroup::non_modal)) continue;
-    reporter_.warning("gcode.unused-word", word.span, fmt::format("{} has no effect beside G10 L0", word.letter),
+    reporter_.warning("gcode.unused-word", word.span, fmt::format("{} has no effect together with G10 L0", word.letter),
                       "G10 L0 alone");
   }
   emit(operation::ReloadTools{});
@@ -125,7 +126,7 @@ bool ToolCodes::reload_tools() {
 
 bool ToolCodes::check_tool_entry_words(Tool*& tool) {
   if (!words_.has('P')) {
-    return fail("gcode.missing-word", words_.span(non_modal), "G10 without P", "P, the tool that is set");
+    return fail("gcode.missing-word", words_.span(non_modal), "G10 without P", "P, the number of the tool to set");
   }
   std::int32_t number = 0;
   std::int32_t orientation = 0;
@@ -133,12 +134,12 @@ bool ToolCodes::check_tool_entry_words(Tool*& tool) {
   if (!whole_word('P', 1, highest_tool, number) || !find_tool(number, words_.span('P'), known)) return false;
   if (known == nullptr) {
     return fail("gcode.unknown-tool", words_.span('P'),
-                fmt::format("tool {} is in no tool table: none was given", number), "--tools FILE");
+                fmt::format("tool {} is unknown, because no tool table was given", number), "--tools FILE");
   }
   if (words_.has('Q') && !whole_word('Q', 0, highest_orientation, orientation)) return false;
   const LetterSet what = words_.present() & (axis_letters | LetterSet("RIJQ"));
   if (!what.any()) {
-    return fail("gcode.missing-word", words_.span(non_modal), "G10 that sets nothing of the tool",
+    return fail("gcode.missing-word", words_.span(non_modal), "G10 without a value for the tool",
                 "axis words, R (radius), I and J (angles) or Q (orientation)");
   }
   tool = state_.tools.find(number);

@@ -54,8 +54,9 @@ class TableReader {
     }
     if (!good || !seen_.any()) return;
     if (!seen_.has('T') || !seen_.has('P')) {
-      fields_.error("tools.missing-number", fmt::format("a tool without {}", seen_.has('T') ? "P, its pocket" : "T"),
-                    "T and P in each line, as in T1 P1 Z0.5 D3");
+      fields_.error("tools.missing-number",
+                    fmt::format("a tool without {}", seen_.has('T') ? "P, the pocket of the tool" : "T"),
+                    "T and P in each line, e.g. T1 P1 Z0.5 D3");
       return;
     }
     if (add(tool, number) && !words.empty()) table_.remarks[tool.number] = std::move(words);
@@ -65,7 +66,7 @@ class TableReader {
     if (table_.add(tool)) return true;
     if (table_.find(tool.number) != nullptr) {
       fields_.error("tools.repeated-tool", number, fmt::format("a second tool {}", tool.number),
-                    "each number once in a table");
+                    "each tool number once in a table");
     } else {
       fields_.error("tools.too-many", number, fmt::format("more than {} tools", ToolTable::most_tools),
                     "a shorter table");
@@ -77,8 +78,8 @@ class TableReader {
     const char letter = upper(field.text.front());
     const std::string_view digits = field.text.substr(1);
     if (std::string_view("TPXYZABCUVWDIJQ").find(letter) == std::string_view::npos) {
-      fields_.error("tools.unknown-word", field, fmt::format("{} is no word of a tool table", quoted(field.text)),
-                    "T P X Y Z A B C U V W D I J Q with a number behind, or ';' before a remark");
+      fields_.error("tools.unknown-word", field, fmt::format("{} is not a word of a tool table", quoted(field.text)),
+                    "T P X Y Z A B C U V W D I J Q, each followed by a number, or ';' before a remark");
       return false;
     }
     if (seen_.has(letter)) {
@@ -94,8 +95,8 @@ class TableReader {
     }
     const std::optional<double> value = number_of(digits);
     if (!value || std::abs(*value) * unit_ > largest_length) {
-      fields_.error("tools.bad-number", field, fmt::format("{} is not a number of a tool", quoted(field.text)),
-                    fmt::format("{} and a number, as in {}2.5", letter, letter));
+      fields_.error("tools.bad-number", field, fmt::format("{} is not a valid tool number", quoted(field.text)),
+                    fmt::format("{} and a number, e.g. {}2.5", letter, letter));
       return false;
     }
     switch (letter) {
@@ -136,7 +137,7 @@ bool read_tool_table(const std::string& path, LengthUnits units, ToolTable& tabl
   if (!reader) {
     Diagnostic problem = reader.error();
     if (problem.code == "file.empty") return true;  // a table without tools
-    problem.expected = "a tool table, a line a tool: T1 P1 Z0.5 D3";
+    problem.expected = "a tool table with one line per tool, e.g. T1 P1 Z0.5 D3";
     diagnostics.add(std::move(problem));
     return false;
   }

@@ -366,11 +366,11 @@ std::optional<std::string> unsuited(const BoardSession& board, const StepOptions
   if (board.error() || !hello) return {};  // the session reports the error
   const double clock = steps.clock.tick_rate.value();
   if (static_cast<double>(hello->clock) != clock) {
-    return fmt::format("its clock has {} ticks a second, and the machine file says {:.0f}", hello->clock, clock);
+    return fmt::format("its clock has {} Hz, but clock_hz of the machine file is {:.0f}", hello->clock, clock);
   }
   const auto& status = board.status();
   if (!status || !wants_encoder || (status->state & board_encodes) != 0) return {};
-  return "it has no encoder, and [spindle] of the machine file tells of one";
+  return "it has no spindle encoder, but [spindle] of the machine file has one";
 }
 
 }  // namespace passo

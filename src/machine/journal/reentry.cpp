@@ -303,8 +303,8 @@ std::string words_of_shift(const MachineDescription& machine, const std::vector<
     const double high = range.high[one.axis] + may_differ;
     if (stood >= low && stood <= high) continue;
     return fmt::format(
-        "by its switch, {} was at {:.3f} when the board lost its place, and the path allows {:.3f} to "
-        "{:.3f}: it was moved, or the switch was",
+        "according to its switch, {} was at {:.3f} when the board lost its position, but the path only allows {:.3f} "
+        "to {:.3f}: the axis or its switch was moved",
         letter_of(one.axis), stood, low, high);
   }
   return {};

@@ -34,8 +34,7 @@ std::string_view message_of(ResumeRefusal refusal) {
       return "the board has stopped its motors at once, and where they are is not certain";
     case ResumeRefusal::drivers_off:
       return "the board has switched the drivers off after a time without a host (drivers_off_after_s), and the axes "
-             "may "
-             "have moved";
+             "may have moved";
     case ResumeRefusal::session_ended:
       return "the machine was moved by the board's keypad since, or another program began to talk to the board";
     case ResumeRefusal::rest_unknown: return "the journal does not know where the board has come to rest";
@@ -44,7 +43,7 @@ std::string_view message_of(ResumeRefusal refusal) {
     case ResumeRefusal::in_thread:
       return "the machine stands in a thread, which cannot go on there: move the tool out of it, and start anew";
   }
-  return "the job cannot go on";
+  return "the job cannot continue";
 }
 
 std::optional<ResumeRefusal> refuse_stranger(const Journal& journal, const BoardStatus& status) {

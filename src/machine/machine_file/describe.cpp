@@ -23,7 +23,7 @@ std::string describe_home(const AxisDescription& axis, const char* unit) {
   if (!axis.home) return "";
   const HomeDescription& home = *axis.home;
   return fmt::format(
-      "                homed at limit {} by its {} end, {:g} {unit}: {:g} {unit}/s, then {:g} {unit}/s; rests at {:g} "
+      "                homed at limit {} by its {} end, {:g} {unit}: {:g} {unit}/s, then {:g} {unit}/s; stops at {:g} "
       "{unit}\n",
       home.input + 1, home.toward_high ? "high" : "low", home.switch_at, home.seek.value(), home.latch.value(),
       home.rest(), fmt::arg("unit", unit));
@@ -81,10 +81,10 @@ std::string describe_pins(const PinsDescription& pins) {
   if (!high.empty()) out += fmt::format("pins            on when high: {}\n", high);
   if (!low.empty()) out += fmt::format("pins            on when low: {}\n", low);
   if (pins.filter != PinsDescription().filter) {
-    out += fmt::format("switches        count after {:g} us\n", pins.filter.value() * 1e6);
+    out += fmt::format("switches        filtered for {:g} us\n", pins.filter.value() * 1e6);
   }
   if (pins.drivers_off_after > Seconds(0)) {
-    out += fmt::format("drivers         off {:g} s after the host's last word\n", pins.drivers_off_after.value());
+    out += fmt::format("drivers         off {:g} s after the host's last message\n", pins.drivers_off_after.value());
   }
   if (pins.enable_wait > Seconds(0)) {
     out += fmt::format("drivers         ready {:g} s after they are enabled\n", pins.enable_wait.value());
@@ -109,12 +109,13 @@ std::string describe_homing(const MachineDescription& machine) {
     letters += letter_of(machine.homing[i]);
     if (before && !after) letters += ')';
   }
-  return fmt::format("homing          {}, {}\n", letters, any ? "those in parentheses at once" : "one after the other");
+  return fmt::format("homing          {}, {}\n", letters,
+                     any ? "those in parentheses together" : "one after the other");
 }
 
 std::string describe_encoder(const AxisDescription& axis, const char* unit) {
   if (!axis.encoder) return "";
-  std::string line = fmt::format("                encoder with {} counts a turn", axis.encoder->counts_per_turn);
+  std::string line = fmt::format("                encoder with {} counts/rev", axis.encoder->counts_per_turn);
   if (axis.encoder->most_error > 0) line += fmt::format(", at most {:g} {} behind", axis.encoder->most_error, unit);
   return line + (axis.encoder->closes_loop ? ", closed loop\n" : "\n");
 }
@@ -122,8 +123,8 @@ std::string describe_encoder(const AxisDescription& axis, const char* unit) {
 std::string describe_axis(const AxisDescription& axis, std::size_t motor) {
   const char* unit = is_rotary(axis.axis) ? "deg" : "mm";
   std::string line = fmt::format(
-      "axis {}          motor {}, {:g} steps/{unit}, {:.4g} {unit} a step, {:g} to {:g} {unit}, "
-      "{:g} {unit}/s ({:.6g} steps/s), {:g} {unit}/s2",
+      "axis {}          motor {}, {:g} steps/{unit}, {:.4g} {unit}/step, {:g} to {:g} {unit}, {:g} {unit}/s ({:.6g} "
+      "steps/s), {:g} {unit}/s2",
       letter_of(axis.axis), motor, axis.steps_per_unit, axis.step().value(), axis.travel_low, axis.travel_high,
       axis.velocity.value(), axis.highest_step_rate().value(), axis.acceleration.value(), fmt::arg("unit", unit));
   if (axis.jerk > MmPerSecond3(0)) line += fmt::format(", {:g} {}/s3", axis.jerk.value(), unit);
@@ -149,8 +150,8 @@ std::string describe_spindle(const SpindleDescription& spindle) {
                                        : "";
   }
   return fmt::format(
-      "spindle         encoder of {} counts a turn; {:g} s to 1000 rpm; virtual: droop {:g} %, ripple {:g} % at "
-      "{:g} Hz\n",
+      "spindle         encoder with {} counts/rev; {:g} s to 1000 rpm; simulated: droop {:g} %, ripple {:g} % at {:g} "
+      "Hz\n",
       spindle.counts_per_turn, spindle.run_up.value(), spindle.droop * 100, spindle.ripple * 100,
       spindle.ripple_rate.value());
 }

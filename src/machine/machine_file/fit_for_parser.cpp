@@ -33,7 +33,7 @@ bool is_fit_for_parser(const TomlReporter& reporter) {
       return false;
     };
     if (const std::size_t zero = line.find('\0'); zero != std::string_view::npos) {
-      return refuse("machine.binary", zero, "this is not text: it has a zero byte", "a text file in UTF-8");
+      return refuse("machine.binary", zero, "this is not text: it contains a NUL byte", "a text file in UTF-8");
     }
     if (line.size() > longest_line) {
       return refuse("machine.long-line", longest_line, fmt::format("a line of {} bytes", line.size()),
@@ -43,12 +43,12 @@ bool is_fit_for_parser(const TomlReporter& reporter) {
     if (first == std::string_view::npos || line[first] == '#') continue;
     const std::size_t triple = std::min(line.find(R"(""")"), line.find("'''"));
     if (triple != std::string_view::npos) {
-      return refuse("machine.syntax", triple, "a text over several lines",
-                    "a text on one line, as in name = \"Router\"");
+      return refuse("machine.syntax", triple, "a string over several lines",
+                    "a string on one line, e.g. name = \"Router\"");
     }
     if (const std::size_t dots = dots_of(line); dots > most_dots) {
       return refuse("machine.too-deep", line.find('.'), fmt::format("a line with {} dots", dots),
-                    fmt::format("at most {}: keys as in 'clock_hz', tables as in '[axis.X]'", most_dots));
+                    fmt::format("at most {}; keys like 'clock_hz', tables like '[axis.X]'", most_dots));
     }
   }
   return true;

@@ -130,10 +130,11 @@ bool can_be_homed(const TableReader& homing, const HomingOrder& order, const std
       const AxisDescription& other = description_of(axes, order.axes[k]);
       const std::string both = fmt::format("{} and {}", letter_of(other.axis), letter_of(axis.axis));
       if (is_rotary(axis.axis) || is_rotary(other.axis)) {
-        return refuse(both + " are homed at once, and one of them turns", "linear axes in parentheses");
+        return refuse(both + " are homed together, but one of them is rotary", "only linear axes in parentheses");
       }
       if ((axis.home_switches() & other.home_switches()) != 0) {
-        return refuse(both + " are homed at once, and share a limit switch", "one after the other: no parentheses");
+        return refuse(both + " are homed together, but share a limit switch",
+                      "one after the other, without parentheses");
       }
     }
   }
@@ -162,7 +163,7 @@ std::optional<HomeDescription> read_home(TableReader& reader, const AxisDescript
   if (hysteresis) home.hysteresis = *hysteresis;
   if (bounce) home.bounce = Seconds(*bounce * 1e-3);
   check_speed(reader, keys.seek, home.seek, axis.velocity, "the axis's velocity");
-  check_speed(reader, keys.latch, home.latch, home.seek, "as fast as it seeks or slower");
+  check_speed(reader, keys.latch, home.latch, home.seek, "at most the seek speed");
   if (axis.travel_low < axis.travel_high) check_rest(reader, keys, home, axis);
   return home;
 }
@@ -178,7 +179,7 @@ std::optional<SecondMotor> read_second_motor(TableReader& reader, const AxisDesc
   if (std::abs(second.square) <= second.most_skew) return second;
   reader.error(homing_code, keys.square.name,
                fmt::format("{} is {:g}", reader.full_name(keys.square.name), second.square),
-               fmt::format("{:g} or less either way, {}", second.most_skew, keys.most_skew.name));
+               fmt::format("at most {:g} in either direction, {}", second.most_skew, keys.most_skew.name));
   return std::nullopt;
 }
 
@@ -192,9 +193,8 @@ HomingOrder read_homing_order(TableReader* homing, const std::vector<AxisDescrip
   HomingOrder order = order_of(*text);
   if (!std::ranges::is_permutation(order.axes, usual.axes)) {
     homing->error(homing_code, "order", fmt::format("homing.order is \"{}\"", *text),
-                  letters.empty()
-                      ? "a table [axis.X.home] for each of them"
-                      : fmt::format("each axis that has a table [axis.X.home] once: the letters {}", letters));
+                  letters.empty() ? "a table [axis.X.home] for each of them"
+                                  : fmt::format("each axis with a table [axis.X.home] once: the letters {}", letters));
     return usual;
   }
   return can_be_homed(*homing, order, axes) ? order : usual;

@@ -61,7 +61,7 @@ std::optional<MachineDescription> parse_machine(std::string_view text, const std
   }
   if (text.size() > largest_file) {
     file_error(diagnostics, "machine.too-big", file, fmt::format("the file has more than {} bytes", largest_file),
-               "a machine file is a page of text");
+               "a machine file, usually a page of text");
     return std::nullopt;
   }
   Diagnostics found(most_sorted_errors);

@@ -141,11 +141,11 @@ void MachineReader::read_board(const TomlEntry& entry) {
     // Twice the slowest rate: every slower rate of steps then has a multiple between the two.
     const double slowest = 2 * *clock / longest_interval_ticks;
     if (*rate > fastest || *rate < slowest) {
-      reader.error("machine.event-rate", event_rate_key.name,
-                   fmt::format("a board with a clock of {} Hz cannot make at most {} events a second", *clock, *rate),
-                   fmt::format("{} from {:.0f} to {:.0f}: an event takes {} ticks of the clock or more, and an "
-                               "interval is counted in 16 bits",
-                               event_rate_key.name, std::ceil(slowest), fastest, fewest_ticks_an_event));
+      reader.error(
+          "machine.event-rate", event_rate_key.name,
+          fmt::format("a board with a clock of {} Hz cannot make {} events/s", *clock, *rate),
+          fmt::format("{} from {:.0f} to {:.0f}: an event takes at least {} clock ticks, and an interval has 16 bits",
+                      event_rate_key.name, std::ceil(slowest), fastest, fewest_ticks_an_event));
       rate.reset();
     }
   }
@@ -155,10 +155,11 @@ void MachineReader::read_board(const TomlEntry& entry) {
   // A driver wants a pause as long as the pulse.
   const double longest_us = 1e6 / (2 * *rate);
   if ((pulse || !reader.has(step_pulse_key.name)) && board.step_pulse.value() * 1e6 > longest_us * (1 + 1e-9)) {
-    reader.error("machine.step-pulse", step_pulse_key.name,
-                 fmt::format("a step pulse of {:g} us and as long a pause do not fit between {:g} events a second",
-                             board.step_pulse.value() * 1e6, *rate),
-                 fmt::format("{} = {:g} or less, or a lower {}", step_pulse_key.name, longest_us, event_rate_key.name));
+    reader.error(
+        "machine.step-pulse", step_pulse_key.name,
+        fmt::format("a step pulse of {:g} us and a pause of the same length do not fit into an event at {:g} events/s",
+                    board.step_pulse.value() * 1e6, *rate),
+        fmt::format("{} = {:g} or less, or a lower {}", step_pulse_key.name, longest_us, event_rate_key.name));
   }
 }
 
@@ -250,7 +251,7 @@ void MachineReader::read_axes(const TomlEntry& entry) {
   if (tables.size() > most_motors) {
     reporter_.error("machine.too-many-axes", tables[most_motors].place,
                     fmt::format("the machine has {} axes", tables.size()),
-                    fmt::format("at most {}: a board has no more motors", most_motors));
+                    fmt::format("at most {}, the number of motors of a board", most_motors));
   }
   order_motors();
 }
@@ -321,7 +322,7 @@ void MachineReader::read_start_stop(TableReader& reader, const AxisKeys& keys, A
   reader.error("machine.start-stop", keys.start_stop.name,
                fmt::format("axis {} would start at {:g} {}/s, and is never faster than {:g} {}/s", letter_of(axis.axis),
                            axis.start_stop.value(), keys.unit, axis.velocity.value(), keys.unit),
-               fmt::format("{} = {:g} or less: {} is the limit", keys.start_stop.name, axis.velocity.value(),
+               fmt::format("{} = {:g} or less, the limit set by {}", keys.start_stop.name, axis.velocity.value(),
                            keys.velocity.name));
 }
 
@@ -338,8 +339,9 @@ void MachineReader::read_acceleration(TableReader& reader, const AxisKeys& keys,
   axis.motor = read_torque(own, is_rotary(axis.axis), unit_per_turn);
   finish(own);
   if (!unit_per_turn && !reader.has(keys.gear.name)) {
-    own.error("machine.torque", "", fmt::format("[{}] does not tell how far a turn of its motor goes", path),
-              fmt::format("the scale of [axis.{}] by {} and {}", letter_of(axis.axis), turn_key.name, keys.gear.name));
+    own.error(
+        "machine.torque", "", fmt::format("[{}] does not give the travel per motor revolution", path),
+        fmt::format("the scale of [axis.{}], given by {} and {}", letter_of(axis.axis), turn_key.name, keys.gear.name));
   }
   if (!axis.motor) return;
   if (!axis.motor->limits_motion) {
@@ -426,7 +428,7 @@ void MachineReader::number_second_motors() {
   if (machine_.axes.size() <= most_motors && machine_.motor_count() > most_motors) {
     reporter_.error("machine.motor", axes_.back().place,
                     fmt::format("the machine has {} motors", machine_.motor_count()),
-                    fmt::format("at most {}, second motors counted", most_motors));
+                    fmt::format("at most {}, including second motors", most_motors));
   }
   for (std::size_t i = 0; i < machine_.axes.size(); ++i) {
     AxisDescription& axis = machine_.axes[i];
@@ -436,7 +438,7 @@ void MachineReader::number_second_motors() {
     reporter_.error(
         "machine.homing", axes_[i].place,
         fmt::format("the two motors of axis {} share limit switch {}", letter_of(axis.axis), axis.home->input),
-        "a switch of its own for each motor: input in [axis.X.home] and in [axis.X.second_motor]");
+        "a separate switch for each motor: input in [axis.X.home] and in [axis.X.second_motor]");
   }
 }
 
@@ -450,8 +452,9 @@ void MachineReader::number_motors() {
                       "a motor for every axis, or for none: then they are in the order X Y Z A B C U V W");
       good = false;
     } else if (*entry.motor >= axes_.size()) {
-      reporter_.error("machine.motor", entry.motor_place, fmt::format("axis {} has motor {}", letter, *entry.motor),
-                      fmt::format("0 to {}: the motors of {} axes without a gap", axes_.size() - 1, axes_.size()));
+      reporter_.error(
+          "machine.motor", entry.motor_place, fmt::format("axis {} has motor {}", letter, *entry.motor),
+          fmt::format("0 to {}: the motors of {} axes, numbered without a gap", axes_.size() - 1, axes_.size()));
       good = false;
     } else if (taken[*entry.motor] != nullptr) {
       reporter_.error(

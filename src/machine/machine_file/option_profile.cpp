@@ -35,7 +35,7 @@ std::optional<std::vector<OptionSection>> read_option_profile(const std::string&
                                                               Diagnostics& diagnostics) {
   constexpr std::size_t most_bytes = 1U << 20U;
   const std::optional<std::string> text = read_bytes(
-      path, {.area = "profile", .expected = "a file of options: tables and keys, in TOML", .most = most_bytes},
+      path, {.area = "profile", .expected = "an option profile: tables and keys in TOML", .most = most_bytes},
       diagnostics);
   if (!text) return std::nullopt;
   Diagnostics found;
@@ -48,7 +48,7 @@ std::optional<std::vector<OptionSection>> read_option_profile(const std::string&
   for (const TomlEntry& entry : document.root.entries) {
     const auto* table = std::get_if<TomlTable>(&entry.value.content);
     if (table == nullptr || std::ranges::find(known, entry.key) == known.end()) {
-      reporter.error("profile.unknown-table", entry.place, fmt::format("'{}' is no table of a profile", entry.key),
+      reporter.error("profile.unknown-table", entry.place, fmt::format("'{}' is not a table of a profile", entry.key),
                      names);
       continue;
     }
@@ -56,8 +56,8 @@ std::optional<std::vector<OptionSection>> read_option_profile(const std::string&
     for (const TomlEntry& option : table->entries) {
       if (add_words(option.key, option.value, section.words)) continue;
       reporter.error("profile.bad-value", option.value.place,
-                     fmt::format("{} is no value of an option", kind_of(option.value)),
-                     "a number, a text, true or false, or a list of these");
+                     fmt::format("{} is not a valid option value", kind_of(option.value)),
+                     "a number, a string, true or false, or a list of these");
     }
     sections.push_back(std::move(section));
   }

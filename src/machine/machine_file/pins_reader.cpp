@@ -81,9 +81,9 @@ void check_alarm_input(const TomlReporter& reporter, const SourcePlace& place, c
   const auto homed = std::ranges::find_if(machine.axes, is_switch);
   if (homed == machine.axes.end()) return;
   reporter.error("machine.alarm-input", place,
-                 fmt::format("the drive of axis {} has its alarm at limit {}, where the switch of axis {} is",
+                 fmt::format("the drive alarm of axis {} is at limit {}, which is also the switch of axis {}",
                              letter_of(axis.axis), *axis.alarm_input, letter_of(homed->axis)),
-                 "an input by which no axis is homed");
+                 "an input that is not a homing switch");
 }
 
 void read_outputs(TableReader& reader, PinsDescription& pins) {
@@ -105,7 +105,7 @@ void read_windings(TableReader& reader, BoardDescription& board) {
     board.windings = *excitation;
   } else {
     reader.error("machine.windings", "windings", fmt::format("windings = \"{}\"", *name),
-                 "\"two-on\", \"wave\" or \"half-step\": a pin is on or off");
+                 "\"two-on\", \"wave\" or \"half-step\"; pins cannot set microsteps");
   }
 }
 

@@ -33,14 +33,14 @@ void read_errors(TableReader& reader, const NumberKey& key, ScrewDescription& sc
     if (!(way > 0)) {
       return reader.error(screw_code, key.name,
                           fmt::format("{} has {:g} after {:g}", reader.full_name(key.name), here.low, before.low),
-                          "places in ascending order, each once");
+                          "positions in ascending order, each once");
     }
     if (!(std::abs(here.high - before.high) < steepest * way)) {
       return reader.error(screw_code, key.name,
                           fmt::format("the error of {} changes by {:g} between {:g} and {:g}",
                                       reader.full_name(key.name), here.high - before.high, before.low, here.low),
-                          "pairs of a place and the true place minus that place, which changes by less than 1 % of "
-                          "the way");
+                          "pairs of a position and its error (true minus nominal position), where the error changes by "
+                          "less than 1 % of the distance");
     }
   }
   for (const LowHigh& pair : *pairs) screw.errors.push_back({.at = pair.low, .off = pair.high});

@@ -61,7 +61,7 @@ std::optional<double> TableReader::number(const NumberKey& key, Need need) {
   if (entry == nullptr) return std::nullopt;
   const auto* value = std::get_if<double>(&entry->value.content);
   if (value == nullptr) {
-    wrong_type(*entry, fmt::format("a number, as in {} = {}", key.name, key.example));
+    wrong_type(*entry, fmt::format("a number, e.g. {} = {}", key.name, key.example));
     return std::nullopt;
   }
   if (!in_range(key, *value, entry->value.place)) return std::nullopt;
@@ -85,13 +85,13 @@ std::optional<double> TableReader::whole_number(const NumberKey& key, Need need)
 std::optional<LowHigh> TableReader::low_high(const NumberKey& key, Need need) {
   const TomlEntry* entry = ask(key.name, fmt::format("{} = {}", key.name, key.example), need);
   if (entry == nullptr) return std::nullopt;
-  return pair_of(key, entry->value, fmt::format("two numbers, as in {} = {}", key.name, key.example));
+  return pair_of(key, entry->value, fmt::format("two numbers, e.g. {} = {}", key.name, key.example));
 }
 
 std::optional<std::vector<LowHigh>> TableReader::pairs(const NumberKey& key) {
   const TomlEntry* entry = ask(key.name, fmt::format("{} = {}", key.name, key.example), Need::required);
   if (entry == nullptr) return std::nullopt;
-  const std::string expected = fmt::format("pairs of numbers, as in {} = {}", key.name, key.example);
+  const std::string expected = fmt::format("pairs of numbers, e.g. {} = {}", key.name, key.example);
   const auto* list = std::get_if<TomlArray>(&entry->value.content);
   if (list == nullptr) {
     wrong_type(*entry, expected);
@@ -142,7 +142,7 @@ std::optional<std::string> TableReader::text(std::string_view key, std::string_v
   const TomlEntry* entry = ask(key, line, need);
   if (entry == nullptr) return std::nullopt;
   if (const auto* value = std::get_if<std::string>(&entry->value.content)) return *value;
-  wrong_type(*entry, fmt::format("a text in quotes, as in {}", line));
+  wrong_type(*entry, fmt::format("a string in quotes, e.g. {}", line));
   return std::nullopt;
 }
 

@@ -58,7 +58,7 @@ std::string advice(std::string_view line, std::size_t offset) {
     return i < line.size() && std::isdigit(static_cast<unsigned char>(line[i])) != 0;
   };
   if (offset < line.size() && line[offset] == ',' && offset > 0 && is_digit(offset - 1) && is_digit(offset + 1)) {
-    return "a decimal point, as in 2.5";
+    return "a decimal point, e.g. 2.5";
   }
   if (std::ranges::count(line, '"') % 2 == 1) return "a quote at the end of the text, too";
   std::size_t before = offset;
@@ -66,9 +66,9 @@ std::string advice(std::string_view line, std::size_t offset) {
   const bool after_equals = line.substr(0, offset).find('=') != std::string_view::npos;
   if (after_equals && before > 0 && is_digit(before - 1) && offset < line.size() &&
       std::isalpha(static_cast<unsigned char>(line[offset])) != 0) {
-    return "the number alone: the unit is in the key's name";
+    return "only the number; the unit is part of the key's name";
   }
-  return "lines as in 'key = 1.5', 'key = \"text\"' or '[table]'; a comment begins with #";
+  return "lines like 'key = 1.5', 'key = \"text\"' or '[table]'; a comment starts with #";
 }
 
 void report(const toml::parse_error& error, const TomlReporter& reporter) {

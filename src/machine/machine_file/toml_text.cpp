@@ -170,7 +170,7 @@ Result<Change, TomlTextError> Setter::change(const std::string& words) const {
     if (last) return replace(next->second, words);
     const toml::table* table = next->second.as_table();
     found.path += found.path.empty() ? parts_[i] : fmt::format(".{}", parts_[i]);
-    if (table == nullptr) return refusal(fmt::format("{} is no table", found.path));
+    if (table == nullptr) return refusal(fmt::format("{} is not a table", found.path));
     found.table = table;
     found.key = next->first.source();
   }
@@ -245,7 +245,7 @@ Result<Change, TomlTextError> Setter::add_to(const Found& found, const std::stri
       if (found.key) return after_line(found.key->end.line, indent_of(found.key->end.line) + line);
       return Change{.at = places_.start(1), .words = line + std::string(line_end())};
   }
-  return refusal(fmt::format("{} has no place for {}", found.path, key));
+  return refusal(fmt::format("{} cannot hold {}", found.path, key));
 }
 
 Change Setter::in_line(const Found& found, const std::string& key, const std::string& words) const {
@@ -311,7 +311,7 @@ std::vector<TomlText::Value> TomlText::values() const {
 Status<TomlTextError> TomlText::set(std::string_view path, const Setting& setting) {
   const std::string words = describe(setting);
   if (words.empty()) return refusal(fmt::format("{} must be finite", path));
-  if (!std::ranges::all_of(parts_of(path), is_plain)) return refusal(fmt::format("'{}' is no key", path));
+  if (!std::ranges::all_of(parts_of(path), is_plain)) return refusal(fmt::format("'{}' is not a key", path));
   const auto tree = parsed(text_);
   if (!tree) return Failure{tree.error()};
   const auto change = Setter(text_, *tree, path).change(words);
@@ -322,7 +322,7 @@ Status<TomlTextError> TomlText::set(std::string_view path, const Setting& settin
   const auto again = parsed(changed);
   if (!again) return refusal(fmt::format("{} cannot be set: {}", path, again.error().message));
   const auto there = again->at_path(path);
-  if (!there || there.is_table()) return refusal(fmt::format("{} cannot be set where it would stand", path));
+  if (!there || there.is_table()) return refusal(fmt::format("{} cannot be set at its position in the file", path));
   text_ = std::move(changed);
   return Unit{};
 }

@@ -79,8 +79,8 @@ ToolShapes read_tools(const TomlDocument& document, const TomlReporter& reporter
       const auto number = number_of(entry.key);
       const auto* const table = std::get_if<TomlTable>(&entry.value.content);
       if (!number || table == nullptr) {
-        reporter.error("machine.tool", entry.place, fmt::format("tool.{} is no tool", entry.key),
-                       "a table for each tool, with its number as in [tool.1]");
+        reporter.error("machine.tool", entry.place, fmt::format("tool.{} is not a tool", entry.key),
+                       "a table for each tool, with its number, e.g. [tool.1]");
         continue;
       }
       const std::size_t errors = found.errors();
@@ -89,7 +89,7 @@ ToolShapes read_tools(const TomlDocument& document, const TomlReporter& reporter
       reader.finish(document.complete, {});
       if (found.errors() > errors) continue;
       if (const std::string flaw = flaw_of(tool); !flaw.empty()) {
-        reporter.error("machine.tool", entry.place, fmt::format("there is no tool as tool.{}", entry.key), flaw);
+        reporter.error("machine.tool", entry.place, fmt::format("tool.{} is not a valid tool number", entry.key), flaw);
       }
       tools.emplace(*number, tool);
     }
@@ -103,7 +103,7 @@ ToolShapes read_tools(const TomlDocument& document, const TomlReporter& reporter
 std::optional<ToolShapes> parse_tool_shapes(std::string_view text, const std::string& file, Diagnostics& diagnostics) {
   if (text.starts_with("\xEF\xBB\xBF")) text.remove_prefix(3);
   Diagnostics found(most_sorted_errors);
-  const TomlReporter reporter(text, file, found, {.area = "tools", .words = "a file of tools"});
+  const TomlReporter reporter(text, file, found, {.area = "tools", .words = "a tool file"});
   ToolShapes tools;
   if (is_fit_for_parser(reporter)) tools = read_tools(parse_toml(std::string(text), reporter), reporter, found);
   hand_over(found, diagnostics);
@@ -113,7 +113,7 @@ std::optional<ToolShapes> parse_tool_shapes(std::string_view text, const std::st
 
 std::optional<ToolShapes> read_tool_shapes(const std::string& path, Diagnostics& diagnostics) {
   const auto text =
-      read_bytes(path, {.area = "tools", .expected = "a file of tools in TOML", .most = largest_tools}, diagnostics);
+      read_bytes(path, {.area = "tools", .expected = "a tool file in TOML", .most = largest_tools}, diagnostics);
   if (!text) return std::nullopt;
   return parse_tool_shapes(*text, path, diagnostics);
 }

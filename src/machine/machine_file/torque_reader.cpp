@@ -38,7 +38,7 @@ const char* const torque_code = "machine.torque";
 
 std::optional<TorqueCurve> from(TableReader& reader, std::string_view key, Result<TorqueCurve, MotorError> curve) {
   if (curve) return std::move(*curve);
-  reader.error(torque_code, key, curve.error().message, "values as on the motor's data sheet");
+  reader.error(torque_code, key, curve.error().message, "values from the motor's data sheet");
   return std::nullopt;
 }
 

@@ -42,13 +42,13 @@ Result<MonotoneCurve, CurvePointsError> MonotoneCurve::through(std::vector<Curve
   }
   for (const CurvePoint& point : points) {
     if (!std::isfinite(point.x) || !std::isfinite(point.y)) {
-      return Failure{CurvePointsError{fmt::format("{:g}:{:g} is no point of a curve", point.x, point.y)}};
+      return Failure{CurvePointsError{fmt::format("{:g}:{:g} is not a valid point of a curve", point.x, point.y)}};
     }
   }
   for (std::size_t i = 1; i < points.size(); ++i) {
     if (points[i].x > points[i - 1].x) continue;
     return Failure{CurvePointsError{
-        fmt::format("the points must go up along the curve, and {:g} comes after {:g}", points[i].x, points[i - 1].x)}};
+        fmt::format("the points must be in ascending order, but {:g} follows {:g}", points[i].x, points[i - 1].x)}};
   }
   return MonotoneCurve(std::move(points));
 }

@@ -26,8 +26,9 @@ Status<MotorError> check_positive(std::initializer_list<Quantified> all) {
 
 Status<MotorError> check(const Rotor& rotor) {
   if (rotor.steps_per_revolution < 4 || rotor.steps_per_revolution % 4 != 0) {
-    return Failure{MotorError{fmt::format("a two-phase motor makes a multiple of 4 full steps a revolution, not {}",
-                                          rotor.steps_per_revolution)}};
+    return Failure{
+        MotorError{fmt::format("the full steps per revolution of a two-phase motor must be a multiple of 4, not {}",
+                               rotor.steps_per_revolution)}};
   }
   return check_positive({{"the rotor's inertia", rotor.inertia.value, "kg\u00B7m\u00B2"}});
 }
@@ -44,7 +45,7 @@ Status<MotorError> check(const MotorData& data) {
 Status<MotorError> check(const MotorDrive& drive) {
   Status<MotorError> supply =
       check_positive({{"the supply voltage", drive.supply.value, "V"},
-                      {"the supply voltage without the drop", drive.supply.value - drive.drop.value, "V"}});
+                      {"the supply voltage minus the drop", drive.supply.value - drive.drop.value, "V"}});
   if (!supply) return supply;
   if (drive.drop.value >= 0 && drive.fast_decay >= 0 && drive.fast_decay <= 1) return Unit{};
   return Failure{MotorError{fmt::format("the drop must be 0 V or more, not {:g}, and the decay from 0 to 1, not {:g}",

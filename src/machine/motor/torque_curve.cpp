@@ -52,11 +52,11 @@ Result<MonotoneCurve, MotorError> falling_curve(const char* name, const Rotor& r
     const double rate = point.rate.value();
     if (!(rate >= 0) || !(point.torque.value >= 0)) {
       return Failure{MotorError{
-          fmt::format("{}: rate and torque cannot be negative, as in {:g}:{:g}", name, rate, point.torque.value)}};
+          fmt::format("{}: rate and torque cannot be negative, but {:g}:{:g} is", name, rate, point.torque.value)}};
     }
     if (!plain.empty() && point.torque.value > plain.back().y) {
       return Failure{
-          MotorError{fmt::format("{}: torque falls with the rate, but rises to {:g} N\u00B7m at {:g} steps/s", name,
+          MotorError{fmt::format("{}: torque must fall with the rate, but rises to {:g} N\u00B7m at {:g} steps/s", name,
                                  point.torque.value, rate)}};
     }
     plain.push_back({rate * 2 * std::numbers::pi / rotor.steps_per_revolution, point.torque.value});
@@ -64,7 +64,7 @@ Result<MonotoneCurve, MotorError> falling_curve(const char* name, const Rotor& r
   Result<MonotoneCurve, CurvePointsError> curve = MonotoneCurve::through(std::move(plain));
   if (!curve) return Failure{MotorError{fmt::format("{}: {}", name, curve.error().message)}};
   if (!(curve->points().front().y > 0)) {
-    return Failure{MotorError{fmt::format("{}: the torque is 0 from the first point on", name)}};
+    return Failure{MotorError{fmt::format("{}: the torque of all points is 0", name)}};
   }
   return std::move(*curve);
 }
@@ -74,14 +74,14 @@ Result<MonotoneCurve, MotorError> falling_curve(const char* name, const Rotor& r
 Status<MotorError> check(const Load& load) {
   const auto good = [](double value) { return std::isfinite(value) && value >= 0; };
   if (!good(load.inertia.value)) {
-    return Failure{MotorError{
-        fmt::format("the load's inertia cannot be below 0 kg\u00B7m\u00B2, as {:g} is", load.inertia.value)}};
+    return Failure{
+        MotorError{fmt::format("the load's inertia must be 0 kg\u00B7m\u00B2 or more, not {:g}", load.inertia.value)}};
   }
   if (!good(load.friction.value)) {
-    return Failure{MotorError{fmt::format("friction cannot be below 0 N\u00B7m, as {:g} is", load.friction.value)}};
+    return Failure{MotorError{fmt::format("friction must be 0 N\u00B7m or more, not {:g}", load.friction.value)}};
   }
   if (!good(load.friction_per_speed.value)) {
-    return Failure{MotorError{fmt::format("friction cannot fall with the speed, as {:g} N\u00B7m\u00B7s/rad says",
+    return Failure{MotorError{fmt::format("viscous friction must be 0 N\u00B7m\u00B7s/rad or more, not {:g}",
                                           load.friction_per_speed.value)}};
   }
   return Unit{};
@@ -100,8 +100,8 @@ Result<TorqueCurve, MotorError> TorqueCurve::from_points(const Rotor& rotor, con
   if (!inner) return Failure{inner.error()};
   for (const TorquePoint& point : pull_in) {
     if (point.torque <= curve.pull_out(curve.speed_at(point.rate))) continue;
-    return Failure{
-        MotorError{fmt::format("pull-in cannot be above pull-out, as it is at {:g} steps/s", point.rate.value())}};
+    return Failure{MotorError{
+        fmt::format("pull-in torque cannot be above pull-out torque, as at {:g} steps/s", point.rate.value())}};
   }
   curve.pull_in_ = std::move(*inner);
   return curve;

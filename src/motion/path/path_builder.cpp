@@ -211,14 +211,14 @@ void PathBuilder::lacks(Lack what) {
       return report(Severity::error, "path.no-orientation", "the machine cannot turn its spindle to an angle (M19)",
                     "a program without M19");
     case Lack::outputs:
-      return report(Severity::warning, "path.no-outputs", "the machine has no such output: nothing is switched",
+      return report(Severity::warning, "path.no-outputs", "the machine has no such output, so nothing is switched",
                     "a program without M62 to M65, M67 and M68");
     case Lack::inputs:
       return report(Severity::warning, "path.no-inputs",
-                    "the machine has no inputs: reading one gives 0, and waiting for one takes all of its time",
+                    "the machine has no inputs: reading one gives 0, and waiting for one lasts until the timeout",
                     "a program without M66");
     case Lack::user_codes:
-      return report(Severity::warning, "path.no-user-codes", "no program is run for a user code: nothing happens",
+      return report(Severity::warning, "path.no-user-codes", "user codes run no program, so nothing happens",
                     "a program without M100 to M199");
   }
 }
@@ -226,7 +226,7 @@ void PathBuilder::lacks(Lack what) {
 void PathBuilder::refuse_surface_speed(const operation::SetSpindleMode& mode) {
   if (mode.surface_limit == 0) return;
   report(Severity::error, "path.no-surface-speed", "the machine cannot hold a constant surface speed (G96)",
-         "G97 and S in revolutions a minute");
+         "G97 and S in rpm");
 }
 
 bool PathBuilder::add_arc(const operation::ArcFeed& arc, PathItem& item) {
@@ -316,7 +316,7 @@ bool PathBuilder::begin_spline(const operation::NurbsFeed& curve, PathItem& item
       tolerance_ > Mm(0) ? std::max(tolerance_ * spline_share, least_spline_tolerance) : exact_tolerance * piece_share;
   const auto error = spline_->begin(curve.order - 1, piece_tolerance_);
   if (!error) return next_spline_piece(item);
-  report(Severity::error, "path.bad-spline", "no tool can follow this spline", error->message);
+  report(Severity::error, "path.bad-spline", "this spline cannot be followed", error->message);
   position_ = machine_of(curve.points.back());
   return false;
 }

@@ -70,8 +70,8 @@ MmPerSecond PathBuilder::feed_with_spindle(double mm_per_revolution) {
   const double rate = mm_per_revolution * outputs().revolutions_per_minute / seconds_per_minute;
   if (rate > 0) return MmPerSecond(rate);
   report(Severity::error, "path.spindle-off",
-         mm_per_revolution > 0 ? "the feed follows the spindle, and the spindle stands"
-                               : "the feed follows the spindle, by nothing a revolution",
+         mm_per_revolution > 0 ? "the feed follows the spindle, but the spindle is stopped"
+                               : "the feed follows the spindle, but the feed per revolution is 0",
          "S above 0 with M3 or M4, and a pitch (K) or feed (F) above 0, before the move");
   return speed_after_error;
 }
@@ -109,10 +109,10 @@ void PathBuilder::check_thread(const Curve& curve, MmPerSecond speed) {
   const int decimals = inches ? 4 : 3;
   const double limit = options_.velocity[slowest].value();
   report(Severity::error, "path.thread-too-fast",
-         fmt::format("at {:g} rpm and {:.{}f} {} a turn {} would have to move at {:.1f} {}/s, and its limit is {:g}",
+         fmt::format("at {:g} rpm and {:.{}f} {}/rev, {} would have to move at {:.1f} {}/s, above its limit of {:g}",
                      rpm, pitch, decimals, unit, letter_of(slowest), limit * times,
                      is_rotary(slowest) ? "degrees" : "mm", limit),
-         fmt::format("S up to {:g}, or up to {:.{}f} {} a turn", rounded_down(rpm / times, rpm / times < 10 ? 2 : 0),
+         fmt::format("S up to {:g}, or up to {:.{}f} {}/rev", rounded_down(rpm / times, rpm / times < 10 ? 2 : 0),
                      rounded_down(pitch / times, decimals), decimals, unit));
 }
 

@@ -12,9 +12,10 @@ std::string wrong_in(const LoopSetup& setup) {
   for (const Status<MotorError>& good : {check(setup.motor.motor), check(setup.motor.drive), check(setup.motor.load)}) {
     if (!good) return good.error().message;
   }
-  if (setup.counts_per_turn < 4 || setup.counts_per_turn > 1'000'000) return "expected 4 to 1000000 counts a turn";
+  if (setup.counts_per_turn < 4 || setup.counts_per_turn > 1'000'000)
+    return "expected 4 to 1000000 counts per revolution";
   if (!(setup.period.value() >= 1e-5 && setup.period.value() <= 0.1)) return "expected a period of 10 µs to 0.1 s";
-  if (!std::isfinite(setup.to) || setup.to == 0) return "a jump of 0 is no jump";
+  if (!std::isfinite(setup.to) || setup.to == 0) return "expected a step other than 0";
   return {};
 }
 
@@ -69,7 +70,7 @@ std::string loop_answer(const LoopSetup& setup, Seconds whole) {
 std::string ultimate_answer(const LoopSetup& setup) {
   if (const std::string words = wrong_in(setup); !words.empty()) return error_answer(words);
   const std::optional<UltimateCycle> cycle = ultimate_cycle(setup);
-  if (!cycle) return error_answer("the loop swings at no gain");
+  if (!cycle) return error_answer("the loop does not oscillate at any gain");
   JsonText json;
   json.number("gain", cycle->gain);
   json.number("period_s", cycle->period.value());

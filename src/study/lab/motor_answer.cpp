@@ -8,9 +8,9 @@ namespace passo {
 
 std::string windings_answer(const Excitation& excitation, std::int32_t full_steps_per_turn, std::int64_t first,
                             std::int64_t last) {
-  if (full_steps_per_turn < 1) return error_answer("a motor has at least one full step to a turn");
+  if (full_steps_per_turn < 1) return error_answer("expected at least one full step per revolution");
   if (last < first || last - first >= most_entries) {
-    return error_answer(fmt::format("expected 1 to {} places", most_entries));
+    return error_answer(fmt::format("expected 1 to {} points", most_entries));
   }
   std::vector<std::int64_t> pattern;
   std::vector<double> a;
@@ -37,11 +37,11 @@ std::string torque_answer(const TorqueQuestion& question) {
   for (const Status<MotorError>& good : {check(question.motor), check(question.drive), check(question.load)}) {
     if (!good) return error_answer(good.error().message);
   }
-  if (!(question.margin > 0 && question.margin <= 1)) return error_answer("the margin is a share, above 0 to 1");
+  if (!(question.margin > 0 && question.margin <= 1)) return error_answer("expected a margin above 0, up to 1");
   if (!(question.acceleration.value >= 0 && std::isfinite(question.acceleration.value))) {
-    return error_answer("the acceleration is 0 rad/s² or more");
+    return error_answer("expected an acceleration of 0 rad/s² or more");
   }
-  if (question.rows < 2 || question.rows > most_entries) return error_answer("expected 2 rows or more");
+  if (question.rows < 2 || question.rows > most_entries) return error_answer("expected at least 2 rows");
   const auto curve = TorqueCurve::from_motor(question.motor, question.drive);
   if (!curve) return error_answer(curve.error().message);
   const Hertz end = question.end > Hertz(0) ? question.end : natural_end(*curve, question.load);

@@ -14,14 +14,14 @@ std::string wrong_in(const RampRequest& request) {
   const auto not_negative = [](double value) { return std::isfinite(value) && value >= 0; };
   if (!positive(request.setup.clock.value())) return "the clock must be above 0 Hz";
   if (!positive(request.setup.acceleration.value)) return "the acceleration must be above 0 rad/s²";
-  if (request.setup.steps_per_turn < 1) return "a motor has at least one step to a turn";
+  if (request.setup.steps_per_turn < 1) return "expected at least one step per revolution";
   if (request.steps < 1 || request.steps > most_entries) return fmt::format("expected 1 to {} steps", most_entries);
   if (request.table_size < 0 || request.table_size > RampSequence::largest_table) {
     return fmt::format("expected a table of 0 to {} entries", RampSequence::largest_table);
   }
   if (!not_negative(request.rate.value()) || !not_negative(request.start.value()) ||
       !not_negative(request.jerk.value)) {
-    return "a rate or a jerk is 0 or more";
+    return "expected a rate and a jerk of 0 or more";
   }
   return {};
 }

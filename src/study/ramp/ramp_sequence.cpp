@@ -117,10 +117,9 @@ Started walk(const Ramp& ramp, const RampRequest& request) {
       limited ? std::max(interval_of<Interval>(request.rate, request.setup), ramp.fastest()) : ramp.fastest();
   const Interval start = request.start > Hertz(0) ? interval_of<Interval>(request.start, request.setup) : Interval{0};
   if (!walk->move().set_rates(start, cruise)) {
-    return Failure{because(fmt::format(
-        "the ramp's first step is faster than the start rate: {:.6g} Hz, where {:.6g} Hz is the most to start with; "
-        "lower the acceleration",
-        request.setup.clock.value() / static_cast<double>(ramp.interval()), request.start.value()))};
+    return Failure{because(
+        fmt::format("the ramp's first step has {:.6g} Hz, above the start rate of {:.6g} Hz; lower the acceleration",
+                    request.setup.clock.value() / static_cast<double>(ramp.interval()), request.start.value()))};
   }
   // Upwards only is a move whose target is too far away to matter.
   const std::int64_t target = request.whole_move ? request.steps : 2 * RampRequest::most_steps;
@@ -146,10 +145,10 @@ Started start_table(const RampRequest& request) {
           first))};
     }
     const double clock = request.setup.clock.value() * (limit + 1) / first;
-    return Failure{because(fmt::format(
-        "the first interval K_b = f \u221A(2\u03B1/a) = {:.1f} ticks is more than a table method's 16 bits hold "
-        "({:.0f}); use a clock below {:.0f} Hz, a higher acceleration, or --method exact",
-        first, limit, std::floor(clock)))};
+    return Failure{because(
+        fmt::format("the first interval K_b = f \u221A(2\u03B1/a) = {:.1f} ticks is more than a table method's 16 bits "
+                    "hold ({:.0f}); use a clock below {:.0f} Hz, a higher acceleration, or --method exact",
+                    first, limit, std::floor(clock)))};
   }
   return walk(ramp, request);
 }
@@ -158,15 +157,14 @@ Started start_whole_ticks(const RampRequest& request) {
   const double square = std::round(first_interval_squared(request.setup));
   constexpr double most = 4'294'967'295.0;
   if (square < 1 || square > most * most) {
-    return Failure{
-        because(fmt::format("the first interval K_b = f \u221A(2\u03B1/a) = {:.6g} ticks is outside of what whole "
-                            "ticks can do, 1 to {:.0f}",
-                            std::sqrt(square), most))};
+    return Failure{because(fmt::format(
+        "the first interval K_b = f \u221A(2\u03B1/a) = {:.6g} ticks is outside the range of whole ticks, 1 to {:.0f}",
+        std::sqrt(square), most))};
   }
   const auto whole = static_cast<std::uint64_t>(square);
   if (request.method == RampMethod::exact) return walk(ExactRamp(whole), request);
   if (request.whole_move) {
-    return Failure{because("the recursion in whole ticks has no way down; use real ticks, or --method exact")};
+    return Failure{because("the recursion in whole ticks cannot decelerate; use real ticks, or --method exact")};
   }
   return walk(UpwardsOnly(whole, rounded_root(whole)), request);
 }
@@ -174,7 +172,7 @@ Started start_whole_ticks(const RampRequest& request) {
 Started start_walk(const RampRequest& request) {
   if (request.jerk.value > 0) {
     if (!request.whole_move || request.method != RampMethod::exact) {
-      return Failure{because("a bounded jerk is for whole moves, --move N, with --method exact")};
+      return Failure{because("a jerk limit is only for whole moves (--move N) with --method exact")};
     }
     const double rate = request.rate > Hertz(0) ? request.rate.value() : HUGE_VAL;
     const SCurveLimits limits{
@@ -184,17 +182,18 @@ Started start_walk(const RampRequest& request) {
   if (request.method == RampMethod::table) return start_table(request);
   if (request.whole_ticks && request.method == RampMethod::midpoint) {
     return Failure{
-        because("the midpoint recursion takes a root a step: it is for real ticks. In whole ticks its intervals "
-                "are those of --method exact")};
+        because("the midpoint recursion needs a square root per step, so it is only for real ticks. In whole ticks its "
+                "intervals are those of --method exact")};
   }
   if (request.whole_ticks) return start_whole_ticks(request);
   const double first = first_interval(request.setup);
   if (request.method == RampMethod::midpoint) {
     constexpr std::int64_t most = 200'000;  // from index 100 000 down to rest the recursion loses all but six digits
     if (request.whole_move && request.steps > most) {
-      return Failure{because(fmt::format(
-          "the midpoint recursion loses digits on the way down: {} steps are the most for a --move; use --method exact",
-          most))};
+      return Failure{
+          because(fmt::format("the midpoint recursion loses precision while decelerating, so a --move has at most {} "
+                              "steps; use --method exact",
+                              most))};
     }
     return walk(RealMidpointRamp(first), request);
   }

@@ -38,11 +38,12 @@ bool CurvePulses::begin_chord() {
   StepChord chord;
   if (!chords_.next(chord)) return chords_.error() ? fail(chords_.error()->message) : false;
   if (!std::isfinite(chord.chord.deviation.value())) {
-    return fail(fmt::format("chord {} turns too far to follow its curve; a shorter period makes shorter chords",
-                            measures_.chords + 1));
+    return fail(
+        fmt::format("chord {} spans too large an angle to follow its curve; use a shorter period for shorter chords",
+                    measures_.chords + 1));
   }
   const bool flat = is_for_two_axes(method_.name);
-  if (flat && chord.distances[2] != 0) return fail(title(method_) + " is for two axes, and the curve moves Z");
+  if (flat && chord.distances[2] != 0) return fail(title(method_) + " is for two axes, but the curve moves Z");
   StepMove move;
   for (std::size_t axis = 0; axis < (flat ? 2 : space_axes); ++axis) {
     move.from.push_back(0);

@@ -119,7 +119,7 @@ Started start_arc(const Method& method, const StepMove& move) {
 }
 
 Started start_two_axes(const Method& method, const StepMove& move) {
-  if (move.axes() != 2) return Failure{fmt::format("is for two axes, and the move has {}", move.axes())};
+  if (move.axes() != 2) return Failure{fmt::format("is for two axes, but the move has {}", move.axes())};
   const LineDistances all = distances(move);
   const std::int32_t two[2] = {all.all[0], all.all[1]};
   if (method.name == MethodName::slope_recalculated) return source(SlopeRecalculated<>(two), move);
@@ -138,7 +138,7 @@ Started start_dda(const Method& method, const StepMove& move) {
   const std::uint8_t bits = method.register_bits.value_or(fewest);
   if (bits < fewest || bits > Dda<most_axes>::most_bits) {
     return Failure{
-        fmt::format("wants registers of {} to {} bits for this move, not {}", fewest, Dda<most_axes>::most_bits, bits)};
+        fmt::format("needs registers of {} to {} bits for this move, not {}", fewest, Dda<most_axes>::most_bits, bits)};
   }
   return source(Dda<most_axes>(all.all, method.half_loaded ? DdaLoad::half : DdaLoad::zero, bits), move);
 }
@@ -171,7 +171,7 @@ Result<std::unique_ptr<PulseSource>, std::string> start(const Method& method, co
     case MethodName::master_slave: return source(MasterSlave<most_axes>(distances(move).all), move);
     case MethodName::lean: return source(Lean<most_axes>(distances(move).all), move);
     case MethodName::dda: return start_dda(method, move);
-    case MethodName::midpoint: return Failure{std::string("is for arcs: it wants a centre")};
+    case MethodName::midpoint: return Failure{std::string("is for arcs, so it needs a centre")};
     default: return start_two_axes(method, move);
   }
 }

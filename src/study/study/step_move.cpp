@@ -22,7 +22,7 @@ double radius(const Place& place, const Place& centre) {
 Status<std::string> check_arc(const StepMove& move) {
   const Place& centre = move.arc->centre;
   if (move.axes() != 2 || centre.size() != 2)
-    return Failure{std::string("is an arc: it takes two axes and a centre x,y")};
+    return Failure{std::string("is an arc, which needs two axes and a centre x,y")};
   for (std::size_t axis = 0; axis < 2; ++axis) {
     for (const Place* place : {&move.from, &move.to}) {
       if (std::abs((*place)[axis] - centre[axis]) > longest) {
@@ -35,8 +35,8 @@ Status<std::string> check_arc(const StepMove& move) {
   if (start == 0) return Failure{std::string("starts at its centre")};
   if (std::abs(end - start) >= 1) {
     return Failure{
-        fmt::format("does not end on its circle: {:.6g} steps from the centre at its start, {:.6g} at its end; "
-                    "less than a step of difference is wanted",
+        fmt::format("does not end on its circle: {:.6g} steps from the centre at its start, {:.6g} at its end; the "
+                    "difference must be less than a step",
                     start, end)};
   }
   if (std::max(start, end) > static_cast<double>(longest - 1)) {
@@ -49,7 +49,7 @@ Status<std::string> check_arc(const StepMove& move) {
 
 Status<std::string> check(const StepMove& move) {
   if (move.axes() == 0 || move.axes() > most_axes) {
-    return Failure{fmt::format("has {}; one to {} are wanted", counted(move.axes(), "axis", "axes"), most_axes)};
+    return Failure{fmt::format("has {}; expected one to {}", counted(move.axes(), "axis", "axes"), most_axes)};
   }
   if (move.from.size() != move.to.size()) {
     return Failure{
@@ -57,13 +57,13 @@ Status<std::string> check(const StepMove& move) {
   }
   for (const Place* place : {&move.from, &move.to}) {
     for (const std::int64_t steps : *place) {
-      if (std::abs(steps) > longest) return Failure{fmt::format("goes beyond {} steps", longest)};
+      if (std::abs(steps) > longest) return Failure{fmt::format("exceeds {} steps", longest)};
     }
   }
   if (move.arc) return check_arc(move);
   for (std::size_t axis = 0; axis < move.axes(); ++axis) {
     if (std::abs(distance(move, axis)) > longest) {
-      return Failure{fmt::format("is {} steps long in {}; {} are the most", std::abs(distance(move, axis)),
+      return Failure{fmt::format("is {} steps long in {}; at most {} are possible", std::abs(distance(move, axis)),
                                  axis_name(axis), longest)};
     }
   }

@@ -76,7 +76,7 @@ std::vector<Wire> wires_of(std::string_view text) {
     const bool low = part.starts_with('!');
     const std::string name = part.substr(low ? 1 : 0);
     const bool known = name.size() == 2 && name[0] >= 'A' && name[0] <= 'L' && name[1] >= '0' && name[1] <= '7';
-    if (!known || wires.size() == most_pins) throw std::runtime_error("expected up to 32 pins, as B0,!L3: " + part);
+    if (!known || wires.size() == most_pins) throw std::runtime_error("expected up to 32 pins, e.g. B0,!L3: " + part);
     wires.push_back({{name[0], static_cast<std::uint8_t>(name[1] - '0')}, low});
   }
   return wires;
@@ -90,7 +90,7 @@ struct Shaft {
 
 Shaft shaft_of(std::string_view text) {
   const std::vector<std::string> parts = parts_of(text);
-  if (parts.size() != 6) throw std::runtime_error("encoder= wants six numbers");
+  if (parts.size() != 6) throw std::runtime_error("encoder= needs six numbers");
   const auto number = [&](std::size_t at) { return std::strtod(parts[at].c_str(), nullptr); };
   const SpindleModel model{.counts_per_turn = static_cast<std::int32_t>(number(0)),
                            .run_up = number(1),

@@ -52,13 +52,13 @@ TEST(Excellon, zeros_are_left_out_as_the_header_says) {
 TEST(Excellon, what_the_header_does_not_say_is_guessed_and_said) {
   const ReadDrill leading = read_drill("M48\nINCH\nT1C0.03\n%\nT1\nX12500Y9000\nX1250Y300\nM30\n");
   EXPECT_EQ(leading.drawing.holes.at(0).at, nm(31'750'000, 22'860'000));
-  EXPECT_THAT(leading.drawing.notes, testing::ElementsAre(testing::HasSubstr("leading zeros is guessed")));
+  EXPECT_THAT(leading.drawing.notes, testing::ElementsAre(testing::HasSubstr("'leading zeros' is assumed")));
   const ReadDrill trailing = read_drill("M48\nINCH\nT1C0.03\n%\nT1\nX0125Y009\nX01255Y003\nM30\n");
   EXPECT_EQ(trailing.drawing.holes.at(0).at, nm(31'750'000, 22'860'000));
-  EXPECT_THAT(trailing.drawing.notes, testing::ElementsAre(testing::HasSubstr("trailing zeros is guessed")));
+  EXPECT_THAT(trailing.drawing.notes, testing::ElementsAre(testing::HasSubstr("'trailing zeros' is assumed")));
   const ReadDrill inch = read_drill("%\nT1C0.03\nT1\nX1.5Y1.0\nM30\n");
   EXPECT_EQ(inch.drawing.holes.at(0).at, nm(38'100'000, 25'400'000));
-  EXPECT_THAT(inch.drawing.notes, testing::ElementsAre(testing::HasSubstr("inch is guessed")));
+  EXPECT_THAT(inch.drawing.notes, testing::ElementsAre(testing::HasSubstr("inch is assumed")));
   const ReadDrill told = read_drill("%\nT1C0.03\nT1\nX1.5Y1.0\nM30\n", {.inch = false, .zeros = {}});
   EXPECT_EQ(told.drawing.holes.at(0).at, nm(1'500'000, 1'000'000));
   EXPECT_TRUE(told.drawing.notes.empty());

@@ -133,7 +133,7 @@ TEST(Gerber, arcs_turn_as_both_modes_say) {
   EXPECT_TRUE(covers(clockwise, 3535, -3535));
   EXPECT_NEAR(clockwise.layer.strokes.paths.at(0).points.at(0).bulge, -std::tan(pi / 8), 1e-9);
   EXPECT_THAT(read_mm(pen + "G03*X5000Y0D02*X0Y5000I-5000J0D01*").notes(),
-              testing::ElementsAre(testing::HasSubstr("G75, as I or J is negative")));
+              testing::ElementsAre(testing::HasSubstr("G75, because I or J is negative")));
   EXPECT_EQ(gerber_code(read_mm(pen + "G74*G03*X5000Y0D02*X-5000Y1I5000J0D01*")), "gerber.bad-arc");
 }
 
@@ -142,8 +142,8 @@ TEST(Gerber, regions_have_contours_with_arcs_and_cut_ins) {
   EXPECT_DOUBLE_EQ(read_mm("G36*X0Y0D02*X4000D01*Y3000D01*X0D01*Y0D01*X5000Y0D02*X6000D01*Y1000D01*G37*").area(), 12.5)
       << "two contours, the second without its last side";
   EXPECT_NEAR(read_mm("G75*G36*X-1000Y0D02*G01*X1000D01*G03*X-1000Y0I-1000J0D01*G37*").area(), pi / 2, 0.002);
-  EXPECT_DOUBLE_EQ(read_mm("G36*X0Y0D02*X2000D01*Y1000D01*X1000D01*Y2000D01*X3000D01*Y1000D01*X2000D01*Y0D01*"
-                           "X4000D01*Y3000D01*X0D01*Y0D01*G37*")
+  EXPECT_DOUBLE_EQ(read_mm("G36*X0Y0D02*X2000D01*Y1000D01*X1000D01*Y2000D01*X3000D01*Y1000D01*X2000D01*Y0D01*X4000D01*"
+                           "Y3000D01*X0D01*Y0D01*G37*")
                        .area(),
                    12 - 2)
       << "the cut-in leads to a hole and back on its own way";
@@ -174,13 +174,12 @@ TEST(Gerber, blocks_and_repeats_go_into_one_another) {
   EXPECT_EQ(panel.layer.pads.size(), 7U);
   EXPECT_EQ(panel.layer.pads[1].at, um(0, 4000)) << "columns are filled first";
   const ReadGerber block = read_mm(dot +
-                                   "%ABD20*%%ABD21*%D10*X0Y0D03*%LPC*%D11*X0Y0D03*%LPD*%%AB*%"
-                                   "D21*X0Y0D03*X10000Y0D03*%AB*%D20*X0Y0D03*%LR90*%X0Y20000D03*%LR0*%");
+                                   "%ABD20*%%ABD21*%D10*X0Y0D03*%LPC*%D11*X0Y0D03*%LPD*%%AB*%D21*X0Y0D03*X10000Y0D03*%"
+                                   "AB*%D20*X0Y0D03*%LR90*%X0Y20000D03*%LR0*%");
   EXPECT_DOUBLE_EQ(block.area(), 4 * 0.75);
   EXPECT_TRUE(covers(block, 400, 30'400));
-  const ReadGerber inverted = read_mm(dot +
-                                      "%ADD12R,9X9*%%ABD20*%D10*X0Y0D03*%LPC*%D11*X0Y0D03*%LPD*%%AB*%"
-                                      "D12*X0Y0D03*%LPC*%D20*X0Y0D03*");
+  const ReadGerber inverted =
+      read_mm(dot + "%ADD12R,9X9*%%ABD20*%D10*X0Y0D03*%LPC*%D11*X0Y0D03*%LPD*%%AB*%D12*X0Y0D03*%LPC*%D20*X0Y0D03*");
   EXPECT_DOUBLE_EQ(inverted.area(), 81 - 1 + 0.25) << "a clear block turns its polarities over";
 }
 
@@ -201,8 +200,8 @@ TEST(Gerber, old_codes_move_the_image) {
 
 TEST(Gerber, attributes_tell_layer_apertures_and_nets) {
   const ReadGerber read = read_mm(
-      "%TF.FileFunction,Copper,L1,Top*%%TF.GenerationSoftware,KiCad,Pcbnew,8*%%TA.AperFunction,ViaPad*%"
-      "%ADD10C,1*%%TD*%D10*%TO.N,GND*%X0Y0D03*%TO.N,+5V*%X5000Y0D03*%TD.N*%X9000Y0D03*");
+      "%TF.FileFunction,Copper,L1,Top*%%TF.GenerationSoftware,KiCad,Pcbnew,8*%%TA.AperFunction,ViaPad*%%ADD10C,1*%%TD*%"
+      "D10*%TO.N,GND*%X0Y0D03*%TO.N,+5V*%X5000Y0D03*%TD.N*%X9000Y0D03*");
   EXPECT_EQ(read.layer.function, "Copper,L1,Top");
   EXPECT_EQ(read.layer.software, "KiCad,Pcbnew,8");
   EXPECT_EQ(read.layer.apertures.at(0).function, "ViaPad");
@@ -217,8 +216,9 @@ TEST(Gerber, what_is_guessed_is_told) {
   const ReadGerber silent = read_all("%ADD10C,0.05*%D10*X10000Y0D03*");
   EXPECT_FALSE(silent.found.any_error());
   EXPECT_EQ(silent.layer.pads.at(0).at, (DrawnPoint{{25'400'000}, {0}}));
-  EXPECT_THAT(silent.notes(), testing::ElementsAre(testing::HasSubstr("inch is guessed"),
-                                                   testing::HasSubstr("2.4 is guessed"), testing::HasSubstr("no M02")));
+  EXPECT_THAT(silent.notes(),
+              testing::ElementsAre(testing::HasSubstr("inch is assumed"), testing::HasSubstr("2.4 digits are assumed"),
+                                   testing::HasSubstr("does not end with M02")));
   EXPECT_EQ(read_all("%ADD10C,1*%%FSLAX33Y33*%D10*X0Y0D03*G71*M02*").layer.apertures.at(0).across,
             Nanometres{1'000'000})
       << "the unit comes late";
@@ -227,7 +227,7 @@ TEST(Gerber, what_is_guessed_is_told) {
 TEST(Gerber, what_old_programs_write_beside_the_format_is_read) {
   const ReadGerber square = flashed("R,0.5");
   EXPECT_NEAR(square.area(), 0.25, 1e-9);
-  EXPECT_THAT(square.notes(), testing::Contains(testing::HasSubstr("as high as wide")));
+  EXPECT_THAT(square.notes(), testing::Contains(testing::HasSubstr("the height is assumed to be the same")));
   EXPECT_NEAR(macro_flashed("1,1,2,0,0*\n*").area(), macro_flashed("1,1,2,0,0*").area(), 1e-9)
       << "a lone * ends the macro";
   const ReadGerber point = flashed("R,0.5250.525");
@@ -235,7 +235,7 @@ TEST(Gerber, what_old_programs_write_beside_the_format_is_read) {
   EXPECT_THAT(point.notes(), testing::Contains(testing::HasSubstr("'0.5250.525' is read as 0.525")));
   const ReadGerber rest = read_mm("%ADD10C,2*X.015%\nD10*\nX0Y0D03*\n");
   EXPECT_NEAR(rest.area(), flashed("C,2").area(), 1e-9);
-  EXPECT_THAT(rest.notes(), testing::Contains(testing::HasSubstr("'X.015' behind the end of a command")));
+  EXPECT_THAT(rest.notes(), testing::Contains(testing::HasSubstr("'X.015' after the end of a command")));
 }
 
 TEST(Gerber, what_is_wrong_is_told_with_its_place) {

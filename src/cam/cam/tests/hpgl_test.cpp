@@ -140,7 +140,7 @@ TEST(Hpgl, escapes_of_plotters_and_printers_are_skipped) {
 TEST(Hpgl, what_is_wrong_is_told_with_its_place) {
   EXPECT_THAT(plotted("IN;\nPU0,0;PD40;").words,
               testing::HasSubstr("plot.plt:2:11: error: these places have 1 number"));
-  EXPECT_THAT(plotted("IN;PU0,0;PD4#0;").words, testing::HasSubstr("plot.plt:1:13: error: this is no number of PD"));
+  EXPECT_THAT(plotted("IN;PU0,0;PD4#0;").words, testing::HasSubstr("plot.plt:1:13: error: this is not a number of PD"));
   EXPECT_THAT(plotted("IN;LBnever").words, testing::HasSubstr("[hpgl.label]"));
   EXPECT_THAT(plotted("IN;SC0,0,0,0;").words, testing::HasSubstr("[hpgl.numbers]"));
   EXPECT_THAT(plotted("IN;AA1;").words, testing::HasSubstr("[hpgl.numbers]"));
@@ -149,7 +149,7 @@ TEST(Hpgl, what_is_wrong_is_told_with_its_place) {
   EXPECT_THAT(plotted("IN;PD9999999999,0;").words, testing::HasSubstr("[hpgl.syntax]"));
   const Plotted odd = plotted("IN;QQ1;IW0,0,1,1;PU0,0;PD40,0;");
   EXPECT_THAT(odd.drawing.notes,
-              testing::ElementsAre("left out: 1 clipping windows", "left out: 1 commands QQ, which are not known"));
+              testing::ElementsAre("ignored: 1 clipping windows", "ignored: 1 unknown commands QQ"));
 }
 
 TEST(Hpgl, is_told_by_its_first_commands) {

@@ -53,7 +53,7 @@ TEST(StrokeFonts, what_is_wrong_is_told_with_its_line) {
   EXPECT_THAT(read_font("# LetterSpacing: 2\n0,0;1,8\n").words, testing::HasSubstr("before the first letter"));
   EXPECT_THAT(read_font("# LetterSpacing: 2\n[zz]\n").words, testing::HasSubstr("[font.syntax]"));
   EXPECT_THAT(read_font("# LetterSpacing: 2\n").words, testing::HasSubstr("no letters"));
-  EXPECT_THAT(read_font("  699  1JZ\n  714  9MWRF").words, testing::HasSubstr("not whole"));
+  EXPECT_THAT(read_font("  699  1JZ\n  714  9MWRF").words, testing::HasSubstr("is incomplete"));
   EXPECT_FALSE(looks_like_stroke_font("#!/bin/sh"));
   EXPECT_FALSE(looks_like_stroke_font("12345 of them"));
 }

@@ -26,8 +26,8 @@ ReadSvg svg(const std::string& text, const SvgOptions& options = {}) {
 // A page of 100 x 50 mm, of which a 1 is half a millimetre.
 std::string page(const std::string& inside) {
   return "<svg xmlns='http://www.w3.org/2000/svg' xmlns:xlink='http://www.w3.org/1999/xlink' "
-         "xmlns:inkscape='http://www.inkscape.org/namespaces/inkscape' width='100mm' height='50mm' "
-         "viewBox='0 0 200 100'>" +
+         "xmlns:inkscape='http://www.inkscape.org/namespaces/inkscape' width='100mm' height='50mm' viewBox='0 0 200 "
+         "100'>" +
          inside + "</svg>";
 }
 double mm_x(const PathPoint& point) {
@@ -43,9 +43,9 @@ void expect_at(const PathPoint& point, double x, double y) {
 
 TEST(Svg, shapes_lie_on_the_page_with_y_up) {
   const ReadSvg read =
-      svg(page("<circle cx='20' cy='10' r='4'/><rect x='10' y='20' width='40' height='30'/>"
-               "<line x1='0' y1='0' x2='100%' y2='100%'/><polygon points='0,0 10,0 10,10'/>"
-               "<polyline points='0 0 1-1'/><ellipse cx='50' cy='50' rx='20' ry='10'/>"));
+      svg(page("<circle cx='20' cy='10' r='4'/><rect x='10' y='20' width='40' height='30'/><line x1='0' y1='0' "
+               "x2='100%' y2='100%'/><polygon points='0,0 10,0 10,10'/><polyline points='0 0 1-1'/><ellipse cx='50' "
+               "cy='50' rx='20' ry='10'/>"));
   EXPECT_EQ(read.words, "");
   ASSERT_EQ(read.drawing.holes.size(), 1U);
   EXPECT_EQ(read.drawing.holes[0].diameter, to_nanometres(Mm(4)));
@@ -91,8 +91,8 @@ TEST(Svg, arcs_of_circles_stay_arcs) {
   EXPECT_NEAR(half.drawing.paths[0].points[0].bulge, -1, 1e-9);
   // The large and the small arc, both ways, and radii that are too small.
   const ReadSvg four =
-      svg(page("<path d='M20 20A20 20 0 0040 40'/><path d='M20 20A20 20 0 0 1 40 40'/>"
-               "<path d='M20 20A20 20 0 1 0 40 40'/><path d='M20 20a5 5 0 11 20 20'/>"));
+      svg(page("<path d='M20 20A20 20 0 0040 40'/><path d='M20 20A20 20 0 0 1 40 40'/><path d='M20 20A20 20 0 1 0 40 "
+               "40'/><path d='M20 20a5 5 0 11 20 20'/>"));
   ASSERT_EQ(four.drawing.paths.size(), 4U);
   const double quarter = std::tan(M_PI / 8);
   EXPECT_NEAR(four.drawing.paths[0].points[0].bulge, quarter, 1e-9);
@@ -102,8 +102,8 @@ TEST(Svg, arcs_of_circles_stay_arcs) {
   EXPECT_NEAR(four.drawing.paths[3].points[0].bulge, -1, 1e-6) << "the circle grows to a half one";
   // Turned and mirrored it stays an arc; stretched it becomes chords of an ellipse.
   const ReadSvg turned =
-      svg(page("<path transform='rotate(30) scale(-2,2)' d='M20 20 A10 10 0 0 1 40 20'/>"
-               "<path transform='scale(2,1)' d='M20 20 A10 10 0 0 1 40 20'/>"));
+      svg(page("<path transform='rotate(30) scale(-2,2)' d='M20 20 A10 10 0 0 1 40 20'/><path transform='scale(2,1)' "
+               "d='M20 20 A10 10 0 0 1 40 20'/>"));
   EXPECT_NEAR(turned.drawing.paths[0].points[0].bulge, 1, 1e-9);
   EXPECT_GT(turned.drawing.paths[1].points.size(), 20U);
   for (const PathPoint& point : turned.drawing.paths[1].points) {
@@ -112,9 +112,8 @@ TEST(Svg, arcs_of_circles_stay_arcs) {
 }
 
 TEST(Svg, rounded_corners_are_arcs) {
-  const ReadSvg read =
-      svg(page("<rect x='10' y='10' width='60' height='40' rx='6'/>"
-               "<rect x='10' y='10' width='20' height='20' rx='30'/>"));
+  const ReadSvg read = svg(
+      page("<rect x='10' y='10' width='60' height='40' rx='6'/><rect x='10' y='10' width='20' height='20' rx='30'/>"));
   ASSERT_EQ(read.drawing.paths.size(), 2U);
   ASSERT_EQ(read.drawing.paths[0].points.size(), 8U);
   double length = 0;
@@ -158,10 +157,9 @@ TEST(Svg, curves_become_chords_within_the_tolerance) {
 TEST(Svg, groups_symbols_uses_and_views_are_placed) {
   const ReadSvg read =
       svg(page("<defs><circle id='dot' r='2'/><symbol id='s' viewBox='0 0 10 10'><circle cx='5' cy='5' "
-               "r='5'/></symbol></defs><g transform='translate(20,10)'><use href='#dot' x='4'/></g>"
-               "<use xlink:href='#s' x='100' y='20' width='40' height='20'/>"
-               "<svg x='50' y='50' width='20' height='20' viewBox='0 0 2 2'><circle cx='1' cy='1' r='1'/>"
-               "</svg>"));
+               "r='5'/></symbol></defs><g transform='translate(20,10)'><use href='#dot' x='4'/></g><use "
+               "xlink:href='#s' x='100' y='20' width='40' height='20'/><svg x='50' y='50' width='20' height='20' "
+               "viewBox='0 0 2 2'><circle cx='1' cy='1' r='1'/></svg>"));
   EXPECT_EQ(read.words, "");
   ASSERT_EQ(read.drawing.holes.size(), 3U);
   const auto expect_hole = [&](std::size_t i, double x, double y, double diameter) {
@@ -176,18 +174,18 @@ TEST(Svg, groups_symbols_uses_and_views_are_placed) {
 
 TEST(Svg, what_is_not_displayed_or_no_line_is_left_out_and_told) {
   const ReadSvg read =
-      svg(page("<g style='stroke:red; display : none'><circle r='1'/></g><circle r='1' visibility='hidden'/>"
-               "<text x='1' y='1'>A</text><image href='a.png'/><clipPath><circle r='1'/></clipPath>"));
+      svg(page("<g style='stroke:red; display : none'><circle r='1'/></g><circle r='1' visibility='hidden'/><text "
+               "x='1' y='1'>A</text><image href='a.png'/><clipPath><circle r='1'/></clipPath>"));
   EXPECT_TRUE(read.drawing.holes.empty());
-  EXPECT_THAT(read.drawing.notes, testing::UnorderedElementsAre("left out: 2 elements that are not displayed",
-                                                                "left out: 1 pictures and foreign objects",
-                                                                "left out: 1 texts, which are no paths"));
+  EXPECT_THAT(read.drawing.notes, testing::UnorderedElementsAre("ignored: 2 elements that are not displayed",
+                                                                "ignored: 1 pictures and foreign objects",
+                                                                "ignored: 1 texts (convert them to paths)"));
 }
 
 TEST(Svg, layers_are_chosen_by_their_names) {
   const std::string text = page(
-      "<g inkscape:groupmode='layer' inkscape:label='cut'><circle r='1'/></g>"
-      "<g inkscape:groupmode='layer' inkscape:label='notes'><circle r='2'/></g><circle r='3'/>");
+      "<g inkscape:groupmode='layer' inkscape:label='cut'><circle r='1'/></g><g inkscape:groupmode='layer' "
+      "inkscape:label='notes'><circle r='2'/></g><circle r='3'/>");
   EXPECT_EQ(svg(text).drawing.holes.size(), 3U);
   const ReadSvg one = svg(text, {.layers = {"cut"}});
   ASSERT_EQ(one.drawing.holes.size(), 1U);
@@ -200,7 +198,7 @@ TEST(Svg, a_page_without_a_size_is_in_pixels) {
   ASSERT_EQ(pixels.drawing.holes.size(), 1U);
   EXPECT_NEAR(to_mm(pixels.drawing.holes[0].diameter).value(), 25.4, 1e-6);
   EXPECT_NEAR(to_mm(pixels.drawing.holes[0].at.y).value(), -25.4, 1e-6);
-  EXPECT_THAT(pixels.drawing.notes, testing::ElementsAre(HasSubstr("tells no size")));
+  EXPECT_THAT(pixels.drawing.notes, testing::ElementsAre(HasSubstr("has no size")));
   const ReadSvg box = svg("<svg viewBox='0 0 96 96'><circle cx='0' cy='96' r='48'/></svg>", {.scale = 2});
   EXPECT_NEAR(to_mm(box.drawing.holes[0].at.y).value(), 0, 1e-6);
   EXPECT_NEAR(to_mm(box.drawing.holes[0].diameter).value(), 50.8, 1e-6);
@@ -211,9 +209,8 @@ TEST(Svg, what_is_wrong_is_told_with_its_line) {
               HasSubstr("it.svg:3:3: error: the drawing cannot be read: mismatched tag"));
   EXPECT_THAT(svg("<html/>").words, HasSubstr("[svg.no-drawing]"));
   EXPECT_THAT(svg("").words, HasSubstr("[svg.syntax]"));
-  EXPECT_THAT(svg(page("\n<path d='M0 0 L1 x'/>")).words,
-              HasSubstr("it.svg:2:1: error: the data of this path is wrong"));
-  EXPECT_THAT(svg(page("<path d='L1 1'/>")).words, HasSubstr("M, with which a path begins"));
+  EXPECT_THAT(svg(page("\n<path d='M0 0 L1 x'/>")).words, HasSubstr("it.svg:2:1: error: the path data is wrong"));
+  EXPECT_THAT(svg(page("<path d='L1 1'/>")).words, HasSubstr("M, the start of a path"));
   EXPECT_THAT(svg(page("<path d='M0 0 A1 1 0 2 0 5 5'/>")).words, HasSubstr("[svg.path]"));
   EXPECT_THAT(svg(page("<path d='M0 0z1 1'/>")).words, HasSubstr("[svg.path]"));
   EXPECT_THAT(svg(page("<g transform='spin(3)'/>")).words, HasSubstr("[svg.transform]"));
@@ -236,8 +233,7 @@ TEST(Svg, uses_that_explode_are_refused) {
 
 TEST(Svg, a_text_that_ends_anywhere_is_read_or_refused) {
   const std::string text = page(
-      "<path transform='rotate(3,4,5)' d='M1 2C3 4 5 6 7 8A1 2 3 0 1 9 9zm1 1h3'/>"
-      "<rect width='3' height='2' rx='1'/>");
+      "<path transform='rotate(3,4,5)' d='M1 2C3 4 5 6 7 8A1 2 3 0 1 9 9zm1 1h3'/><rect width='3' height='2' rx='1'/>");
   for (std::size_t size = 0; size < text.size(); ++size) EXPECT_NE(svg(text.substr(0, size)).words, "");
 }
 

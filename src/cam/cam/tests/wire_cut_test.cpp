@@ -169,13 +169,13 @@ TEST(Airfoils, of_both_forms_are_the_same_section) {
 TEST(Airfoils, what_is_wrong_is_told) {
   std::string words;
   read_section("NACA\n1 0\n0.5 up\n", words);
-  EXPECT_THAT(words, testing::HasSubstr("wing.dat:3:1: error: this is no point of a section"));
+  EXPECT_THAT(words, testing::HasSubstr("wing.dat:3:1: error: this is not a point of an airfoil"));
   read_section("NACA\n 3. 4.\n\n0 0\n0.5 0.06\n1.0 0.001\n\n0 0\n0.5 -0.04\n1.0 -0.001\n", words);
-  EXPECT_THAT(words, testing::HasSubstr("6 points, and says 3 and 4"));
+  EXPECT_THAT(words, testing::HasSubstr("6 points, but declares 3 and 4"));
   read_section("NACA\n1 0\n0 0\n", words);
-  EXPECT_THAT(words, testing::HasSubstr("a section of 2 points"));
+  EXPECT_THAT(words, testing::HasSubstr("an airfoil of 2 points"));
   read_section("NACA\n1 0\n1 1\n1 2\n1 3\n1 4\n", words);
-  EXPECT_THAT(words, testing::HasSubstr("one above the other"));
+  EXPECT_THAT(words, testing::HasSubstr("have the same X"));
   EXPECT_TRUE(looks_like_airfoil("EPPLER 387\n1.0 0.0\n0.9 0.01\n0.8,0.02\n"));
   EXPECT_FALSE(looks_like_airfoil("G1 X1 Y2\nG1 X2 Y2\n"));
   EXPECT_FALSE(looks_like_airfoil("0\nSECTION\n2\nENTITIES\n"));

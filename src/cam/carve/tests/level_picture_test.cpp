@@ -52,7 +52,7 @@ TEST(LevelPicture, that_is_cut_off_or_changed_anywhere_is_refused_with_a_reason)
     EXPECT_THAT(read.words, HasSubstr(size < 8 ? "[picture.unknown-kind]" : "[picture.broken]")) << size;
   }
   EXPECT_THAT(read_picture(std::string_view(whole).substr(0, whole.size() / 2)).words,
-              HasSubstr("the picture is not read: the file ends too early"));
+              HasSubstr("the picture cannot be read: the file ends too early"));
   for (std::size_t at = 8; at < whole.size(); at += 1 + whole.size() / 100) {
     std::string changed = whole;
     changed[at] = static_cast<char>(changed[at] ^ 0x10);
@@ -64,7 +64,7 @@ TEST(LevelPicture, that_is_cut_off_or_changed_anywhere_is_refused_with_a_reason)
 TEST(LevelPicture, that_is_too_large_is_refused_before_memory_is_taken) {
   LevelPicture wide{.columns = 65536, .rows = 2};
   wide.levels.assign(2 * 65536, 0);
-  EXPECT_THAT(read_picture(test::png_of_levels(wide)).words, HasSubstr("65,535 a side"));
+  EXPECT_THAT(read_picture(test::png_of_levels(wide)).words, HasSubstr("65,535 per side"));
   LevelPicture thin{.columns = 1, .rows = 5};
   thin.levels.assign(5, 0);
   EXPECT_THAT(read_picture(test::png_of_levels(thin)).words, HasSubstr("less than two rows or columns"));

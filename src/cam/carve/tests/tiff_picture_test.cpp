@@ -175,17 +175,17 @@ TEST(TiffPicture, that_is_cut_off_or_changed_anywhere_is_read_or_refused_with_a_
 
 TEST(TiffPicture, of_another_kind_is_refused_with_its_name) {
   MadeTiff tiff{.more = {{259, 7}}, .data = {0, 1, 2, 3}};
-  EXPECT_THAT(read_tiff_bytes(tiff.bytes()).words, HasSubstr("its compression is not read (JPEG)"));
+  EXPECT_THAT(read_tiff_bytes(tiff.bytes()).words, HasSubstr("its compression (JPEG) is not supported"));
   tiff = {.bits = 12, .data = std::string(9, 1)};
-  EXPECT_THAT(read_tiff_bytes(tiff.bytes()).words, HasSubstr("samples of 12 bits are not read"));
+  EXPECT_THAT(read_tiff_bytes(tiff.bytes()).words, HasSubstr("samples of 12 bits are not supported"));
   tiff = {.photometric = 5, .data = std::string(9, 1)};
-  EXPECT_THAT(read_tiff_bytes(tiff.bytes()).words, HasSubstr("neither grey, nor red"));
+  EXPECT_THAT(read_tiff_bytes(tiff.bytes()).words, HasSubstr("not greyscale, RGB or a palette"));
   tiff = {.columns = 65535, .rows = 1000, .data = std::string(9, 1)};  // large, and nothing of it is there
   EXPECT_THAT(read_tiff_bytes(tiff.bytes()).words, HasSubstr("the file ends too early"));
   tiff = {.columns = 65535, .rows = 65535};
   EXPECT_THAT(read_tiff_bytes(tiff.bytes()).words, HasSubstr("more than 64 million pixels"));
   tiff = {.data = std::string(3, 1)};
-  EXPECT_THAT(read_tiff_bytes(tiff.bytes()).words, HasSubstr("broken, or end too early"));
+  EXPECT_THAT(read_tiff_bytes(tiff.bytes()).words, HasSubstr("damaged or truncated"));
 }
 
 }  // namespace

@@ -66,7 +66,7 @@ TEST(LevelledFrames, the_first_move_gets_no_z_before_the_program_gives_one) {
   EXPECT_EQ(it.text, head + "G54\nG0 X46 Y6\nZ12\nG1 Z0.41 F500\nX60 Z0.55\nG0 Z12\nM5\nM2\n");
   const Written feed = levelled("G90 G1 X46 Y6 F100\nM2\n");
   EXPECT_THAT(feed.text, HasSubstr("G1 X46 Y6 F100\n"));
-  EXPECT_THAT(feed.words, HasSubstr("it:1:1: warning: this feed is not levelled"));
+  EXPECT_THAT(feed.words, HasSubstr("it:1:1: warning: the height map is not applied"));
 }
 
 TEST(LevelledFrames, the_work_system_and_the_tool_offset_in_force_stay_in_force) {
@@ -125,11 +125,12 @@ TEST(LevelledFrames, a_full_circle_ends_where_it_begins) {
 }
 
 TEST(LevelledFrames, what_moves_the_zero_is_refused_with_its_word) {
-  EXPECT_THAT(levelled("G90\nG0 Z5\nG10 L2 P1 Z1\nM2\n").words, HasSubstr("it:3:1: error: G10 L2 changes the zero"));
-  EXPECT_THAT(levelled("G90\nG10 L2 P2 Z0\nM2\n").words, HasSubstr("it:2:1: error: G10 L2 changes the zero"));
-  EXPECT_THAT(levelled("G90\nG10 L20 P1 Z0\nM2\n").words, HasSubstr("it:2:1: error: G10 L20 changes the zero"));
+  EXPECT_THAT(levelled("G90\nG0 Z5\nG10 L2 P1 Z1\nM2\n").words,
+              HasSubstr("it:3:1: error: G10 L2 changes the work zero"));
+  EXPECT_THAT(levelled("G90\nG10 L2 P2 Z0\nM2\n").words, HasSubstr("it:2:1: error: G10 L2 changes the work zero"));
+  EXPECT_THAT(levelled("G90\nG10 L20 P1 Z0\nM2\n").words, HasSubstr("it:2:1: error: G10 L20 changes the work zero"));
   EXPECT_THAT(levelled("G90\nG0 Z5 G52 X0\nM2\n").words, HasSubstr("error"));
-  EXPECT_THAT(levelled("G90\nG92 X0\nM2\n").words, HasSubstr("it:2:1: error: G92 changes the zero"));
+  EXPECT_THAT(levelled("G90\nG92 X0\nM2\n").words, HasSubstr("it:2:1: error: G92 changes the work zero"));
 }
 
 TEST(LevelledFrames, cases_of_users) {

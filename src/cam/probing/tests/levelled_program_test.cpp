@@ -97,10 +97,10 @@ TEST(LevelledProgram, an_upright_arc_becomes_chords) {
 }
 
 TEST(LevelledProgram, refuses_what_a_list_of_moves_cannot_say) {
-  EXPECT_THAT(level("G90 F100\nG38.2 Z-5\nM2\n").words, HasSubstr("it:2:1: error: this cannot be written"));
+  EXPECT_THAT(level("G90 F100\nG38.2 Z-5\nM2\n").words, HasSubstr("it:2:1: error: the height map cannot be applied"));
   EXPECT_THAT(level("G90 F100\nG10 L2 P1 X5\nM2\n").words, HasSubstr("[level.offset]"));
   EXPECT_THAT(level("G90 F100\nG92 X5\nM2\n").words, HasSubstr("[level.offset]"));
-  EXPECT_THAT(level("G90 F100\nG1 X200 Y0 Z0\nM2\n").words, HasSubstr("is 100.000 mm beside the height map"));
+  EXPECT_THAT(level("G90 F100\nG1 X200 Y0 Z0\nM2\n").words, HasSubstr("is 100.000 mm outside the height map"));
   EXPECT_EQ(level("G90 F100\nG0 X200 Y0\nM2\n").words, "");
 }
 

@@ -57,15 +57,15 @@ TEST(HeightMap, points_may_stand_in_any_order_with_blanks_or_semicolons) {
 }
 
 TEST(HeightMap, tells_what_is_wrong_and_where) {
-  EXPECT_THAT(read("0,0,1\n0,1e9,1\n").words, HasSubstr("it:2:3: error: '1e9' is no length"));
+  EXPECT_THAT(read("0,0,1\n0,1e9,1\n").words, HasSubstr("it:2:3: error: '1e9' is not a valid length"));
   EXPECT_THAT(read("0,0,1\n0,1\n").words, HasSubstr("it:2:4: error: a number is missing"));
   EXPECT_THAT(read("0,0,1\n0,1,nan\n").words, HasSubstr("it:2:5: error: 'nan'"));
-  EXPECT_THAT(read("0,0,1,2\n").words, HasSubstr("it:1:7: error: there is more than a point"));
-  EXPECT_THAT(read("0,0,1\n1,0,1\n0,1,1\n").words, HasSubstr("3 points in 2 columns and 2 rows are no whole grid"));
+  EXPECT_THAT(read("0,0,1,2\n").words, HasSubstr("it:1:7: error: there is more than one point"));
+  EXPECT_THAT(read("0,0,1\n1,0,1\n0,1,1\n").words, HasSubstr("3 points in 2 columns and 2 rows do not fill a grid"));
   EXPECT_THAT(read("0,0,1\n1,0,1\n0,1,1\n0,1,1\n").words, HasSubstr("it:4:1: error: X0 Y1 has two heights"));
-  EXPECT_THAT(read("0,0,1\n1,0,1\n").words, HasSubstr("are no surface"));
+  EXPECT_THAT(read("0,0,1\n1,0,1\n").words, HasSubstr("are not enough for a surface"));
   EXPECT_THAT(read("").words, HasSubstr("0 points"));
-  EXPECT_THAT(read("hello\nthere\n").words, HasSubstr("'there' is no length"));
+  EXPECT_THAT(read("hello\nthere\n").words, HasSubstr("'there' is not a valid length"));
   for (const char* text : {"0,0,1\n0,1e9,1\n", "0,0,1\n1,0,1\n", ""}) EXPECT_EQ(read(text).surface.triangles(), 0U);
 }
 
@@ -112,9 +112,9 @@ TEST(Stl, text_may_be_in_capitals_on_one_line_and_of_several_bodies) {
 
 TEST(Stl, that_is_broken_is_refused_with_its_place) {
   EXPECT_THAT(read("solid a\n facet normal 0 0 1\n  outer loop\n   vertex 0 zero 1\n").words,
-              HasSubstr("it:4:13: error: 'zero' does not belong here"));
+              HasSubstr("it:4:13: error: 'zero' is not expected here"));
   EXPECT_THAT(read("solid a\n facet normal 0 0 1\n  outer loop\n   vertex 0 0 1\n").words,
-              HasSubstr("the file ends amid a body"));
+              HasSubstr("the file ends inside a solid"));
   EXPECT_THAT(read("solid a\n facet normal 0 0 1\n  inner loop\n").words, HasSubstr("it:3:3: error: 'inner'"));
   // Cut off anywhere, a text is read or refused.
   const std::string whole = text_stl;

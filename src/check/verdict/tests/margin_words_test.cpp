@@ -19,7 +19,7 @@ MarginSpot doubtful_spot() {
 
 TEST(MarginWords, tell_cause_and_cure) {
   const MarginSpot spot = doubtful_spot();
-  EXPECT_EQ(cause_of(spot), "Y needs 0.31 N\u00B7m at 1,420 steps/s, 0.28 to 0.4 are there");
+  EXPECT_EQ(cause_of(spot), "Y needs 0.31 N\u00B7m at 1,420 steps/s, and has 0.28 to 0.4");
   EXPECT_EQ(cure_of(spot), "a <= 380 mm/s\u00B2, or F <= 900");
 }
 
@@ -39,14 +39,13 @@ TEST(MarginWords, name_the_swing) {
   spot.rate = Hertz(1234567);
   spot.want = Want::jump;
   EXPECT_EQ(cause_of(spot),
-            "Y needs 0.31 N\u00B7m at 1,234,567 steps/s to catch the swing after a jump of its torque, 0.28 to 0.4 are "
-            "there");
+            "Y needs 0.31 N\u00B7m at 1,234,567 steps/s to damp the oscillation after a jump of its torque, and has "
+            "0.28 to 0.4");
   spot.want = Want::calm;
   // Without a contradiction: the torque is not what is too small.
-  EXPECT_EQ(
-      cause_of(spot),
-      "Y has torque enough at 1,234,567 steps/s (it needs 0.31 N\u00B7m, 0.28 to 0.4 are there), but the motor may "
-      "swing there by itself until it loses steps (mid-band instability)");
+  EXPECT_EQ(cause_of(spot),
+            "Y has enough torque at 1,234,567 steps/s (needs 0.31 N\u00B7m, has 0.28 to 0.4), but the motor may lose "
+            "steps there through resonance (mid-band instability)");
 }
 
 }  // namespace

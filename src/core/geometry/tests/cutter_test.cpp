@@ -96,7 +96,7 @@ TEST(Cutter, is_told_in_words) {
   EXPECT_EQ(describe(cutter_of("flat:6")), "flat end, 6 mm");
   EXPECT_EQ(describe(cutter_of("bull:6:1")), "bull nose, 6 mm, corner 1 mm");
   EXPECT_EQ(describe(cutter_of("vee:60:6:0.2")), "V of 60 degrees, 6 mm, tip 0.2 mm");
-  EXPECT_EQ(describe(cutter_of("taper:1:5:6")), "tapered ball, 1 mm at the tip, 5 degrees a side, 6 mm");
+  EXPECT_EQ(describe(cutter_of("taper:1:5:6")), "tapered ball, 1 mm at the tip, 5 degrees per side, 6 mm");
 }
 
 }  // namespace

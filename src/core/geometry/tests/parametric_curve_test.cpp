@@ -154,7 +154,7 @@ TEST(Nurbs, says_what_is_wrong_with_a_definition) {
   EXPECT_THAT(refusal({.degree = 3, .control = four, .weights = {1, 1, std::nan(""), 1}}), HasSubstr("above 0"));
   EXPECT_THAT(refusal({.degree = 3, .control = four, .weights = {1, 1e5, 1, 1}}), HasSubstr("10000 times"));
   EXPECT_THAT(refusal({.degree = 2, .control = four, .knots = {0, 0, 1, 1}}), HasSubstr("needs 7 knots, not 4"));
-  EXPECT_THAT(refusal({.degree = 2, .control = four, .knots = {0, 0, 0, 2, 1, 1, 1}}), HasSubstr("may not go down"));
+  EXPECT_THAT(refusal({.degree = 2, .control = four, .knots = {0, 0, 0, 2, 1, 1, 1}}), HasSubstr("must not decrease"));
   EXPECT_THAT(refusal({.degree = 2, .control = four, .knots = {0, 0, 0, 0, 0, 0, 0}}), HasSubstr("no length"));
   EXPECT_THAT(refusal({.degree = 2, .control = four, .knots = {0, 0, 0, 1e-12, 1, 1, 1}}), HasSubstr("almost equal"));
   EXPECT_THAT(refusal({.degree = 1, .control = four, .knots = {0, 0, 1, 1, 2, 2}}), HasSubstr("at most 1 times"));

@@ -104,8 +104,8 @@ TEST(StepChords, say_where_the_range_of_steps_ends) {
   EXPECT_EQ(outcome(-2147.483647, 1e6), "-2147483647");
   EXPECT_EQ(outcome(2147.483648, 1e6), "a chord is longer than 2147483647 steps on Y");
   EXPECT_EQ(outcome(-2147.483648, 1e6), "a chord is longer than 2147483647 steps on Y");
-  EXPECT_EQ(outcome(1, 1e18), "a place on Y is more than 2^52 steps from zero");
-  EXPECT_EQ(outcome(1, 0), "the scale of Y must be above 0 steps a millimetre");
+  EXPECT_EQ(outcome(1, 1e18), "a position on Y is more than 2^52 steps from zero");
+  EXPECT_EQ(outcome(1, 0), "the scale of Y must be above 0 steps/mm");
 }
 
 }  // namespace

@@ -89,7 +89,7 @@ TEST_F(OutputFileTest, says_why_a_file_cannot_be_opened) {
             "cannot write " + directory_.string() + ": it is a directory");
   create(path("plain"), "");
   EXPECT_EQ(OutputFile::open(path("plain/part.svg")).error().message,
-            "cannot write " + path("plain/part.svg") + ": a part of the path is no directory");
+            "cannot write " + path("plain/part.svg") + ": a part of the path is not a directory");
   EXPECT_EQ(OutputFile::open("").error().message, "cannot write a file without a name");
 }
 

@@ -62,8 +62,8 @@ Result<BoardClaim, std::string> BoardClaim::acquire(const BoardAddress& address)
   static_cast<void>(listen(claim.descriptor_, 1));  // so that another program can ask whose it is
   if (!is_taken) return claim;
   const auto owner = owner_of(unique, size);
-  return Failure{fmt::format("{}: in use by another passo{}; a board takes one program at a time [board.in-use]", name,
-                             owner ? fmt::format(", process {}", *owner) : "")};
+  return Failure{fmt::format("{}: in use by another passo{}; only one program at a time can use a board [board.in-use]",
+                             name, owner ? fmt::format(", process {}", *owner) : "")};
 }
 
 BoardClaim::~BoardClaim() {

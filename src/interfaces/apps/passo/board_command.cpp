@@ -47,9 +47,9 @@ std::vector<std::string> serial_lines() {
 std::unique_ptr<BoardPort> open_named(const std::string& board, int& code) {
   const auto address = parse_board_address(board);
   if (!address || address->kind == BoardAddress::Kind::virtual_machine) {
-    code =
-        fail(exit_bad_program, address ? "the virtual machine has nothing to tell: `passo board serve` is one that has"
-                                       : address.error());
+    code = fail(exit_bad_program,
+                address ? "the built-in simulated machine has no board to query; start one with `passo board serve`"
+                        : address.error());
     return nullptr;
   }
   auto port = open_addressed(*address);
@@ -59,12 +59,12 @@ std::unique_ptr<BoardPort> open_named(const std::string& board, int& code) {
 }
 
 std::string silence(const BoardSession& board) {
-  if (board.hung_up()) return "closes the line: another program uses it";
+  if (board.hung_up()) return "closes the connection: another program uses it";
   if (board.gibberish().empty()) return "does not answer";
   if (board.gibberish().find("Grbl ") != std::string::npos || board.gibberish().find("GrblHAL ") != std::string::npos) {
-    return "answers as a machine with Grbl does: passo run and passo home drive it, with --board grbl:... [board.grbl]";
+    return "is a machine with Grbl: use passo run or passo home with --board grbl:... [board.grbl]";
   }
-  return fmt::format("answers, but not as a board of Passo's: \"{}\"", board.gibberish().substr(0, 60));
+  return fmt::format("answers, but is not a Passo board: \"{}\"", board.gibberish().substr(0, 60));
 }
 
 struct Found {
@@ -103,7 +103,7 @@ std::string line_of(const BoardStatus& status) {
 int board_list(const BoardListArguments& arguments) {
   const std::vector<std::string> devices = arguments.devices.empty() ? serial_lines() : arguments.devices;
   nlohmann::json json = nlohmann::json::array();
-  if (devices.empty() && !arguments.json) fmt::print("No serial line with a USB adapter is there.\n");
+  if (devices.empty() && !arguments.json) fmt::print("No USB serial port found.\n");
   for (const std::string& device : devices) {
     if (is_terminal(STDERR_FILENO)) fmt::print(stderr, "{}: asking...\r", device);
     const Found found = look_at(device, Seconds(arguments.wait));
@@ -132,7 +132,7 @@ int board_info(const BoardInfoArguments& arguments) {
   for (const std::string& name : switches_of(*status)) switches += (switches.empty() ? "" : ", ") + name;
   fmt::print("{}\n", name_of(*about));
   fmt::print("  firmware      {}, protocol {}\n", version_of(*about), int{protocol_version});
-  fmt::print("  events        {} a second at most\n", about->highest_event_rate);
+  fmt::print("  events        at most {} per second\n", about->highest_event_rate);
   if (about->step_pulse > 0) fmt::print("  step pulse    {:.2f} us\n", about->step_pulse / 16.0);
   if (about->baud > 0) fmt::print("  line          {} baud at most\n", about->baud);
   fmt::print("  state         {}\n", state_of(*status));

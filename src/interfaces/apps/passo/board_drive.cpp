@@ -64,16 +64,15 @@ std::vector<fs::path> drives_of_picos() {
 Result<fs::path, std::string> drive_of(const BoardFlashArguments& arguments) {
   if (!arguments.device.empty()) {
     if (is_drive_of_pico(arguments.device)) return fs::path(arguments.device);
-    return Failure{arguments.device +
-                   " is not the drive of a Pico's boot loader: it has no INFO_UF2.TXT that says RPI-RP2"};
+    return Failure{arguments.device + " is not the drive of a Pico's boot loader: it has no INFO_UF2.TXT with RPI-RP2"};
   }
   const std::vector<fs::path> drives = drives_of_picos();
   if (drives.empty()) {
     return Failure<std::string>{
-        "there is no drive RPI-RP2: hold the Pico's button BOOTSEL while you plug in its cable, and mount the drive"};
+        "there is no drive RPI-RP2: hold the Pico's BOOTSEL button while you plug in its cable, and mount the drive"};
   }
   if (drives.size() > 1) {
-    return Failure{fmt::format("there are {} Picos, as at {} and {}: name one drive with --device", drives.size(),
+    return Failure{fmt::format("there are {} Picos, e.g. at {} and {}: select one drive with --device", drives.size(),
                                drives[0].string(), drives[1].string())};
   }
   return drives.front();
@@ -114,14 +113,14 @@ int flash_by_copying(const BoardFlashArguments& arguments) {
   const fs::path target = *drive / "passo.uf2";
   fmt::print("{}: {} of {} bytes\n+ cp {} {}\n", image, flash->size(), flash_of_pico, image, target.string());
   if (arguments.dry_run) {
-    fmt::print("Nothing was done.\n");
+    fmt::print("Dry run: nothing was changed.\n");
     return exit_done;
   }
   if (const std::string wrong = copy_to_drive(bytes, target); !wrong.empty()) {
     return fail(exit_failed,
-                fmt::format("{}: {}; the board may hold half a program: try again", target.string(), wrong));
+                fmt::format("{}: {}; the firmware may be incomplete: flash the board again", target.string(), wrong));
   }
-  fmt::print("Done. The Pico restarts with it. The way back: copy another UF2 file to the drive.\n");
+  fmt::print("Done. The Pico restarts with the new firmware. To go back, copy another UF2 file to the drive.\n");
   return exit_done;
 }
 

@@ -87,14 +87,14 @@ Result<unsigned, std::string> size_of_image(const std::string& path) {
   for (unsigned number = 1; std::getline(file, line); ++number) {
     if (!line.empty() && line.back() == '\r') line.pop_back();
     const auto record = read_record(line);
-    if (!record) return Failure{fmt::format("{}:{}: no record of an Intel hex file, or damaged", path, number)};
+    if (!record) return Failure{fmt::format("{}:{}: not a record of an Intel hex file, or damaged", path, number)};
     const std::vector<unsigned>& data = record->data;
     if (record->type == 1) return end;
     if (record->type == 2 && data.size() == 2) base = (data[0] * 256 + data[1]) * 16;
     if (record->type == 4 && data.size() == 2) base = (data[0] * 256 + data[1]) << 16;
     if (record->type == 0) end = std::max(end, base + record->address + static_cast<unsigned>(data.size()));
   }
-  return Failure{path + ": ends before its end record: is it whole?"};
+  return Failure{path + ": has no end record, so it may be truncated"};
 }
 
 // Runs a program and returns its exit code; 127 if there is no such program. There is no shell in between, so a file
@@ -133,7 +133,7 @@ class Backup {
   }
   bool begin_writing() const {
     std::ofstream file(mark());
-    file << "the board may hold half a program\n" << std::flush;
+    file << "the board's firmware may be incomplete\n" << std::flush;
     return file.good();
   }
   void end_writing() const {
@@ -162,18 +162,18 @@ int keep_and_write(const Backup& backup, const Words& read_old, const Words& wri
     return dry_run ? 0 : start(words);
   };
   if (backup.is_of_unfinished()) {
-    fmt::print("{} is what the board held before the attempt that failed, and stays\n", backup.path());
+    fmt::print("{} holds the firmware from before the failed attempt, and is kept\n", backup.path());
   } else if (const int code = run(read_old); code != 0) {
     backup.drop();
-    return fail_of_avrdude(code, "the board is as it was");
+    return fail_of_avrdude(code, "the board is unchanged");
   }
   if (!dry_run && !backup.begin_writing()) {
-    return fail(exit_failed, backup.path() + ".unfinished: cannot be written; the board is as it was");
+    return fail(exit_failed, backup.path() + ".unfinished: cannot be written; the board is unchanged");
   }
   if (const int code = run(write_new); code != 0) {
-    return fail_of_avrdude(code, fmt::format("the board may hold half a program. The same command tries again; what "
-                                             "the board held before stays in {}",
-                                             backup.path()));
+    return fail_of_avrdude(
+        code, fmt::format("the board's firmware may be incomplete. Repeat the command; the old firmware is kept in {}",
+                          backup.path()));
   }
   backup.end_writing();
   return exit_done;
@@ -184,7 +184,8 @@ int keep_and_write(const Backup& backup, const Words& read_old, const Words& wri
 int board_flash(const BoardFlashArguments& arguments) {
   if (is_pico(arguments.board)) return flash_by_copying(arguments);
   if (arguments.device.empty()) {
-    return fail(exit_bad_program, "which serial line is the board at? As --device /dev/ttyACM0; see passo board list");
+    return fail(exit_bad_program,
+                "the serial port of the board is missing, e.g. --device /dev/ttyACM0; see passo board list");
   }
   const Chip& chip = *std::find_if(chips.begin(), chips.end(),
                                    [&](const Chip& one) { return arguments.board.starts_with(one.board); });
@@ -202,7 +203,7 @@ int board_flash(const BoardFlashArguments& arguments) {
                                                : arguments.backup);
   if (backup.is_of_another()) {
     return fail(exit_bad_program,
-                backup.path() + " is there already: what the board held before; name another with --backup");
+                backup.path() + " already exists (the backup of an earlier flash); choose another file with --backup");
   }
 
   const Words avrdude = {"avrdude",
@@ -225,7 +226,8 @@ int board_flash(const BoardFlashArguments& arguments) {
   const auto write_old = with("flash:w:" + backup.path() + ":i");
   fmt::print("{}: {} of {} bytes\n", image, *size, chip.flash);
   if (const int code = keep_and_write(backup, read_old, write_new, arguments.dry_run); code != exit_done) return code;
-  fmt::print("{}The way back: {}\n", arguments.dry_run ? "Nothing was done. " : "Done. ", fmt::join(write_old, " "));
+  fmt::print("{}To restore the old firmware: {}\n", arguments.dry_run ? "Dry run: nothing was changed. " : "Done. ",
+             fmt::join(write_old, " "));
   return exit_done;
 }
 

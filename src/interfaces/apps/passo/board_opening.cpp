@@ -29,15 +29,13 @@ fs::path built_follower(std::string_view follower) {
 }
 
 std::string message_of_missing(const fs::path& image) {
-  return image.string() + " is not there: scripts/test.sh builds the images; docs/boards.md says for which boards";
+  return image.string() + " is missing: scripts/test.sh builds the firmware; docs/boards.md lists the boards";
 }
 
 Result<std::unique_ptr<BoardPort>, std::string> open_addressed(const BoardAddress& address, Plant* plant,
                                                                const PinSetup& wiring) {
   if (address.speaks_grbl) {
-    return Failure{
-        "a machine that speaks Grbl takes G-code, and is no board: passo run and passo home drive it, other "
-        "commands do not [board.grbl]"};
+    return Failure{"a machine with Grbl is not a Passo board: only passo run and passo home can use it [board.grbl]"};
   }
   if (address.kind != BoardAddress::Kind::emulated) {
     auto line = open_board(address);
@@ -45,7 +43,8 @@ Result<std::unique_ptr<BoardPort>, std::string> open_addressed(const BoardAddres
     return std::unique_ptr<BoardPort>(std::move(*line));
   }
   if (!is_emulated_board(address.place)) {
-    return Failure{fmt::format("sim:{}: there is an emulator of {}", address.place, fmt::join(emulated_boards, ", "))};
+    return Failure{fmt::format("sim:{}: unknown board; there are emulators of {}", address.place,
+                               fmt::join(emulated_boards, ", "))};
   }
   const fs::path image = built_image(address.place, is_pico(address.place) ? ".uf2" : ".elf");
   if (!fs::exists(image)) return Failure{message_of_missing(image)};

@@ -11,71 +11,71 @@
 namespace passo {
 namespace {
 
-constexpr const char* address = "serial:DEVICE, serial:DEVICE@BAUD, tcp:HOST:PORT, sim:uno, sim:mega or sim:pico";
+constexpr const char* address = "address: serial:DEVICE[@BAUD], tcp:HOST:PORT, sim:uno, sim:mega or sim:pico";
 
 constexpr const char* examples = R"(Examples:
-  passo board list                                        what is on this computer's serial lines
-  passo board flash uno --device /dev/ttyACM0             puts Passo's firmware on it, and keeps what was there
-  passo board flash pico                                  onto a Pico plugged in with BOOTSEL held: finds its drive
-  passo board info serial:/dev/ttyACM0                    what it is, and how it is
-  passo board monitor serial:/dev/ttyACM0                 its switches and counters, live
-  passo board info sim:uno                                the firmware itself, on an emulated chip
-  passo board serve &                                     no board at hand: a virtual one, on 127.0.0.1:7070
+  passo board list                                        list the boards on this computer's serial ports
+  passo board flash uno --device /dev/ttyACM0             flash Passo's firmware; back up the old one
+  passo board flash pico                                  flash a Pico that was plugged in with BOOTSEL held
+  passo board info serial:/dev/ttyACM0                    show type, firmware and status
+  passo board monitor serial:/dev/ttyACM0                 show inputs and step counters, live
+  passo board info sim:uno                                the real firmware on an emulated chip
+  passo board serve &                                     simulate a board on 127.0.0.1:7070
   passo board monitor tcp:127.0.0.1:7070 --count 1
 
-Wiring, and a first start without motors: docs/boards.md.)";
+Wiring and the first start, without motors: docs/boards.md.)";
 
 void add_board_list_options(CLI::App& command, BoardListArguments& arguments) {
-  command.add_option("DEVICE", arguments.devices, "these only, as /dev/ttyUSB0");
-  command.add_option("--wait", arguments.wait, "seconds for each: an Arduino that is opened starts anew")
+  command.add_option("DEVICE", arguments.devices, "only these serial ports, e.g. /dev/ttyUSB0");
+  command.add_option("--wait", arguments.wait, "time to wait for each port, s; opening the port resets an Arduino")
       ->check(number_range(0.05, 60.0))
       ->capture_default_str();
-  command.add_flag("--json", arguments.json, "print it as JSON");
+  command.add_flag("--json", arguments.json, "print the result as JSON");
 }
 
 void add_board_info_options(CLI::App& command, BoardInfoArguments& arguments) {
   command.add_option("BOARD", arguments.board, address)->required();
-  command.add_option("--wait", arguments.wait, "seconds for an answer")
+  command.add_option("--wait", arguments.wait, "time to wait for an answer, s")
       ->check(number_range(0.05, 60.0))
       ->capture_default_str();
-  command.add_flag("--json", arguments.json, "print it as JSON");
+  command.add_flag("--json", arguments.json, "print the result as JSON");
 }
 
 void add_board_monitor_options(CLI::App& command, BoardMonitorArguments& arguments) {
   command.add_option("BOARD", arguments.board, address)->required();
-  command.add_option("--every", arguments.every, "seconds between two looks")
+  command.add_option("--every", arguments.every, "interval of the queries, s")
       ->check(number_range(0.01, 3600.0))
       ->capture_default_str();
-  command.add_option("--count", arguments.count, "so many looks; 0: until Ctrl-C")->capture_default_str();
-  command.add_flag("--json", arguments.json, "a JSON object a line");
+  command.add_option("--count", arguments.count, "number of queries; 0: until Ctrl-C")->capture_default_str();
+  command.add_flag("--json", arguments.json, "one JSON object per line");
 }
 
 void add_board_flash_options(CLI::App& command, BoardFlashArguments& arguments) {
   const std::vector<std::string> names(emulated_boards.begin(), emulated_boards.end());
-  command.add_option("BOARD", arguments.board, "what it is")->required()->check(CLI::IsMember(names));
+  command.add_option("BOARD", arguments.board, "type of board")->required()->check(CLI::IsMember(names));
   command.add_option("-d,--device", arguments.device,
-                     "its serial line, as /dev/ttyACM0; a Pico's drive, if there are several");
+                     "serial port, e.g. /dev/ttyACM0; for a Pico its drive, if there are several");
   command.add_option("--image", arguments.image,
-                     "Intel hex, or of a Pico UF2; without it what was built with this program");
+                     "firmware: Intel hex, for a Pico UF2 (default: the firmware built with this program)");
   command.add_option("--backup", arguments.backup,
-                     "where what it holds now is kept; without it passo-backup-BOARD.hex");
-  command.add_option("--programmer", arguments.programmer, "avrdude's -c; without it the board's boot loader");
-  command.add_option("--baud", arguments.baud, "of the boot loader")->capture_default_str();
-  command.add_flag("--dry-run", arguments.dry_run, "only say what would be done");
+                     "file for a backup of the present firmware (default: passo-backup-BOARD.hex)");
+  command.add_option("--programmer", arguments.programmer,
+                     "programmer for avrdude -c (default: the board's boot loader)");
+  command.add_option("--baud", arguments.baud, "baud rate of the boot loader")->capture_default_str();
+  command.add_flag("--dry-run", arguments.dry_run, "only print what would be done");
 }
 
 void add_board_serve_options(CLI::App& command, BoardServeArguments& arguments) {
-  command.add_option("--port", arguments.port, "TCP; 0: any that is free")
+  command.add_option("--port", arguments.port, "TCP port; 0 picks a free one")
       ->check(CLI::Range(0, 65535))
       ->capture_default_str();
-  command.add_option("--motors", arguments.motors, "the most it can turn; without it the machine's, and 4 at least")
+  command.add_option("--motors", arguments.motors, "number of motors (default: as in the machine file, at least 4)")
       ->check(CLI::Range(1, 8));
-  command.add_option("--clock", arguments.clock, "ticks a second; without it the machine's, or 16 MHz")
+  command.add_option("--clock", arguments.clock, "timer frequency, Hz (default: as in the machine file, or 16 MHz)")
       ->check(number_range(1e5, 1e9));
-  command.add_option(
-      "-m,--machine", arguments.machine,
-      "machine file: it is that machine's board, with its clock and switches, and stands at machine zero");
-  command.add_flag("--once", arguments.once, "end when everybody who has called has left");
+  command.add_option("-m,--machine", arguments.machine,
+                     "machine file: simulate the board of that machine, with its clock and switches, at machine zero");
+  command.add_flag("--once", arguments.once, "exit after the last client has disconnected");
 }
 
 }  // namespace
@@ -87,13 +87,15 @@ std::function<int()> add_board_help(CLI::App& board) {
 
 std::span<const Command> board_commands() {
   static constexpr std::array<Command, 5> commands{
-      {{"list", "what is on the serial lines", options_of<BoardListArguments, add_board_list_options, board_list>},
-       {"info", "what a board is, and how it is", options_of<BoardInfoArguments, add_board_info_options, board_info>},
-       {"monitor", "a board's inputs, state and step counters, live",
+      {{"list", "list the boards on the serial ports",
+        options_of<BoardListArguments, add_board_list_options, board_list>},
+       {"info", "show a board's type, firmware and status",
+        options_of<BoardInfoArguments, add_board_info_options, board_info>},
+       {"monitor", "show a board's inputs, state and step counters, live",
         options_of<BoardMonitorArguments, add_board_monitor_options, board_monitor>},
-       {"flash", "put Passo's firmware on a board: by avrdude, on a Pico by copying",
+       {"flash", "flash Passo's firmware onto a board",
         options_of<BoardFlashArguments, add_board_flash_options, board_flash>},
-       {"serve", "be a virtual board, in real time, on 127.0.0.1; SIGUSR1 is its reset button",
+       {"serve", "simulate a board in real time on 127.0.0.1; SIGUSR1 acts as its reset button",
         options_of<BoardServeArguments, add_board_serve_options, board_serve>}}};
   return commands;
 }

@@ -100,8 +100,8 @@ int board_serve(const BoardServeArguments& arguments) {
   machine.wire(wiring);
   catch_signals();
   std::signal(SIGUSR1, press_reset);
-  fmt::print("A virtual board of {}, {:.0f} ticks a second: tcp:127.0.0.1:{}\n", counted(motors, "motor"),
-             clock.value(), (*server)->port());
+  fmt::print("Simulated board with {}, {:.0f} ticks/s, at tcp:127.0.0.1:{}\n", counted(motors, "motor"), clock.value(),
+             (*server)->port());
   std::fflush(stdout);
   serve(**server, machine, arguments.once);
   return interrupted_by() != 0 ? 128 + interrupted_by() : exit_done;

@@ -58,23 +58,23 @@ std::string closed_switches(BoardSession& board) {
 
 std::string state_of(const BoardStatus& status) {
   std::string state = (status.state & board_moves) != 0 ? "moves" : "rests";
-  if ((status.state & board_manual) != 0) return state + ", in manual mode: a person moves it by its keypad";
-  if (status.motors == 0) return state + ", no host has said hello since it started";
-  if ((status.state & board_trusted) == 0) state += ", its position is not to be trusted";
-  if ((status.inputs & outputs_timed_out) != 0) state += ", its outputs off: its host was silent";
+  if ((status.state & board_manual) != 0) return state + ", in manual mode: the operator moves it with its keypad";
+  if (status.motors == 0) return state + ", no host has connected since it started";
+  if ((status.state & board_trusted) == 0) state += ", its position is unreliable";
+  if ((status.inputs & outputs_timed_out) != 0) state += ", its outputs are off because its host was silent";
   if ((status.state & board_homes) != 0) state += ", an axis is being homed";
-  if ((status.state & board_slipped) != 0) state += ", and stood still amid motion: its events came too late";
+  if ((status.state & board_slipped) != 0) state += ", and stopped during motion because its events came too late";
   return state;
 }
 
 std::string reset_of(const BoardStatus& status) {
   switch (status.reset) {
     case ResetCause::power_on: return "power on";
-    case ResetCause::brown_out: return "a supply that was too low";
+    case ResetCause::brown_out: return "a supply voltage that was too low";
     case ResetCause::watchdog: return "its watchdog";
-    case ResetCause::button: return "its reset button, or a host that opened the line";
+    case ResetCause::button: return "its reset button, or a host that opened its serial port";
   }
-  return "a cause that this version does not know";
+  return "a cause unknown to this version";
 }
 
 nlohmann::json to_json(const About& about) {

@@ -36,7 +36,7 @@ std::string exact(Nanometres length) {
 void add_copper(const BoardFile& file, std::optional<BoardLayer>& side, bool is_told) {
   const GerberLayer& layer = *file.layer;
   if (side && is_told) {
-    note(fmt::format("'{}' and '{}' are both {}: the program mills them as one; --as FILE=nothing leaves a file out",
+    note(fmt::format("'{}' and '{}' are both {}, so they are milled as one; --as FILE=nothing ignores a file",
                      side->lines.file, file.name, words_for(file.kind)));
   }
   if (!side) side = BoardLayer{};
@@ -68,7 +68,7 @@ BoardPlan plan_of(const BoardJob& job, Nanometres join, Diagnostics& findings) {
     plan.edge->lines.file = edge_name;
     plan.face = board_edge(*plan.edge, join, findings).board;
     if (plan.face.empty() && !findings.any_error()) {
-      note(edge_name + ": there is no closed edge in it, so no board is cut out");
+      note(edge_name + ": it has no closed outline, so no board is cut out");
       plan.edge.reset();
     }
   }
@@ -205,10 +205,10 @@ int BoardMaker::add_probing(const ProbingCycle& cycle, const char* what, BoardSt
 // Each hole comes to where the other was, so the first program and this one speak of the same two places.
 int BoardMaker::turn_over(const CamDrillArguments& drill, std::optional<std::array<DrawnPoint, 2>> holes) {
   const std::string over = is_x() ? "from left to right" : "from top to bottom";
-  BoardStep step{.kind = "turn", .title = "Turn the board over"};
+  BoardStep step{.kind = "turn", .title = "Flip the board"};
   if (!holes || !arguments_.probe_holes) {
-    step.words = {fmt::format("Turn it over {}{}.", over, holes ? ", and put the pins in" : ""),
-                  "X0 Y0 stays where it is; set Z0 to the face that is up now."};
+    step.words = {fmt::format("Flip it {}{}.", over, holes ? ", and insert the pins" : ""),
+                  "X0 Y0 stays where it is; set Z0 on the upper face."};
     page.steps.push_back(std::move(step));
     return exit_done;
   }
@@ -218,11 +218,10 @@ int BoardMaker::turn_over(const CamDrillArguments& drill, std::optional<std::arr
   const auto [second_x, second_y] = in_program(holes->back());
   const char* const which = is_x() ? "left" : "front";
   step.kind = "find-holes";
-  step.title = "Turn the board over, and find it";
-  step.words = {
-      fmt::format("Turn it over {}, and clamp it as it lies: it may be moved and turned a little.", over),
-      fmt::format("Move the probe into the {} one of the two holes, below its rim, and run the program.", which),
-      "G54 then lies as the board does; set Z0 to the face that is up now."};
+  step.title = "Flip the board, and probe its position";
+  step.words = {fmt::format("Flip it {}, and clamp it; a small shift or rotation is fine.", over),
+                fmt::format("Move the probe into the {} of the two holes, below its rim, and run the program.", which),
+                "G54 is then aligned with the board; set Z0 on the upper face."};
   return add_probing({.kind = ProbingKind::bores,
                       .reach = width,
                       .back = std::min(0.3, width / 10),
@@ -239,14 +238,14 @@ int BoardMaker::find_heights(const char* side) {
   unsigned rows = 0;
   char beyond = 0;
   if (std::sscanf(arguments_.heights.c_str(), "%3ux%3u%c", &columns, &rows, &beyond) != 2)
-    return fail(exit_bad_program, "--heights: expected COLUMNSxROWS, as 9x6, not '" + arguments_.heights + "'");
+    return fail(exit_bad_program, "--heights: expected COLUMNSxROWS, e.g. 9x6, not '" + arguments_.heights + "'");
   const auto [x, y] = in_program(plan_.box.least);
   const std::string map = fmt::format("heights-{}.csv", side);
   const std::string mill = fmt::format("{}-isolate-{}", programs_ + 2, side);
   BoardStep step{.kind = fmt::format("heights-{}", side), .title = fmt::format("Measure the {}", side)};
   step.words = {
-      "Put the probe in, set Z0 to the face, and run the program with the option --log " + map + ".",
-      fmt::format("passo level {0}.ngc --map {1} -o {0}-level.ngc writes what to run in the next step.", mill, map)};
+      "Insert the probe, set Z0 on the face, and run the program with the option --log " + map + ".",
+      fmt::format("passo level {0}.ngc --map {1} -o {0}-level.ngc writes the program for the next step.", mill, map)};
   return add_probing({.kind = ProbingKind::map,
                       .clearance = 2,
                       .size_x = to_mm(plan_.box.most.x - plan_.box.least.x).value(),
@@ -266,7 +265,7 @@ int BoardMaker::make(CamDrillArguments drill, CamIsolateArguments isolate, CamOu
   const Nanometres distance = lengths.any("--pins", arguments_.pin_distance);
   if (!lengths.message().empty()) return fail(exit_bad_program, lengths.message());
   const std::string zero =
-      fmt::format("The lower left corner of the board lies at X{0:.4g} Y{0:.4g} mm; Z0 is the face of the blank.",
+      fmt::format("The lower left corner of the board is at X{0:.4g} Y{0:.4g} mm; Z0 is the face of the blank.",
                   to_mm(margin_).value());
   page.width = to_mm(plan_.box.most.x - plan_.box.least.x).value();
   page.height = to_mm(plan_.box.most.y - plan_.box.least.y).value();
@@ -276,8 +275,8 @@ int BoardMaker::make(CamDrillArguments drill, CamIsolateArguments isolate, CamOu
   page.steps.push_back(
       {.kind = "blank",
        .title = "Fix the blank",
-       .words = {fmt::format("The board is {:.4g} x {:.4g} mm; leave room around it.", page.width, page.height),
-                 only_back ? "The copper (the back of the board) is up." : "The front is up.", zero}});
+       .words = {fmt::format("The board is {:.4g} x {:.4g} mm; leave some margin around it.", page.width, page.height),
+                 only_back ? "The copper (the back of the board) faces up." : "The front faces up.", zero}});
   CamSources sources{.drills = plan_.drills, .layer = {}, .board = plan_.face};
   const bool has_pins = two_sides && distance.count > 0;
   if (has_pins) page.holes = arguments_.probe_holes ? "probe" : "pins";
@@ -290,12 +289,12 @@ int BoardMaker::make(CamDrillArguments drill, CamIsolateArguments isolate, CamOu
   if (!plan_.drills.empty() || has_pins) {
     place(drill, only_back);
     name(drill, "drill");
-    std::vector<std::string> words = {"Run the program; at each message change the drill, and set Z0 again."};
+    std::vector<std::string> words = {"Run the program; at each message, change the drill and set Z0 again."};
     if (has_pins) {
       words.emplace_back(
           arguments_.probe_holes
-              ? "Two of the holes, beside the board, are for the probe."
-              : "Two of the holes are for pins: drill them on into the table, and do not move the blank.");
+              ? "Two of the holes, next to the board, are for the probe."
+              : "Two of the holes are for pins: drill them deeper, into the table, without moving the blank.");
     }
     BoardStep step{.kind = "drill", .title = "Drill", .words = std::move(words)};
     if (const int code = add(drill, &cam_drill, sources, std::move(step)); code != exit_done) return code;
@@ -311,10 +310,10 @@ int BoardMaker::make(CamDrillArguments drill, CamIsolateArguments isolate, CamOu
     place(copper, is_back);
     name(copper, is_back ? "isolate-back" : "isolate-front");
     sources.layer = *side;
-    BoardStep step{
-        .kind = is_back ? "back" : "front",
-        .title = is_back ? "Mill the back" : "Mill the front",
-        .words = {"Put the cutter in, and set Z0 with care: its width depends on the depth.", "Run the program."}};
+    BoardStep step{.kind = is_back ? "back" : "front",
+                   .title = is_back ? "Mill the back" : "Mill the front",
+                   .words = {"Insert the cutter, and set Z0 with care: the width of the cut depends on its depth.",
+                             "Run the program."}};
     const int code = add(copper, &cam_isolate, sources, std::move(step));
     if (code != exit_done) return code;
   }
@@ -325,7 +324,7 @@ int BoardMaker::make(CamDrillArguments drill, CamIsolateArguments isolate, CamOu
   return add(outline, &cam_outline, sources,
              {.kind = "edge",
               .title = "Cut the board out",
-              .words = {"Put the cutter in, and set Z0.", "Run the program.", "Cut the tabs, if there are some."}});
+              .words = {"Insert the cutter, and set Z0.", "Run the program.", "Cut the tabs, if there are any."}});
 }
 
 // "gerbers" of "gerbers/", and of "." where that is the folder.
@@ -342,7 +341,7 @@ std::string nothing_to_make(const BoardJob& job) {
     files += fmt::format("{}{} ({})", i == 0 ? "" : ", ", short_name(job.files[i]), words_for(job.files[i].kind));
   if (job.files.size() > most_told) files += ", ...";
   return fmt::format(
-      "there is no copper, no edge and no drill file among these files: {}; --as FILE=LAYER says what a file is",
+      "these files include no copper layer, outline or drill file: {}; --as FILE=LAYER sets the layer of a file",
       files);
 }
 
@@ -378,7 +377,7 @@ int make_all(BoardMaker& maker, const BoardJob& job, CamDrillArguments drill, Ca
 int cam_board(const CamBoardArguments& arguments, CamDrillArguments drill, CamIsolateArguments isolate,
               CamOutlineArguments outline) {
   if (std::ranges::find(arguments.paths, "") != arguments.paths.end()) {
-    return fail(exit_bad_program, "expected a folder, an archive or files, and this name is empty");
+    return fail(exit_bad_program, "expected a folder, an archive or files, but the name is empty");
   }
   Diagnostics findings;
   std::optional<MachineDescription> machine;

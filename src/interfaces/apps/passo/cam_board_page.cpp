@@ -39,8 +39,7 @@ std::string step_html(const BoardStep& step, std::size_t number) {
 }  // namespace
 
 std::string words_for(const BoardPageFile& file) {
-  return fmt::format("{}: {} (told by {})", file.name, file.layer,
-                     file.told_by == "you" ? "you" : "its " + file.told_by);
+  return fmt::format("{}: {} (from {})", file.name, file.layer, file.told_by == "you" ? "you" : "its " + file.told_by);
 }
 
 std::string to_json(const BoardPage& page) {
@@ -86,8 +85,8 @@ std::string to_html(const BoardPage& page) {
   std::vector<std::string> files;
   for (const BoardPageFile& file : page.files) files.push_back(words_for(file));
   html += "<section><h2>What was read</h2>\n" + list_of(files, "ul");
-  if (!page.left_out.empty()) html += "<p>Left out:</p>\n" + list_of(page.left_out, "ul");
-  return html + "</section>\n" + html_page_end("Every option: docs/manual/circuit-boards.md.");
+  if (!page.left_out.empty()) html += "<p>Ignored:</p>\n" + list_of(page.left_out, "ul");
+  return html + "</section>\n" + html_page_end("All options: docs/manual/circuit-boards.md.");
 }
 
 }  // namespace passo

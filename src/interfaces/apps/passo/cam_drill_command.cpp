@@ -45,7 +45,7 @@ Result<DrillJob, std::string> job_of(const CamDrillArguments& arguments) {
     }
   }
   if (!arguments.tools.empty() && !arguments.drill.empty())
-    lengths.refuse("--drill is one drill for all: leave --tools out");
+    lengths.refuse("--drill makes all holes with one drill, so it cannot be combined with --tools");
   job.plan.tolerance = lengths.any("--tolerance", arguments.tolerance);
   if (job.plan.tolerance.count < 0) lengths.refuse("--tolerance: expected a length of 0 or more");
   job.plan.one_drill = lengths.perhaps("--drill", arguments.drill);
@@ -67,7 +67,7 @@ Result<DrillJob, std::string> job_of(const CamDrillArguments& arguments) {
   program.clearance = lengths.above_0("--clearance", arguments.clearance);
   program.depth = lengths.any("--depth", arguments.depth);
   if (program.depth.count >= 0) {
-    lengths.refuse(fmt::format("--depth: expected a length below 0, as in -2, found '{}'", arguments.depth));
+    lengths.refuse(fmt::format("--depth: expected a length below 0, e.g. -2, found '{}'", arguments.depth));
   }
   program.peck = lengths.perhaps("--peck", arguments.peck);
   program.mill_step = lengths.above_0("--mill-step", arguments.mill_step);
@@ -150,7 +150,8 @@ int cam_drill(const CamDrillArguments& arguments, const CamSources* given, CamMa
   if (!job) return fail(exit_bad_program, job.error());
   const std::optional<PictureFormat> format = picture_format_of(arguments.picture);
   if (!arguments.picture.empty() && !format) {
-    return fail(exit_bad_program, fmt::format("--picture: '{}' should end in .svg or .png", arguments.picture));
+    return fail(exit_bad_program,
+                fmt::format("--picture: expected a name that ends with .svg or .png, found '{}'", arguments.picture));
   }
 
   Diagnostics findings;

@@ -39,8 +39,9 @@ std::optional<LetterArc> arc_of(const CamEngraveArguments& arguments, LengthArgu
   constexpr double most = 3600;
   const bool is_good =
       has_two && to.ec == std::errc() && to.ptr == end && std::abs(arc.from) <= most && std::abs(arc.to) <= most;
-  if (!is_good) lengths.refuse(fmt::format("--arc: expected FROM,TO in degrees, as 150,30, found '{}'", arguments.arc));
-  if (arguments.around.empty()) lengths.refuse("--arc: expected --around R, too, the radius of the arc");
+  if (!is_good)
+    lengths.refuse(fmt::format("--arc: expected FROM,TO in degrees, e.g. 150,30, found '{}'", arguments.arc));
+  if (arguments.around.empty()) lengths.refuse("--arc also needs --around R, the radius of the arc");
   return arc;
 }
 
@@ -177,13 +178,13 @@ Region carved_of(const PartDrawing& part, const EngraveJob& engrave) {
 int cam_engrave(const CamEngraveArguments& arguments) {
   if (!outputs_are_good(arguments, "")) return exit_bad_program;
   if (arguments.text.empty() == arguments.files.empty()) {
-    return fail(exit_bad_program, "expected a drawing (FILE) or --text, one of them");
+    return fail(exit_bad_program, "expected either a drawing (FILE) or --text");
   }
   LengthArguments lengths(*mm_of_unit(arguments.units));
   MillJob job = mill_job_of(arguments, "passo cam engrave", lengths, "stock");
   if (arguments.inlay == "plug" && arguments.mirror.empty()) job.mirror.turned = Mirror::Turned::x;
   if (!arguments.inlay.empty() && arguments.on_line)
-    return fail(exit_bad_program, "--inlay carves areas: leave --on-line out");
+    return fail(exit_bad_program, "--inlay carves areas, so it cannot be combined with --on-line");
   EngraveJob engrave = engrave_job_of(arguments, job, lengths);
   const Nanometres join = lengths.any("--join", arguments.join);
   if (!lengths.message().empty()) return fail(exit_bad_program, lengths.message());
@@ -191,7 +192,7 @@ int cam_engrave(const CamEngraveArguments& arguments) {
   std::optional<Drawing> drawing = drawing_of(arguments, job, engrave);
   if (!drawing) return exit_bad_program;
   if (engrave.is_on_line && (engrave.clears || !arguments.inlay.empty())) {
-    return fail(exit_bad_program, "--clear and --inlay are for areas: a cutter that follows lines clears none");
+    return fail(exit_bad_program, "--clear and --inlay are for areas, not for a cutter that follows lines");
   }
   const std::optional<PartDrawing> part =
       part_of(std::move(*drawing), job, join, engrave.is_on_line ? OpenRows::kept : OpenRows::refused);
@@ -213,13 +214,13 @@ int cam_engrave(const CamEngraveArguments& arguments) {
   if (findings.any_error()) return exit_bad_program;
   const double stays = area_mm2(warned);
   std::string words =
-      size_words(*part) + fmt::format("{} mm² carved, {:.4g} mm deep at most\n",
+      size_words(*part) + fmt::format("{} mm² carved, at most {:.4g} mm deep\n",
                                       sensible_number(area_mm2(area) - stays, 4), -to_mm(plan.deepest).value());
   if (plan.layers > 1) words += fmt::format("in {} layers\n", plan.layers);
   if (stays > 0) {
     words +=
         fmt::format("not reached: {} mm², too wide for the V-shaped cutter{}\n", sensible_number(stays, 4),
-                    engrave.clears ? ", too narrow for the flat one, or for the tip" : ": --clear D, a flat cutter");
+                    engrave.clears ? ", too narrow for the flat cutter or for the tip" : ": --clear D, a flat cutter");
   }
   nlohmann::ordered_json json = {{"area_mm2", area_mm2(area)},
                                  {"unreached_mm2", stays},

@@ -29,7 +29,7 @@ void add_v_cutter(const CamIsolateArguments& arguments, Nanometres depth, Length
   }
   if (comma == std::string::npos || !(angle > 0 && angle < 180)) {
     lengths.refuse(
-        fmt::format("--v: expected ANGLE,TIP with an angle in degrees, as in 30,0.1, found '{}'", arguments.v));
+        fmt::format("--v: expected ANGLE,TIP with an angle in degrees, e.g. 30,0.1, found '{}'", arguments.v));
     return;
   }
   const Nanometres tip = lengths.any("--v", arguments.v.substr(comma + 1));
@@ -50,13 +50,13 @@ IsolationOptions options_of(const CamIsolateArguments& arguments, const MillJob&
     }
   }
   if (!arguments.v.empty()) add_v_cutter(arguments, options.depth, lengths, options.cutters);
-  if (options.cutters.empty()) lengths.refuse("expected a cutter: --tool 0.2, or --v 30,0.1 (angle, width of the tip)");
+  if (options.cutters.empty()) lengths.refuse("expected a cutter, e.g. --tool 0.2 or --v 30,0.1 (angle, tip width)");
   options.passes = arguments.passes;
   options.width = lengths.perhaps("--width", arguments.width);
   options.overlap = arguments.overlap / 100;
   options.clear = arguments.clear;
   options.voronoi = arguments.voronoi;
-  if (options.clear && options.voronoi) lengths.refuse("--clear or --voronoi: one of them");
+  if (options.clear && options.voronoi) lengths.refuse("--clear and --voronoi cannot be combined");
   options.climb = !arguments.conventional;
   options.tolerance = lengths.above_0("--tolerance", arguments.tolerance);
   options.park = job.program.park;
@@ -108,18 +108,18 @@ void note_gaps(const IsolationPlan& plan, const std::string& of) {
   constexpr std::size_t most_told = 5;
   for (std::size_t i = 0; i < std::min(most_told, plan.gaps.size()); ++i) {
     const CopperGap& gap = plan.gaps[i];
-    note(fmt::format("{}: the cutter does not fit between two islands at X{:.4f} Y{:.4f} mm: they are {} apart", of,
+    note(fmt::format("{}: the cutter does not fit between two islands at X{:.4f} Y{:.4f} mm, which are {} apart", of,
                      to_mm(gap.at.x).value(), to_mm(gap.at.y).value(), mm_words(gap.width)));
   }
   if (plan.gaps.size() > most_told) {
-    note(fmt::format("{}: and {} more such: --json lists them, --picture marks them", of,
+    note(fmt::format("{}: and {} more; --json lists them, --picture marks them", of,
                      counted(plan.gaps.size() - most_told, "gap")));
   }
   if (!plan.narrow_openings.empty()) {
     const DrawnPoint& at = plan.narrow_openings.front();
     note(fmt::format(
-        "{}: {} in copper, as of a thermal relief, too narrow for the cutter: copper stays in them, the first"
-        " at X{:.4f} Y{:.4f} mm",
+        "{}: {} in the copper, e.g. of thermal reliefs, too narrow for the cutter, so copper remains there; the first "
+        "at X{:.4f} Y{:.4f} mm",
         of,
         plan.narrow_openings.size() == 1 ? "1 opening is" : counted(plan.narrow_openings.size(), "opening") + " are",
         to_mm(at.x).value(), to_mm(at.y).value()));
@@ -182,9 +182,9 @@ int cam_isolate(const CamIsolateArguments& arguments, const CamSources* given, C
   }
   const IsolationProof proof = prove_isolation(copper, plan.mill, options.voronoi ? options.board : Region{});
   if (proof.lost_mm2 > 0) {
-    return fail(
-        exit_failed,
-        fmt::format("the program would take {:g} mm² of copper that is wanted: no program is written", proof.lost_mm2));
+    return fail(exit_failed,
+                fmt::format("the program would remove {:g} mm² of the circuit's copper, so it was not written",
+                            proof.lost_mm2));
   }
   for (const std::string& words : plan.mill.notes) note(words);
   note_gaps(plan, std::filesystem::path(sources->layer.lines.file).filename().string());

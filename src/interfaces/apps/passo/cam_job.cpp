@@ -47,7 +47,7 @@ Mirror mirror_of(const std::string& turned, const std::string& at, LengthArgumen
   if (turned == "x") mirror.turned = Mirror::Turned::x;
   if (turned == "y") mirror.turned = Mirror::Turned::y;
   if (at.empty()) return mirror;
-  if (turned.empty()) lengths.refuse("--mirror-at: expected --mirror x or --mirror y, too");
+  if (turned.empty()) lengths.refuse("--mirror-at also needs --mirror x or --mirror y");
   mirror.at = lengths.any("--mirror-at", at);
   return mirror;
 }
@@ -59,9 +59,7 @@ std::vector<DrawnPoint> align_holes_of(const std::string& align, LengthArguments
     return {{holes[0], holes[1]}, {holes[2], holes[3]}};
   }
   lengths.refuse(
-      fmt::format("--align: expected X,Y,X,Y of two holes side by side (one Y) or one above the other "
-                  "(one X), found '{}'",
-                  align));
+      fmt::format("--align: expected X,Y,X,Y of two holes with the same Y or the same X, found '{}'", align));
   return {};
 }
 
@@ -71,7 +69,7 @@ Mirror mirror_of(const CamMillArguments& arguments, LengthArguments& lengths) {
   const std::vector<DrawnPoint> holes = align_holes_of(arguments.align, lengths);
   if (holes.empty()) return mirror_of(arguments.mirror, arguments.mirror_at, lengths);
   if (!arguments.mirror.empty() || !arguments.mirror_at.empty()) {
-    lengths.refuse("--align says about what the board is turned over: leave --mirror and --mirror-at out");
+    lengths.refuse("--align sets the mirror axis, so it cannot be combined with --mirror or --mirror-at");
   }
   const bool side_by_side = holes[0].y == holes[1].y;
   return {side_by_side ? Mirror::Turned::x : Mirror::Turned::y,
@@ -107,7 +105,7 @@ MillJob mill_job_of(const CamMillArguments& arguments, const char* command, Leng
   program.remarks.push_back(fmt::format("X0 Y0 is {}, Z0 the face of the {}", zero, what));
   if (job.mirror.turned != Mirror::Turned::no) {
     const bool is_x = job.mirror.turned == Mirror::Turned::x;
-    program.remarks.push_back(fmt::format("the {} is turned over {}, about {}{:.6g} mm of the drawing", what,
+    program.remarks.push_back(fmt::format("the {} is flipped {}, about {}{:.6g} mm of the drawing", what,
                                           is_x ? "from left to right" : "from top to bottom", is_x ? "X" : "Y",
                                           to_mm(job.mirror.at).value()));
   }
@@ -137,7 +135,7 @@ bool outputs_are_good(const CamMillArguments& arguments, const std::string& edge
     return false;
   }
   const bool has_no_room = arguments.json && (arguments.output.empty() || arguments.output == "-");
-  if (has_no_room) fail(exit_bad_program, "--json goes to standard output: the program needs --output FILE");
+  if (has_no_room) fail(exit_bad_program, "--json writes to standard output, so the program needs --output FILE");
   return !has_no_room;
 }
 

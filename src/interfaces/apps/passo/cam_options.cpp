@@ -14,18 +14,19 @@ namespace {
 
 constexpr const char* show_examples =
     R"(Examples:
-  passo cam show board.zip                     what the layout program has exported, a line for each layer
-  passo cam show gerbers/ -p board.png         a folder, and how the board will look from above and from below
+  passo cam show board.zip                     list the layers that the layout program has exported
+  passo cam show gerbers/ -p board.png         a folder; draw the board from above and from below
   passo cam show board.GTL board.GKO board.TXT --json
-  passo cam show board.kicad_pcb               a board of KiCad, without an export
+  passo cam show board.kicad_pcb               a KiCad board, without an export
 
-Layers are known by their attributes or by their names: docs/manual/cam.md.)";
+Attributes or file names identify the layers: docs/manual/cam.md.)";
 
 void add_show_options(CLI::App& show, CamShowArguments& arguments) {
   show.add_option("FILE", arguments.files, "Gerber and drill files, KiCad boards, folders and zip archives of them")
       ->required();
-  show.add_option("-p,--picture", arguments.picture, "draw the board from above and from below (FILE.svg or FILE.png)");
-  show.add_flag("--json", arguments.json, "the same for scripts");
+  show.add_option("-p,--picture", arguments.picture,
+                  "picture of the board from above and from below (FILE.svg or FILE.png)");
+  show.add_flag("--json", arguments.json, "print the list as JSON");
   show.footer(show_examples);
 }
 
@@ -78,7 +79,7 @@ void add_cam_options(CLI::App& command, Arguments& arguments) {
 template <class Arguments, int (*run)(const Arguments&)>
 constexpr auto operation_of = options_of<Arguments, add_cam_options<Arguments>, run>;
 
-// The options of a command whose options can be remembered for a machine. `part` is where they are filled in.
+// The options of a command whose options can be remembered for a machine. `part` is the member that they fill in.
 template <auto part, auto run>
 std::function<int()> remembered_of(CLI::App& command) {
   const auto all = std::make_shared<CamArguments>();
@@ -113,7 +114,7 @@ void add_options(CLI::App& command, std::span<const CamOption> options) {
 
 std::span<const Command> cam_commands() {
   static const std::array<Command, 10> commands{
-      {{"show", "say and draw which layers a circuit board's files have",
+      {{"show", "list and draw the layers of a circuit board",
         options_of<CamShowArguments, add_show_options, cam_show>},
        command_of("drill", remembered_of<&CamArguments::drill, cam_drill>),
        command_of("isolate", remembered_of<&CamArguments::isolate, cam_isolate>),

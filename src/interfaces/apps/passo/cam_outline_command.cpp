@@ -45,8 +45,8 @@ std::string board_words(const Region& board, const OutlinePlan& plan, const Edge
                                  counted(plan.outsides, "outline"), counted(plan.openings, "opening"),
                                  sensible_number(area_mm2(board), 4), counted(plan.tabs.size(), "tab"), plan.lost_mm2);
   if (loops.joined > 0) {
-    text += fmt::format("joined: ends that did not meet at {}, at most {:.4g} mm apart\n",
-                        counted(loops.joined, "place"), to_mm(loops.widest_joined).value());
+    text += fmt::format("joined: ends with gaps at {}, at most {:.4g} mm wide\n", counted(loops.joined, "place"),
+                        to_mm(loops.widest_joined).value());
   }
   return text;
 }

@@ -31,9 +31,10 @@ void check_sheet(const DrawnBox& sheet, const DrawnBox& box, const std::string& 
   if (fits) return;
   findings.add(of_file(
       "profile.off-sheet", file,
-      fmt::format("the drawing goes from X{:.6g} Y{:.6g} to X{:.6g} Y{:.6g} mm, beyond the sheet of {:.6g} x {:.6g} mm",
-                  to_mm(box.least.x).value(), to_mm(box.least.y).value(), to_mm(box.most.x).value(),
-                  to_mm(box.most.y).value(), to_mm(sheet.most.x).value(), to_mm(sheet.most.y).value()),
+      fmt::format(
+          "the drawing extends from X{:.6g} Y{:.6g} to X{:.6g} Y{:.6g} mm, beyond the sheet of {:.6g} x {:.6g} mm",
+          to_mm(box.least.x).value(), to_mm(box.least.y).value(), to_mm(box.most.x).value(), to_mm(box.most.y).value(),
+          to_mm(sheet.most.x).value(), to_mm(sheet.most.y).value()),
       "--zero lower-left, another --scale, or a larger --sheet"));
 }
 
@@ -58,7 +59,7 @@ std::optional<PartDrawing> part_of(Drawing drawing, const MillJob& job, Nanometr
   const auto points =
       std::ranges::count_if(drawing.holes, [](const DrawnHole& hole) { return hole.diameter.count <= 0; });
   if (points > 0) {
-    note(fmt::format("{} without a diameter {} left out", counted(static_cast<std::size_t>(points), "point"),
+    note(fmt::format("{} without a diameter {} ignored", counted(static_cast<std::size_t>(points), "point"),
                      points == 1 ? "is" : "are"));
   }
   mirror_drawing(drawing, job.mirror);
@@ -123,13 +124,12 @@ Nanometres join_of(const std::string& text, LengthArguments& lengths) {
 
 std::string unreached_words(double mm2) {
   if (mm2 <= 0) return "";
-  return fmt::format("not reached: {} mm² in corners and gaps that are narrower than the cutter\n",
-                     sensible_number(mm2, 4));
+  return fmt::format("not reached: {} mm² in corners and gaps narrower than the cutter\n", sensible_number(mm2, 4));
 }
 
 std::string joined_words(const EdgeLoops& loops) {
   if (loops.joined == 0) return "";
-  return fmt::format("joined: {} that did not meet, at most {:.4g} mm apart\n", counted(loops.joined, "end"),
+  return fmt::format("joined: {} with gaps of at most {:.4g} mm\n", counted(loops.joined, "end"),
                      to_mm(loops.widest_joined).value());
 }
 
@@ -171,7 +171,7 @@ int cam_profile(const CamProfileArguments& arguments) {
   const bool is_on = options.side == ProfileSide::on;
   if (is_on && (options.cut.tabs > 0 || !options.cut.tab_places.empty() || options.cut.lead.count > 0 ||
                 options.cut.dog_bones)) {
-    return fail(exit_bad_program, "--side on: tabs, --lead and --dog-bones are for a cutter beside the line");
+    return fail(exit_bad_program, "--side on cannot be combined with tabs, --lead or --dog-bones");
   }
 
   const std::optional<PartDrawing> part = read_part(arguments, job, join, is_on ? OpenRows::kept : OpenRows::refused);
@@ -238,12 +238,11 @@ int cam_pocket(const CamPocketArguments& arguments) {
   if (findings.any_error()) return exit_bad_program;
   const std::string words =
       size_words(*part) +
-      fmt::format("{} of {} mm², {} a layer; {:g} mm² of what stays lost\n", counted(plan.pockets, "pocket"),
+      fmt::format("{} of {} mm², {} per layer; {:g} mm² of the part lost\n", counted(plan.pockets, "pocket"),
                   sensible_number(area_mm2(area), 4), counted(plan.loops, is_constant ? "disc" : "loop"),
                   plan.lost_mm2) +
-      (is_constant
-           ? fmt::format("engagement: at most {:.1f} degrees of the cutter, but while it goes down\n", plan.engagement)
-           : std::string()) +
+      (is_constant ? fmt::format("engagement: at most {:.1f} degrees, except on the way down\n", plan.engagement)
+                   : std::string()) +
       unreached_words(plan.unreached_mm2) + joined_words(part->loops);
   nlohmann::ordered_json json = lengths_json(plan.mill, options.park);
   json["pockets"] = plan.pockets;

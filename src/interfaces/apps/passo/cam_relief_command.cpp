@@ -165,8 +165,8 @@ std::optional<ReliefGrid> read_relief(const CamReliefArguments& arguments, const
     read.is_body = looks_like_body(*bytes);
     const ForeignFile foreign = foreign_file(arguments.file, std::string_view(*bytes).substr(0, 1024));
     if (!read.is_body && foreign.kind == "an STL model") {
-      findings.add(of_file("surface.stl", arguments.file, "this STL model is broken",
-                           "facets as text, or as many triangles as its head promises"));
+      findings.add(of_file("surface.stl", arguments.file, "this STL model is damaged",
+                           "facets as text, or as many triangles as the header gives"));
       return std::nullopt;
     }
     const bool is_read = read.is_body || foreign.kind.empty() || foreign.kind == "a height map";
@@ -205,10 +205,8 @@ void place(const CamReliefArguments& arguments, const HeightGrid& grid, ReliefRe
   }
   const Result<std::vector<Mm>, std::string> lengths = parse_lengths("--origin", origin, 1);
   if (!lengths || lengths->size() != 2) {
-    read.refuse(
-        fmt::format("--origin: expected lower-left, lower-right, upper-left, upper-right, center or X,Y, "
-                    "found '{}'",
-                    origin));
+    read.refuse(fmt::format(
+        "--origin: expected lower-left, lower-right, upper-left, upper-right, center or X,Y, found '{}'", origin));
     return;
   }
   program.x0 = (*lengths)[0];
@@ -219,7 +217,7 @@ std::string grid_words(const HeightGrid& grid) {
   const std::string pitch = std::abs(grid.pitch_x / grid.pitch_y - 1) < 1e-6
                                 ? fmt::format("{:.4g}", grid.pitch_x.value())
                                 : fmt::format("{:.4g} x {:.4g}", grid.pitch_x.value(), grid.pitch_y.value());
-  return fmt::format("{:.6g} x {:.6g} mm, {:.5g} mm deep; {} x {} nodes, {} mm apart", grid.width().value(),
+  return fmt::format("{:.6g} x {:.6g} mm, {:.5g} mm deep; {} x {} grid points, {} mm apart", grid.width().value(),
                      grid.length().value(), 0.0 - static_cast<double>(floor_of(grid)), grid.columns, grid.rows, pitch);
 }
 
@@ -234,16 +232,17 @@ std::string summary_of(const ReliefReport& report) {
   for (const ReliefPart& part : report.parts) {
     std::string more =
         part.arcs > 0 ? fmt::format(", {} of them {}", part.arcs, part.arcs == 1 ? "an arc" : "arcs") : "";
-    text += fmt::format("{}: {}; rows {:.4g} mm apart, {}{}, {:.2f} m of work, {:.2f} m of rapids, {} at the feeds{}\n",
-                        part.what, part.tool, part.step.value(), counted(part.moves, "move"), more,
-                        part.cut.value() / 1000, part.rapid.value() / 1000, minutes_words(part.minutes),
-                        part.removal > 0 ? fmt::format(", at most {:.0f} mm3 a minute", part.removal) : "");
+    text += fmt::format(
+        "{}: {}; stepover {:.4g} mm, {}{}, {:.2f} m of feeds, {:.2f} m of rapids, {} at the programmed feeds{}\n",
+        part.what, part.tool, part.step.value(), counted(part.moves, "move"), more, part.cut.value() / 1000,
+        part.rapid.value() / 1000, minutes_words(part.minutes),
+        part.removal > 0 ? fmt::format(", at most {:.0f} mm3/min", part.removal) : "");
   }
   return text;
 }
 
 int draw(const std::string& path, const std::string& bytes) {
-  if (bytes.empty()) return fail(exit_failed, "the picture cannot be made: no memory");
+  if (bytes.empty()) return fail(exit_failed, "the picture cannot be drawn: out of memory");
   Result<OutputFile, OutputError> file = OutputFile::open(path);
   if (!file) return fail(exit_failed, file.error().message);
   file->write(bytes);
@@ -263,7 +262,8 @@ int cam_relief(const CamReliefArguments& arguments) {
   ReliefJob job{.shape = shape_of(arguments, reading), .program = program_of(arguments, reading)};
   if (!reading.message().empty()) return fail(exit_bad_program, reading.message());
   if (!arguments.picture.empty() && !arguments.picture.ends_with(".png")) {
-    return fail(exit_bad_program, fmt::format("--picture: '{}' should end in .png", arguments.picture));
+    return fail(exit_bad_program,
+                fmt::format("--picture: expected a name that ends with .png, found '{}'", arguments.picture));
   }
   Diagnostics findings;
   const std::optional<ReliefGrid> read = read_relief(arguments, job, findings);

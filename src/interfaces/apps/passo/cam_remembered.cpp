@@ -140,13 +140,13 @@ std::string remembered_file(const std::string& machine) {
 
 void add_remember_options(CLI::App& command, CamArguments& all) {
   command.add_option("-m,--machine", all.machine,
-                     "machine file: options that are not given here are those remembered for it, in MACHINE.cam.toml");
-  command.add_flag("--remember", all.remember, "remember the options given here for the machine of -m");
+                     "machine file; options that are not given are read from MACHINE.cam.toml next to it");
+  command.add_flag("--remember", all.remember, "save the given options to MACHINE.cam.toml");
 }
 
 int use_remembered(const CLI::App& command, CamArguments& all) {
   if (all.machine.empty())
-    return all.remember ? fail(exit_bad_program, "--remember: for which machine? -m FILE") : exit_done;
+    return all.remember ? fail(exit_bad_program, "--remember needs a machine: -m FILE") : exit_done;
   if (!std::filesystem::exists(all.machine)) return fail(exit_bad_machine, all.machine + ": there is no such file");
   const std::string file = remembered_file(all.machine);
   std::vector<OptionSection> sections;
@@ -168,7 +168,7 @@ int use_remembered(const CLI::App& command, CamArguments& all) {
     if (is_kept(name, option_of_word(word))) section->words.push_back(word);
   }
   const int code = write_text(file, text_of(sections));
-  if (code == exit_done) note("the options are remembered in " + file);
+  if (code == exit_done) note("options saved to " + file);
   return code;
 }
 
@@ -177,10 +177,10 @@ int read_profile(CamArguments& all) {
   const std::string remembered = has_machine ? remembered_file(all.board.machine) : "";
   std::string file = all.board.profile;
   if (all.board.remember && (file.empty() || !has_machine))
-    return fail(exit_bad_program, "--remember: expected --profile FILE and -m FILE, too");
+    return fail(exit_bad_program, "--remember also needs --profile FILE and -m FILE");
   if (file.empty() && has_machine && std::filesystem::exists(remembered)) {
     file = remembered;
-    note("the options are those of " + file);
+    note("options from " + file);
   }
   if (file.empty()) return exit_done;
   const auto sections = sections_of(file);
@@ -190,7 +190,7 @@ int read_profile(CamArguments& all) {
   }
   if (!all.board.remember) return exit_done;
   const int code = write_text(remembered, text_of(*sections));
-  if (code == exit_done) note("the options are remembered in " + remembered);
+  if (code == exit_done) note("options saved to " + remembered);
   return code;
 }
 

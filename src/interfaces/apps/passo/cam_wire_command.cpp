@@ -29,7 +29,7 @@ struct WireJob {
 // Where the profiles lie along the wire.
 void find_span(const CamWireArguments& arguments, WireJob& job, LengthArguments& lengths) {
   if (arguments.span.empty() || arguments.width.empty()) {
-    lengths.refuse("four axes: expected --span from tower to tower, and --width of the block");
+    lengths.refuse("four axes need --span (between the towers) and --width (of the block)");
     return;
   }
   job.cut.span = lengths.above_0("--span", arguments.span);
@@ -38,7 +38,7 @@ void find_span(const CamWireArguments& arguments, WireJob& job, LengthArguments&
                                                  : lengths.any("--block-at", arguments.block_at);
   job.cut.right_face = job.cut.left_face + width;
   if (job.cut.left_face.count < 0 || job.cut.right_face > job.cut.span) {
-    lengths.refuse("--width, --block-at: expected a block between the towers (--span)");
+    lengths.refuse("--width, --block-at: the block must be between the towers (--span)");
   }
 }
 
@@ -59,7 +59,7 @@ WireJob wire_job_of(const CamWireArguments& arguments, LengthArguments& lengths)
   cut.tolerance = lengths.above_0("--tolerance", arguments.tolerance);
   job.has_four_axes = arguments.axes.empty() ? arguments.files.size() > 1 : arguments.axes == "XYUV";
   if (!job.has_four_axes && arguments.files.size() > 1) {
-    lengths.refuse("--axes XY: both ends of the wire move alike, so expected one profile");
+    lengths.refuse("--axes XY: both ends of the wire move together, so only one profile is possible");
   }
   if (job.has_four_axes) find_span(arguments, job, lengths);
   if (!arguments.chord.empty()) {
@@ -91,7 +91,7 @@ std::optional<Drawing> read_side(const std::string& file, std::size_t side, cons
   Drawing drawing;
   if (bytes && looks_like_airfoil(*bytes)) {
     if (wire.chords.empty()) {
-      fail(exit_bad_program, file + " is an airfoil, which has no size: expected --chord");
+      fail(exit_bad_program, file + " is an airfoil, which has no size; give --chord");
       return std::nullopt;
     }
     const Nanometres chord = wire.chords[std::min(side, wire.chords.size() - 1)];
@@ -112,15 +112,16 @@ std::optional<WireProfile> profile_of(const std::string& file, const Drawing& dr
   const std::size_t count = rows.loops.size() + rows.open.size();
   if (!findings.any_error() && count != 1) {
     findings.add(of_file(count == 0 ? "wire.no-line" : "wire.several-lines", file,
-                         count == 0 ? "there is no line that a wire could follow"
-                                    : fmt::format("there are {} lines, and a wire cannot lift", count),
-                         "one line, arc, curve or circle: --layer, or a larger --join"));
+                         count == 0
+                             ? "there is no line for the wire to follow"
+                             : fmt::format("there are {} lines, but the wire cannot lift off between them", count),
+                         "one line, arc, curve or circle; --layer selects it, a larger --join joins its parts"));
   }
   show(findings);
   if (findings.any_error()) return std::nullopt;
   if (!rows.loops.empty()) return WireProfile{std::move(rows.loops.front()), true};
   if (wire.cut.keeps == WireKeeps::line) return WireProfile{std::move(rows.open.front()), false};
-  fail(exit_bad_program, file + ": the line is open, so it has no inside: expected --keep line");
+  fail(exit_bad_program, file + ": the line is open, so it has no inside; use --keep line");
   return std::nullopt;
 }
 
@@ -155,7 +156,7 @@ std::optional<std::vector<WireProfile>> read_profiles(const CamWireArguments& ar
   }
   if (profiles.size() == 1) profiles.push_back(profiles.front());
   if (profiles[0].is_closed != profiles[1].is_closed) {
-    fail(exit_bad_program, "one profile is closed, the other is open: expected two of a kind");
+    fail(exit_bad_program, "one profile is closed and the other is open; expected two closed or two open profiles");
     return std::nullopt;
   }
   if (wire.has_four_axes) place_right(wire, profiles[1]);
@@ -166,7 +167,7 @@ std::string side_words(const char* name, const WireSide& side) {
   std::string words = fmt::format("{}: {:.1f} mm, at most {} mm/min, kerf {:.3g}", name, side.way,
                                   sensible_number(side.most_speed, 4), side.most_kerf);
   if (side.most_kerf - side.least_kerf > 1e-3) words += fmt::format(" to {:.3g}", side.least_kerf);
-  return words + fmt::format(" mm; {:.3g} mm² of what stays lost\n", side.lost_mm2);
+  return words + fmt::format(" mm; {:.3g} mm² of the part lost\n", side.lost_mm2);
 }
 
 nlohmann::ordered_json side_json(const WireSide& side) {
@@ -185,11 +186,11 @@ WireProgramOptions program_of(const CamWireArguments& arguments, const WireJob& 
   program.has_four_axes = wire.has_four_axes;
   program.feed = wire.cut.feed;
   program.heat = arguments.heat;
-  program.remarks = {fmt::format("{}: at {:.4g} mm a minute the wire melts {:.3g} mm",
+  program.remarks = {fmt::format("{}: at {:.4g} mm/min the kerf is {:.3g} mm",
                                  wire.has_four_axes ? "X Y is the left end of the wire, U V the right one"
-                                                    : "both ends of the wire move alike",
+                                                    : "both ends of the wire move together",
                                  wire.cut.feed, kerf_at(wire.cut.kerf, wire.cut.feed)),
-                     "before it starts, the wire is clear of the block: it goes straight to the first place"};
+                     "before the start, the wire must be clear of the block: it moves straight to the first point"};
   if (wire.has_four_axes) {
     program.remarks.push_back(fmt::format("span {:.6g} mm, profiles at {:.6g} and {:.6g} mm from the left end",
                                           to_mm(wire.cut.span).value(), to_mm(wire.cut.left_face).value(),
@@ -232,7 +233,7 @@ int cam_wire(const CamWireArguments& arguments) {
     if (wire.has_four_axes) json["right"] = side_json(plan.right);
     fmt::print("{}\n", json.dump(2));
   } else if (!arguments.output.empty() && arguments.output != "-") {
-    fmt::print("{} in {}, {:.2f} min at the feed\n{}", counted(plan.faces.size() - 1, "move"),
+    fmt::print("{} in {}, {:.2f} min at the feed rate\n{}", counted(plan.faces.size() - 1, "move"),
                counted(plan.sections, "section"), minutes,
                side_words(wire.has_four_axes ? "left" : "both ends", plan.left));
     if (wire.has_four_axes) fmt::print("{}", side_words("right", plan.right));

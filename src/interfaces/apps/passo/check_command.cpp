@@ -54,8 +54,7 @@ int draw(const MotionRecorder& motion, const MotionProof& proof, const CheckArgu
   const PictureOptions options{
       .format = *picture_format_of(arguments.picture),
       .program = name,
-      .machine = fmt::format("{:.4f} s; on this path at least {:.4f} s, on any path within the "
-                             "tolerance at least {:.4f} s",
+      .machine = fmt::format("{:.4f} s; lower bound {:.4f} s on this path, {:.4f} s on any path within the tolerance",
                              proof.time.value(), proof.time_bound.value(), proof.tube_bound.value())};
   Status<OutputError> done = draw_motion_picture(motion, options, *file);
   if (done) done = file->commit();
@@ -104,24 +103,24 @@ std::string refusal_of(const CheckArguments& arguments) {
   if (std::string why = refuse_picture(arguments.picture); !why.empty()) return why;
   const bool draws_margin = arguments.colour_by == "margin";
   if (!arguments.colour_by.empty() && (!draws_margin || arguments.picture.empty() || arguments.motion)) {
-    return "--colour-by margin is for a --picture without --motion";
+    return "--colour-by margin needs --picture, and cannot be combined with --motion";
   }
   const StockArguments& stock = arguments.stock;
   const bool cuts = !stock.block.empty() || stock.cell || !stock.tools.empty() || !stock.tool_table.empty() ||
                     !stock.clamps.empty() || arguments.spindle_speed;
   if (cuts && !arguments.cutting_force) {
-    return "--cutting-force is missing: the specific cutting force of the material, as 700 N/mm\u00B2 for aluminium";
+    return "--cutting-force is missing: the specific cutting force of the material, e.g. 700 N/mm\u00B2 for aluminium";
   }
   if (arguments.cutting_force && measures_motion(arguments)) {
-    return "--cutting-force is for a check without --motion, and without a picture of the motion";
+    return "--cutting-force cannot be combined with --motion or with a picture of the motion";
   }
   if (!arguments.loads.empty() && measures_motion(arguments)) {
-    return "--loads is for a check without --motion, and without a picture of the motion";
+    return "--loads cannot be combined with --motion or with a picture of the motion";
   }
   if (arguments.report.empty()) return "";
-  if (!arguments.report.ends_with(".html")) return arguments.report + ": a report's name ends in .html";
+  if (!arguments.report.ends_with(".html")) return arguments.report + ": the name of a report must end with .html";
   if (measures_motion(arguments)) {
-    return "--report is for a check without --motion, and without a picture of the motion";
+    return "--report cannot be combined with --motion or with a picture of the motion";
   }
   return "";
 }
@@ -191,7 +190,7 @@ void print(const CheckArguments& arguments, const MachineDescription& machine, c
   }
   const char* const name = arguments.program.program.c_str();
   if (first.result.good && !first.findings.any_error()) std::printf("%s: no errors\n", name);
-  if (first.stops.count() > 0) std::printf("%s: waits for somebody at %s\n", name, first.stops.words().c_str());
+  if (first.stops.count() > 0) std::printf("%s: stops for the operator at %s\n", name, first.stops.words().c_str());
   if (cut) std::fputs(to_text(*cut).c_str(), stdout);
   if (page) std::fputs(to_text(*page, machine).c_str(), stdout);
   std::fputs(to_text(proposals).c_str(), stdout);
@@ -300,7 +299,7 @@ int check(const CheckArguments& arguments) {
       proposals_of({*program, *machine, *options}, first.result, first.findings, page && !stock ? &*page : nullptr);
   print(arguments, *machine, first, page, stock, proposals);
   if (page && page->lost()) {
-    return fail(exit_failed, "the motors would lose steps: this part would be scrap [check.steps-lost]");
+    return fail(exit_failed, "the motors would lose steps, and the part would be scrap [check.steps-lost]");
   }
   if (!first.result.good) return exit_bad_program;
   return first.findings.any_error() ? exit_failed : exit_done;

@@ -65,7 +65,7 @@ std::string axis_words(const AxisSummary& moved, const AxisDescription& axis) {
 std::string speed_words(const Judgement& page) {
   const Seconds whole = page.summary.cutting_time + page.summary.rapid_time;
   if (!(whole > Seconds(0))) return "";
-  std::string words = "speed           bounded, of the time in motion, by\n";
+  std::string words = "speed limits    % of the motion time\n";
   constexpr std::size_t most_shares = 6;
   std::size_t shown = 0;
   for (const SpeedShare& share : page.speed.shares) {
@@ -104,11 +104,11 @@ bool only_swings(const MarginVerdict& margin) {
 std::string motor_words(const Judgement& page) {
   if (!page.knows_motors) return "";
   std::string words = fmt::format("motors          {}", name_of(page.margin.verdict));
-  if (page.margin.verdict == Verdict::safe) words += ": they have the torque, weak ones too";
+  if (page.margin.verdict == Verdict::safe) words += ": enough torque, even if the motors are weak";
   if (page.margin.verdict == Verdict::doubtful) words += ": weak motors may lose steps";
   if (page.margin.verdict == Verdict::lost) words += ": they lose steps";
   if (page.margin.verdict != Verdict::safe && only_swings(page.margin)) {
-    words += ", because they swing; the torque alone would be enough";
+    words += ", because of resonance; the torque alone would be enough";
   }
   words += "\n";
   for (const AxisMargin& axis : page.margin.axes) {

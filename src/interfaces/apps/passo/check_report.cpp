@@ -88,13 +88,13 @@ std::string figures(const CheckReport& report) {
   add("of it at feed", clock_words(page.summary.cutting_time));
   add("dwells", clock_words(page.summary.dwell_time));
   add("tool changes", fmt::format("{}", page.tool_changes));
-  add("way at feed", fmt::format("{:.4g} m", page.summary.cutting_distance.value() / 1000));
-  add("way in rapids", fmt::format("{:.4g} m", page.summary.rapid_distance.value() / 1000));
+  add("feed distance", fmt::format("{:.4g} m", page.summary.cutting_distance.value() / 1000));
+  add("rapid distance", fmt::format("{:.4g} m", page.summary.rapid_distance.value() / 1000));
   const double turned = page.summary.cutting_turn + page.summary.rapid_turn;
-  if (turned > 0) add("turning of A B C alone", fmt::format("{:.4g} deg", turned));
+  if (turned > 0) add("rotation of A B C only", fmt::format("{:.4g} deg", turned));
   html += "</dl>\n";
   if (page.line) html += fmt::format("<pre>{}</pre>\n", html_text(to_text(*page.line)));
-  if (!report.waits.empty()) html += fmt::format("<p>Waits for somebody at {}.</p>\n", html_text(report.waits));
+  if (!report.waits.empty()) html += fmt::format("<p>Stops for the operator at {}.</p>\n", html_text(report.waits));
   return html;
 }
 
@@ -131,7 +131,7 @@ std::string axes(const CheckReport& report) {
 
 std::string bounds(const Judgement& page) {
   const Seconds whole = page.summary.cutting_time + page.summary.rapid_time;
-  HtmlTable table({"bounded by", "#first in line", "#of the time", ""});
+  HtmlTable table({"limited by", "#first in line", "#of the time", ""});
   for (const SpeedShare& share : page.speed.shares) {
     const double percent = 100 * (share.time / whole);
     table.row({html_text(limit_words(share)), fmt::format("{}", share.first_line),
@@ -142,7 +142,7 @@ std::string bounds(const Judgement& page) {
 }
 
 std::string parts(const char* title, const std::vector<SpeedPart>& parts, bool by_loss) {
-  HtmlTable table({"line", "#speed, mm/min", "#programmed", by_loss ? "#lost" : "#time", "bounded by"});
+  HtmlTable table({"line", "#speed, mm/min", "#programmed", by_loss ? "#lost" : "#time", "limited by"});
   for (const SpeedPart& part : parts) {
     if (by_loss && part.lost < notable_loss) continue;
     const MmPerSecond speed = by_loss ? part.mean() : part.highest;
@@ -157,7 +157,7 @@ std::string parts(const char* title, const std::vector<SpeedPart>& parts, bool b
 
 std::string speed_chart(const CheckReport& report) {
   TimeChart chart{
-      .label = "Speed along the program, in mm/min, or degrees/min where only A B C turn", .values = {}, .unit = ""};
+      .label = "Speed along the program, in mm/min, or in degrees/min where only A B C move", .values = {}, .unit = ""};
   double most = 0;
   for (const LoadTrack::Stretch& stretch : report.track.stretches()) {
     chart.values.push_back({stretch.time, 60 * stretch.mean_speed().value()});
@@ -173,14 +173,14 @@ std::string speed_chart(const CheckReport& report) {
 
 std::string speed(const CheckReport& report) {
   const Judgement& page = *report.page;
-  return "<h2>Speed, and what bounds it</h2>\n" + speed_chart(report) + bounds(page) +
+  return "<h2>Speed, and what limits it</h2>\n" + speed_chart(report) + bounds(page) +
          parts("Slowest lines: the most time lost against the programmed feed", page.speed.slowest, true) +
          parts("Fastest lines", page.speed.fastest, false);
 }
 
 std::string margin_chart(const CheckReport& report) {
   TimeChart chart{
-      .label = "Torque needed along the program, in % of what is surely there", .values = {}, .unit = "\u00A0%"};
+      .label = "Torque needed along the program, in % of the guaranteed torque", .values = {}, .unit = "\u00A0%"};
   double most = 0;
   for (const LoadTrack::Stretch& stretch : report.track.stretches()) {
     chart.values.push_back({stretch.time, 100 * stretch.load});
@@ -215,11 +215,11 @@ std::string view(const CheckReport& report, PictureView which, const char* name,
 
 std::string pictures(const CheckReport& report) {
   if (report.path.empty()) return "";
-  const char* const title = report.page->knows_motors ? "The path, dark where little torque is left"
-                                                      : "The path, dark where the tool is fast";
+  const char* const title = report.page->knows_motors ? "The toolpath, darker where the torque margin is small"
+                                                      : "The toolpath, darker where the tool is faster";
   return fmt::format("<h2>{}</h2>\n<div class=\"views\">\n", title) +
-         view(report, PictureView::isometric, "iso", "The path from the front, the right and above") +
-         view(report, PictureView::flat, "flat", "The path, flat") + "</div>\n";
+         view(report, PictureView::isometric, "iso", "The toolpath from the front, the right and above") +
+         view(report, PictureView::flat, "flat", "The toolpath in one view") + "</div>\n";
 }
 
 std::string motors(const CheckReport& report) {
@@ -227,8 +227,7 @@ std::string motors(const CheckReport& report) {
   std::string html = "<h2>Motors</h2>\n";
   if (!page.knows_motors) {
     return html +
-           "<p>The machine file has no data of motors (<code>[axis.X.torque]</code>), so their torque is not "
-           "judged.</p>\n";
+           "<p>The machine file has no motor data (<code>[axis.X.torque]</code>), so the torque is not checked.</p>\n";
   }
   html += margin_chart(report);
   HtmlTable worst({"axis", "verdict", "worst moment", "line"});

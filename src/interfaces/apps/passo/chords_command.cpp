@@ -58,11 +58,12 @@ std::string choice_text(const ChordsArguments& arguments, const ChordChoice& cho
 }
 
 CurveError too_coarse(std::int64_t number) {
-  return {fmt::format("chord {} turns too far to follow its curve; a shorter --period makes shorter chords", number)};
+  return {fmt::format(
+      "chord {} spans too large an angle to follow its curve; use a shorter --period for shorter chords", number)};
 }
 
 Result<StepScale, std::string> scale_of(const std::string& text) {
-  const char* const what = "steps a millimetre above 0, one number or X,Y,Z";
+  const char* const what = "steps/mm above 0, one number or X,Y,Z";
   const auto numbers = numbers_of("--steps-per-mm", text, 1, 3, what);
   if (!numbers) return Failure{numbers.error()};
   const auto good = [](double number) { return number > 0; };
@@ -150,12 +151,12 @@ int draw(const AnyCurve& curve, const ChordChoice& choice, const ChordsArguments
       curve);
   const std::size_t count = drawing.ends.size() - 1;
   if (count >= ChordDrawing::most_chords) {
-    return fail(exit_bad_program,
-                fmt::format("--picture: {} chords or more are too many to be seen; choose a larger {}",
-                            ChordDrawing::most_chords, choice.length ? "--period" : "--tolerance"));
+    return fail(exit_bad_program, fmt::format("--picture: {} chords or more are too many to draw; choose a larger {}",
+                                              ChordDrawing::most_chords, choice.length ? "--period" : "--tolerance"));
   }
   if (!std::isfinite(drawing.tolerance.value())) {
-    return fail(exit_bad_program, "a chord turns too far to follow its curve; a shorter --period makes shorter chords");
+    return fail(exit_bad_program,
+                "a chord spans too large an angle to follow its curve; use a shorter --period for shorter chords");
   }
   auto file = OutputFile::open(arguments.picture);
   if (!file) return fail(exit_failed, file.error().message);
@@ -231,7 +232,7 @@ int draw_pulses_of(const AnyCurve& curve, const ChordChoice& choice, const StepS
   if (scene.pulses.empty()) return fail(exit_bad_program, "--picture: the whole curve is shorter than a step");
   if (measures->pulses > CurvePulsesScene::most_pulses) {
     return fail(exit_bad_program,
-                fmt::format("--picture: more than {} pulses are too many to be seen", CurvePulsesScene::most_pulses));
+                fmt::format("--picture: more than {} pulses are too many to draw", CurvePulsesScene::most_pulses));
   }
   scene.chords.push_back(scene.pulses.back().place);
   scene.measures = *measures;
@@ -249,10 +250,10 @@ Result<Method, std::string> fine_method(const ChordsArguments& arguments) {
   const std::optional<MethodName> name = method_named(arguments.fine);
   if (!name) {
     return Failure{
-        fmt::format("--fine: '{}' is none of {}, bresenham", arguments.fine, fmt::join(method_names(), ", "))};
+        fmt::format("--fine: '{}' is not one of {}, bresenham", arguments.fine, fmt::join(method_names(), ", "))};
   }
   if (arguments.steps_per_mm.empty())
-    return Failure{std::string("--fine steps along the chords: it wants --steps-per-mm")};
+    return Failure{std::string("--fine steps along the chords, so it needs --steps-per-mm")};
   return Method{.name = *name};
 }
 

@@ -11,11 +11,11 @@
 namespace passo {
 namespace {
 
-// "; perhaps run is meant", or nothing.
+// " (did you mean run?)", or nothing.
 std::string guess(std::string_view word, const std::vector<std::string>& known, std::string_view before = "") {
   const std::vector<std::string_view> names(known.begin(), known.end());
   const std::string_view meant = suggestion(word, names);
-  return meant.empty() ? std::string() : fmt::format("; perhaps {}{} is meant", before, meant);
+  return meant.empty() ? std::string() : fmt::format(" (did you mean {}{}?)", before, meant);
 }
 
 std::vector<std::string> commands_of(CLI::App& app) {
@@ -40,7 +40,7 @@ std::string refuse_option(const CLI::App& command, std::string_view word) {
                            : command.get_parent()->get_parent() == nullptr
                                ? "passo " + command.get_name()
                                : "passo " + command.get_parent()->get_name() + " " + command.get_name();
-  return fmt::format("{} has no option --{}{}; {} --help shows its options", path, name, guess(name, known, "--"),
+  return fmt::format("{} has no option --{}{}; {} --help lists the options", path, name, guess(name, known, "--"),
                      path);
 }
 
@@ -74,7 +74,7 @@ std::string refuse_words(CLI::App& app, const std::vector<std::string>& words) {
     if (commands.empty() || word.starts_with('-')) continue;
     if (std::ranges::find(commands, word) == commands.end()) {
       const std::string path = command == &app ? "passo" : "passo " + command->get_name();
-      return fmt::format("{} has no command {}{}; {} --help shows its commands", path, word, guess(word, commands),
+      return fmt::format("{} has no command {}{}; {} --help lists the commands", path, word, guess(word, commands),
                          path);
     }
     command = command->get_subcommand(word);
@@ -88,7 +88,7 @@ std::string refuse_count(const std::string& text) {
   constexpr std::size_t most_digits = 18;
   return is_number && !is_zero && text.size() <= most_digits
              ? std::string()
-             : fmt::format("{}: expected a whole number from 1 on", text);
+             : fmt::format("{}: expected a whole number of 1 or more", text);
 }
 
 }  // namespace passo

@@ -70,9 +70,9 @@ Built arc_of(const ChordsArguments& arguments) {
   const Vector3 end = ends->to - *centre;
   const double radius = std::hypot(out.x, out.y);
   const double end_radius = std::hypot(end.x, end.y);
-  if (!(radius > 0)) return Failure{std::string("--from lies on --center: an arc needs a radius")};
+  if (!(radius > 0)) return Failure{std::string("--from and --center are the same point, so the arc has no radius")};
   if (!(std::abs(radius - end_radius) <= rounding_mm)) {
-    return Failure{fmt::format("--to is {:.6g} mm from --center and --from {:.6g} mm: an arc keeps its radius",
+    return Failure{fmt::format("--to is {:.6g} mm from --center, but --from is {:.6g} mm: an arc has one radius",
                                end_radius, radius)};
   }
   double turn = std::atan2(out.x * end.y - out.y * end.x, out.x * end.x + out.y * end.y);
@@ -108,8 +108,9 @@ Parsed<Mm> across(std::string_view option, const Vector3& place, const Vector3& 
   const double up = beside * beside / (4 * focal_length);
   if (std::abs(dot(place - vertex, axis) - up) <= rounding_mm) return Mm(beside);
   const Vector3 there = vertex + right * beside + axis * up;
-  return Failure{fmt::format("{} {:g},{:g} is not on the parabola: level with it, the parabola is at {:.6g},{:.6g}",
-                             option, place.x, place.y, there.x, there.y)};
+  return Failure{
+      fmt::format("{} {:g},{:g} is not on the parabola; the point of the parabola at that height is {:.6g},{:.6g}",
+                  option, place.x, place.y, there.x, there.y)};
 }
 
 Built parabola_of(const ChordsArguments& arguments) {
@@ -120,7 +121,7 @@ Built parabola_of(const ChordsArguments& arguments) {
   const auto ends = ends_of(arguments);
   if (!ends) return Failure{ends.error()};
   if (vertex->x == focus->x && vertex->y == focus->y) {
-    return Failure{std::string("--vertex and --focus must be two places")};
+    return Failure{std::string("--vertex and --focus must be two different points")};
   }
   const auto from = across("--from", ends->from, *vertex, *focus);
   if (!from) return Failure{from.error()};
@@ -222,12 +223,12 @@ Result<AnyCurve, std::string> curve_of(const ChordsArguments& arguments) {
   if (kind == kinds().end()) {
     std::vector<std::string_view> names;
     for (const Kind& one : kinds()) names.push_back(one.name);
-    return Failure{fmt::format("--curve: '{}' is none of {}", arguments.curve, fmt::join(names, ", "))};
+    return Failure{fmt::format("--curve: '{}' is not one of {}", arguments.curve, fmt::join(names, ", "))};
   }
   const std::string_view foreign = foreign_option(arguments, *kind);
   if (!foreign.empty()) {
     return Failure{
-        fmt::format("{} is not for --curve {}: that takes {}", foreign, kind->name, fmt::join(kind->options, ", "))};
+        fmt::format("{} is not for --curve {}, which accepts {}", foreign, kind->name, fmt::join(kind->options, ", "))};
   }
   return kind->build(arguments);
 }

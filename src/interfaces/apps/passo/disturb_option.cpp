@@ -47,8 +47,8 @@ std::optional<std::vector<Disturbance>> read_disturbances(const std::vector<std:
     const auto disturbance = disturbance_of(text, machine);
     if (!disturbance) {
       fail(exit_bad_program, "'" + text +
-                                 "': expected --disturb AXIS:NM@FROM:SECONDS, as X:0.8@1.5:0.2, and an axis whose "
-                                 "motor the machine file describes");
+                                 "': expected --disturb AXIS:NM@FROM:SECONDS, e.g. X:0.8@1.5:0.2, with an axis whose "
+                                 "motor is in the machine file");
       return std::nullopt;
     }
     disturbances.push_back(*disturbance);

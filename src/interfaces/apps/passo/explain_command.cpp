@@ -63,7 +63,7 @@ class Writer {
     out_ += fmt::format("{} {}\n", paint("1", fmt::format("{}:{}:", file, line.line)), printable(line.text));
     for (const Diagnostic& finding : line.findings) out_ += render(finding, colour_);
     if (line.executions == 0) {
-      out_ += whole_run ? "  never executed\n" : "  not executed as far as the program was run\n";
+      out_ += whole_run ? "  never executed\n" : "  not executed in the part of the program that was run\n";
       return;
     }
     if (line.executions > 1 || !whole_run) {
@@ -114,12 +114,12 @@ class Writer {
     if (moves.feed_length == 0 && moves.rapid_length == 0) return;
     heading("way");
     if (moves.rapid_length > 0) {
-      out_ += fmt::format("    {:<9}{:.3f} mm, as fast as the machine goes\n", "rapid", moves.rapid_length);
+      out_ += fmt::format("    {:<9}{:.3f} mm, as fast as the machine can move\n", "rapid", moves.rapid_length);
     }
     if (moves.feed_length == 0) return;
     const std::string time = moves.feed_time
                                  ? fmt::format("{:.3f} s at the programmed feed, without ramps", *moves.feed_time)
-                                 : std::string("for a time that the feed does not tell");
+                                 : std::string("for a time that does not follow from the feed rate");
     out_ += fmt::format("    {:<9}{:.3f} mm, {}\n", "feed", moves.feed_length, time);
   }
 
@@ -180,7 +180,7 @@ int explain(const ExplainArguments& arguments) {
                                               counted(result.lines_in_file, "line"), result.lines_in_file));
   }
   if (place.whole_file && result.lines_in_file > most_lines) {
-    return fail(exit_bad_program, fmt::format("{} has {}: expected {}:FROM-TO, {} lines at most", place.file,
+    return fail(exit_bad_program, fmt::format("{} has {}: expected {}:FROM-TO, at most {} lines", place.file,
                                               counted(result.lines_in_file, "line"), place.file, most_lines));
   }
 

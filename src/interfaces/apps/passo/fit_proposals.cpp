@@ -26,7 +26,7 @@ Told told(const proposal::WorkZeros& other) {
     zeros[name_of_system(system)][std::string(1, letter_of(one.axis))] = one.zero;
   }
   return {.kind = "work-zero",
-          .words = "with another work zero the program fits the travel (checked): G21 " + lines,
+          .words = "with another work zero, the program fits into the travel (checked): G21 " + lines,
           .values = {{"zeros", zeros}}};
 }
 
@@ -45,8 +45,8 @@ Told told(const proposal::Tools& tools) {
     lines += fmt::format("{}T{} P{}", lines.empty() ? "" : ", ", number, number);
   }
   return {.kind = "tools",
-          .words = fmt::format("with {} in the tool table the program passes (checked, with a length and a diameter of "
-                               "0: add those of the real tool as Z and D): {}",
+          .words = fmt::format("with {} in the tool table, the program passes the check (checked with length and "
+                               "diameter 0: add those of the real tool as Z and D): {}",
                                tools.numbers.size() == 1 ? "this tool" : "these tools", lines),
           .values = {{"tools", tools.numbers}}};
 }
@@ -54,16 +54,16 @@ Told told(const proposal::Tools& tools) {
 Told told(const proposal::SpindleForThread& spindle) {
   const double rpm = spindle.revolutions_per_minute;
   return {.kind = "spindle-speed",
-          .words = fmt::format("with S{:g} at most the axes can follow the spindle (checked)", rpm),
+          .words = fmt::format("with at most S{:g}, the axes can follow the spindle (checked)", rpm),
           .values = {{"spindle_rpm", rpm}, {"feed_percent", 100}}};
 }
 
 Told told(const proposal::SpindleAndFeed& spindle) {
   const double rpm = spindle.revolutions_per_minute;
   return {.kind = "spindle-speed",
-          .words = fmt::format("with S{:g} at most and the feeds at {} % no tooth cuts more than the program asks for "
-                               "(checked): {} in motion",
-                               rpm, spindle.feed_percent, clock_words(spindle.motion)),
+          .words = fmt::format(
+              "with at most S{:g} and the feeds at {} %, no tooth cuts more than programmed (checked): {} in motion",
+              rpm, spindle.feed_percent, clock_words(spindle.motion)),
           .values = {{"spindle_rpm", rpm}, {"feed_percent", spindle.feed_percent}}};
 }
 
@@ -72,7 +72,7 @@ Told told(const proposal::SlowerMotion& slower) {
   const bool rapids = slower.rapid_percent < 100;
   const char* const what = feeds && rapids ? "feeds and rapids" : feeds ? "feeds" : "rapids";
   return {.kind = "override",
-          .words = fmt::format("with {} at {} % the motors keep their steps (checked)", what,
+          .words = fmt::format("with {} at {} %, the motors lose no steps (checked)", what,
                                feeds ? slower.feed_percent : slower.rapid_percent),
           .values = {{"feed_percent", slower.feed_percent}, {"rapid_percent", slower.rapid_percent}}};
 }

@@ -92,7 +92,7 @@ Lines held_lines_of(const FollowerArguments& arguments) {
   for (const std::string& text : arguments.keys) {
     auto held = held_of(text);
     if (!held || key_place("key." + held->name).row < 0) {
-      return Failure{text + ": expected KEY@FROM or KEY@FROM:TO in seconds, as 6@0.5:0.9; keys are 0 to 9, * and #"};
+      return Failure{text + ": expected KEY@FROM or KEY@FROM:TO in seconds, e.g. 6@0.5:0.9; keys are 0 to 9, * and #"};
     }
     if (!held->to) held->to = held->from + shortest_press;
     hold(lines, *held, "key." + held->name);
@@ -104,8 +104,8 @@ Lines held_lines_of(const FollowerArguments& arguments) {
     if (held && held->name == "reset") held->to.reset();  // over at once
     if (!held || !is_line(held->name)) {
       return Failure{text +
-                     ": expected LINE@FROM or LINE@FROM:TO in seconds; lines are clock.x, direction.x (also y, "
-                     "z), relay, button and reset"};
+                     ": expected LINE@FROM or LINE@FROM:TO in seconds; lines are clock.x, direction.x (also y, z), "
+                     "relay, button and reset"};
     }
     if (held->name == "button" && !has_keypad(arguments.follower)) return Failure{"--line: " + no_keypad};
     hold(lines, *held, held->name);
@@ -124,7 +124,7 @@ Lines lines_of(const FollowerArguments& arguments) {
   if (arguments.clock > 0) {
     if (arguments.from >= arguments.time) {
       return Failure{
-          fmt::format("--clock: the first pulse comes at {} s (--from), and the run is over at {} s (--time)",
+          fmt::format("--clock: the first pulse would come at {} s (--from), after the end of the run at {} s (--time)",
                       arguments.from, arguments.time)};
     }
     const auto pulses = static_cast<std::int64_t>(std::ceil((arguments.time - arguments.from) * arguments.clock));
@@ -258,7 +258,7 @@ int write_trace(const Signals& signals, const std::string& path) {
 int draw(const FollowerArguments& arguments, Signals signals) {
   std::erase_if(signals.signals, [](const Signal& one) { return one.changes.empty(); });
   if (signals.count_of_changes() > Signals::most_drawn_changes) {
-    return fail(exit_bad_program, fmt::format("--picture: {} changes are too many to be seen; {} are the most",
+    return fail(exit_bad_program, fmt::format("--picture: {} changes are too many to draw; at most {} are possible",
                                               signals.count_of_changes(), Signals::most_drawn_changes));
   }
   auto file = OutputFile::open(arguments.picture);
@@ -275,7 +275,7 @@ int draw(const FollowerArguments& arguments, Signals signals) {
 
 int follower_sim(const FollowerArguments& arguments) {
   for (const std::string& path : arguments.traces) {
-    if (!is_trace_name(path)) return fail(exit_bad_program, path + ": a trace's name ends in .vcd or .csv");
+    if (!is_trace_name(path)) return fail(exit_bad_program, path + ": the name of a trace must end with .vcd or .csv");
   }
   if (const std::string why = refuse_picture(arguments.picture); !why.empty()) return fail(exit_bad_program, why);
   const Lines lines = lines_of(arguments);

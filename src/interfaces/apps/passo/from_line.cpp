@@ -12,7 +12,7 @@ namespace passo {
 namespace {
 
 bool is_agreed() {
-  fmt::print(stderr, "passo: is that right, and nothing in the way? [y/N] ");
+  fmt::print(stderr, "passo: is this correct, and is the path clear? [y/N] ");
   std::string answer;
   return std::getline(std::cin, answer) && (answer == "y" || answer == "Y" || answer == "yes");
 }
@@ -31,16 +31,16 @@ std::optional<Reentry> way_to_line(const RunArguments& arguments, const ProgramR
                             is_pass ? fmt::format(", as --pass {}", problem.times) : "", code_of(problem.refusal)));
     return {};
   }
-  fmt::print(stderr, "passo: what will happen (machine coordinates):\n");
+  fmt::print(stderr, "passo: the next moves (machine coordinates):\n");
   for (std::size_t i = 0; i < way->steps.size(); ++i) fmt::print(stderr, "  {}. {}\n", i + 1, way->steps[i]);
   if (!arguments.yes && asks_operator() && !is_agreed()) {
-    code = fail(exit_failed, "nothing was moved");
+    code = fail(exit_failed, "the machine has not moved");
     return {};
   }
   if (!arguments.yes && !asks_operator() && arguments.board != "virtual") {
     code = fail(exit_bad_program,
-                "--from-line asks before a real machine moves, and nobody is here to answer: add "
-                "--yes if the way above is right [run.from-line-unasked]");
+                "--from-line asks before a real machine moves, but there is no terminal: add --yes if the moves above "
+                "are correct [run.from-line-unasked]");
     return {};
   }
   return std::move(*way);

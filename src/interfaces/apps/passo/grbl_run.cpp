@@ -69,8 +69,8 @@ bool make_ready(OpenedGrbl& opened, const std::string& board, bool homes, int& c
   if (homes && !opened.home(code)) return false;
   if (sender.report()->state == "Alarm") {
     const std::string alarm = sender.alarm_words();
-    code = fail(exit_failed, fmt::format("{}: the machine is locked by an alarm{}{}{}. --home homes it; $X of another "
-                                         "sender unlocks it where it stands [grbl.locked]",
+    code = fail(exit_failed, fmt::format("{}: the machine is locked by an alarm{}{}{}. Home it with --home, or unlock "
+                                         "it at its position with $X from another sender [grbl.locked]",
                                          board, alarm.empty() ? "" : " (", alarm, alarm.empty() ? "" : ")"));
     return false;
   }
@@ -81,9 +81,7 @@ bool make_ready(OpenedGrbl& opened, const std::string& board, bool homes, int& c
     return false;
   }
   if (sender.place()) return true;
-  code = fail(exit_failed, board +
-                               ": the reports of the machine tell no place: $10=1 makes them tell it "
-                               "[grbl.no-place]");
+  code = fail(exit_failed, board + ": the machine's status reports have no position; $10=1 adds it [grbl.no-place]");
   return false;
 }
 
@@ -127,9 +125,10 @@ void print(const GrblRunResult& result, const RunArguments& arguments, const Ope
         {"position_mm", {{"X", place[Axis::x]}, {"Y", place[Axis::y]}, {"Z", place[Axis::z]}}}};
     fmt::print("{}\n", all.dump(2));
   } else if (!arguments.quiet) {
-    fmt::print("{}: {} in {}, {:.1f} s; at rest in {} (machine). Its steps are not counted: {} {} tells none\n",
-               arguments.program.program, counted(check.moves, "move"), counted(result.lines, "line"),
-               result.time.value(), opened.place_words(), machine.firmware, machine.version);
+    fmt::print(
+        "{}: {} in {}, {:.1f} s; stopped at {} (machine). Steps were not counted, because {} {} does not report them\n",
+        arguments.program.program, counted(check.moves, "move"), counted(result.lines, "line"), result.time.value(),
+        opened.place_words(), machine.firmware, machine.version);
   }
 }
 
@@ -141,15 +140,15 @@ int end_broken_off(const RunArguments& arguments, OpenedGrbl& opened, const std:
     words = describe(*sender.fault(), arguments.program.program);
   } else if (waits && interrupted_by() == 0) {
     words = fmt::format(
-        "{} waits at {}, and there is no terminal to ask on: run it on one, or with --yes when all is "
-        "prepared [run.waits]",
+        "{} waits at {}, but there is no terminal to ask the operator: run it in a terminal, or with --yes when "
+        "everything is prepared [run.waits]",
         arguments.program.program, describe(*waits));
   }
   // The report may be from before the brake, if the machine has not answered any more.
-  const int failed = fail(
-      exit_failed, fmt::format("{}; the machine was last in the state {} at {} (machine coordinates). A Grbl machine "
-                               "cannot go on exactly where it was: --from-line begins at a line",
-                               words, sender.report()->state, opened.place_words()));
+  const int failed =
+      fail(exit_failed, fmt::format("{}; the machine was last in state {} at {} (machine coordinates). A Grbl machine "
+                                    "cannot resume exactly where it stopped: start at a line with --from-line",
+                                    words, sender.report()->state, opened.place_words()));
   return interrupted_by() != 0 ? exit_of_signal() : failed;
 }
 
@@ -193,18 +192,20 @@ bool suits_grbl(const RunArguments& arguments) {
   const char* words = nullptr;
   if (arguments.resume || !arguments.journal.empty()) {
     words =
-        "--resume and --journal: a machine that speaks Grbl counts no steps for its sender, so a job goes on at a line "
-        "(--from-line), and not where it was [grbl.cannot]";
+        "--resume and --journal are not possible with Grbl, which does not report step counts; start at a line with "
+        "--from-line [grbl.cannot]";
   } else if (arguments.from_here) {
     words =
-        "--from-here: a machine that speaks Grbl keeps its own position: home it, or set its work zero [grbl.cannot]";
+        "--from-here is not possible with Grbl, which keeps its own position: home the machine, or set its work zero "
+        "[grbl.cannot]";
   } else if (arguments.pass > 0 || arguments.after > 0) {
-    words = "--pass and --after: a machine that speaks Grbl begins at a line that is done once [grbl.cannot]";
+    words =
+        "--pass and --after are not possible with Grbl, which can only start at a line that runs once [grbl.cannot]";
   } else if (!arguments.pictures.empty() || !arguments.traces.empty() || !arguments.report.empty() ||
              !arguments.log.empty()) {
     words =
-        "--picture, --trace, --report and --log: a machine that speaks Grbl plans its own motion and tells no steps; "
-        "passo run without --board makes them [grbl.cannot]";
+        "--picture, --trace, --report and --log are not possible with Grbl, which plans its own motion; use passo run "
+        "without --board for them [grbl.cannot]";
   }
   if (words != nullptr) fail(exit_bad_program, words);
   return words == nullptr;
@@ -223,9 +224,7 @@ int run_on_grbl(const RunArguments& arguments, const MachineDescription& machine
   const ProgramCheck check = told_check(program, machine, options, zero);
   if (!check.good) return exit_bad_program;
   if (!arguments.quiet)
-    note("the program begins at " + opened->place_words() +
-         " (machine coordinates), with the "
-         "offsets of the machine");
+    note("the program starts at " + opened->place_words() + " (machine coordinates), with the offsets of the machine");
   GrblProgram lines(program, machine, options, zero, !arguments.yes);
   if (arguments.from_line > 0) {
     const auto way = way_to_line(arguments, program, machine, options, code);
@@ -238,8 +237,7 @@ int run_on_grbl(const RunArguments& arguments, const MachineDescription& machine
 int home_grbl(const HomeArguments& arguments) {
   if (arguments.repeat > 1) {
     return fail(exit_bad_program,
-                "--repeat: a machine that speaks Grbl does not tell where its switches closed "
-                "[grbl.cannot]");
+                "--repeat is not possible with Grbl, which does not report where its switches closed [grbl.cannot]");
   }
   int code = exit_done;
   brake_on_signals();
@@ -256,7 +254,7 @@ int home_grbl(const HomeArguments& arguments) {
         {"position_mm", {{"X", place[Axis::x]}, {"Y", place[Axis::y]}, {"Z", place[Axis::z]}}}};
     fmt::print("{}\n", all.dump(2));
   } else if (!arguments.quiet) {
-    fmt::print("homed in {:.1f} s: at rest in {} (machine)\n", time, opened->place_words());
+    fmt::print("homed in {:.1f} s; stopped at {} (machine)\n", time, opened->place_words());
   }
   return exit_done;
 }

@@ -45,13 +45,13 @@ nlohmann::ordered_json to_json(const HomingReport& report, const std::vector<Axi
 
 void print(const HomingReport& report) {
   for (const HomedAxis& axis : report.axes) {
-    fmt::print("{}: its switch closed {:.3f} from where it stood; rests at {:.3f}\n", letter_of(axis.axis), axis.way,
+    fmt::print("{}: switch closed {:.3f} from the start; stopped at {:.3f}\n", letter_of(axis.axis), axis.way,
                axis.place);
     if (axis.squared)
-      fmt::print("{}: squared, its second motor moved by {:.3f}\n", letter_of(axis.axis), *axis.squared);
+      fmt::print("{}: squared, the second motor moved by {:.3f}\n", letter_of(axis.axis), *axis.squared);
   }
   if (!report.code.empty()) return;
-  fmt::print("homed in {:.1f} s: at rest in", report.time.value());
+  fmt::print("homed in {:.1f} s; stopped at", report.time.value());
   for (const HomedAxis& axis : report.axes) fmt::print(" {}{:.3f}", letter_of(axis.axis), axis.place);
   fmt::print(" (machine)\n");
 }

@@ -33,7 +33,7 @@ Parsed<Place> parse_place(const char* option, std::string_view text) {
     const auto [end, error] = std::from_chars(number.data(), number.data() + number.size(), steps);
     if (error != std::errc() || end != number.data() + number.size()) {
       return Failure{
-          fmt::format("{}: expected whole steps separated by commas, as in 10,-4, found '{}'", option, number)};
+          fmt::format("{}: expected whole steps separated by commas, e.g. 10,-4, found '{}'", option, number)};
     }
     place.push_back(steps);
     if (comma == text.size()) return place;
@@ -105,7 +105,7 @@ void print_json(const std::vector<StudiedMethod>& studied, const StepMove& move,
 void print_table(const std::vector<StudiedMethod>& studied, const StepMove& move, double um) {
   fmt::print("{:.6g} steps of {:.4g} µm on the ideal path\n\n", IdealPath(move).length(), um);
   fmt::print("{:<20} {:>17} {:>17} {:>10} {:>10} {:>10}  {:>20}  {:>17}\n", "", "largest deviation", "mean deviation",
-             "pulses", "together", "idle", "farthest from even", "fastest : slowest");
+             "pulses", "together", "idle", "largest unevenness", "fastest : slowest");
   fmt::print("{:<20} {:>8} {:>8} {:>8} {:>8} {:>32}  {:>6} {:>6} {:>6}  {:>5} {:>5} {:>5}\n", "method", "steps", "µm",
              "steps", "µm", "", "beats", "roots", "exact", "beats", "roots", "exact");
   for (const StudiedMethod& one : studied) {
@@ -119,9 +119,9 @@ void print_table(const std::vector<StudiedMethod>& studied, const StepMove& move
     fmt::print("\n");
   }
   fmt::print(
-      "\ntogether: pulses in which several axes step; idle: in which none does. Evenness of speed, where each\n"
-      "pulse lasts as long as any other (beats), the root of its axes (roots), as long as the ideal path needs\n"
-      "(exact): steps that the tool is ahead or behind at most, and its fastest step over its slowest.\n");
+      "\ntogether: pulses in which several axes step; idle: pulses without a step. Evenness of speed with equal\n"
+      "pulses (beats), pulses as long as the root of their axes (roots), or as the ideal path needs\n"
+      "(exact): the largest lead or lag of the tool in steps, and the ratio of its fastest to its slowest step.\n");
 }
 
 int draw(const std::vector<StudiedMethod>& studied, const StepMove& move, const std::string& path) {
@@ -129,7 +129,7 @@ int draw(const std::vector<StudiedMethod>& studied, const StepMove& move, const 
   if (const std::string why = refuse_picture(path); !why.empty()) return fail(exit_bad_program, why);
   for (const StudiedMethod& one : studied) {
     if (one.measures.pulses <= most_pictured_pulses) continue;
-    return fail(exit_bad_program, fmt::format("--picture: {} pulses are too many to be seen; {} are the most",
+    return fail(exit_bad_program, fmt::format("--picture: {} pulses are too many to draw; at most {} are possible",
                                               one.measures.pulses, most_pictured_pulses));
   }
   auto file = OutputFile::open(path);
@@ -161,7 +161,7 @@ Result<StepMove, std::string> step_move_of(const InterpolateArguments& arguments
     if (!centre) return Failure{centre.error()};
     move.arc = StepMove::Arc{.centre = *centre, .clockwise = arguments.clockwise};
   } else if (arguments.clockwise) {
-    return Failure{std::string("--cw is for an arc: it wants --center")};
+    return Failure{std::string("--cw is for an arc, so it needs --center")};
   }
   const Status<std::string> status = check(move);
   if (!status) return Failure{"the move " + status.error()};
@@ -172,7 +172,7 @@ Result<Method, std::string> method_of(const InterpolateArguments& arguments) {
   const std::optional<MethodName> name = method_named(arguments.method, !arguments.center.empty());
   if (!name) {
     return Failure{
-        fmt::format("--method: '{}' is none of {}, bresenham", arguments.method, fmt::join(method_names(), ", "))};
+        fmt::format("--method: '{}' is not one of {}, bresenham", arguments.method, fmt::join(method_names(), ", "))};
   }
   Method method{.name = *name, .half_loaded = arguments.half_loaded};
   if (*name != MethodName::dda && (arguments.half_loaded || arguments.register_bits != 0)) {
@@ -191,14 +191,15 @@ Result<Method, std::string> method_of(const InterpolateArguments& arguments) {
 }
 
 Result<std::optional<Seconds>, std::string> time_of(const InterpolateArguments& arguments, const StepMove& move) {
-  if (arguments.time && arguments.feed) return Failure{std::string("--time and --feed say the same: give one of them")};
+  if (arguments.time && arguments.feed)
+    return Failure{std::string("--time and --feed both set the duration: give only one of them")};
   for (const auto& [option, value] : {std::pair("--time", arguments.time), std::pair("--feed", arguments.feed)}) {
     if (value && !(std::isfinite(*value) && *value > 0)) {
       return Failure{fmt::format("{}: expected a number above 0, found {:g}", option, *value)};
     }
   }
   if (!arguments.time && !arguments.feed) {
-    if (!arguments.rule.empty()) return Failure{std::string("--rule is for durations: it wants --time or --feed")};
+    if (!arguments.rule.empty()) return Failure{std::string("--rule is for durations, so it needs --time or --feed")};
     return std::optional<Seconds>();
   }
   if (arguments.time) return std::optional(Seconds(*arguments.time));
@@ -213,7 +214,8 @@ int interpolate(const InterpolateArguments& arguments) {
   if (!(arguments.steps_per_mm > 0)) return fail(exit_bad_program, "--steps-per-mm: expected a number above 0");
   std::vector<Method> methods;
   if (arguments.compare) {
-    if (!arguments.method.empty()) return fail(exit_bad_program, "--compare takes every method: leave --method out");
+    if (!arguments.method.empty())
+      return fail(exit_bad_program, "--compare uses all methods, so it cannot be combined with --method");
     methods = methods_for(*move);
   } else {
     if (arguments.method.empty()) return fail(exit_bad_program, "expected --method NAME, or --compare");

@@ -103,8 +103,8 @@ Ending jog_to_rest(OpenedMachine& opened, const JogWords& words, const JogArgume
 }
 
 std::string_view in_words(std::string_view why) {
-  if (why == "distance") return "the distance is done";
-  return why == "travel" ? "the travel ends there" : "the lease was not renewed";
+  if (why == "distance") return "distance completed";
+  return why == "travel" ? "end of the travel" : "the keep-alive timeout expired";
 }
 
 void print(const Ending& ending, const MachineDescription& machine, bool json) {
@@ -118,11 +118,11 @@ void print(const Ending& ending, const MachineDescription& machine, bool json) {
     fmt::print("{}\n", all.dump(2));
     return;
   }
-  fmt::print("at rest after {:.3f} s in", ending.time.value());
+  fmt::print("stopped after {:.3f} s at", ending.time.value());
   for (const AxisDescription& axis : machine.axes)
     fmt::print(" {}{:.3f}", letter_of(axis.axis), ending.place[axis.axis]);
   fmt::print(" ({}): {}\n",
-             ending.is_known ? "machine" : "its place is not known: counted from where it stood at first",
+             ending.is_known ? "machine" : "its position is unknown; coordinates count from its first position",
              in_words(ending.why));
 }
 
@@ -153,8 +153,8 @@ int jog(const JogArguments& arguments) {
   const std::optional<JogWords> words = by_keys ? JogWords() : read_words(arguments.moves, *machine);
   if (!words) {
     return fail(exit_bad_program,
-                "expected axes that the machine has, each once and all with a distance (X+10 Y-3) or all without "
-                "(X+ Y-: as far as the travel goes); on a terminal none, to jog by keys");
+                "expected axes of the machine, each once, all with a distance (e.g. X+10 Y-3) or all without (e.g. X+ "
+                "Y-, to the end of the travel); in a terminal none, to jog by keyboard");
   }
   if (const auto wrong = wrong_numbers(arguments)) return fail(exit_bad_program, *wrong);
   int code = exit_done;

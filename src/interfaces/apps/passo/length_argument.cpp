@@ -47,8 +47,7 @@ Result<Mm, std::string> parse_length(const char* option, std::string_view text, 
   const std::optional<double> unit = rest.empty() ? std::optional(unit_mm) : mm_of_unit(rest);
   constexpr double longest = 1e5;  // mm
   if (value && unit && std::abs(*value * *unit) <= longest) return Mm(*value * *unit);
-  return Failure{
-      fmt::format("{}: expected a length, as in 0.2, 2mm, 0.2cm, 30mil or 1/32in, found '{}'", option, text)};
+  return Failure{fmt::format("{}: expected a length, e.g. 0.2, 2mm, 0.2cm, 30mil or 1/32in, found '{}'", option, text)};
 }
 
 Result<std::vector<Mm>, std::string> parse_lengths(const char* option, std::string_view text, double unit_mm) {

@@ -51,7 +51,7 @@ class LengthArguments {
   Nanometres below_0(const char* option, const std::string& text, const char* example) {
     const Nanometres length = any(option, text);
     if (length.count >= 0) {
-      refuse(fmt::format("{}: expected a length below 0, as in {}, found '{}'", option, example, text));
+      refuse(fmt::format("{}: expected a length below 0, e.g. {}, found '{}'", option, example, text));
     }
     return length;
   }

@@ -31,15 +31,15 @@ std::optional<LineCost> line_cost_with_progress(const ProgramReader& program, co
 }
 
 std::string to_text(const LineCost& cost) {
-  std::string words = fmt::format("line            to a board with {}: ", counted(cost.held_items, "place"));
+  std::string words = fmt::format("serial link     to a board with a queue of {}: ", counted(cost.held_items, "item"));
   if (!cost.trouble.empty()) return words + cost.trouble + "\n";
   if (cost.cost() < least_cost_of_line) {
     words += "costs no time";
   } else {
     words += fmt::format("{:.3f} s longer, {}", cost.cost().value(), percent_of(cost.cost(), cost.without));
   }
-  if (cost.slowdowns > 0) words += fmt::format("; slower {} where its places are few", so_often(cost.slowdowns));
-  if (cost.rests > 0) words += fmt::format("; rests {} for want of more", so_often(cost.rests));
+  if (cost.slowdowns > 0) words += fmt::format("; slower {} because the queue was full", so_often(cost.slowdowns));
+  if (cost.rests > 0) words += fmt::format("; stopped {} because motion arrived too late", so_often(cost.rests));
   return words + "\n";
 }
 

@@ -24,7 +24,8 @@ void LineWatch::update(Seconds silence, Seconds patience, bool ended) {
     return;
   }
   if (silence < noticeable) {
-    if (told_ >= 0) say_(fmt::format("{}passo: the board answers again; it goes on\n", rewrites_ ? "\r\033[K" : ""));
+    if (told_ >= 0)
+      say_(fmt::format("{}passo: the board answers again; the program continues\n", rewrites_ ? "\r\033[K" : ""));
     told_ = -1;
     return;
   }
@@ -33,17 +34,16 @@ void LineWatch::update(Seconds silence, Seconds patience, bool ended) {
   if (!first && (rewrites_ ? left == told_ : told_ - left < between_words)) return;
   told_ = left;
   if (rewrites_) {
-    say_(
-        fmt::format("\r\033[Kpasso: the board is silent (its cable?). It goes on when the board answers, else ends in "
-                    "{} s ",
-                    left));
+    say_(fmt::format(
+        "\r\033[Kpasso: the board does not answer (cable?). The program continues when it answers, or ends in {} s ",
+        left));
   } else if (first) {
     say_(
-        fmt::format("passo: the board is silent: is its cable out? The machine comes to rest on the path. It goes on "
-                    "when the board answers; if it does not, this ends in {} s\n",
+        fmt::format("passo: the board does not answer; check its cable. The machine stops on the path. The program "
+                    "continues when the board answers, or ends in {} s\n",
                     left));
   } else {
-    say_(fmt::format("passo: the board is still silent; this ends in {} s\n", left));
+    say_(fmt::format("passo: the board still does not answer; the program ends in {} s\n", left));
   }
 }
 

@@ -36,12 +36,12 @@ Result<MotorSetup, std::string> motor_of(const LoopArguments& arguments) {
   for (const AxisDescription& axis : machine->axes) {
     if (arguments.axis != std::string(1, letter_of(axis.axis))) continue;
     auto setup = motor_setup(axis);
-    if (!setup) return Failure{fmt::format("{} does not tell the motor of {}", arguments.machine, arguments.axis)};
+    if (!setup) return Failure{fmt::format("{} does not describe the motor of {}", arguments.machine, arguments.axis)};
     setup->excitation = *Excitation::named("microsteps:64");
     setup->weight = {};
     return *setup;
   }
-  return Failure{fmt::format("--axis '{}' is no axis of {}", arguments.axis, arguments.machine)};
+  return Failure{fmt::format("--axis: '{}' is not an axis of {}", arguments.axis, arguments.machine)};
 }
 
 PidGains gains_of(const std::vector<double>& values) {
@@ -78,7 +78,7 @@ Result<Unit, std::string> read_load(const std::string& text, LoopSetup& setup) {
   double time = 0;
   if (at == std::string::npos || !number(std::string_view(text).substr(0, at), torque) ||
       !number(std::string_view(text).substr(at + 1), time)) {
-    return Failure{fmt::format("--load '{}': expected NM@S, as 0.1@0.05", text)};
+    return Failure{fmt::format("--load '{}': expected NM@S, e.g. 0.1@0.05", text)};
   }
   setup.load = {torque};
   setup.load_at = Seconds(time);
@@ -86,7 +86,8 @@ Result<Unit, std::string> read_load(const std::string& text, LoopSetup& setup) {
 }
 
 constexpr const char* no_swing =
-    "the loop swings at no gain, so there is no rule for it: expected --gains, another --period or a larger jump";
+    "the loop does not oscillate at any gain, so the rule does not apply: give --gains, another --period or a larger "
+    "step";
 
 Result<LoopStudy, std::string> prepared(const LoopArguments& arguments) {
   auto motor = motor_of(arguments);
@@ -99,7 +100,7 @@ Result<LoopStudy, std::string> prepared(const LoopArguments& arguments) {
   if (auto good = read_load(arguments.load, setup); !good) return Failure{good.error()};
   const bool places = arguments.of == "position";
   setup.to = places ? arguments.to.value_or(90) * radians_per_degree : arguments.to.value_or(30);
-  if (setup.to == 0) return Failure{std::string("--to 0 is no jump")};
+  if (setup.to == 0) return Failure{std::string("--to: expected a step other than 0")};
   if (!places) return study;
   if (!arguments.speed_gains.empty()) {
     setup.speed_gains = gains_of(arguments.speed_gains);
@@ -134,7 +135,7 @@ Result<LoopStudy, std::string> studied(const LoopArguments& arguments) {
       }
     }
   }
-  if (!arguments.gains.empty()) add("by hand", gains_of(arguments.gains));
+  if (!arguments.gains.empty()) add("manual gains", gains_of(arguments.gains));
   return study;
 }
 
@@ -177,7 +178,7 @@ LineChart chart_of(const LoopStudy& study) {
   const bool places = study.setup.controlled == Controlled::position;
   const double unit = places ? 1 / radians_per_degree : 1;
   LineChart chart{
-      .x_title = "Time, ms", .y_title = places ? "Place of the shaft, degrees" : "Speed, rad/s", .lines = {}};
+      .x_title = "Time, ms", .y_title = places ? "Position of the shaft, degrees" : "Speed, rad/s", .lines = {}};
   for (const Tried& tried : study.tried) {
     ChartLine line{.name = tried.name, .points = {}};
     for (const LoopMoment& moment : tried.moments)
@@ -196,13 +197,13 @@ LineChart chart_of(const LoopStudy& study) {
 
 std::string describe(const LoopStudy& study) {
   std::string words =
-      fmt::format("{} counts a turn, {:g} \u00B5s", study.setup.counts_per_turn, study.setup.period.value() * 1e6);
+      fmt::format("{} counts/rev, {:g} \u00B5s", study.setup.counts_per_turn, study.setup.period.value() * 1e6);
   if (study.cycle) {
-    words += fmt::format("   \u00B7   swings at {:.3g}, with {:.3g} ms", study.cycle->gain,
+    words += fmt::format("   \u00B7   oscillates at a gain of {:.3g}, with a period of {:.3g} ms", study.cycle->gain,
                          1e3 * study.cycle->period.value());
   }
   if (study.setup.load.value > 0) {
-    words += fmt::format("   \u00B7   {:g} N\u00B7m against it after {:g} ms", study.setup.load.value,
+    words += fmt::format("   \u00B7   load of {:g} N\u00B7m after {:g} ms", study.setup.load.value,
                          1e3 * study.setup.load_at.value());
   }
   return words;
@@ -214,7 +215,7 @@ Status<OutputError> write_file(const std::string& path, const LoopStudy& study) 
   Status<OutputError> done = Unit{};
   if (const auto format = picture_format_of(path)) {
     const PictureOptions options{
-        .format = *format, .program = "Motor with an encoder: the response to a step", .machine = describe(study)};
+        .format = *format, .program = "Motor with an encoder: step response", .machine = describe(study)};
     done = draw_line_chart(chart_of(study), options, *file);
   } else {
     file->write(table_of(study));

@@ -71,9 +71,9 @@ void LowProcess::end() {
 
 std::string words_of_end(int status) {
   if (WIFSIGNALED(status) && (WTERMSIG(status) == SIGXCPU || WTERMSIG(status) == SIGKILL)) {
-    return "it took too long, and was ended";
+    return "it took too long and was ended";
   }
-  return "it has failed";
+  return "it failed";
 }
 
 bool PassingFolder::make() {

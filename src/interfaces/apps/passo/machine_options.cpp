@@ -10,27 +10,31 @@ void add_machine(CLI::App& command, std::string& machine) {
 
 void add_board(CLI::App& command, std::string& board) {
   command.add_option("-b,--board", board,
-                     "serial:DEVICE[@BAUD], tcp:HOST:PORT, sim:uno or sim:mega, see passo board; grbl:DEVICE: a "
-                     "machine with Grbl, for "
-                     "run and home; without it the virtual machine");
+                     "board: serial:DEVICE[@BAUD], tcp:HOST:PORT, sim:uno or sim:mega (see passo board), or for run "
+                     "and home grbl:DEVICE, a machine with Grbl (default: the simulated machine)");
 }
 
 void add_jog_options(CLI::App& command, JogArguments& arguments) {
-  command.add_option("MOVES", arguments.moves,
-                     "X+10 Y-3: by so much; X+: as far as the travel goes; none, on a terminal: by keys");
+  command.add_option(
+      "MOVES", arguments.moves,
+      "distances, e.g. X+10 Y-3 in mm; X+ jogs to the end of the travel; without moves, the keyboard jogs");
   add_machine(command, arguments.machine);
   add_board(command, arguments.board);
-  command.add_option("-F,--feed", arguments.feed, "along the way, mm/min")->capture_default_str();
-  command.add_option("--lease", arguments.lease, "SECONDS: not renewed for so long, the machine brakes")
+  command.add_option("-F,--feed", arguments.feed, "feed rate, mm/min")->capture_default_str();
+  command
+      .add_option("--lease", arguments.lease,
+                  "keep-alive timeout: the machine stops if the jog is not renewed for this many seconds")
       ->capture_default_str();
-  command.add_option("--held", arguments.held, "SECONDS: how long the button is held; without it to the end");
-  command.add_flag("--json", arguments.json, "print it as JSON");
+  command.add_option("--held", arguments.held, "time that the jog button is held, s (default: until the move ends)");
+  command.add_flag("--json", arguments.json, "print the result as JSON");
   command.footer(
-      "Examples:\n  passo jog -m router.toml X+10 -F 600          10 mm to the right\n"
-      "  passo jog -m router.toml X-3 Y+4              straight to both\n"
-      "  passo jog -m router.toml Z+                   up to the end of the travel\n"
-      "  passo jog -m router.toml X- --held 1.5        let go after 1.5 s: it rests a lease later\n"
-      "  passo jog -m uno.toml --board serial:/dev/ttyACM0      by keys, on a real machine: arrows, Page Up and Down");
+      "Examples:\n  passo jog -m router.toml X+10 -F 600          jog 10 mm to the right\n"
+      "  passo jog -m router.toml X-3 Y+4              jog both axes on a straight line\n"
+      "  passo jog -m router.toml Z+                   jog up to the end of the travel\n"
+      "  passo jog -m router.toml X- --held 1.5        release the button after 1.5 s: the machine stops when the "
+      "timeout ends\n"
+      "  passo jog -m uno.toml --board serial:/dev/ttyACM0      jog a real machine by keyboard: arrows, Page Up and "
+      "Page Down");
 }
 
 void add_home_options(CLI::App& command, HomeArguments& arguments) {
@@ -38,53 +42,57 @@ void add_home_options(CLI::App& command, HomeArguments& arguments) {
   add_board(command, arguments.board);
   command
       .add_option("--repeat", arguments.repeat,
-                  "home so many times, and tell how well the places of each axis agree (mean, spread)")
+                  "number of homing runs; the mean and the spread of each axis' positions are reported")
       ->check(CLI::Range(1, 1000));
-  command.add_flag("--json", arguments.json, "print it as JSON");
-  command.add_flag("-q,--quiet", arguments.quiet, "only errors");
+  command.add_flag("--json", arguments.json, "print the result as JSON");
+  command.add_flag("-q,--quiet", arguments.quiet, "errors only");
   command.footer(
-      "Examples:\n  passo home -m router.toml                              the virtual machine, from machine zero\n"
-      "  passo home -m uno.toml --repeat 10                     how well the switches repeat\n"
-      "  passo home -m uno.toml --board serial:/dev/ttyACM0     a real one\n"
-      "  passo home -m router.toml --board grbl:/dev/ttyUSB0    a machine with Grbl\n"
-      "Errors end in a stable code: [home.not-met], [home.still-closed], [home.unsteady], [home.stopped], "
+      "Examples:\n  passo home -m router.toml                              home the simulated machine, which starts at "
+      "machine zero\n"
+      "  passo home -m uno.toml --repeat 10                     measure how well the switches repeat\n"
+      "  passo home -m uno.toml --board serial:/dev/ttyACM0     home a real machine\n"
+      "  passo home -m router.toml --board grbl:/dev/ttyUSB0    home a machine with Grbl\n"
+      "Errors end with a stable code: [home.not-met], [home.still-closed], [home.unsteady], [home.stopped], "
       "[home.board],\n"
       "[home.no-switch], [home.interrupted]; see docs/manual/homing.md");
 }
 
 void add_serve_options(CLI::App& command, ServeArguments& arguments) {
-  command.add_option("-m,--machine", arguments.machine, "machine file (TOML); without it an example");
+  command.add_option("-m,--machine", arguments.machine, "machine file (TOML; default: an example machine)");
   add_board(command, arguments.board);
   command.add_option("--grbl-tcp", arguments.grbl_tcp,
-                     "HOST:PORT for senders; without any line 127.0.0.1:7071, and browsers at 127.0.0.1:7080. Port 0: "
-                     "any that is free");
+                     "HOST:PORT for G-code senders; port 0 picks a free port (default, if no interface is given: "
+                     "127.0.0.1:7071, and the web interface at 127.0.0.1:7080)");
   command.add_option("--grbl-pty", arguments.grbl_pty,
-                     "LINK: a pseudo-terminal for senders that know serial ports alone");
+                     "LINK: path of a pseudo-terminal, for senders that only open serial ports");
   command.add_option("--grbl-serial", arguments.grbl_serial,
-                     "DEVICE[@BAUD]: a serial port for senders, at 115200 baud if nothing else is said");
+                     "DEVICE[@BAUD]: serial port for senders (default: 115200 baud)");
   command.add_flag("--anybody-may-drive", arguments.anybody_may_drive,
-                   "allow a HOST that other computers reach: the protocol has no password");
+                   "allow a HOST for senders that other computers can reach; the Grbl protocol has no password");
   command.add_option("--mqtt", arguments.mqtt,
-                     "HOST[:PORT] of an MQTT broker that is told the status; it moves nothing");
-  command.add_option("--mqtt-topic", arguments.mqtt_topic, "what all its topics begin with")->capture_default_str();
-  command.add_option("--mqtt-login", arguments.mqtt_login, "FILE whose first line is USER:PASSWORD for the broker");
+                     "HOST[:PORT] of an MQTT broker to publish the status to; it cannot move the machine");
+  command.add_option("--mqtt-topic", arguments.mqtt_topic, "prefix of the MQTT topics")->capture_default_str();
+  command.add_option("--mqtt-login", arguments.mqtt_login,
+                     "file whose first line is USER:PASSWORD for the MQTT broker");
   command.add_flag("--check", arguments.check,
-                   "only say whether the machine file and the options are good; nothing is opened, nothing moves");
-  command.add_option("--http", arguments.http, "HOST:PORT for programs and browsers: HTTP and WebSocket");
+                   "only check the machine file and the options; open no port and move nothing");
+  command.add_option("--http", arguments.http, "HOST:PORT of the web interface and the API (HTTP and WebSocket)");
   command.add_option("--http-token", arguments.http_token,
-                     "FILE with a token that HTTP then asks for; needed where other computers reach HOST");
-  command.add_option("--http-name", arguments.http_names, "a NAME by which browsers know this server, as a proxy's");
-  command.add_option("--data", arguments.data, "DIR for the queue of jobs, their history and alarms");
+                     "file with the token that HTTP clients must give; required if other computers can reach HOST");
+  command.add_option("--http-name", arguments.http_names,
+                     "host name under which browsers reach this server, e.g. through a proxy; can be repeated");
+  command.add_option("--data", arguments.data, "folder for the job queue, the job history and the alarms");
   command.add_option("--touch", arguments.touches,
-                     "what the probe of the virtual machine touches, as Z:-1.5 or X10:60,Y10:50,Z:-2; as of run");
-  command.add_option("--page", arguments.page, "DIR with the page for browsers; without it the one beside the program");
+                     "object that the simulated probe can touch, e.g. Z:-1.5 or X10:60,Y10:50,Z:-2; see passo run");
+  command.add_option("--page", arguments.page, "folder with the web interface (default: next to the program passo)");
   command.footer(
-      "Examples:\n  passo serve                                    a virtual machine: try a sender on it\n"
-      "  passo serve -m router.toml                     your machine file, still virtual\n"
+      "Examples:\n  passo serve                                    a simulated machine, to try the web interface or a "
+      "sender\n"
+      "  passo serve -m router.toml                     your machine file, still simulated\n"
       "  passo serve -m uno.toml -b serial:/dev/ttyACM0     a real machine\n"
       "  passo serve --grbl-pty /tmp/ttyPasso           for senders that open a serial port\n"
-      "  passo serve --http 127.0.0.1:7080              for programs: curl 127.0.0.1:7080/api/v1/status\n"
-      "  printf '?\\n$G\\n' | nc -q1 127.0.0.1 7071       what a sender sees\n"
+      "  passo serve --http 127.0.0.1:7080              only HTTP, e.g. curl 127.0.0.1:7080/api/v1/status\n"
+      "  printf '?\\n$G\\n' | nc -q1 127.0.0.1 7071       talk to it as a sender does\n"
       "In UGS: connection TCP, host 127.0.0.1, port 7071. In bCNC: port socket://127.0.0.1:7071. See "
       "docs/manual/serve.md");
 }
@@ -92,8 +100,8 @@ void add_serve_options(CLI::App& command, ServeArguments& arguments) {
 void add_machine_options(CLI::App& command, MachineArguments& arguments) {
   command.add_option("MACHINE", arguments.machine, "machine file (TOML)")->required();
   command.footer(
-      "Examples:\n  passo machine examples/machines/router.toml     its axes, board and tool, in numbers\n"
-      "  passo machine mine.toml                         what is wrong with a file of your own, and where\n"
+      "Examples:\n  passo machine examples/machines/router.toml     its axes, board and tool\n"
+      "  passo machine mine.toml                         the errors in your own file\n"
       "Every key is explained in docs/manual/machine-file.md");
 }
 

@@ -3,9 +3,12 @@
 // Only this file, command_table.cpp, command_words.cpp and the files *_options.cpp know CLI11, because CLI11 compiles
 // slowly. Each command is in a file of its own.
 #include <algorithm>
+#include <cctype>
 #include <cstdio>
 #include <exception>
 #include <functional>
+#include <memory>
+#include <string>
 #include <utility>
 #include <vector>
 
@@ -28,76 +31,97 @@ namespace {
 using namespace passo;
 
 constexpr const char* description =
-    "Passo takes a stepper-driven machine from G-code to motor steps. Everything runs on a virtual machine.";
+    "Passo is a motion controller for stepper-driven CNC machines: it plans smooth motion from G-code and drives a "
+    "board, or a simulated machine.";
 
 constexpr const char* examples = R"(Examples:
-  passo run part.ngc --machine router.toml                    time, extents, steps; progress while it runs
-  passo run part.ngc -m router.toml --picture part.png        and a picture of the path, coloured by speed
-  passo run part.ngc -m router.toml --trace part.vcd          every step of every motor, for GTKWave
-  passo run part.ngc -m router.toml --json | jq .time_s       for scripts
-  passo jog -m router.toml X+10 Y-3                           axes moved by hand
-  passo home -m router.toml                                   where the machine stands, by its limit switches
-  passo serve                                                 a virtual machine for senders: UGS, bCNC, cncjs
-  passo check part.ngc -m router.toml                         what is wrong with it, without running it
-  passo check part.ngc -m router.toml --motion                peaks of the motion against the limits; the least time
-  passo tune --machine router.toml -o tuned.toml              velocities, accelerations and jerks that its motors can do
-  passo simulate part.ngc --tool flat:6 --picture part.png    what it cuts, before it is cut
-  passo canon part.ngc                                        what it means, as canonical calls
-  passo explain part.ngc:12                                   what line 12 does, and under which modes
-  passo machine router.toml                                   what a machine file says
-  passo probe corner --side front-left -o corner.ngc          a ready program for the probe
-  passo level board.ngc --map board.csv -o level.ngc          a program as it is on a surface that was probed
-  passo cam drill pads.dxf -o board.ngc                       the holes of a circuit board, as a program
-  passo board list                                            what is on this computer's serial lines
-  passo interpolate --compare --to 27,10                      how each classic method steps along a line
-  passo motor --help                                          what a stepping motor can do at each speed
-  passo loop --compare --picture rules.svg                    PID for a motor with an encoder
-  passo help run                                              every option of a command
-  passo ramp --method exact --clock 1e6 --steps-per-rev 200 --accel 10 --steps 20    when a motor steps
-  passo chords --curve arc --from 9,0 --to 0,9 --center 0,0   a curve as chords within a tolerance
+  passo run part.ngc --machine router.toml                    run a program on the simulated machine: time, extents, steps
+  passo run part.ngc -m router.toml --picture part.png        draw the toolpath too, coloured by speed
+  passo run part.ngc -m router.toml --trace part.vcd          record every step of every motor, for GTKWave
+  passo run part.ngc -m router.toml --json | jq .time_s       print the summary as JSON, for scripts
+  passo jog -m router.toml X+10 Y-3                           move axes by hand
+  passo home -m router.toml                                   home the machine
+  passo serve                                                 web interface, and a Grbl port for UGS, bCNC and cncjs
+  passo check part.ngc -m router.toml                         report all errors of a program, without running it
+  passo check part.ngc -m router.toml --motion                also compare its planned motion with all limits
+  passo tune --machine router.toml -o tuned.toml              propose limits that suit the motors
+  passo simulate part.ngc --tool flat:6 --picture part.png    cut simulated stock
+  passo canon part.ngc                                        print a program as canonical calls
+  passo explain part.ngc:12                                   explain line 12, with the modes that are active there
+  passo machine router.toml                                   describe a machine file
+  passo probe corner --side front-left -o corner.ngc          generate a probing program
+  passo level board.ngc --map board.csv -o level.ngc          apply a height map to a program
+  passo cam drill pads.dxf -o board.ngc                       generate a program for the holes of a circuit board
+  passo board list                                            list the boards on this computer's serial ports
+  passo interpolate --compare --to 27,10                      compare how interpolation methods step along a line
+  passo motor --help                                          calculate the torque of a stepper motor at each speed
+  passo loop --compare --picture rules.svg                    compare PID rules for a motor with an encoder
+  passo help run                                              list all options of a command
+  passo ramp --method exact --clock 1e6 --steps-per-rev 200 --accel 10 --steps 20    calculate step times of a ramp
+  passo chords --curve arc --from 9,0 --to 0,9 --center 0,0   divide a curve into chords within a tolerance
 
-Exit codes: 0 done, 1 failed, 2 the program or the command line is wrong, 3 the machine file is wrong, 4 --resume cannot go on.)";
+Exit codes: 0 success; 1 failure; 2 error in the program or the command line; 3 error in the machine file; 4 --resume cannot continue.)";
+
+// CLI11 writes a default as "NUMBER=600". Here it follows the description: "(default: 600)". A command's description
+// becomes a sentence.
+class HelpFormat : public CLI::Formatter {
+ public:
+  std::string make_description(const CLI::App* command) const override {
+    std::string text = CLI::Formatter::make_description(command);
+    if (text.size() < 2) return text;
+    text.front() = static_cast<char>(std::toupper(static_cast<unsigned char>(text.front())));
+    if (text[text.size() - 2] != '.') text.insert(text.size() - 1, ".");
+    return text;
+  }
+  std::string make_option_opts(const CLI::Option* option) const override {
+    std::string text = CLI::Formatter::make_option_opts(option);
+    if (const std::string value = "=" + option->get_default_str(); value.size() > 1)
+      text.erase(text.find(value), value.size());
+    return text;
+  }
+  std::string make_option_desc(const CLI::Option* option) const override {
+    const std::string value = option->get_default_str();
+    return option->get_description() + (value.empty() ? "" : " (default: " + value + ")");
+  }
+};
 
 // In the order of the help.
 const std::vector<Command>& all_commands() {
   static const std::vector<Command> commands = {
-      {"run", "run a program on the virtual machine", options_of<RunArguments, add_run_options, run>},
-      {"jog", "move axes by hand, and say where they rest", options_of<JogArguments, add_jog_options, jog>},
-      {"home", "find where a machine stands, by its limit switches", options_of<HomeArguments, add_home_options, home>},
-      {"serve", "let senders of G-code drive a machine, as a Grbl controller",
+      {"run", "run a program on the simulated machine or on a board", options_of<RunArguments, add_run_options, run>},
+      {"jog", "jog: move axes by hand, and report where they stop", options_of<JogArguments, add_jog_options, jog>},
+      {"home", "home the machine against its limit switches", options_of<HomeArguments, add_home_options, home>},
+      {"serve", "control a machine for the web interface, G-code senders (as a Grbl controller) and programs",
        options_of<ServeArguments, add_serve_options, serve>},
-      {"check", "find what is wrong with a program, without running it",
+      {"check", "report all errors and warnings of a program, without running it",
        options_of<CheckArguments, add_check_options, check>},
-      {"tune", "propose velocity, acceleration and jerk for a machine's motors",
+      {"tune", "propose velocity, acceleration and jerk limits that suit a machine's motors",
        options_of<TuneArguments, add_tune_options, tune>},
-      {"simulate", "cut a piece of stock before it is cut: rapids, depths, what is left",
+      {"simulate", "simulate cutting: collisions, depths of cut, and the material that is left",
        options_of<SimulateArguments, add_simulate_options, simulate>},
-      {"canon", "print what a program means, as canonical calls", options_of<CanonArguments, add_canon_options, canon>},
-      {"explain", "say in words what lines of a program do",
-       options_of<ExplainArguments, add_explain_options, explain>},
-      {"machine", "check a machine file and say what it describes",
-       options_of<MachineArguments, add_machine_options, machine>},
-      {"board", "find, flash, ask and watch boards", add_board_help, board_commands()},
-      {"probe", "write a program that finds a place with the probe",
-       options_of<ProbeArguments, add_probe_options, probe>},
-      {"level", "write a program as it is on a surface that is not flat, or show a height map",
+      {"canon", "print a program as canonical calls, like rs274", options_of<CanonArguments, add_canon_options, canon>},
+      {"explain", "explain lines of a program in words", options_of<ExplainArguments, add_explain_options, explain>},
+      {"machine", "check and describe a machine file", options_of<MachineArguments, add_machine_options, machine>},
+      {"board", "list, flash, query and monitor boards", add_board_help, board_commands()},
+      {"probe", "generate a probing program", options_of<ProbeArguments, add_probe_options, probe>},
+      {"level", "apply a height map to a program, or show a height map",
        options_of<LevelArguments, add_level_options, level>},
-      {"cam", "make programs of drawings and pictures: parts, pockets, circuit boards, reliefs", nullptr,
+      {"cam", "generate programs from drawings and pictures: parts, pockets, circuit boards, reliefs", nullptr,
        cam_commands()},
-      {"interpolate", "which axes step, pulse by pulse, by any method",
+      {"interpolate", "show which axes step at each pulse, with any interpolation method",
        options_of<InterpolateArguments, add_interpolate_options, interpolate>},
-      {"ramp", "when a motor steps: ramps and whole moves, by any method",
+      {"ramp", "calculate the step times of ramps and whole moves, with any method",
        options_of<RampArguments, add_ramp_options, ramp>},
       {"motor",
-       "Torque over speed of a stepping motor: pull-out, pull-in, and what is left to accelerate a load. Prints a "
-       "table (CSV), or a picture or a summary instead. Rates are full steps a second.",
+       "calculate the torque of a stepper motor over speed: pull-out, pull-in, and the torque left for acceleration",
        options_of<MotorArguments, add_motor_options, motor>},
-      {"loop", "a motor with an encoder and PID: its response to a step",
+      {"loop", "simulate the step response of a motor with an encoder and a PID controller",
        options_of<LoopArguments, add_loop_options, loop>},
-      {"windings", "which windings carry current in a move, and where the rotors are",
+      {"windings", "show winding currents and rotor angles during a move",
        options_of<WindingsArguments, add_windings_options, windings>},
-      {"follower", "the follower: step and direction in, windings out", nullptr, follower_commands()},
-      {"chords", "cut a curve into straight pieces within a tolerance",
+      {"follower", "run the follower firmware: step and direction in, winding currents out", nullptr,
+       follower_commands()},
+      {"chords", "divide a curve into chords within a tolerance",
        options_of<ChordsArguments, add_chords_options, chords>}};
   return commands;
 }
@@ -105,8 +129,10 @@ const std::vector<Command>& all_commands() {
 int parse_and_run(int argc, char** argv) {
   std::vector<std::string> words = command_words(argc, argv);
   CLI::App app(description, "passo");
+  app.formatter(std::make_shared<HelpFormat>());
   app.footer(examples);
-  app.set_version_flag("--version", "passo " PASSO_VERSION);
+  app.set_help_flag("-h,--help", "print this help");
+  app.set_version_flag("--version", "passo " PASSO_VERSION, "print the version");
   app.require_subcommand(1);
   app.get_formatter()->column_width(34);
   const std::function<int()> chosen = add_commands(app, all_commands(), words);

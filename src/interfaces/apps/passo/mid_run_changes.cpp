@@ -52,7 +52,7 @@ std::optional<CableCut> read_cable_cut(const std::string& text) {
   const auto both = pair_of(text, ':');
   if (both) return CableCut{.at = Seconds(both->first), .missing = Seconds(both->second)};
   fail(exit_bad_program,
-       "'" + text + "': expected --cut-cable-at SECONDS:SECONDS, when it is cut and after how long it is back");
+       "'" + text + "': expected --cut-cable-at SECONDS:SECONDS, the time of the cut and its duration");
   return std::nullopt;
 }
 
@@ -77,7 +77,7 @@ std::optional<MidRunChanges> MidRunChanges::read(const std::vector<std::string>&
       changes.changes_.push_back({.at = Seconds(both->first), .pause = Seconds(both->second)});
     } else {
       fail(exit_bad_program,
-           "'" + text + "': expected --hold-at SECONDS, or SECONDS:SECONDS to go on after the second time");
+           "'" + text + "': expected --hold-at SECONDS, or SECONDS:PAUSE to continue after PAUSE seconds");
       return std::nullopt;
     }
   }

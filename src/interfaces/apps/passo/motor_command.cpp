@@ -38,7 +38,7 @@ Result<std::vector<TorquePoint>, MotorError> read_points(const char* option, con
     if (colon == std::string::npos || !read_number(std::string_view(text).substr(0, colon), rate) ||
         !read_number(std::string_view(text).substr(colon + 1), torque)) {
       return Failure{MotorError{fmt::format(
-          "{}: '{}' is no point; expected RATE:TORQUE in full steps/s and N\u00B7m, as 1000:0.35", option, text)}};
+          "{}: '{}' is not a point; expected RATE:TORQUE in full steps/s and N\u00B7m, e.g. 1000:0.35", option, text)}};
     }
     points.push_back({Hertz(rate), {torque}});
   }
@@ -70,7 +70,7 @@ std::vector<NamedValue> motor_values(const MotorArguments& arguments) {
 Result<TorqueCurve, MotorError> measured_curve(const MotorArguments& arguments) {
   for (const NamedValue& named : motor_values(arguments)) {
     if (!named.value) continue;
-    return Failure{MotorError{fmt::format("{} says what --curve says already; give one of them", named.option)}};
+    return Failure{MotorError{fmt::format("{} and --curve set the same; give only one of them", named.option)}};
   }
   const auto pull_out = read_points("--curve", arguments.pull_out);
   if (!pull_out) return Failure{pull_out.error()};
@@ -102,7 +102,7 @@ Result<TorqueCurve, MotorError> curve_of(const MotorArguments& arguments) {
     if (!named.value) missing += missing.empty() ? named.option : fmt::format(", {}", named.option);
   }
   if (!missing.empty()) {
-    return Failure{MotorError{"the motor is not known: expected --curve, or also " + missing}};
+    return Failure{MotorError{"the motor data is incomplete: expected --curve, or also " + missing}};
   }
   return TorqueCurve::from_motor(data_of(arguments), drive_of(arguments));
 }
@@ -116,7 +116,7 @@ Result<MotorScene, MotorError> scene_of(const MotorArguments& arguments) {
   const Status<MotorError> good = check(load);
   if (!good) return Failure{good.error()};
   if (!(arguments.margin > 0 && arguments.margin <= 1)) {
-    return Failure{MotorError{fmt::format("--margin is a part of 1, such as 0.7, not {:g}", arguments.margin)}};
+    return Failure{MotorError{fmt::format("--margin must be between 0 and 1, e.g. 0.7, not {:g}", arguments.margin)}};
   }
   if (arguments.max_rate && !(std::isfinite(*arguments.max_rate) && *arguments.max_rate > 0)) {
     return Failure{MotorError{fmt::format("--max-rate must be above 0 steps/s, not {:g}", *arguments.max_rate)}};

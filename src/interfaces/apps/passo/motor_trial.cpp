@@ -25,12 +25,12 @@ Hertz rate_of_row(const MotorArguments& arguments, Hertz end, int row) {
 }
 
 Study try_torque(const MotorArguments& arguments, const MotorSetup& setup, Hertz end) {
-  Study study{.title = "Stepping motor: torque, tried out",
-              .table = "rate_hz,pull_out_nm,pull_in_nm\n",
-              .chart = {.x_title = "Rate, full steps/s",
-                        .y_title = "Torque against the motion, N\u00B7m",
-                        .lines = {{.name = "Pull-out: runs against", .points = {}},
-                                  {.name = "Pull-in: starts and stops against", .points = {}}}}};
+  Study study{
+      .title = "Stepping motor: simulated torque",
+      .table = "rate_hz,pull_out_nm,pull_in_nm\n",
+      .chart = {.x_title = "Rate, full steps/s",
+                .y_title = "Load torque, N\u00B7m",
+                .lines = {{.name = "Pull-out torque", .points = {}}, {.name = "Pull-in torque", .points = {}}}}};
   for (int row = 0; row < arguments.rows; ++row) {
     const Hertz rate = rate_of_row(arguments, end, row);
     const double out = tried_pull_out(setup, rate).value;
@@ -43,11 +43,11 @@ Study try_torque(const MotorArguments& arguments, const MotorSetup& setup, Hertz
 }
 
 Study try_resonance(const MotorArguments& arguments, const MotorSetup& setup, Hertz end) {
-  Study study{.title = "Stepping motor: how far the rotor lags at an even rate",
+  Study study{.title = "Stepping motor: lag of the rotor at a constant rate",
               .table = "rate_hz,most_lag_full_steps\n",
               .chart = {.x_title = "Rate, full steps/s",
-                        .y_title = "Most lag, full steps (2: steps are lost)",
-                        .lines = {{.name = "most lag", .points = {}}}}};
+                        .y_title = "Largest lag, full steps (2: steps are lost)",
+                        .lines = {{.name = "largest lag", .points = {}}}}};
   for (int row = 0; row < arguments.rows; ++row) {
     const Hertz rate = rate_of_row(arguments, end, row);
     const double lag = tried_lag(setup, rate);
@@ -65,7 +65,7 @@ Study try_motion(const MotorArguments& arguments, const MotorSetup& setup) {
   const double driven = steps / (rate.value() * setup.excitation.steps_per_full_step());
   const Seconds whole(driven + arguments.trial_after);
   const Seconds apart(whole.value() / std::max(arguments.rows - 1, rows_at_least));
-  Study study{.title = steps == 1 ? "Stepping motor: the response to one step" : "Stepping motor: steps, and a stop",
+  Study study{.title = steps == 1 ? "Stepping motor: response to one step" : "Stepping motor: steps and a stop",
               .table = "time_s,commanded_full_steps,place_full_steps,speed_rad_s,current_a,current_b,torque_nm\n",
               .chart = {.x_title = "Time, ms",
                         .y_title = "Full steps",

@@ -59,7 +59,7 @@ bool NamedFiles::are_apart() const {
       // Each pair once: an input with an output, or the later of two outputs with the earlier.
       if (i == j || !output.is_written || (other.is_written && i < j) || !are_one(output, other)) continue;
       const char* const why =
-          other.is_read ? "which is read, and would be overwritten" : "and one would overwrite the other";
+          other.is_read ? "an input file, which would be overwritten" : "so one would overwrite the other";
       fail(exit_bad_program,
            fmt::format("{} {}: it is the same file as {}, {}", output.what, output.path, other.what, why));
       return false;
@@ -68,7 +68,7 @@ bool NamedFiles::are_apart() const {
   for (const Named& output : files_) {
     if (!output.is_written || output.is_read || !is_sub(output.path)) continue;
     fail(exit_bad_program,
-         fmt::format("{} {}: a program that others may call would be overwritten", output.what, output.path));
+         fmt::format("{} {}: would overwrite a program that other programs may call", output.what, output.path));
     return false;
   }
   return true;

@@ -87,7 +87,7 @@ bool OpenedGrbl::home(int& code) {
 
 std::string OpenedGrbl::place_words() const {
   const auto place = sender_.place();
-  if (!place) return "a place that is not known";
+  if (!place) return "an unknown position";
   return fmt::format("X{:.3f} Y{:.3f} Z{:.3f}", (*place)[Axis::x], (*place)[Axis::y], (*place)[Axis::z]);
 }
 

@@ -40,7 +40,7 @@ unsigned any_number(unsigned least, unsigned most) {
 std::string unsuited_to(const BoardDescription& board, const About& about) {
   if (about.highest_event_rate != 0 && board.highest_event_rate.value() > about.highest_event_rate) {
     return fmt::format(
-        "it makes at most {} events a second, and max_event_rate_hz = {:.0f} of the machine file asks for more: lower "
+        "it makes at most {} events/s, fewer than max_event_rate_hz = {:.0f} of the machine file: lower "
         "max_event_rate_hz to {} or less [board.event-rate]",
         about.highest_event_rate, board.highest_event_rate.value(), about.highest_event_rate);
   }
@@ -171,7 +171,7 @@ void OpenedMachine::stand_in_truth_at(const Point& place) {
 void OpenedMachine::write_down(const KnownPosition& position, const MotorSteps& zero_counts,
                                const SessionNumbers& numbers) {
   if (!kept_place_ || kept_place_->keep(description_, position, zero_counts, numbers)) return;
-  note(kept_place_->path() + " cannot be written, so the next command will not know where the machine stands");
+  note(kept_place_->path() + " cannot be written, so the next command will not know the machine's position");
 }
 
 // A line that was lost changes nothing of what is written: the board counts on. A board that has stopped its motors at
@@ -191,13 +191,13 @@ bool OpenedMachine::ask_first(const std::string& address, bool may_move, int& co
       return false;
     }
     const auto about = ask_about(session_->board(), answer);
-    const std::string reason = about ? unsuited_to(description_.board, *about) : "it does not answer any more";
+    const std::string reason = about ? unsuited_to(description_.board, *about) : "it no longer answers";
     if (!reason.empty()) {
       code = fail(exit_failed, fmt::format("{}: {}", address, reason));
       return false;
     }
     if (may_move || (status->state & board_moves) == 0) return true;
-    code = fail(exit_failed, address + ": it moves: another program runs on it, or has just left it");
+    code = fail(exit_failed, address + ": it is moving: another program is using it, or has just left it");
     return false;
   }
   // The greeting has kept its form in all versions: what does not answer a question may answer that.
@@ -206,7 +206,7 @@ bool OpenedMachine::ask_first(const std::string& address, bool may_move, int& co
   const LinkError error = greeting.error().value_or(LinkError::wrong_version);
   const bool is_sent_away = error == LinkError::no_answer && greeting.hung_up();
   code = fail(exit_failed, fmt::format("{}: {}", address,
-                                       is_sent_away ? "it closes the line: another program uses it [board.in-use]"
+                                       is_sent_away ? "it closes the connection: another program uses it [board.in-use]"
                                                     : message_of(error)));
   return false;
 }
@@ -216,9 +216,8 @@ std::optional<std::string> OpenedMachine::wait_for_rest() {
     before_ = *status;
     return {};
   }
-  if (!session_->board().status()) return "it does not answer any more";
-  return fmt::format("it still moves after {:g} s, and what a board holds ends sooner: another program drives it",
-                     longest_way_to_rest.value());
+  if (!session_->board().status()) return "it no longer answers";
+  return fmt::format("it is still moving after {:g} s, so another program is using it", longest_way_to_rest.value());
 }
 
 bool OpenedMachine::greet(const Greeting& greeting, int& code) {
@@ -250,7 +249,7 @@ void OpenedMachine::begin_session(std::uint16_t number) {
 bool OpenedMachine::name_session(std::uint16_t number, int& code) {
   begin_session(number);
   if (await(session_->board(), [&] { return session_->board().ready(); })) return true;
-  code = fail(exit_failed, "the board: it does not answer any more");
+  code = fail(exit_failed, "the board: it no longer answers");
   return false;
 }
 
@@ -268,7 +267,7 @@ void OpenedMachine::catch_up() {
 
 std::optional<std::string> OpenedMachine::compare() {
   if (const auto& mismatch = session_->mismatch()) {
-    return fmt::format("motor {} stands {} from machine zero, and {} were planned", mismatch->motor + 1,
+    return fmt::format("motor {} is {} from machine zero, but {} were planned", mismatch->motor + 1,
                        counted(mismatch->counted, "step"), mismatch->commanded);
   }
   if (!has_board() || !plant_is_behind_ || rotors_ != nullptr) return {};
@@ -277,8 +276,8 @@ std::optional<std::string> OpenedMachine::compare() {
   for (std::size_t motor = 0; motor < description_.axes.size(); ++motor) {
     const auto steps = std::llround(truth.positions[motor]);
     if (steps == planned.motors[motor].position) continue;
-    return fmt::format("motor {} is truly {} from machine zero, and {} were planned", motor + 1, counted(steps, "step"),
-                       planned.motors[motor].position);
+    return fmt::format("motor {} is really {} from machine zero, but {} were planned", motor + 1,
+                       counted(steps, "step"), planned.motors[motor].position);
   }
   return {};
 }

@@ -29,8 +29,8 @@ bool enter_was_pressed(Seconds within) {
 std::string what(const OperatorWait& wait) {
   switch (wait.kind) {
     case Action::Kind::tool_change: return fmt::format("tool {} (M6)", wait.tool);
-    case Action::Kind::optional_stop: return "the operator (M1)";
-    default: return "the operator (M0)";
+    case Action::Kind::optional_stop: return "optional stop (M1)";
+    default: return "program stop (M0)";
   }
 }
 
@@ -72,8 +72,8 @@ std::string ProgramStops::words() const {
 void ProgramStops::tell(const RunArguments& arguments) const {
   if (count_ == 0 || arguments.quiet) return;
   fmt::print(stderr,
-             "passo: note: {} would wait for {}. Nobody stands at this machine, so it goes on; a board waits, and so "
-             "does a run on a terminal. --yes goes on everywhere\n",
+             "passo: note: {} stops for the operator at {}. The simulated machine skips this stop. A real board, or a "
+             "run in a terminal, waits; --yes skips it there too\n",
              arguments.program.program, words());
 }
 
@@ -101,7 +101,7 @@ Seconds OperatorPrompt::poll(MachineSession& session) {
 
 bool OperatorPrompt::hears_enter(const OperatorWait& wait) {
   if (!std::exchange(asked_, true)) {
-    fmt::print(stderr, "{}{} waits at {}. Press Enter to go on. ", rewrites_lines(STDERR_FILENO) ? "\r\033[K" : "",
+    fmt::print(stderr, "{}{} waits at {}. Press Enter to continue. ", rewrites_lines(STDERR_FILENO) ? "\r\033[K" : "",
                program_, describe(wait));
     std::fflush(stderr);
   }

@@ -10,7 +10,7 @@ namespace passo {
 // Why a picture cannot have this name. Empty: it can, or none is wanted.
 inline std::string refuse_picture(const std::string& path) {
   if (path.empty() || picture_format_of(path)) return "";
-  return path + ": a picture's name ends in .svg or .png";
+  return path + ": the name of a picture must end with .svg or .png";
 }
 
 }  // namespace passo

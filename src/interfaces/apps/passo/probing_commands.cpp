@@ -59,7 +59,7 @@ int level(const LevelArguments& arguments) {
   if (!map) return exit_bad_program;
   if (!arguments.zero.empty()) {
     const auto zero = read_place(arguments.zero);
-    if (!zero) return fail(exit_bad_program, "--zero: expected X,Y in mm, as 10,5, not '" + arguments.zero + "'");
+    if (!zero) return fail(exit_bad_program, "--zero: expected X,Y in mm, e.g. 10,5, not '" + arguments.zero + "'");
     map = map->lowered_by(map->height(zero->first, zero->second));
   }
   if (arguments.program.program.empty()) {

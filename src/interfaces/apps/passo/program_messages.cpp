@@ -30,7 +30,7 @@ void ProgramMessages::show(const Operation& operation, const std::function<void(
   if (message == nullptr && print == nullptr) return;
   if (before) before();
   if (++shown_ > RunSummary::most_messages) {
-    fmt::print(stderr, "{}: note: the program says more than {} texts; the others are not shown\n", program_,
+    fmt::print(stderr, "{}: note: the program has more than {} messages; the others are not shown\n", program_,
                RunSummary::most_messages);
     return;
   }

@@ -103,11 +103,11 @@ std::string wrong_number(const RampArguments& arguments) {
     std::optional<double> value;
     const char* unit;
   };
-  const Number numbers[] = {{"--clock", arguments.clock, "Hz, as 1000000"},
-                            {"--accel", arguments.acceleration, "rad/s\u00B2, as 50"},
-                            {"--max-rate", arguments.max_rate, "steps a second, as 2000"},
-                            {"--start-rate", arguments.start_rate, "steps a second, as 300"},
-                            {"--jerk", arguments.jerk, "rad/s\u00B3, as 1000"}};
+  const Number numbers[] = {{"--clock", arguments.clock, "Hz, e.g. 1000000"},
+                            {"--accel", arguments.acceleration, "rad/s\u00B2, e.g. 50"},
+                            {"--max-rate", arguments.max_rate, "steps/s, e.g. 2000"},
+                            {"--start-rate", arguments.start_rate, "steps/s, e.g. 300"},
+                            {"--jerk", arguments.jerk, "rad/s\u00B3, e.g. 1000"}};
   for (const Number& number : numbers) {
     if (!number.value || (std::isfinite(*number.value) && *number.value > 0)) continue;
     return fmt::format("{} {:g}: expected more than 0 {}", number.option, *number.value, number.unit);
@@ -120,7 +120,7 @@ std::string wrong_number(const RampArguments& arguments) {
     return fmt::format("{} {}: expected 1 to {} steps", option, *value, RampRequest::most_steps);
   }
   if (arguments.steps_per_turn && (*arguments.steps_per_turn < 1 || *arguments.steps_per_turn > 1'000'000'000)) {
-    return fmt::format("--steps-per-rev {}: expected a whole number above 0, as 200", *arguments.steps_per_turn);
+    return fmt::format("--steps-per-rev {}: expected a whole number above 0, e.g. 200", *arguments.steps_per_turn);
   }
   for (const auto& [option, size] :
        {std::pair("--table-size", arguments.table_size), std::pair("--print-table", arguments.print_table)}) {
@@ -160,20 +160,20 @@ int ramp(const RampArguments& arguments) {
   if (!wrong.empty()) return fail(exit_bad_program, wrong);
   if (arguments.print_table) {
     if (arguments.picture.empty() && !arguments.json && !arguments.limit) return print_ramp_table(arguments);
-    return fail(exit_bad_program, "--print-table prints a table: leave --picture, --limit and --json out");
+    return fail(exit_bad_program, "--print-table cannot be combined with --picture, --limit or --json");
   }
   if (!arguments.format.empty()) return fail(exit_bad_program, "--format is for --print-table");
   if (arguments.limit) return ramp_limit(arguments);
-  if (arguments.json) return fail(exit_bad_program, "--json is for --limit; the intervals are CSV");
+  if (arguments.json) return fail(exit_bad_program, "--json is only for --limit; intervals are printed as CSV");
   if (arguments.steps && arguments.move) {
-    return fail(exit_bad_program, "--steps is a ramp up, --move is a whole move: expected one of them");
+    return fail(exit_bad_program, "expected either --steps (a ramp) or --move (a whole move)");
   }
   for (const auto& [option, given] : {std::pair("--stop-after", arguments.stop_after.has_value()),
                                       std::pair("--reverse-after", arguments.reverse_after.has_value())}) {
     if (given && !arguments.move) return fail(exit_bad_program, fmt::format("{} is for a --move", option));
   }
   if (arguments.stop_after && arguments.reverse_after) {
-    return fail(exit_bad_program, "--stop-after ends the move, --reverse-after sends it back: expected one of them");
+    return fail(exit_bad_program, "--stop-after and --reverse-after cannot be combined");
   }
   const RampRequest request = ramp_request_of(arguments);
   if (!arguments.picture.empty()) {

@@ -57,16 +57,16 @@ nlohmann::ordered_json limit_json(const RampArguments& arguments, std::int32_t s
 
 std::string limit_words(const RampArguments& arguments, std::int32_t size) {
   const std::int32_t steps = *arguments.steps_per_turn;
-  std::string text = fmt::format("A table of {}, a motor of {} a revolution:\n",
+  std::string text = fmt::format("A table of {}, a motor with {} per revolution:\n",
                                  counted(static_cast<std::uint32_t>(size), "entry", "entries"), counted(steps, "step"));
   if (arguments.max_rate) {
     const double least = least_acceleration(Hertz(*arguments.max_rate), size, steps).value;
-    text += fmt::format("  for {} Hz it needs an acceleration of at least {} rad/s\u00B2\n",
+    text += fmt::format("  {} Hz needs an acceleration of at least {} rad/s\u00B2\n",
                         sensible_number(*arguments.max_rate), sensible_number(least));
   }
   if (arguments.acceleration) {
     const double reached = reached_rate({*arguments.acceleration}, size, steps).value();
-    text += fmt::format("  with {} rad/s\u00B2 it reaches {} Hz, and goes on at that\n",
+    text += fmt::format("  {} rad/s\u00B2 reaches {} Hz, and then continues at that rate\n",
                         sensible_number(*arguments.acceleration), sensible_number(reached));
   }
   return text;
@@ -114,10 +114,9 @@ int draw_limits(const RampArguments& arguments) {
   if (!file) return fail(exit_failed, file.error().message);
   const PictureOptions options{
       .format = *picture_format_of(arguments.picture),
-      .program = "What a ramp table can do",
+      .program = "Limits of a ramp table",
       .machine =
-          "a table of N entries ends at f = \u221A(a N pg / \u03C0):  a_lim = \u03C0 f\u00B2 / "
-          "(N pg), pg steps a revolution"};
+          "a table of N entries ends at f = \u221A(a N pg / \u03C0):  a_lim = \u03C0 f\u00B2 / (N pg), pg steps/rev"};
   Status<OutputError> done = draw_ramp_limits(scene, options, *file);
   if (done) done = file->commit();
   return done ? exit_done : fail(exit_failed, done.error().message);
@@ -135,8 +134,9 @@ std::vector<std::string> remarks_of(const RampArguments& arguments, std::int32_t
   std::vector<std::string> remarks = {
       fmt::format("A ramp of constant acceleration: k_n = sqrt(n+1) - sqrt(n) in 0.16, cut off, n = 0 ... {}.",
                   size - 1),
-      "Step n takes c_n = (K_b * k_n) >> 16 ticks, and c_0 = K_b. k_0 = 1 does not fit into 16 bits: do not read it.",
-      "At the end of the table the motor goes on at the rate that it has."};
+      "Step n takes c_n = (K_b * k_n) >> 16 ticks, and c_0 = K_b. k_0 = 1 does not fit into 16 bits, so do not read "
+      "it.",
+      "At the end of the table, the motor continues at its present rate."};
   if (!arguments.steps_per_turn) return remarks;
   const std::int32_t steps = *arguments.steps_per_turn;
   if (arguments.clock && arguments.acceleration) {
@@ -147,12 +147,12 @@ std::vector<std::string> remarks_of(const RampArguments& arguments, std::int32_t
                                   sensible_number(*arguments.acceleration)));
   }
   if (arguments.acceleration) {
-    remarks.push_back(fmt::format("With {} rad/s2 the table ends at {} steps/s.",
+    remarks.push_back(fmt::format("With {} rad/s2, the table ends at {} steps/s.",
                                   sensible_number(*arguments.acceleration),
                                   sensible_number(reached_rate({*arguments.acceleration}, size, steps).value())));
   }
   if (arguments.max_rate) {
-    remarks.push_back(fmt::format("For {} steps/s it needs at least {} rad/s2.", sensible_number(*arguments.max_rate),
+    remarks.push_back(fmt::format("{} steps/s need at least {} rad/s2.", sensible_number(*arguments.max_rate),
                                   sensible_number(least_acceleration(Hertz(*arguments.max_rate), size, steps).value)));
   }
   return remarks;

@@ -90,7 +90,7 @@ Result<RampScene, RampError> ramp_scene(const RampRequest& request) {
     return Unit{};
   };
   if (request.jerk.value > 0) {
-    const Status<RampError> curve = add("bounded jerk", by(request.method, request, true));
+    const Status<RampError> curve = add("limited jerk", by(request.method, request, true));
     if (!curve) return Failure{curve.error()};
     RampRequest without = by(RampMethod::exact, request, true);
     without.jerk = {0};
@@ -122,11 +122,11 @@ Result<RampScene, RampError> ramp_scene(const RampRequest& request) {
 }
 
 std::string ramp_title(const RampRequest& request) {
-  if (!request.whole_move) return "A ramp up: the first " + counted(request.steps, "step");
+  if (!request.whole_move) return "Acceleration ramp: the first " + counted(request.steps, "step");
   return fmt::format("A move of {}{}", counted(request.steps, "step"),
-                     request.jerk.value > 0 ? " with bounded jerk" : "") +
-         (request.stop_after > 0 ? fmt::format(", told to stop after {}", request.stop_after) : "") +
-         (request.reverse_after > 0 ? fmt::format(", told to go back after {}", request.reverse_after) : "");
+                     request.jerk.value > 0 ? " with limited jerk" : "") +
+         (request.stop_after > 0 ? fmt::format(", stopped after {}", request.stop_after) : "") +
+         (request.reverse_after > 0 ? fmt::format(", reversed after {}", request.reverse_after) : "");
 }
 
 std::string ramp_words(const RampRequest& request) {

@@ -30,9 +30,8 @@ std::string describe(const ResumePoint& point, const MachineDescription& machine
 
 // Refuses a file that is not the journal's, or that was changed since.
 int refuse_changed(JobChange change, const FileStamp& now, const FileStamp& then) {
-  if (now.name == then.name) return refuse(code_of(change), now.name + " was changed since the job began");
-  return refuse(code_of(change),
-                fmt::format("the job that was not finished is of {}", then.name.empty() ? "-" : then.name));
+  if (now.name == then.name) return refuse(code_of(change), now.name + " was changed since the job started");
+  return refuse(code_of(change), fmt::format("the unfinished job is of {}", then.name.empty() ? "-" : then.name));
 }
 
 int refuse(JobChange change, const JobIdentity& now, const JournalHead& then) {
@@ -54,14 +53,15 @@ std::unique_ptr<ResumableRun> ResumableRun::open(const RunArguments& arguments, 
   code = exit_done;
   const std::string path = journal_of(arguments);
   if (path.empty()) {
-    if (arguments.resume) code = refuse("resume.no-journal", "no HOME, and no --journal: where is the journal?");
+    if (arguments.resume)
+      code = refuse("resume.no-journal", "the location of the journal is unknown: neither HOME nor --journal is set");
     return nullptr;
   }
   std::unique_ptr<ResumableRun> run(new ResumableRun(path));
   run->resumes_ = arguments.resume;
   if (const auto claimed = run->file_.claim(); !claimed) {
     if (claimed.error() == EWOULDBLOCK) {
-      code = fail(exit_failed, path + ": another passo that runs now keeps this journal [journal.in-use]");
+      code = fail(exit_failed, path + ": in use by another passo [journal.in-use]");
       return nullptr;
     }
     if (arguments.resume || !arguments.journal.empty()) {
@@ -89,14 +89,14 @@ int ResumableRun::judge_old(const RunArguments& arguments, const FoundJournal& f
   if (!arguments.resume) {
     // Is it a name that was mistyped?
     if (found.kind != Kind::foreign) return exit_done;
-    return fail(exit_bad_program, path + ": no journal of Passo's, and would be overwritten; name another file");
+    return fail(exit_bad_program, path + ": not a journal of Passo, so it is not overwritten; choose another file");
   }
   switch (found.kind) {
     case Kind::none:
-      return refuse("resume.no-journal", path + " is not there: nothing on this board was left unfinished");
-    case Kind::torn: return refuse("resume.torn-journal", path + " is not whole");
+      return refuse("resume.no-journal", path + " does not exist: there is no unfinished job on this board");
+    case Kind::torn: return refuse("resume.torn-journal", path + " is incomplete");
     case Kind::empty:
-    case Kind::foreign: return refuse("resume.no-journal", path + " is no journal of Passo's");
+    case Kind::foreign: return refuse("resume.no-journal", path + " is not a journal of Passo");
     case Kind::whole: break;
   }
   const auto change = change_since(found.journal->head(), now_);
@@ -108,8 +108,8 @@ bool ResumableRun::suits(const Subject& subject, int& code) {
   head_.start = subject.options.start;
   if (!resumes_ || before_->head().path == subject.path) return true;
   code = refuse("resume.path-changed",
-                "the program does not mean what it meant: other options, or a sub, tool table, parameter or settings "
-                "file was changed since");
+                "the program has a different meaning now: the options, or a subroutine, tool table, parameter or "
+                "settings file, were changed since");
   return false;
 }
 
@@ -127,7 +127,8 @@ std::optional<JobEntry> ResumableRun::find_place(OpenedMachine& machine, const P
   const auto found = resume_point_of(*before_, status, program, subject.machine, subject.options);
   if (!found) {
     if (found.error() == ResumeRefusal::rest_unknown && before_->torn() > 0) {
-      code = refuse("resume.torn-journal", file_.path() + " is not whole, and the board's rest is not in it");
+      code = refuse("resume.torn-journal",
+                    file_.path() + " is incomplete: it does not contain the point at which the board stopped");
     } else {
       code = refuse(found.error());
     }
@@ -137,7 +138,7 @@ std::optional<JobEntry> ResumableRun::find_place(OpenedMachine& machine, const P
   JobEntry entry = entry_at_rest(before_->head(), *found, status, subject.machine);
   const auto known = machine.place();
   machine.start_at({.place = *entry.stands, .trust = known ? known->trust : Trust::counted});
-  fmt::print(stderr, "passo: goes on {}\n", describe(*found, subject.machine));
+  fmt::print(stderr, "passo: continues {}\n", describe(*found, subject.machine));
   return entry;
 }
 
@@ -153,7 +154,7 @@ bool ResumableRun::begin(OpenedMachine& machine, const ProgramReader& program, c
     // The old journal knows the board as it was before the hello.
     if (before_ && !refuse_rest(*before_, machine.before())) {
       const std::string name = std::filesystem::path(before_->head().program.name).filename().string();
-      note(fmt::format("{} was not finished on this board; --resume would have gone on with it",
+      note(fmt::format("{} was left unfinished on this board; --resume would have continued it",
                        name.empty() ? "a program" : name));
     }
     head_ = head_of_beginning(std::move(head_), status, steps_at(subject.machine, session.status().position.place),
@@ -175,7 +176,7 @@ bool ResumableRun::write_head(const Subject& subject, std::optional<JobEntry> en
     code = fail(exit_failed, words);
     return false;
   }
-  note(words + ", so the job could not be resumed if it were broken off");
+  note(words + ", so the job could not be resumed after an interruption");
   return true;
 }
 
@@ -193,14 +194,12 @@ void ResumableRun::end(const MachineSession& session, const Answered& answered) 
   if (!run_.is_written()) return note(file_.path() + ": this journal could not be written: " + file_.trouble());
   if (end == JobEnd::board_in_fault) return;  // --resume would be refused
   if (end == JobEnd::board_silent) {
-    return note(
-        "the program has not come to its end; if the board keeps its power, the same command with --resume goes "
-        "on with it");
+    return note("the program is unfinished; if the board keeps its power, the same command with --resume continues it");
   }
   const FoundJournal found = file_.find();
   const auto& status = session.board().status();
   if (!found.journal || !status || refuse_rest(*found.journal, *status)) return;
-  note("the program has not come to its end; the same command with --resume goes on with it");
+  note("the program is unfinished; the same command with --resume continues it");
 }
 
 }  // namespace passo

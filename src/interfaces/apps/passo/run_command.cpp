@@ -97,8 +97,7 @@ void stop(MachineSession& session) {
 void tell_tails(const MachineSession& session) {
   const int rests = session.ledger()->recoveries();
   if (rests == 0) return;
-  fmt::print(stderr,
-             "passo: nothing had come to the board in time, {}: it came to rest on the path, and went on from there\n",
+  fmt::print(stderr, "passo: motion reached the board too late, {}: it stopped on the path, and continued from there\n",
              rests == 1 ? "once" : fmt::format("{} times", rests));
 }
 
@@ -154,20 +153,21 @@ std::optional<Point> start_of(const RunArguments& arguments, const MachineDescri
   Point start = known ? known->place : Point();
   if (arguments.from_here) {
     if (known && known->trust == Trust::homed) {
-      note("the machine was homed, and stood at " + place_words(machine, start) + "; from now on that is machine zero");
+      note("the machine was homed, and was at " + place_words(machine, start) + "; that is now machine zero");
     }
     start = Point();
     opened.start_at({.place = start, .trust = Trust::commanded});
   } else if (!known && !(arguments.home && machine.homing.size() == machine.axes.size())) {
-    code = fail(exit_failed, fmt::format("{}: where the machine stands is not known: {}. --home finds it out by the "
-                                         "switches; --from-here if it stands at machine zero; --resume goes on with a "
-                                         "job that was broken off [run.place-unknown]",
-                                         arguments.board, message_of(known.error())));
+    code = fail(
+        exit_failed,
+        fmt::format("{}: the machine position is unknown: {}. Home the machine with --home, confirm that it is at "
+                    "machine zero with --from-here, or continue an interrupted job with --resume [run.place-unknown]",
+                    arguments.board, message_of(known.error())));
     return {};
   }
   if (arguments.home) return home_rest(machine, start);
   if (start != Point() && !arguments.quiet)
-    note("the program begins at " + place_words(machine, start) + " (machine coordinates)");
+    note("the program starts at " + place_words(machine, start) + " (machine coordinates)");
   return start;
 }
 
@@ -265,7 +265,7 @@ RunSummary play(const Run& run, request::Start start, Answered& answered) {
 // Says why a run ended before its program did, and where the machine rests.
 std::string stopped_words(const Answered& answered, const RunSummary& summary) {
   std::string words = interrupted_by() != 0 ? "interrupted; " : answered.message() + "; ";
-  words += "the machine rests at";
+  words += "the machine is stopped at";
   for (const AxisSummary& axis : summary.axes) words += fmt::format(" {}{:.3f}", letter_of(axis.axis), axis.position);
   return words + " (machine coordinates), and nothing was written";
 }
@@ -317,8 +317,8 @@ void tell_of_touch(const RunArguments& arguments, const Diagnostics& findings) {
     return;
   }
   fmt::print(stderr,
-             "passo: note: the virtual probe has nothing to touch. --touch puts something there, as --touch Z:-1.5 (a "
-             "plate) or --touch X10:60,Y10:50,Z:-2 (a block)\n");
+             "passo: note: the simulated probe has nothing to touch. Add an object with --touch, e.g. --touch Z:-1.5 "
+             "(a plate) or --touch X10:60,Y10:50,Z:-2 (a block)\n");
 }
 
 // What is left to say and to write when a program has ended. Returns the exit code.
@@ -352,7 +352,7 @@ int end_run(const Run& run, const Answered& answered, const RunSummary& summary,
   if (!written) return fail(exit_failed, written.error().message);
   print(summary, run.arguments);
   if (!summary.physics || !summary.physics->lost()) return exit_done;
-  return fail(exit_failed, "the motors lost steps: this part would be scrap [run.steps-lost]");
+  return fail(exit_failed, "the motors lost steps, and the part would be scrap [run.steps-lost]");
 }
 
 // Runs a program that was checked, on a machine that has not been greeted. Returns the exit code.
@@ -452,7 +452,7 @@ int run(const RunArguments& arguments) {
   const auto has_physics = [](const AxisDescription& axis) { return motor_setup(axis).has_value(); };
   if (arguments.physics && std::ranges::none_of(machine->axes, has_physics)) {
     return fail(exit_bad_machine,
-                arguments.machine + ": --physics needs the motors: a table [axis.X.torque] of an axis");
+                arguments.machine + ": --physics needs motor data: a table [axis.X.torque] for at least one axis");
   }
   end_on_signals();
   return run_program(arguments, *machine,

@@ -20,7 +20,7 @@ extern "C" void end_on_signal(int signal) {
 }
 
 extern "C" void leave_on_signal(int signal) {
-  constexpr std::string_view words = "\npasso: interrupted; nothing has moved, and nothing was written\n";
+  constexpr std::string_view words = "\npasso: interrupted; nothing moved, and nothing was written\n";
   static_cast<void>(!write(STDERR_FILENO, words.data(), words.size()));
   end_on_signal(signal);
 }
@@ -38,7 +38,7 @@ extern "C" void brake_on_signal(int signal) {
   const bool is_first = first_signal == 0;
   note_signal(signal);
   if (!is_first) return;
-  constexpr std::string_view words = "\npasso: brakes on the path; a second time leaves at once\n";
+  constexpr std::string_view words = "\npasso: stopping on the path; press Ctrl-C again to quit immediately\n";
   static_cast<void>(!write(STDERR_FILENO, words.data(), words.size()));
 }
 
@@ -72,7 +72,7 @@ int interrupted_by() {
 
 int exit_of_signal() {
   if (first_signal != 0) return 128 + first_signal;
-  return fail(exit_failed, "ended without a reason that it knows: that is an error in Passo [passo.no-reason]");
+  return fail(exit_failed, "ended without a known reason, which is a bug in Passo [passo.no-reason]");
 }
 
 void outlive_readers() {

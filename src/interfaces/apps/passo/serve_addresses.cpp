@@ -60,13 +60,13 @@ std::optional<HostAndPort> read_address(std::string_view text) {
 std::optional<HostAndPort> sender_address(const ServeArguments& arguments, const std::string& wanted, int& code) {
   const auto address = read_address(wanted);
   if (!address) {
-    code = fail(exit_bad_program, "--grbl-tcp: expected HOST:PORT, as 127.0.0.1:7071, not " + wanted);
+    code = fail(exit_bad_program, "--grbl-tcp: expected HOST:PORT, e.g. 127.0.0.1:7071, not " + wanted);
     return {};
   }
   if (!is_this_computer(address->host) && !arguments.anybody_may_drive) {
     code = fail(exit_bad_program,
-                fmt::format("--grbl-tcp {}: whoever reaches this port can drive the machine, because the protocol "
-                            "has no password. If that is meant, add --anybody-may-drive [serve.open-port]",
+                fmt::format("--grbl-tcp {}: everybody who reaches this port can move the machine, because the Grbl "
+                            "protocol has no password. To allow it, add --anybody-may-drive [serve.open-port]",
                             wanted));
     return {};
   }
@@ -77,14 +77,14 @@ std::optional<BoardAddress> sender_port(const ServeArguments& arguments, int& co
   auto address = parse_board_address("grbl:" + arguments.grbl_serial);
   if (address && address->kind == BoardAddress::Kind::serial) return std::move(*address);
   code = fail(exit_bad_program,
-              "--grbl-serial: expected DEVICE or DEVICE@BAUD, as /dev/ttyS0@115200, not " + arguments.grbl_serial);
+              "--grbl-serial: expected DEVICE or DEVICE@BAUD, e.g. /dev/ttyS0@115200, not " + arguments.grbl_serial);
   return {};
 }
 
 std::optional<WebPlace> web_place(const ServeArguments& arguments, int& code) {
   const auto address = read_address(arguments.http);
   if (!address) {
-    code = fail(exit_bad_program, "--http: expected HOST:PORT, as 127.0.0.1:7080, not " + arguments.http);
+    code = fail(exit_bad_program, "--http: expected HOST:PORT, e.g. 127.0.0.1:7080, not " + arguments.http);
     return {};
   }
   WebAccess access{.names = {"localhost", "127.0.0.1", "[::1]"}};
@@ -95,19 +95,17 @@ std::optional<WebPlace> web_place(const ServeArguments& arguments, int& code) {
     const auto token = read_token(arguments.http_token);
     if (!token || token->size() < shortest_token) {
       code =
-          fail(exit_bad_program,
-               fmt::format("--http-token {}: expected a file whose first line is a token of {} characters or more, as "
-                           "`openssl rand -hex 16` makes one [serve.bad-token]",
-                           arguments.http_token, shortest_token));
+          fail(exit_bad_program, fmt::format("--http-token {}: expected a file whose first line is a token of at least "
+                                             "{} characters, e.g. from `openssl rand -hex 16` [serve.bad-token]",
+                                             arguments.http_token, shortest_token));
       return {};
     }
     access.token = *token;
   }
   if (access.token.empty() && !is_this_computer(address->host)) {
-    code = fail(exit_bad_program,
-                fmt::format("--http {}: other computers reach this port, so a token is needed: add --http-token FILE "
-                            "[serve.open-http]",
-                            arguments.http));
+    code = fail(exit_bad_program, fmt::format("--http {}: other computers can reach this port, so a token is required: "
+                                              "add --http-token FILE [serve.open-http]",
+                                              arguments.http));
     return {};
   }
   return WebPlace{.address = *address, .access = std::move(access)};
@@ -122,14 +120,14 @@ int check_serve(const ServeArguments& arguments, const std::string& machine_name
   if (const auto board = parse_board_address(arguments.board); !board) return fail(exit_bad_program, board.error());
   if (names_grbl_machine(arguments.board)) {
     return fail(exit_bad_program,
-                "--board grbl: a machine that speaks Grbl has its senders already; passo run and "
-                "passo home drive it [board.grbl]");
+                "--board grbl: passo serve cannot use a machine with Grbl, because senders connect to it directly; use "
+                "passo run or passo home [board.grbl]");
   }
   if (!arguments.data.empty() && !can_keep_data(arguments.data)) {
-    return fail(exit_failed, fmt::format("--data {}: nothing can be written there [serve.data]", arguments.data));
+    return fail(exit_failed, fmt::format("--data {}: the folder is not writable [serve.data]", arguments.data));
   }
-  fmt::print("{} on {}: this can be served. Nothing was opened, and nothing has moved.\n", machine_name,
-             arguments.board == "virtual" ? "a virtual board" : arguments.board);
+  fmt::print("{} on {}: the options and the machine file are valid. Nothing was opened, and nothing moved.\n",
+             machine_name, arguments.board == "virtual" ? "a simulated board" : arguments.board);
   return exit_done;
 }
 

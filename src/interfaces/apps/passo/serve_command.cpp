@@ -79,7 +79,7 @@ std::string write_file(const std::string& file, const std::string& text) {
 // Whoever has changed the file meanwhile is not overwritten.
 std::string replace_file(const std::string& file, const std::string& before, const std::string& after) {
   Diagnostics ignored;
-  if (machine_file_text(file, ignored) != before) return "somebody has changed the file meanwhile";
+  if (machine_file_text(file, ignored) != before) return "the file was changed by another program in the meantime";
   return write_file(file, after);
 }
 
@@ -141,12 +141,12 @@ int serve(const ServeArguments& given) {
   const auto machine = text ? described(*text, arguments.machine) : std::nullopt;
   if (!machine) return exit_bad_machine;
   if (!arguments.data.empty() && arguments.http.empty()) {
-    return fail(exit_bad_program, "--data keeps the jobs of --http, which is missing [serve.data]");
+    return fail(exit_bad_program, "--data is for the jobs of --http, which is missing [serve.data]");
   }
   const std::optional<std::vector<Touchable>> things = read_touch_options(arguments.touches, *machine);
   if (!things) return exit_bad_program;
   if (!things->empty() && arguments.board != "virtual") {
-    return fail(exit_bad_program, "--touch is for the virtual machine [serve.touch]");
+    return fail(exit_bad_program, "--touch is only for the simulated machine [serve.touch]");
   }
   if (arguments.check) return check_serve(arguments, machine->name);
   int code = exit_done;
@@ -201,12 +201,12 @@ int serve(const ServeArguments& given) {
     status = ServedStatus::open(arguments, *machine, code);
     if (!status) return code;
   }
-  fmt::print("{} on {}{}\n", machine->name, opened->has_board() ? arguments.board : "a virtual board",
-             lines.empty() ? ":" : ", for senders of Grbl 1.1:");
+  fmt::print("{} on {}{}\n", machine->name, opened->has_board() ? arguments.board : "a simulated board",
+             lines.empty() ? ":" : ", for Grbl 1.1 senders:");
   for (const auto& line : lines) fmt::print("  {}\n", line->name());
-  if (web) fmt::print("For programs and browsers:\n  {}\n", web->name());
-  if (status) fmt::print("For displays:\n  {}\n", status->name());
-  fmt::print("Ctrl-C stops the machine, and ends.\n");
+  if (web) fmt::print("Web interface and API:\n  {}\n", web->name());
+  if (status) fmt::print("Status by MQTT:\n  {}\n", status->name());
+  fmt::print("Ctrl-C stops the machine and the server.\n");
   std::fflush(stdout);
   ServeDaemon daemon(*opened, grbl, owner, std::move(lines), web.get(), service);
   daemon.tell(status.get());

@@ -17,8 +17,8 @@ constexpr auto between_messages = std::chrono::microseconds(1'000'000 / 60);
 constexpr auto between_signs_of_life = std::chrono::seconds(1);
 
 constexpr const char* no_page =
-    "There is no page here yet: scripts/page.sh builds it, and --page DIR names another folder.\n"
-    "Programs find the machine at /api/v1/status.\n";
+    "The web interface is missing: build it with scripts/page.sh, or give its folder with --page DIR.\n"
+    "The API is at /api/v1/status.\n";
 
 // 128 bits that nobody guesses.
 std::string new_key() {

@@ -14,7 +14,7 @@ std::unique_ptr<ServedJournal> ServedJournal::open(const std::string& folder, Op
   const auto claimed = journal->file_.claim();
   if (claimed) return journal;
   fail(exit_failed, claimed.error() == EWOULDBLOCK
-                        ? "--data " + path + ": another passo that runs now keeps its jobs there [serve.data]"
+                        ? "--data " + path + ": in use by another passo [serve.data]"
                         : "--data " + path + ": " + std::strerror(claimed.error()) + " [serve.data]");
   return nullptr;
 }

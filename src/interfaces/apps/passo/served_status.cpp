@@ -20,13 +20,14 @@ std::optional<MqttPlace> mqtt_place(const ServeArguments& arguments, int& code) 
   auto address = read_address(arguments.mqtt);
   if (!address && arguments.mqtt.find(':') == std::string::npos) address = HostAndPort{arguments.mqtt, usual_mqtt_port};
   if (!address || address->port == 0 || address->host.empty()) {
-    code = fail(exit_bad_program, "--mqtt: expected HOST or HOST:PORT, as 127.0.0.1:1883, not " + arguments.mqtt);
+    code = fail(exit_bad_program, "--mqtt: expected HOST or HOST:PORT, e.g. 127.0.0.1:1883, not " + arguments.mqtt);
     return {};
   }
   MqttPlace place{
       .host = address->host, .port = address->port, .topic = arguments.mqtt_topic, .user = {}, .password = {}};
   if (place.topic.empty() || place.topic.find_first_of("#+") != std::string::npos || place.topic.back() == '/') {
-    code = fail(exit_bad_program, "--mqtt-topic: expected a topic without # and +, as shop/router, not " + place.topic);
+    code =
+        fail(exit_bad_program, "--mqtt-topic: expected a topic without # and +, e.g. shop/router, not " + place.topic);
     return {};
   }
   if (arguments.mqtt_login.empty()) return place;

@@ -49,7 +49,8 @@ bool is_image(const std::string& path) {
 // What is wrong with the other arguments. Empty: nothing.
 std::string refusal_of(const SimulateArguments& arguments) {
   if (is_image(arguments.compare)) {
-    return "--compare: " + arguments.compare + " is an image; expected a body (.stl), a height map (.csv) or a program";
+    return "--compare: " + arguments.compare +
+           " is an image; expected a model (.stl), a height map (.csv) or a program";
   }
   for (const std::string& picture : arguments.pictures) {
     if (std::string why = refuse_picture(picture); !why.empty()) return why;
@@ -138,7 +139,7 @@ int simulate_job(const SimulateArguments& arguments, const Wishes& wishes, const
   Diagnostics errors;
   const FeedLook look = shown_feeds(job, wishes.stock, errors);
   if (errors.any_error()) return exit_bad_program;
-  if (look.moves == 0) return fail(exit_bad_program, "the program has no move [simulate.no-move]");
+  if (look.moves == 0) return fail(exit_bad_program, "the program has no moves [simulate.no-move]");
   const auto tools = shapes_or_message(job, wishes.stock, look);
   if (!tools) return exit_bad_program;
   std::optional<HeightField> field = field_or_message(wishes.stock, look);

@@ -24,7 +24,7 @@ std::string line_in_words(const LargestOf& largest) {
 
 std::string side_in_words(const FieldDifference::Side& side) {
   if (side.cells == 0) return "none";
-  return fmt::format("{:.3f} mm\u00B3, {} at most at {}", side.volume, mm_in_words(side.largest),
+  return fmt::format("{:.3f} mm\u00B3, at most {} at {}", side.volume, mm_in_words(side.largest),
                      place_in_words(side.place));
 }
 
@@ -73,7 +73,7 @@ std::string to_text(const Simulation& simulation) {
   add("removed", fmt::format("{:.2f} cm\u00B3, {:.1f} % of the stock", summary.volume() / 1000, share));
   if (summary.cutting_moves() > 0) {
     add("removal rate",
-        fmt::format("{:.2f} mm\u00B3/s in the mean of {} of cutting; {:.2f} at most{}", summary.mean_rate(),
+        fmt::format("{:.2f} mm\u00B3/s on average over {} of cutting; at most {:.2f}{}", summary.mean_rate(),
                     duration_in_words(summary.cutting_time()), summary.rate().value, line_in_words(summary.rate())));
     add("depth of cut",
         fmt::format("{} at most{}", mm_in_words(summary.depth().value), line_in_words(summary.depth())));

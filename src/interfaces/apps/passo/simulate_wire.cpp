@@ -172,7 +172,7 @@ void add_findings(const FoamSimulation& done, Diagnostics& findings) {
   };
   for (const WireCut& cut : done.moves.rapids) {
     add("simulate.rapid", cut.move.line, "the rapid pulls the wire through foam, at " + at(cut.place),
-        "a way beside the block, or G1");
+        "a path outside the block, or G1");
   }
   if (!done.difference || done.difference->sides.gouge.cells == 0) return;
   const FieldDifference::Side& gouge = done.difference->sides.gouge;
@@ -323,10 +323,10 @@ int simulate_foam(const SimulateArguments& arguments, const WireJobOfProgram& jo
   show(errors);
   if (errors.any_error()) return exit_bad_program;
   if (look.moves == 0 || look.low.x > look.high.x) {
-    return fail(exit_bad_program, "the program has no feed [simulate.no-move]");
+    return fail(exit_bad_program, "the program has no feed moves [simulate.no-move]");
   }
   if (look.has_four_axes && !(job.span > 0)) {
-    return fail(exit_bad_program, "the program moves U V: expected --span, from tower to tower");
+    return fail(exit_bad_program, "the program moves U and V, so it needs --span (between the towers)");
   }
   const StockBlock block = block_of(job, look);
   if (look.has_four_axes && (block.low.z < 0 || block.high.z > job.span)) {

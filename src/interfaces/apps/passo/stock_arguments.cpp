@@ -9,7 +9,7 @@
 namespace passo {
 namespace {
 
-constexpr const char* block_words = "ranges of axes in mm, as X0:100,Y0:80,Z-10:0";
+constexpr const char* block_words = "ranges of axes in mm, e.g. X0:100,Y0:80,Z-10:0";
 
 std::vector<std::string_view> parts_between(std::string_view text, char separator) {
   std::vector<std::string_view> parts;
@@ -53,7 +53,7 @@ Result<WishedBlock, std::string> parse_block(const char* option, std::string_vie
 
 Result<StockBlock, std::string> parse_clamp(std::string_view text) {
   const std::string refusal =
-      fmt::format("--clamp: expected where it stands and how high, as X0:10,Y0:20,Z15, found '{}'", text);
+      fmt::format("--clamp: expected position and height, e.g. X0:10,Y0:20,Z15, found '{}'", text);
   std::string ranges;
   for (const std::string_view word : parts_between(text, ',')) {
     const bool is_top = word.find(':') == std::string_view::npos && word.size() > 1;
@@ -77,7 +77,7 @@ Result<WishedTool, std::string> parse_tool(std::string_view text) {
     std::int32_t number = 0;
     const auto [end, error] = std::from_chars(text.data(), text.data() + equals, number);
     if (error != std::errc() || end != text.data() + equals || number < 0) {
-      return Failure{fmt::format("--tool '{}': expected a tool's number before the '=', as 2=ball:3", text)};
+      return Failure{fmt::format("--tool '{}': expected a tool number before the '=', e.g. 2=ball:3", text)};
     }
     tool.number = number;
     words = text.substr(equals + 1);

@@ -57,7 +57,7 @@ std::optional<std::vector<ToolShape>> shapes_or_message(const StockJob& job, con
                   .code = "simulate.no-tool",
                   .file = job.program.name(),
                   .place = {.line = tool.line, .column = 0, .length = 1},
-                  .message = fmt::format("nobody says what shape T{} has", tool.number),
+                  .message = fmt::format("no shape given for tool T{}", tool.number),
                   .expected = fmt::format("--tool {}=flat:6, or a --tool-table", tool.number),
                   .text = {}});
   }
@@ -69,8 +69,10 @@ std::optional<HeightField> field_or_message(const StockWishes& wishes, const Fee
   auto field = stock_field(wishes, look);
   if (field) return std::move(*field);
   const std::string& words = field.error().message;
-  fail(exit_bad_program, (words.empty() ? "the program has no feed: say with --stock how large the stock is" : words) +
-                             " [simulate.stock]");
+  fail(exit_bad_program,
+       (words.empty() ? "the program has no feed moves, so the size of the stock is unknown; give it with --stock"
+                      : words) +
+           " [simulate.stock]");
   return std::nullopt;
 }
 

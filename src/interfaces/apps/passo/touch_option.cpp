@@ -65,8 +65,8 @@ std::optional<PlacedSurface> read_placed(const std::string& text) {
   PlacedSurface placed;
   const std::size_t at = text.rfind('@');
   if (at != std::string::npos && !read_place(std::string_view(text).substr(at + 1), placed.zero)) {
-    fail(exit_bad_program, fmt::format("'{}': expected FILE@PLACE with the place of the file's zero in machine "
-                                       "coordinates, as part.stl@X100,Y80,Z-20",
+    fail(exit_bad_program, fmt::format("'{}': expected FILE@POSITION with the position of the file's zero in machine "
+                                       "coordinates, e.g. part.stl@X100,Y80,Z-20",
                                        text));
     return std::nullopt;
   }
@@ -91,8 +91,8 @@ std::optional<std::vector<Touchable>> read_touch_options(const std::vector<std::
     }
     TouchBox box;
     if (!read_box(text, machine, box)) {
-      fail(exit_bad_program, fmt::format("'{}': expected --touch LOW:HIGH of axes that the machine has, as Z:-1.5 or "
-                                         "X10:60,Y10:50,Z:-2, in machine coordinates, or a file of a surface",
+      fail(exit_bad_program, fmt::format("'{}': expected --touch with LOW:HIGH of axes of the machine in machine "
+                                         "coordinates, e.g. Z:-1.5 or X10:60,Y10:50,Z:-2, or an STL or height map file",
                                          text));
       return std::nullopt;
     }

@@ -64,19 +64,19 @@ std::vector<SetValue> values_of(const MachineDescription& before, const TunedMac
 std::string bound_words(const AxisTuning& tuning) {
   switch (tuning.bound) {
     case TuningBound::time: return "a higher velocity would save no time";
-    case TuningBound::torque: return "above that velocity no torque is left to accelerate with";
-    case TuningBound::board: return "a higher velocity is too fast for the board";
-    case TuningBound::wish: return "a higher velocity is not wanted, or not calm";
+    case TuningBound::torque: return "above that velocity no torque is left to accelerate";
+    case TuningBound::board: return "the board cannot make a higher velocity";
+    case TuningBound::wish: return "a higher velocity is not allowed, or causes resonance";
     case TuningBound::swing: break;
   }
-  return "above that velocity the motor may swing out of step by itself";
+  return "above that velocity the motor may lose steps through resonance";
 }
 
 std::string to_text(const TunedMachine& tuned, const std::vector<SetValue>& values) {
   std::string text;
   for (const AxisTuning& tuning : tuned.axes) {
     text +=
-        fmt::format("axis {}: {:.0f} % of the weakest motor's torque are kept; {:g} {} take {:.3f} s\n",
+        fmt::format("axis {}: {:.0f} % of the guaranteed torque is reserved; {:g} {} takes {:.3f} s\n",
                     letter_of(tuning.axis), 100 * tuning.margin, tuning.way, unit_of(tuning.axis), tuning.time.value());
     const std::string own = fmt::format("axis.{}.", letter_of(tuning.axis));
     for (const SetValue& value : values) {
@@ -84,10 +84,10 @@ std::string to_text(const TunedMachine& tuned, const std::vector<SetValue>& valu
       const std::string was = value.before > 0 ? fmt::format("was {:.6g}", value.before) : "was not given";
       text += fmt::format("  {:<28} = {:<10.6g} # {}\n", value.path.substr(own.size()), value.after, was);
     }
-    text += fmt::format("  the rotor rings with {:.1f} Hz at that load; {}\n", 1 / tuning.period.value(),
+    text += fmt::format("  the rotor oscillates at {:.1f} Hz with that load; {}\n", 1 / tuning.period.value(),
                         bound_words(tuning));
   }
-  return text + fmt::format("judged on strokes, zigzags and circles: {}\n", name_of(tuned.verdict));
+  return text + fmt::format("verdict for strokes, zigzags and circles: {}\n", name_of(tuned.verdict));
 }
 
 nlohmann::ordered_json as_json(const TunedMachine& tuned, const std::vector<SetValue>& values) {
@@ -114,8 +114,8 @@ nlohmann::ordered_json as_json(const TunedMachine& tuned, const std::vector<SetV
 LineChart chart_of(const AxisTuning& tuning) {
   LineChart chart{.x_title = fmt::format("Axis {}, {}/s", letter_of(tuning.axis), unit_of(tuning.axis)),
                   .y_title = "Torque at the shaft, N\u00B7m",
-                  .lines = {{.name = "pull-out of the weakest motor", .points = {}},
-                            {.name = "where it may swing by itself", .points = {}},
+                  .lines = {{.name = "guaranteed pull-out torque", .points = {}},
+                            {.name = "range of possible resonance", .points = {}},
                             {.name = "less the margin", .points = {}},
                             {.name = "needed", .points = {}}}};
   for (const TuningPoint& point : tuning.curve) {
@@ -140,7 +140,7 @@ Status<OutputError> draw(const TunedMachine& tuned, const std::string& path) {
   std::vector<LineChart> charts;
   for (const AxisTuning& tuning : tuned.axes) charts.push_back(chart_of(tuning));
   const PictureOptions options{.format = *picture_format_of(path),
-                               .program = "Torque there, and torque needed by the proposed limits",
+                               .program = "Available torque, and torque that the proposed limits need",
                                .machine = tuned.machine.name};
   Status<OutputError> done = draw_line_charts(charts, options, *file);
   if (done) done = file->commit();
@@ -156,10 +156,9 @@ std::vector<Axis> axes_of(const TuneArguments& arguments, const MachineDescripti
   }
   if (axes.empty() || (!arguments.axes.empty() && axes.size() != arguments.axes.size())) {
     const std::string which = arguments.axes.empty() ? "any axis" : "each of " + arguments.axes;
-    fail(exit_bad_machine,
-         fmt::format("{} does not tell the motor of {}: expected a table [axis.X.torque], and a whole number of steps "
-                     "to a full step",
-                     arguments.machine, which));
+    fail(exit_bad_machine, fmt::format("{} does not describe the motor of {}: expected a table [axis.X.torque], and a "
+                                       "whole number of microsteps per full step",
+                                       arguments.machine, which));
     return {};
   }
   return axes;
@@ -181,7 +180,7 @@ int write_copy(const TuneArguments& arguments, const std::string& text, const st
   Diagnostics diagnostics;
   if (!parse_machine(*copy, arguments.output, diagnostics)) {
     show(diagnostics);
-    return fail(exit_bad_machine, arguments.output + " would be no sound machine file, and was not written");
+    return fail(exit_bad_machine, arguments.output + " would not be a valid machine file, so it was not written");
   }
   Result<OutputFile, OutputError> file = OutputFile::open(arguments.output);
   if (!file) return fail(exit_failed, file.error().message);
@@ -225,7 +224,7 @@ int tune(const TuneArguments& arguments) {
     std::fputs(words.c_str(), stdout);
   }
   if (result->verdict == Verdict::safe) return exit_done;
-  return fail(exit_failed, "no limits were found that are judged safe; the last ones tried are told [tune.not-safe]");
+  return fail(exit_failed, "no safe limits were found; the last ones that were tried are shown [tune.not-safe]");
 }
 
 }  // namespace passo

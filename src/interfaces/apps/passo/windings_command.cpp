@@ -37,7 +37,8 @@ Timed line_or_arc(const InterpolateArguments& arguments) {
   if (!method) return Failure{method.error()};
   const auto time = time_of(arguments, *move);
   if (!time) return Failure{time.error()};
-  if (!*time) return Failure{std::string("expected --time SECONDS or --feed MM_MIN: how long the move takes")};
+  if (!*time)
+    return Failure{std::string("expected --time SECONDS or --feed MM_MIN, which set the duration of the move")};
   const auto counted = measure(*method, *move);
   if (!counted) return Failure{title(*method) + " " + counted.error()};
   if (counted->pulses > most_pulses) return Failure{fmt::format("more than {} pulses", most_pulses)};
@@ -57,7 +58,7 @@ Timed ramp_move(const RampArguments& arguments) {
   const std::string wrong = wrong_number(arguments);
   if (!wrong.empty()) return Failure{wrong};
   if (!arguments.clock || !arguments.acceleration || !arguments.steps_per_turn) {
-    return Failure{std::string("a --move of one motor wants --clock, --accel and --steps-per-rev")};
+    return Failure{std::string("a --move of one motor needs --clock, --accel and --steps-per-rev")};
   }
   if (*arguments.move > most_pulses) return Failure{fmt::format("more than {} pulses", most_pulses)};
   auto sequence = RampSequence::start(ramp_request_of(arguments));
@@ -89,15 +90,15 @@ int record(const TimedMove& move, const WindingMotors& motors, const std::string
 
 int draw(const TimedMove& move, const WindingMotors& motors, const std::string& path) {
   if (move.pulses.size() > WindingScene::most_pulses) {
-    return fail(exit_bad_program, fmt::format("--picture: {} pulses are too many to be seen; {} are the most",
+    return fail(exit_bad_program, fmt::format("--picture: {} pulses are too many to draw; at most {} are possible",
                                               move.pulses.size(), WindingScene::most_pulses));
   }
   auto file = OutputFile::open(path);
   if (!file) return fail(exit_failed, file.error().message);
-  const PictureOptions options{.format = *picture_format_of(path),
-                               .program = "Windings, " + motors.excitation.name(),
-                               .machine = fmt::format("{}   \u00B7   motors of {} full steps a revolution", move.title,
-                                                      motors.full_steps_per_turn)};
+  const PictureOptions options{
+      .format = *picture_format_of(path),
+      .program = "Windings, " + motors.excitation.name(),
+      .machine = fmt::format("{}   \u00B7   motors with {} full steps/rev", move.title, motors.full_steps_per_turn)};
   Status<OutputError> done = draw_windings({.motors = motors, .pulses = move.pulses, .end = move.end}, options, *file);
   if (done) done = file->commit();
   return done ? exit_done : fail(exit_failed, done.error().message);
@@ -113,7 +114,7 @@ int windings(const WindingsArguments& arguments) {
     return fail(exit_bad_program, "expected --to X,Y..., a line or an arc, or --move N, one motor with its ramp");
   }
   for (const std::string& path : arguments.traces) {
-    if (!is_trace_name(path)) return fail(exit_bad_program, path + ": a trace's name ends in .vcd or .csv");
+    if (!is_trace_name(path)) return fail(exit_bad_program, path + ": the name of a trace must end with .vcd or .csv");
   }
   if (const std::string why = refuse_picture(arguments.picture); !why.empty()) return fail(exit_bad_program, why);
   const int full_steps = arguments.full_steps;

@@ -39,9 +39,9 @@ TEST(GrblDialects, each_firmware_has_its_own_alarms_and_errors) {
   EXPECT_EQ(words_of_grbl_alarm("Grbl", 10), "homing found no second switch of an axis with two motors");
   EXPECT_EQ(words_of_grbl_alarm("grblHAL", 1), words_of_grbl_alarm("Grbl", 1));
   EXPECT_EQ(words_of_grbl_error("grblHAL", 46), "it must be homed first");
-  EXPECT_EQ(words_of_grbl_error("FluidNC", 152), "its configuration is wrong: its boot messages say why");
+  EXPECT_EQ(words_of_grbl_error("FluidNC", 152), "its configuration is invalid; see its boot messages");
   EXPECT_EQ(words_of_grbl_error("FluidNC", 20), words_of_grbl_error("Grbl", 20));
-  EXPECT_EQ(words_of_grbl_error("Grbl", 99), "an error that is not of Grbl 1.1");
+  EXPECT_EQ(words_of_grbl_error("Grbl", 99), "an error that Grbl 1.1 does not have");
 }
 
 TEST(GrblDialects, fluidnc_may_start_slowly_and_tell_errors_in_words) {
@@ -67,7 +67,7 @@ TEST(GrblDialects, fluidnc_may_start_slowly_and_tell_errors_in_words) {
   static_cast<void>(pair.sender.take_bytes(pair.now));
   pair.sender.receive("error:Unsupported command\r\n", pair.now);
   ASSERT_TRUE(pair.sender.fault());
-  EXPECT_EQ(pair.sender.fault()->message, "the machine refuses \"G1F600X1Y0Z0\": error:Unsupported command");
+  EXPECT_EQ(pair.sender.fault()->message, "the machine rejects \"G1F600X1Y0Z0\": error:Unsupported command");
 }
 
 TEST(GrblDialects, an_answer_that_comes_late_is_not_that_to_the_first_question) {
@@ -162,12 +162,12 @@ TEST(GrblDialects, another_firmware_is_no_machine_and_its_words_are_shown) {
   };
   GrblFault fault = fault_of("echo:Unknown command: \"$I\"");
   EXPECT_EQ(fault.code, "grbl.no-answer");
-  EXPECT_THAT(fault.message, HasSubstr("It said \"echo:Unknown command: \"$I\"\""));
+  EXPECT_THAT(fault.message, HasSubstr("It sent \"echo:Unknown command: \"$I\"\""));
   fault = fault_of("{\"r\":{\"fv\":0.99},\"f\":[1,0,4]}");
-  EXPECT_THAT(fault.message, HasSubstr("It said \"{\"r\""));
+  EXPECT_THAT(fault.message, HasSubstr("It sent \"{\"r\""));
   fault = fault_of("\xfe\x80\x06\xf8");
   EXPECT_EQ(fault.code, "grbl.no-answer");
-  EXPECT_THAT(fault.message, HasSubstr("another rate (@BAUD)"));
+  EXPECT_THAT(fault.message, HasSubstr("another baud rate (@BAUD)"));
   for (const char* old : {"Grbl 0.9j ['$' for help]", "<Idle,MPos:0.000,0.000,0.000,WPos:0.000,0.000,0.000>"}) {
     fault = fault_of(old);
     EXPECT_EQ(fault.code, "grbl.too-old") << old;

@@ -41,7 +41,7 @@ TEST(GrblSender, tells_the_line_that_was_refused_and_stops_before_the_next) {
   ASSERT_TRUE(fault);
   EXPECT_EQ(fault->code, "grbl.error");
   EXPECT_EQ(fault->last_line, 40U);
-  EXPECT_EQ(fault->message, "the machine refuses \"G1F600X40Y0Z0\": error:20, it does not know a code of the line");
+  EXPECT_EQ(fault->message, "the machine rejects \"G1F600X40Y0Z0\": error:20, it does not support a code of the line");
   for (const std::string& line : pair.machine.done()) EXPECT_NE(line, "G1F600X41Y0Z0");
 }
 
@@ -53,7 +53,7 @@ TEST(GrblSender, tells_an_alarm_and_between_which_lines_it_came) {
   const auto& fault = pair.sender.fault();
   ASSERT_TRUE(fault);
   EXPECT_EQ(fault->code, "grbl.alarm");
-  EXPECT_EQ(fault->message, "ALARM:1, a limit switch has closed; the place is lost");
+  EXPECT_EQ(fault->message, "ALARM:1, a limit switch closed; the position is lost");
   EXPECT_LE(fault->first_line, 40U);
   EXPECT_GT(fault->first_line, 20U);
   EXPECT_GE(fault->last_line, 40U);

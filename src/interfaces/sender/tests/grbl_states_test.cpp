@@ -22,8 +22,8 @@ TEST(GrblStates, a_machine_that_takes_no_lines_is_not_asked) {
        {Case{"Sleep", "grbl.asleep", "Reset it"}, Case{"Check", "grbl.check-mode", "$C"},
         Case{"Hold:0", "grbl.busy", "feed hold"}, Case{"Hold:1", "grbl.busy", "feed hold"},
         Case{"Door:1", "grbl.busy", "close it"}, Case{"Tool", "grbl.busy", "tool change"},
-        Case{"Run", "grbl.busy", "moves already (state Run)"}, Case{"Jog", "grbl.busy", "(state Jog)"},
-        Case{"Home", "grbl.busy", "(state Home)"}, Case{"Wait", "grbl.busy", "in the state Wait"}}) {
+        Case{"Run", "grbl.busy", "already moving (state Run)"}, Case{"Jog", "grbl.busy", "(state Jog)"},
+        Case{"Home", "grbl.busy", "(state Home)"}, Case{"Wait", "grbl.busy", "in state Wait"}}) {
     GrblPair pair;
     pair.machine.own_report = [state = state] { return fmt::format("<{}|MPos:0.000,0.000,0.000>", state); };
     ASSERT_TRUE(pair.play([&] { return pair.sender.stopped(); })) << state;
@@ -48,7 +48,7 @@ TEST(GrblStates, an_alarm_at_the_start_is_known_by_its_number) {
   reported.machine.state = "Alarm";
   reported.machine.own_report = [] { return std::string("<Alarm:1|MPos:0.000,0.000,0.000>"); };
   ASSERT_TRUE(reported.greet());
-  EXPECT_EQ(reported.sender.alarm_words(), "ALARM:1, a limit switch has closed; the place is lost");
+  EXPECT_EQ(reported.sender.alarm_words(), "ALARM:1, a limit switch closed; the position is lost");
 
   GrblPair untold;
   untold.machine.state = "Alarm";
@@ -102,7 +102,7 @@ TEST(GrblStates, a_state_that_does_not_end_by_itself_ends_the_stream) {
   // It says that it runs, and nothing goes on.
   const GrblFault stuck = fault_amid("Stuck", Seconds(90));
   EXPECT_EQ(stuck.code, "grbl.no-answer");
-  EXPECT_THAT(stuck.message, HasSubstr("in the state Stuck, and has neither moved nor answered"));
+  EXPECT_THAT(stuck.message, HasSubstr("in state Stuck, but has neither moved nor answered"));
 }
 
 TEST(GrblStates, a_locked_machine_without_lines_in_hand_ends_the_stream_too) {

@@ -17,17 +17,20 @@ TEST(GrblCommands, are_known_by_what_they_do) {
   };
   for (const auto& [line, message, expected] :
        {Line{"$H", "$H homes the machine", "passo home"}, Line{" $h (home)", "$H homes", "passo home"},
-        Line{"$HX", "$H homes", "passo home"}, Line{"$X", "$X ends an alarm", "a person"},
-        Line{"$32=1", "$32= changes a setting", "machine file"},
-        Line{"$ 1 0 0 = 250.5", "$100= changes a setting", "setting"}, Line{"$J=G91 X5 F100", "$J= jogs", "passo jog"},
-        Line{"$N0=G21", "$N is a line", "in the program itself"}, Line{"$RST=*", "$RST= resets", "a sender"},
-        Line{"$$", "$$ is a command", "a sender"}, Line{"$", "$ is a command", "a sender"},
-        Line{"$#", "$# is a command", "a sender"}, Line{"$G0 X5", "$G0X5 is a command", "a sender"},
-        Line{"$SLP", "$SLP is a command", "a sender"}}) {
+        Line{"$HX", "$H homes", "passo home"}, Line{"$X", "$X clears an alarm", "the operator"},
+        Line{"$32=1", "$32= changes a Grbl setting", "machine file"},
+        Line{"$ 1 0 0 = 250.5", "$100= changes a Grbl setting", "setting"},
+        Line{"$J=G91 X5 F100", "$J= jogs", "passo jog"},
+        Line{"$N0=G21", "$N is a startup line", "in the program itself"}, Line{"$RST=*", "$RST= resets", "the sender"},
+        Line{"$$", "$$ is a system command of Grbl", "the sender"},
+        Line{"$", "$ is a system command of Grbl", "the sender"},
+        Line{"$#", "$# is a system command of Grbl", "the sender"},
+        Line{"$G0 X5", "$G0X5 is a system command of Grbl", "the sender"},
+        Line{"$SLP", "$SLP is a system command of Grbl", "the sender"}}) {
     const ParsedLine parsed(line);
     EXPECT_THAT(parsed.fault_at(), StartsWith("gcode.grbl-command")) << line;
     EXPECT_THAT(parsed.fault().message, StartsWith(message)) << line;
-    EXPECT_THAT(parsed.fault().message, HasSubstr("no part of a program")) << line;
+    EXPECT_THAT(parsed.fault().message, HasSubstr("cannot be part of a program")) << line;
     EXPECT_THAT(parsed.fault().expected, HasSubstr(expected)) << line;
   }
 }

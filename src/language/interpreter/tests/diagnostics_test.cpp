@@ -389,7 +389,7 @@ TEST(Diagnostics, a_code_of_another_control_names_what_does_the_same_here) {
   EXPECT_EQ(expected("G12 I5\n"), "G2 or G3 with I and J, a full circle");
   EXPECT_EQ(expected("M29 S500\n"), "G33.1: on other controls this announces rigid tapping");
   EXPECT_EQ(expected("G38 Z-1\n"), "G38.2, G38.3, G38.4 or G38.5");
-  EXPECT_EQ(expected("G123\n"), "a code of docs/gcode.md");
+  EXPECT_EQ(expected("G123\n"), "a code listed in docs/gcode.md");
 }
 
 TEST(Diagnostics, an_unused_word_tells_which_codes_use_it) {
@@ -426,10 +426,10 @@ TEST(Diagnostics, a_message_that_linuxcnc_would_hide_is_a_warning) {
 TEST(Diagnostics, a_number_without_its_letter_and_an_exponent_are_told_as_what_they_are) {
   const std::string dwell = interpret_text("G4 500\nM2\n").rendered();
   EXPECT_THAT(dwell, testing::HasSubstr(":1:1: error: there is no G4500"));
-  EXPECT_THAT(dwell, testing::HasSubstr("a letter before the second number: a blank does not end a number"));
+  EXPECT_THAT(dwell, testing::HasSubstr("a letter before the second number; a space does not end a number"));
   const std::string exponent = interpret_text("G0 X1e3\nM2\n").rendered();
   EXPECT_THAT(exponent, testing::HasSubstr(":1:6: error: no code of this block uses the word E"));
-  EXPECT_THAT(exponent, testing::HasSubstr("a number has no exponent: 1000 for 1E3"));
+  EXPECT_THAT(exponent, testing::HasSubstr("numbers cannot have an exponent, so 1E3 is written 1000"));
   EXPECT_THAT(interpret_text("G0 X1 E3\nM2\n").rendered(), testing::Not(testing::HasSubstr("exponent")));
 }
 

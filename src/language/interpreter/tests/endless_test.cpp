@@ -74,7 +74,7 @@ TEST(Endless, a_loop_with_moves_that_never_ends_is_stopped_after_the_steps_that_
     const Interpreted result =
         interpret_text(std::string("G0 X1\no1 while [1]\n") + body + "\no1 endwhile\nM2\n", small_bounds());
     EXPECT_THAT(codes_of(result), testing::ElementsAre("gcode.endless-loop")) << body << result.rendered();
-    EXPECT_THAT(result.rendered(), HasSubstr(":2:1: error: the loop came to 5000 passes, calls and operations"));
+    EXPECT_THAT(result.rendered(), HasSubstr(":2:1: error: the loop reached 5000 passes, calls and operations"));
   }
 }
 
@@ -85,7 +85,7 @@ TEST(Endless, calls_without_end_are_stopped) {
   const Interpreted moving =
       interpret_text("o1 sub\nG0 X#1\n" + doubling.substr(7) + "o1 call [60]\nM2\n", small_bounds());
   EXPECT_THAT(codes_of(moving), testing::ElementsAre("gcode.endless-calls")) << moving.rendered();
-  EXPECT_THAT(moving.rendered(), HasSubstr("the call from line 8 came to 5000 passes, calls and operations"));
+  EXPECT_THAT(moving.rendered(), HasSubstr("the call from line 8 reached 5000 passes, calls and operations"));
 }
 
 TEST(Endless, a_cycle_with_very_many_holes_or_pecks_is_stopped) {
@@ -95,7 +95,7 @@ TEST(Endless, a_cycle_with_very_many_holes_or_pecks_is_stopped) {
     const Interpreted result =
         interpret_text(std::string("G21 F100 S100 M3\nG0 X5 Z5\n") + cycle + "\nG0 X1\nM2\n", small_bounds());
     EXPECT_THAT(codes_of(result), testing::ElementsAre("gcode.endless-cycle")) << cycle << result.rendered();
-    EXPECT_THAT(result.rendered(), HasSubstr("the cycle came to 5000 operations")) << cycle;
+    EXPECT_THAT(result.rendered(), HasSubstr("the cycle reached 5000 operations")) << cycle;
     EXPECT_THAT(result.rendered(), HasSubstr(":3:")) << cycle;
     EXPECT_LT(result.operations.size(), 6000U) << cycle;
   }

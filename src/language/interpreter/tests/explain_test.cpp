@@ -39,7 +39,7 @@ TEST(Explain, a_move_is_said_with_its_ends_in_work_and_machine) {
   EXPECT_EQ(meaning(line, "G1"), "feed move");
   EXPECT_EQ(meaning(line, "X10"), "to X 10 mm (work), 35 mm (machine)");
   EXPECT_EQ(meaning(line, "Y-2.5"), "to Y -2.5 mm (work), -2.5 mm (machine)");
-  EXPECT_EQ(meaning(line, "F600"), "feed 600 mm a minute");
+  EXPECT_EQ(meaning(line, "F600"), "feed 600 mm/min");
   EXPECT_EQ(in_words(line.before.work), "X 1 mm, Y 0 mm, Z 0 mm");
   EXPECT_EQ(in_words(line.before.machine), "X 26 mm, Y 0 mm, Z 0 mm");
   EXPECT_EQ(in_words(line.after.work), "X 10 mm, Y -2.5 mm, Z 0 mm");
@@ -70,7 +70,7 @@ TEST(Explain, a_letter_means_what_the_row_of_its_code_says) {
   EXPECT_EQ(meaning(line_of("G41.1 D6\nM2\n", 1), "D6"), "a tool 6 mm wide");
   EXPECT_EQ(meaning(line_of("G42.1 D6\nM2\n", 1), "D6"), "a tool 6 mm wide");
   EXPECT_EQ(meaning(line_of("G41 D0\nM2\n", 1), "D0"), "the radius of tool 0");
-  EXPECT_EQ(meaning(line_of("G98 G83 X1 Z-2 R1 Q.5 F100\nM2\n", 1), "Q.5"), "0.5 mm deeper with each peck");
+  EXPECT_EQ(meaning(line_of("G98 G83 X1 Z-2 R1 Q.5 F100\nM2\n", 1), "Q.5"), "0.5 mm depth per peck");
 }
 
 TEST(Explain, axis_words_alone_name_the_motion_that_is_active) {
@@ -82,11 +82,11 @@ TEST(Explain, axis_words_alone_name_the_motion_that_is_active) {
 
 TEST(Explain, expressions_and_parameters_have_the_values_of_that_moment) {
   const std::string program = "#1=3\n#<side>=[#1*2]\nG0 X[#<side>+#1] Y#1\n#1=[#1+1]\nM2\n";
-  EXPECT_EQ(line_of(program, 2).words.front().meaning, "parameter #<side> becomes 6");
+  EXPECT_EQ(line_of(program, 2).words.front().meaning, "parameter #<side> is set to 6");
   const Explanation move = line_of(program, 3);
   EXPECT_THAT(meaning(move, "X[#<side>+#1]"), HasSubstr("to X 9 mm (work)"));
   EXPECT_THAT(meaning(move, "Y#1"), HasSubstr("to Y 3 mm (work)"));
-  EXPECT_EQ(line_of(program, 4).words.front().meaning, "parameter #1 becomes 4");
+  EXPECT_EQ(line_of(program, 4).words.front().meaning, "parameter #1 is set to 4");
 }
 
 TEST(Explain, a_line_in_a_loop_is_explained_as_it_is_first_run_and_counted) {
@@ -97,7 +97,7 @@ TEST(Explain, a_line_in_a_loop_is_explained_as_it_is_first_run_and_counted) {
   EXPECT_EQ(line.operations.size(), 1U);
   const Explanation loop = line_of(program, 2);
   EXPECT_EQ(loop.executions, 6U);
-  EXPECT_EQ(loop.words.front().meaning, "a loop that goes on while the value is not 0: 1");
+  EXPECT_EQ(loop.words.front().meaning, "a loop that repeats while the value is not 0: 1");
 }
 
 TEST(Explain, counting_ends_somewhere) {
@@ -148,12 +148,12 @@ TEST(Explain, ranges_stop_at_the_end_of_the_file) {
 
 TEST(Explain, words_that_depend_on_their_code_are_said_by_it) {
   EXPECT_EQ(meaning(line_of("G4 P1.5\nM2", 1), "P1.5"), "wait 1.5 s");
-  EXPECT_EQ(meaning(line_of("G64 P.05\nM2", 1), "P.05"), "leave the programmed path by 0.05 mm at most");
+  EXPECT_EQ(meaning(line_of("G64 P.05\nM2", 1), "P.05"), "path tolerance 0.05 mm");
   const Explanation arc = line_of("F100\nG2 X2 I1\nM2", 2);
   EXPECT_EQ(meaning(arc, "I1"), "the arc's centre is 1 mm in X from its start");
   EXPECT_EQ(meaning(line_of("F100\nG3 X2 R-7 P2\nM2", 2), "R-7"), "the arc's radius is -7 mm");
   EXPECT_EQ(meaning(line_of("G90.1 F100\nG2 X2 I1 J0\nM2", 2), "I1"), "the arc's centre is at X 1 mm");
-  EXPECT_EQ(meaning(line_of("G92 X7\nM2", 1), "X7"), "this place is X 7 mm from now on");
+  EXPECT_EQ(meaning(line_of("G92 X7\nM2", 1), "X7"), "this position is X 7 mm from now on");
   EXPECT_EQ(meaning(line_of("G10 L2 P2 X7\nM2", 1), "X7"), "set X 7 mm");
   EXPECT_EQ(meaning(line_of("G10 L2 P1 X5\nG53 G0 X7\nM2", 2), "X7"), "to X 7 mm (machine)");
   EXPECT_EQ(meaning(line_of("G93 G1 X1 F2\nM2", 1), "F2"), "the move takes 1/2 minute");

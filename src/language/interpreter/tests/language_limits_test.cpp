@@ -91,7 +91,7 @@ TEST(Limits, a_computed_label_in_a_skipped_line_needs_no_value) {
 TEST(Limits, a_label_is_used_for_one_if) {
   const Diagnostic error = error_of("o1 if [1]\nG0 X1\no1 endif\no1 if [1]\nG0 X2\no1 endif\nM2\n");
   EXPECT_EQ(error.place.line, 4U);
-  EXPECT_THAT(error.message, HasSubstr("the first one is at line 1"));
+  EXPECT_THAT(error.message, HasSubstr("the first one is in line 1"));
   EXPECT_EQ(errors_of("o9 sub\no1 if [1]\nG0 X1\no1 endif\no9 endsub\no1 if [1]\nG0 X2\no1 endif\no9 call\nM2\n"), 0U);
   EXPECT_EQ(errors_of("o3 repeat [3]\no1 if [1]\nG0 X1\no1 endif\no3 endrepeat\nM2\n"), 0U);
 }
@@ -145,14 +145,14 @@ TEST(Limits, a_code_of_another_control_gets_what_does_the_same_here) {
   EXPECT_THAT(error_of("G68 X0 Y0 R30\nM2\n").expected, HasSubstr("G10 L2 with R"));
   EXPECT_THAT(error_of("M42 P1\nM2\n").expected, HasSubstr("M62 to M65"));
   EXPECT_THAT(error_of("G12 I5\nM2\n").expected, HasSubstr("full circle"));
-  EXPECT_EQ(error_of("G13.5\nM2\n").expected, "a code of docs/gcode.md");
+  EXPECT_EQ(error_of("G13.5\nM2\n").expected, "a code listed in docs/gcode.md");
   EXPECT_EQ(error_of("G38.7 X1\nM2\n").expected, "G38.2, G38.3, G38.4 or G38.5");
 }
 
 TEST(Limits, a_value_out_of_range_tells_the_range) {
   EXPECT_EQ(error_of("G10 L2 P10 X1\nM2\n").message, "P is 10, outside 0 to 9");
   EXPECT_EQ(error_of("M62 P99\nM2\n").message, "P is 99, outside 0 to 63");
-  EXPECT_EQ(error_of("M62 P1.5\nM2\n").message, "P is 1.5, which is not whole");
+  EXPECT_EQ(error_of("M62 P1.5\nM2\n").message, "P is 1.5, which is not a whole number");
   const Diagnostic table = error_of("G10 L3 P1 X1\nM2\n");
   EXPECT_EQ(table.message, "there is no G10 L3");
   EXPECT_THAT(table.expected, HasSubstr("L0, L1, L2, L10, L11 or L20"));
@@ -160,12 +160,12 @@ TEST(Limits, a_value_out_of_range_tells_the_range) {
 
 TEST(Limits, each_error_tells_its_own_cause) {
   EXPECT_EQ(error_of("G4 X2\nM2\n").message, "G4 without P");
-  EXPECT_EQ(error_of("G0 @5 X1\nM2\n").message, "@ beside X: both give a place in X and Y");
+  EXPECT_EQ(error_of("G0 @5 X1\nM2\n").message, "@ and X in one block: both set the position in X and Y");
   EXPECT_EQ(error_of("G18\nG0 @5\nM2\n").message, "polar coordinates outside the plane XY");
   EXPECT_EQ(error_of("#1=sqrt[-1]\nM2\n").expected, "SQRT of 0 or more");
   EXPECT_EQ(error_of("#1=LN[0]\nM2\n").expected, "LN of more than 0");
   EXPECT_EQ(error_of("#1=ASIN[2]\nM2\n").expected, "ASIN of -1 to 1");
-  EXPECT_EQ(error_of("#1=[[0-2]**0.5]\nM2\n").expected, "a whole exponent: a negative number has no other powers");
+  EXPECT_EQ(error_of("#1=[[0-2]**0.5]\nM2\n").expected, "a whole exponent; a negative number has no other powers");
 }
 
 }  // namespace

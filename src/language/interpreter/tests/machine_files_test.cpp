@@ -415,7 +415,7 @@ TEST(Subs, are_found_in_the_folders_of_the_options_in_order) {
   EXPECT_THAT(result.calls(), HasSubstr("first\nonly\n"));
   ASSERT_EQ(result.diagnostics.errors(), 1U) << result.rendered();
   EXPECT_THAT(result.diagnostics.all().front().expected,
-              HasSubstr("missing.ngc beside the program or in " + options.sub_folders[0]));
+              HasSubstr("missing.ngc next to the program or in " + options.sub_folders[0]));
 }
 
 // rs274 ends the program there. Passo looks for more errors, and a program with an error does not run.

@@ -205,7 +205,7 @@ TEST(OWords, a_sub_that_is_nowhere_tells_where_it_was_looked_for_and_the_run_goe
   ASSERT_EQ(found.size(), 5U) << result.rendered();
   EXPECT_THAT(found[0].expected, testing::AllOf(testing::HasSubstr("o<half> sub in this file"),
                                                 testing::EndsWith("half.ngc is there without it")));
-  EXPECT_THAT(found[1].expected, testing::HasSubstr("in a file lost.ngc beside the program"));
+  EXPECT_THAT(found[1].expected, testing::HasSubstr("in a file lost.ngc next to the program"));
   EXPECT_THAT(found[2].expected, testing::HasSubstr("O8 in this file"));
   EXPECT_EQ(found[4].code, "gcode.unused-word");
 }

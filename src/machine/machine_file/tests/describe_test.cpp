@@ -12,9 +12,9 @@ TEST(Describe, tells_a_machine_as_a_person_reads_it) {
             "path tolerance  0.02 mm\n"
             "board           clock 16000000 Hz, 244.1 to 50000 events/s, step pulse 2.5 us\n"
             "tool            Spindle, up to 10000 rpm, 3 mm\n"
-            "axis X          motor 0, 100 steps/mm, 0.01 mm a step, -150 to 150 mm, 25 mm/s (2500 steps/s), "
+            "axis X          motor 0, 100 steps/mm, 0.01 mm/step, -150 to 150 mm, 25 mm/s (2500 steps/s), "
             "200 mm/s2\n"
-            "axis A          motor 1, 160 steps/deg, 0.00625 deg a step, -180 to 180 deg, 60 deg/s (9600 steps/s), "
+            "axis A          motor 1, 160 steps/deg, 0.00625 deg/step, -180 to 180 deg, 60 deg/s (9600 steps/s), "
             "300 deg/s2, inverted\n");
 }
 

@@ -21,7 +21,7 @@ TEST(EncoderFile, is_read_with_its_limit) {
   EXPECT_TRUE(machine->axes[0].encoder->closes_loop);
   EXPECT_FALSE(machine->axes[1].encoder);
   EXPECT_THAT(describe(*machine),
-              testing::HasSubstr("encoder with 4000 counts a turn, at most 0.5 mm behind, closed loop\n"));
+              testing::HasSubstr("encoder with 4000 counts/rev, at most 0.5 mm behind, closed loop\n"));
 }
 
 TEST(EncoderFile, only_measures_unless_told_otherwise) {

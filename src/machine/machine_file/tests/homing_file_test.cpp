@@ -49,7 +49,7 @@ TEST(HomingFile, tells_where_the_switches_are_and_in_which_order) {
   EXPECT_EQ(a.input, 0) << "two switches in one chain";
   EXPECT_THAT(describe(*machine), testing::HasSubstr("homing          AX, one after the other\n"));
   EXPECT_THAT(describe(*machine),
-              testing::HasSubstr("homed at limit 1 by its low end, -151 mm: 20 mm/s, then 1 mm/s; rests at -149 mm\n"));
+              testing::HasSubstr("homed at limit 1 by its low end, -151 mm: 20 mm/s, then 1 mm/s; stops at -149 mm\n"));
 }
 
 TEST(HomingFile, takes_the_motors_own_switch_and_z_first) {

@@ -98,7 +98,7 @@ TEST(PinsFile, tells_of_a_second_motor) {
 
 TEST(PinsFile, refuses_two_motors_with_one_switch) {
   EXPECT_THAT(codes_of_pins(home_of("X") + "[axis.X.second_motor]\ninput = 0\n"),
-              testing::StartsWith("machine.homing a switch of its own for each motor"));
+              testing::StartsWith("machine.homing a separate switch for each motor"));
 }
 
 }  // namespace

@@ -70,11 +70,11 @@ TEST(TomlText, writes_a_new_table_at_the_end) {
 TEST(TomlText, refuses_what_would_break_the_file) {
   const std::string text = "a = 1\n[b]\nc = [1, # one\n 2]\n";
   EXPECT_EQ(set(text, "b", 1.0), "refused: b is a table");
-  EXPECT_EQ(set(text, "a.c", 1.0), "refused: a is no table");
+  EXPECT_EQ(set(text, "a.c", 1.0), "refused: a is not a table");
   EXPECT_EQ(set(text, "b.c", std::vector<double>{1}), "refused: b.c is a list with comments inside");
   EXPECT_EQ(set(text, "a", std::numeric_limits<double>::infinity()), "refused: a must be finite");
-  EXPECT_EQ(set(text, "a b", 1.0), "refused: 'a b' is no key");
-  EXPECT_EQ(set(text, "", 1.0), "refused: '' is no key");
+  EXPECT_EQ(set(text, "a b", 1.0), "refused: 'a b' is not a key");
+  EXPECT_EQ(set(text, "", 1.0), "refused: '' is not a key");
   EXPECT_FALSE(TomlText::read("a = = 1\n"));
 }
 

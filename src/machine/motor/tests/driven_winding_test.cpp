@@ -166,9 +166,9 @@ TEST(MotorData, is_refused_with_the_value_that_is_wrong) {
   };
   EXPECT_EQ(message([](MotorData&) {}), "accepted");
   EXPECT_EQ(message([](MotorData& m) { m.rotor.steps_per_revolution = 201; }),
-            "a two-phase motor makes a multiple of 4 full steps a revolution, not 201");
+            "the full steps per revolution of a two-phase motor must be a multiple of 4, not 201");
   EXPECT_EQ(message([](MotorData& m) { m.rotor.steps_per_revolution = 0; }),
-            "a two-phase motor makes a multiple of 4 full steps a revolution, not 0");
+            "the full steps per revolution of a two-phase motor must be a multiple of 4, not 0");
   EXPECT_EQ(message([](MotorData& m) { m.rotor.inertia = {0}; }),
             "the rotor's inertia must be above 0 kg\u00B7m\u00B2, not 0");
   EXPECT_EQ(message([](MotorData& m) { m.holding_torque = {-1}; }),

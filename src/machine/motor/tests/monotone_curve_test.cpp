@@ -104,10 +104,10 @@ TEST(MonotoneCurve, refuses_what_is_no_curve_and_says_why) {
   };
   EXPECT_EQ(error({}), "a curve needs at least 2 points, not 0");
   EXPECT_EQ(error({{1, 1}}), "a curve needs at least 2 points, not 1");
-  EXPECT_EQ(error({{1, 1}, {1, 0}}), "the points must go up along the curve, and 1 comes after 1");
-  EXPECT_EQ(error({{3, 1}, {2, 0}}), "the points must go up along the curve, and 2 comes after 3");
-  EXPECT_EQ(error({{0, 1}, {std::numeric_limits<double>::infinity(), 0}}), "inf:0 is no point of a curve");
-  EXPECT_EQ(error({{0, std::nan("")}, {1, 0}}), "0:nan is no point of a curve");
+  EXPECT_EQ(error({{1, 1}, {1, 0}}), "the points must be in ascending order, but 1 follows 1");
+  EXPECT_EQ(error({{3, 1}, {2, 0}}), "the points must be in ascending order, but 2 follows 3");
+  EXPECT_EQ(error({{0, 1}, {std::numeric_limits<double>::infinity(), 0}}), "inf:0 is not a valid point of a curve");
+  EXPECT_EQ(error({{0, std::nan("")}, {1, 0}}), "0:nan is not a valid point of a curve");
 }
 
 }  // namespace

@@ -169,25 +169,25 @@ TEST(TorqueCurve, from_points_refuses_what_is_no_torque_curve_and_says_why) {
   EXPECT_EQ(error(good), "accepted");
   EXPECT_EQ(error({{Hertz(0), {0.4}}}), "pull-out: a curve needs at least 2 points, not 1");
   EXPECT_EQ(error({{Hertz(0), {0.4}}, {Hertz(500), {0.5}}}),
-            "pull-out: torque falls with the rate, but rises to 0.5 N\u00B7m at 500 steps/s");
+            "pull-out: torque must fall with the rate, but rises to 0.5 N\u00B7m at 500 steps/s");
   EXPECT_EQ(error({{Hertz(-1), {0.4}}, {Hertz(500), {0.3}}}),
-            "pull-out: rate and torque cannot be negative, as in -1:0.4");
+            "pull-out: rate and torque cannot be negative, but -1:0.4 is");
   EXPECT_EQ(error({{Hertz(0), {0.4}}, {Hertz(500), {-0.3}}}),
-            "pull-out: rate and torque cannot be negative, as in 500:-0.3");
-  EXPECT_NE(error({{Hertz(600), {0.4}}, {Hertz(500), {0.3}}}).find("must go up"), std::string::npos);
-  EXPECT_EQ(error({{Hertz(0), {0}}, {Hertz(500), {0}}}), "pull-out: the torque is 0 from the first point on");
+            "pull-out: rate and torque cannot be negative, but 500:-0.3 is");
+  EXPECT_NE(error({{Hertz(600), {0.4}}, {Hertz(500), {0.3}}}).find("must be in ascending order"), std::string::npos);
+  EXPECT_EQ(error({{Hertz(0), {0}}, {Hertz(500), {0}}}), "pull-out: the torque of all points is 0");
   EXPECT_NE(error({{Hertz(0), {std::numeric_limits<double>::infinity()}}, {Hertz(500), {0}}}), "accepted");
   EXPECT_EQ(error(good, {{Hertz(0), {0.3}}, {Hertz(900), {0.3}}}),
-            "pull-in cannot be above pull-out, as it is at 900 steps/s");
+            "pull-in torque cannot be above pull-out torque, as at 900 steps/s");
   EXPECT_EQ(error(good, {{Hertz(0), {0.3}}}), "pull-in: a curve needs at least 2 points, not 1");
   EXPECT_EQ(TorqueCurve::from_points({.steps_per_revolution = 30, .inertia = {1e-6}}, good).error().message,
-            "a two-phase motor makes a multiple of 4 full steps a revolution, not 30");
+            "the full steps per revolution of a two-phase motor must be a multiple of 4, not 30");
 }
 
 TEST(TorqueCurve, a_load_that_pushes_or_weighs_less_than_nothing_is_refused) {
   EXPECT_TRUE(check(Load{}));
   EXPECT_FALSE(check(Load{.inertia = {-1}}));
-  EXPECT_EQ(check(Load{.friction = {-0.1}}).error().message, "friction cannot be below 0 N\u00B7m, as -0.1 is");
+  EXPECT_EQ(check(Load{.friction = {-0.1}}).error().message, "friction must be 0 N\u00B7m or more, not -0.1");
   EXPECT_FALSE(check(Load{.friction_per_speed = {std::nan("")}}));
 }
 

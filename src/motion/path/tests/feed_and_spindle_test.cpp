@@ -115,8 +115,8 @@ TEST_F(SpindleTest, a_thread_that_an_axis_cannot_follow_is_refused_with_what_can
   go(0, 0, -15);
   EXPECT_EQ(
       told(),
-      "path.thread-too-fast: at 6000 rpm and 4.000 mm a turn Z would have to move at 400.0 mm/s, and its limit is "
-      "100; S up to 1500, or up to 1.000 mm a turn");
+      "path.thread-too-fast: at 6000 rpm and 4.000 mm/rev, Z would have to move at 400.0 mm/s, above its limit of "
+      "100; S up to 1500, or up to 1.000 mm/rev");
   EXPECT_TRUE(diagnostics_.any_error());
   EXPECT_EQ(diagnostics_.all()[0].place.line, 4U);
 }
@@ -137,7 +137,7 @@ TEST_F(SpindleTest, of_a_feed_on_two_axes_the_slower_one_counts) {
   add(operation::StartSpeedFeedSync{.pitch = Mm(3)});  // 90 mm/s along the path
   go(3, 0, -4);                                        // 54 mm/s of X, 72 of Z
   EXPECT_THAT(told(),
-              HasSubstr("X would have to move at 54.0 mm/s, and its limit is 50; S up to 1666, or up to 2.777"));
+              HasSubstr("X would have to move at 54.0 mm/s, above its limit of 50; S up to 1666, or up to 2.777"));
 }
 
 TEST_F(SpindleTest, a_rigid_tap_is_refused_too) {
@@ -145,7 +145,7 @@ TEST_F(SpindleTest, a_rigid_tap_is_refused_too) {
   add(operation::StartSpeedFeedSync{.pitch = Mm(2.5)});
   add(operation::RigidTap{xyz(0, 0, -10)});
   EXPECT_THAT(told(),
-              HasSubstr("Z would have to move at 125.0 mm/s, and its limit is 100; S up to 2400, or up to 2.0"));
+              HasSubstr("Z would have to move at 125.0 mm/s, above its limit of 100; S up to 2400, or up to 2.0"));
 }
 
 TEST_F(SpindleTest, a_feed_a_turn_is_refused_once_for_each_speed) {
@@ -158,7 +158,7 @@ TEST_F(SpindleTest, a_feed_a_turn_is_refused_once_for_each_speed) {
   go(30, 0);
   static_cast<void>(build());
   EXPECT_THAT(codes(), testing::ElementsAre("path.thread-too-fast", "path.thread-too-fast"));
-  EXPECT_THAT(diagnostics_.all()[0].expected, "S up to 2000, or up to 1.000 mm a turn");
+  EXPECT_THAT(diagnostics_.all()[0].expected, "S up to 2000, or up to 1.000 mm/rev");
 }
 
 TEST_F(SpindleTest, the_speed_that_counts_is_the_one_that_the_spindle_can_have) {
@@ -176,8 +176,8 @@ TEST_F(SpindleTest, lengths_are_told_in_the_programs_units) {
   clockwise(6000);
   add(operation::StartSpeedFeedSync{.pitch = Mm(2.54)});
   go(0, 0, -15);
-  EXPECT_THAT(told(), HasSubstr("6000 rpm and 0.1000 inches a turn Z would have to move at 254.0 mm/s"));
-  EXPECT_THAT(diagnostics_.all()[0].expected, "S up to 2362, or up to 0.0393 inches a turn");
+  EXPECT_THAT(told(), HasSubstr("6000 rpm and 0.1000 inches/rev, Z would have to move at 254.0 mm/s"));
+  EXPECT_THAT(diagnostics_.all()[0].expected, "S up to 2362, or up to 0.0393 inches/rev");
 }
 
 }  // namespace

@@ -1,4 +1,4 @@
-// Moves with bounded jerk: the count of steps is exact and the result keeps the limits, wherever the move is turned.
+// Moves with limited jerk: the count of steps is exact and the result keeps the limits, wherever the move is turned.
 #include "passo/ramp/s_curve_move.hpp"
 
 #include <algorithm>

@@ -82,12 +82,12 @@ TEST(CurvePulses, say_what_is_wrong) {
   const CubicBezier up = *CubicBezier::create({Vector3{0, 0, 0}, {1, 2, 3}, {3, 2, 3}, {5, 0, 9}});
   Chords chords(up, *ChordTolerance::of(Mm(0.01)));
   EXPECT_THAT(*walk(up, chords, {.name = MethodName::slope_blocks}).error,
-              HasSubstr("two axes, and the curve moves Z"));
+              HasSubstr("two axes, but the curve moves Z"));
   Chords again(up, *ChordTolerance::of(Mm(0.01)));
   EXPECT_THAT(*walk(up, again, {.name = MethodName::midpoint}).error, HasSubstr("for arcs"));
   const Ellipse most_of_a_circle = *Ellipse::flat({0, 0, 0}, Mm(5), Mm(5), {0}, {0}, {5});
   EqualChords coarse(most_of_a_circle, *ChordLength::of(Mm(30)));
-  EXPECT_THAT(*walk(most_of_a_circle, coarse, {.name = MethodName::lean}).error, HasSubstr("too far"));
+  EXPECT_THAT(*walk(most_of_a_circle, coarse, {.name = MethodName::lean}).error, HasSubstr("too large an angle"));
 }
 
 }  // namespace

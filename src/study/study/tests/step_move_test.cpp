@@ -28,8 +28,8 @@ TEST(StepMove, within_the_range_is_good) {
 TEST(StepMove, beyond_the_range_says_what_is_wrong) {
   EXPECT_THAT(complaint({.from = {0, 0}, .to = {1, 2, 3}, .arc = {}}), HasSubstr("2 axes and ends with 3"));
   EXPECT_THAT(complaint({.from = {-1}, .to = {largest}, .arc = {}}), HasSubstr("2147483648 steps long in x"));
-  EXPECT_THAT(complaint({.from = {0}, .to = {largest + 1}, .arc = {}}), HasSubstr("beyond 2147483647"));
-  EXPECT_THAT(complaint({.from = Place(9, 0), .to = Place(9, 1), .arc = {}}), HasSubstr("9 axes; one to 8"));
+  EXPECT_THAT(complaint({.from = {0}, .to = {largest + 1}, .arc = {}}), HasSubstr("exceeds 2147483647"));
+  EXPECT_THAT(complaint({.from = Place(9, 0), .to = Place(9, 1), .arc = {}}), HasSubstr("9 axes; expected one to 8"));
   EXPECT_THAT(complaint(arc({10, 0}, {0, 12}, {0, 0})),
               HasSubstr("10 steps from the centre at its start, 12 at its end"));
   EXPECT_THAT(complaint(arc({1, 1}, {0, 12}, {1, 1})), HasSubstr("starts at its centre"));

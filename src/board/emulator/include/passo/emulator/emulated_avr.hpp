@@ -10,7 +10,7 @@
 
 namespace passo {
 
-// The path of passo-emulate-avr: beside this program, or where the build puts it. The error is a sentence.
+// The path of passo-emulate-avr: next to this program, or in the build folder. The error is a sentence.
 Result<std::string, std::string> avr_emulator();
 
 // Which of the emulator's 32 pins a pin of the chip is: numbers are given in the order of asking.

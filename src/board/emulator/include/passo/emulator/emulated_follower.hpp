@@ -38,7 +38,7 @@ struct OutputChange {
 struct FollowerRun {
   std::vector<OutputChange> changes = {};
   // The longest time from one sample of the clock lines to the next, in cycles: a level that lasts longer is always
-  // seen. 0 if nobody asked for it.
+  // detected. 0 if it was not measured.
   std::uint64_t longest_turn = 0;
 };
 

@@ -37,8 +37,8 @@ class EmulatorProcess {
     std::uint32_t watched = 0;  // bits of pins
     std::uint32_t rises = 0;    // after so many moments in which some of these rose (AVR: or fell); 0: never
   };
-  // What the encoder at the spindle does in the next run(): it turns evenly to so many pulses in all, of so many a
-  // turn.
+  // The spindle encoder's motion in the next run(): it turns evenly up to this total number of pulses, with this number
+  // of pulses per revolution.
   struct EncoderWay {
     double from = 0;
     double to = 0;

@@ -75,7 +75,7 @@ class Board : private ItemPlayer<Hardware, queue_capacity, SegmentPlayer, most_m
   // Bits of BoardInput: watched() is the one that is captured, stopping() those that stop the motors when they go on.
   uint16_t watched() const { return watch_.input(); }
   uint16_t stopping() const { return static_cast<uint16_t>(watch_.stopping() | alarms_of(hardware_)); }
-  // Stops without braking and drops all items. Steps may be lost, so nothing is played until a host says hello again.
+  // Stops without braking and drops all items. Steps may be lost, so no motion is executed until the next hello.
   // `inputs` are those that are on: the host is told which of them stop the motors.
   void stop_at_once(uint16_t inputs) {
     inputs &= stopping();
@@ -88,7 +88,8 @@ class Board : private ItemPlayer<Hardware, queue_capacity, SegmentPlayer, most_m
     send(fault);
   }
 
-  // Call ten times a second: counts the host's silence (HostSilence). What is late goes off at rest, amid a refill too.
+  // Call ten times a second: counts the host's silence (HostSilence). Outputs whose time is over are switched off while
+  // the board is stopped, even during a queue update.
   void count_silence() {
     silence_.count();
     if (manual_ != Manual::off || !idle() || !list_.empty()) return;

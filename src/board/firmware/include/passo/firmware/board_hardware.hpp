@@ -1,4 +1,4 @@
-// What a Board needs of its hardware, and what it does where optional parts are missing. A type with
+// The hardware interface of a Board, and its behaviour without the optional parts. A type with
 //   void step(uint8_t stepped, uint8_t directions);   motors in `stepped` make a step; those in `directions` step down
 //   void outputs(const BoardOutputs&);
 //   void send(uint8_t byte);                          to the host; or
@@ -55,7 +55,8 @@ struct SliceOf {
   }
 };
 
-// Called amid long work, where a chip makes events ahead of time. Items may end: what is told must be known already.
+// Called during long work, on chips that compute events ahead of time. Items may end: what is told must be known
+// already.
 template <class Hardware>
 [[gnu::always_inline]] inline void keep_up(Hardware&) {
   if constexpr (requires { Hardware::keep_up(); }) {

@@ -1,4 +1,5 @@
-// BoardVoice: what a Board says to its host. It numbers the frames and puts them on the hardware's line. Portable.
+// BoardVoice: the messages of a Board to its host. It numbers the frames and puts them on the hardware's line.
+// Portable.
 #pragma once
 
 #include <stddef.h>
@@ -36,7 +37,7 @@ class BoardVoice {
   Hardware& hardware_;
 
  private:
-  // No frame is longer that tells of so many motors. A host may ask for more of them than the board has.
+  // The size of the longest frame for this number of motors. A host may ask for more of them than the board has.
   static constexpr uint8_t most_bytes(uint8_t motors = 0) {
     const uint8_t status = payload_size(static_cast<uint8_t>(MessageType::status), motors);
     constexpr uint8_t about = payload_size(static_cast<uint8_t>(MessageType::about), 0);

@@ -128,7 +128,7 @@ class Follower {
     const KeyMove move = jog_of_key.of[key];
     step(move.steps, move.down);
   }
-  // A mode key also confirms that the operator knows where the machine stands.
+  // A mode key also confirms that the operator knows the machine position.
   void set_manual(bool manual) {
     manual_ = manual;
     trusted_ = true;

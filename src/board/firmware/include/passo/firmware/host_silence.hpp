@@ -1,7 +1,7 @@
 // HostSilence: how long a board has not heard its host, and which outputs are to end for it.
 //
-// A board whose host was killed or cut off ends its motion and then switches its outputs off. What comes after may not
-// move with a spindle that stands: the board takes no replacement until the host has sent outputs or a hello. Portable.
+// A board whose host was killed or cut off ends its motion and then switches its outputs off. Later motion must not run
+// with a stopped spindle, so the board accepts no queue update until the host has sent outputs or a hello. Portable.
 #pragma once
 
 #include <stdint.h>
@@ -28,15 +28,15 @@ class HostSilence {
     return late;
   }
 
-  // The host has been silent for so many tenths of a second; never for 0.
+  // True: the host has been silent for this number of tenths of a second. Never for 0.
   bool is_over(uint8_t allowed) const { return allowed != 0 && tenths_ >= allowed; }
 
-  // A host has said hello.
+  // Processes a hello.
   void begin() { off_ = let_go_ = false; }
   // Outputs were switched off, and no host has sent outputs since.
   void set_off() { off_ = true; }
   void forget_off() { off_ = false; }
-  // The drivers were switched off, and no host has said hello since.
+  // True: the drivers were switched off, without a hello since.
   void set_released() { let_go_ = true; }
   // Both, as bits of a status's inputs.
   uint16_t bits() const {

@@ -3,8 +3,8 @@
 //
 // A key that is touched makes some steps. Held for 0.4 s it goes on, up a ramp to the highest speed. When it is
 // released, the motion goes down the same ramp. Jogging goes through the board's own list and player, so every step is
-// counted and switches act as always. A host is told `manual`. Nothing that it sends is played until it has said hello
-// after `*`.
+// counted and switches act as always. A host is told `manual`. Its motion is not executed until its next hello after
+// `*`.
 //
 // Hardware is a type with
 //   static uint8_t rows();                                a bit for each row with a key down, in the column driven low

@@ -1,5 +1,5 @@
-// PlayList: the items that a board holds, in the order in which it will play them. Beside them it gathers items that
-// will replace its tail.
+// PlayList: the items that a board holds, in the order in which it will play them. It also collects the items of a
+// queue update, which replace its stop ramp.
 //
 // Items lie in slots, and each slot names the next one: an item is written once and never moved. A replacement gathers
 // in slots of its own. When it is complete, one link changes from the old tail to the new one. A replacement that was
@@ -104,7 +104,7 @@ class PlayList {
     drop_replacement();
     staged_ = {.after = after, .count = count, .missing = count};
   }
-  // Drops what was gathered and no longer waits for the rest.
+  // Drops an incomplete queue update.
   void drop_replacement() {
     if (staged_.front != none) {
       release_slots(staged_.front, staged_.last, static_cast<uint8_t>(staged_.count - staged_.missing));
@@ -116,8 +116,8 @@ class PlayList {
   bool gathered() const { return staged_.front != none && staged_.missing == 0; }
   // Puts the replacement in place. `executed` is the last item that was popped. The first `begun` items are being
   // played or prepared for the timer, and stay. Returns false and changes nothing if an item after the one to replace
-  // after has begun. What the list holds ends at rest: if nothing is replaced, `from_rest` becomes the low byte of the
-  // number of the first new item. This is the longest work of all, so Pause{}() is called between its parts.
+  // after has begun. The queue ends in a stop: if nothing is replaced, `from_rest` becomes the low byte of the number
+  // of the first new item. This is the longest work of all, so Pause{}() is called between its parts.
   bool complete(uint16_t executed, uint8_t begun, uint8_t& from_rest) {
     uint8_t slot = front_;
     uint8_t place = 1;

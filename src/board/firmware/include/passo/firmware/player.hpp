@@ -36,7 +36,7 @@ class Player {
 
   bool done() const { return left_ == 0; }
   // Whether since restart() an event could not be made in time, so that all later ones were late. Here each event is
-  // made when it is due, unless somebody says that it was not.
+  // made when it is due, unless it is reported as late.
   bool slipped() const { return slipped_; }
   void slip() { slipped_ = true; }
   uint8_t directions() const { return segment_.directions; }

@@ -1,5 +1,5 @@
-// Functions that wait for a board, for callers that have nothing else to do: tests, benchmarks, short commands. All
-// other work with a machine goes through MachineSession, which never waits.
+// Functions that block until a board has answered, for callers with nothing else to do: tests, benchmarks, short
+// commands. All other work with a machine goes through MachineSession, which never waits.
 #pragma once
 
 #include <limits>
@@ -18,28 +18,28 @@ bool await(BoardSession& session, Done done, Seconds within = endless) {
   return done();
 }
 
-// Says hello and waits until the board has answered. False: error() tells why.
+// Performs the handshake and waits for the answer. False: error() gives the reason.
 inline bool greet(BoardSession& session, const Greeting& greeting) {
   session.greet(greeting);
   return await(session, [&] { return session.ready(); });
 }
-// Asks the board before the hello, and waits for the answer. Empty: the board is silent.
+// Queries the board before the handshake, and waits for the answer. Empty: the board does not answer.
 std::optional<About> ask_about(BoardSession& session, Seconds within);
 std::optional<BoardStatus> ask_status(BoardSession& session, Seconds within);
-// What a board holds without a host are some braking and at most two dwells of 67 s.
+// A board without a host plays at most a stop ramp and two dwells of 67 s.
 inline constexpr Seconds longest_way_to_rest{150};
-// Asks again until the board rests. Two answers must be alike, because a chip that has made its last event may not have
-// counted the item yet. Empty: an answer did not come `within` this time; or the board still moves after
-// `longest_way_to_rest`, and its last status says so.
+// Queries the board until it is stopped. Two answers must agree, because a chip may not have counted the item of its
+// last event yet. Empty: no answer came `within` this time, or the board was still moving after `longest_way_to_rest`
+// (see its last status).
 std::optional<BoardStatus> ask_status_at_rest(BoardSession& session, Seconds within);
 
-// Waits for room, then sends.
+// Waits for room in the queue, then sends.
 inline void send(BoardSession& session, const LinkItem& item) {
   await(session, [&] { return session.room() > 0; });
   if (session.error()) return;
   std::visit([&](const auto& one) { session.send(one); }, item);
 }
-// Waits until all that was sent is done.
+// Waits until all sent items are executed.
 inline void drain(BoardSession& session) {
   await(session, [&] { return !session.busy(); });
 }

@@ -1,4 +1,4 @@
-// BoardMirror: the board as the host knows it: what it told of its items, its inputs, and what has happened to it.
+// BoardMirror: the host's copy of the board's state: executed items, inputs, and events such as stops.
 #pragma once
 
 #include <cstdint>
@@ -12,7 +12,7 @@ namespace passo {
 
 class BoardMirror {
  public:
-  // The last status, and when it was heard. True: the board has played events since the status before.
+  // Stores a status and the time of its arrival. True: the board has executed events since the previous status.
   bool update(const BoardStatus& status, Seconds now);
   const std::optional<BoardStatus>& status() const { return status_; }
   Seconds status_time() const { return status_time_; }
@@ -25,28 +25,28 @@ class BoardMirror {
   const std::optional<About>& about() const { return about_; }
   void forget_about() { about_.reset(); }
 
-  // The last item that is done, and the room that the board had then.
+  // Stores the last executed item, and the free places of the board's queue at that time.
   void update_items(ItemNumber executed, int free);
   void set_room(int free) { free_ = free; }
   ItemNumber executed() const { return executed_; }
   int free() const { return free_; }
-  // True: the board has all frames, holds nothing and rests.
+  // True: the board has received all frames, its queue is empty, and it is stopped.
   void record_rest(bool rests) { rests_ = rests; }
   bool rests() const { return rests_; }
 
-  // Inputs are bits of BoardInput. `ignored`: the input that captures instead of being a switch. True: one was switched
-  // on.
+  // Inputs are bits of BoardInput. `ignored`: the input that is used for captures and not as a switch. True: an input
+  // was activated.
   bool update_inputs(const BoardStatus& status, std::uint16_t ignored);
   bool record_pressed(std::uint16_t inputs);
   void set_inputs(std::uint16_t inputs) { inputs_ = inputs; }
   std::uint16_t inputs() const { return inputs_; }
   std::uint16_t take_pressed() { return std::exchange(pressed_, std::uint16_t{0}); }
 
-  // The motors were stopped at once, by these inputs; without them, by those that are on.
+  // The motors were stopped instantly by these inputs; 0: by those that are active.
   void record_stop(std::uint16_t inputs);
   void record_stop();
   std::uint16_t stopped_by() const { return stopped_by_; }
-  // The motors have stood still amid motion.
+  // The motors stopped during motion.
   void on_standstill(const BoardStatus& status) { standstill_ = status; }
   const std::optional<BoardStatus>& standstill() const { return standstill_; }
   // The board switches its outputs off when the host is silent, until the host sends outputs.
@@ -54,7 +54,7 @@ class BoardMirror {
   void end_timeout() { outputs_timed_out_ = false; }
   bool outputs_timed_out() const { return outputs_timed_out_; }
 
-  // A hello ends what has happened before. The counts, the inputs and the last status stay.
+  // Clears the events, as a handshake does. The counts, the inputs and the last status are kept.
   void forget_events();
   void begin(ItemNumber executed) { executed_ = executed; }
 

@@ -1,6 +1,6 @@
-// BoardPort: the view that a link has of a board. The port takes bytes, and gives the bytes that come back.
+// BoardPort: the byte stream to and from a board, as the link sees it.
 //
-// A virtual machine is a port, and so is a line to one. The port's time passes only in run().
+// A simulated machine is a port, and so is a serial or TCP connection. The port's time passes only in run().
 #pragma once
 
 #include <cstdint>
@@ -10,8 +10,7 @@
 
 namespace passo {
 
-// A wait is over when no more than this time is left. A port may let no time pass for less than a tick of the board, so
-// waiting for the rest might never end.
+// A wait ends when at most this time is left, because a port may not be able to wait for less than a tick.
 inline constexpr Seconds hardly_any{1e-6};
 
 class BoardPort {
@@ -19,14 +18,14 @@ class BoardPort {
   virtual ~BoardPort() = default;
 
   virtual void receive(std::span<const std::uint8_t> bytes) = 0;
-  // Lets time pass until the board has said something, but no more than `most`. False: the board has said nothing, and
-  // the time is over. With an infinite `most`, false: the board has come to rest and is silent.
+  // Lets time pass until the board has sent something, but at most `most`. False: the time is over, and the board has
+  // sent nothing. With an infinite `most`, false: the board has stopped and is silent.
   [[nodiscard]] virtual bool run(Seconds most) = 0;
-  // Takes what the board has said since the last call. The bytes are valid until the next call of any kind.
+  // Returns what the board has sent since the last call. The bytes are valid until the next call of any function.
   virtual std::span<const std::uint8_t> replies() = 0;
-  // True: the other side has closed the line, and has said nothing since.
+  // True: the other side has closed the connection, and all its bytes have been read.
   virtual bool hung_up() const { return false; }
-  // The time on this side, from any start.
+  // The time on this side, from an arbitrary zero.
   virtual Seconds elapsed() const = 0;
 };
 

@@ -1,7 +1,7 @@
-// BoardQuestions: the questions that a host has put to its board, and how long the answers take.
+// BoardQuestions: the host's open queries to its board, and the response time.
 //
-// A question has a number of its own, and its answer repeats that number. The host may await one question: it goes on
-// when that one is answered.
+// A query has a number, which its answer repeats. The host can wait for one query: it continues when that one is
+// answered.
 #pragma once
 
 #include <cstdint>
@@ -15,45 +15,45 @@ namespace passo {
 
 class BoardQuestions {
  public:
-  // Counts a question that is put now, after frame `behind`. Returns its number.
+  // Registers a query that is sent now, after frame `behind`. Returns its number.
   std::uint8_t put(Question question, ItemNumber behind, Seconds now);
-  // The newest question, its number, and the frame that it was put after.
+  // The newest query, its number, and the frame that it follows.
   Question last() const { return last_; }
   std::uint8_t number() const { return number_; }
   ItemNumber behind() const { return behind_; }
 
-  // What a plain ask() asks.
+  // Sets the query that ask() sends.
   void ask_usually(Question question) { usual_ = question; }
   Question usual() const { return usual_; }
-  // The usual question is to go behind all frames. `wait`: some of them are not on the wire yet.
+  // Delays the usual query until all frames are sent. `waits`: some of them are not sent yet.
   void hold_back(bool waits) { held_back_ = waits; }
-  // True: the question was held back, and is to be put now.
+  // True: a delayed query is to be sent now.
   bool release() { return std::exchange(held_back_, false); }
 
   void await(Question question) { awaited_ = question; }
   const std::optional<Question>& awaited() const { return awaited_; }
-  // The board has answered. True: this is what was awaited.
+  // Registers an answer. True: the host was waiting for this one.
   bool settle(Question answered, Seconds now);
-  // The answer's time is counted from now on: behind it, bytes go over the line that say nothing.
+  // Starts the measurement of a response time: filler bytes follow on the link.
   void begin_rehearsal(Seconds now) { rehearsed_ = now; }
 
-  // A frame was sent: answers from before it do not count.
+  // Registers a sent frame: earlier answers are out of date.
   void record_sent(Seconds now);
-  // The board has answered after all frames. False: that was known.
+  // Registers that the board has answered after all frames. False: this was already known.
   bool on_answered(Seconds now);
-  // What went before is over.
+  // Forgets the sent frames.
   void forget_sent() { answered_ = true; }
   bool answered() const { return answered_; }
-  // How long the last such answer took.
+  // The response time of the last such answer.
   Seconds answer_time() const { return answer_time_; }
 
   // The newest answer about the spindle.
   void record_turned(const Turned& turned) { turned_ = turned; }
   std::optional<Turned> take_turned() { return std::exchange(turned_, std::nullopt); }
 
-  // No question is open. Numbers and the answer's time stay.
+  // Drops all open queries. Numbers and the response time are kept.
   void forget();
-  // Counts questions from this frame on.
+  // Starts with this frame number.
   void begin(ItemNumber number) { behind_ = number; }
 
  private:

@@ -1,24 +1,23 @@
-// BoardSession: a host's whole conversation with a board. The board is reached through a port, in this process or at
-// the end of a line; the bytes are the same in both. The session says the one hello, and is the only reader of what the
-// board says.
+// BoardSession: the communication of a host with a board, through a port. The board may be simulated in this process or
+// real; the bytes are the same. The session performs the handshake, and is the only reader of the board's messages.
 //
-// Its parts: Handshake is how the two begin, SendWindow has the frames under way, BoardQuestions are those that the
-// host has asked, BoardMirror is what the board has told, and SilenceWatch says when it has told nothing for too long.
+// Its parts: Handshake starts the session, SendWindow keeps the unacknowledged frames, BoardQuestions the open queries,
+// BoardMirror the state that the board has reported, and SilenceWatch the timeouts.
 //
-// Only poll() waits, and never longer than it is told. So one thread serves any number of boards, and virtual time
-// passes only where its owner lets it pass.
+// Only poll() waits, and at most for the given time. One thread can thus serve any number of boards, and simulated time
+// passes only where its owner allows.
 //
-// Before the hello, the session may ask the board about itself and for its status, even while the board moves. These
-// questions change nothing on the board. Then greet() says hello, and ready() tells when the greeting is complete.
+// Before the handshake, the session can query the board's type and status, even while the board moves. These queries
+// change nothing on the board. Then greet() starts the handshake, and ready() shows when it is complete.
 //
-// Where nothing is lost on the way, an error that the board reports is a bug on one of the two sides, and final. Where
-// something may be lost, the session keeps what it sent until the board has taken it. When the board says that
-// something is missing, the session repeats from there: a few frames, then a question how far the board is now, and so
-// on until the board has all. After a silence the session asks for the board's status again and again while patience
-// lasts. So the session notices when a line comes back, and sends again what the line had swallowed.
+// On a link that loses nothing, an error reported by the board is a bug on one of the two sides, and final. On a link
+// that may lose bytes, the session keeps each frame until the board has acknowledged it. If the board reports a missing
+// frame, the session repeats from there: a few frames, then a query of the board's progress, and so on until the board
+// has received all. During a silence, the session queries the board's status until the timeout. It thus notices when a
+// connection comes back, and repeats the lost frames.
 //
-// A damaged frame that looks like a message is rare, but does happen. So a message that would end the job is believed
-// only when it comes again.
+// A damaged frame can look like a valid message, although rarely. A message that would end the job must therefore
+// arrive twice.
 #pragma once
 
 #include <algorithm>
@@ -43,38 +42,38 @@ namespace passo {
 
 class BoardSession final : public Link {
  public:
-  // What a poll brought.
+  // The result of a poll.
   struct Progress {
-    bool news = false;  // an item was done or taken, an answer came, an input changed
+    bool news = false;  // an item was executed or accepted, an answer arrived, or an input changed
     bool heard = false;
   };
 
   // The constructor sends nothing. The port outlives the session.
   explicit BoardSession(BoardPort& port, const LineCare& care = {});
 
-  // Hears what the board says, and repeats questions that were not answered, until there is news, but no longer than
-  // `most`. An endless poll waits for news, and a board that stays silent is then an error.
+  // Processes the board's messages, and repeats unanswered queries, until there is news, but for at most `most`. With
+  // an infinite `most`, a board that stays silent is an error.
   Progress poll(Seconds most);
 
-  // Asks `about` or `status`, before the hello or after. settled() tells when the answer has come.
+  // Queries `about` or `status`, before or after the handshake. settled() shows when the answer has arrived.
   void inquire(Question question);
-  // What was sent last, where somebody wants to look at single pulses: keep() them first.
+  // The last sent segments, for views of single pulses. Call keep() on it first.
   SentSegments& sent_segments() { return sent_segments_; }
   // The board's answer to `about`. Empty: the board has not answered.
   const std::optional<About>& about() const { return mirror_.about(); }
-  // Readable characters that came before the hello: perhaps the greeting of other firmware.
+  // Readable characters received before the handshake, e.g. the welcome message of other firmware.
   const std::string& gibberish() const { return gibberish_; }
 
-  // Says hello. From here on both sides count the motors' fractions of steps from the start.
+  // Starts the handshake. From here on, both sides count the fractions of steps from zero.
   void greet(const Greeting& greeting);
-  // Gives the board another session number, for instance for a new job. Call after the hello, at rest.
+  // Gives the board another session number, e.g. for a new job. Call it after the handshake, while the board is
+  // stopped.
   void name_session(std::uint16_t number);
-  // Goes back to the state before the hello, after an error. Questions and another hello may follow.
+  // Returns to the state before the handshake, after an error. Queries and another handshake may follow.
   void hang_up();
-  // Clears the error after a user of the link has failed it because the work could not go on. The board itself is as it
-  // was, and at rest.
+  // Clears an error that a user of the link had set with fail(). The board itself is unchanged, and stopped.
   void forgive() { error_.reset(); }
-  // True: the board has answered the hello, suits, and knows the session's number.
+  // True: the handshake is complete: the board has answered, suits the machine, and has the session's number.
   bool ready() const { return handshake_.phase() == Handshake::Phase::ready && !error_; }
 
   void send(const BoardSegment& segment) override;
@@ -101,15 +100,15 @@ class BoardSession final : public Link {
   bool answered() const override { return questions_.answered(); }
   Seconds answer_time() const override { return questions_.answer_time(); }
   Seconds time_a_frame() const override { return window_.statistics().time_a_frame(); }
-  // The inputs that were switched on since the last call, as the board told or its status shows. Bits of BoardInput.
+  // The inputs that were activated since the last call, as bits of BoardInput.
   std::uint16_t take_pressed() { return mirror_.take_pressed(); }
-  // The inputs that are on now, as far as the board has told.
+  // The active inputs, as last reported.
   std::uint16_t inputs() const { return mirror_.inputs(); }
-  // After LinkError::stopped: the inputs that stopped the motors, as bits of BoardInput. 0: the board does not know.
+  // After LinkError::stopped: the inputs that stopped the motors, as bits of BoardInput. 0: unknown.
   std::uint16_t stopped_by() const { return mirror_.stopped_by(); }
-  // The status that first told that the motors have stood still amid motion since the hello, because the board could
-  // not make its events in time. The board goes on with what it holds, so this is no error of the link: whoever drives
-  // the machine brakes, and then fails the link.
+  // The first status since the handshake which reports that the motors stopped during motion, because the board could
+  // not make its events in time. The board continues with its queue, so this is not an error of the link: the
+  // controlling object stops the machine, and then calls fail().
   const std::optional<BoardStatus>& standstill() const { return mirror_.standstill(); }
   Seconds now() const override { return port_.elapsed(); }
   std::optional<LinkError> error() const override { return error_; }
@@ -118,24 +117,24 @@ class BoardSession final : public Link {
   std::uint64_t frames_sent() const override { return window_.statistics().frames(); }
   std::uint64_t bytes_sent() const override { return window_.statistics().bytes(); }
   std::uint64_t frames_repeated() const { return window_.statistics().repeated(); }
-  // After an axis with two motors was homed, at rest: the counts of first motors are the board's own again, also in
-  // status(). True: they were not, because second motors have turned alone.
+  // After an axis with two motors was homed, while stopped: the counts of first motors are the board's own again, also
+  // in status(). True: they were not, because second motors had turned alone.
   bool forget_shifts() { return mirror_.counts() != nullptr && twins_.forget_shifts(mirror_.counts()); }
-  // What the board cannot do of the setup in the greeting, after LinkError::cannot_set_up.
+  // After LinkError::cannot_set_up: the part of the pin set-up that the board does not support.
   PinSetup undone_setup() const { return handshake_.undone_setup(); }
-  // The times that the board gives its step and direction pins, and those that the greeting asked for.
+  // The step and direction timing of the board, and the requested timing.
   const StepTiming& timing() const { return handshake_.set_up().timing; }
   const StepTiming& wanted_timing() const { return handshake_.wanted().setup.timing; }
-  // The number of motors in the hello; 0 before the hello.
+  // The number of motors in the handshake; 0 before it.
   std::uint8_t motors() const { return handshake_.motors(); }
-  // The board's answer to the hello. Empty: the board has not answered.
+  // The board's answer in the handshake. Empty: the board has not answered.
   const std::optional<HelloReply>& board() const { return handshake_.reply(); }
-  // True: the other side of the line has closed it.
+  // True: the other side has closed the connection.
   bool hung_up() const { return port_.hung_up(); }
-  // For how long nothing was heard of the board, while it had something to say. After patience() that is an error.
+  // The time without a message from the board, although one is due. After patience() this is an error.
   Seconds silent_for() const { return expects() ? silence_.silence(now()) : Seconds(0); }
   Seconds patience() const { return silence_.care().patience; }
-  // The board's last status, and when it was heard.
+  // The board's last status, and the time of its arrival.
   const std::optional<BoardStatus>& status() const { return mirror_.status(); }
   Seconds status_time() const { return mirror_.status_time(); }
 
@@ -193,11 +192,11 @@ class BoardSession final : public Link {
   SentSegments sent_segments_;
   std::string gibberish_;
   std::optional<LinkError> error_;
-  std::uint8_t refused_ = 0;               // sequence number of the frame that the board refused last
-  int refusals_ = 0;                       // how many times in a row
-  int doubts_ = 0;                         // statuses in a row that would end the job
+  std::uint8_t refused_ = 0;               // sequence number of the frame that the board rejected last
+  int refusals_ = 0;                       // number of rejections in a row
+  int doubts_ = 0;                         // consecutive status messages that would end the job
   bool news_ = false;                      // since poll() began
-  std::vector<SendWindow::Frame> frames_;  // the frames of a replacement while it is put together
+  std::vector<SendWindow::Frame> frames_;  // the frames of a queue update while it is assembled
 };
 
 }  // namespace passo

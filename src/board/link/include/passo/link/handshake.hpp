@@ -1,5 +1,5 @@
-// Handshake: how a host and its board begin. The host says what is connected to the board's pins, then hello, then the
-// session's number, and goes on when the board has answered each of them and suits.
+// Handshake: the start of a session between host and board. The host sends the pin set-up, then the hello, then the
+// session's number, and waits for the answer to each.
 #pragma once
 
 #include <cstdint>
@@ -13,14 +13,14 @@
 
 namespace passo {
 
-// How a host begins with a board.
+// The parameters of a handshake.
 struct Greeting {
   std::uint8_t motors = 0;
-  std::uint16_t session = 0;          // identifies the session to the board; 0: none, for a line that loses nothing
-  std::uint8_t number = 0;            // the hello's number: where the counting of items begins
-  Silence silence = {};               // goes with the session: after what silence the board switches its outputs off
-  std::vector<MotorPair> pairs = {};  // motors that turn an axis together; the host plans those before them only
-  PinSetup setup = {};                // what is connected to the board's pins; the board must be able to do all of it
+  std::uint16_t session = 0;          // identifies the session; 0: none, for a link that loses nothing
+  std::uint8_t number = 0;            // the number from which items are counted
+  Silence silence = {};               // the silence after which the board switches its outputs off
+  std::vector<MotorPair> pairs = {};  // motors that move one axis together; the host plans only the first of each pair
+  PinSetup setup = {};                // the pin set-up, all of which the board must support
 };
 
 class Handshake {
@@ -28,51 +28,51 @@ class Handshake {
   enum class Phase : std::uint8_t { before_hello, greeting, naming, ready };
 
   void begin(const Greeting& greeting);
-  // Back to the state before the hello.
+  // Returns to the state before the handshake.
   void hang_up();
-  // The board is to hear another number.
+  // Changes the session's number.
   void rename(std::uint16_t session);
 
   Phase phase() const { return phase_; }
   bool before_hello() const { return phase_ == Phase::before_hello; }
-  // True: the board has to answer the setup, the hello or the number.
+  // True: an answer of the board is due.
   bool is_under_way() const { return phase_ == Phase::greeting || phase_ == Phase::naming; }
   const Greeting& wanted() const { return wanted_; }
   std::uint8_t motors() const { return wanted_.motors; }
   std::uint16_t session() const { return wanted_.session; }
-  // How many motors' positions the board is asked for: all that there may be, before it knows how many there are.
+  // The number of motor positions to request: before the handshake all that are possible.
   std::uint8_t positions() const { return before_hello() ? std::uint8_t{max_motors} : motors(); }
 
-  // When the setup, the hello or the number was said last.
+  // Stores the time of the last message of the handshake.
   void record_hello(Seconds now) { said_ = now; }
   Seconds said() const { return said_; }
 
-  // The board's answer to the setup. Error: the board cannot do all of it, or cannot make the times.
+  // Processes the answer to the pin set-up. Error: the board does not support it, or cannot make the timing.
   std::optional<LinkError> handle(const PinSetup& setup);
-  // True: the board has the setup that was asked for, or none was.
+  // True: the board has the requested pin set-up, or none was requested.
   bool is_set_up() const;
   const PinSetup& set_up() const { return set_up_; }
   PinSetup undone_setup() const;
 
-  // The board's answer to the hello.
+  // Processes the answer to the hello.
   void handle(const HelloReply& reply);
   const std::optional<HelloReply>& reply() const { return reply_; }
-  // Goes on if the answer to the hello has come. Error: the board does not suit.
+  // Continues if the answer to the hello has arrived. Error: the board does not suit the machine.
   std::optional<LinkError> go_on();
-  // Goes on if the board knows the session's number.
+  // Continues if the board has the session's number.
   void handle(const BoardStatus& status);
 
  private:
   Greeting wanted_;
-  PinSetup set_up_;  // as the board has answered
+  PinSetup set_up_;  // as confirmed by the board
   Phase phase_ = Phase::before_hello;
   std::optional<HelloReply> reply_;
   Seconds said_{0};
 };
 
-// Whether all times are as long as needed, and events as close.
+// Whether all times are long enough, and the event rate is high enough.
 bool suffices(const StepTiming& given, const StepTiming& needed);
-// What a board makes that does not suffice, as the object of a sentence. `clock`: its ticks a second.
+// The insufficient timing of a board, as the object of a sentence. `clock`: the board's timer frequency, Hz.
 std::string words_of_timing(const StepTiming& given, const StepTiming& needed, double clock);
 // The pins of a setup, as words: "door, limit 4". Limits are counted from 1.
 std::string words_of_setup(const PinSetup& setup);

@@ -1,8 +1,8 @@
-// Link: the host's end of the wire. All that is written to a link reaches the board once, whole and in order.
+// Link: the host's end of the wire protocol. Everything that is sent reaches the board once, complete and in order.
 //
-// Place on the street: after stepgen, before the board. Credits bound how much is under way: a sender checks room()
-// first, so a job of any length needs no more memory than the board's queue. No function of a link waits.
-// BoardSession::poll() hears what the board says, and settled() tells when an answer has come.
+// Position in the pipeline: after stepgen, before the board. Credits limit the unexecuted items: check room() before
+// sending, so that a job of any length needs no more memory than the board's queue. No function of a link waits.
+// BoardSession::poll() processes the board's messages, and settled() shows when an answer has arrived.
 #pragma once
 
 #include <cstdint>
@@ -19,31 +19,31 @@
 namespace passo {
 
 enum class LinkError : std::uint8_t {
-  no_answer,       // the board is silent, though an answer is due
-  no_progress,     // the board, or what is in its place, talks, and does nothing of what it was told
-  wrong_version,   // the board speaks another protocol
+  no_answer,       // the board does not answer
+  no_progress,     // bytes arrive, but the board (or another device) does not execute anything
+  wrong_version,   // the board uses another protocol version
   too_few_motors,  // the board has fewer motors than the machine
-  cannot_set_up,   // the board cannot do what the host says of its pins
-  cannot_time,     // the board cannot make its step pulses as long, or its events as fast, as the host needs
-  cannot_watch,    // the board cannot watch these limit switches at once
-  refused,         // the board did not take what was sent
-  was_reset,       // the board has forgotten the session, and with it where the motors are
-  stopped,         // the board has stopped its motors at once
-  drivers_off,     // the board has switched the drivers off, because it has not heard the host for so long
-  stood_still,     // the board could not make its events in time: motors stopped amid motion
-  too_few_places,  // the board cannot hold enough items to bring the machine to rest
-  manual,          // a person moves the machine by the board's keypad, or has done so since the hello
-  no_encoder,      // something is to follow the spindle, and the board has no encoder
-  spindle_stands,  // the encoder counts nothing, though the spindle is to turn
-  encoder_wrong,   // the counts from index to index are not whole turns
-  thread_lost,     // the machine had to rest in a thread, because a refill came too late
+  cannot_set_up,   // the board does not support the pin set-up
+  cannot_time,     // the board cannot make the required step timing or event rate
+  cannot_watch,    // the board cannot watch these limit switches at the same time
+  refused,         // the board rejected a message
+  was_reset,       // the board was reset, so the positions of its motors are lost
+  stopped,         // the board has stopped its motors instantly
+  drivers_off,     // the board has switched the drivers off after a silence of the host
+  stood_still,     // the board could not make its events in time: motors stopped during motion
+  too_few_places,  // the board's queue is too short for the stop ramp
+  manual,          // the machine is, or was since the handshake, moved with the board's keypad
+  no_encoder,      // motion must follow the spindle, but the board has no encoder
+  spindle_stands,  // the encoder counts nothing, although the spindle is on
+  encoder_wrong,   // the counts from index to index are not whole revolutions
+  thread_lost,     // the machine stopped in a thread, because a queue update came too late
   thread_outrun,   // the axes could not keep up with the spindle in a thread
 };
 // A sentence without a full stop.
 std::string_view message_of(LinkError error);
 
 using LinkItem = std::variant<BoardSegment, BoardOutputs>;
-// The number of a frame that was sent, modulo 65536. An item keeps its number for ever.
+// The number of a sent frame, modulo 65536. An item keeps its number.
 using ItemNumber = std::uint16_t;
 // How much later `a` was sent than `b`; negative: before.
 constexpr int later_by(ItemNumber a, ItemNumber b) {
@@ -57,67 +57,65 @@ class Link {
   Link(const Link&) = delete;
   Link& operator=(const Link&) = delete;
 
-  // Send only while room() is above 0. Sending itself never fails: the link keeps the first error, and sends nothing
-  // after an error.
+  // Call only while room() is above 0. Sending never fails: the link keeps the first error, and sends nothing after it.
   virtual void send(const BoardSegment& segment) = 0;
   virtual void send(const BoardOutputs& outputs) = 0;
-  // Replaces all that the board holds after item `after` by `items`, of which there are no more than room() allows. The
-  // board takes all of the items, or none if they come too late or the line breaks. Returns the number of the first
+  // Queue update: replaces the board's queue after item `after` by `items`, at most as many as room() allows. The board
+  // accepts all of the items, or none if they come too late or the connection breaks. Returns the number of the first
   // item; the others follow.
   virtual ItemNumber replace(ItemNumber after, std::span<const LinkItem> items) = 0;
-  // The number of the last item that was sent.
+  // The number of the last sent item.
   virtual ItemNumber sent() const = 0;
-  // The number of the last item that is done, as far as the host knows.
+  // The number of the last executed item, as last reported.
   virtual ItemNumber executed() const = 0;
-  // room(): how many items the board can take now, for certain. No more can be under way than there are sequence
-  // numbers for. places(): how many free places the board has.
+  // room(): the number of items that the board can certainly accept now, also limited by the sequence numbers.
+  // places(): the number of free places in the board's queue.
   virtual int room() const = 0;
   virtual int places() const = 0;
 
-  // True: the board has said that all frames have arrived, and that the board holds nothing and rests. Items that are
-  // not executed by then never will be.
+  // True: the board has reported that all frames have arrived, that its queue is empty, and that it is stopped. Items
+  // that are not executed by then never will be.
   virtual bool rests() const = 0;
-  // True: something that was sent is, as far as the host knows, not done.
+  // True: some sent items have not been reported as executed.
   virtual bool busy() const = 0;
-  // True: the board did not hear the host for so long that it has switched outputs off. It takes no replacement before
-  // outputs are sent alone.
+  // True: the board has switched its outputs off after a silence of the host. It accepts no queue update until outputs
+  // have been sent in a separate message.
   virtual bool outputs_timed_out() const { return false; }
 
-  // Questions that must be answered before the host goes on. Only one may be open at a time. settled() tells when the
-  // answer has come.
+  // Queries that must be answered before the host continues. Only one may be open at a time. settled() shows when the
+  // answer has arrived.
   //
-  // Asks how the probe is. Call at rest, with all items executed that did not come too late. From the answer on, the
-  // board keeps where the probe changes first. With `limit`, the bit of a limit switch, that switch takes the probe's
-  // place and does not stop the motors until the next watch.
+  // Queries the probe. Call it while the board is stopped, with all items executed that did not come too late. After
+  // the answer, the board captures the position of the probe's first change. With `limit`, the bit of a limit switch,
+  // that switch acts as the probe, and does not stop the motors until the next watch.
   virtual void watch_probe(ProbeUntil until, std::uint8_t limit = 0) = 0;
-  // Asks, at rest again, what the board has kept. After the answer the report has the steps.
+  // Reads the captured position, while the board is stopped again. After the answer, the report contains the steps.
   virtual void recall_contact() = 0;
-  // Asks where the spindle is; take_turned() has the answer.
+  // Queries the spindle's angle; take_turned() returns the answer.
   virtual void read_spindle() = 0;
-  // Sends, at rest, at least `bytes` bytes that say nothing new, and asks where the spindle is. answer_time() then
-  // tells how long a refill of that size takes until the board has answered.
+  // Sends at least `bytes` filler bytes while the board is stopped, and queries the spindle. answer_time() then gives
+  // the response time of a queue update of that size.
   virtual void rehearse(std::size_t bytes) = 0;
-  // True: the host does not have to wait for an answer. Also true after an error.
+  // True: no answer is due. Also true after an error.
   virtual bool settled() const = 0;
 
   virtual const ProbeReport& probe_report() const = 0;
-  // Asks for the board's status, even during motion. The report takes what the answer says of the probe.
+  // Queries the board's status, even during motion. The report is updated with the probe's state in the answer.
   virtual void ask() = 0;
-  // From now on ask() asks where the spindle is, or, if not `wanted`, for the status again.
+  // Selects what ask() queries: the spindle's angle, or, if not `wanted`, the status.
   virtual void ask_for_spindle(bool wanted) = 0;
   // The newest answer about the spindle since the last call.
   virtual std::optional<Turned> take_turned() = 0;
-  // True: the board has answered after all frames that were sent.
+  // True: the board has answered after all sent frames.
   virtual bool answered() const = 0;
-  // How long the last such answer took.
+  // The response time of the last such answer.
   virtual Seconds answer_time() const = 0;
-  // The time on the board's side, from any start.
-  // How long the board took lately to take a frame of many that were sent at once, the line's time included; 0:
-  // unknown.
+  // The time on the board's side, from an arbitrary zero. The recent time per frame of a long burst, including the
+  // transmission; 0: unknown.
   virtual Seconds time_a_frame() const = 0;
   virtual Seconds now() const = 0;
   virtual std::optional<LinkError> error() const = 0;
-  // Sets the error because a user of the link has found that the work cannot go on. The first error is kept.
+  // Sets an error that a user of the link has detected. The first error is kept.
   virtual void fail(LinkError error) = 0;
 
   virtual std::uint64_t frames_sent() const = 0;

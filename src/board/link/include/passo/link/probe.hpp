@@ -1,8 +1,8 @@
-// ProbeWatch: what a host watches its board's probe for. ProbeReport: what the host has heard of the probe.
+// ProbeWatch: the event of the probe that a host waits for. ProbeReport: the reported state of the probe.
 //
-// The board tells every change of the probe with the motors' positions at that very event. The board also keeps the
-// positions of the first change since the watch began. So the place of a contact is known to the step, however late the
-// host hears of it, and whatever was lost on the way. A limit switch may take the probe's place, to home an axis by it.
+// The board reports every change of the probe with the motors' positions at that event. It also stores the positions of
+// the first change since the watch began. The position of a contact is thus known to the step, even if the message
+// arrives late or is lost. For homing, a limit switch can act as the probe.
 #pragma once
 
 #include <array>
@@ -15,26 +15,26 @@ namespace passo {
 
 enum class ProbeUntil : std::uint8_t {
   off,       // not watched
-  touched,   // until the free probe gets touched
-  released,  // until the touched probe gets free
+  touched,   // until the open probe is triggered
+  released,  // until the triggered probe opens
 };
 
 struct ProbeReport {
-  bool touched = false;   // the probe is touched, as far as the host has heard
-  bool happened = false;  // the event that is watched for
-  // Steps of each motor from the beginning of the watch to that event. Known after the contact was recalled.
+  bool touched = false;   // the probe is triggered, as last reported
+  bool happened = false;  // the expected event has happened
+  // Steps of each motor from the start of the watch to that event. Valid after recall_contact().
   std::array<std::int32_t, max_motors> steps{};
 };
 
 class ProbeWatch {
  public:
-  // What a message means for the watch.
+  // The meaning of a message for the watch.
   enum class News : std::uint8_t { none, happened, begin_again };
 
-  // `limit`: the bit of a limit switch that takes the probe's place, or 0. True: the board must confirm the wish. That
-  // includes the end of a watch on a limit switch, because the switch must be known to stop the motors again.
+  // `limit`: the bit of a limit switch that acts as the probe, or 0. True: the board must confirm the watch. This
+  // includes the end of a watch on a limit switch, which must stop the motors again.
   [[nodiscard]] bool wish(ProbeUntil until, std::uint8_t limit);
-  // True: the status shows that the board rests with `executed` done, and watches what was wished for.
+  // True: the status shows that the board is stopped with `executed` done, and watches as requested.
   bool is_confirmed_by(const BoardStatus& status, std::uint16_t executed) const;
   void confirm(const BoardStatus& status);
 
@@ -44,10 +44,10 @@ class ProbeWatch {
   std::uint16_t input() const { return limit_ != 0 ? std::uint16_t{limit_} : std::uint16_t{input_probe}; }
   const ProbeReport& report() const { return report_; }
 
-  // Takes note of a status, or of a change that the board tells by itself.
+  // Processes a status, or a change that the board reports by itself.
   News handle(const BoardStatus& status);
   News handle(const Captured& captured);
-  // Takes the board's answer to what it has kept.
+  // Stores the captured positions that the board has sent.
   void recall(const Captured& kept, std::uint8_t motors);
 
  private:
@@ -55,7 +55,7 @@ class ProbeWatch {
   ProbeUntil until_ = ProbeUntil::off;
   std::uint8_t limit_ = 0;
   ProbeReport report_;
-  bool began_as_wanted_ = false;                 // the probe was already as it is to become
+  bool began_as_wanted_ = false;                 // the probe was already in the final state
   std::array<std::int32_t, max_motors> from_{};  // positions when the watch began
 };
 

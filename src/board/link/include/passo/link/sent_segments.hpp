@@ -1,12 +1,11 @@
-// SentSegments: the segments that a board was sent last, and the pulses that the board makes of them, each with its
-// time.
+// SentSegments: the last segments sent to a board, and the step pulses that result from them, each with its time.
 //
-// Within a motion the times are those of the board's own player, to the tick: the host computes the same sums. Where
-// the board had nothing to play, the next motion begins when it was sent, so between two motions the time is that of
-// the host's clock, a few milliseconds early. What is on the board and not played yet is kept too, until the host
-// replaces it; whoever shows pulses shows none later than now.
+// Within a motion, the times are those of the board's player, to the tick, because the host computes the same sums. If
+// the queue was empty, the next motion starts at its sending time by the host's clock, which is a few milliseconds
+// early. Segments that are queued on the board but not executed yet are included; a view shows no pulses later than
+// now.
 //
-// At most `most` segments are kept, and the oldest are dropped. Cost: about 100 ns a segment; nothing while it is off.
+// At most `most` segments are kept; the oldest are dropped. Cost: about 100 ns per segment, nothing while switched off.
 #pragma once
 
 #include <array>
@@ -27,10 +26,10 @@ struct BoardPulse {
 };
 
 struct PulseWindow {
-  Seconds begin{0};                                  // the pulses are those from here on
-  Seconds end{0};                                    // and up to here
-  Seconds oldest{0};                                 // where the kept ones begin
-  Seconds newest{0};                                 // where they end, now at the latest
+  Seconds begin{0};                                  // start of the window
+  Seconds end{0};                                    // end of the window
+  Seconds oldest{0};                                 // start of the kept segments
+  Seconds newest{0};                                 // end of the kept segments, at most now
   std::array<std::int32_t, max_motors> counts = {};  // the motors' steps since the hello, at `begin`
   std::vector<BoardPulse> pulses = {};
 };
@@ -39,26 +38,25 @@ class SentSegments {
  public:
   static constexpr std::size_t most = 8192;
 
-  // `rate`: of the board's timer. From now on segments are kept. 0: none is.
+  // Starts keeping segments. `rate`: the board's timer frequency; 0: stops keeping them.
   void keep(Hertz rate);
   bool keeps() const { return tick_.value() > 0; }
-  // The board was greeted: fractions and counts begin again.
+  // After a handshake: fractions and counts start at zero.
   void begin(std::uint8_t motors);
   void add(std::uint16_t number, const BoardSegment& segment, Seconds now);
-  // The items behind this one are not played.
+  // The items after this one are not executed.
   void drop_behind(std::uint16_t number);
 
-  // The probe has stopped the board: what would come later is not played.
+  // The probe has stopped the board: later events are not executed.
   void stop(Seconds now);
-  // Where the board stands, as it has told at rest.
+  // Sets the step counts that the board has reported while stopped.
   void stand_at(const std::int32_t* counts);
 
-  // Pulses from `from` to `to`, at most `most_pulses` of them, and none later than now. The window's `end` says how far
-  // they go.
+  // Pulses from `from` to `to`, at most `most_pulses`, and none later than now. They reach up to the window's `end`.
   PulseWindow window(Seconds from, Seconds to, Seconds now, std::size_t most_pulses) const;
 
  private:
-  // Where a segment begins.
+  // The start of a segment.
   struct Place {
     std::int64_t time = 0;  // in 1/65536 tick
     std::array<std::uint16_t, max_motors> fractions = {};
@@ -68,7 +66,7 @@ class SentSegments {
     std::uint16_t number = 0;
     BoardSegment segment = {};
     Place place = {};
-    std::int64_t until = INT64_MAX;  // in 1/65536 tick: later events are not played
+    std::int64_t until = INT64_MAX;  // in 1/65536 tick: later events are not executed
   };
 
   Place after(const Place& place, const BoardSegment& segment) const;

@@ -1,5 +1,5 @@
-// SilenceWatch: for how long a board has said or done nothing, and when that is too long. It knows times and no frames:
-// the session tells it what happens, and asks for its verdict.
+// SilenceWatch: measures for how long a board has sent or executed nothing, and decides when that is too long. It only
+// handles times: the session reports the events, and asks for the verdict.
 #pragma once
 
 #include <limits>
@@ -9,10 +9,10 @@
 
 namespace passo {
 
-// How to handle a line on which bytes may get lost. The default is for a line that loses nothing.
+// Timeouts of a link on which bytes may be lost. The default is for a link that loses nothing.
 struct LineCare {
-  Seconds answer_within{std::numeric_limits<double>::infinity()};  // after so long without an answer, ask again
-  Seconds patience{3600};                                          // after so long without any word, give up
+  Seconds answer_within{std::numeric_limits<double>::infinity()};  // repeat a query after this time without an answer
+  Seconds patience{3600};                                          // give up after this time without any message
 };
 
 class SilenceWatch {
@@ -22,27 +22,27 @@ class SilenceWatch {
   bool may_lose() const { return care_.answer_within < Seconds(std::numeric_limits<double>::infinity()); }
   const LineCare& care() const { return care_; }
 
-  // Silence counts from now on.
+  // Starts measuring the silence.
   void begin(Seconds now) { progressed_ = heard_ = quiet_since_ = now; }
-  // A byte came; a whole frame came; the board answered, took or executed something.
+  // A byte arrived; a complete frame arrived; the board answered, accepted or executed something.
   void on_byte(Seconds now) { quiet_since_ = now; }
   void on_frame(Seconds now) { heard_ = now; }
   void on_progress(Seconds now) { progressed_ = now; }
-  // The board was asked again. The next answer may take as long as the one before.
+  // A query was repeated. Its answer may take as long as the first one.
   void on_asked_again(Seconds now) { quiet_since_ = now; }
-  // The board took something, or the host asked or sent.
+  // The board accepted something, or the host sent something.
   void on_traffic(Seconds now) { moved_on_ = now; }
 
-  // How long to wait until the board is to be asked again.
+  // The time until the next repeated query.
   Seconds until_question(Seconds now) const;
-  // True: since that time the board has had longer than an answer may take.
+  // True: the time since then is longer than an answer may take.
   bool is_overdue(Seconds since, Seconds now) const { return now - since > care_.answer_within; }
   Seconds traffic() const { return moved_on_; }
   Seconds silence(Seconds now) const { return now - heard_; }
 
-  // Something is expected of the board. `in_vain`: an endless wait has brought nothing.
+  // Call it while something is expected from the board. `in_vain`: an infinite wait ended without a message.
   std::optional<LinkError> verdict(Seconds now, bool in_vain) const;
-  // True: it is time to ask again. `heard`: something came; `endless`: the wait for it was.
+  // True: it is time to repeat the query. `heard`: something arrived; `endless`: the wait was infinite.
   bool is_to_ask_again(Seconds now, bool heard, bool endless) const;
 
  private:

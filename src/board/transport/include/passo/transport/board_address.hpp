@@ -29,7 +29,7 @@ struct BoardAddress {
   bool operator==(const BoardAddress&) const = default;
 };
 
-// The error is a sentence that tells what was expected.
+// The error is a sentence with the expected form.
 Result<BoardAddress, std::string> parse_board_address(std::string_view text);
 
 }  // namespace passo

@@ -1,13 +1,14 @@
 // BoardServer: the line of a board that listens for its host over TCP, on this computer only.
 //
-// Any number of programs may watch the board; one of them drives it, the host. A program becomes the host when it says
-// something that only a host says: a hello, an item, a question for its own motors. Whoever only asks is answered, and
-// disturbs nobody. A second host is sent away, but a host that was silent for `most_silence` gives way to it.
+// Any number of programs may watch the board; one of them drives it, the host. A client becomes the host when it sends
+// a message that only a host sends: a hello, an item, or a query with positions. Clients that only query are answered,
+// without an effect on others. A second host is sent away, but a host that was silent for `most_silence` gives way to
+// it.
 //
 // A caller whose first byte begins no frame is sent away at once: a web page can make a browser call.
 //
-// Frames go to the board whole, so half a frame of one program never spoils another's. Nobody makes the board wait: a
-// program that does not read what it is told is sent away.
+// Frames go to the board whole, so half a frame of one program never spoils another's. A client that does not read its
+// messages is disconnected, so that it cannot block the board.
 #pragma once
 
 #include <chrono>
@@ -38,13 +39,13 @@ class BoardServer {
   BoardServer& operator=(const BoardServer&) = delete;
 
   unsigned port() const { return port_; }
-  // Waits until somebody calls, says something or goes, but no longer than `most`.
+  // Waits for a connection, a message or a disconnection, but at most `most`.
   void wait(Seconds most) const;
-  // Takes those who call, and gives the board what was said. The board's answers go to whoever asked. Does not wait.
+  // Accepts connections, and passes messages to the board. The board's answers go to whoever asked. Does not wait.
   void attend(BoardPort& board);
-  // Tells the host what the board says by itself. Without a host nobody is told.
+  // Sends the board's own messages to the host. Without a host they are dropped.
   void send_to_host(std::span<const std::uint8_t> bytes);
-  // True: somebody was connected, and nobody is.
+  // True: a client was connected, and none is any more.
   bool all_have_left() const { return anybody_came_ && clients_.empty(); }
 
  private:
@@ -71,7 +72,7 @@ class BoardServer {
   unsigned port_;
   std::vector<std::unique_ptr<Client>> clients_;
   Client* host_ = nullptr;
-  std::uint8_t motors_ = 0;  // of the last hello: a host whose line was broken says none
+  std::uint8_t motors_ = 0;  // of the last hello; a host that reconnects does not send one
   bool anybody_came_ = false;
   Clock::time_point accepts_at_;  // not before: there was no room for a caller
 };

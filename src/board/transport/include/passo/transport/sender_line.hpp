@@ -1,13 +1,13 @@
 // SenderLine: where a sender of G-code comes in and goes: a TCP port, a pseudo-terminal that looks like a serial port,
 // or a serial port. One sender at a time.
 //
-// A serial port does not tell whether anybody is there. A sender has come when it says something. Whoever has said
-// nothing for `serial_silence` counts as gone as soon as another sender wants the machine: see yields(). A port
-// whose device goes away is opened again when it is back.
+// A serial port does not tell whether anybody is there. A sender has come when it says something. A sender that has
+// been silent for `serial_silence` gives way to another sender: see yields(). A port whose device goes away is
+// opened again when it is back.
 //
-// A caller whose first line is that of another protocol, such as a browser's, is no sender (CallerCheck). A connection
-// is then closed; of a terminal or a serial port, what is said is dropped, until the terminal is closed or the port was
-// silent for `serial_pause`.
+// A caller whose first line is that of another protocol, such as a browser's, is no sender (CallerCheck). A TCP
+// connection is then closed; input from a terminal or serial port is dropped until the terminal is closed or the port
+// has been silent for `serial_pause`.
 //
 // Nothing here waits, so one loop can serve a machine and any number of lines. What cannot be sent at once is kept; a
 // sender that reads nothing for so long that `most_unsent` bytes wait is sent away. What is not read stays with the

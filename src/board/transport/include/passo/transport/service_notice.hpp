@@ -20,8 +20,8 @@ class ServiceNotice {
   // `words`: what `systemctl status` shows.
   void ready(std::string_view words) const;
   void stopping() const { tell("STOPPING=1"); }
-  // Call in each turn of the daemon's loop. A watchdog that is not told for its time ends the daemon and starts it
-  // anew; it is told when half of that time has passed.
+  // Call in each turn of the daemon's loop. A watchdog restarts the daemon if it gets no notice within its time;
+  // notices are sent after half of that time.
   void alive();
 
  private:

@@ -1,9 +1,8 @@
 // StreamPort: a board at the other end of a serial line or a TCP connection, in real time.
 //
-// Place on the street: the wire itself, where the board is not in this process. Only this code opens devices and
-// sockets and waits by the clock; a link sees a BoardPort and cannot tell it from a virtual line. A broken line is
-// silent and swallows what is sent, while this code opens it again and again. The link decides how long that may take
-// (LineCare).
+// Position in the pipeline: the connection to a board outside this process. Only this code opens devices and sockets
+// and waits by the clock; a link sees a BoardPort and cannot tell it from a virtual line. A broken line is silent and
+// swallows what is sent, while this code opens it again and again. The link decides how long that may take (LineCare).
 #pragma once
 
 #include <chrono>

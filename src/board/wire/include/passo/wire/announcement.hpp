@@ -1,4 +1,4 @@
-// Announcement: builds a replace from the frames that follow it. For the host. Portable.
+// Announcement: builds the message `Replace` (a queue update) from the frames that follow it. For the host. Portable.
 #pragma once
 
 #include <stdint.h>
@@ -16,7 +16,7 @@ class Announcement {
     reader_.set_motors(motors);
   }
 
-  // Adds an item's frame, as the board will see it.
+  // Adds an item's frame, as the board will receive it.
   void add(const uint8_t* frame, uint8_t size) {
     for (uint8_t i = 0; i < size; ++i) static_cast<void>(reader_.feed(frame[i]));
     sums_.add(reader_.frame(), motors_);
@@ -25,7 +25,7 @@ class Announcement {
   }
   Replace replace() const {
     Replace replace = replace_;
-    // The announcement comes first. Nothing precedes it, so its words are the first of all.
+    // The announcement comes first, so its words are added first.
     ItemSums sums;
     sums.add_announcement(number_, replace.after, replace.count);
     sums.second = static_cast<uint16_t>(sums.second + words_ * sums.first + sums_.second);
@@ -38,7 +38,7 @@ class Announcement {
   uint16_t number_;
   uint8_t motors_;
   Decoder reader_;
-  ItemSums sums_;  // the sums of the items alone
+  ItemSums sums_;  // the sums of the items only
   unsigned words_ = 0;
   Replace replace_;
 };

@@ -1,13 +1,14 @@
-// BoardSegment: what the board plays. All motors share one event clock.
+// BoardSegment: the unit of motion that the board executes. All motors share one event clock.
 //
 // Time. Intervals are ticks of the board's timer in 16.16 fixed point. The first event comes `interval` after the last
-// event of the segment before; each next interval is longer by `change`. segment_parts.hpp has the other form, in which
-// the change grows. The fraction of a tick carries on from segment to segment.
+// event of the previous segment; each next interval is longer by `change`. segment_parts.hpp describes the other form,
+// in which the change grows. The fraction of a tick is carried over from segment to segment.
 //
-// Place. Each motor has a position in 1/65536 of a step, and every event adds a signed increment of at most one step. A
-// step is a change of the position's whole part. The board keeps only the fraction (the accumulator: 16 bits, carried
-// on from segment to segment), and a step shows as the carry of the addition. An increment d is sent modulo 65536 with
-// a flip bit. So one addition serves both directions, and also the master axis that steps at every event:
+// Position. Each motor has a position in 1/65536 of a step, and every event adds a signed increment of at most one
+// step. A step is a change of the position's integer part. The board stores only the fraction (the accumulator: 16
+// bits, carried over from segment to segment), and a step is the carry of the addition. An increment d is sent modulo
+// 65536 with a flip bit, so that one addition works for both directions, and also for the master axis, which steps at
+// every event:
 //
 //       d in steps        increment     flip    a step when
 //       0 <= d < 1        d             0       there is a carry
@@ -28,22 +29,22 @@ inline constexpr uint8_t max_motors = 8;
 
 template <uint8_t motors>
 struct SegmentFor {
-  // A board with little memory has two of these in a byte.
+  // On a board with little memory, two of these share a byte.
   static constexpr uint8_t half = motors <= 4 ? 4 : 8;
   uint16_t events = 0;            // 1 to most_events
   uint8_t directions : half = 0;  // bit m: motor m counts down
   uint8_t flips : half = 0;       // bit m: flip motor m's carry
   uint8_t form : half = 0;        // parts, and how the intervals change: segment_parts.hpp
-  uint8_t bend : half = 0;        // which motor's increment changes: bend_of(). 0: none
+  uint8_t bend : half = 0;        // the motor whose increment changes: bend_of(). 0: none
   uint32_t interval = 0;          // 16.16 ticks
-  // Even: 16.16 ticks an event. Root: the growth. Either is fine_change at most, or a multiple of coarse_change.
+  // Even: 16.16 ticks per event. Root: the growth. Either at most fine_change, or a multiple of coarse_change.
   int32_t change = 0;
   uint16_t increments[motors] = {};
 };
 using BoardSegment = SegmentFor<max_motors>;
 
 inline constexpr uint16_t most_events = 0x7ff;
-// On the wire a change has 24 bits. A large change is sent without its last eight bits.
+// In a message, a change has 24 bits. A large change is sent without its lowest eight bits.
 inline constexpr int32_t fine_change = 0x7fffff;
 inline constexpr int32_t coarse_change = 0x100;
 // In the number of events on the wire: set if the change is a large one, and the form.
@@ -51,13 +52,13 @@ inline constexpr uint16_t coarse_bit = 0x8000;
 inline constexpr uint8_t form_place = 11;
 inline constexpr uint8_t root_form = 8;
 
-// A bend: motors have another increment in each part, and the motor `lender` lends its place for what is added.
+// A bend: the increments of motors change from part to part, and the field of the motor `lender` carries the change.
 //
 //   The lender stands still (it is not flipped).     Its place is what the increment of the motor `bent` grows by.
 //   The lender steps at every event (it is flipped,  Its place has two signed bytes, the low one first. The increments
 //   so its own increment is 0).                      of the first two other motors grow by them, times 4^bent.
 //
-// 0 bends none.
+// 0: no bend.
 struct Bend {
   uint8_t bent = 0;
   uint8_t lender = 0;
@@ -92,7 +93,7 @@ inline constexpr uint32_t largest_interval = 0xffffffff;
 inline constexpr int32_t whole_step = 65536;
 inline constexpr int64_t whole_tick = 65536;
 
-// All digital outputs and the spindle's speed. They are switched at their place in the motion.
+// All digital outputs and the spindle speed. They are switched at their position in the motion.
 struct BoardOutputs {
   uint8_t switches = 0;  // bits: OutputSwitch
   uint16_t spindle_rpm = 0;

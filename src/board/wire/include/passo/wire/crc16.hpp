@@ -1,8 +1,8 @@
-// CRC-16/MCRF4XX: the CCITT polynomial x^16 + x^12 + x^5 + 1, least significant bit first, as a serial line sends it.
+// CRC-16/MCRF4XX: the CCITT polynomial x^16 + x^12 + x^5 + 1, least significant bit first, as on a serial link.
 //
-// Initial value 0xFFFF, no final exclusive-or; "123456789" gives 0x6F91. avr-libc has the same as _crc_ccitt_update.
-// Finds every error of up to three bits in a frame, and every burst of up to sixteen bits. Portable: no table, about 3
-// ns a byte on the host.
+// Initial value 0xFFFF, no final exclusive-or; "123456789" gives 0x6F91. avr-libc has the same as _crc_ccitt_update. It
+// detects every error of up to three bits in a frame, and every burst of up to sixteen bits. Portable: no table, about
+// 3 ns per byte on the host.
 #pragma once
 
 #include <stdint.h>
@@ -12,8 +12,8 @@ namespace passo {
 inline constexpr uint16_t crc16_start = 0xFFFF;
 
 constexpr uint16_t crc16(uint16_t crc, uint8_t byte) {
-  // Does eight steps of the division at once: the quotient's bits are the byte and its own shift by four. All work is
-  // in single bytes, which is half the work on an 8-bit chip.
+  // Performs eight steps of the division together: the quotient's bits are the byte and its own shift by four. All work
+  // is in single bytes, which is half the work on an 8-bit chip.
   const uint8_t first = static_cast<uint8_t>(byte ^ static_cast<uint8_t>(crc));
   const uint8_t quotient = static_cast<uint8_t>(first ^ static_cast<uint8_t>(first << 4));
   const uint8_t across =

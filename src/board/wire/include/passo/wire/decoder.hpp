@@ -1,8 +1,8 @@
-// Decoder: makes frames of the bytes off the wire, one byte at a time. Host and board use the same code.
+// Decoder: assembles frames from received bytes, one byte at a time. Host and board use the same code.
 //
-// Invariant: a frame that arrives whole is reported with its last byte, whatever came before it. Every byte costs the
-// same small work, so that a board may read its line between two steps. The bytes inside a payload take a short way
-// (on an AVR some 60 cycles for a run of them and 48 for each), all other bytes another.
+// Invariant: a complete frame is reported with its last byte, whatever came before it. Every byte costs the same small
+// time, so that a board can read its link between two steps. Bytes inside a payload take a fast path (on an AVR about
+// 60 cycles for a run of them and 48 for each).
 //
 // Portable.
 #pragma once
@@ -16,18 +16,18 @@ namespace passo {
 
 enum class Decoded : uint8_t {
   pending,  // nothing to report yet
-  frame,    // frame() is whole and correct
-  refused,  // the bytes were no valid frame: cut short, of no known type, or with a wrong CRC
+  frame,    // frame() is complete and correct
+  refused,  // the bytes were not a valid frame: truncated, of unknown type, or with a wrong CRC
 };
 
 class Decoder {
  public:
-  // The number of motors for which messages carry values. Until it is agreed, no such message is accepted.
+  // Sets the number of motors in messages with a value for each motor. Until then, no such message is accepted.
   void set_motors(uint8_t motors) { motors_ = motors; }
 
   Decoded feed(uint8_t byte) { return feed_payload(&byte, 1) == 1 ? Decoded::pending : feed_other(byte); }
-  // Takes the bytes of a payload among the next `count` bytes, up to its end. Returns how many: 0 if the first byte is
-  // something else, for feed_other().
+  // Processes the payload bytes among the next `count` bytes, up to the end of the payload. Returns their number; 0 if
+  // the first byte is for feed_other().
   [[gnu::always_inline]] uint8_t feed_payload(const uint8_t* bytes, uint8_t count) {
     if (state_ != State::payload) return 0;
     if (count > left_) count = left_;
@@ -55,7 +55,7 @@ class Decoder {
     return taken;
   }
 
-  // A byte that is not inside a payload.
+  // Processes a byte outside a payload.
   [[gnu::noinline]] Decoded feed_other(uint8_t byte) {
     // After the sync byte only the two bytes of the CRC may have the value of a sync byte.
     if (state_ == State::crc_low) {
@@ -111,8 +111,8 @@ class Decoder {
       if (crc_high == sync_byte) begin();
       return Decoded::frame;
     }
-    // If a frame was cut short, the next frame's sync byte may be where the CRC was expected. (Above, it may even have
-    // been the right last byte.) No payload is under way, so neither byte takes the short way.
+    // If a frame was truncated, the next frame's sync byte may be at the position of the CRC. (Above, it may even have
+    // been the correct last byte.) Neither byte is inside a payload, so neither takes the fast path.
     feed_other(crc_low_);
     feed_other(crc_high);
     return Decoded::refused;

@@ -1,6 +1,6 @@
 // Encoder: builds one frame in a buffer of the caller. Host and board use the same code.
 //
-// A frame is long work for a chip that must read its line meanwhile. So Pause{}() is called at every byte; on the host
+// Building a frame takes long on a chip that must also read its link. So Pause{}() is called at every byte; on the host
 // it does nothing. Portable.
 #pragma once
 
@@ -45,7 +45,7 @@ class Encoder {
     put8(static_cast<uint8_t>(value >> 16));
   }
   void put32(uint32_t value) {
-    // Not by put16(): a chip's stack is small.
+    // Not with put16(), because a chip's stack is small.
     for (uint8_t left = 4; left != 0; --left, value >>= 8) put8(static_cast<uint8_t>(value));
   }
 
@@ -59,7 +59,7 @@ class Encoder {
 
   // Closes the frame and returns its size. Call it once.
   uint8_t finish() {
-    // The CRC covers the bytes as they are on the wire, links included. So a flipped bit is exactly one wrong bit to
+    // The CRC covers the bytes as they are sent, including links, so that a flipped bit is exactly one wrong bit for
     // the CRC.
     uint16_t crc = crc16_start;
     for (uint8_t i = 1; i < size_; ++i) {

@@ -1,11 +1,10 @@
-// ItemSums: a second check over everything that moves motors. Host and board use the same code.
+// ItemSums: a second checksum over all items that move motors. Host and board use the same code.
 //
-// A byte that is lost or doubled shifts a frame, and a CRC of 16 bits lets one such frame in 65,536 pass. So a replace
-// carries two sums. Everything that it announces is added to them, word by word. The host has chosen the sums so that
-// both are 0 in the end. The first is the sum of all words; the second is the sum of all values of the first
-// (Fletcher's check, modulo 65,536). Its arithmetic is of another kind than the CRC's, so that an error that deceives
-// one does not deceive the other. On an AVR it takes about 20 cycles a word, where a second CRC of 16 bits would take
-// about 50.
+// A lost or doubled byte shifts a frame, and a CRC of 16 bits accepts one such frame in 65,536. So a queue update
+// carries two sums. Everything that it announces is added to them, word by word. The host chooses the sums so that both
+// are 0 at the end. The first is the sum of all words; the second is the sum of all values of the first (Fletcher's
+// check, modulo 65,536). Its arithmetic differs from the CRC's, so an error that passes one does not pass the other. On
+// an AVR it takes about 20 cycles per word; a second CRC of 16 bits would take about 50.
 //
 // Portable.
 #pragma once
@@ -25,7 +24,7 @@ struct ItemSums {
     first = static_cast<uint16_t>(first + word);
     second = static_cast<uint16_t>(second + first);
   }
-  // Adds the type and payload of an item. Its sequence number follows from its place. Pause is that of Encoder.
+  // Adds the type and payload of an item. Its sequence number follows from its position. Pause as in Encoder.
   template <class Pause = NoPause>
   void add(const WireFrame& frame, uint8_t motors) {
     const uint8_t type = static_cast<uint8_t>(frame.type);
@@ -41,7 +40,7 @@ struct ItemSums {
     if ((size & 1) == 0) sums.add(*byte);
     *this = sums;
   }
-  // Adds what a replace announces: its own number, the item it replaces after, and the number of items.
+  // Adds the header of a queue update: its own number, the item after which it replaces, and the number of items.
   void add_announcement(uint16_t number, uint16_t after, uint8_t count) {
     add(number);
     add(after);
@@ -49,8 +48,8 @@ struct ItemSums {
   }
   bool is_nothing() const { return (first | second) == 0; }
 
-  // The sums to start with, so that both are 0 after `words` more words. These words must be the ones that made the
-  // present sums, from 0.
+  // The initial sums for which both are 0 after `words` words. These words must be those that made the present sums,
+  // starting at 0.
   ItemSums to_leave_nothing(unsigned words) const {
     return {.first = static_cast<uint16_t>(0U - first), .second = static_cast<uint16_t>(words * first - second)};
   }

@@ -1,4 +1,4 @@
-// Messages: the content of frames and how it is laid out. docs/wire.md describes each message byte by byte. Portable.
+// Messages: the contents of frames and their layout. docs/wire.md describes each message byte by byte. Portable.
 #pragma once
 
 #include <stdint.h>
@@ -11,7 +11,8 @@
 
 namespace passo {
 
-// Host to board, the first message. Its sequence number starts the counting: the first frame has the next number.
+// Host to board, the first message of the handshake. Its sequence number starts the numbering: the first frame has the
+// next number.
 struct Hello {
   uint8_t version = protocol_version;
   uint8_t motors = 0;  // the number of increments of each segment
@@ -20,51 +21,51 @@ struct Hello {
 // The board's answer: its properties.
 struct HelloReply {
   uint8_t version = protocol_version;
-  uint8_t motors = 0;    // the most motors it can turn
-  uint8_t capacity = 0;  // items that it holds, including the one being played
-  uint32_t clock = 0;    // ticks a second
+  uint8_t motors = 0;    // the largest number of motors
+  uint8_t capacity = 0;  // length of the queue, including the item being executed
+  uint32_t clock = 0;    // timer frequency, Hz
 };
 
-// How long a host may be silent before the board, at rest, switches an output off: tenths of a second, 0 for ever.
+// The silence of the host after which a stopped board switches an output off: tenths of a second; 0: never.
 struct Silence {
   uint8_t spindle = 0;
   uint8_t mist = 0;
   uint8_t flood = 0;
 };
 
-// Host to board, after a hello. By this number the host recognises the board again after the line was broken. A board
-// that was reset meanwhile has the number 0.
+// Host to board, after a hello. By this number the host recognises the board after an interruption of the link. A board
+// that was reset has the number 0.
 struct Session {
   uint16_t number = 0;
   Silence silence = {};
 };
 
-// What the drivers ask of the step and direction pins, in sixteenths of a microsecond. The host says the least that it
-// needs, and the board answers what it gives. Longer times may leave the board fewer events a second.
+// The timing of the step and direction pins, in sixteenths of a microsecond. The host sends the shortest times that the
+// drivers need, and the board answers with its actual times. Longer times may reduce the board's event rate.
 struct StepTiming {
   uint8_t pulse = 0;         // how long a step pulse lasts
-  uint8_t set_up = 0;        // from a change of the direction to the edge that begins a step
-  uint8_t hold = 0;          // from the edge that begins a step to a change of the direction
-  uint16_t event_ticks = 0;  // the fewest ticks of the board's clock from event to event; 0: any number
+  uint8_t set_up = 0;        // from a change of the direction to the edge that starts a step
+  uint8_t hold = 0;          // from the edge that starts a step to a change of the direction
+  uint16_t event_ticks = 0;  // the shortest interval of events in clock ticks; 0: no limit
 
   friend constexpr bool operator==(const StepTiming& a, const StepTiming& b) {
     return a.pulse == b.pulse && a.set_up == b.set_up && a.hold == b.hold && a.event_ticks == b.event_ticks;
   }
 };
 
-// Host to board, before a hello: what is connected to the board's pins. It counts for that hello, and until a hello
-// without one. Board to host, as the answer: the setup that the board now has. What it cannot do is left out.
+// Host to board, before a hello: the pin set-up. It is valid until a hello without one. Board to host, as the answer:
+// the set-up of the board, without unsupported parts.
 //
-// As usual an input is on when it is low, and an output is on when it is high. The driver's enable is on when it is
-// low. A bit that is set means the opposite.
+// By default, inputs are active low, outputs active high, and the drivers' enable active low. A set bit means the
+// opposite.
 struct PinSetup {
   uint16_t inputs = 0;       // bits: BoardInput
   uint8_t steps = 0;         // bit m: the step pin of motor m
   uint8_t outputs = 0;       // bits: OutputSwitch, and inverted_enable
-  uint8_t drivers_rest = 0;  // after so many tenths of a second without host or motion drivers are off; 0: never
+  uint8_t drivers_rest = 0;  // tenths of a second without host and motion until the drivers are switched off; 0: never
   StepTiming timing = {};
-  uint16_t alarms = 0;  // bits of BoardInput: these inputs are alarms of drives, which stop the motors
-  uint8_t filter = 0;   // microseconds for which a switch must have kept its new state before that counts
+  uint16_t alarms = 0;  // bits of BoardInput: inputs that are drive alarms, which stop the motors
+  uint8_t filter = 0;   // filter time of the switches in microseconds
 
   friend constexpr bool operator==(const PinSetup& a, const PinSetup& b) {
     return a.inputs == b.inputs && a.steps == b.steps && a.outputs == b.outputs && a.drivers_rest == b.drivers_rest &&
@@ -73,50 +74,51 @@ struct PinSetup {
 };
 inline constexpr uint8_t inverted_enable = 0x10;
 
-// Host to board. The next `count` frames are items. They replace everything that the board holds after item `after`, as
-// soon as the last of them has come.
+// Host to board: a queue update. The next `count` frames are items, which replace the board's queue after item `after`
+// as soon as the last of them has arrived.
 struct Replace {
   uint16_t after = 0;
   uint8_t count = 0;   // at least 1
-  ItemSums sums = {};  // everything is added to them; the result must be 0
+  ItemSums sums = {};  // all words are added to them; the result must be 0
 };
 
-// Host to board, at any time: a question about the board's state. Like hello and session it is not counted. Its
-// sequence number is one of its own; the answer repeats it to show which question it answers.
+// Host to board, at any time: a query of the board's state. Like hello and session, it is not numbered with the frames.
+// It has a separate sequence number, which the answer repeats.
 enum class Question : uint8_t {
   status = 0,
   about = 1,
-  watch = 2,    // from now on keep where the probe, or the named limit switch, changes first; the answer is a status
-  kept = 3,     // what was kept; the answer is a captured
-  spindle = 8,  // the spindle's place; the answer is a turned, or a status if the board has no encoder
+  watch = 2,  // capture the position of the first change of the probe or the given limit switch; the answer is a status
+  kept = 3,   // read the captured positions; the answer is a captured
+  spindle = 8,  // the spindle's angle; the answer is a turned, or a status if the board has no encoder
 };
 struct Ask {
   uint8_t version = protocol_version;
-  uint8_t motors = 0;  // the number of positions wanted
+  uint8_t motors = 0;  // the number of requested positions
   Question question = Question::status;
-  uint8_t limit = 0;  // for watch: the bit of the limit switch that captures instead of stopping; 0: the probe
+  uint8_t limit =
+      0;  // for watch: the bit of the limit switch that captures instead of stopping the motors; 0: the probe
 };
 
-// Board to host: progress. Each credit repeats all that earlier ones said, so a lost one is not missed.
+// Board to host: progress. Each credit includes all earlier ones, so a lost one does no harm.
 struct Credit {
-  uint16_t executed = 0;  // number of the last item done
-  uint8_t taken = 0;      // sequence number of the last frame taken
+  uint16_t executed = 0;  // number of the last executed item
+  uint8_t taken = 0;      // sequence number of the last accepted frame
   uint8_t free = 0;       // free places for items
 };
 
 enum class WireError : uint8_t {
-  bad_frame = 1,        // cut short, of no known type, or with a wrong CRC
-  out_of_sequence = 2,  // a frame before this one is missing
-  queue_full = 3,       // the host did not heed its credits
+  bad_frame = 1,        // truncated, of unknown type, or with a wrong CRC
+  out_of_sequence = 2,  // a previous frame is missing
+  queue_full = 3,       // the host ignored its credits
   bad_value = 4,        // a segment without events, faster than the board, or for a motor that does not exist
   unexpected = 5,       // a message that only the board sends, or a hello during motion
-  too_late = 6,         // an item after the one to replace after has begun; the replacement is dropped
-  manual = 7,           // a person moves the machine, or did since the hello: say hello again afterwards
-  wrong_sums = 8,       // items came that were not sent: the replacement is dropped
-  silent_host = 9,      // the host was silent, and outputs are off: send outputs first. The replacement is dropped
+  too_late = 6,         // the queue update came too late: a later item has already started, so it is dropped
+  manual = 7,       // the machine is, or was since the hello, moved with the keypad: a new hello is needed afterwards
+  wrong_sums = 8,   // the received items differ from the sent ones: the queue update is dropped
+  silent_host = 9,  // the outputs are off after a silence of the host: send outputs first; the queue update is dropped
 };
 
-// Board to host: a frame was not taken.
+// Board to host: a frame was rejected.
 struct ErrorReport {
   WireError reason = WireError::bad_frame;
   uint8_t expected = 0;  // sequence number of the frame that the board expects
@@ -124,16 +126,17 @@ struct ErrorReport {
 
 enum class ResetCause : uint8_t { power_on = 0, brown_out = 1, watchdog = 2, button = 3 };
 enum BoardState : uint8_t {
-  board_moves = 1,     // the board plays something
-  board_trusted = 2,   // since the hello the motors have made every step counted, as far as the board knows
-  board_replaces = 4,  // a replacement still waits for items
-  board_slipped = 8,  // since the hello it could not make events in time and stood still during motion. No step is lost
-  board_kept = 16,    // since it was told to watch, the watched input has changed
-  board_manual = 32,  // a person moves the machine by the board's keypad
-  board_homes = 64,   // a limit switch captures instead of stopping
+  board_moves = 1,     // the board executes motion
+  board_trusted = 2,   // since the hello no counted step was lost, as far as the board knows
+  board_replaces = 4,  // a queue update still waits for items
+  board_slipped =
+      8,  // since the hello it could not make events in time, and stopped during motion; its counts are correct
+  board_kept = 16,      // the watched input has changed since the watch began
+  board_manual = 32,    // the machine is moved with the board's keypad
+  board_homes = 64,     // a limit switch captures instead of stopping the motors
   board_encodes = 128,  // the spindle has an encoder
 };
-// The board's input pins. A bit is set if the switch is on.
+// The board's input pins. A set bit means active.
 enum BoardInput : uint16_t {
   input_limit = 1,  // motor 0; the next seven bits are motors 1…7
   input_probe = 0x100,
@@ -142,80 +145,81 @@ enum BoardInput : uint16_t {
   input_hold = 0x800,
   input_start = 0x1000,
 };
-// A further bit in the inputs of a status: the host was silent, outputs are off, and no motion is taken before outputs.
+// A further bit in the inputs of a status: outputs are off after a silence of the host, and no motion is accepted
+// before outputs.
 inline constexpr uint16_t outputs_timed_out = 0x2000;
-// Another one: the host was silent and the board has switched the drivers off, so the place is not trusted.
+// Another one: the drivers are off after a silence of the host, so the position is not trusted.
 inline constexpr uint16_t drivers_timed_out = 0x4000;
 // Further bits in the input of a captured.
-inline constexpr uint16_t captured_kept = 0x4000;      // this answers a question
-inline constexpr uint16_t captured_released = 0x8000;  // the input has gone off
+inline constexpr uint16_t captured_kept = 0x4000;      // this is the answer to a query
+inline constexpr uint16_t captured_released = 0x8000;  // the input became inactive
 
-// Board to host, as an answer. Positions are the motors' steps since the board was switched on. `room` is the number of
-// motors that there are places for.
+// Board to host, as an answer. Positions are the motors' steps since power-on. `room` is the number of motors for which
+// there is space.
 template <uint8_t room>
 struct BoardStatusFor {
   uint16_t session = 0;
   uint16_t executed = 0;  // this and the next two as in a credit
   uint8_t taken = 0;
   uint8_t free = 0;
-  uint16_t event = 0;  // events of the present item that are played
+  uint16_t event = 0;  // executed events of the present item
   uint8_t state = 0;   // bits: BoardState
   ResetCause reset = ResetCause::power_on;
   uint8_t motors = 0;   // agreed with the host; 0: no hello since the reset
   uint16_t inputs = 0;  // bits: BoardInput
-  uint8_t answers = 0;  // sequence number of the question it answers
+  uint8_t answers = 0;  // sequence number of the answered query
   int32_t positions[room] = {};
 };
 using BoardStatus = BoardStatusFor<max_motors>;
 
-// Board to host: at this very event a watched input has changed. As an answer: where the watched input changed first.
-// Without an input in it, there was no change and there is no item.
+// Board to host: a watched input changed at this event. As an answer: the first change of the watched input; without an
+// input, there was no change.
 template <uint8_t room>
 struct CapturedFor {
   uint16_t input = 0;  // BoardInput, captured_kept, captured_released
-  uint8_t item = 0;    // low byte of the number of the item being played
-  uint16_t event = 0;  // events of that item that were played
+  uint8_t item = 0;    // low byte of the number of the executed item
+  uint16_t event = 0;  // executed events of that item
   int32_t positions[room] = {};
 };
 using Captured = CapturedFor<max_motors>;
 
-// What a board's encoder counted, and when. Counts and ticks start anywhere and run on modulo 2^32.
+// A count of the spindle's encoder, and its time. Counts and ticks have arbitrary zeros, modulo 2^32.
 struct SpindleCount {
   uint32_t count = 0;
-  uint32_t tick = 0;      // of the board's clock, at the count
+  uint32_t tick = 0;      // the board's clock at the count
   uint32_t at_index = 0;  // the count at the last index
   uint8_t indexes = 0;    // index pulses so far, modulo 256
 };
 
-// Board to host, as an answer: the spindle's place, and the motion's place at the same tick. It tells everything that a
-// credit does.
+// Board to host, as an answer: the spindle's angle, and the position in the motion at the same tick. It includes a
+// credit.
 struct Turned {
   Credit progress = {};
-  uint16_t event = 0;   // events of the present item that were played
-  uint8_t answers = 0;  // sequence number of the question it answers
+  uint16_t event = 0;   // executed events of the present item
+  uint8_t answers = 0;  // sequence number of the answered query
   SpindleCount spindle = {};
 };
 
-// Board to host: the motors were stopped at once. From here on positions are not trusted. A hello begins anew.
+// Board to host: the motors were stopped instantly. Positions are unreliable until the next hello.
 enum class FaultReason : uint8_t { emergency_stop = 1, limit = 2, driver = 3 };
 struct Fault {
   FaultReason reason = FaultReason::emergency_stop;
-  uint16_t inputs = 0;  // bits of BoardInput: those that stopped the motors; 0: they are off again
+  uint16_t inputs = 0;  // bits of BoardInput: those that stopped the motors; 0: they are inactive again
   uint16_t event = 0;
   uint16_t executed = 0;
 };
 
-// Board to host, as an answer: more of its properties.
+// Board to host, as an answer: further properties.
 struct About {
-  uint16_t firmware = 0;            // its own version, hundreds and units
-  uint32_t highest_event_rate = 0;  // events a second, with the shortest step pulses
-  uint32_t baud = 0;                // the highest baud rate of its line
-  char name[16] = {};               // of the board; filled up with zeros
-  uint8_t step_pulse = 0;           // the shortest step pulse, in sixteenths of a microsecond; 0: it makes none
+  uint16_t firmware = 0;            // firmware version, hundreds and units
+  uint32_t highest_event_rate = 0;  // events/s with the shortest step pulses
+  uint32_t baud = 0;                // the highest baud rate of its serial link
+  char name[16] = {};               // name of the board, padded with zeros
+  uint8_t step_pulse = 0;           // the shortest step pulse, in sixteenths of a microsecond; 0: no step pulses
 };
 
-// Each of these writes one frame to `frame`, which must have room for largest_frame bytes, and returns its size. Pause
-// is that of Encoder.
+// Each of these writes one frame to `frame`, which must have space for largest_frame bytes, and returns its size. Pause
+// as in Encoder.
 template <class Pause = NoPause>
 uint8_t encode(const Hello& hello, uint8_t sequence, uint8_t* frame) {
   Encoder<Pause> encoder(frame, MessageType::hello, sequence);
@@ -297,7 +301,7 @@ uint8_t encode(const Credit& credit, uint8_t sequence, uint8_t* frame) {
   return encoder.finish();
 }
 
-// For as many motors as the question asked for.
+// With as many positions as the query requested.
 template <class Pause = NoPause, uint8_t room>
 uint8_t encode(const BoardStatusFor<room>& status, uint8_t motors, uint8_t sequence, uint8_t* frame) {
   Encoder<Pause> encoder(frame, MessageType::status, sequence);

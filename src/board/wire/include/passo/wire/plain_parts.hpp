@@ -1,4 +1,5 @@
-// Plain parts: a segment as the plain segments that a player plays for it, bends and roots resolved. For the host.
+// Plain parts: divides a segment into plain segments, with bends and roots resolved, as a player executes them. For the
+// host.
 //
 // Portable.
 #pragma once
@@ -9,7 +10,7 @@
 
 namespace passo {
 
-// Calls `each` with a BoardSegment of 255 events at most, in order.
+// Calls `each` with BoardSegments of at most 255 events, in order.
 template <class Each>
 void for_each_plain_part(const BoardSegment& segment, const Each& each) {
   BoardSegment plain = segment;

@@ -1,4 +1,4 @@
-// How a segment is laid out in a frame: message.hpp has all other messages. Portable.
+// The layout of a segment in a frame. message.hpp has all other messages. Portable.
 #pragma once
 
 #include <stdint.h>
@@ -36,7 +36,7 @@ uint8_t encode(const BoardSegment& segment, uint8_t motors, uint8_t sequence, ui
   return encoder.finish();
 }
 
-// A function of its own, because of the registers that it needs on a chip.
+// A separate function, because of the registers that it needs on a chip.
 template <uint8_t room>
 [[gnu::noinline]] void load_increments(const uint8_t* bytes, uint8_t motors, SegmentFor<room>& segment) {
   for (uint8_t motor = 0; motor < room; ++motor, bytes += 2) {
@@ -63,7 +63,7 @@ template <uint8_t room>
   } else if (lender < motors && bent < motors) {
     return;
   }
-  segment.events = 0;  // so it is refused
+  segment.events = 0;  // so that it is rejected
 }
 
 // `motors` is at most `room`.
@@ -75,7 +75,7 @@ void decode(const WireFrame& frame, uint8_t motors, SegmentFor<room>& segment) {
   segment.events = events & most_events;
   segment.form = static_cast<uint8_t>(events >> 8) >> (form_place - 8) & 0x0F;
   segment.directions = bytes[2] & known;
-  // Directions that have no room are of motors that are not there.
+  // Further direction bits belong to motors that do not exist.
   if ((bytes[2] & static_cast<uint8_t>(~known)) != 0) segment.events = 0;
   segment.bend = 0;
   const uint8_t flips = bytes[3];

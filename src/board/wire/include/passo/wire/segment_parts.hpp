@@ -1,7 +1,8 @@
-// SegmentParts: a segment as the board plays it, part by part. A part is a quadratic: its interval changes by the same
-// amount at each event.
+// SegmentParts: divides a segment into the parts that the board executes. A part is quadratic: its interval changes by
+// the same amount at each event.
 //
-// The form of a segment says how long its parts are, and how the change of the interval follows from part to part.
+// The form of a segment determines the length of its parts, and how the change of the interval develops from part to
+// part.
 //
 //   even    (form 0)              The change stays. Parts have 255 events, because a player counts in eight bits.
 //   root    (root_form + k)       Parts have 2^k events. Motion with a constant acceleration: the time is a square root
@@ -9,8 +10,8 @@
 //
 // Root. Where j parts are left until the motion would rest, v = 1/j, and the interval of the part after this one is
 // longer by the factor sqrt(j / (j - 1)) = 1 / sqrt(1 - v). In speeding up, v = -1/j, where j parts have passed since
-// the rest. So one segment brakes from any speed, where quadratics need one for each halving of the way. Series stand
-// for the root and the quotient: host and board compute the same bits, without a division.
+// the rest. One segment can thus brake from any speed; quadratic segments would need one for each halving of the
+// distance. Root and quotient are computed by series: host and board compute the same bits, without a division.
 //
 //   factor - 1 = v/2 + 3/8 v²        next v = v / (1 - v) = v + v² + v³
 //
@@ -29,7 +30,7 @@ inline constexpr uint8_t longest_part = 0xFF;
 constexpr bool is_root(uint8_t form) {
   return (form & root_form) != 0;
 }
-// The number of events in each part but the last.
+// The number of events in each part except the last.
 constexpr uint8_t part_length(uint8_t form) {
   return form == 0 ? longest_part : static_cast<uint8_t>(1U << (form & ~root_form));
 }
@@ -102,7 +103,7 @@ struct PartTimes {
   }
 };
 
-// Bends `increments`: from those of a part to those of the part after it. Only if the segment has a bend.
+// Applies the bend to `increments`, from one part to the next. Only for segments with a bend.
 template <uint8_t motors>
 [[gnu::noinline]] constexpr void bend_on(const SegmentFor<motors>& segment, uint16_t* increments) {
   const auto grow = [increments](uint8_t motor, uint16_t by) {

@@ -1,12 +1,11 @@
-// WireFrame: the envelope of every message on the wire, in both directions. docs/wire.md describes it byte by byte.
+// WireFrame: the frame of every message, in both directions. docs/wire.md describes it byte by byte.
 //
 //   sync  link  type  sequence  payload…  crc low  crc high
 //
-// The sync byte never occurs from link to payload. Where a message has a byte of that value, the wire carries instead
-// the distance to the next such place (0: none); `link` is the distance to the first. So a sync byte always starts a
-// frame. After any garbage a receiver is in step again at the very next frame, and each byte costs it the same work.
-// The type alone tells the length; for messages with a value for each motor, type and number of motors tell it.
-// Portable.
+// The sync byte never occurs from link to payload. A message byte with that value is replaced by the distance to the
+// next such byte (0: none); `link` is the distance to the first. A sync byte therefore always starts a frame. After
+// garbage, a receiver is synchronised again at the next frame, and each byte costs the same time. The type determines
+// the length; for messages with a value for each motor, the type and the number of motors do. Portable.
 #pragma once
 
 #include <stdint.h>
@@ -18,7 +17,7 @@ namespace passo {
 inline constexpr uint8_t sync_byte = 0xA5;
 inline constexpr uint8_t protocol_version = 10;
 
-// Words of the extended Hamming code (8,4): three bits must be wrong before one type passes for another.
+// Words of the extended Hamming code (8,4): at least four wrong bits turn one type into another.
 enum class MessageType : uint8_t {
   // host to board
   hello = 0x0F,
@@ -42,8 +41,8 @@ enum class MessageType : uint8_t {
 
 inline constexpr uint8_t frame_overhead = 6;
 inline constexpr uint8_t segment_size =
-    11;  // without the part that repeats for each motor, and a bend beside the flips
-// With so many motors or fewer, the bend is in the upper half of the flips.
+    11;  // without the part that repeats for each motor, and with the bend in the byte of the flips
+// Up to this number of motors, the bend is in the upper half of the byte of the flips.
 inline constexpr uint8_t most_motors_beside_bend = 4;
 inline constexpr uint8_t status_size = 14;
 inline constexpr uint8_t captured_size = 5;
@@ -53,10 +52,10 @@ inline constexpr uint8_t largest_frame = frame_overhead + largest_payload;
 struct WireFrame {
   MessageType type = MessageType::hello;
   uint8_t sequence = 0;
-  uint8_t payload[largest_payload];  // as much of it as the type has
+  uint8_t payload[largest_payload];  // used as far as the type needs
 };
 
-// Bytes of payload, or 0 for an unknown type. With 0 motors, messages that repeat a part for each motor are unknown
+// The payload size in bytes; 0 for an unknown type. With 0 motors, messages with a value for each motor are unknown
 // too.
 constexpr uint8_t payload_size(uint8_t type, uint8_t motors) {
   const auto with_motors = [motors](unsigned rest, unsigned each) {

@@ -1,7 +1,7 @@
 // read_board_job: all files of a circuit board, from files, folders or a zip archive, each with what it is for.
 //
-// What a file is for is told by its attribute (.FileFunction), or else by its name as layout programs choose names, or
-// by what is in it (a drill file). A guess is no fact: show it, and let the user confirm.
+// The layer of a file follows from its attribute (.FileFunction), or else from its name, as layout programs choose
+// names, or from its contents (a drill file). A guess is no fact: show it, and let the user confirm.
 //
 // At most 1,000 files and 256 MiB, unpacked; an archive that has more is refused before it is unpacked.
 #pragma once
@@ -54,8 +54,7 @@ struct BoardJob {
 // Errors are in `diagnostics`: "board.…" and those of the readers.
 BoardJob read_board_job(const std::vector<std::string>& paths, Diagnostics& diagnostics);
 
-// What the user says of a file, by its name or its short one: this kind counts, and no guess. Returns why not; empty:
-// done.
+// Sets the layer of a file, given by its name or short name, instead of the detected one. Returns why not; empty: done.
 std::string set_kind(BoardJob& job, std::string_view name, std::string_view words);
 
 // An error if what is used of the job is of several boards: two of KiCad, or one and files of layers beside it.

@@ -1,4 +1,4 @@
-// Bulge: what the arc between two points of a path is, and where it goes. See PathPoint.
+// Bulge: the arc between two points of a path, and its geometry. See PathPoint.
 #pragma once
 
 #include <algorithm>

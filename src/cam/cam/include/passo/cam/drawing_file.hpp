@@ -1,5 +1,5 @@
-// read_drawing: a drawing from a file of any kind that cam/ knows. The kind is told by what is in the file,
-// which gzip may have compressed (SVGZ).
+// read_drawing: a drawing from a file of any kind that cam/ knows. The contents determine the format; the file may be
+// compressed with gzip (SVGZ).
 #pragma once
 
 #include <cstdint>

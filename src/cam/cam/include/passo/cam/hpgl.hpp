@@ -2,8 +2,8 @@
 //
 // Read are moves (PU PD PA PR), arcs and circles (AA AR AT RT CI), Bézier curves (BZ BR), edges of rectangles, wedges
 // and polygons (EA ER EW PM EP), packed polylines (PE), line types (LT), labels (LB with SI SR DI DR SL ES LO CP DT),
-// ticks (XT YT TL), scaling (IP SC RO) and pens (SP). Fills (RA RR WG FP) are drawn as their edges. What is left out is
-// counted in Drawing::notes: clipping windows, other alphabets, commands that nobody knows.
+// ticks (XT YT TL), scaling (IP SC RO) and pens (SP). Fills (RA RR WG FP) are drawn as their edges. Ignored items are
+// counted in Drawing::notes: clipping windows, other alphabets, unknown commands.
 //
 // Each pen is a layer: "pen 1". A plotter unit is 0.025 mm. P1 and P2 are those of the HP 7475A with a sheet of A4,
 // until the plot places them. Labels are written in the letters of built_in_stroke_font(), each in a cell of one width,

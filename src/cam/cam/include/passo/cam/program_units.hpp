@@ -5,7 +5,8 @@
 
 namespace passo {
 
-// There is no G-code for centimetres: such a program says so in a comment, and is for machines that count in them.
+// There is no G-code for centimetres: such a program notes the unit in a comment, and is for machines that use
+// centimetres.
 enum class ProgramUnits : std::uint8_t { mm, cm, inch };
 
 }  // namespace passo

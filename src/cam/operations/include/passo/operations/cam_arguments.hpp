@@ -1,5 +1,5 @@
-// The arguments of the operations of `passo cam`, a struct each. What stands in a member before anything is said is the
-// default, and stands nowhere else. cam_options_of() describes the members.
+// The arguments of the operations of `passo cam`, a struct each. The initial value of a member is the default of its
+// option, and is defined only here. cam_options_of() describes the members.
 //
 // Lengths are texts with a unit, or without one in `units`; commas divide several.
 #pragma once
@@ -173,7 +173,7 @@ struct CamBoardArguments {
   bool probe_holes = false;          // the holes are for the probe, which finds the board that was turned over
   std::string heights;               // COLUMNSxROWS places of a height map of each side; empty: none
   std::string join;                  // of the edge's ends; empty: as the outline's options say
-  std::vector<std::string> told;     // FILE=LAYER: what the user says of files
+  std::vector<std::string> told;     // FILE=LAYER: corrections of the detected layers
   bool json = false;                 // what was made, on standard output
   bool remember = false;             // the options of the profile, for the machine
 };

@@ -1,5 +1,5 @@
-// CamOperation: one operation of `passo cam`, which makes programs of drawings or pictures. What is made is told by its
-// options (cam_option.hpp); the rows are all that the command line, the API and the page know of it beforehand.
+// CamOperation: one operation of `passo cam`, which generates programs from drawings or pictures, with its options
+// (cam_option.hpp). The command line, the API and the web interface are built from these rows.
 #pragma once
 
 #include <array>
@@ -14,8 +14,8 @@ namespace passo {
 struct CamOperation {
   const char* name;                         // "drill"
   const char* purpose;                      // a line of the help
-  const char* accepts;                      // endings of the files that it reads: ".svg,.dxf"
-  const char* examples;                     // what the help says after the options
+  const char* accepts;                      // extensions of its input files: ".svg,.dxf"
+  const char* examples;                     // examples at the end of the help
   std::vector<CamOption> (*options)();      // with their defaults
   const char* instead_of_files = "";        // the option with which it needs no files
   std::span<const char* const> parts = {};  // operations whose options a profile may have

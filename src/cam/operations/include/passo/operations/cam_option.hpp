@@ -1,5 +1,5 @@
-// CamOption: one option of an operation of `passo cam`: its name, what it may be, what it is for, and where its value
-// stands. The options of the command line, the checks of the API, the form of the page and the tables of the manual
+// CamOption: one option of an operation of `passo cam`: name, permitted values, help text, and the member that holds
+// its value. The options of the command line, the checks of the API, the form of the page and the tables of the manual
 // come from these rows.
 #pragma once
 
@@ -41,7 +41,7 @@ struct CamRange {
   double most;
 };
 
-// Where the value stands. A list: the option may be given again.
+// The member that holds the value. A list: the option may be given again.
 using CamValue = std::variant<std::string*, std::vector<std::string>*, bool*, double*, std::uint32_t*, std::uint64_t*,
                               std::optional<double>*, std::optional<std::uint32_t>*>;
 

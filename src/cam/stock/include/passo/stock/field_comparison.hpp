@@ -1,4 +1,4 @@
-// compare_fields: what a program has left above a target, and where it has cut into the target.
+// compare_fields: the material left above a target, and the gouges into it.
 //
 // A wall stands in one cell or in the next: no height field can say more. So what a cell has is compared with the
 // highest and the lowest height of the target in the cell and its eight neighbours. Material left counts above the

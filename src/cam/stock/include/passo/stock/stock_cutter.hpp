@@ -1,8 +1,8 @@
 // StockCutter: what the moves of a program take off a piece of stock.
 //
-// Place on the street: beside it. The cutter watches the path, and hands nothing back to it. Moves go in, in the order
-// of the program. For each of them comes out how much it took off (MoveCut), and in the end the HeightField shows what
-// is left.
+// Position in the pipeline: outside it. The cutter watches the path, and hands nothing back to it. Moves go in, in the
+// order of the program. For each of them comes out how much it took off (MoveCut), and in the end the HeightField shows
+// what is left.
 //
 // The tool's swept volume is exact along straight moves: for each cell the lowest height that the underside of the tool
 // reaches there, in closed form (for round corners by an iteration to 0.3 um for each mm of the radius). Arcs, helices
@@ -57,7 +57,7 @@ struct MoveCut {
 
 struct StockCutterOptions {
   std::vector<ToolShape> tools = {};
-  std::vector<StockBlock> clamps = {};  // what stands in the way; solid from their top down
+  std::vector<StockBlock> clamps = {};  // obstacles, solid from their top down
   unsigned threads = 1;                 // 1 to 64
 };
 

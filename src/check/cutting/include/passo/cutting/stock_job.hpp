@@ -66,7 +66,7 @@ struct FeedLook {
 FeedLook survey_feeds(const StockJob& job, const StockWishes& wishes, Diagnostics& findings,
                       const std::function<void()>& after_move = {});
 
-// A tool of which nobody says what shape it has, with the line of its first feed.
+// A tool without a given shape, and the line of its first feed.
 struct ShapelessTool {
   std::int32_t number = 0;
   std::uint32_t line = 0;

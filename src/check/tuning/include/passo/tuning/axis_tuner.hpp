@@ -39,7 +39,7 @@ enum class TuningBound : std::uint8_t {
   torque,  // above, none is left
   board,   // its steps a second
   wish,    // TuningWish::fastest
-  swing,   // the motor may swing out of step by itself above
+  swing,   // the motor may lose steps through resonance above
 };
 
 // Torques at one speed of the axis, at the motor's shaft.
@@ -101,7 +101,7 @@ class AxisTuner {
   bool coarse_steps_ = false;  // full or half steps: each step makes the rotor ring
 };
 
-// The time of a move from rest to rest with constant limits. All above 0.
+// The time of a move from standstill to standstill with constant limits. All above 0.
 Seconds time_of_move(double way, MmPerSecond velocity, MmPerSecond2 acceleration, MmPerSecond3 jerk);
 
 }  // namespace passo

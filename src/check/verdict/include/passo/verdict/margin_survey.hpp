@@ -17,8 +17,8 @@
 //
 // Steps are lost for one of three causes. The motion itself needs more than there surely is, for longer than a quarter
 // of the rotor's own period: the torque is short, whatever swings. A shorter acceleration is a jump of the speed, and
-// no torque of the formula: the swing after it is the cause. Where the formula finds torque enough for both, the motor
-// swings by itself.
+// no torque of the formula: the swing after it is the cause. If the formula finds enough torque for both, the cause is
+// resonance.
 //
 // A trial leaves out what repeats itself, and ends after a minute. Motion that was not played is safe or doubtful by
 // the formula: safe if the low end, less a reserve, is enough.
@@ -42,8 +42,8 @@ namespace passo {
 enum class Verdict : std::uint8_t { safe, doubtful, lost };
 enum class Want : std::uint8_t {
   torque,  // the motion needs more than there surely is
-  jump,    // the motion would do, but not the swing after a jump of what is needed
-  calm,    // the motor may swing by itself at this rate
+  jump,    // enough torque for the motion, but not to damp the oscillation after a jump of the torque
+  calm,    // the motor may resonate at this rate
 };
 
 const char* name_of(Verdict verdict);

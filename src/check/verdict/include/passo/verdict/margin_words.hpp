@@ -7,7 +7,7 @@
 
 namespace passo {
 
-// "Y needs 0.31 N·m at 1,420 steps/s, 0.28 to 0.40 are there". Steps are full steps.
+// "Y needs 0.31 N·m at 1,420 steps/s, and has 0.28 to 0.40". Steps are full steps.
 std::string cause_of(const MarginSpot& spot);
 // "a <= 380 mm/s², or F <= 900", what would be safe. Empty for a safe spot.
 std::string cure_of(const MarginSpot& spot);

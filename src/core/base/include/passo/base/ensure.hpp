@@ -1,6 +1,6 @@
 // ensure(): a condition that only a bug of ours makes false. Then the program ends at once, in Release builds too. A
-// board at the end of a line plays its tail and comes to rest on the path, and the journal knows where: that is safer
-// than motion that nobody has planned.
+// board on a link then executes its stop ramp and stops on the path, at a point that is in the journal: that is safer
+// than unplanned motion.
 //
 // Conditions stand in pairs: where a stage hands something on, and where the next one takes it. Only for what costs a
 // comparison or two; what costs more is an assert. On chips there is none of this: a board answers with an error.
@@ -12,7 +12,7 @@
 namespace passo {
 
 [[noreturn]] inline void end_by_bug(const char* file, int line) {
-  std::fprintf(stderr, "passo: this is a bug: %s:%d found what cannot be\n", file, line);
+  std::fprintf(stderr, "passo: internal error, please report it: assertion failed at %s:%d\n", file, line);
   std::abort();
 }
 

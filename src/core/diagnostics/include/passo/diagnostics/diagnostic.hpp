@@ -1,4 +1,4 @@
-// Diagnostic: what is wrong in the user's file, where, why, and what was expected.
+// Diagnostic: an error, warning or note about the user's file: position, message, expectation, stable code.
 //
 // Diagnostics are collected, not thrown: one run over a file shows them all, up to a limit. Each has a stable code
 // ("gcode.unknown-word"). Scripts and search engines may rely on the code.
@@ -61,13 +61,13 @@ class Diagnostics {
   // add_certain() stay errors. An empty reason ends this.
   void doubt_errors(std::string reason) { doubt_ = std::move(reason); }
   void add_certain(Diagnostic diagnostic);
-  // True: a warning of this code and file is kept already, and gets the line as one more. A program may earn a warning
-  // a million times: it is kept where it was earned first, and nobody puts words together for the others.
+  // True: a warning of this code and file is kept already, and gets the line as one more. A program may cause a warning
+  // a million times: the first one is kept with its message, and the others are only counted.
   bool count_repeated(std::string_view code, std::string_view file, std::uint32_t line);
   // Gives the rule of a diagnostic that comes without one. The stage that knows the rules sets it.
   using RuleOf = std::string (*)(const Diagnostic& diagnostic);
   void look_up_rules_with(RuleOf rule_of) { rule_of_ = rule_of; }
-  // Forgets what was found. What the diagnostics were told to do stays.
+  // Forgets what was found. The settings are kept.
   void clear() {
     errors_ = 0;
     all_.clear();

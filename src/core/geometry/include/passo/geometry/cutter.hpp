@@ -56,8 +56,7 @@ struct Cutter {
   Mm step_for_scallop(Mm height) const;
 };
 
-// Why there is no such cutter: what was expected, in words for the user who asked for it, as "a diameter of 0.01 mm or
-// more". Empty: there is.
+// Why a cutter is invalid: the expected value in words, e.g. "a diameter of 0.01 mm or more". Empty: there is.
 std::string flaw_of(const Cutter& cutter);
 
 // "flat", "ball", "vee", "bull", "taper".

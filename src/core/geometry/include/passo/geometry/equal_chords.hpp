@@ -6,8 +6,8 @@
 // Each end is the next place of the curve at the distance L, found to the rounding of doubles. The last chord is the
 // rest, and may be shorter. A chord may cross places where the curve's formula changes.
 //
-// The search walks in eighths of a chord, so a loop smaller than that is not seen. `deviation` tells how far each chord
-// is from its curve; it is infinite where the chord is too coarse for the curve.
+// The search walks in eighths of a chord, so a loop smaller than that is not seen. `deviation` is the distance of each
+// chord from its curve; infinite if the chord is too long for the curve.
 #pragma once
 
 #include <algorithm>

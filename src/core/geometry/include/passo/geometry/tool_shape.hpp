@@ -17,7 +17,7 @@ struct ToolShape {
   Mm holder_from{0};    // the height above the tip where the holder begins
 };
 
-// Why there is no such tool: what was expected, in words for the user who asked for it. Empty: there is.
+// Why a tool is invalid: the expected value in words. Empty: there is.
 inline std::string flaw_of(const ToolShape& tool) {
   if (std::string flaw = flaw_of(tool.cutter); !flaw.empty()) return flaw;
   if (tool.holder_radius > Mm(0) && !(tool.holder_from > Mm(0))) return "a holder that begins above the tip";

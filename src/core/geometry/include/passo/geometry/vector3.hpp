@@ -1,6 +1,6 @@
 // Vector3: a place or a distance in X Y Z, in millimetres, for curves that live in space.
 //
-// A Point has all nine axes and is what a machine is told. Most of geometry needs only three.
+// A Point has all nine axes, for positions of the machine. Most of geometry needs only three.
 #pragma once
 
 #include <algorithm>

@@ -11,7 +11,7 @@ namespace passo {
 std::string html_text(std::string_view text);
 
 // A picture of draw_view() as an element <svg>, which takes the width of its surroundings. `name` (letters) makes the
-// ids of the picture differ from those of other pictures in the page. `label` says what the picture shows.
+// ids of the picture differ from those of other pictures in the page. `label`: a description of the picture.
 std::string inline_svg(std::string_view svg, std::string_view name, std::string_view label);
 // The same for a PNG: an element <img> with the bytes inside.
 std::string inline_png(std::string_view png, std::string_view label);

@@ -18,8 +18,8 @@ class LineLoad {
     since_ = now;
     before_ = sent;
   }
-  // The highest rate in bytes a second, measured over a second or, if looks are farther apart, between two looks. 0 if
-  // the whole run took less than a second.
+  // The highest rate in bytes/s, measured over one second, or between two samples if they are farther apart. 0 if the
+  // whole run took less than a second.
   std::uint64_t busiest() const { return busiest_; }
 
  private:

@@ -1,5 +1,5 @@
-// A picture of a planned motion: the path within its tolerance, the speed over the way below what the axes allow at
-// each place, and the acceleration and jerk of the axes over time.
+// A picture of a planned motion: the path within its tolerance, the speed along the path with its limit, and the
+// acceleration and jerk of the axes over time.
 //
 // MotionRecorder watches the programmed path and the planned motion. It keeps the first `most_samples` places, so a
 // picture of a long program shows its beginning.

@@ -70,7 +70,7 @@ struct BoardSummary {
   std::uint64_t frames = 0;  // sent down the wire
   std::uint64_t bytes = 0;
   std::uint64_t busiest_second = 0;  // bytes; 0: the run took less than a second
-  // Only for a board on a line. The motion that such a board holds always ends at rest.
+  // Only for a board on a line. The queue of such a board always ends in a stop.
   int held_items = 0;                        // places in its list; 0: no line
   int rests = 0;                             // how often the board came to rest because no more motion had come in time
   bool stood_still = false;                  // amid motion, because its events came too late: the run failed
@@ -94,25 +94,25 @@ struct ProbeSummary {
   std::uint64_t touched = 0;
   bool last_touched = false;
   std::vector<double> last_contact = {};  // exact to the step; without contact, the end of the move
-  std::vector<double> last_rest = {};     // where the machine came to rest after that
+  std::vector<double> last_rest = {};     // the position of the stop after that
   Mm farthest_overrun{0};                 // the longest way from contact to rest
 };
 
-// A rest at the end of a braking tail, because no more motion had come from the computer. Times are the board's.
+// A stop at the end of a stop ramp, because no more motion had come from the computer. Times are the board's.
 struct TailSummary {
   Seconds rest{0};                 // when the machine stood still
   std::vector<double> place = {};  // as in HoldSummary
   Seconds resumed{0};
 };
 
-// What the motors truly did, where physics was asked for.
+// The true motion of the motors, with simulated physics.
 struct PhysicsSummary {
   std::uint32_t fault_line = 0;  // where an axis was too far from its commanded place; 0: nowhere
   struct Motor {
     Axis axis = Axis::x;
     std::int64_t lost_steps = 0;  // of the driver; positive: the axis stands too low
     double lost = 0;              // the same in millimetres or degrees
-    double following_error = 0;   // the farthest that the axis was from where it was told to be
+    double following_error = 0;   // largest distance of the axis from its commanded position
     double least_margin = 1;      // the share of the motor's pull-out torque that was left at the worst moment
     std::uint32_t line = 0;       // of the program, then; 0: none
     Seconds least_margin_at{0};

@@ -19,12 +19,12 @@ class SummaryBuilder {
   explicit SummaryBuilder(std::vector<Axis> axes);
   ~SummaryBuilder();
 
-  // What the program says, as it is read: units, tools, work systems, counts of moves, messages.
+  // Data of the program, collected while it is read: units, tools, work offsets, numbers of moves, messages.
   void watch_operation(const Operation& operation);
   // The path as the program means it, before smoothing: work extents, feeds and depths.
   void watch_path(const PathItem& item);
-  // The motion: times, distances, machine extents and peaks. `machine_minus_work` is where the work's zero lies at this
-  // item: the work extents of the motion are told from it, along the machine's axes.
+  // The motion: times, distances, machine extents and peaks. `machine_minus_work` is the work zero at this item, from
+  // which the work extents of the motion are computed, along the machine's axes.
   void watch(const MotionItem& item, const Point& machine_minus_work);
 
   // The summary of the motion. The caller adds names and board.

@@ -4,7 +4,7 @@
 //   CSV   a row a pulse: the time, then for each motor its place, F1 to F4, the currents of A and B, the rotor's
 //   degrees VCD   the same as waves for GTKWave: x_F1 … x_F4, x_place, and the real numbers x_A, x_B, x_deg
 //
-// The rotor is an ideal one: it stands where the field points, as a rotor without load does at rest.
+// The rotor is ideal: it follows the direction of the field, like an unloaded rotor at standstill.
 #pragma once
 
 #include <string>

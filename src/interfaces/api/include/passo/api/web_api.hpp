@@ -4,11 +4,11 @@
 //   WebServer -> WebApi -> a row of api_routes() -> MachineApi, JobsApi, ProgramsApi … -> requests to MachineSession
 //             <- JSON                                                                  <- status and changes
 //
-// Place on the street: beside the street, above the session, as GrblController is for senders. It knows no sockets and
-// no clock. docs/api/openapi.json describes each request; lengths are mm, speeds mm/min, times seconds.
+// Position in the pipeline: outside it, above the session, as GrblController is for senders. It knows no sockets and no
+// clock. docs/api/openapi.json describes each request; lengths are mm, speeds mm/min, times seconds.
 //
-// Invariants: only the owner of motion moves the machine; everybody may hold and stop. A program runs only after a good
-// check from the place where the machine stands. Memory is bounded.
+// Invariants: only the owner of motion moves the machine; everybody may hold and stop. A program runs only after a
+// successful check from the current position. Memory is bounded.
 #pragma once
 
 #include <cstdint>

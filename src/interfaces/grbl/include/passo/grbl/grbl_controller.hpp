@@ -3,8 +3,8 @@
 //   sender's bytes -> GrblInput -> GrblController -> requests to MachineSession, lines to OpenProgram
 //   sender  <- replies(): whole lines                <- status and changes
 //
-// Place on the street: beside the street, above the session. The controller knows no sockets and has no clock. Its
-// owner gives it the sender's bytes, turns the session, calls poll() after it, and sends the replies.
+// Position in the pipeline: outside it, above the session. The controller knows no sockets and has no clock. Its owner
+// gives it the sender's bytes, turns the session, calls poll() after it, and sends the replies.
 //
 // Invariants: each line is answered by one `ok` or one `error:n`, in the order of the lines. An `ok` means that the
 // line was taken into the queue; after a probe move or homing, that it is done. A byte is never dropped, but by a

@@ -1,6 +1,6 @@
 // GrblInput: the bytes that a sender sends to a Grbl controller, cut into lines and real-time commands.
 //
-// Place on the street: beside the street, at the door for senders. Real-time commands are single bytes. They act as
+// Position in the pipeline: outside it, the entry point for senders. Real-time commands are single bytes. They act as
 // soon as they come, also in the middle of a line, and are not part of the line. All other bytes wait in the receive
 // buffer until the controller takes their line. The buffer never drops a byte: free() tells the sender how much fits,
 // and wants_more() tells the server when to stop reading, so that a sender that sends more is held up.

@@ -1,5 +1,5 @@
-// MqttPublisher: tells short texts to an MQTT broker, for displays and other machines of a workshop. It tells and never
-// listens: nobody moves a machine by MQTT.
+// MqttPublisher: tells short texts to an MQTT broker, for displays and other machines of a workshop. It only publishes
+// and never subscribes, so MQTT cannot move the machine.
 //
 // Each text is retained by the broker, so whoever subscribes later gets the last one. "online" is 1 while this program
 // is connected; the broker itself makes it 0 when the connection breaks. A broker that is away is tried again and

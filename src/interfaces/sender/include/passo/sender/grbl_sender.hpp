@@ -1,20 +1,20 @@
-// GrblSender: the side of a sender, for an existing machine that speaks Grbl 1.1: greets it, streams lines to it, and
-// tells where it stands and what went wrong.
+// GrblSender: a G-code sender for a machine with Grbl 1.1: connects to it, streams lines, and reports its position and
+// errors.
 //
 //   lines -> GrblSender -> bytes for the machine         real-time bytes go before all lines
 //            GrblSender <- bytes of the machine          ok, error:n, ALARM:n, <…>, […], $n=…
 //
-// Place on the street: beside the street, instead of a board. Like `grbl/`, the other side of this protocol, a sender
+// Position in the pipeline: outside it, instead of a board. Like `grbl/`, the other side of this protocol, a sender
 // knows no sockets and no clock: its owner tells the time, hands over what came and sends what take_bytes() gives.
 //
 // Invariants: the bytes of all lines that the machine has not answered never exceed its receive buffer, as `$I` tells
 // the buffer's size (128 if it tells none). Each answer belongs to the oldest line without one. A line that the machine
 // refuses, an alarm, a restart and silence end the stream; nothing more is sent but what stops the machine. Every wait
-// ends: the greeting, a line without an answer, and a state in which nothing goes on have their bounds. Only a hold, a
-// door and a tool change wait for people as long as they last, and waits_for() tells it.
+// has a timeout: the handshake, a line without an answer, and a state without progress. Only a hold, a door and a tool
+// change wait for people as long as they last, and waits_for() tells it.
 //
-// What such a machine cannot tell: how many steps it has made, and which line it is executing. The line of a fault is
-// exact for error:n. For an alarm it lies between two lines: the machine holds some lines that it has answered already.
+// Such a machine cannot report its step counts or the line that it executes. The line of a fault is exact for error:n.
+// For an alarm it lies between two lines: the machine holds some lines that it has answered already.
 #pragma once
 
 #include <algorithm>
@@ -54,7 +54,7 @@ class GrblSender {
   const GrblMachine& machine() const { return machine_; }
   // The last status report. Empty: none has come.
   const std::optional<GrblReport>& report() const { return report_; }
-  // Where the machine stands, in machine coordinates, mm. Empty: not known yet.
+  // The machine position, mm. Empty: not known yet.
   std::optional<Point> place() const;
   // Asks again for what a machine in an alarm may not have told, and for its offsets and modes.
   void ask_for_offsets();

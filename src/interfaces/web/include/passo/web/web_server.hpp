@@ -1,7 +1,7 @@
 // WebServer: HTTP and WebSocket at one TCP port, for the owner of a loop.
 //
-// Place: beside the street, at the door for programs and browsers. It knows nothing of machines: a WebHandler answers.
-// Boost.Beast is behind this header and nowhere else.
+// Position in the pipeline: outside it, the entry point for programs and browsers. It knows nothing of machines: a
+// WebHandler answers. Boost.Beast is behind this header and nowhere else.
 //
 // Nothing here waits, and there is no thread: poll() does a bounded number of steps that are ready. So the handler is
 // called by the owner's thread alone. What a client does not read or send in time costs that client its connection:

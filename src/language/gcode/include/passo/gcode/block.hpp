@@ -1,9 +1,9 @@
-// Block: one line of G-code, parsed but not yet given a meaning.
+// Block: one parsed line of G-code, before its interpretation.
 //
-// The parser knows the shape of RS274/NGC: words, expressions, parameters, comments, O-words. Their meaning (letters,
-// modal groups, numbers) belongs to the interpreter. A Block owns no text of its line: its views point into the
-// reader's buffer and are valid until the next line is read. It keeps its vectors' capacity, so that parsing a line
-// allocates nothing after the first few lines.
+// The parser handles the syntax of RS274/NGC: words, expressions, parameters, comments, O-words. Their meaning
+// (letters, modal groups, numbers) is left to the interpreter. A Block does not own the text of its line: its views
+// point into the reader's buffer and are valid until the next line is read. It keeps the capacity of its vectors, so
+// that after the first few lines, parsing allocates no memory.
 #pragma once
 
 #include <cstdint>
@@ -22,7 +22,7 @@ struct Span {
   friend bool operator==(const Span&, const Span&) = default;
 };
 
-// What one instruction of an expression does to the stack of numbers.
+// The effect of one instruction of an expression on the stack of numbers.
 enum class ExpressionOp : std::uint8_t {
   number,            // push `number`
   parameter,         // pop n, push #n
@@ -64,7 +64,7 @@ enum class ExpressionOp : std::uint8_t {
 
 struct Instruction {
   ExpressionOp op = ExpressionOp::number;
-  Span span;  // the part of the line to point at if the value cannot be computed
+  Span span;  // the part of the line that is marked if the value cannot be computed
   double number = 0;
   Symbol symbol{};
 };
@@ -125,7 +125,7 @@ enum class ControlKind : std::uint8_t {
   endrepeat,
   break_,
   continue_,
-  program,  // the label alone ("O2000"): the start of a program that M98 calls, as Fanuc writes it
+  program,  // only the label ("O2000"): the start of a Fanuc-style program that M98 calls
 };
 
 // An O… line: flow of control.
@@ -134,7 +134,7 @@ struct Control {
   // The label is a name, a plain number ("o100" and "o<100>" are the same label) or a computed number.
   Symbol label{};
   std::optional<Expression> computed_label;
-  std::vector<Expression> arguments;  // call: any number; if, elseif, while, repeat: one; return, endsub: one at most
+  std::vector<Expression> arguments;  // call: any number; if, elseif, while, repeat: one; return, endsub: at most one
   Span span;
 };
 
@@ -142,13 +142,13 @@ struct Block {
   std::uint32_t line = 0;                       // in its file, from 1
   std::string_view text;                        // the line without its end
   bool block_delete = false;                    // starts with '/'
-  bool percent = false;                         // a line with '%' alone
+  bool percent = false;                         // a line with only '%'
   std::optional<std::string_view> line_number;  // the digits after N, as written
   std::vector<Word> words;                      // in order, without N
   std::vector<Assignment> assignments;
   std::vector<BlockComment> comments;
   std::optional<Control> control;
-  std::optional<Span> spaced_number;  // the first number with blanks between its digits, as in "X20 5"
+  std::optional<Span> spaced_number;  // the first number with spaces between its digits, e.g. "X20 5"
   std::vector<Instruction> code;      // all expressions above are slices of it
   std::vector<Expression> spare;      // keeps the capacity of control->arguments for later blocks with a control
 

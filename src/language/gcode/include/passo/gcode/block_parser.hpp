@@ -1,5 +1,5 @@
-// BlockParser: one line of text -> Block. About 100 ns for a short line. It allocates nothing after the first few
-// lines.
+// BlockParser: parses a line of text into a Block. About 100 ns for a short line. After the first few lines, it
+// allocates no memory.
 #pragma once
 
 #include <cstdint>
@@ -16,10 +16,10 @@ class BlockParser {
   // `file` names the program in diagnostics.
   BlockParser(std::string file, SymbolTable& symbols) : file_(std::move(file)), symbols_(symbols) {}
 
-  // From now on N may stand anywhere in a line, as in grbl. In RS274/NGC it comes first.
+  // Allows N anywhere in a line, as in Grbl. In RS274/NGC it must be first.
   void accept_line_numbers_anywhere() { line_numbers_anywhere_ = true; }
 
-  // Returns false when the line is wrong. `diagnostics` then tells what is wrong, and the block must not be used.
+  // Returns false if the line has an error. The error is then in `diagnostics`, and the block must not be used.
   [[nodiscard]] bool parse(std::string_view text, std::uint32_t line, Block& block, Diagnostics& diagnostics) const;
 
  private:
@@ -28,7 +28,7 @@ class BlockParser {
   bool line_numbers_anywhere_ = false;
 };
 
-// The block as G-code again, in canonical spelling: parse(print(b)) == b.
+// The block as G-code in canonical spelling: parse(print(b)) == b.
 std::string print(const Block& block, const SymbolTable& symbols);
 
 }  // namespace passo

@@ -1,7 +1,7 @@
 // evaluate: the value of an expression, with RS274/NGC's operations as LinuxCNC defines them.
 //
-// The interpreter calls evaluate for every word and assignment that is not a plain number. It never allocates; the
-// stack of operands is bounded. The value is finite, or there is an error that tells what to point at.
+// The interpreter calls it for every word and assignment that is not a plain number. It never allocates memory; the
+// operand stack is bounded. The result is a finite value, or an error with the part of the line to mark.
 #pragma once
 
 #include <cstddef>
@@ -16,20 +16,20 @@ namespace passo {
 class ParameterValues {
  public:
   virtual ~ParameterValues() = default;
-  // Both return false where there is no such parameter.
+  // Both return false if there is no such parameter.
   virtual bool numbered(std::int64_t number, double& value) const = 0;
   virtual bool named(Symbol name, double& value) const = 0;
-  // False: the number has the value 0 because nobody gave it one.
+  // False: the parameter is 0 because it was never set.
   virtual bool was_set(std::int64_t /*number*/) const { return true; }
 };
 
-// A numbered parameter that an expression has read and nobody has set. Number 0: there is none.
+// A numbered parameter that was read but never set. Number 0: none.
 struct UnsetParameter {
   std::int64_t number = 0;
   Span span;
 };
 
-// Why an expression has no value, and what to point at.
+// Why an expression has no value, and the part of the line to mark.
 struct EvaluationError {
   enum class Kind : std::uint8_t {
     unknown_parameter,     // #n or #<name> that was never set
@@ -41,10 +41,10 @@ struct EvaluationError {
   };
   Kind kind;
   Span span;
-  double operand = 0;  // the number that was wrong
+  double operand = 0;  // the invalid number
 };
 
-// The greatest number of operands on the stack, and of brackets, signs and # inside one another. BlockParser refuses
+// The largest number of operands on the stack, and the deepest nesting of brackets, signs and #. BlockParser rejects
 // more.
 inline constexpr std::size_t deepest_expression = 64;
 // EQ, NE, GE and LE: two numbers are equal if they differ by less than this (LinuxCNC's TOLERANCE_EQUAL; 1e-4 in old
@@ -54,7 +54,7 @@ inline constexpr double equality_tolerance = 1e-6;
 inline constexpr double whole_number_tolerance = 1e-4;
 
 using Evaluation = Result<double, EvaluationError>;
-// `unset`: gets the first such parameter, if the caller wants to know of it.
+// `unset`: receives the first parameter that was never set, unless null.
 Evaluation evaluate(const Block& block, const Expression& expression, const ParameterValues& parameters,
                     UnsetParameter* unset = nullptr);
 

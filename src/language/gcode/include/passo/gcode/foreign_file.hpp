@@ -1,4 +1,4 @@
-// Recognises files that are often given in the place of a G-code program: drawings, pictures, models, archives.
+// Recognises files that are often given instead of a G-code program: drawings, pictures, models, archives.
 #pragma once
 
 #include <string>
@@ -7,12 +7,12 @@
 namespace passo {
 
 struct ForeignFile {
-  std::string_view kind;      // "a DXF drawing"; empty: nothing foreign was recognised
-  std::string_view expected;  // what leads from there to G-code
+  std::string_view kind;      // "a DXF drawing"; empty: the file was not recognised
+  std::string_view expected;  // how to get G-code from it
 };
 
-// `first` are the first bytes of the file, about a kilobyte. The content decides. The end of the name tells what binary
-// data are that have no mark of their own, and which of two kinds of text is meant.
+// `first` are the first bytes of the file, about a kilobyte. The content decides. The extension is only used for binary
+// data without a signature, and to tell two similar text formats apart.
 ForeignFile foreign_file(const std::string& name, std::string_view first);
 
 }  // namespace passo

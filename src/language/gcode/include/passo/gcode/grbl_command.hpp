@@ -1,6 +1,5 @@
-// grbl_command_in: a line that is for Grbl itself, as files for its senders have them: "$H", "$X", "$32=1". In
-// RS274/NGC
-// `$` is a word, as in "$1 M3 S100", and such a line is none of these.
+// grbl_command_in: recognises system commands of Grbl in files for its senders: "$H", "$X", "$32=1". In RS274/NGC `$`
+// is a word, e.g. "$1 M3 S100"; such a line is not a system command.
 #pragma once
 
 #include <optional>
@@ -10,7 +9,7 @@
 namespace passo {
 
 struct GrblCommand {
-  std::string message;   // what the line is
+  std::string message;   // the error
   std::string expected;  // what to do instead
 };
 

@@ -1,6 +1,6 @@
-// ProgramReader: the bytes of a G-code file, line by line, in constant memory.
+// ProgramReader: reads a G-code file line by line, in constant memory.
 //
-// Accepts LF, CR LF and CR line ends, and a UTF-8 byte order mark. Refuses the following, with a diagnostic: a file
+// Accepts LF, CR LF and CR line ends, and a UTF-8 byte order mark. Rejects the following, with a diagnostic: a file
 // that cannot be opened or read, an empty file, a directory, binary content (NUL bytes, with line and column), a
 // drawing, picture, model or archive (the diagnostic names its kind), a line over `longest_line` bytes.
 #pragma once
@@ -17,19 +17,19 @@ namespace passo {
 
 inline constexpr std::size_t longest_line = std::size_t{64} * 1024;
 
-// A place in the program to which loops and subroutines return.
+// A position in the program to which loops and subroutines return.
 struct ReaderPosition {
-  std::uint64_t offset = 0;  // the place of the line's first byte
+  std::uint64_t offset = 0;  // offset of the line's first byte
   std::uint32_t line = 1;    // the line's number
 };
 
 class ProgramReader {
  public:
-  // `path` "-" reads standard input. Its bytes go to an unnamed temporary file, because loops go back.
+  // `path` "-" reads standard input. Its bytes are stored in an unnamed temporary file, because loops jump back.
   static Result<ProgramReader, Diagnostic> open(const std::string& path);
-  // A program in memory, for tests and for manual data input. `name` stands for the file in diagnostics.
+  // A program in memory, for tests and for manual data input. `name` is used as file name in diagnostics.
   static ProgramReader from_text(std::string name, std::string text);
-  // A program whose lines come one by one, with push_line(). A line that was read is forgotten, so nothing goes back.
+  // A program whose lines arrive one by one, with push_line(). Lines are not stored, so the program cannot jump back.
   static ProgramReader from_lines(std::string name);
 
   ProgramReader(ProgramReader&&) noexcept;
@@ -41,15 +41,16 @@ class ProgramReader {
   // skipped.
   [[nodiscard]] bool next_line(std::string_view& text, std::uint32_t& line, Diagnostics& diagnostics);
 
-  // Only for from_lines(), when all lines before were read: next_line() then gives this line. `text` has no line end.
+  // Only for from_lines(), after all earlier lines were read: the next next_line() returns this line. `text` has no
+  // line end.
   void push_line(std::string_view text);
 
-  // Another reader of the same program, at its start. Standard input too can be read as often as wanted.
+  // Another reader of the same program, at its start. This also works for standard input.
   ProgramReader again() const;
 
   // The start of the next line.
   ReaderPosition position() const;
-  // Moves to a place. The work is done only when the next line is read.
+  // Moves to a position. The file is accessed only when the next line is read.
   void seek(ReaderPosition position);
 
   const std::string& name() const;

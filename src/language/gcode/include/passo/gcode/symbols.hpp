@@ -1,4 +1,4 @@
-// Symbols: names (of parameters, of O-word labels) as small numbers, so that a look-up is an index.
+// Symbols: maps names (of parameters and O-word labels) to small numbers, so that a look-up is an index.
 //
 // Names are compared as in RS274/NGC: in lower case, without white space. One table serves a whole job.
 #pragma once
@@ -26,7 +26,7 @@ class SymbolTable {
 
   // `name` may have any case and spacing.
   Symbol intern(std::string_view name);
-  // The name in the form that is compared. The view lives as long as the table.
+  // The normalised name. The view is valid as long as the table.
   std::string_view name(Symbol symbol) const { return names_[symbol.id]; }
   std::size_t size() const { return names_.size(); }
 

@@ -1,11 +1,11 @@
-// CanonPrinter: operations as canonical calls, in the very form that `rs274 -g` (LinuxCNC 2.9) prints.
+// CanonPrinter: prints operations as canonical calls, in exactly the format of `rs274 -g` (LinuxCNC 2.9).
 //
 //     7 N..... USE_LENGTH_UNITS(CANON_UNITS_INCHES)
 //     8 N20    STRAIGHT_FEED(1.0000, 0.0000, -0.2500, 0.0000, 0.0000, 0.0000)
 //
-// A line has a counter, the N word of the block, and the call. Lengths are in the program's units at that place. As in
-// `rs274 -g`, U V W and spindle numbers other than 0 are not shown. Unlike there, a number that rounds to zero has no
-// sign, and N has no leading zeros.
+// A line has a counter, the N word of the block, and the call. Lengths are in the units that are active at that point
+// of the program. As in `rs274 -g`, U V W and spindle numbers other than 0 are not shown. Unlike `rs274 -g`, a number
+// that rounds to zero has no sign, and N has no leading zeros.
 #pragma once
 
 #include <cstdint>
@@ -20,7 +20,7 @@ class CanonPrinter {
   // `machine_units`: the units of tool table entries, which are printed as in the table.
   explicit CanonPrinter(LengthUnits machine_units = LengthUnits::mm) : machine_units_(machine_units) {}
 
-  // Appends one line, with its line end, to `out`.
+  // Appends one line to `out`, including a newline.
   void print(const Operation& operation, std::string& out);
 
  private:

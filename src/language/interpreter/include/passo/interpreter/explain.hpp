@@ -1,7 +1,7 @@
-// explain: tells in words what the lines of a program do, and under which modal state each line runs.
+// explain: explains in words what the lines of a program do, and with which modal state.
 //
-// The program is run up to the line, so parameters have their values, the active motion is known and positions are
-// true. A line in a loop is explained as in its first execution.
+// The program is run up to the line, so that parameter values, the active motion code and positions are correct. A line
+// in a loop is explained as in its first execution.
 #pragma once
 
 #include <cstdint>
@@ -14,7 +14,7 @@
 
 namespace passo {
 
-// `first` and `last` belong to the range.
+// A range of lines, including `first` and `last`.
 struct LineRange {
   std::uint32_t first = 1;
   std::uint32_t last = 1;
@@ -25,10 +25,10 @@ struct Explanation {
     std::string word;     // as written
     std::string meaning;  // with its value and units
   };
-  // What a modal group is set to, or another state of the machine.
+  // The setting of a modal group, or another state of the machine.
   struct Mode {
     std::string name;
-    std::string code;  // "G21"; empty if no code says this
+    std::string code;  // "G21"; empty if no code sets it
     std::string meaning;
     bool set_here = false;  // the mode was different before the block
   };
@@ -39,35 +39,35 @@ struct Explanation {
 
   std::uint32_t line = 0;
   std::string text;
-  std::uint64_t executions = 0;  // 0: all below is empty, except the findings
+  std::uint64_t executions = 0;  // 0: all members below are empty, except the findings
   std::vector<Word> words;
   std::vector<std::string> operations;  // as CanonPrinter prints them, without counter and N
   Position before;
   Position after;
-  // The moves that the block makes. The time is that at the programmed feed, without ramps. Empty: the feed is not
+  // The moves of the block. The time is that at the programmed feed rate, without ramps. Empty: the feed rate is not
   // known before the machine runs (G95 without a spindle speed), or there is none.
   struct Moves {
-    double feed_length = 0;               // mm; degrees for a move of rotary axes alone
+    double feed_length = 0;               // mm; degrees for a move of rotary axes only
     double rapid_length = 0;              // mm
     std::optional<double> feed_time = 0;  // s
   };
   Moves moves;
-  std::vector<Mode> modes;           // the modes while the block runs, with its own codes
-  std::vector<Diagnostic> findings;  // what is wrong with the line
+  std::vector<Mode> modes;           // the modes during the block, including its own codes
+  std::vector<Diagnostic> findings;  // the errors and warnings of the line
 };
 
 struct Explanations {
   std::vector<Explanation> lines;
   std::uint32_t lines_in_file = 0;
-  bool whole_run = true;  // false: the run was cut short, and lines may run more often, or later
+  bool whole_run = true;  // false: the run was ended early, so lines may run more often, or later
 };
 
 struct ExplainLimits {
-  std::uint64_t operations = 10'000'000;       // most operations until every line was seen
-  std::uint64_t further_operations = 200'000;  // most operations after that, to count executions
+  std::uint64_t operations = 10'000'000;       // limit of operations until every line was reached
+  std::uint64_t further_operations = 200'000;  // limit of operations after that, to count executions
 };
 
-// `diagnostics` also gets what is wrong with the rest of the program.
+// `diagnostics` also receives the findings of the other lines.
 Explanations explain(ProgramReader program, const InterpreterOptions& options, LineRange range,
                      Diagnostics& diagnostics, const ExplainLimits& limits = {});
 

@@ -1,9 +1,9 @@
-// Frame: converts work positions to machine positions. A frame follows the operations that move it.
+// Frame: converts work positions to machine positions. A frame is updated by the operations that change it.
 //
 // machine = work offset + rotate(work + G92 offset, rotation about Z) + tool offset
 //
-// as in LinuxCNC (find_ends and find_current_in_system of its interpreter): the G92 offset is turned with the work
-// frame, the tool offset is not. The interpreter follows its own operations with a Frame, and so does the path builder.
+// as in LinuxCNC (find_ends and find_current_in_system of its interpreter): the G92 offset is rotated with the work
+// frame, the tool offset is not. The interpreter and the path builder each keep a Frame.
 #pragma once
 
 #include "passo/geometry/axes.hpp"
@@ -14,12 +14,12 @@ namespace passo {
 
 class Frame {
  public:
-  // Follows the operation if it moves the frame. True: the operation moved the frame.
+  // Updates the frame. True: the operation changed it.
   bool follow(const Operation& operation);
 
   Point machine_from_work(const Point& work) const;
   Point work_from_machine(const Point& machine) const;
-  // How far a curve of the machine reaches along the axes of the work, from the zero of the work.
+  // The extents of a curve (machine coordinates) along the axes of the work, from the work zero.
   Box work_extents(const Curve& curve) const;
 
   const Point& work_offset() const { return work_offset_; }

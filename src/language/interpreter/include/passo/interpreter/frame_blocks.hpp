@@ -1,8 +1,9 @@
-// FrameBlocks: which codes of a block name places of the machine, or change where the work lies. For code that writes a
-// program again: operations tell where the tool goes, but not that G53 sent it there, and G28.1 is no operation.
+// FrameBlocks: records which codes of a block use machine positions or change the work frame. It is for code that
+// rewrites a program: operations contain the target of a move, but not that G53 was used, and G28.1 is not an
+// operation.
 //
-// It watches an interpreter. The operations of a block come after the block was executed, and before the next block is
-// executed; only moves that cutter compensation holds back come later.
+// It observes an interpreter. The operations of a block follow its execution, before that of the next block; only moves
+// delayed by cutter compensation come later.
 #pragma once
 
 #include <cstdint>
@@ -17,7 +18,7 @@
 
 namespace passo {
 
-// A code as it is written, as "G43.1", and where. Column 0: the block has no such code.
+// A code as written, e.g. "G43.1", and its position. Column 0: the block has no such code.
 struct FrameCode {
   std::string name = {};
   WordPlace place = {};
@@ -33,12 +34,12 @@ struct FrameBlock {
   FrameCode place = {};   // G10, G28, G28.1, G30, G30.1, G52, G53, G92, G92.1, G92.2 or G92.3
   FrameCode tool = {};    // G43, G43.1, G43.2 or G49
   FrameCode system = {};  // G54 to G59.3
-  // The words with their values, lengths of axes in millimetres, whatever the program's units.
+  // The words with their values; axis lengths are in millimetres, independent of the program's units.
   std::vector<std::pair<char, double>> words = {};
-  AxisSet named = {};        // axes of which the block has a word; polar words name X and Y
+  AxisSet named = {};        // axes with a word in the block; polar words count as X and Y
   bool incremental = false;  // the block's distances are incremental (G91)
-  std::string cycle = {};    // the cycle in force, as "G81"
-  bool to_start = false;     // cycles end at the height where they began (G98)
+  std::string cycle = {};    // the active cycle, e.g. "G81"
+  bool to_start = false;     // cycles retract to the initial level (G98)
   double length_unit = 1;    // mm
 
   bool has(char letter) const;
@@ -47,11 +48,11 @@ struct FrameBlock {
 
 class FrameBlocks {
  public:
-  // The interpreter must live for as long as this does, and must not be watched by anyone else.
+  // The interpreter must outlive this object, and must not have another observer.
   explicit FrameBlocks(Interpreter& interpreter);
   ~FrameBlocks();
 
-  // The block that was executed last.
+  // The last executed block.
   const FrameBlock& last() const;
   // The blocks with one of the codes above that were executed since the last call, in order.
   std::vector<FrameBlock> take_executed();

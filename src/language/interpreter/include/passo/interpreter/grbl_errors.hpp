@@ -1,4 +1,4 @@
-// grbl's numbers for errors in a program.
+// Grbl's error numbers.
 #pragma once
 
 #include <optional>
@@ -6,7 +6,7 @@
 
 namespace passo {
 
-// The number that grbl 1.1 gives the error with this diagnostic's code. Empty: grbl has no such error.
+// The error number of Grbl 1.1 that corresponds to a diagnostic code. Empty: Grbl has no such error.
 std::optional<int> grbl_error_number(std::string_view code);
 
 }  // namespace passo

@@ -1,7 +1,8 @@
-// Interpreter: blocks -> operations. Modal state, parameters, O-words, offsets; RS274/NGC in LinuxCNC's dialect.
+// Interpreter: converts blocks into operations. It handles modal state, parameters, O-words and offsets, in LinuxCNC's
+// dialect of RS274/NGC.
 //
-// Operations are pulled: each next() gives one operation. Errors in the program are collected. After an error in a
-// block the interpreter goes on with the next block where that makes sense, so one pass finds all errors.
+// Operations are pulled: each next() returns one operation. Errors in the program are collected. After an error, the
+// interpreter continues with the next block if that makes sense, so that one pass finds all errors.
 #pragma once
 
 #include <memory>
@@ -23,49 +24,49 @@ namespace passo {
 
 class BlockWatcher;
 
-// The dialect of G-code: LinuxCNC's RS274/NGC, or the part of it that grbl 1.1 accepts, with grbl's numbers in the
-// diagnostics.
+// The dialect of G-code: LinuxCNC's RS274/NGC, or the part of it that Grbl 1.1 accepts, with Grbl's error numbers in
+// the diagnostics.
 enum class Dialect : std::uint8_t { linuxcnc, grbl };
 
 struct InterpreterOptions {
   Dialect dialect = Dialect::linuxcnc;
   bool block_delete = false;            // lines that start with '/' are skipped
-  LengthUnits units = LengthUnits::mm;  // the units until the program says G20 or G21
+  LengthUnits units = LengthUnits::mm;  // the units until G20 or G21
   Point start;                          // machine position at the start
   // The units of lengths in parameters (#5161 to #5390, #5401 to #5410) and in `parameters`.
   LengthUnits machine_units = LengthUnits::mm;
-  ToolTable tools;                       // no name: nobody gave a tool table
+  ToolTable tools;                       // without a name: there is no tool table
   SavedParameters parameters;            // the parameters saved after the last run
   std::vector<std::string> sub_folders;  // folders to search for subs in files, after the program's own folder
   // Answers #<_ini[section]name>. Null: there are no settings.
   std::shared_ptr<const SettingsFile> settings;
-  // How many passes in which the machine does nothing a loop may make (how many such calls a program may make) before
-  // the program is stopped with a diagnostic. Moves, waits, stops and tool changes are something; modes are not.
+  // The largest number of passes of a loop (or of calls) without any action of the machine, before the program is
+  // stopped with a diagnostic. Moves, dwells, stops and tool changes are actions; mode changes are not.
   std::uint64_t idle_passes = 1'000'000;
-  // How many passes, calls and operations an outermost loop, call or cycle may come to, with all that is inside, before
-  // the program is stopped with a diagnostic. Twenty million moves take a machine days: 100 moves a second are 55
-  // hours. The check comes to them in seconds.
+  // The largest number of passes, calls and operations inside an outermost loop, call or cycle, before the program is
+  // stopped with a diagnostic. Twenty million moves take a machine days (55 hours at 100 moves/s), but a check only
+  // seconds.
   std::uint64_t repeated_steps = 20'000'000;
-  // Who answers when the program asks the machine (probe, inputs, #<_task>). A preview answers as LinuxCNC's `rs274`
-  // does: a probe move ends 0.254 mm before its end, and inputs are 0. A machine has no inputs, and a probe move is
-  // touched at its very end unless the machine's answers say otherwise.
+  // How probe moves, inputs and #<_task> are evaluated. In a preview as in LinuxCNC's `rs274`: a probe move stops 0.254
+  // mm before its end, and inputs are 0. On a machine, there are no inputs, and a probe move is triggered at its end
+  // unless the machine's answers differ.
   bool on_machine = false;
-  // How often a main program that ends with M99 runs; 0: without end.
+  // Number of runs of a main program that ends with M99; 0: endless.
   std::uint64_t main_passes = 1;
   int spindles = 1;          // 1 to 8
   double orient_offset = 0;  // degrees that M19 adds
   bool user_codes = false;   // M100 to M199 are allowed
-  // True: the program's lines come one by one, with push_line(). next() then returns false where no line is left, and
-  // goes on after the next push_line().
+  // True: the program's lines arrive one by one, with push_line(). next() then returns false when no line is left, and
+  // continues after the next push_line().
   bool open_ended = false;
-  // Letters of axes beside X, Y and Z, as "AC". The dialect of grbl takes these too.
+  // Letters of further axes that the Grbl dialect accepts in addition to X, Y and Z, e.g. "AC".
   std::string more_grbl_axes;
 };
 
 class Interpreter final : public Source<Operation> {
  public:
-  // `answers`: the answers of a machine that runs the program now. They are read when an operation after the question
-  // is pulled. `diagnostics` and `answers` outlive the interpreter.
+  // `answers`: the results of the machine that runs the program. They are read when the operation after a probe move or
+  // input is pulled. `diagnostics` and `answers` must outlive the interpreter.
   Interpreter(ProgramReader reader, const InterpreterOptions& options, Diagnostics& diagnostics,
               const MachineAnswers& answers = no_answers());
   ~Interpreter() override;
@@ -74,30 +75,30 @@ class Interpreter final : public Source<Operation> {
 
   // Only for an open-ended program, whose reader is ProgramReader::from_lines(). Call when next() has returned false.
   void push_line(std::string_view text);
-  // True: the program has ended, with M2, M30 or an error that ends programs. The interpreter takes no more lines.
+  // True: the program has ended, with M2, M30 or a fatal error. The interpreter accepts no more lines.
   bool ended() const;
-  // Notes modes, offsets, parameters and the place, which are those of the lines so far; and goes back to them, as if
-  // the lines since had not come. Call when next() has returned false.
+  // Saves modes, offsets, parameters and the position after the lines so far, and restores them, as if the later lines
+  // had not come. Call it when next() has returned false.
   void keep();
   void roll_back();
-  // A program that has ended goes on, with its modes.
+  // Continues a program that has ended, with its modes.
   void reopen();
-  // The motion code in force, as tenths: 0 for G0, 382 for G38.2.
+  // The active motion code in tenths: 0 for G0, 382 for G38.2.
   int motion() const;
   void set_motion(int tenths);
-  // Says that the machine stands somewhere else than where the program has left it. Modes and offsets stay.
+  // Sets another machine position than that at the end of the program so far. Modes and offsets are kept.
   void stand_at(const Point& machine);
   // The modes and offsets after the lines read so far.
   ModesInForce modes() const;
 
   // The parameters to save for the next run: InterpreterOptions::parameters with the program's changes.
   SavedParameters saved_parameters() const;
-  // The tools as the program has left them so far (G10 L1, L10, L11).
+  // The tool table including the changes of the program so far (G10 L1, L10, L11).
   const ToolTable& tools() const;
-  // The watcher with which this module's explain() sees blocks. The interpreter only borrows it.
+  // Sets the observer of executed blocks, e.g. for explain(). It must outlive the interpreter.
   void watch(BlockWatcher& watcher);
 
-  // Bytes of the program read so far in its main line, for progress.
+  // Bytes of the main program read so far, for progress.
   std::uint64_t offset() const;
 
  private:

@@ -1,10 +1,9 @@
-// MachineAnswers: what a machine answers to the program that it runs: what its probe has found, and where the tool
-// rested when a tap reversed.
+// MachineAnswers: results of the machine that its program depends on: the outcome of a probe move, and the position at
+// which a tap reversed.
 //
-// Place on the street: beside the street. All other data flows down; only these few answers come back up. One rule
-// makes that safe: no stage reads past a question before the answer is there. The path builder gives the question (a
-// probe move, a tap) as its last item. The drive asks for the next item only when the machine rests and the answer is
-// written.
+// Position in the pipeline: outside it. All other data flows down; only these few results come back. One rule makes
+// that safe: no stage reads past a probe move or tap before its result is available. The path builder returns it as its
+// last item, and the drive pulls the next item only when the machine is stopped and the result is stored.
 #pragma once
 
 #include "passo/interpreter/probe_outcome.hpp"
@@ -14,20 +13,20 @@ namespace passo {
 class MachineAnswers {
  public:
   virtual ~MachineAnswers() = default;
-  // What the last probe move has found. Null: nobody answers, and a probe move is touched at its end.
+  // The outcome of the last probe move. Null: not available, so the probe move is triggered at its end.
   virtual const ProbeOutcome* probe() const { return nullptr; }
-  // Where the tool rested when the spindle reversed in the last tap. Null: taps do not follow the spindle through the
-  // reversal, and a tap goes back from its end.
+  // The position at which the spindle reversed in the last tap. Null: taps do not follow the spindle through the
+  // reversal, and retract from their end.
   virtual const Point* tap_rest() const { return nullptr; }
 };
 
-// The answers for a check or a preview.
+// No results, for a check or a preview.
 inline const MachineAnswers& no_answers() {
   static const MachineAnswers none;
   return none;
 }
 
-// The answers of a machine that runs the program now. The drive writes them.
+// The results of a running machine, written by the drive.
 class AnswerBook final : public MachineAnswers {
  public:
   struct Answers {

@@ -1,4 +1,4 @@
-// ModesInForce: the modes and offsets that a program has set so far, for those who show them.
+// ModesInForce: the active modes and offsets of a program, for display.
 #pragma once
 
 #include <cstdint>
@@ -12,7 +12,7 @@
 namespace passo {
 
 struct ModesInForce {
-  // One code of each group that grbl shows, in grbl's order: motion, work system, plane, units, distances, feed mode.
+  // One code of each group that Grbl reports, in Grbl's order: motion, work offset, plane, units, distances, feed mode.
   std::vector<std::string> codes;
   SpindleDirection spindle = SpindleDirection::off;
   double speed = 0;  // S

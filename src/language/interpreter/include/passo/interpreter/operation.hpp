@@ -1,9 +1,9 @@
-// Operation: a canonical command. Operations are what a program means after modal state, offsets and expressions are
-// resolved.
+// Operation: a canonical command. Operations are the meaning of a program, after modal state, offsets and expressions
+// have been resolved.
 //
-// Operations can be printed: canon.hpp prints them in exactly the form of `rs274 -g`. As there, coordinates are in the
-// *work* frame, and separate operations announce offsets (frame.hpp converts to machine positions). Unlike there,
-// lengths are always millimetres, and feeds are millimetres a second.
+// canon.hpp prints operations in exactly the format of `rs274 -g`. As in that output, coordinates are in the *work*
+// frame, and separate operations set offsets (frame.hpp converts to machine positions). Unlike it, lengths are always
+// in mm, and feeds in mm/s.
 #pragma once
 
 #include <cstdint>
@@ -39,7 +39,7 @@ struct SetG92Offset {
 };
 struct SetRotation {
   double degrees = 0;
-};  // turns the work frame about Z
+};  // rotates the work frame about Z
 struct SetToolOffset {
   Point offset;
 };
@@ -49,11 +49,11 @@ struct SelectPlane {
 struct SetFeedMode {
   FeedMode mode = FeedMode::units_per_minute;
 };
-// In units per minute the rate is in mm a second. In units per revolution it is in mm a revolution. Inverse time (G93)
-// never gets here: the interpreter knows each move's length and gives units per minute, as LinuxCNC's does.
+// In units per minute, the rate is in mm/s; in units per revolution, in mm/rev. Inverse time (G93) never occurs here:
+// the interpreter converts it with the length of each move, as LinuxCNC does.
 struct SetFeedRate {
   double rate = 0;
-  double rotary_rate = 0;  // for moves of A B C alone: degrees a second (a revolution), in any length units
+  double rotary_rate = 0;  // for moves of A B C only: degrees/s (or per revolution), with any length unit
 };
 struct SetPathMode {
   PathMode mode = PathMode::continuous;
@@ -69,8 +69,8 @@ struct StraightFeed {
   Point end;
 };
 // The end is in `end`, and the centre, in the plane's own two axes, in `first_center` and `second_center`. The axis
-// through the plane and all others move along (helix). `turns`: +n counterclockwise seen from the plane's positive
-// axis, −n clockwise. 1 is at most one full turn, and 2 is one more.
+// normal to the plane and all others move proportionally (helix). `turns`: +n counterclockwise seen from the plane's
+// positive axis, −n clockwise. 1 is up to one full turn, 2 one more.
 struct ArcFeed {
   Plane plane = Plane::xy;
   Point end;
@@ -78,35 +78,35 @@ struct ArcFeed {
   Mm second_center;
   std::int32_t turns = 1;
 };
-// A feed along a rational B-spline in X and Y; the other axes stay. Its degree is `order` - 1 (2 to 9). Its knots are
-// clamped, with all spans 1 long. So the curve begins at the first control point, where the tool is, and ends at the
-// last. A Bézier curve (G5, G5.1) has as many control points as its order.
+// A feed along a rational B-spline in X and Y; the other axes do not move. Its degree is `order` - 1 (2 to 9). Its
+// knots are clamped, with all spans 1 long. The curve therefore starts at the first control point, the current
+// position, and ends at the last. A Bézier curve (G5, G5.1) has as many control points as its order.
 struct ControlPoint {
   double x = 0;  // mm
   double y = 0;
   double weight = 1;  // above 0
 };
 struct NurbsFeed {
-  std::span<const ControlPoint> points;  // `order` at least; borrowed, until the next operation is asked for
+  std::span<const ControlPoint> points;  // at least `order`; borrowed, valid until the next operation is pulled
   std::int32_t order = 3;
 };
-// Spindle-synchronised feed (G33): `pitch` mm a revolution until the synchronised part ends.
+// Spindle-synchronised feed (G33): `pitch` in mm/rev, until the synchronised part ends.
 struct StartSpeedFeedSync {
   Mm pitch;
   bool velocity_mode = false;
   std::uint8_t spindle = 0;
 };
 struct StopSpeedFeedSync {};
-// G33.1: goes in step with the spindle to `end` and, with the spindle reversed, back to where the tap began. Then the
-// spindle turns as before. Comes between StartSpeedFeedSync and StopSpeedFeedSync.
+// G33.1: moves to `end`, synchronised with the spindle, and with the spindle reversed back to the start. Then the
+// spindle turns as before. It comes between StartSpeedFeedSync and StopSpeedFeedSync.
 struct RigidTap {
   Point end;
 };
-// G38: goes to `end`, or until the probe is touched (`toward`) or loses touch. Comes between TurnProbe on and off.
+// G38: moves towards `end` until the probe is triggered (`toward`) or opens. It comes between TurnProbe on and off.
 struct StraightProbe {
   Point end;
   bool toward = true;
-  bool must_touch = true;  // error if the probe does not change on the way: G38.2, G38.4
+  bool must_touch = true;  // error if the probe does not change during the move: G38.2, G38.4
 };
 struct TurnProbe {
   bool on = false;
@@ -114,12 +114,12 @@ struct TurnProbe {
 struct Dwell {
   Seconds time;
 };
-// Under constant surface speed (SetSpindleMode) the number is metres a minute, or feet where lengths are inches.
+// With constant surface speed (SetSpindleMode), the value is in m/min, or in ft/min if lengths are in inches.
 struct SetSpindleSpeed {
   double revolutions_per_minute = 0;
   std::uint8_t spindle = 0;
 };
-// Above 0: constant surface speed (G96), with this limit in revolutions a minute. 0: constant speed (G97).
+// Above 0: constant surface speed (G96), with this limit in rpm. 0: constant speed (G97).
 struct SetSpindleMode {
   double surface_limit = 0;
   std::uint8_t spindle = 0;
@@ -160,7 +160,7 @@ struct SetAdaptiveFeed {
 struct SetFeedHold {
   bool on = true;
 };
-// M62 to M68: sets an output with the next move, or at once.
+// M62 to M68: sets an output with the next move, or immediately.
 struct SetDigitalOutput {
   std::int32_t output = 0;
   bool on = false;
@@ -179,7 +179,7 @@ struct ReadInput {
   Until until = Until::now;
   Seconds timeout;
 };
-// M100 to M199: the machine decides what the code does. A missing word is -1.
+// M100 to M199: the meaning depends on the machine. A missing word is -1.
 struct UserCode {
   std::int32_t number = 100;
   double p = -1;
@@ -195,10 +195,10 @@ struct ChangeTool {
 struct SetToolNumber {
   std::int32_t tool = 0;
 };  // M61
-// G10 L1, L10, L11: an entry of the tool table has changed. `place` 0: the copy that counts for the spindle.
+// G10 L1, L10, L11: an entry of the tool table has changed. `place` 0: the entry of the tool in the spindle.
 struct SetToolTableEntry {
   std::int32_t place = 0;
-  const Tool* tool = nullptr;  // borrowed, until the next operation is asked for
+  const Tool* tool = nullptr;  // borrowed, valid until the next operation is pulled
 };
 struct ReloadTools {};          // G10 L0
 struct ProgramStop {};          // M0
@@ -242,7 +242,7 @@ using OperationKind =
                  operation::PalletShuttle, operation::Finish, operation::Comment, operation::Message, operation::Print,
                  operation::Log, operation::Reset, operation::SetFeedReference>;
 
-// Where an operation comes from. A diagnostic about a move points there.
+// The origin of an operation, for diagnostics.
 struct OperationSource {
   std::uint32_t line = 0;         // of the file, from 1
   std::int64_t line_number = -1;  // N word; -1: none
@@ -259,12 +259,12 @@ using AxisWords = PerAxis<WordPlace>;
 struct Operation {
   OperationKind what;
   OperationSource source;
-  // The words in the line that ask for the operation, so later stages can point at them without reading G-code. Usually
-  // that is the code or the S alone. For a move it is all words of the block, with the place of each axis word
-  // (borrowed until the next operation is pulled; null: there are none).
+  // The words in the line that cause the operation, so that later stages can mark them without parsing G-code. Usually
+  // this is only the code or S. For a move, it is all words of the block, with the position of each axis word (borrowed
+  // until the next operation is pulled; null: none).
   WordPlace word{};
   const AxisWords* axis_words = nullptr;
-  bool in_machine = false;  // a move to a place of the machine, by G53, G28 or G30
+  bool in_machine = false;  // a move to a machine position, by G53, G28 or G30
   // The file and the text of the line that the operation comes from, for diagnostics. Borrowed until the next operation
   // is pulled.
   std::string_view file{};

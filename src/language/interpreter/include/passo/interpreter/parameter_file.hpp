@@ -1,5 +1,5 @@
-// Numbered parameters that outlive a program, in LinuxCNC's form (.var): one line for each parameter, with its number,
-// a tab and its value.
+// Persistent numbered parameters, in LinuxCNC's format (.var): one line for each parameter, with its number, a tab and
+// its value.
 //
 // Lengths in the file are in the machine's unit. The file is read before a run, and written after the run with the
 // program's changes. The parameters that are in the file are written, and always the homes and offsets (#5161 to
@@ -15,13 +15,13 @@ namespace passo {
 
 using SavedParameters = std::map<int, double>;
 
-// False: something is wrong with the file. `diagnostics` has all of it.
+// False: the file has errors, which are in `diagnostics`.
 [[nodiscard]] bool read_parameter_file(const std::string& path, SavedParameters& parameters, Diagnostics& diagnostics);
 std::string parameter_file_text(const SavedParameters& parameters);
 // True: the parameter is saved even if the file did not name it.
 bool is_always_saved(int number);
-// Replaces the homes of G28 and G30 and the work systems' offsets in `into` by those of `from`. What belongs to one
-// program alone stays: G92, and which work system is in force.
+// Replaces the homes of G28 and G30 and the work systems' offsets in `into` by those of `from`. Values that belong to a
+// single program are kept: G92, and the active work offset.
 void set_lasting_offsets(SavedParameters& into, const SavedParameters& from);
 
 }  // namespace passo

@@ -1,5 +1,5 @@
-// PlaneAxes: the two axes of a plane, and the axis through the plane. A counterclockwise turn takes the first axis into
-// the second. The stages that read arcs (path/) use the same planes as the interpreter.
+// PlaneAxes: the two axes of a plane, and the axis normal to it. A counterclockwise rotation by 90 degrees turns the
+// first axis into the second.
 #pragma once
 
 #include "passo/geometry/axes.hpp"
@@ -23,7 +23,7 @@ constexpr PlaneAxes axes_of(Plane plane) {
   }
   return {Axis::x, Axis::y, Axis::z};
 }
-// True: a plane of U V W. Only cycles know these planes.
+// True: a plane of U V W, which only cycles support.
 constexpr bool is_of_uvw(Plane plane) {
   return plane == Plane::uv || plane == Plane::wu || plane == Plane::vw;
 }

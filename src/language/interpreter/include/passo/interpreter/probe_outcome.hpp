@@ -1,17 +1,17 @@
-// ProbeOutcome: what a machine has found in its last probe move. The drive writes the outcome, and the stages that go
-// on from there read it. No stage reads beyond a probe move before the machine has come to rest.
+// ProbeOutcome: the result of the last probe move. The drive writes it, and the stages that continue from there read
+// it. No stage reads beyond a probe move before the machine has stopped.
 #pragma once
 
 #include "passo/geometry/axes.hpp"
 
 namespace passo {
 
-// All places in machine coordinates.
+// All positions are in machine coordinates.
 struct ProbeOutcome {
-  bool refused = false;  // already touched (G38.4, G38.5: free) before the move: nothing moved
-  bool touched = false;  // the awaited change of the probe happened
-  Point contact;         // where it happened, to the step; without contact, the rest
-  Point rest;            // where the machine came to rest
+  bool refused = false;  // already triggered (G38.4, G38.5: open) before the move, so nothing moved
+  bool touched = false;  // the expected change of the probe happened
+  Point contact;         // its position, to the step; without a contact, that of the stop
+  Point rest;            // the position at which the machine stopped
   friend bool operator==(const ProbeOutcome&, const ProbeOutcome&) = default;
 };
 

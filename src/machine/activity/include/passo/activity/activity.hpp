@@ -1,9 +1,9 @@
-// Activity: something that a machine can be busy with: a program, a jog, homing, or a probe move. An activity is a
-// path, and what the path needs of the machine.
+// Activity: a task of the machine: a program, a jog, homing or a probe move. It provides a path, and uses results of
+// the machine that the path depends on.
 //
-// An activity is a plain source of path items. An activity knows nothing of boards and waits for nothing. What the
-// machine finds on the way reaches the activity through MachineAnswers. No stage reads past a question before the
-// answer is there.
+// An activity is a source of path items. It is independent of boards and never waits. Results of the machine, e.g. of a
+// probe move, reach it through MachineAnswers. No stage reads past a point at which such a result is needed before it
+// is available.
 #pragma once
 
 #include <cstdint>
@@ -20,9 +20,9 @@ enum class ActivityKind : std::uint8_t { program, jog, homing, probing };
 class Activity : public Source<PathItem> {
  public:
   virtual ActivityKind kind() const = 0;
-  // Which part of the whole path has been planned so far, 0 to 1. Empty: unknown.
+  // The fraction of the path planned so far, 0 to 1. Empty: unknown.
   virtual std::optional<double> progress() const { return {}; }
-  // Why the activity failed, if it did. Valid after the last item was played.
+  // The fault of a failed activity. Valid after the last item was executed.
   virtual std::optional<ActivityFault> fault() const { return {}; }
 };
 

@@ -1,5 +1,5 @@
-// GoodPath: passes a path on as long as there is no error. At an error the path ends before the current item, with
-// everything switched off. The motion already given ends there at rest.
+// GoodPath: passes a path on until there is an error. At an error, the path ends before the current item, with all
+// outputs switched off, and motion stops there.
 #pragma once
 
 #include "passo/base/source.hpp"
@@ -10,7 +10,7 @@ namespace passo {
 
 class GoodPath final : public Source<PathItem> {
  public:
-  // `path` and `diagnostics` outlive the GoodPath.
+  // `path` and `diagnostics` must outlive the GoodPath.
   GoodPath(Source<PathItem>& path, const Diagnostics& diagnostics) : path_(path), diagnostics_(diagnostics) {}
 
   [[nodiscard]] bool next(PathItem& item) override {

@@ -1,4 +1,4 @@
-// HomingRepeats: how well a machine finds its place again when it is homed several times.
+// HomingRepeats: the repeatability of homing.
 #pragma once
 
 #include <cstdint>
@@ -11,14 +11,14 @@
 
 namespace passo {
 
-// The places where the switch of an axis closed, measured from where it closed at the first homing, by the board's
-// counts. Thousandths of a millimetre or of a degree.
+// The closing points of an axis' switch relative to that of the first homing, by the board's counts, in thousandths of
+// a millimetre or degree.
 struct AxisRepeats {
   Axis axis = Axis::x;
   unsigned homings = 0;
-  double last = 0;  // from where it closed at the homing before
+  double last = 0;  // relative to the previous homing
   double mean = 0;
-  double spread = 0;  // from the lowest to the highest
+  double spread = 0;  // highest minus lowest
   std::int64_t spread_steps = 0;
 };
 
@@ -27,10 +27,10 @@ class HomingRepeats {
   // `machine` outlives this.
   explicit HomingRepeats(const MachineDescription& machine) : machine_(machine) {}
 
-  // Adds a homing. `stood`: where the machine stood before, as it was counted from the homing before. Empty: that was
-  // not known, so this homing counts as the first.
+  // Adds a homing. `stood`: the position before it, counted from the previous homing. Empty: unknown, so this homing
+  // becomes the first.
   void record(const std::vector<HomedAxis>& homed, const std::optional<Point>& stood);
-  // One for each axis that all homings have found.
+  // One entry for each axis that was homed every time.
   std::vector<AxisRepeats> axes() const;
 
  private:
@@ -48,7 +48,7 @@ class HomingRepeats {
   std::vector<Places> places_;
 };
 
-// A line for an axis, without its end.
+// A line of text for an axis, without a newline.
 std::string describe(const AxisRepeats& repeats);
 
 }  // namespace passo

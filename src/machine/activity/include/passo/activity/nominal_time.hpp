@@ -1,4 +1,4 @@
-// The nominal time of a path: at its programmed speeds, without ramps. It is for progress, and never for motion.
+// The nominal time of a path: at its programmed speeds, without ramps. It is only used for progress.
 #pragma once
 
 #include "passo/path/segment.hpp"
@@ -8,9 +8,9 @@
 
 namespace passo {
 
-// How long an item takes at its programmed speed, within the axes' top speeds.
+// The time of an item at its programmed speed, within the axes' velocities.
 Seconds nominal_time_of(const PathItem& item, const MotionLimits& limits);
-// Of a planned move: its share of its segment's.
+// The time of a planned move: a fraction of its segment's time.
 Seconds nominal_time_of(const PlannedMove& move, const MotionLimits& limits);
 
 }  // namespace passo

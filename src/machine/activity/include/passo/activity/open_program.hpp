@@ -1,17 +1,17 @@
-// OpenProgram: a program that comes line by line and is never complete, as a sender streams it. OpenRun: such a program
+// OpenProgram: a program that arrives line by line and is never complete, e.g. from a sender. OpenRun: such a program
 // as an activity.
 //
-// Place on the street: where Program is for a file. Each line is interpreted when it comes, so whoever sent it is told
-// at once what is wrong with it. The path items of good lines wait in a queue. A bad line does nothing: it moves
-// nothing, and modes, offsets and parameters stay as they were, as if the line had not come.
+// Position in the pipeline: the same as Program for a file. Each line is interpreted when it arrives, so that errors
+// are reported immediately. The path items of valid lines wait in a queue. A line with an error has no effect: it moves
+// nothing, and modes, offsets and parameters stay as they were.
 //
 //   lines -> Interpreter -> PathBuilder -> [ queue ] -> OpenRun: PathSmoother -> drive
 //
-// Where the queue is empty, the path has an action await_line, at which the machine rests. A probe move is built only
-// while it is played, because what comes after it depends on what the probe finds. Until then no line is taken.
+// While the queue is empty, the path has an action await_line, at which the machine stops. A probe move is built only
+// when it is executed, because the following lines depend on its result. Until then, no line is accepted.
 //
-// The queue is bounded: room() tells whether it takes another line. A queue of many short moves is long, for the sake
-// of the look-ahead; a queue of long moves is short, so that the sender is not told too early that a line is taken.
+// The queue is bounded: room() shows whether it accepts another line. A queue of many short moves is long, for the
+// look-ahead; a queue of long moves is short, so that lines are not acknowledged too early.
 #pragma once
 
 #include <cstddef>

@@ -1,5 +1,5 @@
-// DirectFeed: sends board items to a board in this process, in order, as far ahead as the commitment says. Nothing is
-// lost on the way, so the feed keeps nothing for later but what was planned ahead.
+// DirectFeed: sends board items to a board in this process, in order, as far ahead as the commitment says. Nothing can
+// be lost, so the feed only stores the motion that was planned ahead.
 #pragma once
 
 #include <deque>
@@ -53,7 +53,7 @@ class DirectFeed final : public Feed {
   Stages stages_;
   Options options_;
   Commitment live_;   // while there is nothing to attend to
-  Commitment ahead_;  // what the stages were told last
+  Commitment ahead_;  // the last settings of the stages
   Attention attention_ = Attention::none;
   BoardItem item_;
   std::deque<LinkItem>

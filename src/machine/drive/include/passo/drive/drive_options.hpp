@@ -12,17 +12,17 @@
 namespace passo {
 
 struct DriveOptions {
-  // For a board at the end of a line. The items that the board holds always end at rest, and after a broken line the
-  // drive goes on from there. Empty: items go to the board directly.
+  // For a board at the end of a line. The board's queue always ends in a stop, and after an interruption of the link,
+  // the drive continues from there. Empty: items go to the board directly.
   std::optional<TailOptions> tails = {};
   Commitment live = endless_commitment;  // only for a board without a line
   // Where to begin in the middle of a path. Another host has done all before this place.
   std::optional<PathPlace> begin_at = {};
-  // Leads from where the machine stands to `begin_at`, and ends at rest. Empty: the machine stands there.
+  // Leads from the current position to `begin_at`, and ends in a stop. Empty: the machine stands there.
   std::vector<PathItem> lead_in = {};
   Seconds not_before{0};            // no motion before this time on the board's side
   Seconds spindle_wait{0};          // before motion goes on, after the board had switched its outputs off
-  Seconds spindle_run_up{0};        // from rest to 1000 turns a minute; the wait is at least as long as that takes
+  Seconds spindle_run_up{0};        // from standstill to 1000 rpm; the wait is at least as long as the run-up
   int counts_per_turn = 0;          // counts of the spindle's encoder; 0: nothing follows the spindle
   bool guards_by_probe = false;     // a touch outside a probe move stops the drive
   bool waits_for_operator = false;  // at stops (M0, M1) and tool changes (M6)

@@ -1,5 +1,5 @@
-// Feed: brings board items from the step generator to the board, either directly in this process or by refills over a
-// line.
+// Feed: transfers board items from the step generator to the board, either directly in this process or by queue updates
+// over a link.
 //
 // Place on the street: between the step generator and the link. The drive above has one feed and does not know which
 // kind it is.
@@ -20,7 +20,7 @@ namespace passo {
 struct BoardRest {
   ItemNumber executed = 0;
   PathPlace place;
-  PathPlace done = {};  // the board was known to be at least here when the rest was told
+  PathPlace done = {};  // the board was known to have reached at least this item when the stop was reported
   friend bool operator==(const BoardRest&, const BoardRest&) = default;
 };
 
@@ -55,7 +55,7 @@ class Feed {
     waits,          // the feed needs news of the board first
     rests_in_hold,  // the planner holds, and the board has executed all motion given
     at_action,      // the drive has to carry out take_action(); all before it is executed
-    lost_thread,    // the board played a tail to its end in a thread, which cannot go on
+    lost_thread,    // the board executed a stop ramp in a thread, which cannot continue
     outputs_off,    // the board did not hear the host, rests, and has switched outputs off
     ended,          // the whole path is executed, or the link has an error
   };
@@ -75,15 +75,15 @@ class Feed {
   // The ordered outputs have changed in the middle of the path. The board hears of the change after the motion already
   // given.
   virtual void pass_on_outputs() = 0;
-  // Switches outputs at rest, with nothing under way. settled() tells when the board has switched them.
+  // Switches outputs while stopped, with nothing unexecuted. settled() shows when the board has switched them.
   virtual void switch_outputs(const BoardOutputs& outputs) = 0;
   virtual bool settled() = 0;
 
   // How much of the given motion is, as far as the host knows, not executed.
   virtual Seconds ahead() const = 0;
-  // The same for the moment `time` at which the board told where the spindle is.
+  // The same for the time at which the board reported the spindle's angle.
   virtual Seconds ahead_of(const Turned& turned, Seconds time) = 0;
-  // When the motion under way began, by the same clock. Empty where the feed cannot tell.
+  // When the motion under way began, by the same clock. Empty if the feed does not know it.
   virtual std::optional<Seconds> began() const = 0;
   // True: what is sent takes time to reach the board, and may come too late.
   virtual bool is_remote() const = 0;
@@ -92,20 +92,20 @@ class Feed {
 
   // Brakes as soon as possible, after the motion that the board will play in any case.
   virtual void brake() = 0;
-  // True: the board plays a tail, because nothing new has reached it, and will come to rest by itself.
+  // True: the board executes a stop ramp, because no queue update has reached it, and will stop by itself.
   virtual bool plays_tail() const = 0;
-  // At rest, after the planner has dropped the path up to the next action. Returns where the machine stands; empty:
-  // where the given motion ends.
+  // At rest, after the planner has dropped the path up to the next action. Returns the machine position; empty: the end
+  // of the given motion.
   virtual std::optional<Point> drop() = 0;
-  // At rest in a hold: what was planned ahead is forgotten, and the path is read anew from where the machine stands.
+  // While stopped in a hold: drops the motion planned ahead, and reads the path again from the current position.
   virtual void read_again() = 0;
   // Skips the rest of a dwell.
   virtual void cut_dwell() = 0;
   // The path comes to a part that follows the spindle.
   virtual void expect_thread() = 0;
 
-  // What was sent in refills, and what the board has played of it. Null: items go to the board directly, and are played
-  // as they are sent.
+  // The items sent in queue updates, and those of them that the board has executed. Null: items go to the board
+  // directly, and are played as they are sent.
   virtual RefillLedger* ledger() = 0;
 };
 

@@ -1,8 +1,7 @@
 // HoldReasons: the set of reasons why the machine is to rest on the path. A hold ends when the set is empty.
 //
-// A hold is kept nowhere else. The drive tells the planner what the set demands. The planner gives an action of kind
-// feed_hold when the motion has come to rest. The drive reads the reasons from the set, and never guesses them from the
-// action.
+// A hold is kept nowhere else. The drive applies the set to the planner. The planner gives an action of kind feed_hold
+// when the motion has come to rest. The drive reads the reasons from the set, and never guesses them from the action.
 #pragma once
 
 #include <cstdint>
@@ -20,8 +19,8 @@ enum class HoldReason : std::uint8_t {
   zero_feed,      // the overrides leave less than a hundredth of the feed
   probe_contact,  // the probe move has found its contact; the rest of the move is dropped
   tap,            // the spindle reverses at the end of a tap
-  drop,           // the path that was planned is dropped, up to where the program waits for a line
-  line_lost,      // the board brakes by itself, because no refill reached it in time
+  drop,           // the planned path is dropped, up to the point at which the program waits for a line
+  line_lost,      // the board brakes by itself, because no queue update reached it in time
   stop,           // the activity is to end here
 };
 inline constexpr int hold_reason_count = 12;
@@ -46,10 +45,10 @@ class HoldReasons {
   std::uint16_t bits_ = 0;
 };
 
-// The planner brakes for `heeded_holds` only where the program heeds holds (M53), and for `sure_holds` everywhere.
+// The planner brakes for `heeded_holds` only where the program enables holds (M53), and for `sure_holds` everywhere.
 inline constexpr HoldReasons heeded_holds{HoldReason::operator_hold, HoldReason::door, HoldReason::line_end};
 inline constexpr HoldReasons sure_holds{HoldReason::probe_contact, HoldReason::tap, HoldReason::drop, HoldReason::stop};
-// A machine that has come to rest stays at rest for these reasons. The other reasons end when it rests.
+// Reasons for which a stopped machine stays stopped. The other reasons end when it rests.
 inline constexpr HoldReasons lasting_holds{HoldReason::operator_hold, HoldReason::door,       HoldReason::program_stop,
                                            HoldReason::tool_change,   HoldReason::await_line, HoldReason::line_end,
                                            HoldReason::zero_feed,     HoldReason::stop};

@@ -1,9 +1,8 @@
-// LineStops: a path on which the motion rests after each line of the program, for as long as somebody wants that
-// (single block).
+// LineStops: a path on which motion stops after each line of the program while single block is on.
 //
-// Place on the street: between RewindablePath, whose places do not count these rests, and the planner. A rest is an
-// action of kind feed_hold, as the planner gives it in a hold. Nothing else of the path is changed: the tool takes the
-// same way over rounded corners.
+// Position in the pipeline: between RewindablePath, whose positions do not include these stops, and the planner. A rest
+// is an action of kind feed_hold, as the planner gives it in a hold. Nothing else of the path is changed: the tool
+// takes the same way over rounded corners.
 #pragma once
 
 #include <cstdint>

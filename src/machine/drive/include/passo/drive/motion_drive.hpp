@@ -4,8 +4,8 @@
 // The lower half of the street: planner, step generator, feed, link. Motion that the planner has given is committed and
 // played unchanged. A change makes the planner plan anew from the end of the committed motion, on the path and within
 // the limits. So a change takes effect after the committed time. Each part has one task: MotionPipeline has the stages,
-// the feed brings items to the board, PlannerHolds know why the machine is to rest, OutputsAtRest switches outputs in a
-// pause, ProbeMove tells what the probe finds, SpindleTracker keeps motion in step with the spindle.
+// the feed transfers items to the board, PlannerHolds has the hold reasons, OutputsAtRest switches outputs during a
+// pause, ProbeMove evaluates the probe, SpindleTracker synchronises motion with the spindle.
 //
 // No function of a drive waits. advance() does what can be done now. When advance() returns `waits`, the owner lets the
 // board go on with poll() or wait(). See docs/decisions/0017 and 0065.
@@ -36,14 +36,14 @@ class MotionDrive {
  public:
   enum class State : std::uint8_t {
     running,
-    holding,  // braking for a hold, after the committed motion and where the program heeds holds
-    held,     // at rest on the path; holds() tells why
+    holding,  // braking for a hold, after the committed motion and where the program enables holds
+    held,     // stopped on the path; see holds() for the reason
     ended,    // the path is done or stopped, or the link has an error
   };
   enum class Progress : std::uint8_t { goes_on, waits, ended };
 
   // `path`, `board` and `answers` outlive the drive. The board has been greeted, and no other drive uses it meanwhile.
-  // The drive writes what the machine finds on the way into `answers`.
+  // The drive writes the machine's results into `answers`.
   MotionDrive(Source<PathItem>& path, const MotionLimits& limits, const StepOptions& steps, BoardSession& board,
               AnswerBook& answers, const DriveOptions& options = {});
   ~MotionDrive();
@@ -76,20 +76,19 @@ class MotionDrive {
   void done();
   // From now on the program waits at M1, or rests there for a moment only.
   void wait_at_optional(bool waits) { waits_at_optional_ = waits; }
-  // The machine rests in a hold after each line of the program (single block). Amid motion it also rests now, because
+  // The machine rests in a hold after each line of the program (single block). During motion it also stops now, because
   // lines are planned ahead.
   void stop_at_lines(bool wanted);
-  // Brakes to rest, and drops the rest of the path up to its next action. The source of the path is to have an action
-  // next.
+  // Stops, and drops the path up to its next action. The source of the path is to have an action next.
   void drop();
-  // Only for a board without a line. The path goes on where it ended until now with an action await_line, which is
-  // forgotten. Returns false, and changes nothing, once the machine comes to rest there in any case.
+  // Only for a board without a line. Continues a path that ended with an action await_line, which is dropped. Returns
+  // false, and changes nothing, once the machine comes to rest there in any case.
   bool pass_await_line(PathMode last);
-  // Over a line, after a drop(): where the machine has come to rest. Empty: at the end of the motion given.
+  // With a board on a link, after a drop(): the position of the stop. Empty: at the end of the motion given.
   const std::optional<Point>& dropped_to() const { return dropped_to_; }
-  // Feeds are multiplied by both factors where the program heeds them (M48 to M50, M52). The operator's factor is 0 to
-  // 2, the machine's 0 to 1. When the factors leave less than a hundredth of the feed, the motion
-  // is held until they leave more.
+  // Feeds are multiplied by both factors where the program enables them (M48 to M50, M52). The operator's factor is 0
+  // to 2, the machine's 0 to 1. When the factors leave less than a hundredth of the feed, the motion is held until they
+  // leave more.
   void set_feed_override(double factor);
   void set_adaptive_feed(double factor);
   // Multiplies the speed of rapids; above 0, at most 1.
@@ -101,15 +100,15 @@ class MotionDrive {
   // switched on again, with a wait for the spindle.
   void stop_spindle(bool stands);
   void stop_outputs();
-  // Multiplies the spindle's speed by `factor`, 0 to 2, where the program heeds it (M48, M49, M51).
+  // Multiplies the spindle speed by `factor`, 0 to 2, where the program enables it (M48, M49, M51).
   void set_spindle_override(double factor);
   // Holds and ends the drive: the rest of the path is dropped, a dwell is cut short, and the outputs are switched off.
   void stop();
   bool stopped() const { return holds_.has(HoldReason::stop); }
   // True: the drive stopped because the probe was touched outside a probe move.
   bool stopped_by_probe() const { return stopped_by_probe_; }
-  // Only with tails, before the first advance(). Switches the outputs on as they are where the path begins: the spindle
-  // first, then the wait, then the rest.
+  // Only with tails, before the first advance(). Switches the outputs on as required at the start of the path: the
+  // spindle first, then the wait, then the other outputs.
   void switch_on(const OutputState& outputs, Seconds spindle_wait);
   // How often the board had switched its outputs off because it did not hear the host.
   int output_timeouts() const { return output_timeouts_; }
@@ -120,11 +119,11 @@ class MotionDrive {
   // For watchers of motion and items. Watchers are added before the first advance().
   Tap<MotionItem>& motion() { return pipeline_.motion(); }
   Tap<BoardItem>& items() { return pipeline_.items(); }
-  // What was sent in refills and played of them; null: the drive sends none.
+  // The sent and executed items of queue updates; null: the drive sends none.
   RefillLedger* ledger() { return feed_->ledger(); }
   const RefillLedger* ledger() const { return feed_->ledger(); }
   const BoardSession& link() const { return board_; }
-  // Where the board stands, for the next drive on this board. Valid at rest, after the end.
+  // The board's position, for the next drive on this board. Valid at rest, after the end.
   BoardPlace place() const { return pipeline_.generator().place(); }
   // The axes whose backlash is then taken up for motion down.
   AxisSet downs() const { return pipeline_.generator().downs(); }

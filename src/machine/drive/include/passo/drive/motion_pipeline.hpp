@@ -1,5 +1,5 @@
-// MotionPipeline: the stages from a path to board items, one behind the other: rests for backlash, the path that can be
-// taken up again, rests after lines, the planner, the step generator. Between them, watchers see what passes.
+// MotionPipeline: the stages from a path to board items, in order: backlash, the rewindable path, stops after lines,
+// the planner, the step generator. Between them, watchers see what passes.
 //
 // Place on the street: the drive pulls nothing here. Its feed pulls items(), and with them all stages.
 #pragma once

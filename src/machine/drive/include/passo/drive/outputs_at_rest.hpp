@@ -20,7 +20,7 @@ class OutputsAtRest {
   struct Times {
     Seconds not_before{0};      // the first pause ends at this time on the board's side
     Seconds spindle_wait{0};    // after the board had switched its outputs off
-    Seconds spindle_run_up{0};  // from rest to 1000 turns a minute; the wait is at least as long as that takes
+    Seconds spindle_run_up{0};  // from standstill to 1000 rpm; the wait is at least as long as the run-up
   };
   // All parts outlive this.
   OutputsAtRest(const Parts& parts, const Times& times) : parts_(parts), times_(times), pause_end_(times.not_before) {}

@@ -54,7 +54,7 @@ class OutputsOrder {
     const bool same = told_ && told_->switches == wanted.switches && told_->spindle_rpm == wanted.spindle_rpm;
     return in_force().spindle != SpindleDirection::off && !same;
   }
-  // How far the spindle's speed is from what the board was told, revolutions a minute.
+  // The difference of the spindle speed from the board's commanded speed, rpm.
   double change_of_speed() const { return told_ ? std::abs(for_board().spindle_rpm - told_->spindle_rpm) : 0; }
   // The message for the board. The caller sends it.
   BoardOutputs tell() { return *(told_ = for_board()); }

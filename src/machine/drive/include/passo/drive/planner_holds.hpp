@@ -1,5 +1,5 @@
-// PlannerHolds: why the machine is to rest, and what the planner knows of it. The planner brakes as soon as there is a
-// reason that demands it, and goes on when there is none any more.
+// PlannerHolds: the hold reasons, and their state in the planner. The planner brakes as soon as there is a reason that
+// demands it, and goes on when there is none any more.
 #pragma once
 
 #include "passo/drive/holds.hpp"
@@ -33,7 +33,7 @@ class PlannerHolds {
 
   Planner& planner_;
   HoldReasons reasons_;
-  bool planner_holds_ = false;  // what the planner was told last
+  bool planner_holds_ = false;  // the last state given to the planner
   bool planner_stops_ = false;
   double feed_override_ = 1;
   double adaptive_feed_ = 1;

@@ -14,7 +14,8 @@ class PlayedItems {
  public:
   void watch(std::function<void(const LinkItem&)> watcher) { watcher_ = std::move(watcher); }
 
-  // Sent as motion; or as a part of the tail that ends with that item, which is played only if no refill comes.
+  // Sent as motion, or as a part of the stop ramp that ends with that item, which is executed only if no queue update
+  // comes.
   void record_sent(ItemNumber number, const LinkItem& item, std::optional<ItemNumber> end_of_tail) {
     if (watcher_) sent_.push_back({.number = number, .item = item, .end_of_tail = end_of_tail});
   }
@@ -22,7 +23,8 @@ class PlayedItems {
   void show(const LinkItem& item) const {
     if (watcher_) watcher_(item);
   }
-  // A tail was played if the board is in it, or at its end, where it waits; if it is further, another refill had come.
+  // A stop ramp was executed if the board is in it, or waits at its end; if it is further, another queue update had
+  // arrived.
   void show_executed(ItemNumber executed) {
     for (; !sent_.empty() && later_by(sent_.front().number, executed) <= 0; sent_.pop_front()) {
       const Sent& sent = sent_.front();

@@ -1,7 +1,8 @@
 // PlayedMotion: shows the motion that a board has executed to who wants to see it.
 //
-// Over a line the planner gives motion ahead, and a part of it may never be played: the machine brakes by a tail, and
-// the path is planned anew from where the tail ends. PlayedMotion keeps what was given until the board has executed it.
+// With a board on a link, motion is planned ahead, and a part of it may never be executed: the machine stops with a
+// stop ramp, and the path is planned again from its end. PlayedMotion keeps what was given until the board has executed
+// it.
 #pragma once
 
 #include <cstdint>

@@ -1,5 +1,5 @@
 // ProbeMove: a probe move as a drive runs it. The board watches its probe from the beginning to the end of the move.
-// ProbeMove turns what the board tells into places on the machine.
+// ProbeMove converts the board's reports into machine positions.
 //
 // The board tells the motors' positions at the very event of the contact. So the place is exact to the step, however
 // much later the machine comes to rest.
@@ -45,8 +45,8 @@ class ProbeMove {
   [[nodiscard]] bool is_new_contact() { return contact() && !std::exchange(contact_seen_, true); }
   // Motion in the move ends there, if not at the move's end.
   void record_end(const Point& end) { end_ = end; }
-  // After the move, at rest: recall() asks what the board has kept, unless the move was refused. When the board has
-  // answered, find() works out the outcome. `planned_end`: of the move.
+  // After the move, while stopped: recall() reads the captured position, unless the move was rejected. When the board
+  // has answered, find() works out the outcome. `planned_end`: of the move.
   void recall();
   void find(const Point& planned_end);
   // Tells the outcome to `answers` and to the watchers.

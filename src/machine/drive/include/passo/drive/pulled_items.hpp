@@ -1,4 +1,5 @@
-// PulledItems: what a refiller has pulled from the step generator and not sent yet, and how the path goes on behind it.
+// PulledItems: the items that a refiller has pulled from the step generator but not sent yet, and the continuation of
+// the path after them.
 #pragma once
 
 #include <cstddef>

@@ -1,5 +1,5 @@
-// RefillLedger: what was sent to a board in refills, and what the board has executed of it. Watchers of the executed
-// motion and items, and of the places where the board may come to rest, are told from here.
+// RefillLedger: the items sent to a board in queue updates (refills), and those that the board has executed. It
+// notifies the observers of executed motion and items, and of possible stop points.
 //
 // All times are of motion alone: the ledger's clock stands while nothing moves.
 #pragma once
@@ -22,8 +22,8 @@ class RefillLedger {
   struct Refill {
     ItemNumber first = 0;
     ItemNumber last_of_motion = 0;
-    ItemNumber last = 0;    // the tail's last item; without a tail, the motion's
-    BrakingTail tail = {};  // no later refill rests before the place where it begins
+    ItemNumber last = 0;    // the last item of the stop ramp; without one, of the motion
+    BrakingTail tail = {};  // no later queue update stops before its start
   };
 
   // The link outlives the ledger. Nothing before `done` is to be executed.
@@ -35,11 +35,11 @@ class RefillLedger {
   // The watcher sees the motion that the board has executed, tails that were played included. Motion that was planned
   // and then planned anew is shown as it was executed.
   void watch_motion(std::function<void(const MotionItem&)> watcher) { motion_played_.watch(std::move(watcher)); }
-  // The watcher is told before each refill where the board may come to rest from then on.
+  // The observer is notified before each queue update of the stop points that are possible from then on.
   void watch_rests(std::function<void(const BoardRest&)> watcher) { rest_watcher_ = std::move(watcher); }
 
-  // To where the planner has given motion, and how far the board has executed it. What is given again after a rest that
-  // came too early takes the place of what was not executed.
+  // To where the planner has given motion, and how far the board has executed it. Motion repeated after an early stop
+  // replaces the unexecuted motion.
   Seconds given_time() const { return given_in_all_; }
   Seconds executed_time() const;
   // How often a tail was played to its end and the path was taken up again there.
@@ -49,14 +49,15 @@ class RefillLedger {
   // How many of the items sent belonged to tails.
   std::uint64_t tail_items() const { return counts_.tail_items; }
   std::uint64_t refills() const { return counts_.refills; }
-  // The longest motion, without the tail, that the board had while each refill waited for an answer. After a contact
-  // the board has at most twice as much: the answer that the probe is free is no older than that.
+  // The longest motion in the board's queue, without the stop ramp, while a queue update waited for its
+  // answer. After a contact the board has at most twice as much: the answer that the probe is free is no older than
+  // that.
   Seconds longest_ahead() const { return longest_ahead_; }
 
   // The planner has given this motion.
   void record_given(const MotionItem& motion, Seconds time);
   const PlayedMotion& motion_played() const { return motion_played_; }
-  // Before a refill is sent, or outputs alone: from then on, the board comes to rest there.
+  // Call it before a queue update or outputs are sent: from then on, the board stops there.
   void report_rest(ItemNumber executed, const PathPlace& place) const;
   void record_motion(const LinkItem& item, ItemNumber number, Seconds time);
   void record_refill(Refill refill);  // after its motion
@@ -65,11 +66,12 @@ class RefillLedger {
   // Outputs that were sent alone are switched.
   void show(const BoardOutputs& outputs) const { played_.show(outputs); }
 
-  // The board has told that it has executed so much. `done`: the board is known to be at least there.
+  // Processes the reported progress of the board. `done`: the board is known to be at least there.
   void on_executed(ItemNumber executed);
   // The refill that the board plays: it has begun no other. Null: none.
   const Refill* under_way() const { return under_way_.empty() ? nullptr : &under_way_.front(); }
-  // The board has executed the refill under way, with its tail or without. Returns the rest that it came to.
+  // True: the board has executed the last queue update, with or without its stop ramp. Returns the rest that it came
+  // to.
   RestOnPath end_refill(bool on_tail);
   void on_recovery() { ++counts_.recoveries; }
   void set_slowdowns(int slowdowns) { counts_.slowdowns = slowdowns; }

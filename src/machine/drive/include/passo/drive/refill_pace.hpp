@@ -1,8 +1,8 @@
-// RefillPace: how much motion a board is to have ahead, and when the next refill is due, by what the motion needs of
-// the board and by how long the board's answers take.
+// RefillPace: determines the length of motion in the board's queue, and the time of the next queue update, from the
+// load of the motion and the board's response times.
 //
-// Motion in haste (a probe move, a thread) has little ahead: no more than while one refill is sent and answered and the
-// next one has not arrived yet.
+// Urgent motion (a probe move, a thread) is sent with a short lead: only the time until a queue update is acknowledged
+// and the next one arrives.
 #pragma once
 
 #include <limits>
@@ -26,7 +26,8 @@ class RefillPace {
   // `answer`: how long the last one took.
   void attend(Attention attention, Seconds answer);
 
-  // Motion after a refill, without its tail; the next refill is due when so much is left; no planned move is longer.
+  // The motion after a queue update, without its stop ramp; the remainder at which the next one is due; the longest
+  // planned move.
   Seconds horizon() const;
   Seconds refill_at() const;
   Seconds longest_move() const { return longest_move_; }

@@ -1,19 +1,19 @@
-// Refiller: keeps the board's list of items filled, so that the list always ends at rest. When a refill comes too late,
-// the machine comes to rest, and the refiller goes on from there.
+// Refiller: keeps the board's queue filled, such that it always ends in a stop. If a queue update comes too late, the
+// machine stops, and the refiller continues from there.
 //
-// Place on the street: between the step generator and the link. A refill is some more motion and a tail. The tail is
-// the motion that brakes the machine to rest on the path from there. The refill replaces the tail before, as a whole or
-// not at all. PulledItems are what the next refill is made of, TailMaker finds the tails, RefillPace says when a refill
-// is due, and RefillLedger knows what was sent and what the board has executed of it.
+// Place on the street: between the step generator and the link. A queue update (refill) consists of further motion and
+// a stop ramp (tail). The stop ramp is the motion that stops the machine on the path from there. It replaces the
+// previous stop ramp completely or not at all. PulledItems has the items of the next queue update, TailMaker finds the
+// stop ramps, RefillPace determines when an update is due, and RefillLedger tracks sent and executed items.
 //
-// A tail must fit into the board. A tail is long round tight bends or over many short segments. There the refiller
-// limits the speed before the tail no longer fits. When not even the first tail of a stretch fits, the machine waits
-// and begins the stretch more slowly.
+// A tail must fit into the board. A tail is long round tight bends or over many short segments. There, the refiller
+// limits the speed, so that the stop ramp fits. When not even the first tail of a stretch fits, the machine waits and
+// begins the stretch more slowly.
 //
-// The board tells the numbers of the items that it has executed. From them the refiller knows which tail was played, if
-// any. For each tail that may be played, the ledger remembers where on the path the tail ends and the generator's state
-// there. The refiller plans anew from that place, from rest, so no step is lost or made twice. Why a refill was late or
-// a line was broken makes no difference.
+// The board tells the numbers of the items that it has executed. From them, the refiller determines which stop ramp was
+// executed, if any. For each possible stop ramp, the ledger stores its end point on the path and the generator's state
+// there. The refiller plans again from that stop point, so no step is lost or made twice. Why a refill was late or a
+// line was broken makes no difference.
 #pragma once
 
 #include <optional>
@@ -37,7 +37,7 @@ class Refiller final : public Feed {
   // `waits_for_operator`: the drive carries out the program's stops.
   Refiller(const Stages& stages, const StepOptions& steps, const TailOptions& options, bool waits_for_operator = false);
 
-  // Sends a refill, or tells what the refiller waits for.
+  // Sends a queue update, or returns what the refiller is waiting for.
   Progress advance() override;
   bool plans() const override { return true; }
   Action take_action() override;
@@ -55,8 +55,8 @@ class Refiller final : public Feed {
   bool is_remote() const override { return true; }
   void record_rest(Seconds /*time*/) override {}
 
-  // From here on no refill replaces the tail that the board has. The board plays that tail, and the path is taken up
-  // again where the tail ends.
+  // From here on, the board's stop ramp is not replaced. The board executes that stop ramp, and the path is continued
+  // from its end.
   void brake() override { brakes_ = true; }
   bool plays_tail() const override { return on_tail_ && !brakes_; }
   std::optional<Point> drop() override;
@@ -97,7 +97,7 @@ class Refiller final : public Feed {
   PathPlace given_;     // up to here the planner has given motion
   RestOnPath rested_;   // the last rest
   SpeedForTails speed_;
-  bool on_tail_ = false;  // the board plays a tail: nothing is sent before it rests
+  bool on_tail_ = false;  // the board executes a stop ramp: nothing is sent until it has stopped
   bool brakes_ = false;
   bool guards_threads_ = false;
   std::optional<PathPlace> before_action_;  // the action taken last, while nothing was sent since

@@ -1,8 +1,8 @@
 // RewindablePath: a path that can be taken up again from a place that was passed already.
 //
 // Place on the street: before the planner. The path keeps each item until the board has executed it, because after a
-// broken line the machine rests at a place that the planner has long left. The rest of a segment that was begun is a
-// segment of its own. Without keep() the path keeps nothing.
+// broken line the machine rests at a place that the planner has long left. The remainder of a started segment is a
+// separate segment. Without keep() the path keeps nothing.
 #pragma once
 
 #include <cstddef>
@@ -30,9 +30,9 @@ class RewindablePath final : public Source<PathItem> {
   // Keeps items from now on. Call before the first next().
   void keep() { keeps_ = true; }
   // Leaves out all before `place`, because another session has done it. Call after keep() and before the first next().
-  // `lead_in` comes first: it leads from where the machine stands to the place, and its last item ends at rest. Its
-  // items are counted too: the numbers of what comes after it are greater by their count. Of the item amid which such a
-  // path begins only the rest is known, so its s is counted from the place.
+  // `lead_in` comes first: it leads from the current position to that point, and its last item ends in a stop. Its
+  // items are counted too: the numbers of what comes after it are greater by their count. If such a path starts inside
+  // an item, s of the item is counted from that point.
   void begin_at(const PathPlace& place, std::vector<PathItem> lead_in = {});
   // Keeps only what was handed out last. There will be no rewind.
   void forget_passed() { forgets_ = true; }

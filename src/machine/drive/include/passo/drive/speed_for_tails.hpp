@@ -1,7 +1,7 @@
 // SpeedForTails: how fast the path may go so that its braking tails fit into the board.
 //
-// Where tails get long the speed is limited before they no longer fit; where they have been short for a while the limit
-// rises, or goes. Where not even the first tail of a stretch fits, the stretch is begun more slowly.
+// Where stop ramps get long, the speed is limited so that they fit; where they have been short for a while, the limit
+// is raised or removed. Where not even the first tail of a stretch fits, the stretch is begun more slowly.
 #pragma once
 
 #include <cstddef>
@@ -27,7 +27,7 @@ class SpeedForTails {
   const Speed& speed() const { return speed_; }
   // So much motion was pulled since.
   void record_motion(Seconds time) { limited_for_ += time; }
-  // Behind what was pulled last a tail would have so many items.
+  // Processes the number of items of the stop ramp after the last pulled item.
   void record_tail(std::size_t items);
   // From rest, where none of the motion fits that was pulled. `highest` has the highest speeds of that motion. False:
   // the motion is as slow as can be already.

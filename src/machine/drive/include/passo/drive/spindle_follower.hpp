@@ -1,7 +1,7 @@
 // SpindleFollower: works out how fast a feed must be to follow the spindle, from the readings of the spindle's encoder.
 //
-// Motion after the committed motion is planned for the speed that the spindle has. Where the lock is one of place, the
-// motion is planned a little faster or slower, until the tool is where the spindle's angle wants it:
+// Motion after the committed motion is planned for the speed that the spindle has. If the lock is to the spindle's
+// angle, motion is planned slightly faster or slower until the tool matches the angle:
 //
 //     turns wanted = turns of the spindle since its index - lag
 //

@@ -1,9 +1,9 @@
-// SpindleTracker: keeps motion in step with the spindle, by what the board's encoder tells. The tracker waits for the
-// index, sets the ratio of the feed, finds out when the spindle reverses in a tap, and gives up where it cannot follow
-// the spindle.
+// SpindleTracker: synchronises motion with the spindle, using the board's encoder. The tracker waits for the index,
+// sets the ratio of the feed, finds out when the spindle reverses in a tap, and gives up where it cannot follow the
+// spindle.
 //
-// The tracker stands between the feed, which knows how far ahead motion is committed, and the planner, which is told
-// how fast to go.
+// The tracker mediates between the feed, which knows how far ahead motion is committed, and the planner, whose speed it
+// sets.
 #pragma once
 
 #include <cstdint>
@@ -48,8 +48,7 @@ class SpindleTracker {
   [[nodiscard]] bool await_index();
   Seconds next_poll() const { return looks_at_; }
 
-  // A tap is on its way down, and the spindle was told to reverse. turned_back() tells, once, that the spindle has
-  // reversed.
+  // Tapping down, with the spindle commanded to reverse. turned_back() reports once that the spindle has reversed.
   void expect_turn() { turn_expected_ = true; }
   bool expects_turn() const { return turn_expected_; }
   [[nodiscard]] bool turned_back() { return std::exchange(turned_back_, false); }

@@ -1,6 +1,6 @@
-// TailMaker: finds the tail of a refill: how the machine would come to rest on the path from where the planner is now.
-// The planner tells how it would brake, and a fork of the step generator makes that into items. Planner and generator
-// then go on as if nothing had been asked.
+// TailMaker: finds the stop ramp (tail) of a queue update: the motion that stops the machine on the path after the
+// planned motion. The planner tells how it would brake, and a fork of the step generator makes that into items. Planner
+// and generator then go on as if nothing had been asked.
 #pragma once
 
 #include <cstdint>
@@ -13,19 +13,19 @@
 
 namespace passo {
 
-// A place on the path where the machine rests, and the generator and the outputs there.
+// A stop point on the path, with the state of the generator and the outputs there.
 struct RestOnPath {
   PathPlace place = {};
   std::unique_ptr<StepGenerator> generator = {};
   OutputsOrder outputs = {};
 };
 
-// How the machine would come to rest. At rest the tail has no items.
+// How the machine would come to rest. If the motion ends in a stop, the stop ramp has no items.
 struct BrakingTail {
   PathPlace from = {};
   RestOnPath rest = {};
   std::vector<LinkItem> items = {};
-  // Its motion, for those who watch what is executed: it comes after so many items of the path's motion.
+  // Its motion, for observers of the executed motion: it follows this number of items of the path's motion.
   std::uint64_t motion_from = 0;
   std::vector<PlannedMove> motion = {};
 };

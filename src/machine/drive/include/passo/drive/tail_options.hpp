@@ -8,7 +8,7 @@
 namespace passo {
 
 struct TailOptions {
-  Seconds horizon{0.1};          // motion before the tail, after a refill
+  Seconds horizon{0.1};          // motion before the stop ramp, after a queue update
   Seconds refill_at{0.06};       // the next refill is sent when this much motion is left
   Seconds time_an_item{0.0005};  // time on the line; a refill with many items is sent sooner
   Seconds longest_move{0.005};   // no planned move is longer
@@ -16,12 +16,12 @@ struct TailOptions {
   // second more than a line can carry. They would also be more than a board with few places can hold. Boards with fewer
   // places than `few_places`, and motion in haste, get the kind "in few places".
   std::size_t few_places = 100;
-  // On a board with fewer places tails have no limits of jerk: with them a tail has two or three times as many items,
-  // which a small board also takes slowly (decision 0108).
+  // On a board with a shorter queue, stop ramps have no jerk limits: with them, a stop ramp has two or three times as
+  // many items, which a small board also processes slowly (decision 0108).
   std::size_t places_for_gentle_tails = 200;
   Exactness motion{.one_in = 64, .longest_segment = longest_segment_of_all};
   Exactness motion_in_few_places{.one_in = 2, .least_rate = Hertz(1'000), .longest_segment = longest_segment_of_all};
-  // A segment that is off by a whole interval may brake twice as hard where it begins as where it ends.
+  // A segment that is off by a whole interval may brake twice as hard at its start as at its end.
   Exactness tail{.one_in = 4, .least_rate = Hertz(0), .longest_segment = longest_segment_of_all, .ends_in_time = false};
   Exactness tail_in_few_places{
       .one_in = 1, .least_rate = Hertz(0), .longest_segment = longest_segment_of_all, .ends_in_time = false};

@@ -1,15 +1,15 @@
 // JobHistory: the jobs that wait, those that have run and how each ended, and the machine's alarms, in a file of
 // SQLite.
 //
-// Place: beside the street. It knows no machine. Its owner says what has happened, and when.
+// Position in the pipeline: outside it. It knows no machine. Its owner reports events and their times.
 //
 // A job is queued, runs, and ends. It never starts by itself. A job that ran when the program ended in whatever way is
 // `interrupted` after the next open(). A killed program loses nothing: each call is one transaction, in a write-ahead
 // log. The log reaches the disk with keep(), which takes as long as the disk takes: call it while the machine rests. So
 // a power cut may lose what came since the last keep(), and never leaves half a job.
 //
-// A job whose beginning cannot be written does not begin. What has happened anyway, the end of a job or an alarm, is
-// kept in memory until the disk has room, and is told meanwhile.
+// A job whose beginning cannot be written does not begin. Events such as the end of a job or an alarm are kept in
+// memory until the disk has space, and are included in queries.
 #pragma once
 
 #include <cstdint>

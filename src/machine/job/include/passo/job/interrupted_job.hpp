@@ -11,9 +11,9 @@
 
 namespace passo {
 
-// What a journal and a board tell of a job, before the board hears of a new session.
+// The job found in a journal and a board, before the board gets a new session.
 struct BrokenOff {
-  JournalHead head;  // its place: where the board rests, if nothing is refused
+  JournalHead head;  // its position: the board's stop point, if nothing is rejected
   std::optional<ResumeRefusal> refused;
   PathPlace done;       // all before this place is executed
   PathPlace farthest;   // nothing after this place is
@@ -29,14 +29,14 @@ BrokenOff broken_off(const Journal& journal, const BoardStatus& status, const Gr
 std::optional<BrokenOff> resume_job(JobKeeper& keeper, JournaledRun& run, const BoardStatus& status,
                                     const Greeting& greeting, bool outlives_host = true);
 
-// A job that was broken off, and why it cannot go on amid its path, if it cannot.
+// An interrupted job, and the reason why it cannot continue inside its path, if any.
 struct InterruptedJob {
   HistoryJob job;
   BrokenOff journal;
-  std::optional<ResumePoint> point;  // where it rests on its path
+  std::optional<ResumePoint> point;  // its stop point on the path
   std::string code;
   std::string why;  // a sentence without a full stop
-  // Where the machine may be led back onto the path: where it rests, or else before the last executed step.
+  // The point at which the machine can return to the path: its stop point, or before the last executed step.
   std::optional<ResumePoint> back_at;
   std::optional<Box> range;  // where its motors may have been stopped, if the board has lost its place
   std::string shift;         // what homing has found to be elsewhere than there; a sentence without a full stop

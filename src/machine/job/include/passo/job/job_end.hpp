@@ -24,8 +24,8 @@ Answered answer_of(const std::vector<MachineChange>& changes, Ticket ticket);
 
 enum class JobEnd : std::uint8_t {
   over,           // it has come to its end, is wrong, or did not begin: the journal goes
-  interrupted,    // it goes on from where the board rests, if the journal knows that place
-  board_silent,   // nobody knows where the board rests; it goes on if the board keeps its power
+  interrupted,    // it can continue at the board's stop point, if the journal contains it
+  board_silent,   // the stop point is unknown; it can continue if the board keeps its power
   board_in_fault  // the board has lost its place or its session, so it cannot go on from there
 };
 // `trouble`: of the board. `is_resumed`: the run was to go on with an earlier job, which stays if the run is refused.

@@ -12,12 +12,12 @@ namespace passo {
 
 struct JobEntry {
   ResumePoint at;
-  std::vector<PathItem> lead_in;     // from where the machine stands to that place; empty: it stands there
-  std::optional<Point> stands;       // where it stands, if that is on the path of the job; machine coordinates
+  std::vector<PathItem> lead_in;     // from the current position to that point; empty: the machine is there
+  std::optional<Point> stands;       // the current position, if it is on the path of the job; machine coordinates
   std::vector<ProbeOutcome> probes;  // what the probe moves before that place have found
 };
 
-// For a machine that stands where the board has come to rest. `head`: of the journal. The status must be one at rest.
+// For a machine at the board's stop point. `head`: of the journal. The status must be one at rest.
 JobEntry entry_at_rest(const JournalHead& head, const ResumePoint& point, const BoardStatus& status,
                        const MachineDescription& machine);
 // For a machine that is led back onto the path. `probes`: what the program's first probe moves have found.

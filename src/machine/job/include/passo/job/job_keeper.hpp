@@ -21,7 +21,7 @@ class JobKeeper {
   virtual void remove() = 0;
   // A number for a session that is not the board's present one.
   virtual std::uint16_t new_number() = 0;
-  // Tells the board its new number, at rest.
+  // Sends the board its new number, while it is stopped.
   virtual void name_session(std::uint16_t number) = 0;
 };
 

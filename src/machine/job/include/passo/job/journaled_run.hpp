@@ -15,11 +15,12 @@ class JournaledRun {
   // The store outlives the run.
   explicit JournaledRun(JournalStore& store) : writer_(store) {}
 
-  // Writes the head. `entry`: of a job that goes on; empty: the caller of add_to() says where the path is entered.
+  // Writes the head. `entry`: for a continued job; empty: the caller of add_to() gives the entry point of the path.
   // False: the head cannot be written.
   [[nodiscard]] bool begin(const JournalHead& head, std::optional<JobEntry> entry = {});
   const std::optional<JobEntry>& entry() const { return entry_; }
-  // The run enters the path where it goes on, and its journal notes rests and probe moves. This outlives the run.
+  // The run enters the path at its entry point, and its journal records stop points and probe moves. This outlives the
+  // run.
   void add_to(request::Start& start);
   // False: something could not be written, so the job could not go on.
   bool is_written() const { return !writer_.failed(); }

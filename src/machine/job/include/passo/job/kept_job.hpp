@@ -1,8 +1,8 @@
 // KeptJob: the job that runs, kept so that the next program can go on with it; and the job of an earlier program that
 // was broken off.
 //
-// Place: below the API's JobRunner. The journal (decision 0047) tells where on its path a board may rest; the history
-// has the text of the job. A job that was broken off waits until somebody resumes it or drops it. See
+// Place: below the API's JobRunner. The journal (decision 0047) has the possible stop points of a board on the path;
+// the history has the text of the job. A job that was broken off waits until somebody resumes it or drops it. See
 // docs/decisions/0075.
 #pragma once
 
@@ -40,7 +40,7 @@ class KeptJob {
   KeptJob(const MachineDescription& machine, MachineSession& session, JobKeeper& keeper, JobHistory& history,
           OptionsOf options_of, Names names);
 
-  // Says what was found before the board was greeted. Goes through the program up to the place.
+  // Reports what was found before the handshake. Goes through the program up to the place.
   void find(const BrokenOff& found);
   // The same for a board that was lost and is greeted again. poll() finds the place later.
   void hear(const BoardStatus& status, const Greeting& greeting);
@@ -65,7 +65,7 @@ class KeptJob {
   [[nodiscard]] bool begin(Beginning job);
   // The same, to go on with the job that was broken off. False, with the reason in interrupted(): it cannot go on.
   [[nodiscard]] bool resume(std::uint64_t path);
-  // The way back onto the path of the job, from where the machine stands now.
+  // The path back to the job from the current position.
   Result<Reentry, ReentryProblem> reentry();
   // The same as resume(), by that way.
   [[nodiscard]] bool reenter(std::uint64_t path);
@@ -96,7 +96,7 @@ class KeptJob {
   JournaledRun run_;
   std::optional<InterruptedJob> interrupted_;
   std::optional<BrokenOff> heard_;
-  Point hello_at_;           // where the machine stood at the hello, as far as was known
+  Point hello_at_;           // the position at the handshake, as far as known
   bool is_compared_ = true;  // the switches were compared with the places before
 };
 

@@ -1,5 +1,4 @@
-// KeptPlace: where a board's machine stands, kept in a file of this computer (PlaceRecord) from one command to the
-// next.
+// KeptPlace: the machine position of a board, kept in a file (PlaceRecord) from one command to the next.
 #pragma once
 
 #include <optional>
@@ -16,7 +15,7 @@ class KeptPlace {
   explicit KeptPlace(std::string path);
 
   const std::string& path() const { return path_; }
-  // Where the machine stands, if that is sure. The status must be one at rest.
+  // The machine position, if it is certain. The status must be one at rest.
   Result<KnownPosition, PlaceDoubt> place(const MachineDescription& machine, const BoardStatus& status) const {
     return place_of(record_, machine, status);
   }
@@ -24,7 +23,7 @@ class KeptPlace {
   KnownPosition counted(const MachineDescription& machine, const BoardStatus& status) const;
   // Call it before the board hears the numbers, for what a board has heard it does not forget as long as it has power.
   // `zero_counts`: the board's count of each motor at machine zero. False: the file cannot be written, so the next
-  // program will not know where the machine stands. The record before is of no use after the numbers were told.
+  // program will not know the machine position. The record before is of no use after the numbers were told.
   [[nodiscard]] bool keep(const MachineDescription& machine, const KnownPosition& position,
                           const MotorSteps& zero_counts, const SessionNumbers& numbers);
 

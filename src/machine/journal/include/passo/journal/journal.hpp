@@ -1,15 +1,14 @@
-// Journal: what a restarted host must know to go on with a job. The journal tells which program the job runs and under
-// which numbers the board knows the job. For every place at which the board may have come to rest by itself, the
-// journal tells where on the path that place is.
+// Journal: the data with which a restarted host can continue a job. The journal tells which program the job runs and
+// under which numbers the board knows the job. For every point at which the board may have stopped by itself, the
+// journal has its location on the path.
 //
 // A journal is a text: a head, and a ring of lines of equal length, one for each rest that may still count. The head is
-// written when the session begins. A line is written before the refill is sent that makes its rest possible. So a host
-// that is killed at any instant leaves a journal that knows the rest to which the board comes. The head and each line
-// carry a check, so a torn write is noticed.
+// written when the session begins. A line is written before the queue update that makes its stop point possible is
+// sent. So a host that is killed at any instant leaves a journal that knows the rest to which the board comes. The head
+// and each line carry a check, so a torn write is noticed.
 //
-// The way of a program behind a probe move depends on what the probe has found. So the journal also has a line for each
-// outcome, at its end, in order. An outcome is on the disk before any motion goes on from there. See
-// docs/decisions/0101.
+// The path of a program after a probe move depends on the result. So the journal also has a line for each outcome, at
+// its end, in order. An outcome is on the disk before any motion goes on from there. See docs/decisions/0101.
 //
 // A session begins in four steps: the head is written, the board hears hello (and forgets the session before), the
 // board hears the session's number, and the board gets its first items. The host may be killed between any two of them.
@@ -103,7 +102,7 @@ class Journal {
   std::optional<PathPlace> place_of(const BoardStatus& status) const;
   // All of the path before this place is executed, whatever has become of the board.
   PathPlace done() const;
-  // Where the board comes to rest by itself, if it has got all that was sent.
+  // The stop point of the board, if it has received everything that was sent.
   PathPlace farthest() const;
   // Lines that were torn in writing.
   std::size_t torn() const { return torn_; }

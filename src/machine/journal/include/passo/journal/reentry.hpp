@@ -22,7 +22,7 @@ enum class ReentryRefusal : std::uint8_t {
   no_pass,       // the line is not done so often
   beyond_end,    // the path ends before that distance after the line
   other_file,    // a subprogram in another file has a line of that number too
-  after_probe,   // the way there depends on what a probe finds
+  after_probe,   // the path to that point depends on a probe result
   path_changed,  // the path has no such place
   in_thread,     // a thread begins only at its own beginning
   backlash,      // the machine takes up backlash: a path begins with it taken up
@@ -53,7 +53,7 @@ Result<ResumePoint, LineProblem> find_line(const ProgramReader& program, const M
 
 struct Reentry {
   ResumePoint at;
-  std::vector<PathItem> lead_in;   // from where the machine stands to the place; it ends at rest
+  std::vector<PathItem> lead_in;   // from the current position to that point; ends in a stop
   std::vector<std::string> steps;  // the same for people, in order
 };
 
@@ -69,11 +69,11 @@ std::optional<Box> range_between(ProgramReader program, const MachineDescription
 std::string words_of_shift(const MachineDescription& machine, const std::vector<HomedAxis>& homed, const Box& range,
                            const Point& went);
 
-// `from`: where the machine stands, machine coordinates.
+// `from`: the current position, machine coordinates.
 Result<Reentry, ReentryRefusal> plan_reentry(const MachineDescription& machine, const ResumePoint& at,
                                              const Point& from);
 
-// Both at once: the way to a point of the program from options.start, where the machine stands.
+// Both together: the path to a point of the program from options.start, the current position.
 Result<Reentry, LineProblem> reentry_at_line(const ProgramReader& program, const MachineDescription& machine,
                                              const InterpreterOptions& options, const LinePlace& wanted);
 

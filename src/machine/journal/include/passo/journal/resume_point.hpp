@@ -1,4 +1,4 @@
-// ResumePoint: a place on the path of a program from which a job goes on, and all that was set on the way there.
+// ResumePoint: a point on the path of a program at which a job continues, with all modes and settings there.
 //
 // The place is found by interpreting the program again: its meaning, and so its path, is the same each time.
 #pragma once
@@ -17,8 +17,8 @@
 
 namespace passo {
 
-// A probe move of which nobody knows what it has found: whoever drove the board was gone before its end. The probe
-// move is made again, from its beginning. The machine stands on the way of that move.
+// A probe move with an unknown result: the host was gone before its end. The probe move is made again, from its
+// beginning. The machine position is on the path of that move.
 struct UnknownProbe {
   Point end;  // of the move, machine coordinates
   MmPerSecond speed{0};
@@ -33,8 +33,8 @@ struct ResumePoint {
   // How long the program itself waited after it had switched the spindle, before it went on.
   Seconds spindle_wait{0};
   bool in_thread = false;  // the path there follows an encoder by place, and cannot begin there
-  std::uint32_t line = 0;  // the program's line where the job goes on; 0: at its end
-  // What the program asked for last, for the way there.
+  std::uint32_t line = 0;  // the program line at which the job continues; 0: at its end
+  // The last commanded state, for the path to that point.
   std::int32_t tool = 0;                   // of its last tool change; 0: there was none
   MmPerSecond feed{0};                     // 0: nothing was fed
   std::optional<double> clearance = {};    // the height of its last rapid across, machine coordinates
@@ -50,11 +50,11 @@ std::optional<ResumePoint> find_resume_point(ProgramReader program, const Machin
                                              const InterpreterOptions& options, const PathPlace& place,
                                              const std::vector<ProbeOutcome>& probes = {});
 
-// The way back to the point from where the machine stands on the way of an unknown probe move. Empty: it stands there.
+// The path back to the point from a position inside an unknown probe move. Empty: it stands there.
 std::vector<PathItem> way_back_of_probe(const ResumePoint& point, const Point& from);
 
 // A drive counts the items of a lead-in too, and the item amid which the path begins from there. Returns the rest as
-// places on the path of the job. Where the machine may rest in the lead-in, its path still begins at the point.
+// places on the path of the job. If the machine stops in the lead-in, its path still starts at the point.
 BoardRest without_lead_in(const ResumePoint& from, std::size_t lead_in, BoardRest rest);
 
 }  // namespace passo

@@ -1,7 +1,7 @@
 // SessionNumbers: the numbers by which a board is recognised, from before a session's hello until the next one.
 //
-// A host writes them down before it says hello. Then the host may be killed at any instant, and the next host can tell
-// from the board's status whether the board is the one that was written of.
+// A host stores them before the handshake. Then the host may be killed at any instant, and the next host can tell from
+// the board's status whether the board is the one that was written of.
 #pragma once
 
 #include <cstdint>
@@ -18,7 +18,7 @@ struct SessionNumbers {
     in_session,
   };
 
-  // The board's numbers before this session's hello, and the numbers that the board is told.
+  // The board's numbers before this session's hello, and its new numbers.
   std::uint16_t session_before = 0;
   std::uint16_t executed_before = 0;  // number of an item
   std::uint8_t greeting = 0;          // 0: no hello, the board hears only the session's number

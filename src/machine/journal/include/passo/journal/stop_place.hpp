@@ -1,9 +1,9 @@
-// find_stop(): where the path of a program goes on behind one of its stops (M0, M1, M6), with the offsets and tools
-// that count now.
+// find_stop(): the point at which the path of a program continues after one of its stops (M0, M1, M6), with the present
+// offsets and tools.
 //
 // While a program waits, a person may set another zero or measure a tool. The program is then interpreted again from
-// its beginning, with the new values, and goes on behind the same stop. What the program itself has set on the way
-// there would hide the new zero, so find_stop() tells it.
+// its beginning, with the new values, and goes on behind the same stop. Offsets set by the program before that point
+// would hide the new zero, so find_stop() reports them.
 #pragma once
 
 #include <cstdint>

@@ -1,4 +1,4 @@
-// MachineCounts: what a virtual machine has done so far. The counts come from the motors' pulses, not from any plan.
+// MachineCounts: the step statistics of a simulated machine. They are counted from the step pulses, not from the plan.
 #pragma once
 
 #include <array>
@@ -24,7 +24,7 @@ struct MachineCounts {
   Ticks time;                                  // the time of the last event
   std::int64_t events = 0;                     // with or without steps
   Ticks shortest_event_interval;               // gives the highest event rate; 0 before the first event
-  BoardOutputs outputs;                        // the outputs as they are now
+  BoardOutputs outputs;                        // the current outputs
   std::int64_t output_changes = 0;
 };
 

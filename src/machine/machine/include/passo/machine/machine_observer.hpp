@@ -1,4 +1,5 @@
-// MachineObserver: gets what a virtual machine does. Trace writers, counters and tests are observers.
+// MachineObserver: receives the steps and outputs of a simulated machine. Trace writers, counters and tests are
+// observers.
 #pragma once
 
 #include "passo/units/units.hpp"

@@ -1,8 +1,8 @@
-// VirtualLine: a serial line to a virtual machine, in the machine's virtual time. Bytes take time, and may be lost.
+// VirtualLine: a serial link to a simulated machine, in simulated time. Bytes take time, and may be lost.
 //
-// A cut swallows, in both directions, the bytes that are sent while the cut lasts and the bytes that are on the way
-// when it begins. Other trouble is a function of the user: the function sees every frame from the host and all that the
-// board says, and returns what arrives instead. Frames arrive as a whole, with their last byte.
+// While the link is cut, all bytes in both directions are lost, including those in transit when the cut begins. Other
+// faults are modelled by a function of the user, which gets every frame from the host and all bytes from the board, and
+// returns what arrives instead. A frame arrives with its last byte.
 #pragma once
 
 #include <cstdint>
@@ -19,19 +19,19 @@
 namespace passo {
 
 struct LineOptions {
-  double baud = 500'000;   // 10 bits a byte
-  Seconds latency{0.001};  // added to each way
+  double baud = 500'000;   // 10 bits per byte
+  Seconds latency{0.001};  // added in each direction
 };
 
 class VirtualLine final : public BoardPort {
  public:
   using Bytes = std::vector<std::uint8_t>;
-  // The machine outlives the line.
+  // The machine must outlive the link.
   VirtualLine(VirtualMachine& machine, Hertz clock, const LineOptions& options);
 
-  // Cuts the line from the time `from` on, for `time`.
+  // Cuts the link at the time `from`, for `time`.
   void cut(Seconds from, Seconds time);
-  // `spoil(to_board, bytes)` returns what is put on the line instead of `bytes`.
+  // `spoil(to_board, bytes)` returns the bytes that are transmitted instead of `bytes`.
   void set_trouble(std::function<Bytes(bool to_board, Bytes bytes)> spoil) { spoil_ = std::move(spoil); }
 
   void receive(std::span<const std::uint8_t> bytes) override;
@@ -44,7 +44,7 @@ class VirtualLine final : public BoardPort {
     std::int64_t due = 0;
     Bytes bytes;
   };
-  // One direction of the line.
+  // One direction of the link.
   struct Way {
     std::deque<Packet> packets;
     std::int64_t busy_until = 0;

@@ -1,10 +1,10 @@
-// VirtualMachine: the board's own program, with counters instead of motors and virtual time instead of a timer.
+// VirtualMachine: the simulated machine: the board's own program, with counters instead of motors and simulated time
+// instead of a timer.
 //
-// Place on the street: the end. Time is counted in ticks, passes only while the board plays, and stands still at rest.
-// The machine counts the steps that it commands, and drives a plant: pulses and the spindle's command go to the plant,
-// and the plant sets the input pins. A limit switch stops the machine as it stops a board. The same bytes give the same
-// counts at any speed. An observer sees each step. Cost: about 6 ns an event on a machine with three axes. Without
-// observers, and with an ideal plant whose inputs do not change, an event costs nothing more.
+// Position in the pipeline: the end. Time is counted in ticks, and passes only while the board executes motion. The
+// machine counts the steps that it commands, and drives a plant: pulses and the spindle's command go to the plant, and
+// the plant sets the input pins. A limit switch stops the simulated machine like a real board. The same bytes give the
+// same counts at any simulation speed. An observer gets each step. Cost: about 6 ns per event with three axes.
 #pragma once
 
 #include <array>
@@ -24,50 +24,51 @@ namespace passo {
 
 class VirtualMachine final : public BoardPort {
  public:
-  // As many as on a board with some kilobytes of memory.
+  // As on a board with a few kilobytes of memory.
   static constexpr std::size_t items_held = 240;
 
-  // `clock`: the rate of the board's timer, a whole number of hertz below 2^32. The board refuses segments faster than
-  // `highest_event_rate`; 0: it refuses none. `places`: places for items, at most items_held.
+  // `clock`: the board's timer frequency, a whole number of hertz below 2^32. The board rejects segments faster than
+  // `highest_event_rate`; 0: no limit. `places`: the length of the queue, at most items_held.
   VirtualMachine(std::uint8_t motors, Hertz clock, Hertz highest_event_rate = Hertz(0),
                  std::size_t places = items_held);
   VirtualMachine(const VirtualMachine&) = delete;
   VirtualMachine& operator=(const VirtualMachine&) = delete;
 
-  // The observer outlives the machine's last run().
+  // The observer must live until the last run().
   void add_observer(MachineObserver& observer) { hardware_.observers.push_back(&observer); }
 
-  // Connects a plant, at the start. The plant outlives the machine's last run(). Before connect() the machine has its
-  // own ideal plant, with nothing but motors and a spindle.
+  // Connects a plant, at the start. The plant must live until the last run(). Before connect(), the machine has an
+  // ideal plant with only motors and a spindle.
   void connect(Plant& plant);
-  // Closes or opens switches of the plant, and heeds the change at once. `which`: bits of BoardInput, except the
-  // probe's. If somebody else changes the plant, the machine sees the change in its next run().
+  // Closes or opens switches of the plant, with immediate effect. `which`: bits of BoardInput, except the probe's.
+  // Other changes of the plant take effect in the next run().
   void set_switch(std::uint16_t which, bool closed);
-  // Says how the plant's switches and drivers are connected to the board's pins, at the start. A host that says nothing
-  // of it then finds closed switches open.
+  // Sets how the plant's switches and drivers are connected to the board's pins, at the start. The pin set-up of the
+  // host must match it.
   void wire(const PinSetup& wiring);
-  // As a board that cannot make its events in time: the next event, and all after it, come so much later. In motion.
+  // Simulates a board that cannot make its events in time: delays the next event and all later ones. Call it during
+  // motion.
   void stand_still(Ticks time);
-  // As its reset button: the board forgets all, the motors stop where they are, and the outputs are off.
+  // Simulates the reset button: the board loses its state, the motors stop instantly, and the outputs are switched off.
   void reset_board();
 
   void receive(std::span<const std::uint8_t> bytes) override;
   [[nodiscard]] bool run(Seconds most) override;
-  // The same as run(), but until `time`. The greatest time stands for infinity.
+  // Like run(), but until `time`. The largest time means infinity.
   [[nodiscard]] bool run_to(Ticks time);
   std::span<const std::uint8_t> replies() override;
   Seconds elapsed() const override { return Seconds(static_cast<double>(hardware_.now) / clock_.value()); }
 
-  // Lets time pass at rest. Call only while the board has nothing to play.
+  // Lets time pass. Call it only while the board's queue is empty.
   void wait(Ticks time);
-  // The board's program, for tests that set its pins or make things happen to it.
+  // The board's program, for tests.
   auto& board() { return board_; }
 
-  // Sets, at the start, the positions from which the machine's counters go on. Nothing moves. The board's own counters
-  // begin at 0, as after a reset.
+  // Sets the initial positions of the machine's counters, at the start. Nothing moves. The board's own counters start
+  // at 0, as after a reset.
   void stand_at(const MotorSteps& positions);
 
-  // False: the motors hold nothing.
+  // False: the motors have no holding torque.
   bool drivers_on() const { return hardware_.drivers_on == hardware_.drivers_obey(); }
 
   Ticks now() const { return Ticks{hardware_.now}; }
@@ -91,7 +92,7 @@ class VirtualMachine final : public BoardPort {
     void send(std::uint8_t byte) { to_host.push_back(byte); }
     void enable() { drivers_on = true; }
     void release() { drivers_on = false; }
-    // Its pulses are as long as wanted, and cost no events.
+    // Step pulses have the requested length, and do not limit the event rate.
     PinSetup set_up(const PinSetup& wanted) {
       is_new_setup = true;
       setup = wanted;
@@ -103,7 +104,7 @@ class VirtualMachine final : public BoardPort {
     static bool can_watch(std::uint8_t /*limits*/) { return true; }
     bool has_encoder() const { return plant->spindle().has_encoder(); }
     SpindleCount spindle() const;
-    // Gives the plant the pulses that it has not been told yet.
+    // Passes the pending pulses to the plant.
     void pulse_plant();
     Seconds time() const { return Seconds(static_cast<double>(now) * seconds_a_tick); }
 
@@ -115,17 +116,17 @@ class VirtualMachine final : public BoardPort {
     double seconds_a_tick = 0;
     std::vector<MachineObserver*> observers;
     Plant* plant = nullptr;
-    PinSetup setup;   // what the host has said of the pins
-    PinSetup wiring;  // what is true of them
+    PinSetup setup;   // the pin set-up of the host
+    PinSetup wiring;  // the actual connections
     bool drivers_on = true;
     bool is_new_setup = false;
-    // Whether the drivers take the board's enable for what it is meant.
+    // Whether the active level of the enable output is the same in both.
     bool drivers_obey() const { return ((setup.outputs ^ wiring.outputs) & inverted_enable) == 0; }
-    MotorSteps pulsed{};  // the positions up to which the plant has been told
+    MotorSteps pulsed{};  // the positions passed to the plant so far
     std::vector<std::uint8_t> to_host;
   };
 
-  // Lets the board count its host's silence up to now.
+  // Updates the board's measurement of the host's silence.
   void count_silence();
   void update_inputs();
   void check_inputs();
@@ -137,8 +138,8 @@ class VirtualMachine final : public BoardPort {
   Board<Hardware, items_held> board_;
   Hertz clock_;
   std::uint8_t motor_count_;
-  std::int64_t look_in_ = Plant::never;  // the number of events until the plant must be asked for its inputs
-  std::uint16_t told_ = 0;               // the inputs last told to the board
+  std::int64_t look_in_ = Plant::never;  // the number of events until the plant's inputs must be read
+  std::uint16_t told_ = 0;               // the inputs last passed to the board
   std::int64_t tenth_;                   // ticks in a tenth of a second
   std::int64_t next_tenth_;
   std::int64_t next_event_ = 0;

@@ -2,9 +2,9 @@
 //
 //     J φ'' = share · pull-out(φ') - friction         J: rotor, load and slide, as felt at the shaft
 //
-// `share` is the greatest part of pull-out that the motor is asked for, friction included. The rest is kept for what
-// the file does not know: resonance, a warm winding, a supply that sags. For braking, where friction helps, the same
-// acceleration is allowed.
+// `share` is the largest fraction of the pull-out torque that is used, including friction. The remainder is a margin
+// for what the file does not describe: resonance, warm windings, a weak supply. The same limit applies to braking,
+// although friction helps there.
 #pragma once
 
 #include <optional>
@@ -14,30 +14,29 @@
 
 namespace passo {
 
-// The electrical half of a motor. A motor that is known by measured torque has none.
+// The electrical data of a motor. A motor with a measured torque curve has none.
 struct DrivenMotor {
   MotorData data = {};
   MotorDrive drive = {};
 };
 
-// The torque of a motor of the shelf differs from its data sheet by up to this share, where the file tells nothing
-// else.
+// The default tolerance: the torque of a standard motor differs from its data sheet by up to this fraction.
 inline constexpr double usual_tolerance = 0.15;
 
 struct AxisMotor {
   TorqueCurve curve;
-  Load load = {};  // everything that turns, except the rotor
+  Load load = {};  // all inertia and friction, except the rotor's
   double share = 0.7;
   double tolerance = usual_tolerance;
-  bool limits_motion = true;    // false: the axis has constant acceleration, and its motor is only checked
-  double radians_per_unit = 0;  // radians of the shaft for each millimetre or degree of the axis
+  bool limits_motion = true;    // false: the acceleration is constant, and the motor's torque is only checked
+  double radians_per_unit = 0;  // radians of the shaft per millimetre or degree of the axis
   std::optional<DrivenMotor> driven = {};
   NewtonMetres detent = {};
-  NewtonMetres weight = {};  // pulls towards the low end of the travel, as felt at the shaft
+  NewtonMetres weight = {};  // torque at the shaft towards the low end of the travel
 
-  // The acceleration at a speed. 0 where no torque is left. It never rises with the speed.
+  // The acceleration at a speed; 0 if no torque is left. It never rises with the speed.
   MmPerSecond2 acceleration_at(MmPerSecond speed) const;
-  // The highest speed at which `least` is left.
+  // The highest speed at which an acceleration of `least` is possible.
   MmPerSecond fastest_with(MmPerSecond2 least) const;
 };
 

@@ -21,7 +21,7 @@ struct OptionSection {
   std::vector<std::string> words;  // as on a command line: "--tool", "1,0.2"
 };
 
-// The tables must be of the names that are `known`. Empty if there is an error: those of TOML are "machine.…", others
+// `known`: the permitted names of tables. Empty if there is an error: TOML errors have codes "machine.…", others
 // "profile.…".
 std::optional<std::vector<OptionSection>> read_option_profile(const std::string& path,
                                                               const std::vector<std::string>& known,

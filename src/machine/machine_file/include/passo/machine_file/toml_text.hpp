@@ -1,5 +1,5 @@
-// TomlText: the text of a machine file, in which values can be set. All that is not set stays as it is, byte for byte:
-// comments, order, spaces, ends of lines.
+// TomlText: edits values in the text of a machine file. Everything else stays as it is, byte for byte: comments, order,
+// spaces, line ends.
 //
 //   max_velocity_mm_s = 200     # 2400 turns a minute        set("axis.X.max_velocity_mm_s", 85.5)
 //   max_velocity_mm_s = 85.5    # 2400 turns a minute        the comment stays in its column, if there is room
@@ -7,8 +7,8 @@
 // A key that the file does not have is written below the last key of its table. A table that the file does not have is
 // written at the end of the file.
 //
-// Invariant: the text is TOML. A value that cannot be set leaves the text as it was. Whether the file still describes a
-// sound machine is for parse_machine() to say.
+// Invariant: the text is valid TOML. A failed change leaves the text as it was. Whether the file is still a valid
+// machine file is checked by parse_machine().
 #pragma once
 
 #include <cstdint>
@@ -30,8 +30,8 @@ class TomlText {
   // Numbers must be finite. A list of numbers is written on one line.
   using Setting = std::variant<double, bool, std::string, std::vector<double>>;
 
-  // `text`: a file that parse_machine() has accepted. (Other files need a bound for the depth of their keys, which the
-  // TOML library does not have.)
+  // `text`: a file that parse_machine() has accepted. (The TOML library has no limit for the depth of keys, so other
+  // files would need one.)
   static Result<TomlText, TomlTextError> read(std::string text);
 
   // `path`: the key with its tables, "axis.X.max_velocity_mm_s". Its parts are letters, digits, '_' and '-'.
@@ -39,7 +39,7 @@ class TomlText {
 
   const std::string& text() const { return text_; }
 
-  // All values that could be set, by their paths, in the order of the file. Others are left out: lists of lists, dates.
+  // All editable values by their paths, in the order of the file; without others such as lists of lists and dates.
   struct Value {
     std::string path;
     Setting setting;

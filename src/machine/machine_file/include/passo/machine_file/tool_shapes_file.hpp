@@ -26,7 +26,7 @@ namespace passo {
 
 using ToolShapes = std::map<std::int32_t, ToolShape>;  // by the tool's number, 0 to 99999
 
-// Empty: something is wrong with the file. `diagnostics` has all of it.
+// Empty: the file has errors, which are in `diagnostics`.
 std::optional<ToolShapes> read_tool_shapes(const std::string& path, Diagnostics& diagnostics);
 std::optional<ToolShapes> parse_tool_shapes(std::string_view text, const std::string& file, Diagnostics& diagnostics);
 

@@ -1,5 +1,5 @@
-// Excitation: what a step of a motor's driver does to the windings: which outputs carry current, the current of both
-// phases, and where an unloaded rotor comes to rest.
+// Excitation: the effect of a driver's step on the windings: the active outputs, the current of both phases, and the
+// angle at which an unloaded rotor stops.
 //
 //   two on       1100 0110 0011 1001   both phases at full current: 1.4 times the torque, for twice the power
 //   wave         1000 0100 0010 0001   one phase at a time
@@ -36,7 +36,7 @@ class Excitation {
   int steps_per_full_step() const { return steps_; }
   // Microsteps: the currents are sines.
   bool is_sine() const { return kind_ == Kind::microsteps; }
-  // Degrees that an unloaded rotor has turned at `place`, from where it stood at place 0.
+  // The angle of an unloaded rotor at `place`, relative to place 0, in degrees.
   double rotor_degrees(std::int64_t place, std::int32_t full_steps_per_turn) const;
   const std::string& name() const { return name_; }
 

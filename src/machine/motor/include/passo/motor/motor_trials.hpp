@@ -1,6 +1,6 @@
 // Motor trials: what a motor does on the test bench, tried out with its physics instead of computed from a formula.
 //
-// Rates are full steps a second, whatever the driver makes of a step. The load is the setup's. Each trial is a run of a
+// Rates are in full steps/s, independent of microstepping. The load is the setup's. Each trial is a run of a
 // RunningMotor from rest, so the same setup gives the same numbers.
 #pragma once
 

@@ -36,7 +36,7 @@ class TorqueBand {
   // passed their checks.
   TorqueBand(const MotorSetup& setup, double tolerance);
 
-  // Tries where the motor swings, at rates up to `fastest`. Without trials while_steady() is that of the curve.
+  // Finds the rates up to `fastest` at which the motor resonates. Without trials while_steady() is that of the curve.
   void try_steady(RadiansPerSecond fastest);
   bool tried() const { return !tried_.empty(); }
 

@@ -84,7 +84,7 @@ class TorqueCurve {
   // without friction, a winding whose own current can cancel its flux goes on for ever, with ever less torque.
   std::optional<RadiansPerSecond> fastest_speed(const Load& load) const;
   // margin · (pull-out − friction) / (rotor's + load's inertia), never negative. `margin`, 0…1, is the share of the
-  // torque to use. The rest is kept for what the model leaves out.
+  // torque to use. The remainder is a margin for effects outside the model.
   RadiansPerSecond2 available_acceleration(RadiansPerSecond speed, const Load& load, double margin = 1) const;
 
  private:

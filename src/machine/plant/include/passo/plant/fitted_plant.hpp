@@ -1,7 +1,7 @@
 // FittedPlant: what every plant of this project has: screws, switches, bodies for the probe, and a spindle. How its
 // motors obey is left to the kinds of plants.
 //
-// Switches and the probe see the slides. A slide without a screw stands where its motor stands.
+// Switches and the probe see the slides. A slide without a screw model has the position of its motor.
 #pragma once
 
 #include "passo/plant/plant.hpp"

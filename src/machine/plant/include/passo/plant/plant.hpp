@@ -1,9 +1,9 @@
 // Plant: the world behind a board: the motors and what they move, the switches, the probe and what it touches, and the
 // spindle.
 //
-// Place on the street: after the board, which is the street's end. A board drives the plant: step pulses and the
-// spindle's command go in, and the states of the board's input pins come out. A board knows what it commanded; only the
-// plant knows what is true. The virtual machine and the emulated boards drive the same kind of plant. Behind a real
+// Position in the pipeline: after the board, which is its end. A board drives the plant: step pulses and the spindle's
+// command go in, and the states of the board's input pins come out. A board knows the commanded positions; only the
+// plant knows the true ones. The virtual machine and the emulated boards drive the same kind of plant. Behind a real
 // board is the real world.
 //
 // Invariants: `time` is the board's own time, from any start, and never goes back. Positions are counted from the true

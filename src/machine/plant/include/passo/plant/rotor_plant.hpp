@@ -1,5 +1,5 @@
-// RotorPlant: a plant whose motors obey physics. A motor that is asked for too much loses steps, and the plant tells
-// when, which motor and how many.
+// RotorPlant: a plant whose motors obey physics. An overloaded motor loses steps, and the plant reports the time, the
+// motor and the number.
 //
 // Each motor with a setup is a BoundedMotor, integrated in full where its bound does not hold. A motor without a setup
 // does at once all that it is told, as in an ideal plant. Positions are the rotors' own, so switches and the probe act
@@ -120,7 +120,7 @@ class RotorPlant final : public FittedPlant {
   Seconds next_disturbance_{HUGE_VAL};  // when one begins or ends next
   Seconds now_{0};
   std::size_t fitted_ = 0;         // one more than the last motor that has physics
-  bool is_close_ = true;           // every rotor that turned is close to where it was told to go
+  bool is_close_ = true;           // every rotor that turned is close to its commanded position
   std::int64_t quiet_pulses_ = 0;  // pulses until the switches must follow again
 };
 

@@ -24,7 +24,7 @@ struct ScrewModel {
   // than a hundredth of the way.
   std::vector<Error> errors = {};
 
-  // Where the slide stands if the nut is at that place.
+  // The position of the slide for a position of the nut.
   double slide_at(double nut) const;
 };
 
@@ -36,7 +36,7 @@ class Screws {
   bool any() const { return !fitted_.empty(); }
   // Whether every pulse counts: a sum of pulses may hide a reversal.
   bool any_backlash() const;
-  // Moves the nuts, and tells where the slides are.
+  // Moves the nuts, and returns the positions of the slides.
   void follow(const MotorPositions& motors, MotorPositions& slides);
   // Puts the motors at other places, with the backlash taken up as in fit().
   void stand_at(const MotorPositions& motors, MotorPositions& slides);

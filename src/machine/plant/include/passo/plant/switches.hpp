@@ -24,8 +24,8 @@ class Switches {
   void add(TouchSurface surface) { surfaces_.push_back(std::move(surface)); }
   // Closes or opens switches by hand. `which`: bits of BoardInput.
   void set(std::uint16_t which, bool closed);
-  // Tells where the motors are at `time`. The caller may not leave out a position where a switch would close or open.
-  // A board sees a bounce at the times at which it looks.
+  // Sets the motor positions at `time`. The caller may not leave out a position where a switch would close or open. A
+  // board sees a bounce at the times at which it looks.
   void follow(Seconds time, const MotorPositions& positions);
 
   // The closed inputs at the time last given to follow(), as bits of BoardInput.

@@ -13,7 +13,7 @@ namespace passo {
 
 struct SpindleModel {
   std::int32_t counts_per_turn = 0;  // of the encoder; 0: there is no encoder
-  double run_up = 0;                 // seconds from rest to 1000 revolutions a minute; 0: at once
+  double run_up = 0;                 // seconds from standstill to 1000 rpm; 0: immediately
   double droop = 0;                  // the part of the commanded speed that is missing
   double ripple = 0;                 // the part of the speed by which the speed goes up and down
   double ripple_rate = 0;            // ripples a second

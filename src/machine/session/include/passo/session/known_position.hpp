@@ -1,4 +1,4 @@
-// KnownPosition: where a machine stands, and how far that position can be trusted.
+// KnownPosition: the position of a stopped machine, and how certain it is.
 #pragma once
 
 #include <cstdint>
@@ -9,10 +9,10 @@
 namespace passo {
 
 enum class Trust : std::uint8_t {
-  unknown,    // nobody knows: the machine was never homed, or the motors were stopped at once
-  commanded,  // the board has played what was sent, as far as the host knows
-  counted,    // the board's counts agree with what was commanded
-  homed,      // counted, from a place that the switches have shown; axes without a switch: from a known place
+  unknown,    // the machine was never homed, or the motors were stopped instantly
+  commanded,  // all sent items are reported as executed
+  counted,    // the board's step counts agree with the commanded position
+  homed,      // counted from a homed position; axes without a switch: from a known position
 };
 constexpr std::string_view name_of(Trust trust) {
   switch (trust) {
@@ -27,9 +27,9 @@ constexpr std::string_view name_of(Trust trust) {
 struct KnownPosition {
   Point place;  // machine coordinates
   Trust trust = Trust::unknown;
-  AxisSet downs = {};  // the axes whose backlash is taken up for motion down; none, unless a motion was stopped
-  // With Trust::unknown: counting has been broken off, so work offsets of before are wrong. False: nobody has ever
-  // known where machine zero is, and the counts have gone on.
+  AxisSet downs = {};  // the axes whose backlash is taken up for downward motion; none, unless a motion was stopped
+  // With Trust::unknown: step counting was interrupted, so earlier work offsets are wrong. False: machine zero was
+  // never known, and counting has continued.
   bool is_lost = false;
   friend bool operator==(const KnownPosition&, const KnownPosition&) = default;
 };

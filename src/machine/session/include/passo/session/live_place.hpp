@@ -1,4 +1,4 @@
-// LivePlace: where the machine is while it moves, as its board tells now and then, and how fast.
+// LivePlace: position and speed of a moving machine, from the board's occasional reports.
 #pragma once
 
 #include <algorithm>
@@ -18,7 +18,7 @@ class LivePlace {
     at_ = place;
     speed_ = MmPerSecond(0);
   }
-  // The board has told at that time that the machine is there. Without a time between, the speed stays.
+  // Processes a reported position and its time. Without a time difference, the speed is kept.
   void hear(const Point& place, Seconds time) {
     const Seconds since = time - heard_;
     if (since > Seconds(0)) speed_ = Mm(distance(at_, place)) / since;
@@ -27,7 +27,7 @@ class LivePlace {
   }
   bool is_news(Seconds time) const { return time != heard_; }
 
-  // Whether the board is to be asked again. Whoever asked last counts: a board has little time to answer amid dense
+  // Whether to query the board again. Other queries count too, because a board has little time to answer during dense
   // motion.
   bool is_due(Seconds now, std::optional<Seconds> answered, Seconds between) const {
     return now - std::max(asked_, answered.value_or(asked_)) >= between;

@@ -1,13 +1,13 @@
-// MachineSession: the object that stands for the machine. Everything that moves a machine goes through its session.
+// MachineSession: represents the machine for all clients. Everything that moves a machine goes through its session.
 //
-// Requests go in; a status and an ordered list of changes come out. The session owns the board's session, the work that
-// the machine is busy with, and the position with its trust. A session waits for nothing, and has no thread and no
-// clock. Its owner calls poll() again and again, in the board's virtual time or in real time.
+// Requests go in; a status and an ordered list of changes come out. The session owns the board's session, the current
+// activity, and the position with its trust. A session never blocks, and has no thread and no clock. Its owner calls
+// poll() repeatedly, in the board's simulated time or in real time.
 //
 //   owner:  session.request(…);  while (…) { session.poll(Seconds(0.02));  session.status();  session.take_changes(); }
 //
 // Invariants: the state changes only as the table in machine_state.hpp says. A position whose trust is not `unknown` is
-// as true as the board's counts. Each request is answered exactly once.
+// as accurate as the board's counts. Each request is answered exactly once.
 #pragma once
 
 #include <cstdint>
@@ -32,46 +32,44 @@
 namespace passo {
 
 struct SessionOptions {
-  // True: the board is at the end of a line. The motion that it holds always ends at rest, its counts are compared with
-  // what was commanded, and its buttons and its door are heeded. False: the board is in this process.
+  // True: the board is connected by a link. Its queue always ends in a stop, its counts are compared with the commanded
+  // position, and its buttons and door switch are used. False: the board is in this process.
   bool over_a_line = false;
   LineCare care = {};
   Greeting greeting = {};    // the session sets `motors`
-  bool tells_place = false;  // the board is asked where it stands, also in motion, for MachineStatus::now_at
-  KnownPosition start = {};  // where the machine stands, as far as the owner knows
-  // No program begins where the place is lost or, on a machine that can home all axes, not known.
+  bool tells_place = false;  // the board's position is queried even during motion, for MachineStatus::now_at
+  KnownPosition start = {};  // the position as known to the owner
+  // Programs do not start while the position is lost or, on a machine that can home all axes, unknown.
   bool needs_place = false;
 };
 
 class MachineSession {
  public:
-  // `machine` and `port` outlive the session. The session sends nothing to the board before greet() or the first
-  // poll().
+  // `machine` and `port` must outlive the session. It sends nothing to the board before greet() or the first poll().
   MachineSession(const MachineDescription& machine, BoardPort& port, const SessionOptions& options = {});
   ~MachineSession();
   MachineSession(const MachineSession&) = delete;
   MachineSession& operator=(const MachineSession&) = delete;
 
-  // The board's session, for questions to the board before the first poll(). These questions change nothing on the
-  // board.
+  // The board's session, for queries before the first poll(), which change nothing on the board.
   BoardSession& board() { return board_; }
   const BoardSession& board() const { return board_; }
-  // Says where the machine stands, before greet() or the first poll(), if that depends on the board's status.
+  // Sets the position before greet() or the first poll(), if it depends on the board's status.
   void start_at(const KnownPosition& position) { place_.start_at(position); }
-  // Greets the board before the first poll(), if the greeting depends on the board's status. Otherwise the greeting
-  // comes from SessionOptions.
+  // Starts the handshake before the first poll(), if its parameters depend on the board's status. Otherwise they come
+  // from SessionOptions.
   void greet(const Greeting& greeting);
   // Gives the board another session number, between two programs.
   void name_session(std::uint16_t number);
-  // Before each further hello over a line, after a reset: the listener gets the board's status, and the greeting that
-  // follows.
+  // The listener is called before each later handshake (after a reset), with the board's status and the parameters of
+  // the handshake.
   void listen_before_hello(std::function<void(const BoardStatus&, const Greeting&)> listener) {
     before_hello_ = std::move(listener);
   }
 
   [[nodiscard]] Result<Ticket, Refusal> request(Request wanted);
-  // Does one bounded step. Where the session can only wait for the board, time passes until there is news, but no
-  // longer than `most`. `most` may be endless only while something moves.
+  // Performs one bounded step. If the session can only wait for the board, time passes until there is news, but at most
+  // `most`, which may be infinite only while something moves.
   void poll(Seconds most);
 
   MachineStatus status() const;
@@ -79,30 +77,30 @@ class MachineSession {
   MachineState state() const { return state_; }
   // The board's time.
   Seconds now() const { return board_.now(); }
-  // Something is going on, or rests and goes on later.
+  // An activity is running or held.
   bool busy() const;
-  // Why this board cannot drive the machine, as a sentence without a full stop.
+  // The reason why this board cannot control the machine, as a sentence without a full stop.
   const std::string& trouble_words() const { return trouble_.words; }
 
-  // What is going on, or else what ended last, for reports. Null: nothing of this kind.
+  // The current or else the last activity, for reports. Null: none of this kind.
   const MotionDrive* drive() const;
   const Program* program() const;
   const HomingPath* homing() const;
   const RefillLedger* ledger() const;
-  // How the board's counts differed from what was commanded, if they did. The position is then lost.
+  // The difference between the board's counts and the commanded position, if any. The position is then lost.
   const std::optional<CountMismatch>& mismatch() const { return place_.mismatch(); }
-  // Over a line, when the machine is ready: the board's counts at machine zero.
+  // With a board on a link, when the machine is ready: the board's counts at machine zero.
   const std::optional<MotorSteps>& zero_counts() const { return place_.zero_counts(); }
-  // Why no program may begin, as far as the board's switches tell: a limit switch is closed, so the board would not
-  // stop at that end any more. Empty: nothing is in the way.
+  // The reason why no program may start because of the switches: a closed limit switch can no longer stop the board at
+  // that end. Empty: none.
   std::optional<Refusal> closed_limit() const;
-  // The same, where a program needs to know where the machine stands (SessionOptions::needs_place). A jog is possible.
+  // The same for an unknown or lost position (SessionOptions::needs_place). Jogging is possible.
   std::optional<Refusal> lost_place() const;
 
  private:
   class Work;
   class Panel;
-  // What keeps the machine from working until a reset.
+  // An error that blocks the machine until a reset.
   struct Trouble {
     std::optional<LinkError> error = {};  // none: the board does not suit the machine
     std::string words = {};
@@ -139,7 +137,7 @@ class MachineSession {
   StepOptions step_options() const;
 
   void put_on_drive(Work& work, const DriveOptions& options, bool knows_ahead);
-  // The clock by which it is told what the board executes.
+  // The clock of the board's executed motion.
   Seconds clock_of(const Work& work) const;
 
   void go_online(Seconds most);
@@ -182,19 +180,19 @@ class MachineSession {
   std::function<void(const BoardStatus&, const Greeting&)> before_hello_;
   MachineState state_ = MachineState::offline;
   bool greeted_ = false;
-  bool asks_place_ = false;    // the board is asked for its place before another hello
-  bool switches_off_ = false;  // after another hello: what was going on may have left something on
+  bool asks_place_ = false;    // the board's position is queried before another handshake
+  bool switches_off_ = false;  // after another handshake: the interrupted activity may have left outputs on
   TrackedPlace place_;
-  std::unique_ptr<Work> work_;  // what is going on, or what ended last
+  std::unique_ptr<Work> work_;  // the current or the last activity
   std::unique_ptr<Panel> panel_;
   Overrides overrides_;
   ChosenStops stops_;
   LivePlace live_place_;  // for tells_place
   Trouble trouble_;
   std::deque<MachineChange> changes_;
-  std::vector<Ticket> waiting_holds_;  // answered when the machine rests
+  std::vector<Ticket> waiting_holds_;  // answered when the machine is stopped
   Ticket last_ticket_ = 0;
-  Seconds enabled_at_{0};  // when the board was greeted last, and with that its drivers were enabled
+  Seconds enabled_at_{0};  // time of the last handshake, which enables the drivers
   std::uint64_t version_ = 0;
 };
 

@@ -1,6 +1,6 @@
-// MachineState: what a machine is doing, and the one table of transitions between states.
+// MachineState: the state of a machine, and the table of all transitions between states.
 //
-// The table is data. MachineSession follows the table, docs/machine-states.md is made from it, and a test walks each
+// The table is data. MachineSession follows it, docs/machine-states.md is generated from it, and a test checks each
 // cell. A transition that is not in the table does not exist: the session refuses a request that would need it.
 #pragma once
 
@@ -13,40 +13,40 @@
 namespace passo {
 
 enum class MachineState : std::uint8_t {
-  offline,      // no board has answered yet, or the next hello is on its way
-  idle,         // at rest, ready
+  offline,      // no board has answered yet, or a handshake is in progress
+  idle,         // stopped and ready
   run,          // a program runs
-  hold,         // a program brakes or rests, for the operator's hold or the program's stop (M0, M1)
+  hold,         // a program is held or stopped, by the operator or by the program (M0, M1)
   jog,          // the operator moves axes
-  home,         // the machine finds its place by switches
-  probe,        // one probe move is made
+  home,         // the machine finds its position with the switches
+  probe,        // a probe move
   tool_change,  // a program waits for another tool (M6)
   await_line,   // a program that comes line by line waits for its next line
   check,        // a program is checked without motion
-  door,         // the door is open, or was open and nobody has pressed start since
-  alarm,        // the motors were stopped at once: the place is not certain
-  fault,        // the board does not answer, or does not suit
-  sleep,        // at rest; only waking is accepted
+  door,         // the door is open, or was opened and start has not been pressed since
+  alarm,        // the motors were stopped instantly, so the position is unreliable
+  fault,        // the board does not answer, or does not suit the machine
+  sleep,        // stopped; only waking is accepted
 };
 inline constexpr std::size_t state_count = 14;
 
 enum class MachineEvent : std::uint8_t {
-  ready,  // the board has answered the hello
+  ready,  // the handshake is complete
   begin_run,
   begin_jog,
   begin_home,
   begin_probe,
   begin_check,
-  hold,       // somebody asks for a hold, or the program does (M0, M1)
-  resume,     // no reason to rest is left
+  hold,       // a hold is requested by a client or by the program (M0, M1)
+  resume,     // no hold reason is left
   want_tool,  // the program comes to a tool change
-  want_line,  // the program comes to its end for now: the next line has not come yet
+  want_line,  // the program has no further line yet
   open_door,
-  close_door,    // the door closes, and nothing was going on
-  end,           // what was going on is done, or was stopped
+  close_door,    // the door closes, and there is no activity
+  end,           // the activity has ended or was stopped
   stop_at_once,  // a limit, an emergency stop: steps may be lost
   lose_board,    // no answer, a reset, another protocol
-  reset,         // begin again with a hello
+  reset,         // start again with a handshake
   fall_asleep,
   wake,
 };
@@ -58,17 +58,17 @@ struct Transition {
   MachineState to;
 };
 
-// What is true in a state, whatever led to it.
+// The properties of a state, whatever led to it.
 struct StateRow {
   MachineState state;
-  std::string_view name;     // as people and status lines read it
-  bool has_activity;         // something is going on, or is held and goes on later
-  bool may_move;             // motors may turn; in all other states the machine rests
-  bool program_has_outputs;  // spindle and coolant are as the program says; in all other states they are off
+  std::string_view name;     // as shown to users and in status lines
+  bool has_activity;         // an activity is running or held
+  bool may_move;             // motors may turn; in all other states the machine is stopped
+  bool program_has_outputs;  // spindle and coolant are as programmed; in all other states they are off
 };
 
-// In a fault, and after it until the board has answered, nobody knows: a board that the host cannot hear plays its tail
-// to the end, and keeps its outputs. An open door may have stopped something, or nothing.
+// In a fault, and after it until the board has answered, this is unknown: a board without a connection plays its stop
+// ramp to the end, and keeps its outputs. An open door may have stopped an activity, or nothing.
 inline constexpr std::array<StateRow, state_count> state_rows = {{
     {MachineState::offline, "Offline", false, true, true},
     {MachineState::idle, "Idle", false, false, false},
@@ -184,7 +184,7 @@ constexpr std::string_view name_of(MachineState state) {
 }
 std::string_view name_of(MachineEvent event);
 
-// The page docs/machine-states.md: the drawing, and the two tables.
+// The text of docs/machine-states.md: the diagram, and the two tables.
 std::string state_page();
 
 }  // namespace passo

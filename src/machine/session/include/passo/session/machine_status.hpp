@@ -1,5 +1,4 @@
-// MachineStatus: all that there is to know of a machine at one moment, as a value. MachineChange: one thing that has
-// happened since.
+// MachineStatus: the whole state of a machine at one moment, as a value. MachineChange: an event since then.
 #pragma once
 
 #include <cstdint>
@@ -24,21 +23,21 @@ struct Overrides {
   friend bool operator==(const Overrides&, const Overrides&) = default;
 };
 
-// Where programs wait for a person.
+// Where programs wait for the operator.
 struct ChosenStops {
   bool single_block = false;
   bool optional_stop = true;
   friend bool operator==(const ChosenStops&, const ChosenStops&) = default;
 };
 
-// What the program waits for.
+// The stop at which a program waits.
 struct OperatorWait {
   Action::Kind kind = Action::Kind::program_stop;
   std::int32_t tool = 0;   // the tool, for a tool change
   std::uint32_t line = 0;  // the program's line
-  // Which of the program's stops and tool changes, from 1; 0: not known.
+  // The number of the stop or tool change in the program, from 1; 0: unknown.
   std::uint64_t number = 0;
-  std::string words = {};  // what the program says there, line by line; empty: nothing
+  std::string words = {};  // the program's message at that point, line by line; empty: none
   friend bool operator==(const OperatorWait&, const OperatorWait&) = default;
 };
 constexpr const char* code_of(const OperatorWait& wait) {
@@ -50,19 +49,19 @@ struct MachineStatus {
   std::uint64_t version = 0;  // grows with each change
   Seconds time{0};            // on the board's side
   MachineState state = MachineState::offline;
-  HoldReasons holds;         // why the machine rests or brakes
-  bool rests = true;         // no motion is under way
-  KnownPosition position;    // at rest: where the machine stands; in motion: where it last rested
-  bool lost_place = false;   // MachineSession::lost_place(): no program begins
-  Point now_at;              // with SessionOptions::tells_place: where the board has last told that it is
-  MmPerSecond speed_now{0};  // along the path, between the last two such places
-  Point ahead;               // in motion: the end of what has been planned
+  HoldReasons holds;         // why the machine is held
+  bool rests = true;         // the machine is stopped
+  KnownPosition position;    // the position; during motion: that of the last stop
+  bool lost_place = false;   // MachineSession::lost_place(): no program can start
+  Point now_at;              // with SessionOptions::tells_place: the last reported position
+  MmPerSecond speed_now{0};  // along the path, between the last two reported positions
+  Point ahead;               // during motion: the end of the planned motion
   std::optional<ActivityKind> activity;
   std::optional<double> progress;  // of the activity, 0 to 1
-  Seconds committed{0};            // time of the motion that nothing can change any more
+  Seconds committed{0};            // duration of the motion that can no longer be changed
   std::uint16_t inputs = 0;        // bits of BoardInput: the closed inputs
-  OutputState outputs;             // the outputs as the program and the operator have ordered them
-  OperationSource executes;        // in a program: the line that is being executed, as far as is known
+  OutputState outputs;             // the outputs as commanded by the program and the operator
+  OperationSource executes;        // in a program: the executed line, as last reported
   Overrides overrides;
   ChosenStops stops;
   std::optional<OperatorWait> waits_for;
@@ -75,8 +74,8 @@ struct MachineStatus {
 // The result of a request.
 enum class Outcome : std::uint8_t {
   done,
-  stopped,  // somebody asked to stop, or a lease was over
-  failed,   // the fault tells why
+  stopped,  // by a request, or because a keep-alive timeout expired
+  failed,   // the fault gives the reason
 };
 
 struct MachineChange {
@@ -84,8 +83,8 @@ struct MachineChange {
     state,           // the machine is now in `state`
     answered,        // the request of `ticket` has ended with `outcome`
     came_to_rest,    // in a hold
-    rested_by_tail,  // the board rested because a refill came too late; the path goes on
-    position_lost,   // the board's counts differ from what was commanded
+    rested_by_tail,  // the board stopped because a queue update came too late; the path continues
+    position_lost,   // the board's counts differ from the commanded position
     probed,          // a probe move has ended
   };
   Kind kind = Kind::state;

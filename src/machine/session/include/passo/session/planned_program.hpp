@@ -1,7 +1,7 @@
-// PlannedProgram: the whole motion of a program that was checked, as the session would plan it for a run without
-// changes in mid-run. For all who want to know of it before, or without, a run.
+// PlannedProgram: the whole motion of a checked program, as the session would plan it for a run without changes. It is
+// for views and reports before, or without, a run.
 //
-// Place: beside the session, and made of the same stages: program, backlash, planner.
+// It uses the same stages as the session: program, backlash, planner.
 #pragma once
 
 #include <cstdint>
@@ -22,14 +22,14 @@ struct MotionFactors {
 
 class PlannedProgram final : public Source<MotionItem> {
  public:
-  // `machine`, `options` and `check`, that of this program, outlive this.
+  // `machine`, `options` and the program's `check` must outlive this object.
   PlannedProgram(ProgramReader program, const MachineDescription& machine, const InterpreterOptions& options,
                  const ProgramCheck& check, const MotionFactors& factors = {});
 
-  // A loop that only a probe ends goes on as far as the check has followed it.
+  // A loop that only a probe ends continues as far as the check has followed it.
   [[nodiscard]] bool next(MotionItem& item) override;
 
-  // For watchers. They are added before the first next().
+  // For observers, which must be added before the first next().
   Tap<Operation>& operations() { return activity_.operations(); }
   Tap<PathItem>& path() { return activity_.path(); }
   // Of what was planned so far.

@@ -1,5 +1,5 @@
-// Requests: what can be asked of a machine. Each request is refused at once, or taken with a ticket. Later, a change
-// with that ticket tells the result.
+// Requests: the requests that a machine accepts. Each request is rejected immediately, or accepted with a ticket.
+// Later, a change with that ticket reports the result.
 #pragma once
 
 #include <cstdint>
@@ -20,60 +20,61 @@
 
 namespace passo {
 
-// Functions that watch the data of a run. Empty functions cost nothing.
+// Observers of the data of a run. Empty functions cost nothing.
 struct Watchers {
   std::function<void(const Operation&)> operations;
   std::function<void(const PathItem&)> path;
-  std::function<void(const MotionItem&)> planned;  // as it is planned; over a line a part of it may never be played
-  std::function<void(const MotionItem&)> motion;   // the same; over a line as executed, after it was executed
+  std::function<void(const MotionItem&)>
+      planned;  // as planned; with a board on a link, a part of it may never be executed
+  std::function<void(const MotionItem&)> motion;  // the same; with a board on a link, after its execution
   std::function<void(const BoardItem&)> items;
   std::function<void(const ProbeOutcome&)> probe;
-  std::function<void(const LinkItem&)> executed;  // over a line: what the board has executed, tails included
-  std::function<void(const BoardRest&)> rests;    // over a line: where the board may come to rest, told in advance
+  std::function<void(const LinkItem&)> executed;  // with a board on a link: the executed items, including stop ramps
+  std::function<void(const BoardRest&)> rests;    // with a board on a link: the possible stop points, in advance
 };
 
 namespace request {
 
-// Runs a program from where the machine stands. The program was checked before.
+// Runs a program from the current position. The program must have been checked.
 struct Start {
   ProgramReader program;
   InterpreterOptions options;            // the session sets `start`
   Seconds nominal_time{0};               // from the check, for progress
   bool waits_for_operator = true;        // the run waits at M0, M1 and M6
-  bool live = true;                      // reacts at once, and therefore reads less far ahead
-  bool answers_probes = true;            // the board answers; else a probe move is touched at its end
-  std::optional<ResumePoint> from = {};  // where on its path the job goes on
-  std::vector<PathItem> lead_in = {};    // from where the machine stands to there; empty: it stands there
-  // Where the lead-in begins, if it is on the path of the job, so that the outputs of the job are switched on there.
-  // Empty: the session knows where the machine stands.
+  bool live = true;                      // reacts immediately, and therefore plans less far ahead
+  bool answers_probes = true;            // the board reports contacts; otherwise a probe move is triggered at its end
+  std::optional<ResumePoint> from = {};  // the point of the path at which the job continues
+  std::vector<PathItem> lead_in = {};    // from the current position to that point; empty: the machine is there
+  // The start of the lead-in, if it is on the path of the job, so that the outputs of the job are switched on there.
+  // Empty: the session knows the position.
   std::optional<Point> stands = {};
-  std::vector<ProbeOutcome> known_probes = {};  // what the probe moves before `from` have found
+  std::vector<ProbeOutcome> known_probes = {};  // the results of the probe moves before `from`
   Watchers watchers = {};
-  Diagnostics* findings = nullptr;  // gets what is found during the run; outlives the run. Null: nobody looks
+  Diagnostics* findings = nullptr;  // collects findings during the run; must outlive the run. Null: none are collected
 };
-// Runs a program that comes line by line, until Stop. While no line is there, the machine rests in the state
-// await_line. The program is at the place where the machine stands.
+// Runs a program that arrives line by line, until Stop. While there is no line, the machine is stopped in the state
+// await_line. The program starts at the current position.
 struct Stream {
   OpenProgram* program = nullptr;  // outlives the stream
   Watchers watchers = {};
 };
-// Of a stream: brakes on the path, and drops what is queued. The stream goes on with the next line.
+// For a stream: stops on the path, and drops the queued lines. The stream continues with the next line.
 struct DropLines {};
-// Moves axes for as long as the lease is renewed. The machine begins to brake before the lease is over. No axis moves
-// towards a limit switch that is closed.
+// Moves axes as long as the lease (the keep-alive timeout) is renewed. The machine begins to brake before the timeout.
+// No axis moves towards a closed limit switch.
 struct Jog {
-  // A lease has to be longer than the committed motion. An operator who does not renew a lease for `longest_lease` is
-  // gone.
+  // A lease must be longer than the committed motion. After `longest_lease` without a renewal, the operator is assumed
+  // to have left.
   static constexpr Seconds shortest_lease{0.1};
   static constexpr Seconds longest_lease{10};
 
   JogWay way;
-  Seconds lease{0.25};  // length of the first lease, and of each renewal
+  Seconds lease{0.25};  // duration of the first lease, and of each renewal
 };
 struct RenewLease {};
-// Finds the machine's place by its switches.
+// Homes the machine.
 struct Home {};
-// Makes one move that ends where the probe gets touched or free.
+// Makes one move that ends where the probe is triggered or opens.
 struct Probe {
   Point target;  // machine coordinates
   MmPerSecond speed{0};
@@ -85,43 +86,43 @@ struct Check {
   InterpreterOptions options;
   Diagnostics* findings = nullptr;  // outlives the check
 };
-// Brakes on the path. What is no program ends there.
+// Feed hold: stops on the path. Activities other than programs end there.
 struct Hold {
-  // True: as for an open door. At rest the spindle and the coolant are switched off too. A resume switches them on
-  // again, and waits for the spindle.
+  // True: as for an open door. After the stop, spindle and coolant are switched off. Resuming switches them on again,
+  // and waits for the spindle.
   bool for_door = false;
 };
 struct Resume {};
-// Brakes on the path and ends what is going on.
+// Stops on the path and ends the activity.
 struct Stop {};
-// Changes factors. An empty factor stays as it is. Feed and spindle are 0 to 2, the machine's own factor is 0 to 1,
-// rapids are 0.05 to 1.
+// Changes overrides; empty ones stay as they are. Ranges: feed and spindle 0 to 2, the machine's own factor 0 to 1,
+// rapids 0.05 to 1.
 struct Override {
   std::optional<double> feed = {};
   std::optional<double> adaptive_feed = {};
   std::optional<double> spindle = {};
   std::optional<double> rapids = {};
 };
-// The operator's switches of a program. Coolant stays as switched until the program switches the same itself. The
-// spindle can be stopped while the program rests in a hold; with the resume it turns again.
+// The operator's output switches during a program. Coolant stays as switched until the program switches it. The spindle
+// can be stopped during a hold, and starts again on resume.
 struct SwitchOutputs {
   std::optional<bool> mist = {};
   std::optional<bool> flood = {};
   std::optional<bool> spindle_stands = {};
 };
-// Where programs wait for a person. What is empty stays as it is.
+// Where programs wait for the operator. Empty members stay as they are.
 struct ChooseStops {
-  std::optional<bool> single_block = {};   // a program that runs rests in a hold after each of its lines
+  std::optional<bool> single_block = {};   // a running program holds after each line
   std::optional<bool> optional_stop = {};  // programs wait at M1
 };
-// The operator has done what the program waits for: M0, M1, M6.
+// The operator confirms the stop at which the program waits: M0, M1 or M6.
 struct OperatorDone {};
-// Says where the machine stands, as a person knows.
+// Sets the machine position, as confirmed by the operator.
 struct SetPosition {
   KnownPosition position;
 };
-// Says hello again, for instance after an alarm or a fault. The place stays known only if a board at the end of a line
-// has gone on counting.
+// Repeats the handshake, e.g. after an alarm or a fault. The position stays known only if a board on a link has
+// continued counting.
 struct ResetMachine {};
 struct Sleep {};
 struct Wake {};

@@ -1,7 +1,7 @@
-// TrackedPlace: where the machine stands, and how far that is certain. What was commanded is compared with what the
-// board has counted, and switches may show a place better than counts do.
+// TrackedPlace: the machine position and its trust. The commanded position is compared with the board's counts; homing
+// switches may give a better position.
 //
-// Invariant: a place whose trust is not `unknown` is as true as the board's counts.
+// Invariant: a position whose trust is not `unknown` is as accurate as the board's counts.
 #pragma once
 
 #include <cstddef>
@@ -18,7 +18,7 @@
 
 namespace passo {
 
-// How the board's counts differed from what was commanded.
+// A difference between the board's counts and the commanded position.
 struct CountMismatch {
   std::size_t motor = 0;
   std::int64_t counted = 0;  // from machine zero
@@ -27,34 +27,35 @@ struct CountMismatch {
 
 class TrackedPlace {
  public:
-  // `machine` outlives this.
+  // `machine` must outlive this object.
   TrackedPlace(const MachineDescription& machine, const KnownPosition& start) : machine_(machine), position_(start) {}
 
   const KnownPosition& position() const { return position_; }
-  // Where the board stands, exact below a step. Empty: as after a hello.
+  // The board's position, with fractions of steps. Empty: as after a handshake.
   const std::optional<BoardPlace>& on_board() const { return on_board_; }
-  // The board's counts at machine zero. Empty: nobody watches them.
+  // The board's counts at machine zero. Empty: not tracked.
   const std::optional<MotorSteps>& zero_counts() const { return zero_counts_; }
   const std::optional<CountMismatch>& mismatch() const { return mismatch_; }
 
-  // Before the first hello.
+  // Call it before the first handshake.
   void start_at(const KnownPosition& position) { position_ = position; }
-  // From here on the board's counts are those of that place. What the board has below a step stays. In all of these,
-  // `board` is what the board has told at this rest; null: its counts are not watched.
+  // Relates the board's counts to that position. Fractions of steps are kept. In all of these functions, `board` is the
+  // status at this stop; null: counts are not tracked.
   void stand_at(const KnownPosition& position, const BoardStatus* board);
-  // The board begins to count anew.
+  // The board starts counting at zero.
   void forget_board() { on_board_.reset(); }
-  // The board may not stand where it stood. What the place was trusted for is kept: the board's counts may still prove
-  // the place, also after a reset that fails.
+  // Marks the position as doubtful. The previous trust is kept, because the board's counts may still confirm the
+  // position, even after a failed reset.
   void doubt();
-  // The board has told where it is. `has_counted`: it has gone on counting since it was last heard, and has lost no
-  // step. Then its counts tell the place.
+  // Processes the reported counts. `has_counted`: the board has continued counting, and has lost no step, so its counts
+  // determine the position.
   void find_again(const BoardStatus& board, bool has_counted);
-  // A motion has ended there.
+  // Sets the position at the end of a motion.
   void rest_at(const BoardPlace& place, AxisSet downs);
-  // False: the counts differ from what was commanded. That is told once: what comes after is compared from there on.
+  // False: the counts differ from the commanded position. This is reported once; later counts are compared from there
+  // on.
   [[nodiscard]] bool agrees_with(const BoardStatus* board);
-  // The switches have told where the homed axes stand. The other axes keep their places.
+  // Sets the positions of homed axes from their switches. The other axes keep their positions.
   void home(const std::vector<HomedAxis>& homed, const BoardStatus* board);
 
   Point point_of(const BoardPlace& place, AxisSet downs) const;
@@ -65,7 +66,7 @@ class TrackedPlace {
 
   const MachineDescription& machine_;
   KnownPosition position_;
-  Trust trust_before_ = Trust::unknown;  // the trust before the place was doubted
+  Trust trust_before_ = Trust::unknown;  // the trust before the position became doubtful
   bool lost_before_ = false;             // and whether it was lost then
   std::optional<BoardPlace> on_board_;
   std::optional<MotorSteps> zero_counts_;

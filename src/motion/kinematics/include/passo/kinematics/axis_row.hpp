@@ -1,5 +1,5 @@
-// AxisRow: a sum over axes, each with a factor. It tells what one motor, or one limit, sees of the axes: of a place, a
-// way, a slope or a bend.
+// AxisRow: a sum over axes, each with a factor. It converts values of the axes (a position, distance, velocity or
+// acceleration) into the value of one motor or one limit.
 //
 // Most rows have one axis. A motor of a CoreXY machine has two: it turns by X plus Y, or by X minus Y.
 #pragma once
@@ -23,10 +23,10 @@ class AxisRow {
     double factor = 0;
   };
 
-  // Nothing of any axis.
+  // An empty row: the sum is 0.
   AxisRow() = default;
   AxisRow(Axis axis, double factor) { shares_[0] = {axis, factor}; }
-  // One to most_axes shares, of different axes. Other shares are left out.
+  // One to most_axes shares, each of another axis. Further shares are ignored.
   AxisRow(std::initializer_list<Share> shares) {
     count_ = 0;
     for (const Share& share : shares) {
@@ -36,7 +36,7 @@ class AxisRow {
 
   std::span<const Share> shares() const { return {shares_.data(), count_}; }
   bool has_one_axis() const { return count_ == 1; }
-  // The axis of a row that has one, and its factor.
+  // The axis of a row with one axis, and its factor.
   Axis axis() const { return shares_[0].axis; }
   double factor() const { return shares_[0].factor; }
   // 0: the axis is not in the row.

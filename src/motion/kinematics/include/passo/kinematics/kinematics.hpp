@@ -1,12 +1,12 @@
-// Kinematics: where the motors of a machine are when its axes are at a place, and the other way round.
+// Kinematics: converts the positions of the axes into positions of the motors, and back.
 //
-// Each motor has a row: its steps are a sum over axes (AxisRow), perhaps with the errors and the backlash of a screw
-// between. A Cartesian machine has one axis in each row and one row for each axis. A gantry has two rows for the axis
+// Each motor has a row: its steps are a sum over axes (AxisRow), optionally corrected by the errors and the backlash of
+// a screw. A Cartesian machine has one axis in each row and one row for each axis. A gantry has two rows for the axis
 // that two motors turn. CoreXY has two rows of X and Y. Under such rows a line stays a line, and an arc or a cubic
-// stays a sum of the same functions of the way, so the step generator and the planner follow the rows themselves.
+// stays a sum of the same functions of the distance, so the step generator and the planner follow the rows themselves.
 //
-// Programs, jogs and limits of travel are in axes. Step counts, switches on motors and the wire are in motors. Nothing
-// else in the house turns one into the other.
+// Programs, jogs and limits of travel are in axes. Step counts, switches on motors and the wire are in motors. No other
+// module converts one into the other.
 #pragma once
 
 #include <array>
@@ -23,7 +23,7 @@
 
 namespace passo {
 
-// A motor, and what it sees of the axes.
+// A motor, and the axes that it moves.
 struct MotorRow {
   AxisRow steps;      // for each millimetre or degree; negative: the motor counts down when the axis goes up
   double offset = 0;  // steps where the axes are at 0; not for a motor with a screw
@@ -43,7 +43,7 @@ struct MotorPlace {
   double operator[](std::size_t motor) const { return steps[motor]; }
 };
 
-// What motors have done since their counts were `zero`.
+// The steps since the counts were `zero`.
 template <class Counts, class Zero>
 MotorPlace steps_since(const Zero& zero, const Counts& counts) {
   MotorPlace place;
@@ -57,7 +57,7 @@ class Kinematics {
  public:
   Kinematics() = default;
   Kinematics(std::initializer_list<MotorRow> rows);
-  // A motor above max_motors is left out.
+  // A motor beyond max_motors is ignored.
   void add(const MotorRow& row);
 
   std::span<const MotorRow> rows() const { return {rows_.data(), count_}; }
@@ -65,14 +65,15 @@ class Kinematics {
 
   // `downs`: the axes whose backlash is taken up for motion down, here as in axes().
   MotorPlace motors(const Point& axes, AxisSet downs = {}) const;
-  // An axis with a motor of its own is where that motor says; of two such motors, the first one counts. Axes that share
-  // motors follow from these together. `others`: where the axes are that no motor tells.
+  // The position of an axis with a motor of its own follows from that motor (from the first, if there are two); those
+  // of axes that share motors follow from all of these. `others`: the positions of axes without a motor.
   Point axes(const MotorPlace& motors, AxisSet downs = {}, const Point& others = {}) const;
-  // The same, if only some motors have moved since the axes were at `from`: bit i of `moved` is motor i. Axes that none
-  // of these turns stay exactly where they were.
+  // The same, if only some motors have moved since the axes were at `from`: bit i of `moved` is motor i. The other axes
+  // keep exactly their positions.
   Point axes_after(const Point& from, const MotorPlace& motors, unsigned moved, AxisSet downs = {}) const;
 
-  // Steps a millimetre or a degree of the axis, of the motor that turns most for it. Never negative; 0: none turns.
+  // Steps per millimetre or degree of the axis, for the motor that makes the most. Never negative; 0: no motor moves
+  // the axis.
   double steps_per_unit(Axis axis) const;
 
  private:

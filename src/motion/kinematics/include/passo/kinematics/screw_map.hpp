@@ -1,9 +1,9 @@
-// ScrewMap: which place a motor must be told so that its axis truly stands at a place: the inverse of the errors and of
-// the backlash of its screw.
+// ScrewMap: converts the true position of an axis into the nominal position that its motor must be commanded to, which
+// corrects the errors and the backlash of its screw.
 //
-// A *true* place is one of the axis. A *nominal* place is the one that a perfect screw would have at the motor's
-// present step. Both are in millimetres or degrees of the axis. The backlash is taken up in one of two directions.
-// After motion up, the nominal place is as the errors alone demand. After motion down, it is lower by the backlash.
+// The *true* position is that of the axis. The *nominal* position is the one that the axis would have with a perfect
+// screw. Both are in millimetres or degrees of the axis. The backlash is taken up in one of two directions. After
+// upward motion, the nominal position corrects the errors only. After downward motion, it is lower by the backlash.
 #pragma once
 
 #include <vector>
@@ -16,21 +16,20 @@ class ScrewMap {
     double at = 0;   // nominal place
     double off = 0;  // true place minus nominal place
   };
-  // `errors` may be empty. In ascending order of `at`; between two the error is in proportion, and beyond the ends it
-  // stays. The error changes by less than the way.
+  // `errors` may be empty. In ascending order of `at`; between two entries the error is interpolated, and beyond the
+  // ends it is constant. The error must change by less than the distance.
   explicit ScrewMap(double backlash, std::vector<Error> errors = {});
 
   double backlash() const { return backlash_; }
 
-  // Where the nominal place follows the true place in proportion: nominal = offset + slope * place, for places from
-  // low to high.
+  // A linear piece of the map: nominal = offset + slope * place, for true positions from low to high.
   struct Piece {
     double low = 0;
     double high = 0;
     double slope = 1;
     double offset = 0;
   };
-  // The piece that holds `place` and, if the place is a border within `border`, what lies above or below.
+  // The piece that contains `place`. Within `border` of a border, `above` selects one of the two pieces.
   const Piece& piece_at(double place, bool above, double border) const;
 
   double nominal(double place, bool down) const;

@@ -1,17 +1,17 @@
-// BacklashTaker: takes up the backlash of an axis wherever the path turns the axis back.
+// BacklashTaker: takes up the backlash of an axis wherever the path reverses the axis.
 //
-// Place on the street: before the planner. Segments are cut where an axis with backlash turns back. The path rests
-// there, and a segment of its own moves the motor of that axis alone, within the limits of the axis, until the backlash
-// is taken up. The tool stands meanwhile. So the tool stays on the path, to the step. Each segment tells on which side
-// the backlash of each axis is (Segment::downs), so that a segment can be followed from any place of it. See
+// Position in the pipeline: before the planner. Segments are cut where an axis with backlash reverses. There, the path
+// stops, and an extra segment moves only the motor of that axis, within the limits of the axis, until the backlash is
+// taken up. The tool does not move during that time, so it stays on the path, to the step. Each segment tells on which
+// side the backlash of each axis is (Segment::downs), so that motion can be followed from any point of a segment. See
 // docs/decisions/0083-backlash-is-taken-up-at-rest.md.
 //
-// A path begins and ends with all backlash taken up for motion up. So where a machine stands needs no more than the
-// counts of its motors.
+// A path begins and ends with all backlash taken up for upward motion, so the step counts alone determine the machine
+// position.
 //
-// Invariants: without backlash, items pass unchanged. An axis that turns back by less than `least` does not count; the
-// tool is then off the path by less than `least`. Where the machine may leave the path, at the end of a probe move, the
-// side of the backlash is asked for.
+// Invariants: without backlash, items pass unchanged. Reversals shorter than `least` are ignored; the tool is then off
+// the path by less than `least`. At the end of a probe move, where the machine may have left the path, a callback gives
+// the side of the backlash.
 #pragma once
 
 #include <functional>
@@ -27,12 +27,12 @@ struct BacklashOptions {
   PerAxis<double> backlash;  // 0: the axis has none
   PerAxis<double> least;     // an axis that goes back by no more has not turned back
   AxisSet downs;             // the axes whose backlash is taken up for motion down when the path begins
-  // True: the first item stands for whatever must be taken up at first, also if that is nothing. So the number of items
-  // does not depend on `downs`.
+  // True: the first item takes up the initial backlash, even if there is none, so that the number of items does not
+  // depend on `downs`.
   bool counts_items = false;
 };
 
-// Where a machine rests, and the axes whose backlash is then taken up for motion down.
+// The position of a stopped machine, and the axes whose backlash is taken up for downward motion.
 struct BacklashAtRest {
   AxisSet downs;
   Point place;
@@ -42,7 +42,7 @@ class BacklashTaker final : public Source<PathItem> {
  public:
   BacklashTaker(Source<PathItem>& path, const BacklashOptions& options);
 
-  // `at_rest` is asked when the machine rests at the end of a probe move.
+  // `at_rest` is called when the machine is stopped at the end of a probe move.
   void ask_after_probe(std::function<BacklashAtRest()> at_rest) { at_rest_ = std::move(at_rest); }
 
   [[nodiscard]] bool next(PathItem& item) override;
@@ -63,8 +63,8 @@ class BacklashTaker final : public Source<PathItem> {
   std::function<BacklashAtRest()> at_rest_;
 
   AxisSet downs_;
-  Point place_;     // where the path has come to
-  Point farthest_;  // the farthest place of each axis since it turned back
+  Point place_;     // the end of the path so far
+  Point farthest_;  // the extreme position of each axis since its last reversal
   bool asks_ = false;
   bool started_ = false;
   bool ended_ = false;
@@ -73,7 +73,7 @@ class BacklashTaker final : public Source<PathItem> {
   bool in_segment_ = false;
   double from_ = 0;      // the part before this s was given
   double followed_ = 0;  // farthest_ counts the part before this s
-  AxisSet turned_;       // the axes that turn back at followed_
+  AxisSet turned_;       // the axes that reverse at followed_
   std::optional<Action> before_segment_;
 };
 

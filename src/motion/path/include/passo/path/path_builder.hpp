@@ -1,16 +1,17 @@
-// PathBuilder: operations -> segments. The builder follows the frame, keeps geometry exact (no chords), and checks the
-// travel.
+// PathBuilder: converts operations into segments. It applies the work frame, keeps geometry exact (no chords), and
+// checks the travel.
 //
-// There are two exceptions. While the work frame is turned about Z, an arc of the planes ZX and YZ lies in no plane of
-// the machine. Such an arc becomes chords within half a thousandth of a millimetre, or half the tolerance if that is
-// less. A spline becomes cubics in its length. The cubics leave the spline by at most a tenth of the path's tolerance,
-// or half a thousandth of a millimetre where the tolerance is 0.
+// There are two exceptions. While the work frame is rotated about Z, an arc in the plane ZX or YZ is in no coordinate
+// plane of the machine. Such an arc is divided into chords within half a thousandth of a millimetre, or half the
+// tolerance if that is less. A spline is converted into cubics of its arc length, which deviate from it by at most a
+// tenth of the path tolerance, or half a thousandth of a millimetre where the tolerance is 0.
 //
-// Place on the street: between the interpreter and the planner. Segments join without a gap: each begins, bit for bit,
-// where the one before ended. Moves shorter than a thousandth of a nanometre are rounding, and are dropped. Outputs
-// (spindle, coolant) that change without a move between them become one action.
+// Position in the pipeline: between the interpreter and the planner. Segments join without a gap: each begins, bit for
+// bit, where the one before ended. Moves shorter than a thousandth of a nanometre are rounding errors, and are dropped.
+// Outputs (spindle, coolant) that change without a move between them become one action.
 //
-// The builder collects errors and goes on, so one pass finds them all. The path after an error must not be played.
+// The builder collects errors and continues, so that one pass finds all of them. The path after an error must not be
+// executed.
 #pragma once
 
 #include <array>
@@ -42,12 +43,12 @@ struct PathOptions {
   Mm tolerance{0.01};               // of junctions, if the program gives none (G64 P)
   double spindle_limit = 0;         // fastest spindle, revolutions a minute; 0: no spindle speed is refused
   Point start;                      // machine position at the start
-  // True: more operations may come after those that the source has given. At its end nothing is switched off.
+  // True: more operations may follow later, so nothing is switched off at the end of the source.
   bool open_ended = false;
-  // From rest to 1000 turns a minute. Motion waits for the spindle, and a tap has room to reverse.
+  // The time from standstill to 1000 rpm. Motion waits for the spindle, and tapping leaves room to reverse it.
   Seconds spindle_run_up{0};
-  // True: in a thread the spindle turns as fast as the program says, whatever its override. Without an encoder nothing
-  // follows the spindle, and another speed would be another pitch.
+  // True: in threads the spindle has the programmed speed, whatever its override. This is needed without an encoder:
+  // the axes cannot follow the spindle, so another speed would cut another pitch.
   bool threads_hold_speed = false;
   std::string file;  // names the program in diagnostics
 };
@@ -55,7 +56,7 @@ struct PathOptions {
 // The code of the error that a move leaves the travel of an axis.
 inline constexpr std::string_view travel_exceeded = "travel.exceeded";
 
-// What a path builder remembers when it has handed on all items of the operations so far.
+// The state of a path builder between two operations.
 struct PathMemory {
   Frame frame_;
   bool in_step_ = false;  // in step with the spindle since its index
@@ -71,12 +72,12 @@ struct PathMemory {
   bool gives_tolerance_ = false;  // the program gives a tolerance, with G64 P
   Mm merge_{0};
 
-  OutputState commanded_;  // keeps the spindle's speed also while the spindle stands
+  OutputState commanded_;  // keeps the commanded spindle speed even while the spindle is stopped
   OutputState handed_on_;
   OperationSource outputs_source_;
   double refused_spindle_speed_ = 0;
-  MmPerSecond refused_feed_{0};  // the last feed that no axis can make, and that follows the spindle
-  Seconds run_up_left_{0};       // the spindle has not reached its speed before that
+  MmPerSecond refused_feed_{0};  // the last synchronized feed that exceeded the velocity of an axis
+  Seconds run_up_left_{0};       // the time until the spindle has reached its speed
 
   // The axes on which the path is now outside the machine. An excursion is reported once, not at each of its moves.
   AxisSet below_;
@@ -95,16 +96,16 @@ class PathBuilder final : public Source<PathItem>, private PathMemory {
   [[nodiscard]] bool next(PathItem& item) override;
 
   const Frame& frame() const { return frame_; }
-  // Where the path has come to, in machine coordinates.
+  // The end of the path so far, in machine coordinates.
   const Point& position() const { return position_; }
-  // Says that the path goes on from somewhere else. What was read of the path before is not part of it any more.
+  // Continues the path from another position. The path read so far is dropped.
   void stand_at(const Point& machine) {
     position_ = machine;
     below_ = above_ = missing_ = AxisSet();
     refused_feed_ = MmPerSecond(0);
   }
-  // Notes what the operations so far have set, and goes back to that, as if those since had not come. Call when next()
-  // has returned false.
+  // Saves the state after the operations so far, and restores it, as if the later ones had not come. Call it when
+  // next() has returned false.
   void keep() { kept_ = *this; }
   void roll_back() { static_cast<PathMemory&>(*this) = kept_; }
 
@@ -150,7 +151,7 @@ class PathBuilder final : public Source<PathItem>, private PathMemory {
   bool is_within_travel(const Box& box) const;
   void check_side(Axis axis, bool high_side, double reached, const Curve& curve, AxisSet& outside);
   void check_axes(const Curve& curve);
-  // Reports at the axis word, or, where there is none, at the words that ask for the current operation.
+  // Reports at the axis word or, without one, at the words of the current operation.
   void report(Severity severity, std::string code, std::string message, std::string expected,
               std::optional<Axis> axis = std::nullopt);
 
@@ -159,22 +160,23 @@ class PathBuilder final : public Source<PathItem>, private PathMemory {
   Diagnostics& diagnostics_;
   const MachineAnswers& answers_;
 
-  // An arc in the turned work frame whose chords are not all given yet.
+  // An arc in the rotated work frame, of which some chords are still to come.
   struct TiltedArc {
     Curve work;
     std::uint32_t next = 0;
     std::uint32_t chords = 0;
   };
   std::optional<TiltedArc> tilted_;
-  // A spline whose pieces are not all given yet.
+  // A spline of which some pieces are still to come.
   std::unique_ptr<SplinePieces> spline_;
-  Mm piece_tolerance_{0};  // how far the pieces of the present curve may leave it
-  // A probe move is three items. After them the path goes on from where the machine came to rest.
+  Mm piece_tolerance_{0};  // how far the pieces may deviate from the present curve
+  // A probe move consists of three items. After them, the path continues from the position at which the machine
+  // stopped.
   enum class ProbeStep : std::uint8_t { none, move, end, rest };
   ProbeStep probe_step_ = ProbeStep::none;
   Point probe_end_;  // work coordinates
 
-  // A tap that follows the spindle is three items too: down, the reversal, and back to where the tap began.
+  // Tapping also consists of three items: down, the reversal, and back to the start.
   enum class TapStep : std::uint8_t { none, turn, back, end };
   TapStep followed_tap_ = TapStep::none;
   Point tap_start_;  // machine

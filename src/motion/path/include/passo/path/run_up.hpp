@@ -1,4 +1,4 @@
-// The time that a spindle takes to reach another speed. Motion waits for it.
+// The time that a spindle needs to reach another speed, for which motion waits.
 #pragma once
 
 #include <cmath>
@@ -7,8 +7,8 @@
 
 namespace passo {
 
-// From one state of the outputs to another. `run_up`: from rest to 1000 turns a minute. Nobody waits for a spindle that
-// is switched off.
+// The time between two states of the outputs. `run_up`: the time from standstill to 1000 rpm. Motion does not wait for
+// a spindle that is switched off.
 inline Seconds run_up_time(const OutputState& from, const OutputState& to, Seconds run_up) {
   if (to.spindle == SpindleDirection::off) return Seconds(0);
   const auto speed = [](const OutputState& state) {

@@ -1,5 +1,5 @@
-// Segment: one geometric piece of the path in machine coordinates, with the speed the program asks for. Action: what
-// happens between segments, at rest. PathItem: a segment or an action, in program order.
+// Segment: one geometric piece of the path in machine coordinates, with the programmed speed. Action: an event between
+// segments while the machine is stopped. PathItem: a segment or an action, in program order.
 #pragma once
 
 #include <cstdint>
@@ -10,7 +10,7 @@
 
 namespace passo {
 
-// Which changes in mid-run apply to a part of the program (M48 to M53).
+// Which overrides and holds are enabled for a part of the program (M48 to M53).
 struct Heeds {
   bool feed_override = true;
   bool spindle_override = true;
@@ -19,27 +19,27 @@ struct Heeds {
   friend bool operator==(const Heeds&, const Heeds&) = default;
 };
 
-// How a feed follows the spindle: its speed alone (G95), or its place from an index pulse on (G33).
+// How a feed follows the spindle: its speed (G95), or its angle from an index pulse on (G33).
 enum class SpindleLock : std::uint8_t { none, speed, place };
 
 struct Segment {
   Curve curve;
-  MmPerSecond speed{0};  // programmed, along s; for a rapid: no limit but the axes' own (infinity)
+  MmPerSecond speed{0};  // programmed, along s; infinite for a rapid, which only the axes limit
   bool rapid = false;
   PathMode mode = PathMode::continuous;  // at the junction to the next segment
   Mm tolerance{0};                       // how far the junction to the next segment may leave the path
-  Mm merge{0};                           // how far lines may leave the path to be one line; a part of the tolerance
+  Mm merge{0};                           // tolerance for merging lines; a part of the tolerance
   Point work_zero{};                     // where the zero of the work frame lies in machine coordinates
   Heeds heeds{};
   SpindleLock lock = SpindleLock::none;
-  Mm pitch{0};  // for a lock: the way for one turn; `speed` fits the commanded spindle speed
-  // For a tap's way down: where the spindle is to be reversed. The rest of the segment is room for the spindle to come
-  // to rest.
+  Mm pitch{0};  // for a lock: the distance per revolution; `speed` follows from the commanded spindle speed
+  // For tapping down: the point at which the spindle is reversed. The remainder of the segment leaves room for the
+  // spindle to stop.
   Mm reverse_at{0};
-  // On machines that compensate backlash: the axes whose backlash is taken up for motion down.
+  // On machines with backlash compensation: the axes whose backlash is taken up for downward motion.
   AxisSet downs{};
-  // True: the segment takes up the backlash of an axis that has turned back. The motor moves along the curve, and the
-  // tool stands where the curve ends.
+  // True: the segment takes up the backlash of an axis that reverses. The motor moves along the curve, while the tool
+  // stays at the curve's end.
   bool takes_up_backlash = false;
   OperationSource source{};
 
@@ -55,7 +55,7 @@ constexpr SpindleDirection reversed(SpindleDirection direction) {
   return SpindleDirection::off;
 }
 
-// The state that all outputs of the board are to have from here on.
+// The commanded state of all outputs of the board.
 struct OutputState {
   SpindleDirection spindle = SpindleDirection::off;
   double revolutions_per_minute = 0;
@@ -74,18 +74,18 @@ struct Action {
     program_end,
     feed_hold,
     probe_begin,  // the probe move comes after this,
-    probe_end,    // then this; no stage reads further before the machine rests here
+    probe_end,    // then this; no stage reads further before the machine has stopped here
     await_index,
-    await_line,  // the next line of the program has not come yet; no stage reads further before the machine rests here
-    tap_turns,   // after a tap's way down; no stage reads further before the spindle reverses
+    await_line,  // the next line has not arrived yet; no stage reads further before the machine has stopped here
+    tap_turns,   // after tapping down; no stage reads further before the spindle reverses
   };
   Kind kind = Kind::dwell;
   Seconds dwell{0};
   OutputState outputs{};  // for every kind: the state after the action
   std::int32_t tool = 0;
-  bool probe_toward = true;  // for a probe move: until touched, else until free
-  std::uint8_t limit = 0;    // for homing: the bit of the limit switch that takes the probe's place
-  Point place{};             // for a probe move: its beginning or its end, in machine coordinates
+  bool probe_toward = true;  // for a probe move: until the probe is triggered, otherwise until it is open
+  std::uint8_t limit = 0;    // for homing: the bit of the limit switch that acts as the probe
+  Point place{};             // for a probe move: its start or its end, in machine coordinates
   Heeds heeds{};
   OperationSource source{};
 };

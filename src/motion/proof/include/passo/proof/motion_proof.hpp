@@ -1,12 +1,12 @@
-// MotionProver: watches a job from the side and measures its real motion.
+// MotionProver: observes a job independently, and measures its actual motion.
 //
-// It is the referee of the planner and the path smoother, and shares no code with either. It evaluates curves by
-// formulas of its own, replays steps from the definition in wire/board_segment.hpp, and compares the time with the
-// shortest possible time on the same path. docs/motion-proof.md has every formula.
+// It verifies the planner and the path smoother, and shares no code with them. It evaluates curves by formulas of its
+// own, replays steps from the definition in wire/board_segment.hpp, and compares the time with the shortest possible
+// time on the same path. docs/motion-proof.md has every formula.
 //
-// Place on the street: beside it. Feed it, in the order in which they come, the programmed path (Job::path()), the
-// planned motion (Job::motion()) and the board items (Job::board()). An item of the motion may come only after the
-// segments of the path that it plays. Memory is bounded: a window of the path, for a job of any length.
+// It is not a stage of the pipeline. Feed it, in the order in which they come, the programmed path (Job::path()), the
+// planned motion (Job::motion()) and the board items (Job::board()). An item of the motion may come only after the path
+// segments that it executes. Memory is bounded: a window of the path, for a job of any length.
 #pragma once
 
 #include <cstdint>
@@ -29,11 +29,10 @@ struct ProvenAxis {
   MmPerSecond velocity{0};
   MmPerSecond2 acceleration{0};
   MmPerSecond3 jerk{0};
-  // At a rest the velocity may jump: between two values, either way round, that differ by no more than this and of
-  // which neither is greater. 0: no jump.
+  // At a stop point, the velocity may jump between two values, of which neither exceeds this and which differ by at
+  // most this. 0: no jump.
   MmPerSecond start_stop = MmPerSecond(0);
-  // The limit where it falls with the speed: never rising, above 0 up to `velocity`. Empty: `acceleration` at all
-  // speeds.
+  // A limit that falls with the speed: never rising, above 0 up to `velocity`. Empty: `acceleration` at all speeds.
   std::function<MmPerSecond2(MmPerSecond)> acceleration_at = {};
 };
 struct ProofOptions {
@@ -59,10 +58,10 @@ struct AxisProof {
   Finding acceleration;
   Finding jerk;
   // Between two phases.
-  Finding velocity_jump;      // the limit is what rounding may leave, or the start-stop velocity at a rest
+  Finding velocity_jump;      // the limit is the rounding error, or the start-stop velocity at a stop point
   Finding acceleration_jump;  // no limit where the jerk has no limit
-  // From the steps, over windows of 10 ms. `limit` is the machine's; rounding to whole steps may add `..._noise`. What
-  // the jumps at rests may have done is not counted as acceleration.
+  // Measured from the steps, over windows of 10 ms. `limit` is the machine's; rounding to whole steps may add
+  // `..._noise`. Permitted jumps at stop points do not count as acceleration.
   Finding step_velocity;
   Finding step_acceleration;
   double step_velocity_noise = 0;
@@ -72,7 +71,7 @@ struct AxisProof {
 struct MotionProof {
   std::vector<AxisProof> axes;
   Finding feed;       // the speed along the path against the programmed one
-  Finding deviation;  // between planned and programmed path; the limit is the tolerance at that place
+  Finding deviation;  // between planned and programmed path; the limit is the tolerance at that point
   Finding gap;        // between the end of one phase and the start of the next, mm
   Seconds time{0};
   Seconds time_bound{0};  // no motion on the same path within velocity, acceleration, jerk and feed takes less
@@ -84,7 +83,7 @@ struct MotionProof {
 
   double times_tube_bound() const { return tube_bound > Seconds(0) ? time / tube_bound : 0; }
   double times_bound() const { return time_bound > Seconds(0) ? time / time_bound : 0; }
-  // What exceeds its limit, one line each. Empty: the motion is good.
+  // The exceeded limits, one line each. Empty: the motion is good.
   std::vector<std::string> faults() const;
   bool good() const { return faults().empty(); }
 };

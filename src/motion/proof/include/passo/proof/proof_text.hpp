@@ -1,4 +1,4 @@
-// A MotionProof as text for a person, and as data.
+// A MotionProof as readable text, and as JSON.
 //
 // Both are the same from run to run. Keys of the JSON may be added but not changed. A missing limit is null.
 #pragma once

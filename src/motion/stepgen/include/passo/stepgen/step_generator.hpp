@@ -1,4 +1,5 @@
-// StepGenerator: phases -> board segments. Each step comes at the place and time at which the exact motion has it.
+// StepGenerator: converts phases into board segments. Each step has the position and the time that it has in the exact
+// motion.
 #pragma once
 
 #include <algorithm>
@@ -20,13 +21,13 @@ struct BoardClock {
   Hertz highest_event_rate{100e3};
 };
 
-// Where the board stands, to the last bit: each motor in 1/65536 step with half a step added, and the fraction of a
-// tick. So the next path begins with the fractions that the last path has left.
+// The exact position of the board: each motor in 1/65536 step, with half a step added, and the fraction of a tick. The
+// next path begins with these fractions.
 struct BoardPlace {
   std::array<std::int64_t, max_motors> motors{};
   std::uint16_t tick = whole_tick / 2;
   std::int64_t steps(std::size_t motor) const { return motors[motor] >> 16; }
-  // Says that the motor stands at another whole step. The fraction of a step stays as it is.
+  // Sets another whole step for the motor. The fraction of a step is kept.
   void set_steps(std::size_t motor, std::int64_t steps) {
     motors[motor] = steps * whole_step + (motors[motor] & (whole_step - 1));
   }
@@ -42,28 +43,29 @@ struct BoardPlace {
 struct StepOptions {
   Kinematics kinematics = {};
   BoardClock clock;
-  Point start = {};   // machine position at the start; the motors' step counts begin at its whole steps
-  bool bends = true;  // whether segments may bend. A bend does not serve the second motor of an axis
-  std::optional<BoardPlace> place = {};  // where the board stands; empty: the board has just heard a hello at `start`
-  AxisSet downs = {};                    // the axes whose backlash is taken up for motion down
+  Point start = {};  // machine position at the start; the motors' step counts begin at its whole steps
+  bool bends =
+      true;  // whether segments may have a change of the increments, which does not suit the second motor of an axis
+  std::optional<BoardPlace> place = {};  // the board's position; empty: the handshake has just taken place at `start`
+  AxisSet downs = {};                    // the axes whose backlash is taken up for downward motion
 };
 
-// The items that go down the wire, in order. The segments before an Action end at rest. A dwell becomes segments
+// The items that are sent to the board, in order. The segments before an Action end in a stop. A dwell becomes segments
 // without steps.
 using BoardItem = std::variant<BoardSegment, Action>;
 
-// How exact the times of events are. With looser times, motion close to a rest takes far fewer segments. Every step is
-// still made, and at the same place.
+// The accuracy of event times. With less accurate times, motion close to a stop point needs far fewer segments. Every
+// step is still made, at the same position.
 struct Exactness {
   // An event may be off its exact time by 1/one_in of its interval. 0: an event may be off by less than half a tick,
   // before the board rounds to whole ticks.
   int one_in = 0;
-  // If the fastest motor steps slower than this rate, events divide its steps. On a slow board a sixteenth of the
-  // board's highest rate counts instead. 0: steps are never divided for slowness.
+  // If the fastest motor steps slower than this rate, events divide its steps. On a slow board, the limit is a
+  // sixteenth of the board's highest rate. 0: slow steps are never divided.
   Hertz least_rate{10'000};
-  // The most events of a segment. Segments that are exact to the tick seldom have more than 255.
+  // The most events of a segment. Segments that are exact to the tick rarely have more than 255.
   int longest_segment = 255;
-  // Whether motion that comes to rest ends at its exact time. If not, no event without a step waits for that time.
+  // Whether motion that ends in a stop ends at its exact time. If not, it ends with the last step.
   bool ends_in_time = true;
   friend bool operator==(const Exactness&, const Exactness&) = default;
 };
@@ -82,25 +84,25 @@ class StepGenerator final : public Source<BoardItem> {
 
   [[nodiscard]] bool next(BoardItem& item) override;
 
-  // From now on an event waits at most this time for later events that would make its segment longer. So motion is
-  // pulled ahead of the last segment by at most this time and one move. Segments get shorter, but steps stay as exact.
+  // Limits the time that an event waits for later events in the same segment. Motion is then pulled ahead by at most
+  // this time and one move. Segments get shorter, but steps stay equally accurate.
   void limit_waiting_to(Seconds time);
   void be_exact_to(const Exactness& exactness);
 
   // Takes over the state of `other`, but keeps its own source of motion, waiting time and exactness. `other` must have
-  // been made with the same options. So a copy can try another motion from here, and its end is a state to go on from.
+  // been made with the same options. A copy can thus try another motion from here, and its end state can be continued.
   void assume(const StepGenerator& other);
-  // Whether the motion pulled so far ends at rest.
+  // Whether the motion pulled so far ends in a stop.
   bool ends_at_rest() const;
-  // Whether the motion pulled so far ends at rest, and next() has given all of it.
+  // Whether the motion pulled so far ends in a stop, and next() has returned all of it.
   bool at_rest() const;
   // Whether the last item was a part of a dwell, and more of the dwell may follow.
   bool waits_at_rest() const;
-  // Leaves out what is left of the present dwell. Returns how long that was.
+  // Skips the remainder of the present dwell. Returns its duration.
   Seconds cut_dwell();
-  // Where the board stands after all items given so far. Call it only at rest.
+  // The board's position after all items returned so far. Call it only at a stop.
   BoardPlace place() const;
-  // The axes whose backlash is taken up for motion down, at the end of the motion pulled so far.
+  // The axes whose backlash is taken up for downward motion, at the end of the motion pulled so far.
   AxisSet downs() const;
 
  private:

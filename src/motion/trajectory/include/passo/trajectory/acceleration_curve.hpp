@@ -1,9 +1,9 @@
-// AccelerationCurve: how an axis's greatest acceleration falls with its speed.
+// AccelerationCurve: the acceleration limit of an axis, which falls with its speed.
 //
 // The input is samples of a falling function A(v). The curve kept is a convex function of w = v² below the samples: the
-// highest of a few straight lines at_rest − fall·w. It is a function of w because the planner's demands are linear in
-// squares of speeds. So each line is a demand that keeps to the curve at any speed, and the line that is the highest at
-// the present speed loses hardly anything (speed_window.hpp).
+// highest of a few straight lines at_rest − fall·w. It is a function of w because the planner's constraints are linear
+// in squared speeds. Each line is thus a constraint that holds at any speed, and the highest line at the present speed
+// is almost exact (speed_window.hpp).
 //
 //   A ^ ......                 ...  the samples: flat up to a shoulder, then falling
 //     |    \  `.               \    the lines; left of the shoulder they are above the constant limit that
@@ -11,7 +11,7 @@
 //     |        `---\____
 //     +-------------------> w
 //
-// Where the samples are concave beyond the shoulder, only the chord below them counts; what they allow above is lost.
+// Where the samples are concave beyond the shoulder, the curve is the chord below them, so some acceleration is lost.
 //
 // Invariant: the falls are not negative and descend from line to line, so each line in turn is the highest. A curve
 // without lines does not limit.
@@ -39,13 +39,13 @@ class AccelerationCurve {
   };
 
   AccelerationCurve() = default;
-  // A curve that is nowhere above any falling function through the samples. The speeds of the samples ascend from 0;
+  // A curve that is nowhere above a falling function through the samples. The speeds of the samples ascend from 0;
   // their accelerations fall and stay above 0. `most` is the constant limit beside the curve; samples above it are not
   // needed.
   static AccelerationCurve below(std::span<const Sample> samples, MmPerSecond2 most);
 
   bool empty() const { return lines_.empty(); }
-  // Up to this w only the constant limit counts. Only if there are lines.
+  // Up to this w only the constant limit applies. Call it only if there are lines.
   double shoulder() const { return shoulder_; }
   // The number of the highest line at w. lines() must not be empty.
   std::size_t line_at(double w) const;

@@ -1,4 +1,4 @@
-// The text form of motion: a line for a move's segment and a line for each phase. Golden files hold it.
+// Motion as text: one line for the segment of a move, and one line for each phase. Golden files use this form.
 //
 //   line 4: feed (X0.000000) to (X10.000000) length 10.000000 speed 20.000000 continuous 0.010000
 //     t 0.040000 s 0.000000 v 0.000000 a 500.000000 j 0.000000

@@ -33,7 +33,7 @@ struct Phase {
     return MmPerSecond(velocity.value() + u * (acceleration.value() + u * jerk.value() / 2));
   }
   constexpr MmPerSecond2 acceleration_at(Seconds t) const { return acceleration + jerk * t; }
-  // The rest of the phase from there on.
+  // The remainder of the phase from there on.
   constexpr Phase after(Seconds t) const {
     return {.duration = duration - t,
             .start = position_at(t),
@@ -50,7 +50,7 @@ struct PlannedMove {
   std::array<Phase, most_phases> phases;
   std::size_t phase_count = 0;
 
-  // Makes it a move on that segment, without phases.
+  // Starts a move on that segment, without phases.
   void begin_on(const Segment& whole) {
     segment = whole;
     phase_count = 0;
@@ -74,10 +74,11 @@ struct PlannedMove {
     const Phase& last = phases[phase_count - 1];
     return last.velocity_at(last.duration);
   }
-  // Whether no axis is faster at the end than rounding leaves of a rest. The axes are tested, not the speed along the
-  // path: on a segment as short as dust an axis may turn by a hundred thousand degrees for each millimetre.
+  // Whether all axes are stopped at the end, except for rounding errors. This tests the axes, not the speed along the
+  // path, because on an extremely short segment a rotary axis may turn by a hundred thousand degrees per millimetre.
   bool ends_at_rest() const {
-    constexpr double rest_speed = 1e-6;  // mm/s or degrees/s; a step would take half a minute on the finest machine
+    constexpr double rest_speed =
+        1e-6;  // mm/s or degrees/s; at this speed, a step takes half a minute on the finest machine
     if (phase_count == 0) return true;
     const double speed = exit_velocity().value();
     if (speed >= rest_speed) return false;

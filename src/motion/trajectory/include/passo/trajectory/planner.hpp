@@ -1,5 +1,5 @@
-// Planner: segments -> phases. It finds the fastest motion along the path that keeps every axis within its limits. It
-// looks ahead as far as braking needs, in bounded memory.
+// Planner: converts segments into phases. It finds the fastest motion along the path that keeps every axis within its
+// limits, and looks ahead as far as the braking distance, in bounded memory.
 //
 //   v²    top ________                 The path is cut into cells; in each cell v² is a straight line over the way.
 //        /|           \______          Backwards, from the last known cell: the highest entry from which braking can
@@ -7,8 +7,9 @@
 //      /  |           |       \        accelerating. Feed and velocities cap both. The path rests at corners (where
 //     0 --+--cell-----+--------+-- s   directions of segments differ), after an exact stop and at actions.
 //
-// On a curve an axis needs part of its acceleration for turning; the rest is for speeding up and braking. So the
-// possible speeds at the two ends of a cell are a small linear program in each direction (speed_window.hpp).
+// On a curve, an axis needs part of its acceleration to change direction; the remainder is available for accelerating
+// and braking. The possible speeds at the two ends of a cell are a small linear program in each direction
+// (speed_window.hpp).
 //
 // Invariant: each move ends at a speed from which the queued cells can brake to rest. The motion is the same, bit for
 // bit, as if the whole program had been planned at once, unless a queue of `most_queued_cells` did not reach the
@@ -36,14 +37,14 @@ class Planner final : public Source<MotionItem> {
 
   [[nodiscard]] bool next(MotionItem& item) override;
 
-  // Changes in mid-run. A move that was given stays as it is. The motion after it is planned anew from its end, on the
-  // path and within the limits. So the caller decides how late a change takes effect: by how far it pulls ahead, and by
-  // how long a move may be.
+  // Changes while running. A move that was returned stays as it is. The motion after it is planned again from its end,
+  // on the path and within the limits. The delay of a change thus depends on how far the caller pulls ahead, and on the
+  // longest move.
 
   // From now on no move is longer than this time.
   void limit_moves_to(Seconds duration);
-  // Both factors multiply the feeds of segments that heed them; ranges 0 to 2 and 0 to 1. Rapids have a factor of
-  // their own. Where the product is below a hundredth, the motion stands still as in a hold until the factor is raised.
+  // Both factors multiply the feeds of segments for which they are enabled; ranges 0 to 2 and 0 to 1. Rapids have a
+  // separate factor. If the product is below 0.01, motion stops as in a hold until it is raised.
   void set_feed_override(double factor);
   void set_adaptive_feed(double factor);
   // Multiplies the speed of rapids; above 0, at most 1.
@@ -52,25 +53,24 @@ class Planner final : public Source<MotionItem> {
   void set_spindle_ratio(double ratio);
   // Limits the speed along the path of all motion from here on, rapids included.
   void limit_speed_to(MmPerSecond speed);
-  // Brakes to rest on the path. Until resume(), every next() then gives an Action of kind feed_hold. On segments that
-  // do not heed a hold, the motion goes on to one that does.
+  // Stops on the path. Until resume(), every next() then returns an Action of kind feed_hold. On segments on which
+  // holds are disabled, motion continues to the first one on which they are enabled.
   void hold();
   void resume();
-  // Like hold(), but on any segment, whatever it heeds. Lasts until resume().
+  // Like hold(), but on any segment. Lasts until resume().
   void stop();
-  // The path goes on where it ended until now with an await_line. That action is forgotten, and its place is passed as
-  // in the mode `last`. Returns false, and changes nothing, where no such action comes next or where all motion before
-  // it was given.
+  // Continues a path that ended with an await_line: the action is dropped, and its point is passed in the mode `last`.
+  // Returns false, and changes nothing, if no such action comes next or all motion before it was returned.
   bool go_on(PathMode last);
-  // At rest in a hold: drops the rest of the path up to the next action. That action comes next after resume().
+  // While stopped in a hold: drops the path up to the next action, which comes next after resume().
   void drop_to_action();
 
-  // How to come to rest: as in a hold, or without limits of jerk, as soon as velocities and accelerations allow.
+  // How to stop: as in a hold, or without jerk limits, as soon as the velocities and accelerations allow.
   enum class Braking { gentle, hard };
-  // The motion by which the path would come to rest if it ended after the last move given. Changes nothing. Where there
-  // is no hard way to rest, the way is gentle.
+  // The motion that would stop the machine if the path ended after the last returned move. Changes nothing. If a hard
+  // stop is not possible, it is gentle.
   void braking_plan(std::vector<PlannedMove>& plan, Braking how = Braking::gentle) const;
-  // Forgets the path pulled so far and begins again, from rest, with the path's next item. Settings stay.
+  // Drops the path pulled so far and begins again from standstill with the path's next item. Settings are kept.
   void restart();
 
  private:

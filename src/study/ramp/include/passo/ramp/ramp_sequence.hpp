@@ -1,7 +1,7 @@
 // RampSequence: the intervals of a ramp or of a whole move, one at a time, by any method. `passo ramp` shows them.
 //
-// It chooses the walk that fits: interpolate/ramp_move.hpp over a ramp, or an SCurveMove. Where a method does not
-// apply, it says why in words. Constant memory, except for a table.
+// It chooses the walk that fits: interpolate/ramp_move.hpp over a ramp, or an SCurveMove. If a method does not apply,
+// the error gives the reason. Constant memory, except for a table.
 #pragma once
 
 #include <cstdint>
@@ -49,7 +49,7 @@ class RampSequence {
   bool done() const;
   // The next interval, in ticks. Only when not done().
   double next();
-  // Where the motor stands after the step that the last next() announced. The move began at 0.
+  // The motor's position after the step returned by the last next(). The move began at 0.
   std::int64_t place() const;
   bool whole_ticks() const { return whole_ticks_; }
 

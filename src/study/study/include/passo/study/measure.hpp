@@ -1,4 +1,4 @@
-// Measures: figures that tell how well a method makes a move.
+// Measures: quality figures of a method for a move.
 //
 // Deviation is the distance of the tool from the ideal path after a pulse that moved it. Evenness of speed is measured
 // under three rules for the duration of a pulse. All of them spend the same time on the whole move:
