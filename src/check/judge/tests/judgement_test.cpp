@@ -57,10 +57,9 @@ TEST(Judgements, know_the_motors_and_give_the_load_to_all_who_watch) {
 
 // The judgement has a thread for each watcher. One thread finds the same, to the last bit.
 TEST(Judgements, are_those_of_watchers_that_see_one_item_after_the_other) {
-  std::string text = with_tools.substr(0, with_tools.rfind("M2"));
-  for (int i = 0; i < 300; ++i)
-    text += i % 2 == 0 ? "G2 X1 Y0 I0.5 J0 F900\n" : "G3 X0 Y0 I-0.5 J0\nG1 X0.3 Y0.2\nX0 Y0\n";
-  const test::JudgedProgram program(test::example_machine("strong-router"), text + "M2\n");
+  std::string text = "G21 G90 G64 P0.01\nT1 M6\nG0 X0.3\nX0\n";
+  for (int i = 0; i < 24; ++i) text += i % 2 == 0 ? "G2 X1 Y0 I0.5 J0 F3000\n" : "G3 X0 Y0 I-0.5 J0\n";
+  const test::JudgedProgram program(test::example_machine("strong-router"), text + "T2 M6\nG1 X0.1\nM2\n");
   const Judgement judged = program.judge();
 
   PlannedProgram planned(program.program.again(), program.machine, program.options, program.check);
