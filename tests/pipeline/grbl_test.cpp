@@ -128,6 +128,23 @@ TEST(GrblJog, a_cancelled_jog_brakes_and_the_next_line_goes_on_from_there) {
   EXPECT_EQ(counts_of(run.board())[0], 0);
 }
 
+// As in grbl 1.1, which accepts a jog in Idle and Jog only.
+TEST(GrblJog, is_refused_during_a_hold_and_has_no_effect_after_it) {
+  GrblRun run;
+  run.send("G1 X20 F1200\n");
+  EXPECT_EQ(run.reply(), "ok");
+  run.pass(Seconds(0.4));
+  run.send("!");
+  ASSERT_TRUE(run.turn_until([&] { return run.is("Hold:0"); }, Seconds(2)));
+  run.send("$J=G91 X5 F600\n");
+  EXPECT_EQ(run.reply(), "error:8");
+  run.send("~");
+  ASSERT_TRUE(run.turn_until([&] { return run.is("Idle"); }));
+  EXPECT_TRUE(run.status().starts_with("<Idle|MPos:20.000,0.000,0.000|")) << run.status();
+  run.send("$J=G91 X5 F600\n");
+  EXPECT_EQ(run.reply(), "ok");
+}
+
 TEST(GrblJog, a_jog_leaves_the_modes_as_they_were) {
   GrblRun run;
   run.send("G20 G91 G2 X0 Y0.2 J0.1 F50\n");

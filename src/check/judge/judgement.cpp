@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 
 #include "passo/activity/stage_options.hpp"
+#include "passo/base/relay.hpp"
 #include "passo/report/summary_builder.hpp"
 
 namespace passo {
@@ -27,6 +28,29 @@ double watch_in_phases(const PlannedMove& move, MarginSurvey& survey, LoadTrack&
     track.add(phase.duration, piece.to - phase.start, survey.last_load(), move.segment.source.line);
   }
   return most;
+}
+
+// The work's zero.
+Point zero_of(const MotionItem& item) {
+  const auto* move = std::get_if<PlannedMove>(&item);
+  return move != nullptr ? move->segment.work_zero : Point();
+}
+
+// The loads of the motors, and what the watchers want of them.
+void watch_loads(const MotionItem& item, MarginSurvey& survey, const JudgeWatchers& watchers) {
+  const auto* move = std::get_if<PlannedMove>(&item);
+  double load = 0;
+  if (move != nullptr && watchers.loads != nullptr) survey.set_cut(watchers.loads->of(*move));
+  if (move != nullptr && watchers.track != nullptr) {
+    load = watch_in_phases(*move, survey, *watchers.track);
+  } else {
+    survey.watch(item);
+    load = survey.last_load();
+  }
+  if (move != nullptr && watchers.lines != nullptr) watchers.lines->add(move->segment.source.line, load);
+  if (watchers.path == nullptr) return;
+  watchers.path->load_of_next(load);
+  watchers.path->watch(item, zero_of(item));
 }
 
 }  // namespace
@@ -61,27 +85,21 @@ Judgement judge(ProgramReader program, const MachineDescription& machine, const 
   planned.operations().watch([&](const Operation& operation) { builder.watch_operation(operation); });
   planned.path().watch([&](const PathItem& item) { builder.watch_path(item); });
   constexpr unsigned items_between_looks = 1024;
-  MotionItem item;
-  for (unsigned items = 1; planned.next(item); ++items) {
-    const auto* move = std::get_if<PlannedMove>(&item);
-    double load = 0;
-    if (move != nullptr && watchers.loads != nullptr) survey.set_cut(watchers.loads->of(*move));
-    if (move != nullptr && watchers.track != nullptr) {
-      load = watch_in_phases(*move, survey, *watchers.track);
-    } else {
-      survey.watch(item);
-      load = survey.last_load();
+  unsigned items = 0;
+  const auto plan = [&](MotionItem& item) {
+    if (!planned.next(item)) return false;
+    builder.add_up(item);
+    if (const auto* action = std::get_if<Action>(&item)) {
+      judged.tool_changes += action->kind == Action::Kind::tool_change ? 1 : 0;
     }
-    if (move != nullptr) speeds.watch(*move);
-    if (move != nullptr && watchers.lines != nullptr) watchers.lines->add(move->segment.source.line, load);
-    builder.watch(item, move != nullptr ? move->segment.work_zero : Point());
-    if (watchers.path != nullptr) {
-      watchers.path->load_of_next(load);
-      watchers.path->watch(item, move != nullptr ? move->segment.work_zero : Point());
-    }
-    if (move == nullptr && std::get<Action>(item).kind == Action::Kind::tool_change) ++judged.tool_changes;
-    if (progress && items % items_between_looks == 0) progress(planned.nominal_time() / check.nominal_time);
-  }
+    if (progress && ++items % items_between_looks == 0) progress(planned.nominal_time() / check.nominal_time);
+    return true;
+  };
+  const auto measure = [&](const MotionItem& item) {
+    if (const auto* move = std::get_if<PlannedMove>(&item)) speeds.watch(*move);
+    builder.measure(item, zero_of(item));
+  };
+  Relay<MotionItem>({measure, [&](const MotionItem& item) { watch_loads(item, survey, watchers); }}).run(plan);
   judged.summary = builder.summary();
   judged.speed = speeds.report();
   judged.margin = survey.verdict();

@@ -89,10 +89,9 @@ class SummaryBuilder::Implementation {
     tool.depth = std::min(tool.depth.value_or(box.low[Axis::z]), box.low[Axis::z]);
   }
 
-  void watch(const PlannedMove& move, const Point& machine_minus_work) {
+  void add_up(const PlannedMove& move) {
     const Segment& segment = move.segment;
     (segment.rapid ? sum_.rapid_time : sum_.cutting_time) += move.duration();
-    peaks_.watch(move);
     const Mm way = move.to - move.from();
     ToolSummary& tool = tool_of(motion_tool_);
     (segment.rapid ? tool.rapid_time : tool.cutting_time) += move.duration();
@@ -103,14 +102,19 @@ class SummaryBuilder::Implementation {
       (segment.rapid ? sum_.rapid_distance : sum_.cutting_distance) += way;
       if (!segment.rapid) tool.cutting_distance += way;
     }
-    add_extents(move, machine_minus_work);
   }
 
-  void watch(const Action& action, const Point& /*machine_minus_work*/) {
+  void add_up(const Action& action) {
     if (action.kind == Action::Kind::tool_change) motion_tool_ = action.tool;
     if (action.kind != Action::Kind::dwell) return;
     ++sum_.dwells;
     sum_.dwell_time += action.dwell;
+  }
+
+  // Touches nothing that the other members touch, but for summary().
+  void measure(const PlannedMove& move, const Point& machine_minus_work) {
+    peaks_.watch(move);
+    add_extents(move, machine_minus_work);
   }
 
   RunSummary summary() const {
@@ -202,7 +206,16 @@ void SummaryBuilder::watch_path(const PathItem& item) {
 }
 
 void SummaryBuilder::watch(const MotionItem& item, const Point& machine_minus_work) {
-  std::visit([&](const auto& what) { implementation_->watch(what, machine_minus_work); }, item);
+  add_up(item);
+  measure(item, machine_minus_work);
+}
+
+void SummaryBuilder::add_up(const MotionItem& item) {
+  std::visit([&](const auto& what) { implementation_->add_up(what); }, item);
+}
+
+void SummaryBuilder::measure(const MotionItem& item, const Point& machine_minus_work) {
+  if (const auto* move = std::get_if<PlannedMove>(&item)) implementation_->measure(*move, machine_minus_work);
 }
 
 RunSummary SummaryBuilder::summary() const {

@@ -137,7 +137,8 @@ void CellCutter::begin(const Segment& segment, double entry_squared, double from
   for (const LimitedAxis& axis : limited_) {
     if (axis.row.most_of(steepest) > 0) moving_.push_back(axis);
   }
-  at_ = place_at(curve, moving_, from);
+  find_shares(curve, moving_, shares_);
+  find_place(curve, moving_, from, at_);
   const auto steepest_of = [&](const LimitedAxis& axis) { return axis.row.most_of(steepest); };
   const double top = std::min(segment.speed.value(), top_speed(moving_, steepest_of));
   const double strongest_here = top_acceleration(moving_, steepest_of);
@@ -190,15 +191,22 @@ void CellCutter::next(const CellPlace& to) {
     cut_straight(*segment_, moving_, at_.s, end, to);
     at_.s = end;
   } else {
-    const Place there = place_at(segment_->curve, moving_, end);
-    cut_curve(*segment_, moving_, at_, there, to);
+    Place there;
+    find_place(segment_->curve, moving_, end, there);
+    cut_curve(*segment_, moving_, shares_, at_, there, to);
     at_ = there;
   }
 }
 
 void CellCutter::cut(const Segment& segment, double from, double to, bool straight, const CellPlace& place) const {
   if (straight) return cut_straight(segment, limited_, from, to, place);
-  cut_curve(segment, limited_, place_at(segment.curve, limited_, from), place_at(segment.curve, limited_, to), place);
+  PerLimit<double> shares;
+  Place in;
+  Place out;
+  find_shares(segment.curve, limited_, shares);
+  find_place(segment.curve, limited_, from, in);
+  find_place(segment.curve, limited_, to, out);
+  cut_curve(segment, limited_, shares, in, out, place);
 }
 
 // From rest the speed grows with the root of s, so the cells grow likewise. Each end of the segment may be a rest. At
@@ -224,29 +232,37 @@ double CellCutter::part_of_turn(const Axes& axes, const Point& steepest) {
 }
 // Let n be the part of the bend at right angles to the slope. The sum of n (q' a + q'' v²) over the axes is n² v²,
 // whatever a is. It is at most the sum of |n| times the limits, which bounds v.
-double CellCutter::top_of_turning(const Axes& axes, const Point& slope, const Point& bend) {
+double CellCutter::top_of_turning(const Axes& axes, const Place& place) {
   double slope_squared = 0;
   double common = 0;
-  for (const LimitedAxis& axis : axes) {
-    if (!axis.limits_acceleration()) continue;
-    slope_squared += squared(axis.row.of(slope));
-    common += axis.row.of(slope) * axis.row.of(bend);
+  for (std::size_t k = 0; k < axes.size(); ++k) {
+    if (!axes[k].limits_acceleration()) continue;
+    slope_squared += squared(place.slope[k]);
+    common += place.slope[k] * place.bend[k];
   }
   const double share = slope_squared > 0 ? common / slope_squared : 0;
   double normal_squared = 0;
   double strength = 0;
-  for (const LimitedAxis& axis : axes) {
-    if (!axis.limits_acceleration()) continue;
-    const double normal = axis.row.of(bend) - share * axis.row.of(slope);
+  for (std::size_t k = 0; k < axes.size(); ++k) {
+    if (!axes[k].limits_acceleration()) continue;
+    const double normal = place.bend[k] - share * place.slope[k];
     normal_squared += squared(normal);
-    strength += std::abs(normal) * axis.acceleration;
+    strength += std::abs(normal) * axes[k].acceleration;
   }
   return normal_squared > 0 ? strength / normal_squared : infinity;
 }
 
-CellCutter::Place CellCutter::place_at(const Curve& curve, const Axes& axes, double s) {
+void CellCutter::find_place(const Curve& curve, const Axes& axes, double s, Place& place) {
   const CurveDerivatives here = derivatives_at(curve, Mm(s));
-  return {.s = s, .slope = here.first, .bend = here.second, .turning = top_of_turning(axes, here.first, here.second)};
+  place.s = s;
+  for (std::size_t k = 0; k < axes.size(); ++k) {
+    place.slope[k] = axes[k].row.of(here.first);
+    place.bend[k] = axes[k].row.of(here.second);
+  }
+  place.turning = top_of_turning(axes, place);
+  if (curve.shape() != Curve::Shape::arc) return;
+  const Curve::ArcData& arc = curve.arc_data();
+  place.around = std::hypot(here.first[arc.first], here.first[arc.second]);
 }
 
 // On an arc each derivative is the one before, turned. So its size is that of the slope in the plane, times the turn
@@ -256,26 +272,22 @@ CellCutter::Bend CellCutter::bend_of_arc(const Curve& curve, const Place& in, co
   const double turn = std::abs(arc.sweep) / curve.length().value();
   // A growing radius adds to every derivative; three times its share covers the binomial terms.
   const double growing = 3 * std::abs(arc.end_radius - arc.start_radius) / curve.length().value();
-  const double around = growing + std::max(std::hypot(in.slope[arc.first], in.slope[arc.second]),
-                                           std::hypot(out.slope[arc.first], out.slope[arc.second]));
+  const double around = growing + std::max(in.around, out.around);
   return {.third = around * turn * turn, .fourth = around * turn * turn * turn};
 }
 
 // A cubic's third derivative is constant.
-CellCutter::Bend CellCutter::bend_on(const Curve& curve, const Bend& of_arc, const AxisRow& row) {
-  switch (curve.shape()) {
-    case Curve::Shape::cubic: return {.third = 6 * std::abs(row.of(curve.cubic_data().third))};
-    case Curve::Shape::arc: {
-      const Curve::ArcData& arc = curve.arc_data();
-      const double first = row.factor_of(arc.first);
-      const double second = row.factor_of(arc.second);
-      if (first == 0 && second == 0) break;
-      const double part = first == 0 ? std::abs(second) : second == 0 ? std::abs(first) : std::hypot(first, second);
-      return {.third = part * of_arc.third, .fourth = part * of_arc.fourth};
-    }
-    case Curve::Shape::line: break;
+void CellCutter::find_shares(const Curve& curve, const Axes& axes, PerLimit<double>& shares) {
+  for (std::size_t k = 0; k < axes.size(); ++k) {
+    const AxisRow& row = axes[k].row;
+    shares[k] = 0;
+    if (curve.shape() == Curve::Shape::cubic) shares[k] = 6 * std::abs(row.of(curve.cubic_data().third));
+    if (curve.shape() != Curve::Shape::arc) continue;
+    const Curve::ArcData& arc = curve.arc_data();
+    const double first = row.factor_of(arc.first);
+    const double second = row.factor_of(arc.second);
+    shares[k] = first == 0 ? std::abs(second) : second == 0 ? std::abs(first) : std::hypot(first, second);
   }
-  return {};
 }
 
 // Cuts one cell of a line, or of the rest of a line.
@@ -300,22 +312,24 @@ CellCutter::Strength CellCutter::strength_on(const Axes& axes, const Place& in, 
   const double h = out.s - in.s;
   const double most = std::min(bounds.top_squared / (2 * h), strongest);
   double strength = std::min(2 * slope_strength, most);
-  const auto demand_on = [&](const LimitedAxis& axis) {
-    return axis.acceleration +
-           bounds.fastest_squared * std::max(std::abs(axis.row.of(in.bend)), std::abs(axis.row.of(out.bend)));
+  const auto demand_on = [&](std::size_t k) {
+    return axes[k].acceleration + bounds.fastest_squared * std::max(std::abs(in.bend[k]), std::abs(out.bend[k]));
   };
-  const auto along = [&](const LimitedAxis& axis) {
-    return std::min(std::abs(axis.row.of(in.slope)), std::abs(axis.row.of(out.slope)));
+  const auto along = [&](std::size_t k) { return std::min(std::abs(in.slope[k]), std::abs(out.slope[k])); };
+  const auto is_kept = [&] {
+    if (!(strength < most)) return true;
+    for (std::size_t k = 0; k < axes.size(); ++k) {
+      if (demand_on(k) <= strength * along(k)) return true;
+    }
+    return false;
   };
-  const auto keeps = [&](const LimitedAxis& axis) { return demand_on(axis) <= strength * along(axis); };
-  const auto is_kept = [&] { return !(strength < most) || std::ranges::any_of(axes, keeps); };
   if (is_kept()) return {.most = strength, .is_kept = true};
   double more = most;
-  for (const LimitedAxis& axis : axes) {
-    const Bend bend = bend_on(bounds.curve, bounds.of_arc, axis.row);
-    const double left = cheap_slack * axis.acceleration * 8 / (h * h) - bend.fourth * bounds.top_squared;
+  for (std::size_t k = 0; k < axes.size(); ++k) {
+    const Bend& bend = bounds.bends[k];
+    const double left = cheap_slack * axes[k].acceleration * 8 / (h * h) - bend.fourth * bounds.top_squared;
     if (bend.third > 0) more = std::min(more, left / (5 * bend.third));
-    if (along(axis) > 0) more = std::min(more, demand_on(axis) / along(axis));
+    if (along(k) > 0) more = std::min(more, demand_on(k) / along(k));
   }
   strength = std::max(strength, more);
   return {.most = strength, .is_kept = is_kept()};
@@ -323,23 +337,25 @@ CellCutter::Strength CellCutter::strength_on(const Axes& axes, const Place& in, 
 
 // Between the ends the demand f(s) = q' a + q'' v² has f'' = q'''' v² + 5 a q''', since (v²)' = 2a. So f exceeds the
 // larger of its end values by at most h²/8 times the largest |f''|. That much is taken off the limit.
-void CellCutter::cut_curve(const Segment& segment, const Axes& axes, const Place& in, const Place& out,
-                           const CellPlace& place) {
+void CellCutter::cut_curve(const Segment& segment, const Axes& axes, const PerLimit<double>& shares, const Place& in,
+                           const Place& out, const CellPlace& place) {
   Cell& cell = place.cell;
   fill(in.s, out.s, cell);
   const double h = out.s - in.s;
   const double eighth = h * h / 8;
-  const Curve& curve = segment.curve;
-  const Bend of_arc = curve.shape() == Curve::Shape::arc ? bend_of_arc(curve, in, out) : Bend{};
-  const auto steepest = [&](const AxisRow& row, const Bend& bend) {
-    return std::max(std::abs(row.of(in.slope)), std::abs(row.of(out.slope))) + eighth * bend.third;
-  };
+  const bool is_arc = segment.curve.shape() == Curve::Shape::arc;
+  const Bend of_arc = is_arc ? bend_of_arc(segment.curve, in, out) : Bend{};
+  PerLimit<Bend> bends;
+  PerLimit<double> steepest;
   double top = fastest;
   double slope_strength = strongest;
-  for (const LimitedAxis& axis : axes) {
-    lower(top, axis.velocity, steepest(axis.row, bend_on(curve, of_arc, axis.row)));
-    lower(slope_strength, axis.acceleration,
-          std::min(std::abs(axis.row.of(in.slope)), std::abs(axis.row.of(out.slope))));
+  for (std::size_t k = 0; k < axes.size(); ++k) {
+    bends[k] = is_arc ? Bend{shares[k] * of_arc.third, shares[k] * of_arc.fourth} : Bend{shares[k], 0};
+    const double slope_in = std::abs(in.slope[k]);
+    const double slope_out = std::abs(out.slope[k]);
+    steepest[k] = std::max(slope_in, slope_out) + eighth * bends[k].third;
+    lower(top, axes[k].velocity, steepest[k]);
+    lower(slope_strength, axes[k].acceleration, std::min(slope_in, slope_out));
   }
   cell.top_squared = top * top;
   cell.smallest_rest = smallest_rest(top);
@@ -347,31 +363,29 @@ void CellCutter::cut_curve(const Segment& segment, const Axes& axes, const Place
   double top_squared = std::min(top * top, std::max(in.turning, out.turning));
   const double fastest_squared = std::min(top_squared, squared(room_for_override * segment.speed.value()));
   const Strength own_strength = strength_on(
-      axes, in, out, {.curve = curve, .of_arc = of_arc, .top_squared = top_squared, .fastest_squared = fastest_squared},
-      slope_strength);
+      axes, in, out, {.bends = bends, .top_squared = top_squared, .fastest_squared = fastest_squared}, slope_strength);
   double strength = own_strength.most;
   const auto slack_of = [&](const Bend& bend) {
     return eighth * (bend.fourth * top_squared + 5 * strength * bend.third);
   };
-  for (const LimitedAxis& axis : axes) {
-    const Bend bend = bend_on(curve, of_arc, axis.row);
-    if (slack_of(bend) <= most_slack * axis.acceleration) continue;
+  for (std::size_t k = 0; k < axes.size(); ++k) {
+    if (slack_of(bends[k]) <= most_slack * axes[k].acceleration) continue;
     // The cell is too coarse for this speed: go slower.
-    top_squared = most_slack * axis.acceleration / (eighth * (bend.fourth + 5 * bend.third / (2 * h)));
+    top_squared = most_slack * axes[k].acceleration / (eighth * (bends[k].fourth + 5 * bends[k].third / (2 * h)));
     strength = std::min(strength, top_squared / (2 * h));
     cell.top_squared = std::min(cell.top_squared, top_squared);
   }
   cell.acceleration = strength;
 
-  for (const LimitedAxis& axis : axes) {
-    const Bend bend = bend_on(curve, of_arc, axis.row);
-    const double steep = steepest(axis.row, bend);
-    const double bend_in = axis.row.of(in.bend);
-    const double bend_out = axis.row.of(out.bend);
+  for (std::size_t k = 0; k < axes.size(); ++k) {
+    const LimitedAxis& axis = axes[k];
+    const double steep = steepest[k];
+    const double bend_in = in.bend[k];
+    const double bend_out = out.bend[k];
     if (!axis.limits_acceleration() || (steep == 0 && bend_in == 0 && bend_out == 0)) continue;
-    const double slack = slack_of(bend);
-    const double slope_in = axis.row.of(in.slope) / (2 * h);
-    const double slope_out = axis.row.of(out.slope) / (2 * h);
+    const double slack = slack_of(bends[k]);
+    const double slope_in = in.slope[k] / (2 * h);
+    const double slope_out = out.slope[k] / (2 * h);
     place.demands[cell.demand_count++] = {.entry_x = bend_in - slope_in,
                                           .entry_y = slope_in,
                                           .exit_x = -slope_out,
@@ -379,12 +393,12 @@ void CellCutter::cut_curve(const Segment& segment, const Axes& axes, const Place
                                           .limit = axis.acceleration - slack};
     if (axis.falling == nullptr || !(squared(steep) * top_squared > axis.falling->shoulder())) continue;
     // w = q'² v² bends by w'' = 2 (q''² + q' q''') v² + 8 q' q'' a.
-    const double second = std::max(std::abs(bend_in), std::abs(bend_out)) + h * bend.third;
-    const double bending = 2 * (second * second + steep * bend.third) * top_squared + 8 * steep * second * strength;
+    const double second = std::max(std::abs(bend_in), std::abs(bend_out)) + h * bends[k].third;
+    const double bending = 2 * (second * second + steep * bends[k].third) * top_squared + 8 * steep * second * strength;
     place.falling[cell.falling_count++] = {.curve = axis.falling,
                                            .demand = static_cast<std::uint32_t>(cell.demand_count - 1),
-                                           .entry_weight = squared(axis.row.of(in.slope)),
-                                           .exit_weight = squared(axis.row.of(out.slope)),
+                                           .entry_weight = squared(in.slope[k]),
+                                           .exit_weight = squared(out.slope[k]),
                                            .slack = slack,
                                            .slack_of_fall = eighth * bending};
   }

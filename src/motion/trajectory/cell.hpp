@@ -102,12 +102,15 @@ class CellCutter {
 
  private:
   using Axes = std::vector<LimitedAxis>;
+  template <class Value>
+  using PerLimit = std::array<Value, most_limited_axes>;  // of as many axes as there are, in their order
   // A place on the curve. The end of one cell is the start of the next, so each place is computed once.
   struct Place {
     double s = 0;
-    Point slope;
-    Point bend;
     double turning = 0;  // square of the highest speed at which all axes together can turn so
+    double around = 0;   // on an arc: the size of the slope in the arc's plane
+    PerLimit<double> slope;
+    PerLimit<double> bend;
   };
   // Bounds of |q'''| and |q''''| between two places.
   struct Bend {
@@ -115,8 +118,7 @@ class CellCutter {
     double fourth = 0;
   };
   struct CellBounds {
-    const Curve& curve;
-    const Bend& of_arc;
+    const PerLimit<Bend>& bends;
     double top_squared = 0;      // the limit by what the axes can do
     double fastest_squared = 0;  // the limit by the axes and by the feed
   };
@@ -127,18 +129,20 @@ class CellCutter {
   static Strength strength_on(const Axes& axes, const Place& in, const Place& out, const CellBounds& bounds,
                               double slope_strength);
   static double part_of_turn(const Axes& axes, const Point& steepest);
-  static double top_of_turning(const Axes& axes, const Point& slope, const Point& bend);
-  static Place place_at(const Curve& curve, const Axes& axes, double s);
+  static double top_of_turning(const Axes& axes, const Place& place);
+  static void find_place(const Curve& curve, const Axes& axes, double s, Place& place);
+  static void find_shares(const Curve& curve, const Axes& axes, PerLimit<double>& shares);
   static Bend bend_of_arc(const Curve& curve, const Place& in, const Place& out);
-  static Bend bend_on(const Curve& curve, const Bend& of_arc, const AxisRow& row);
   static void cut_straight(const Segment& segment, const Axes& axes, double from, double to, const CellPlace& place);
-  static void cut_curve(const Segment& segment, const Axes& axes, const Place& in, const Place& out,
-                        const CellPlace& place);
+  static void cut_curve(const Segment& segment, const Axes& axes, const PerLimit<double>& shares, const Place& in,
+                        const Place& out, const CellPlace& place);
   double graded(double size, double left) const;
 
   Axes limited_;  // all axes that have a limit
   Axes moving_;   // those of them that move on the segment
   const Segment* segment_ = nullptr;
+  // Of each moving axis, the same all along the segment: a cubic's |q'''|, or the part of an arc's bend that it sees.
+  PerLimit<double> shares_;
   Place at_;             // cut up to here
   double longest_ = 0;   // length of cells in the middle
   double shortest_ = 0;  // length of the cells at the ends; from there they grow

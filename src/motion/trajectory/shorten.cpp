@@ -1,5 +1,7 @@
 #include "shorten.hpp"
 
+#include <cmath>
+
 namespace passo {
 namespace {
 
@@ -10,6 +12,7 @@ constexpr double smallest_part = 0.02;
 }  // namespace
 
 std::optional<PlannedMove> shorten(PlannedMove& move, Seconds longest, Mm least_way) {
+  if (std::isinf(longest.value())) return std::nullopt;
   const Seconds small = longest * smallest_part;
   Seconds left = longest * (1 - smallest_part);
   std::size_t whole = 0;  // phases that stay whole

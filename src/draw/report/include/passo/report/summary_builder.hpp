@@ -27,6 +27,11 @@ class SummaryBuilder {
   // which the work extents of the motion are computed, along the machine's axes.
   void watch(const MotionItem& item, const Point& machine_minus_work);
 
+  // The two halves of watch(), for a caller with two threads. add_up() belongs to the thread of watch_operation() and
+  // watch_path(): times and distances. measure() may be called in another: machine extents and peaks.
+  void add_up(const MotionItem& item);
+  void measure(const MotionItem& item, const Point& machine_minus_work);
+
   // The summary of the motion. The caller adds names and board.
   RunSummary summary() const;
 
