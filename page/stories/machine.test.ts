@@ -84,7 +84,7 @@ describe('the machine file', () => {
 });
 
 describe('usual values of the work', () => {
-  it('are written into the machine file, and count in Make', async () => {
+  it('are written into the machine file, and count in CAM', async () => {
     const { page, context, errors } = await visit(browser, daemon, 'machine', { language: 'it' });
     await page.getByTestId('scale-X').waitFor();
     await enter(page, 'Altezza dei rapidi sopra il pezzo', '-7');
@@ -95,7 +95,7 @@ describe('usual values of the work', () => {
     await click(page, 'Scrivi il file');
     await agree(page, 'Scrivi il file');
     await expect.poll(() => readFileSync(machine, 'utf8')).toContain('[work]\nclearance_mm = 7\ndepth_mm = -2.5');
-    await page.goto(`${daemon.address}#/make`);
+    await page.goto(`${daemon.address}#/cam`);
     await page.getByRole('radio', { name: 'Forare' }).check({ force: true });
     expect(await page.getByRole('textbox', { name: 'Altezza dei rapidi' }).getAttribute('placeholder')).toBe('7mm');
     const holes = 'M48\nMETRIC\nT1C0.800\n%\nT1\nX10.0Y10.0\nM30\n';

@@ -120,16 +120,16 @@ describe('limits for the motors', () => {
   });
 });
 
-describe('Make', () => {
+describe('CAM', () => {
   it('engraves letters, and a drawing that is dropped in Files is cleared as a pocket', async () => {
-    const { page, context, errors } = await visit(browser, daemon, 'make');
+    const { page, context, errors } = await visit(browser, daemon, 'cam');
     page.setDefaultTimeout(patience);
     await choose(page, 'Engrave');
     const letters = page.getByRole('textbox', { name: 'Letters instead of a drawing' });
     await letters.pressSequentially('No. 7');
     expect(await letters.inputValue()).toBe('No. 7');
-    await expect.poll(() => page.getByTestId('make-state').innerText(), { timeout: patience * 4 }).toBe('Made');
-    await page.locator('.make-result img').waitFor();
+    await expect.poll(() => page.getByTestId('cam-state').innerText(), { timeout: patience * 4 }).toBe('Made');
+    await page.locator('.cam-result img').waitFor();
     await page.goto(`${daemon.address}#/files`);
     const drawing = '<svg xmlns="http://www.w3.org/2000/svg" width="40mm" height="30mm" viewBox="0 0 40 30"><rect x="5" y="5" width="30" height="20"/></svg>';
     await page.setInputFiles('input[type=file]', { name: 'tray.svg', mimeType: 'image/svg+xml', buffer: Buffer.from(drawing) });

@@ -12,7 +12,7 @@ import type { HistoryJob, Program } from '../machine/api';
 import { ask, post, remove, upload } from '../machine/api';
 import { isLive, status } from '../machine/connection';
 import { alarms, ended, keeps, queue, refreshHistory } from '../machine/history';
-import { needOperations } from '../machine/maker';
+import { needOperations } from '../machine/cam';
 import { beOwner } from '../machine/owner';
 import { pathBox, pathIndex } from '../machine/path_index';
 import { checkProgram, chosen, deleteProgram, isListed, leaveOut, programs, sending, sendProgram, shown, shownId, timeOf } from '../machine/programs';
@@ -24,8 +24,8 @@ import { Icon, type IconName } from '../parts/icon';
 import { MotorLoad } from '../parts/motor_load';
 import { Proposals } from '../parts/proposals';
 import { picked } from '../scene/stage';
-import { isDrawing } from './make_forms';
-import { takeDrawings } from './make_order';
+import { isDrawing } from './cam_forms';
+import { takeDrawings } from './cam_order';
 
 const mostFindings = 100;
 const linesShown = 3; // of the other lines with the same warning
@@ -35,7 +35,7 @@ async function take(files: readonly File[]): Promise<void> {
   const drawings = files.filter((file) => isDrawing(file.name));
   for (const file of files) if (!isDrawing(file.name)) await attempt(() => sendProgram(file));
   if (drawings.length === 0) return;
-  goTo('make');
+  goTo('cam');
   await takeDrawings(drawings);
 }
 

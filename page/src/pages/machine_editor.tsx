@@ -183,9 +183,9 @@ function ScaleRow({ axes }: { axes: readonly string[] }) {
 
 function Work() {
   return (
-    <div class="make-fields editor">
+    <div class="form-fields editor">
       {ofWork.map(([path, title]) => (
-        <label key={path} class="make-field">
+        <label key={path} class="form-field">
           <span class="dim">
             {say(title)} {lengthUnit()}
           </span>

@@ -35,8 +35,8 @@ export function StartDialog() {
       </div>
       <details open={now.pass !== null || now.after > 0 || way?.code === 'reentry.done-often'}>
         <summary>{say('way.where')}</summary>
-        <div class="make-fields">
-          <label class="make-field">
+        <div class="form-fields">
+          <label class="form-field">
             <span class="dim">{say('way.pass')}</span>
             <Typed
               inputMode="numeric"
@@ -48,7 +48,7 @@ export function StartDialog() {
               }}
             />
           </label>
-          <label class="make-field">
+          <label class="form-field">
             <span class="dim">
               {say('way.after')} {lengthUnit()}
             </span>

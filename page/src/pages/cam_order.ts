@@ -1,13 +1,13 @@
 // What is to be made: the job, its drawings, and what was filled in. It outlives a look at another page.
 import { signal } from '@preact/signals';
 import { kept } from '../core/kept';
-import { make, needOperations, order, refreshMake, sendDrawing, type Options } from '../machine/maker';
-import { formFor, forms, ofMachine, withUnit, type Field, type Form } from './make_forms';
+import { cam, needOperations, order, refreshCam, sendDrawing, type Options } from '../machine/cam';
+import { formFor, forms, ofMachine, withUnit, type Field, type Form } from './cam_forms';
 
 type Values = Record<string, string | boolean>;
 const isTable = (value: unknown): value is Record<string, Values> => typeof value === 'object' && value !== null;
 // What was filled in, by job.
-const filled = kept<Record<string, Values>>('make', {}, isTable);
+const filled = kept<Record<string, Values>>('cam', {}, isTable, 'make');
 export const job = signal('');
 export const picked = signal<readonly string[]>([]);
 // What a person says of a board's files, by their names: 'top copper'.
@@ -15,9 +15,9 @@ export const layers = signal<Readonly<Record<string, string>>>({});
 
 // A page that comes anew shows what was made last.
 let isNew = true;
-export async function lookAtMake(): Promise<void> {
-  await Promise.all([refreshMake(), needOperations()]);
-  const last = make.value?.job ?? '';
+export async function lookAtCam(): Promise<void> {
+  await Promise.all([refreshCam(), needOperations()]);
+  const last = cam.value?.job ?? '';
   if (isNew && picked.value.length === 0 && forms.value.some((one) => one.job === last)) job.value = last;
   isNew = false;
 }
@@ -47,7 +47,7 @@ export function ask(form: Form | undefined): void {
   const files = hasText ? [] : picked.value.filter((one) => !named.includes(one)).slice(0, form.most);
   if (files.length === 0 && !hasText) return;
   if (form.parts.length === 0) return order({ job: form.job, files, options });
-  const known = new Set(make.value?.job === form.job ? make.value.report?.files.map((one) => one.name) : []);
+  const known = new Set(cam.value?.job === form.job ? cam.value.report?.files.map((one) => one.name) : []);
   const told = Object.entries(layers.value).filter(([name]) => known.has(name));
   const profile = Object.fromEntries(partsOf(form).map((part) => [part.job, optionsOf(part, (field) => field.ofJob)]));
   order({ job: form.job, files, options: { ...options, as: told.map(([name, layer]) => `${name}=${layer}`) }, profile });
@@ -76,12 +76,12 @@ export function pick(name: string, isPicked: boolean): void {
 // A drawing that the job at hand cannot use leads to the first one that can. Several files of a board make one.
 export async function takeDrawings(files: readonly File[]): Promise<void> {
   for (const file of files) await sendDrawing(file);
-  const known = new Set(make.value?.files ?? []);
+  const known = new Set(cam.value?.files ?? []);
   const names = files.map((file) => file.name).filter((name) => known.has(name));
   if (files.length > 0) takeForm(files.map((file) => file.name));
   const form = formNow();
   if (form === undefined) return;
   if (form.parts.length > 0) picked.value = [...new Set([...picked.value, ...names])];
-  else if (picked.value.length === 0) picked.value = (make.value?.files ?? []).slice(-(form.most ?? 1));
+  else if (picked.value.length === 0) picked.value = (cam.value?.files ?? []).slice(-(form.most ?? 1));
   ask(form);
 }

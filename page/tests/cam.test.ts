@@ -1,9 +1,9 @@
-// The forms of Make: what a person types, and what is sent.
+// The forms of CAM: what a person types, and what is sent.
 import { afterEach, describe, expect, it } from 'vitest';
 import { units } from '../src/core/units';
 import { en } from '../src/lang/cam/en';
-import { formFor, forms, usualOf, withUnit, type Field } from '../src/pages/make_forms';
-import { fieldsOf } from '../src/pages/make_order';
+import { formFor, forms, usualOf, withUnit, type Field } from '../src/pages/cam_forms';
+import { fieldsOf } from '../src/pages/cam_order';
 import { knowOperations } from './description';
 
 knowOperations();

@@ -4,7 +4,7 @@ import { attempt } from '../core/notices';
 import { get, post, remove, upload } from './api';
 import { chosen, refreshPrograms } from './programs';
 
-export interface Make {
+export interface Cam {
   jobs: string[];
   files: string[];
   state: 'none' | 'running' | 'done' | 'failed';
@@ -72,24 +72,24 @@ export async function needOperations(): Promise<void> {
   });
 }
 
-export const make = signal<Make | null>(null);
+export const cam = signal<Cam | null>(null);
 // Counts the orders that have ended, so that each has a picture of its own.
 export const madeCount = signal(0);
 
 const lookEvery = 150; // ms
 const settle = 500; // ms after the last change of a form
 
-export async function refreshMake(): Promise<void> {
-  await attempt(async () => (make.value = await get<Make>('/cam')));
+export async function refreshCam(): Promise<void> {
+  await attempt(async () => (cam.value = await get<Cam>('/cam')));
 }
 
 export async function sendDrawing(file: File): Promise<void> {
-  await attempt(async () => (make.value = await upload<Make>('/cam/files', file.name, file)));
+  await attempt(async () => (cam.value = await upload<Cam>('/cam/files', file.name, file)));
 }
 
 export async function clearDrawings(): Promise<void> {
   await attempt(async () => {
-    make.value = (await remove('/cam/files')) as Make;
+    cam.value = (await remove('/cam/files')) as Cam;
   });
 }
 
@@ -119,14 +119,14 @@ async function work(): Promise<void> {
     const now = wanted;
     wanted = null;
     await attempt(async () => {
-      make.value = await post<Make>('/cam', now);
-      while (make.value?.state === 'running') {
+      cam.value = await post<Cam>('/cam', now);
+      while (cam.value?.state === 'running') {
         await new Promise((resolve) => setTimeout(resolve, lookEvery));
-        make.value = await get<Make>('/cam');
+        cam.value = await get<Cam>('/cam');
       }
       ++madeCount.value;
-      if (make.value?.program != null) {
-        chosen.value = make.value.program;
+      if (cam.value?.program != null) {
+        chosen.value = cam.value.program;
         await refreshPrograms();
       }
     });

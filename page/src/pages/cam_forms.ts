@@ -4,7 +4,7 @@ import { computed } from '@preact/signals';
 import { isKey, type Key } from '../core/language';
 import { fromMm, lengthUnit } from '../core/units';
 import { usualClearance, usualDepth } from '../machine/machine_file';
-import { operations, type CamOperation, type CamOption } from '../machine/maker';
+import { operations, type CamOperation, type CamOption } from '../machine/cam';
 
 export interface Field {
   option: string;

@@ -9,11 +9,11 @@ const holes = 'M48\nMETRIC\nT1C0.800\n%\nT1\nX10.0Y10.0\nX20.0Y10.0\nX20.0Y25.0\
 
 describe('a drill file', () => {
   it('becomes a program whose picture follows the form, and what is wrong is told', async () => {
-    const { page, context, errors } = await visit(browser, daemon, 'make');
+    const { page, context, errors } = await visit(browser, daemon, 'cam');
     const send = (name: string, text: string): Promise<void> =>
       page.setInputFiles('input[type=file]', { name, mimeType: 'text/plain', buffer: Buffer.from(text) });
     await send('holes.drl', holes);
-    await expect.poll(() => page.getByTestId('make-state').innerText()).toBe('Made');
+    await expect.poll(() => page.getByTestId('cam-state').innerText()).toBe('Made');
     const picture = page.getByRole('img', { name: 'What is cut' });
     await picture.waitFor();
     await expect.poll(() => picture.evaluate((one) => (one as HTMLImageElement).naturalWidth)).toBeGreaterThan(0);
@@ -30,12 +30,12 @@ describe('a drill file', () => {
     await expect.poll(text).toContain('Z-3.25');
     await page.getByRole('button', { name: 'To the program' }).click();
     await expect.poll(() => page.getByTestId('verdict').innerText()).toContain('Good');
-    await page.goto(`${daemon.address}#/make`);
+    await page.goto(`${daemon.address}#/cam`);
     await send('wrong.drl', 'this is no drill file\n');
     await page.getByRole('checkbox', { name: 'holes.drl' }).uncheck();
     await page.getByRole('checkbox', { name: 'wrong.drl' }).check();
-    await expect.poll(() => page.getByTestId('make-state').innerText()).toBe('Not made');
-    expect(await page.locator('.make-result pre').innerText()).toContain('wrong.drl');
+    await expect.poll(() => page.getByTestId('cam-state').innerText()).toBe('Not made');
+    expect(await page.locator('.cam-result pre').innerText()).toContain('wrong.drl');
     expect(errors).toEqual([]);
     await context.close();
   });
@@ -43,7 +43,7 @@ describe('a drill file', () => {
 
 describe('a whole board', () => {
   it('becomes programs in the order in which they are run, and a layer that was guessed wrong is told', async () => {
-    const { page, context, errors } = await visit(browser, daemon, 'make');
+    const { page, context, errors } = await visit(browser, daemon, 'cam');
     const files = ['timer-B_Cu.gbr', 'timer-Edge_Cuts.gbr', 'timer.drl'].map((name) => example(`boards/${name}`));
     await page.setInputFiles('input[type=file]', files);
     await page.getByRole('heading', { name: 'What to do when' }).waitFor();

@@ -5,11 +5,11 @@ import { say, type Key } from '../core/language';
 import { goTo } from '../core/route';
 import { durationText } from '../core/time';
 import { lengthText, lengthUnit } from '../core/units';
-import { make, madeCount, type BoardFile, type BoardReport, type BoardStep } from '../machine/maker';
+import { cam, madeCount, type BoardFile, type BoardReport, type BoardStep } from '../machine/cam';
 import { chosen } from '../machine/programs';
 import { token } from '../machine/token';
 import { Button } from '../parts/button';
-import { ask, formNow, layers, setLayer } from './make_order';
+import { ask, formNow, layers, setLayer } from './cam_order';
 
 const layerNames = ['top copper', 'bottom copper', 'inner copper', 'outline', 'nothing'] as const;
 const otherRoles = ['mask', 'paste', 'print', 'drawing'] as const;
@@ -22,11 +22,11 @@ function layerOf(file: BoardFile): string {
 function layerWords(layer: string): string {
   const role = otherRoles.find((one) => layer.endsWith(one));
   const known = role ?? layer;
-  return say(`make.layer.${known}` as Key);
+  return say(`cam.layer.${known}` as Key);
 }
 
 export function BoardLayers() {
-  const report = make.value?.job === 'board' ? make.value.report : null;
+  const report = cam.value?.job === 'board' ? cam.value.report : null;
   // What a person has said of a file counts also where the last order did not know that the file would be there.
   const forgotten = report?.files.some((file) => layers.value[file.name] !== undefined && file.told_by !== 'you') === true;
   useEffect(() => {
@@ -34,9 +34,9 @@ export function BoardLayers() {
   }, [forgotten]);
   if (report === null) return null;
   return (
-    <section class="panel" aria-label={say('make.board.layers')}>
-      <h2>{say('make.board.layers')}</h2>
-      <p class="dim">{say('make.board.layers.what')}</p>
+    <section class="panel" aria-label={say('cam.board.layers')}>
+      <h2>{say('cam.board.layers')}</h2>
+      <p class="dim">{say('cam.board.layers.what')}</p>
       <ul class="board-layers">
         {report.files.map((file) => {
           const layer = layerOf(file);
@@ -44,7 +44,7 @@ export function BoardLayers() {
           if (!choices.includes(layer)) choices.push(layer);
           return (
             <li key={file.file}>
-              <label class="make-field">
+              <label class="form-field">
                 <span class="file-name">{file.name}</span>
                 <select value={layer} onChange={(event) => setLayer(file.name, event.currentTarget.value)}>
                   {choices.map((one) => (
@@ -54,12 +54,12 @@ export function BoardLayers() {
                   ))}
                 </select>
               </label>
-              <span class="dim">{say(`make.told.${file.told_by}`)}</span>
+              <span class="dim">{say(`cam.told.${file.told_by}`)}</span>
             </li>
           );
         })}
       </ul>
-      {report.left_out.length > 0 && <p class="dim">{say('make.board.left', { names: report.left_out.join(', ') })}</p>}
+      {report.left_out.length > 0 && <p class="dim">{say('cam.board.left', { names: report.left_out.join(', ') })}</p>}
     </section>
   );
 }
@@ -67,28 +67,28 @@ export function BoardLayers() {
 // What a person does at a step, a sentence each.
 function wordsOf(report: BoardReport, step: BoardStep): string[] {
   const length = (mm: number): string => lengthText(mm, 2);
-  const turned = report.turn === '' ? [] : [say(`make.do.turn.${report.turn}`)];
+  const turned = report.turn === '' ? [] : [say(`cam.do.turn.${report.turn}`)];
   switch (step.step) {
     case 'blank':
       return [
-        say('make.do.size', { size: `${length(report.board.across_mm)} × ${length(report.board.up_mm)} ${lengthUnit()}` }),
-        say(`make.do.up.${report.up}`),
-        say('make.do.zero', { margin: `${length(report.margin_mm)} ${lengthUnit()}` }),
+        say('cam.do.size', { size: `${length(report.board.across_mm)} × ${length(report.board.up_mm)} ${lengthUnit()}` }),
+        say(`cam.do.up.${report.up}`),
+        say('cam.do.zero', { margin: `${length(report.margin_mm)} ${lengthUnit()}` }),
       ];
     case 'drill':
-      return [say('make.do.drill'), ...(report.holes === 'pins' ? [say('make.do.pins')] : report.holes === 'probe' ? [say('make.do.probe.holes')] : [])];
+      return [say('cam.do.drill'), ...(report.holes === 'pins' ? [say('cam.do.pins')] : report.holes === 'probe' ? [say('cam.do.probe.holes')] : [])];
     case 'heights-front':
     case 'heights-back':
-      return [say('make.do.heights'), say('make.do.level')];
+      return [say('cam.do.heights'), say('cam.do.level')];
     case 'turn':
-      return [...turned, ...(report.holes === 'pins' ? [say('make.do.pins.in')] : [say('make.do.again')])];
+      return [...turned, ...(report.holes === 'pins' ? [say('cam.do.pins.in')] : [say('cam.do.again')])];
     case 'find-holes':
-      return [...turned, say('make.do.clamp'), say('make.do.find'), say('make.do.again')];
+      return [...turned, say('cam.do.clamp'), say('cam.do.find'), say('cam.do.again')];
     case 'front':
     case 'back':
-      return [say('make.do.cutter'), say('make.do.run')];
+      return [say('cam.do.cutter'), say('cam.do.run')];
     case 'edge':
-      return [say('make.do.tool'), say('make.do.run'), say('make.do.tabs')];
+      return [say('cam.do.tool'), say('cam.do.run'), say('cam.do.tabs')];
     default:
       return [];
   }
@@ -98,7 +98,7 @@ function Tool({ words }: { words: string }) {
   const known = /^(drill|cutter) ([\d.]+) mm$/.exec(words);
   if (known === null) return <li lang="en">{words}</li>;
   const size = `${Number(lengthText(Number(known[2]), 4))} ${lengthUnit()}`;
-  return <li>{say(`make.tool.is.${known[1] as 'drill' | 'cutter'}`, { size })}</li>;
+  return <li>{say(`cam.tool.is.${known[1] as 'drill' | 'cutter'}`, { size })}</li>;
 }
 
 // Which steps somebody has ticked off, of which making.
@@ -108,14 +108,14 @@ const secretOf = (): string => (token.value === '' ? '' : `&token=${token.value}
 
 function Step({ report, step, at, program, number }: { report: BoardReport; step: BoardStep; at: number; program: number | null; number: number | null }) {
   const ticked = done.value.made === madeCount.value ? done.value.steps : [];
-  const title = say(`make.step.${step.step}`);
+  const title = say(`cam.step.${step.step}`);
   return (
     <li class="board-step">
       <h3>
         <label>
           <input
             type="checkbox"
-            aria-label={say('make.step.done', { number: at + 1 })}
+            aria-label={say('cam.step.done', { number: at + 1 })}
             checked={ticked.includes(at)}
             onChange={(event) => {
               done.value = { made: madeCount.value, steps: event.currentTarget.checked ? [...ticked, at] : ticked.filter((one) => one !== at) };
@@ -145,20 +145,20 @@ function Step({ report, step, at, program, number }: { report: BoardReport; step
           <Button
             kind="accent"
             icon="run"
-            label={`${say('make.do.open')}: ${step.program}`}
+            label={`${say('cam.do.open')}: ${step.program}`}
             onClick={() => {
               chosen.value = program;
               goTo('files');
             }}
           >
-            {say('make.do.open')}
+            {say('cam.do.open')}
           </Button>
           <span class="dim file-name">{step.program}</span>
         </p>
       )}
       {step.figures !== '' && (
         <details>
-          <summary>{say('make.figures')}</summary>
+          <summary>{say('cam.figures')}</summary>
           <pre class="toml" lang="en" tabIndex={0}>
             {step.figures}
           </pre>
@@ -169,21 +169,21 @@ function Step({ report, step, at, program, number }: { report: BoardReport; step
 }
 
 export function BoardSteps() {
-  const now = make.value;
+  const now = cam.value;
   if (now === null || now.job !== 'board' || now.state !== 'done' || now.report === null) return null;
   const { report } = now;
   let programs = 0;
   return (
-    <section class="board-do" aria-label={say('make.board.do')}>
+    <section class="board-do" aria-label={say('cam.board.do')}>
       <div class="position-head">
-        <h2>{say('make.board.do')}</h2>
+        <h2>{say('cam.board.do')}</h2>
         {now.page && (
           <a href={`api/v1/cam/page?made=${madeCount.value}${secretOf()}`} target="_blank" rel="noopener">
-            {say('make.board.page')}
+            {say('cam.board.page')}
           </a>
         )}
       </div>
-      {report.machine !== '' && <p class="dim">{say('make.board.times')}</p>}
+      {report.machine !== '' && <p class="dim">{say('cam.board.times')}</p>}
       <ol class="board-steps">
         {report.steps.map((step, at) => {
           const number = step.program === '' ? null : programs++;
