@@ -13,13 +13,13 @@ describe('a drill file', () => {
     const send = (name: string, text: string): Promise<void> =>
       page.setInputFiles('input[type=file]', { name, mimeType: 'text/plain', buffer: Buffer.from(text) });
     await send('holes.drl', holes);
-    await expect.poll(() => page.getByTestId('cam-state').innerText()).toBe('Made');
-    const picture = page.getByRole('img', { name: 'What is cut' });
+    await expect.poll(() => page.getByTestId('cam-state').innerText()).toBe('Generated');
+    const picture = page.getByRole('img', { name: 'Picture of the cut' });
     await picture.waitFor();
     await expect.poll(() => picture.evaluate((one) => (one as HTMLImageElement).naturalWidth)).toBeGreaterThan(0);
     const before = await picture.getAttribute('src');
     await page.getByRole('textbox', { name: 'Depth' }).fill('-3.25');
-    await page.getByRole('checkbox', { name: 'Plain moves, no cycles' }).check();
+    await page.getByRole('checkbox', { name: 'Plain moves, no canned cycles' }).check();
     await expect.poll(() => picture.getAttribute('src')).not.toBe(before);
     const text = async (): Promise<string> => {
       const { programs } = await daemon.get<{ programs: { id: number }[] }>('/programs');
@@ -28,13 +28,13 @@ describe('a drill file', () => {
       return (await fetch(`${daemon.address}api/v1/programs/${programs[0]?.id}/text`)).text();
     };
     await expect.poll(text).toContain('Z-3.25');
-    await page.getByRole('button', { name: 'To the program' }).click();
+    await page.getByRole('button', { name: 'Show the program' }).click();
     await expect.poll(() => page.getByTestId('verdict').innerText()).toContain('Good');
     await page.goto(`${daemon.address}#/cam`);
     await send('wrong.drl', 'this is no drill file\n');
     await page.getByRole('checkbox', { name: 'holes.drl' }).uncheck();
     await page.getByRole('checkbox', { name: 'wrong.drl' }).check();
-    await expect.poll(() => page.getByTestId('cam-state').innerText()).toBe('Not made');
+    await expect.poll(() => page.getByTestId('cam-state').innerText()).toBe('Not generated');
     expect(await page.locator('.cam-result pre').innerText()).toContain('wrong.drl');
     expect(errors).toEqual([]);
     await context.close();
@@ -46,10 +46,10 @@ describe('a whole board', () => {
     const { page, context, errors } = await visit(browser, daemon, 'cam');
     const files = ['timer-B_Cu.gbr', 'timer-Edge_Cuts.gbr', 'timer.drl'].map((name) => example(`boards/${name}`));
     await page.setInputFiles('input[type=file]', files);
-    await page.getByRole('heading', { name: 'What to do when' }).waitFor();
+    await page.getByRole('heading', { name: 'Work steps' }).waitFor();
     const steps = (): Promise<string[]> => page.locator('.board-step h3').allInnerTexts();
-    expect((await steps()).map((one) => one.split('\n')[0])).toEqual(['1. Fix the blank', '2. Drill', '3. Mill the back', '4. Cut the board out']);
-    const layers = page.getByRole('region', { name: 'Layers: is each one right?' });
+    expect((await steps()).map((one) => one.split('\n')[0])).toEqual(['1. Clamp the blank', '2. Drill', '3. Mill the back', '4. Cut the board out']);
+    const layers = page.getByRole('region', { name: 'Layers: check each file' });
     expect(await layers.getByRole('combobox').evaluateAll((all) => all.map((one) => (one as HTMLSelectElement).value))).toEqual(['bottom copper', 'outline', 'drill']);
     await layers.getByRole('combobox', { name: 'timer-B_Cu.gbr' }).selectOption('top copper');
     await expect.poll(async () => (await steps()).join()).toContain('Mill the front');
@@ -60,7 +60,7 @@ describe('a whole board', () => {
       await picture.scrollIntoViewIfNeeded();
       await expect.poll(() => picture.evaluate((one) => (one as HTMLImageElement).naturalWidth)).toBeGreaterThan(0);
     }
-    await page.getByRole('button', { name: 'To this program: 2-isolate-front.ngc' }).click();
+    await page.getByRole('button', { name: 'Show this program: 2-isolate-front.ngc' }).click();
     await expect.poll(() => page.locator('h2.title').innerText()).toBe('timer-B_Cu-2-isolate-front.ngc');
     expect(errors).toEqual([]);
     await context.close();

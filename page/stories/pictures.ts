@@ -51,12 +51,12 @@ async function cam(page: import('playwright-core').Page): Promise<void> {
   await sleep(300);
 }
 
-// What to do when, for a whole board.
+// The work steps of a whole board.
 async function board(browser: import('playwright-core').Browser, daemon: Daemon): Promise<void> {
   const { page, context } = await visit(browser, daemon, 'cam', { theme: 'light', size: { width: 1440, height: 900 } });
-  await page.getByRole('radio', { name: 'A whole circuit board' }).check({ force: true });
+  await page.getByRole('radio', { name: 'Complete circuit board' }).check({ force: true });
   await page.setInputFiles('input[type=file]', ['timer-B_Cu.gbr', 'timer-Edge_Cuts.gbr', 'timer.drl'].map((name) => example(`boards/${name}`)));
-  await page.getByRole('heading', { name: 'What to do when' }).waitFor({ timeout: patience });
+  await page.getByRole('heading', { name: 'Work steps' }).waitFor({ timeout: patience });
   for (const picture of await page.locator('.board-step img').all()) await picture.evaluate((one) => one.setAttribute('loading', 'eager'));
   await sleep(2500);
   await page.screenshot({ path: join(folder, 'page-board.png'), timeout: patience });
@@ -68,7 +68,7 @@ async function pulses(page: import('playwright-core').Page, daemon: Daemon): Pro
   await page.goto(`${daemon.address}#/pins`);
   const strip = page.getByRole('region', { name: 'Single pulses' });
   await strip.getByText('after the pulse before').waitFor({ timeout: patience });
-  await strip.getByRole('button', { name: 'Nearer' }).click();
+  await strip.getByRole('button', { name: 'Zoom in' }).click();
   await sleep(1500);
   await strip.screenshot({ path: join(folder, 'page-pulses.png'), timeout: patience });
 }

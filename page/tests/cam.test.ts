@@ -1,7 +1,7 @@
 // The forms of CAM: what a person types, and what is sent.
 import { afterEach, describe, expect, it } from 'vitest';
 import { units } from '../src/core/units';
-import { en } from '../src/lang/cam/en';
+import { operations as en } from '../src/lang/en/operations';
 import { formFor, forms, usualOf, withUnit, type Field } from '../src/pages/cam_forms';
 import { fieldsOf } from '../src/pages/cam_order';
 import { knowOperations } from './description';

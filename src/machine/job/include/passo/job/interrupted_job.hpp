@@ -34,8 +34,7 @@ struct InterruptedJob {
   HistoryJob job;
   BrokenOff journal;
   std::optional<ResumePoint> point;  // where it rests on its path
-  std::string code;
-  std::string why;  // a sentence without a full stop
+  Sentence why;                      // without a code: it can
   // Where the machine may be led back onto the path: where it rests, or else before the last executed step.
   std::optional<ResumePoint> back_at;
   std::optional<Box> range;  // where its motors may have been stopped, if the board has lost its place

@@ -82,7 +82,7 @@ class MachineSession {
   // Something is going on, or rests and goes on later.
   bool busy() const;
   // Why this board cannot drive the machine, as a sentence without a full stop.
-  const std::string& trouble_words() const { return trouble_.words; }
+  const std::string& trouble_words() const { return trouble_.sentence.text; }
 
   // What is going on, or else what ended last, for reports. Null: nothing of this kind.
   const MotionDrive* drive() const;
@@ -105,7 +105,7 @@ class MachineSession {
   // What keeps the machine from working until a reset.
   struct Trouble {
     std::optional<LinkError> error = {};  // none: the board does not suit the machine
-    std::string words = {};
+    Sentence sentence = {};
   };
 
   // One function for each request.
@@ -131,7 +131,7 @@ class MachineSession {
   Answer take(request::Wake& wake);
   std::optional<Refusal> refuse(MachineEvent event) const;
   Refusal why_not() const;
-  std::string alarm_words() const;
+  Refusal refusal_in_alarm() const;
   std::optional<Refusal> refuse_way(const Point& way) const;
   Answer at_once();
   Answer begin(MachineEvent event, std::unique_ptr<Work> work);
@@ -165,10 +165,10 @@ class MachineSession {
   void note_tails();
   void note_standstill();
   void mind_board();
-  std::string words_of(LinkError error) const;
+  Sentence sentence_of(LinkError error) const;
   void look_at_panel();
   void look_at_place();
-  std::string words_of_stop() const;
+  Sentence sentence_of_stop() const;
   bool watches_counts() const { return options_.over_a_line || options_.tells_place; }
 
   void move_to(MachineEvent event);
