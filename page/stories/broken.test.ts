@@ -41,8 +41,8 @@ async function home(page: Page, daemon: Daemon): Promise<void> {
 async function vouch(page: Page, daemon: Daemon): Promise<void> {
   await daemon.until((status) => status.lost_place);
   await page.goto(`${daemon.address}#/jog`);
-  await click(page, 'The place is right');
-  await agree(page, 'The place is right');
+  await click(page, 'Confirm position');
+  await agree(page, 'Confirm position');
   await daemon.until((status) => !status.lost_place);
 }
 async function startPart(page: Page, daemon: Daemon): Promise<void> {
@@ -55,7 +55,7 @@ function same(place: Place, other: Place): void {
   for (const [axis, value] of Object.entries(place)) expect(value).toBeCloseTo(other[axis] ?? NaN, 3);
 }
 
-describe('a job that was broken off', () => {
+describe('a job that was interrupted', () => {
   it('goes on exactly where the machine stands, after the daemon was killed', async () => {
     const board = await Board.start(machine);
     const data = mkdtempSync(join(folder, 'data-'));
@@ -67,15 +67,15 @@ describe('a job that was broken off', () => {
     await first.end('SIGKILL');
     // The board plays what it holds, and rests. The same page finds the new daemon by itself.
     const second = await Daemon.start({ machine, board, data, port: new URL(first.address).port });
-    const card = page.getByRole('region', { name: 'Broken off' });
+    const card = page.getByRole('region', { name: 'Interrupted' });
     await card.waitFor();
     expect(await card.innerText()).toContain('part.ngc');
     expect(await card.innerText()).toContain('exactly where the machine stands');
-    await expect.poll(() => page.locator('.act.go').getAttribute('title')).toContain('broken off');
+    await expect.poll(() => page.locator('.act.go').getAttribute('title')).toContain('interrupted');
     // Other pages lead to it.
     await page.goto(`${second.address}#/files`);
-    await page.getByText('The job part.ngc was broken off.').waitFor();
-    await click(page, 'Look at it');
+    await page.getByText('Job part.ngc was interrupted.').waitFor();
+    await click(page, 'Show');
     await click(page, 'Resume here');
     await page.getByRole('dialog').getByText('The spindle starts where the tool stands.').waitFor();
     await agree(page, 'Resume here');
@@ -105,7 +105,7 @@ describe('a job that was broken off', () => {
     board.cutPower();
     await first.end('SIGKILL');
     const second = await Daemon.start({ machine, board, data, port: new URL(first.address).port });
-    const card = page.getByRole('region', { name: 'Broken off' });
+    const card = page.getByRole('region', { name: 'Interrupted' });
     await page.goto(`${second.address}#/run`);
     await card.waitFor();
     expect(await card.innerText()).toContain('resume.board-reset');
@@ -115,9 +115,9 @@ describe('a job that was broken off', () => {
     await second.until((status) => status.trust === 'homed' && status.state === 'Idle');
     await card.getByText('The way back, step by step').waitFor();
     await expect.poll(() => card.locator('li').count()).toBeGreaterThan(2);
-    await card.getByRole('button', { name: 'Back by a safe way' }).click();
+    await card.getByRole('button', { name: 'Return to the toolpath' }).click();
     await page.getByRole('dialog').locator('li').nth(2).waitFor();
-    await agree(page, 'Back by a safe way');
+    await agree(page, 'Return to the toolpath');
     const place = await endOf(second);
     expect(place.x).toBeCloseTo(10, 2);
     expect(place.y).toBeCloseTo(10, 2);

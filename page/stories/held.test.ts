@@ -215,7 +215,7 @@ describe('a jog', () => {
     const { page } = await visit(browser, daemon, 'jog');
     await daemon.until((status) => status.state === 'Idle');
     await page.getByRole('radio', { name: '1', exact: true }).click();
-    await page.getByText('Keys move the machine').waitFor();
+    await page.getByText('Keys jog the machine').waitFor();
     await page.getByText('one step per press').waitFor();
     const before = (await daemon.status()).place.y ?? 0;
     await page.keyboard.press('ArrowUp');

@@ -158,7 +158,7 @@ export async function visit(browser: Browser, daemon: Daemon, path: string, how:
   const errors: string[] = [];
   page.on('pageerror', (error) => errors.push(String(error)));
   page.on('console', (message) => {
-    // What Make has made may be gone before it is fetched: the next letter of a field has begun another order.
+    // What CAM has made may be gone before it is fetched: the next letter of a field has begun another order.
     const isOfEarlierOrder = /\/api\/v1\/(cam\/(picture|page)|study|programs\/\d+)\b/.test(message.location().url) && message.text().includes('404');
     const isOfLine = message.text().includes('ERR_') || message.text().includes('WebSocket');
     if (message.type() === 'error' && !isOfLine && !isOfEarlierOrder) errors.push(`${message.text()} ${message.location().url}`);

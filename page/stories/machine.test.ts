@@ -38,32 +38,32 @@ describe('the machine file', () => {
     await enter(page, 'X Microsteps', '8');
     await expect.poll(() => scale.innerText()).toContain('320');
     // A wrong setting: the machine would rest beyond its travel.
-    await enter(page, 'X Switch closes at', '500');
+    await enter(page, 'X Switch position', '500');
     const refusal = page.getByRole('alert');
     await refusal.waitFor();
     expect(await refusal.innerText()).toContain('machine.');
-    const write = page.getByRole('button', { name: /^Write the file/ });
+    const write = page.getByRole('button', { name: /^Save the file/ });
     expect(await write.getAttribute('aria-disabled')).toBe('true');
     await click(page, 'Undo');
     await refusal.waitFor({ state: 'detached' });
     // A conflict of pins: two axes with one motor.
-    for (const [axis, motor] of [['X', '0'], ['Y', '0'], ['Z', '1']] as const) await enter(page, `${axis} Motor of the board`, motor);
+    for (const [axis, motor] of [['X', '0'], ['Y', '0'], ['Z', '1']] as const) await enter(page, `${axis} Board motor`, motor);
     await refusal.waitFor();
     expect(await refusal.innerText()).toContain('motor');
     for (let steps = 0; steps < 3; ++steps) await click(page, 'Undo');
     await refusal.waitFor({ state: 'detached' });
-    await click(page, 'Write the file');
+    await click(page, 'Save the file');
     await page.getByRole('dialog').getByText('16 → 8').waitFor();
-    await agree(page, 'Write the file');
+    await agree(page, 'Save the file');
     await page.getByText('It counts when passo serve starts again.').waitFor();
     expect(readFileSync(machine, 'utf8')).toContain('microsteps = 8              # as the switches');
     // Somebody else changes the file: it is not overwritten.
     await enter(page, 'X Microsteps', '4');
     writeFileSync(machine, `${readFileSync(machine, 'utf8')}# by hand\n`);
-    await click(page, 'Write the file');
-    await agree(page, 'Write the file');
+    await click(page, 'Save the file');
+    await agree(page, 'Save the file');
     await page.getByText('somebody has changed the machine file meanwhile').first().waitFor();
-    await click(page, 'Load again');
+    await click(page, 'Reload');
     await expect.poll(() => scale.innerText()).toContain('320');
     expect(readFileSync(machine, 'utf8')).toContain('# by hand');
     expect(errors.filter((one) => !one.includes('Failed to load'))).toEqual([]);
@@ -84,20 +84,20 @@ describe('the machine file', () => {
 });
 
 describe('usual values of the work', () => {
-  it('are written into the machine file, and count in Make', async () => {
+  it('are written into the machine file, and count in CAM', async () => {
     const { page, context, errors } = await visit(browser, daemon, 'machine', { language: 'it' });
     await page.getByTestId('scale-X').waitFor();
-    await enter(page, 'Altezza dei rapidi sopra il pezzo', '-7');
+    await enter(page, 'Quota di sicurezza sopra il pezzo', '-7');
     // Refused, in the language of the page.
     await page.getByText('work.clearance_mm vale -7').waitFor();
-    await enter(page, 'Altezza dei rapidi sopra il pezzo', '7');
-    await enter(page, 'Profondità di lavoro', '-2,5');
-    await click(page, 'Scrivi il file');
-    await agree(page, 'Scrivi il file');
+    await enter(page, 'Quota di sicurezza sopra il pezzo', '7');
+    await enter(page, 'Profondità di taglio', '-2,5');
+    await click(page, 'Salva il file');
+    await agree(page, 'Salva il file');
     await expect.poll(() => readFileSync(machine, 'utf8')).toContain('[work]\nclearance_mm = 7\ndepth_mm = -2.5');
-    await page.goto(`${daemon.address}#/make`);
-    await page.getByRole('radio', { name: 'Forare' }).check({ force: true });
-    expect(await page.getByRole('textbox', { name: 'Altezza dei rapidi' }).getAttribute('placeholder')).toBe('7mm');
+    await page.goto(`${daemon.address}#/cam`);
+    await page.getByRole('radio', { name: 'Foratura' }).check({ force: true });
+    expect(await page.getByRole('textbox', { name: 'Quota di sicurezza' }).getAttribute('placeholder')).toBe('7mm');
     const holes = 'M48\nMETRIC\nT1C0.800\n%\nT1\nX10.0Y10.0\nM30\n';
     await page.setInputFiles('input[type=file]', { name: 'work.drl', mimeType: 'text/plain', buffer: Buffer.from(holes) });
     await expect.poll(async () => JSON.stringify(await daemon.get('/programs'))).toContain('work-drill.ngc');
@@ -114,22 +114,22 @@ describe('usual values of the work', () => {
 describe('inputs and outputs', () => {
   it('are live, and outputs are switched in the set-up mode only', async () => {
     const { page, context, errors } = await visit(browser, daemon, 'pins');
-    const flood = page.getByRole('region', { name: 'Outputs by hand' }).getByRole('button', { name: /^Flood/ });
-    expect(await flood.getAttribute('title')).toContain('Only in the set-up mode');
+    const flood = page.getByRole('region', { name: 'Manual outputs' }).getByRole('button', { name: /^Flood/ });
+    expect(await flood.getAttribute('title')).toContain('Only in set-up mode');
     if ((await daemon.status()).owner.kind === 'client') {
-      await click(page, 'Take over');
-      await agree(page, 'Take over');
+      await click(page, 'Take control');
+      await agree(page, 'Take control');
     }
     await page.getByRole('button', { name: /^Set-up mode/ }).click();
     await agree(page, 'Set-up mode');
-    await page.getByRole('button', { name: 'End the set-up mode' }).waitFor();
+    await page.getByRole('button', { name: 'End set-up mode' }).waitFor();
     await flood.click();
     await daemon.until((status) => status.outputs.flood);
     await expect.poll(() => page.getByTestId('pin-flood').innerText()).toBe('on');
     await page.getByRole('button', { name: 'Spindle clockwise', exact: true }).click();
-    await agree(page, 'Turn it');
+    await agree(page, 'Start the spindle');
     await daemon.until((status) => status.outputs.spindle === 'clockwise' && status.outputs.flood);
-    await page.getByRole('button', { name: 'End the set-up mode' }).click();
+    await page.getByRole('button', { name: 'End set-up mode' }).click();
     await daemon.until((status) => status.state === 'Idle' && !status.outputs.flood && status.outputs.spindle === 'off');
     await expect.poll(() => page.getByTestId('pin-flood').innerText()).toBe('off');
     expect(errors).toEqual([]);
@@ -147,17 +147,17 @@ describe('single pulses', () => {
     const { page, context, errors } = await visit(browser, daemon, 'pins');
     const pulses = page.getByRole('region', { name: 'Single pulses' });
     const reading = (): Promise<string> => page.getByTestId('pulses').innerText();
-    await expect.poll(reading).toMatch(/X \d+, [\d.]+ .s after the pulse before: [\d,]+ steps\/s/);
+    await expect.poll(reading).toMatch(/X \d+, [\d.]+ .s after the previous pulse: [\d,]+ steps\/s/);
     const canvas = pulses.getByRole('img', { name: 'Single pulses' });
     const wide = await canvas.screenshot();
     const countOf = (words: string): number => Number(/X (-?\d+)/.exec(words)?.[1]);
     const last = countOf(await reading());
     // From the end of the motion to its last pulse, and from there to the one before.
     for (const count of [last, last - 1]) {
-      await pulses.getByRole('button', { name: 'To the pulse before' }).click();
+      await pulses.getByRole('button', { name: 'Previous pulse' }).click();
       await expect.poll(async () => countOf(await reading())).toBe(count);
     }
-    for (let i = 0; i < 4; ++i) await pulses.getByRole('button', { name: 'Nearer' }).click();
+    for (let i = 0; i < 4; ++i) await pulses.getByRole('button', { name: 'Zoom in' }).click();
     await expect.poll(async () => (await canvas.screenshot()).equals(wide)).toBe(false);
     expect(await violations(page)).toEqual([]);
     expect(errors).toEqual([]);
@@ -184,8 +184,8 @@ describe('a gamepad', () => {
     await press(false);
     await page.waitForTimeout(200);
     if ((await daemon.status()).owner.kind === 'client') {
-      await click(page, 'Take over');
-      await agree(page, 'Take over');
+      await click(page, 'Take control');
+      await agree(page, 'Take control');
       await page.locator('.owner').waitFor({ state: 'detached' });
     }
     await page.bringToFront();
@@ -207,7 +207,7 @@ describe('the scene', () => {
     await page.setInputFiles('input[type=file]', { name: 'speeds.ngc', mimeType: 'text/plain', buffer: Buffer.from(part) });
     await expect.poll(() => page.getByTestId('verdict').innerText()).toContain('Good');
     await page.goto(`${daemon.address}#/run`);
-    const tells = page.getByRole('combobox', { name: 'What the colours tell' });
+    const tells = page.getByRole('combobox', { name: 'Colour of the toolpath' });
     const legend = page.locator('.scene-legend');
     await tells.selectOption({ label: 'Colour: speed' });
     await expect.poll(() => legend.innerText()).toMatch(/^60\s+1200\s+mm\/min$/);

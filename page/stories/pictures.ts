@@ -4,7 +4,7 @@ import { join } from 'node:path';
 import { Daemon, example, openBrowser, sleep, visit } from './kit';
 
 const folder = process.argv[2] ?? 'pictures';
-const pages = process.argv[3]?.split(',') ?? ['run', 'jog', 'probe', 'files', 'make', 'console', 'pins', 'machine', 'lab'];
+const pages = process.argv[3]?.split(',') ?? ['run', 'jog', 'probe', 'files', 'cam', 'console', 'pins', 'machine', 'lab'];
 const patience = 120_000; // ms, on a busy computer
 const sizes = [
   { name: 'wide', width: 1440, height: 900 },
@@ -43,20 +43,20 @@ async function startFrom(page: import('playwright-core').Page, daemon: Daemon): 
 }
 
 // The holes of an example board.
-async function make(page: import('playwright-core').Page): Promise<void> {
+async function cam(page: import('playwright-core').Page): Promise<void> {
   const known = page.getByRole('checkbox', { name: 'timer.drl' });
   if ((await known.count()) === 0) await page.setInputFiles('input[type=file]', example('boards/timer.drl'));
   else await known.check();
-  await page.locator('.make-result img').waitFor({ timeout: patience });
+  await page.locator('.cam-result img').waitFor({ timeout: patience });
   await sleep(300);
 }
 
-// What to do when, for a whole board.
+// The work steps of a whole board.
 async function board(browser: import('playwright-core').Browser, daemon: Daemon): Promise<void> {
-  const { page, context } = await visit(browser, daemon, 'make', { theme: 'light', size: { width: 1440, height: 900 } });
-  await page.getByRole('radio', { name: 'A whole circuit board' }).check({ force: true });
+  const { page, context } = await visit(browser, daemon, 'cam', { theme: 'light', size: { width: 1440, height: 900 } });
+  await page.getByRole('radio', { name: 'Complete circuit board' }).check({ force: true });
   await page.setInputFiles('input[type=file]', ['timer-B_Cu.gbr', 'timer-Edge_Cuts.gbr', 'timer.drl'].map((name) => example(`boards/${name}`)));
-  await page.getByRole('heading', { name: 'What to do when' }).waitFor({ timeout: patience });
+  await page.getByRole('heading', { name: 'Work steps' }).waitFor({ timeout: patience });
   for (const picture of await page.locator('.board-step img').all()) await picture.evaluate((one) => one.setAttribute('loading', 'eager'));
   await sleep(2500);
   await page.screenshot({ path: join(folder, 'page-board.png'), timeout: patience });
@@ -68,7 +68,7 @@ async function pulses(page: import('playwright-core').Page, daemon: Daemon): Pro
   await page.goto(`${daemon.address}#/pins`);
   const strip = page.getByRole('region', { name: 'Single pulses' });
   await strip.getByText('after the pulse before').waitFor({ timeout: patience });
-  await strip.getByRole('button', { name: 'Nearer' }).click();
+  await strip.getByRole('button', { name: 'Zoom in' }).click();
   await sleep(1500);
   await strip.screenshot({ path: join(folder, 'page-pulses.png'), timeout: patience });
 }
@@ -133,7 +133,7 @@ for (const theme of ['dark', 'light'] as const) {
       if (path === 'run' || path === 'files') await choose(page, daemon, 'engrave.ngc');
       await page.goto(`${daemon.address}#/${path === 'probe' ? 'jog' : path}`);
       await sleep(900);
-      if (path === 'make') await make(page);
+      if (path === 'cam') await cam(page);
       if (path === 'console') await typeLines(page, daemon);
       if (path === 'probe') await probe(page, daemon);
       if (path === 'files') await page.getByTestId('torque').getByText('%').waitFor({ timeout: patience });
@@ -161,7 +161,7 @@ for (const theme of ['dark', 'light'] as const) {
     await sleep(300);
     await context.close();
   }
-  if (theme === 'light' && pages.includes('make')) await board(browser, daemon);
+  if (theme === 'light' && pages.includes('cam')) await board(browser, daemon);
   await daemon.end();
 }
 await sheets(browser);

@@ -23,8 +23,8 @@ async function startProgram(page: Page): Promise<void> {
 // The motion may still be another page's that is gone.
 async function takeOver(page: Page): Promise<void> {
   if ((await daemon.status()).owner.kind !== 'client') return;
-  await click(page, 'Take over');
-  await page.getByRole('dialog').getByRole('button', { name: 'Take over' }).click();
+  await click(page, 'Take control');
+  await page.getByRole('dialog').getByRole('button', { name: 'Take control' }).click();
   await page.locator('.owner').waitFor({ state: 'detached' });
 }
 async function rest(): Promise<void> {
@@ -218,8 +218,8 @@ describe('a program line by line', () => {
     await takeOver(page);
     await send(page, 'lines.ngc', 'G21 G91\nG1 F3000 X5\n/X50\nM1\nX5\nM0\nX-10\nM2\n');
     await expect.poll(() => page.getByTestId('verdict').innerText()).toContain('Good');
-    await click(page, 'Leave out lines with / (1)');
-    await page.getByRole('button', { name: 'Leave out lines with / (1)', pressed: true }).waitFor();
+    await click(page, 'Block delete: skip lines with / (1)');
+    await page.getByRole('button', { name: 'Block delete: skip lines with / (1)', pressed: true }).waitFor();
     await expect.poll(() => page.getByTestId('verdict').innerText()).toContain('Good');
     await page.goto(`${daemon.address}#/run`);
     await click(page, 'Single block');
@@ -232,7 +232,7 @@ describe('a program line by line', () => {
       await page.getByText('A line has ended.').waitFor();
       await click(page, 'Resume');
     }
-    await page.getByText('Waits for you').waitFor();
+    await page.getByText('Waiting for the operator').waitFor();
     await click(page, 'Single block');
     await daemon.until((status) => !status.stops.single_block);
     await click(page, 'Done');
@@ -430,7 +430,7 @@ describe('every page', () => {
       const size = language === 'fr' || language === 'zh' ? { width: 360, height: 740 } : { width: 1440, height: 900 };
       const { page, context, errors } = await visit(browser, daemon, 'run', { language, theme, size });
       await expect.poll(() => page.getByTestId('state').innerText()).toBe(words);
-      for (const path of ['run', 'jog', 'files', 'make', 'console', 'pins', 'machine', 'lab']) {
+      for (const path of ['run', 'jog', 'files', 'cam', 'console', 'pins', 'machine', 'lab']) {
         await page.goto(`${daemon.address}#/${path}`);
         await page.locator(`main.page-${path} :is(section, form, .panel)`).first().waitFor();
         expect(await page.evaluate(() => document.documentElement.scrollWidth <= innerWidth), `${path} is too wide`).toBe(true);

@@ -55,7 +55,7 @@ describe('the probe', () => {
     expect(found.work_offset?.z).toBeCloseTo(-11.2, 1);
     await expect.poll(() => page.getByTestId('state').innerText(), { timeout: patience }).toBe('Ready');
     await choose(page, 'Height map');
-    for (const [name, value] of [[/^Places along X/, '3'], [/^Places along Y/, '2'], [/^Width along X/, '40'], [/^Width along Y/, '30']] as const) {
+    for (const [name, value] of [[/^Points in X/, '3'], [/^Points in Y/, '2'], [/^Width in X/, '40'], [/^Width in Y/, '30']] as const) {
       await enter(page, name, value);
     }
     await page.getByRole('button', { name: 'Probe …' }).click();
@@ -64,7 +64,7 @@ describe('the probe', () => {
     await page.getByTestId('height-map').waitFor({ timeout: patience * 2 });
     expect(await page.getByTestId('height-map').innerText()).toContain('3 × 2 places');
     await daemon.until((status) => status.state === 'Idle', patience);
-    await page.getByRole('button', { name: 'Level the program by it' }).click();
+    await page.getByRole('button', { name: 'Apply the height map' }).click();
     await expect.poll(async () => (await daemon.get<{ programs: unknown[] }>('/programs')).programs.length, { timeout: patience }).toBeGreaterThan(3);
     expect(errors).toEqual([]);
     await context.close();
@@ -86,13 +86,13 @@ describe('the torque of the motors', () => {
     page.setDefaultTimeout(patience);
     await page.setInputFiles('input[type=file]', { name: 'torque.ngc', mimeType: 'text/plain', buffer: Buffer.from(part) });
     await expect.poll(() => page.getByTestId('torque').innerText(), { timeout: patience * 4 }).toMatch(/\d %/);
-    await page.getByRole('button', { name: 'Show it on the path' }).click();
-    await page.locator('.scene-legend').getByText('of the sure torque').waitFor();
+    await page.getByRole('button', { name: 'Show on the toolpath' }).click();
+    await page.locator('.scene-legend').getByText('of the guaranteed torque').waitFor();
     const scene = page.locator('.scene canvas');
     const before = await scene.screenshot();
     await page.getByRole('button', { name: 'Stock', exact: true }).click();
     await expect.poll(async () => (await scene.screenshot()).equals(before), { timeout: patience }).toBe(false);
-    await page.getByRole('group', { name: 'The tool that cuts the stock' }).waitFor();
+    await page.getByRole('group', { name: 'Tool that cuts the stock' }).waitFor();
     expect(await violations(page)).toEqual([]);
     expect(errors).toEqual([]);
     await context.close();
@@ -104,14 +104,14 @@ describe('limits for the motors', () => {
     const { page, context, errors } = await visit(browser, daemon, 'machine');
     page.setDefaultTimeout(patience);
     await page.getByTestId('scale-X').waitFor();
-    await page.getByRole('button', { name: 'Work out the limits' }).click();
+    await page.getByRole('button', { name: 'Calculate the limits' }).click();
     await page.getByTestId('tuned').waitFor({ timeout: patience * 3 });
     const curves = page.getByRole('img', { name: /^Torque over speed/ });
     await expect.poll(() => curves.evaluate((one) => (one as HTMLImageElement).naturalWidth), { timeout: patience }).toBeGreaterThan(0);
-    const speed = page.getByRole('textbox', { name: 'X Highest speed' });
+    const speed = page.getByRole('textbox', { name: 'X Maximum speed' });
     const was = await speed.inputValue();
-    await page.getByRole('button', { name: 'Take these limits …' }).click();
-    await agree(page, 'Take these limits');
+    await page.getByRole('button', { name: 'Use these limits …' }).click();
+    await agree(page, 'Use these limits');
     await expect.poll(() => speed.inputValue(), { timeout: patience }).not.toBe(was);
     await page.getByRole('button', { name: 'Undo' }).click();
     await expect.poll(() => speed.inputValue(), { timeout: patience }).toBe(was);
@@ -120,21 +120,21 @@ describe('limits for the motors', () => {
   });
 });
 
-describe('Make', () => {
+describe('CAM', () => {
   it('engraves letters, and a drawing that is dropped in Files is cleared as a pocket', async () => {
-    const { page, context, errors } = await visit(browser, daemon, 'make');
+    const { page, context, errors } = await visit(browser, daemon, 'cam');
     page.setDefaultTimeout(patience);
     await choose(page, 'Engrave');
-    const letters = page.getByRole('textbox', { name: 'Letters instead of a drawing' });
+    const letters = page.getByRole('textbox', { name: 'Text instead of a drawing' });
     await letters.pressSequentially('No. 7');
     expect(await letters.inputValue()).toBe('No. 7');
-    await expect.poll(() => page.getByTestId('make-state').innerText(), { timeout: patience * 4 }).toBe('Made');
-    await page.locator('.make-result img').waitFor();
+    await expect.poll(() => page.getByTestId('cam-state').innerText(), { timeout: patience * 4 }).toBe('Generated');
+    await page.locator('.cam-result img').waitFor();
     await page.goto(`${daemon.address}#/files`);
     const drawing = '<svg xmlns="http://www.w3.org/2000/svg" width="40mm" height="30mm" viewBox="0 0 40 30"><rect x="5" y="5" width="30" height="20"/></svg>';
     await page.setInputFiles('input[type=file]', { name: 'tray.svg', mimeType: 'image/svg+xml', buffer: Buffer.from(drawing) });
     await page.getByRole('checkbox', { name: 'tray.svg' }).waitFor();
-    await choose(page, 'Clear pockets');
+    await choose(page, 'Pocket');
     const made = async (): Promise<string> => JSON.stringify(await daemon.get('/programs'));
     await expect.poll(made, { timeout: patience * 4 }).toContain('tray-pocket.ngc');
     expect(errors).toEqual([]);

@@ -1,6 +1,6 @@
 // What the daemon says of itself: docs/api/openapi.json, which tests of the daemon hold to the program.
 import { readFileSync } from 'node:fs';
-import { operations, type CamOperation } from '../src/machine/maker';
+import { operations, type CamOperation } from '../src/machine/cam';
 
 interface Description {
   components: { schemas: Record<string, unknown> };

@@ -2,7 +2,7 @@ import { readFileSync } from 'node:fs';
 import { describe, expect, it } from 'vitest';
 import { mapTarget } from '../src/machine/programs';
 import type { Program } from '../src/machine/api';
-import { formFor, forms, isDrawing } from '../src/pages/make_forms';
+import { formFor, forms, isDrawing } from '../src/pages/cam_forms';
 import { knowOperations } from './description';
 import { readChunks } from '../src/scene/path_data';
 import { isGoodTool, readToolFile } from '../src/scene/tool_file';
@@ -57,7 +57,7 @@ describe('a height map', () => {
   });
 });
 
-describe('the forms of Make', () => {
+describe('the forms of CAM', () => {
   knowOperations();
   const at = (job: string) => forms.value.find((one) => one.job === job);
   it('make a whole board of several files, of a zip, and one job of one file', () => {

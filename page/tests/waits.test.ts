@@ -21,7 +21,7 @@ describe('a program that waits', () => {
   it('is told with its tool, also after the machine was jogged meanwhile', () => {
     for (const state of ['Tool', 'Idle'] as const) {
       const words = stateWords({ status: told(state, atM6), program: 'open', canHome: true, broken: '' });
-      expect(words.title).toBe('Waits for you');
+      expect(words.title).toBe('Waiting for the operator');
       expect(words.next).toContain('tool 5');
       expect(words.tone).toBe('wait');
     }

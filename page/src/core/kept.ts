@@ -1,12 +1,12 @@
 // Signals that outlive the page: kept in the browser, on this computer only.
 import { effect, signal, type Signal } from '@preact/signals';
 
-// `sound` tells whether a value from an earlier visit is still one.
-export function kept<T>(name: string, otherwise: T, sound: (value: unknown) => value is T): Signal<T> {
+// `sound` decides whether a value from an earlier visit is still valid. `formerly`: the name under which an earlier version kept it.
+export function kept<T>(name: string, otherwise: T, sound: (value: unknown) => value is T, formerly = name): Signal<T> {
   const key = `passo.${name}`;
   let first = otherwise;
   try {
-    const text = localStorage.getItem(key);
+    const text = localStorage.getItem(key) ?? localStorage.getItem(`passo.${formerly}`);
     const value: unknown = text === null ? undefined : JSON.parse(text);
     if (sound(value)) first = value;
   } catch {

@@ -1,27 +1,17 @@
 // The words of the page, in four languages. A key that a language lacks is an error of the compiler.
 import { computed, effect } from '@preact/signals';
-import { en, type Words } from '../lang/en';
-import { fr } from '../lang/fr';
-import { it } from '../lang/it';
-import { zh } from '../lang/zh';
-import { en as camEn } from '../lang/cam/en';
-import { fr as camFr } from '../lang/cam/fr';
-import { it as camIt } from '../lang/cam/it';
-import type { CamWords } from '../lang/cam/words';
-import { zh as camZh } from '../lang/cam/zh';
-import { en as moreEn } from '../lang/more/en';
-import { fr as moreFr } from '../lang/more/fr';
-import { it as moreIt } from '../lang/more/it';
-import type { MoreWords } from '../lang/more/words';
-import { zh as moreZh } from '../lang/more/zh';
+import { en } from '../lang/en/index';
+import { fr } from '../lang/fr/index';
+import { it } from '../lang/it/index';
+import type { Words } from '../lang/same';
+import { zh } from '../lang/zh/index';
 import { kept, oneOf } from './kept';
 
 export const languages = { en: 'English', it: 'Italiano', fr: 'Français', zh: '中文' } as const;
 export type Language = keyof typeof languages;
-export type Key = keyof AllWords;
+export type Key = keyof Words;
 
-type AllWords = Words & MoreWords & CamWords;
-const tables: Record<Language, AllWords> = { en: { ...en, ...moreEn, ...camEn }, it: { ...it, ...moreIt, ...camIt }, fr: { ...fr, ...moreFr, ...camFr }, zh: { ...zh, ...moreZh, ...camZh } };
+const tables: Record<Language, Words> = { en, it, fr, zh };
 
 export function languageOf(wanted: readonly string[]): Language {
   for (const one of wanted) {

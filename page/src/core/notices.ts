@@ -1,6 +1,7 @@
 // What the page tells in passing: refusals, and what was done. Screen readers hear it.
 import { signal } from '@preact/signals';
-import { toldOr } from './told';
+import { reportWords, type Sentence } from './faults';
+import { findingWords } from './findings';
 
 export interface Notice {
   id: number;
@@ -23,9 +24,10 @@ export function dismiss(id: number): void {
   notices.value = notices.peek().filter((one) => one.id !== id);
 }
 
-export const wordsOfError = (error: unknown): string => toldOr(error instanceof Error ? error.message : String(error));
+const sentenceOf = (error: Error): Sentence | null => ('sentence' in error ? (error.sentence as Sentence | null) : null);
+export const wordsOfError = (error: unknown): string => (error instanceof Error ? reportWords(error.message, sentenceOf(error)) : String(error));
 const hintOfError = (error: unknown): string =>
-  error instanceof Error && 'expected' in error && typeof error.expected === 'string' ? toldOr(error.expected) : '';
+  error instanceof Error && 'expected' in error && typeof error.expected === 'string' ? findingWords(error.expected) : '';
 
 // Does what a button asks, and tells why it was refused.
 export async function attempt(what: () => Promise<unknown>): Promise<boolean> {

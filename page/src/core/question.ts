@@ -1,12 +1,13 @@
 // Dangerous actions ask once, with facts.
 import { signal } from '@preact/signals';
+import type { Report } from './faults';
 
 export interface Question {
   title: string;
   facts: string[];
   columns?: string[]; // the names above the rows; the first column has none
   rows?: string[][]; // a name, and its values
-  steps?: string[]; // what happens, in this order; the daemon's words
+  steps?: Report[]; // what happens, in this order
   yes: string;
   kind: 'go' | 'stop' | 'plain';
 }

@@ -2,7 +2,10 @@
 import { computed, signal } from '@preact/signals';
 
 const hash = signal('');
-export const path = computed(() => hash.value.split('?')[0] ?? '');
+// What a page was called in version 0.1: links and bookmarks still lead to it for one version.
+const formerly: Partial<Record<string, string>> = { make: 'cam' };
+const pathIn = (all: string): string => all.split('?')[0] ?? '';
+export const path = computed(() => formerly[pathIn(hash.value)] ?? pathIn(hash.value));
 export const query = computed(() => new URLSearchParams(hash.value.split('?')[1] ?? ''));
 
 export function followRoute(first: string): void {

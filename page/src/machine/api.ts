@@ -1,4 +1,5 @@
 // The requests of docs/api/openapi.json, and what they answer. Lengths are mm, speeds mm/min, times seconds.
+import type { Sentence } from '../core/faults';
 import { say } from '../core/language';
 import { ownerKey } from './owner_key';
 import { token } from './token';
@@ -13,6 +14,7 @@ export interface Job {
   name: string;
   state: 'checking' | 'running' | 'done' | 'stopped' | 'failed' | 'interrupted';
   why: string;
+  why_sentence: Sentence | null;
   history: number;
 }
 
@@ -54,7 +56,9 @@ export interface Status {
   waits_for_operator: boolean;
   waits?: Waits | null;
   trouble: string;
+  trouble_sentence: Sentence | null;
   unkept: string; // what is not on the disk yet, and why
+  unkept_sentences?: Sentence[];
   owner: { kind: 'nobody' | 'sender' | 'client'; name: string; taken: number };
   job: Job | null;
   // The lines of the console: the modes in force, and where the tool is by them.
@@ -120,6 +124,7 @@ export interface HistoryJob {
   bytes: number;
   state: 'queued' | 'running' | 'done' | 'stopped' | 'failed' | 'interrupted';
   why: string;
+  why_sentence: Sentence | null; // null: an older version has written it
   queued_at: number;
   begun_at: number;
   ended_at: number;
@@ -128,6 +133,7 @@ export interface HistoryJob {
 export interface Alarm {
   at: number;
   words: string;
+  sentence: Sentence | null;
 }
 
 // What the machine or the server refuses. Status 0: the server was not reached.
@@ -137,6 +143,7 @@ export class Refused extends Error {
     readonly code: string,
     message: string,
     readonly expected = '', // what would have been right
+    readonly sentence: Sentence | null = null,
   ) {
     super(message);
   }
@@ -153,8 +160,8 @@ export function headers(): Record<string, string> {
 
 async function refusalOf(answer: Response): Promise<Refused> {
   try {
-    const { error } = (await answer.json()) as { error: { code: string; message: string; expected?: string } };
-    return new Refused(answer.status, error.code, error.message, error.expected);
+    const { error } = (await answer.json()) as { error: { code: string; message: string; expected?: string; sentence?: Sentence } };
+    return new Refused(answer.status, error.code, error.message, error.expected, error.sentence);
   } catch {
     return new Refused(answer.status, 'http.error', answer.statusText);
   }

@@ -1,7 +1,7 @@
 // Lines that a person types, whose modes last from line to line; and short programs of the page's own.
 import { kept } from '../core/kept';
 import { attempt } from '../core/notices';
-import { toldOr } from '../core/told';
+import { findingWords } from '../core/findings';
 import type { Program } from './api';
 import { get, post, Refused, remove, upload } from './api';
 import { hold, resume } from './actions';
@@ -54,7 +54,7 @@ async function tellFindings(id: number): Promise<void> {
       const found = (program.findings ?? []).filter((one) => !ofPrograms.includes(one.code));
       const first = found.find((one) => one.severity === 'error');
       for (const one of found) {
-        if (one !== first) note(one.severity === 'error' ? 'refused' : 'warning', toldOr(one.message), toldOr(one.expected));
+        if (one !== first) note(one.severity === 'error' ? 'refused' : 'warning', findingWords(one.message), findingWords(one.expected));
       }
       // Whoever has asked tells the first error.
       if (first !== undefined) throw new Refused(409, first.code, first.message, first.expected);

@@ -1,5 +1,6 @@
 // A job that was broken off, and how it goes on: with `passo serve --data` and a board alone.
 import { computed, effect, signal } from '@preact/signals';
+import type { Report, Sentence } from '../core/faults';
 import { get, type HistoryJob, type Place } from './api';
 import { isLive, status } from './connection';
 import { isUnderWay } from './words';
@@ -10,9 +11,13 @@ export interface Way {
   line: number | null;
   place: Place | null;
   steps: string[];
+  step_sentences: Sentence[];
   code: string;
   why: string;
+  why_sentence: Sentence;
 }
+export const stepsOf = (way: Way): Report[] => way.steps.map((words, i) => ({ words, sentence: way.step_sentences[i] ?? null }));
+
 export interface Interrupted {
   job: HistoryJob;
   noted_at: number;
@@ -22,6 +27,7 @@ export interface Interrupted {
   goes_on: boolean;
   code: string;
   why: string;
+  why_sentence: Sentence;
   reentry: Way;
 }
 

@@ -1,8 +1,9 @@
 // What has happened since this page was opened: for the console.
 import { effect, signal } from '@preact/signals';
+import { reportWords } from '../core/faults';
+import { findingWords } from '../core/findings';
 import { say } from '../core/language';
 import { notices } from '../core/notices';
-import { toldOr } from '../core/told';
 import { connection, status } from './connection';
 import { waits, wordsOfWait } from './waits';
 import { consoleName } from './words';
@@ -42,7 +43,7 @@ export function followLog(): void {
       const isBad = now.state === 'Alarm' || now.state === 'Fault';
       // Between two lines of the console the machine waits for a moment.
       const isBetween = now.state === 'Line' && now.mdi.streams;
-      if (!isBetween) note(isBad ? 'alarm' : 'state', `${say(`state.${now.state}`)}${isBad && now.trouble !== '' ? `: ${toldOr(now.trouble)}` : ''}`);
+      if (!isBetween) note(isBad ? 'alarm' : 'state', `${say(`state.${now.state}`)}${isBad && now.trouble !== '' ? `: ${reportWords(now.trouble, now.trouble_sentence)}` : ''}`);
       state = now.state;
     }
     const { now: wait } = waits.value;
@@ -50,13 +51,13 @@ export function followLog(): void {
     if (waited !== waiting && waited !== '') note('state', waited);
     waiting = waited;
     // What has ended the job may be the trouble that was just told.
-    const why = now.job === null || now.job.why === '' || now.job.why === now.trouble ? '' : `, ${toldOr(now.job.why)}`;
+    const why = now.job === null || now.job.why === '' || now.job.why === now.trouble ? '' : `, ${reportWords(now.job.why, now.job.why_sentence)}`;
     const words = now.job === null ? '' : `${now.job.name}: ${say(`job.${now.job.state}`)}${why}`;
     // Why a line of the console was refused is told by the console.
     const isTold = now.job?.state === 'failed' && now.job.name === consoleName;
     if (words !== job && words !== '' && !isTold) note(now.job?.state === 'failed' ? 'refused' : 'done', words);
     job = words;
-    if (now.mdi.trouble !== trouble && now.mdi.trouble !== '') note('refused', toldOr(now.mdi.trouble));
+    if (now.mdi.trouble !== trouble && now.mdi.trouble !== '') note('refused', findingWords(now.mdi.trouble));
     trouble = now.mdi.trouble;
   });
   effect(() => {

@@ -6,7 +6,7 @@ import { attempt } from '../core/notices';
 import { confirm } from '../core/question';
 import { moveAs } from './actions';
 import { ask, remove, type Program } from './api';
-import { refreshInterrupted, type Interrupted, type Way } from './interrupted';
+import { refreshInterrupted, stepsOf, type Interrupted, type Way } from './interrupted';
 import { beOwner } from './owner';
 import { placeWords } from './place';
 import { shown } from './programs';
@@ -70,7 +70,7 @@ export async function reenterInterrupted(broken: Interrupted): Promise<void> {
   const yes = await confirm({
     title: say('broken.reenter.ask', { name: broken.job.name }),
     facts: [say('way.what'), say('way.clear')],
-    steps: broken.reentry.steps,
+    steps: stepsOf(broken.reentry),
     yes: say('broken.reenter'),
     kind: 'go',
   });

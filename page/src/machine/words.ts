@@ -1,6 +1,6 @@
 // What the machine does, in words, and what a person does next.
+import { reportWords } from '../core/faults';
 import { say } from '../core/language';
-import { toldOr } from '../core/told';
 import type { Job, Status } from './api';
 import { isAtWait, waitsOf } from './waits';
 
@@ -47,7 +47,7 @@ function nextOf({ status, program, canHome, broken }: Facts): string {
   if (state === 'Idle') {
     if (broken !== '') return broken;
     // The console itself has told why a line was refused.
-    if (status.job?.state === 'failed' && status.job.name !== consoleName) return say('state.Idle.job.failed', { why: toldOr(status.job.why) });
+    if (status.job?.state === 'failed' && status.job.name !== consoleName) return say('state.Idle.job.failed', { why: reportWords(status.job.why, status.job.why_sentence) });
     if (status.lost_place) return say('state.Idle.unknown');
     if (canHome && status.trust !== 'homed' && program === 'none') return say('state.Idle.home');
     return say(program === 'none' ? 'state.Idle.open' : program === 'bad' ? 'state.Idle.bad' : 'state.Idle.next');
@@ -56,7 +56,7 @@ function nextOf({ status, program, canHome, broken }: Facts): string {
   if (state === 'Line' && status.mdi.streams) return say('state.Line.console');
   if (state === 'Hold' && status.rests && status.holds.includes('line-end')) return say('state.Hold.line');
   const next = say(`state.${state}.next`);
-  const trouble = toldOr(status.trouble);
+  const trouble = reportWords(status.trouble, status.trouble_sentence);
   return trouble === '' || (state !== 'Alarm' && state !== 'Fault') ? next : `${trouble}. ${next}`;
 }
 

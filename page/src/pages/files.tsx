@@ -3,7 +3,8 @@ import { useEffect } from 'preact/hooks';
 import { language, say, sayCount } from '../core/language';
 import { attempt } from '../core/notices';
 import { confirm } from '../core/question';
-import { toldOr } from '../core/told';
+import { reportWords } from '../core/faults';
+import { findingWords } from '../core/findings';
 import { goTo } from '../core/route';
 import { clockText, durationText, momentText } from '../core/time';
 import { lengthText, lengthUnit } from '../core/units';
@@ -12,7 +13,7 @@ import type { HistoryJob, Program } from '../machine/api';
 import { ask, post, remove, upload } from '../machine/api';
 import { isLive, status } from '../machine/connection';
 import { alarms, ended, keeps, queue, refreshHistory } from '../machine/history';
-import { needOperations } from '../machine/maker';
+import { needOperations } from '../machine/cam';
 import { beOwner } from '../machine/owner';
 import { pathBox, pathIndex } from '../machine/path_index';
 import { checkProgram, chosen, deleteProgram, isListed, leaveOut, programs, sending, sendProgram, shown, shownId, timeOf } from '../machine/programs';
@@ -24,8 +25,8 @@ import { Icon, type IconName } from '../parts/icon';
 import { MotorLoad } from '../parts/motor_load';
 import { Proposals } from '../parts/proposals';
 import { picked } from '../scene/stage';
-import { isDrawing } from './make_forms';
-import { takeDrawings } from './make_order';
+import { isDrawing } from './cam_forms';
+import { takeDrawings } from './cam_order';
 
 const mostFindings = 100;
 const linesShown = 3; // of the other lines with the same warning
@@ -35,7 +36,7 @@ async function take(files: readonly File[]): Promise<void> {
   const drawings = files.filter((file) => isDrawing(file.name));
   for (const file of files) if (!isDrawing(file.name)) await attempt(() => sendProgram(file));
   if (drawings.length === 0) return;
-  goTo('make');
+  goTo('cam');
   await takeDrawings(drawings);
 }
 
@@ -147,8 +148,8 @@ function Findings({ program }: { program: Program }) {
             >
               <Icon name={one.severity === 'error' ? 'bad' : 'warn'} />
               <span>
-                <b>{say('run.line', { line: one.line })}</b> {toldOr(one.message)}.{' '}
-                {one.expected !== '' && <span class="dim">{say('files.expected', { expected: toldOr(one.expected) })}</span>}{' '}
+                <b>{say('run.line', { line: one.line })}</b> {findingWords(one.message)}.{' '}
+                {one.expected !== '' && <span class="dim">{say('files.expected', { expected: findingWords(one.expected) })}</span>}{' '}
                 {one.more_lines.length > 0 && (
                   <span class="dim">
                     {sayCount('files.more.lines', one.more_lines.length, {
@@ -208,7 +209,7 @@ function JobList({ jobs, none, queued }: { jobs: readonly HistoryJob[]; none: st
           <span class="file-name">{job.name}</span>
           <span class="dim">
             {say(`files.job.${job.state}`)}
-            {job.why === '' ? '' : `: ${toldOr(job.why)}`}
+            {job.why === '' ? '' : `: ${reportWords(job.why, job.why_sentence)}`}
           </span>
           <span class="dim">{momentText(queued ? job.queued_at : job.ended_at, language.value)}</span>
           {(job.waits ?? []).map((one, i) => (
@@ -279,7 +280,7 @@ export function FilesPage() {
                 {alarms.value.map((one) => (
                   <li key={one.at}>
                     <Icon name="bad" />
-                    <span>{toldOr(one.words)}</span>
+                    <span>{reportWords(one.words, one.sentence)}</span>
                     <span class="dim">{momentText(one.at, language.value)}</span>
                   </li>
                 ))}

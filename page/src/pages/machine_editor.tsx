@@ -3,7 +3,7 @@
 import { Fragment } from 'preact';
 import { useEffect, useRef } from 'preact/hooks';
 import { language, say, type Key } from '../core/language';
-import { toldOr } from '../core/told';
+import { findingWords } from '../core/findings';
 import { confirm } from '../core/question';
 import { fromMm, isRotary, lengthUnit, perLength, smallUnit, toMm, units } from '../core/units';
 import { whyNot } from '../machine/actions';
@@ -183,9 +183,9 @@ function ScaleRow({ axes }: { axes: readonly string[] }) {
 
 function Work() {
   return (
-    <div class="make-fields editor">
+    <div class="form-fields editor">
       {ofWork.map(([path, title]) => (
-        <label key={path} class="make-field">
+        <label key={path} class="form-field">
           <span class="dim">
             {say(title)} {lengthUnit()}
           </span>
@@ -254,7 +254,7 @@ function Findings() {
         <ul>
           {now.findings.map((one) => (
             <li key={`${one.line} ${one.message}`}>
-              {toldOr(one.message)}. {toldOr(one.expected)} <code class="dim">{one.code}</code>
+              {findingWords(one.message)}. {findingWords(one.expected)} <code class="dim">{one.code}</code>
               {one.line > 0 && <code class="finding-line">{`${one.line}: ${lines[one.line - 1] ?? ''}`}</code>}
             </li>
           ))}

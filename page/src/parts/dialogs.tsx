@@ -7,7 +7,7 @@ import { asked } from '../core/question';
 import { hold, stop, whyNoHold } from '../machine/actions';
 import { Button } from './button';
 import { Icon } from './icon';
-import { ToldSteps } from './told';
+import { Steps } from './reported';
 
 // A dialog covers the page. While something moves, hold and stop are within reach here, too.
 export function Dialog({ title, onClose, children }: { title: string; onClose: () => void; children: ComponentChildren }) {
@@ -61,7 +61,7 @@ export function QuestionDialog() {
           </tbody>
         </table>
       )}
-      {question.steps !== undefined && <ToldSteps steps={question.steps} />}
+      {question.steps !== undefined && <Steps steps={question.steps} />}
       {question.facts.slice(1).map((fact) => (
         <p key={fact}>{fact}</p>
       ))}

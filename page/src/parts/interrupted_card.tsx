@@ -1,18 +1,18 @@
 // The job that was broken off, with all facts on one card; and a line that leads to it from the other pages.
+import { reportWords } from '../core/faults';
 import { language, say } from '../core/language';
 import { path, goTo } from '../core/route';
-import { toldOr } from '../core/told';
 import { momentText } from '../core/time';
 import { whyNot } from '../machine/actions';
 import { advice, adviceWords } from '../machine/advice';
 import { status } from '../machine/connection';
-import { interrupted } from '../machine/interrupted';
+import { interrupted, stepsOf } from '../machine/interrupted';
 import { machinePlace, placeWords } from '../machine/place';
 import { home } from '../machine/set_up';
 import { dropInterrupted, reenterInterrupted, resumeInterrupted } from '../machine/way_back';
 import { Button } from './button';
 import { Icon } from './icon';
-import { ToldSteps } from './told';
+import { Steps } from './reported';
 
 export function InterruptedBanner() {
   const broken = interrupted.value;
@@ -49,15 +49,15 @@ export function InterruptedCard() {
             name={say('broken.stands')}
             words={status.value === null || status.value.trust === 'unknown' ? say('run.trust.unknown') : `${placeWords(machinePlace.value)} (${say('run.machine')})`}
           />
-          {broken.job.why !== '' && <Fact name={say('broken.why')} words={toldOr(broken.job.why)} />}
-          <Fact name={say('broken.goes')} words={broken.goes_on ? say('broken.goes.exactly') : `${toldOr(broken.why)}.`} code={broken.code} />
-          {!broken.goes_on && reentry.code !== '' && <Fact name={say('broken.back')} words={`${toldOr(reentry.why)}.`} code={reentry.code} />}
+          {broken.job.why !== '' && <Fact name={say('broken.why')} words={reportWords(broken.job.why, broken.job.why_sentence)} />}
+          <Fact name={say('broken.goes')} words={broken.goes_on ? say('broken.goes.exactly') : `${reportWords(broken.why, broken.why_sentence)}.`} code={broken.code} />
+          {!broken.goes_on && reentry.code !== '' && <Fact name={say('broken.back')} words={`${reportWords(reentry.why, reentry.why_sentence)}.`} code={reentry.code} />}
         </tbody>
       </table>
       {reentry.steps.length > 0 && (
         <details open={!broken.goes_on}>
           <summary>{say('broken.back.steps')}</summary>
-          <ToldSteps steps={reentry.steps} />
+          <Steps steps={stepsOf(reentry)} />
         </details>
       )}
       <div class="row">
@@ -74,7 +74,7 @@ export function InterruptedCard() {
         <Button
           kind={next === 'reenter' ? 'go' : 'plain'}
           icon="resume"
-          why={why !== '' ? why : toldOr(reentry.why)}
+          why={why !== '' ? why : reportWords(reentry.why, reentry.why_sentence)}
           onClick={() => reenterInterrupted(broken)}
         >
           {say('broken.reenter')}

@@ -79,7 +79,7 @@ const shownValue = (of: Kind, field: Field): string => {
 function OneField({ of, field }: { of: Kind; field: Field }) {
   const unit = field.measure === 'length' ? lengthUnit() : field.measure === 'speed' ? speedUnit() : '';
   return (
-    <label class="make-field">
+    <label class="form-field">
       <span class="dim">
         {say(field.title)} {unit}
       </span>
@@ -128,14 +128,14 @@ export function Probing() {
               set={(to) => (side.value = { ...side.value, [of]: to })}
             />
           )}
-          <div class="make-fields">
+          <div class="form-fields">
             {all.filter((field) => field.rare !== true).map((field) => (
               <OneField key={field.name} of={of} field={field} />
             ))}
           </div>
           <details>
             <summary>{say('probe.more')}</summary>
-            <div class="make-fields">
+            <div class="form-fields">
               {all.filter((field) => field.rare === true).map((field) => (
                 <OneField key={field.name} of={of} field={field} />
               ))}

@@ -2,10 +2,11 @@
 import { say } from '../core/language';
 import { fromMm, lengthUnit, readLength } from '../core/units';
 import { whyNoStart } from '../machine/actions';
+import { stepsOf } from '../machine/interrupted';
 import { beginThere, changeStart, noStart, startsAt } from '../machine/way_back';
 import { Button } from './button';
 import { Dialog } from './dialogs';
-import { Told, ToldSteps } from './told';
+import { Reported, Steps } from './reported';
 import { Typed } from './typed';
 
 const shownLength = (mm: number): string => String(Number(fromMm(mm).toFixed(4)));
@@ -22,21 +23,21 @@ export function StartDialog() {
         {way === null && <p class="dim">{say('way.looking')}</p>}
         {refused && (
           <p class="refusal">
-            <Told words={way.why} code={way.code} />
+            <Reported words={way.why} sentence={way.why_sentence} code={way.code} />
           </p>
         )}
         {way !== null && !refused && (
           <>
             <p>{say('way.what')}</p>
-            <ToldSteps steps={way.steps} />
+            <Steps steps={stepsOf(way)} />
             <p>{say('way.clear')}</p>
           </>
         )}
       </div>
       <details open={now.pass !== null || now.after > 0 || way?.code === 'reentry.done-often'}>
         <summary>{say('way.where')}</summary>
-        <div class="make-fields">
-          <label class="make-field">
+        <div class="form-fields">
+          <label class="form-field">
             <span class="dim">{say('way.pass')}</span>
             <Typed
               inputMode="numeric"
@@ -48,7 +49,7 @@ export function StartDialog() {
               }}
             />
           </label>
-          <label class="make-field">
+          <label class="form-field">
             <span class="dim">
               {say('way.after')} {lengthUnit()}
             </span>

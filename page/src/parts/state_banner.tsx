@@ -11,7 +11,7 @@ import { shown } from '../machine/programs';
 import { stateWords, type Tone } from '../machine/words';
 import { Button } from './button';
 import { Icon, type IconName } from './icon';
-import { Told } from './told';
+import { Reported } from './reported';
 
 const icons: Record<Tone, IconName> = { calm: 'calm', go: 'run', wait: 'hold', bad: 'bad' };
 
@@ -80,9 +80,9 @@ export function DiskBanner() {
   return (
     <div class="owner" role="alert">
       <div>
-        {unkept.split('; ').map((words) => (
+        {unkept.split('; ').map((words, i) => (
           <p key={words}>
-            <Told words={words} />
+            <Reported words={words} sentence={status.value?.unkept_sentences?.[i] ?? null} />
           </p>
         ))}
         <p class="dim">{say('disk.next')}</p>

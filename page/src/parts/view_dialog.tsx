@@ -63,7 +63,7 @@ function ViewDialog() {
         all={Object.entries(languages) as [Language, string][]}
         set={(to) => (language.value = to)}
       />
-      <label class="make-field">
+      <label class="form-field">
         <span>{say('view.name')}</span>
         <Typed value={givenName.value} placeholder={ownDevice()} take={rename} />
         <span class="dim">{say('view.name.what')}</span>

@@ -2,6 +2,31 @@
 
 namespace passo {
 
+std::string_view code_of(LinkError error) {
+  switch (error) {
+    case LinkError::no_answer: return "link.no-answer";
+    case LinkError::no_progress: return "link.no-progress";
+    case LinkError::wrong_version: return "link.wrong-version";
+    case LinkError::too_few_motors: return "link.too-few-motors";
+    case LinkError::cannot_set_up: return "link.cannot-set-up";
+    case LinkError::cannot_time: return "link.cannot-time";
+    case LinkError::cannot_watch: return "link.cannot-watch";
+    case LinkError::refused: return "link.refused";
+    case LinkError::was_reset: return "link.was-reset";
+    case LinkError::stopped: return "link.stopped";
+    case LinkError::drivers_off: return "link.drivers-off";
+    case LinkError::stood_still: return "link.stood-still";
+    case LinkError::too_few_places: return "link.too-few-places";
+    case LinkError::manual: return "link.manual";
+    case LinkError::no_encoder: return "link.no-encoder";
+    case LinkError::spindle_stands: return "link.spindle-stands";
+    case LinkError::encoder_wrong: return "link.encoder-wrong";
+    case LinkError::thread_lost: return "link.thread-lost";
+    case LinkError::thread_outrun: return "link.thread-outrun";
+  }
+  return "link";
+}
+
 std::string_view message_of(LinkError error) {
   switch (error) {
     case LinkError::no_answer: return "the board does not answer";

@@ -1,5 +1,8 @@
 #include "api_answers.hpp"
 
+#include <string>
+#include <utility>
+
 #include <fmt/format.h>
 
 namespace passo {
@@ -10,8 +13,19 @@ WebAnswer json_answer(unsigned status, const Json& json) {
           .body = json.dump(-1, ' ', false, Json::error_handler_t::replace) + "\n"};
 }
 
+Json as_json(const Sentence& sentence) {
+  Json arguments = Json::object();
+  for (const auto& [name, value] : sentence.arguments) arguments[std::string(name)] = value;
+  return {{"code", sentence.code}, {"arguments", std::move(arguments)}};
+}
+
+WebAnswer error_answer(unsigned status, std::string_view code, const Sentence& sentence) {
+  return json_answer(status,
+                     {{"error", {{"code", code}, {"message", sentence.text}, {"sentence", as_json(sentence)}}}});
+}
+
 WebAnswer error_answer(unsigned status, std::string_view code, std::string_view message) {
-  return json_answer(status, {{"error", {{"code", code}, {"message", message}}}});
+  return error_answer(status, code, Sentence{.code = std::string(code), .text = std::string(message)});
 }
 
 WebAnswer refusal_answer(unsigned status) {
@@ -33,19 +47,33 @@ WebAnswer bad_body(std::string_view message) {
 }
 
 WebAnswer refused_answer(const Refusal& refusal) {
-  return error_answer(refusal.code == RefusalCode::bad_value ? 400 : 409, code_of(refusal.code), refusal.message);
+  return error_answer(refusal.code() == RefusalCode::bad_value ? 400 : 409, code_of(refusal.code()),
+                      refusal.sentence());
 }
 
 WebAnswer ticket_answer(const MachineSession& session, Ticket ticket) {
   return json_answer(200, {{"ticket", ticket}, {"change", session.status().version}});
 }
 
+Sentence sentence_of_busy(MachineState state) {
+  return {.code = "machine.busy.not-idle",
+          .arguments = {{"state", std::string(name_of(state))}},
+          .text = fmt::format("the machine is not idle: {}", name_of(state))};
+}
+
+Sentence sentence_of_unwritten(std::string_view what, std::string_view finer, std::string why) {
+  std::string text = fmt::format("{} cannot be written: {}", what, why);
+  return {
+      .code = fmt::format("data.unwritten.{}", finer), .arguments = {{"why", std::move(why)}}, .text = std::move(text)};
+}
+
 WebAnswer not_idle(MachineState state) {
-  return error_answer(409, "machine.busy", fmt::format("the machine is not idle: {}", name_of(state)));
+  return error_answer(409, "machine.busy", sentence_of_busy(state));
 }
 
 WebAnswer job_begins() {
-  return error_answer(409, "machine.busy", "a job is about to begin");
+  return error_answer(409, "machine.busy",
+                      Sentence{.code = "machine.busy.job-begins", .text = "a job is about to begin"});
 }
 
 WebAnswer no_history() {
@@ -69,8 +97,8 @@ WebAnswer no_studies() {
   return error_answer(404, "study.none", "this server makes no studies");
 }
 
-WebAnswer unwritten(std::string_view what, std::string_view why) {
-  return error_answer(507, "data.unwritten", fmt::format("{} cannot be written: {}", what, why));
+WebAnswer unwritten(std::string_view what, std::string_view finer, std::string why) {
+  return error_answer(507, "data.unwritten", sentence_of_unwritten(what, finer, std::move(why)));
 }
 
 }  // namespace passo

@@ -145,7 +145,8 @@ Json as_json(const MachineDescription& machine, const MachineStatus& status) {
       {"waits_for_tool", Json()},
       {"waits_for_operator", status.waits_for.has_value()},
       {"waits", status.waits_for ? waits_json(*status.waits_for) : Json()},
-      {"trouble", status.trouble_words}};
+      {"trouble", status.trouble_words},
+      {"trouble_sentence", as_json(status.trouble_sentence)}};
   if (status.waits_for && status.waits_for->kind == Action::Kind::tool_change) {
     json["waits_for_tool"] = status.waits_for->tool;
   }
@@ -159,8 +160,9 @@ Json as_json(const MotionOwner& owner) {
 
 Json as_json(const ApiJob& job) {
   if (job.state == JobState::none) return Json();
-  return {{"id", job.id},   {"program", job.program}, {"name", job.name}, {"state", name_of(job.state)},
-          {"why", job.why}, {"history", job.history}};
+  return {
+      {"id", job.id},        {"program", job.program},           {"name", job.name},      {"state", name_of(job.state)},
+      {"why", job.why.text}, {"why_sentence", as_json(job.why)}, {"history", job.history}};
 }
 
 Json as_json(const MachineDescription& machine, const MdiLines& mdi, const Point& at) {
@@ -196,10 +198,25 @@ Json as_json(const HistoryJob& job) {
           {"bytes", job.bytes},
           {"state", name_of(job.state)},
           {"why", job.why},
+          {"why_sentence", sentence_json(job.why_sentence, job.why)},
           {"queued_at", job.queued_at},
           {"begun_at", job.begun_at},
           {"ended_at", job.ended_at},
           {"waits", std::move(waits)}};
+}
+
+// With the text: words that an older program has written since are not those of the sentence.
+std::string kept_form(const Sentence& sentence) {
+  Json json = as_json(sentence);
+  json["text"] = sentence.text;
+  return json.dump(-1, ' ', false, Json::error_handler_t::replace);
+}
+
+Json sentence_json(const std::string& kept, const std::string& words) {
+  Json json = Json::parse(kept, nullptr, false);
+  if (!json.is_object() || !json.contains("text") || json["text"] != words) return Json();
+  json.erase("text");
+  return json;
 }
 
 Json as_json(const std::vector<HomedAxis>& homed, const HomingRepeats& repeats) {
@@ -223,11 +240,20 @@ Json as_json(const std::vector<HomedAxis>& homed, const HomingRepeats& repeats) 
 }
 
 Json as_json(const MachineDescription& machine, const WayBack& way) {
+  const Sentence why = way ? Sentence() : way.error();
+  Json steps = Json::array();
+  Json sentences = Json::array();
+  for (const Sentence& one : way ? way->steps : std::vector<Sentence>()) {
+    steps.push_back(one.text);
+    sentences.push_back(as_json(one));
+  }
   return {{"line", way ? Json(way->at.line) : Json()},
           {"place", way ? as_json(machine, way->at.point) : Json()},
-          {"steps", way ? Json(way->steps) : Json::array()},
-          {"code", way ? "" : way.error().code},
-          {"why", way ? "" : way.error().why}};
+          {"steps", std::move(steps)},
+          {"step_sentences", std::move(sentences)},
+          {"code", why.code},
+          {"why", why.text},
+          {"why_sentence", as_json(why)}};
 }
 
 // The counts of the motors from machine zero, of the axes by name.
@@ -242,9 +268,10 @@ Json as_json(const MachineDescription& machine, const InterruptedJob& job, const
           {"line", point != nullptr ? Json(point->line) : Json()},
           {"place", point != nullptr ? as_json(machine, point->point) : Json()},
           {"steps", std::move(steps)},
-          {"goes_on", job.code.empty()},
-          {"code", job.code},
-          {"why", job.why},
+          {"goes_on", job.why.code.empty()},
+          {"code", job.why.code},
+          {"why", job.why.text},
+          {"why_sentence", as_json(job.why)},
           {"reentry", as_json(machine, way)}};
 }
 

@@ -46,6 +46,9 @@ Json as_json(const ApiJob& job);
 Json as_json(const MachineDescription& machine, const MdiLines& mdi, const Point& at);
 Json as_json(const StoredProgram& program, bool with_findings);
 Json as_json(const HistoryJob& job);
+// How the history keeps a sentence, and what a client gets of it: null where an older program has written the words.
+std::string kept_form(const Sentence& sentence);
+Json sentence_json(const std::string& kept, const std::string& words);
 // What the last homing has found, and how well all homings agree.
 Json as_json(const std::vector<HomedAxis>& homed, const HomingRepeats& repeats);
 // What viewers ask of a program.
@@ -54,7 +57,7 @@ WebAnswer path_answer(const StoredProgram& program, const MachineDescription& ma
 WebAnswer text_answer(const StoredProgram& program, std::string_view query);
 WebAnswer height_map_answer(const HeightMap& map, std::string_view query);
 
-using WayBack = Result<Reentry, ReentryProblem>;
+using WayBack = Result<Reentry, Sentence>;
 Json as_json(const MachineDescription& machine, const WayBack& way);
 Json as_json(const MachineDescription& machine, const InterruptedJob& job, const WayBack& way);
 Json machine_json(const MachineDescription& machine, std::string_view version);

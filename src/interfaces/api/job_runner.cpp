@@ -18,11 +18,18 @@ constexpr Seconds a_turn{0.005};
 constexpr int most_turns = 400;
 
 // The first error, for the history, which outlives the findings.
-std::string words_of_error(const Diagnostics& findings, std::string else_words) {
+Sentence first_error(const Diagnostics& findings, Sentence otherwise) {
   const auto& all = findings.all();
   const auto first = std::ranges::find(all, Severity::error, &Diagnostic::severity);
-  if (first == all.end()) return else_words;
-  return fmt::format("line {}: {} [{}]", first->place.line, first->message, first->code);
+  if (first == all.end()) return otherwise;
+  return {
+      .code = "job.finding",
+      .arguments = {{"line", std::to_string(first->place.line)}, {"finding", first->message}, {"code", first->code}},
+      .text = fmt::format("line {}: {} [{}]", first->place.line, first->message, first->code)};
+}
+
+Sentence sentence_of_end() {
+  return {.code = "job.server-ends", .text = "passo serve was told to end"};
 }
 
 HistoryState history_state_of(JobState state) {
@@ -72,22 +79,24 @@ bool JobRunner::waits_with(std::uint64_t program) const {
 
 WebAnswer JobRunner::no_room_in_history() const {
   const std::string& trouble = shared_.options.history->trouble();
-  return trouble.empty() ? no_room() : unwritten("the job", trouble);
+  return trouble.empty() ? no_room() : unwritten("the job", "job", trouble);
 }
 
-Result<Reentry, ReentryProblem> JobRunner::way_to(const StoredProgram& program, const LinePlace& from) const {
+Result<Reentry, Sentence> JobRunner::way_to(const StoredProgram& program, const LinePlace& from) const {
   const MachineSession& session = shared_.session;
   const KnownPosition position = session.status().position;
   if (session.busy() || position.trust == Trust::unknown) {
-    return Failure{ReentryProblem{
-        .code = "reentry.place-unknown",
-        .why = session.busy() ? "the machine is busy" : "where the machine stands is not known: home it first"}};
+    const RefusalReason reason = session.busy() ? RefusalReason::busy : RefusalReason::unknown_so_home;
+    return Failure{Sentence{.code = session.busy() ? "reentry.place-unknown.busy" : "reentry.place-unknown",
+                            .text = Refusal{reason}.message()}};
   }
   InterpreterOptions options = shared_.programs.options_of(program);
   options.start = position.place;
   auto way = reentry_at_line(ProgramReader::from_text(program.name, program.text), shared_.machine, options, from);
   if (way) return std::move(*way);
-  return Failure{ReentryProblem{.code = code_of(way.error().refusal), .why = message_of(way.error())}};
+  return Failure{Sentence{.code = std::string(code_of(way.error().refusal)),
+                          .arguments = {{"times", std::to_string(way.error().times)}},
+                          .text = message_of(way.error())}};
 }
 
 // Why nothing begins where the machine stands.
@@ -137,9 +146,9 @@ WebAnswer JobRunner::resume(bool by_a_way_back) {
   const MachineSession& session = shared_.session;
   if (session.state() != MachineState::idle) return not_idle(session.state());
   if (by_a_way_back) {
-    if (const auto way = kept_->reentry(); !way) return error_answer(409, way.error().code, way.error().why);
-  } else if (!broken.code.empty()) {
-    return error_answer(409, broken.code, broken.why);
+    if (const auto way = kept_->reentry(); !way) return error_answer(409, way.error().code, way.error());
+  } else if (!broken.why.code.empty()) {
+    return error_answer(409, broken.why.code, broken.why);
   }
   if (const auto refused = session.closed_limit()) return refused_answer(*refused);
   const InterpreterOptions options = kept_->options();
@@ -155,7 +164,7 @@ WebAnswer JobRunner::resume(bool by_a_way_back) {
 
 bool JobRunner::call_off() {
   if (!is_checking() || shared_.session.busy()) return false;
-  end_job(JobState::stopped, "it was called off before it began");
+  end_job(JobState::stopped, Sentence{.code = "job.called-off", .text = "it was called off before it began"});
   return true;
 }
 
@@ -166,7 +175,9 @@ void JobRunner::poll() {
 
 void JobRunner::begin_checked_job() {
   if (!named_) return name_job();
-  if (shared_.session.state() != MachineState::idle) return end_job(JobState::interrupted, "the board was lost");
+  if (shared_.session.state() != MachineState::idle) {
+    return end_job(JobState::interrupted, Sentence{.code = "job.board-lost", .text = "the board was lost"});
+  }
   if (kept_->is_named()) start_job();
 }
 
@@ -174,20 +185,23 @@ void JobRunner::begin_checked_job() {
 void JobRunner::name_job() {
   const StoredProgram& program = *shared_.programs.find(job_.program);
   if (shared_.owner.changes() != begins_.owner) {
-    return end_job(JobState::stopped, "the ownership of motion was passed on");
+    return end_job(JobState::stopped,
+                   Sentence{.code = "job.owner-changed", .text = "the ownership of motion was passed on"});
   }
   if (program.state != UploadState::good) {
-    return end_job(JobState::failed, words_of_error(program.findings, "the program has errors: see its findings"));
+    return end_job(JobState::failed,
+                   first_error(program.findings, Sentence{.code = "job.program-errors",
+                                                          .text = "the program has errors: see its findings"}));
   }
   begins_.way.reset();
   if (goes_on_ || begins_.from) {
     auto way = goes_on_ ? way_behind_stop() : way_to(program, *begins_.from);
-    if (!way) return end_job(JobState::failed, way.error().why);
+    if (!way) return end_job(JobState::failed, way.error());
     begins_.way = std::move(*way);
   }
   if (!kept_) return start_job();
   if (shared_.session.state() != MachineState::idle) {
-    return end_job(JobState::failed, "the machine is not idle any more");
+    return end_job(JobState::failed, Sentence{.code = "job.not-idle", .text = "the machine is not idle any more"});
   }
   const Point stands = shared_.session.status().position.place;
   const bool begun = begins_.reenters ? kept_->reenter(program.path)
@@ -204,7 +218,8 @@ void JobRunner::name_job() {
   } else if (const InterruptedJob* const broken = kept_->interrupted(); begins_.resumes && broken != nullptr) {
     end_job(JobState::interrupted, broken->why);
   } else {
-    end_job(JobState::failed, "the journal of the job cannot be written: " + shared_.options.keeper->trouble());
+    end_job(JobState::failed,
+            sentence_of_unwritten("the journal of the job", "journal", shared_.options.keeper->trouble()));
   }
 }
 
@@ -227,18 +242,18 @@ void JobRunner::start_job() {
   const Point begins_at = start.options.start;
   std::vector<ProbeOutcome> probes = start.known_probes;
   const auto ticket = shared_.session.request(std::move(start));
-  if (!ticket) return end_job(JobState::failed, ticket.error().message);
+  if (!ticket) return end_job(JobState::failed, ticket.error().sentence());
   start_ = begins_at;
   probes_ = std::move(probes);
   if (std::exchange(goes_on_, false)) parked_.reset();
   if (named_) kept_->forget_interrupted();
   ticket_ = *ticket;
   job_.state = JobState::running;
-  stopped_by_.clear();
+  stopped_by_.reset();
 }
 
 // A job that was broken off and did not begin again stays broken off.
-void JobRunner::end_job(JobState state, std::string why) {
+void JobRunner::end_job(JobState state, Sentence why) {
   // What could not go on waits as before.
   if (std::exchange(goes_on_, false) && state == JobState::failed) {
     if (std::exchange(named_, false)) kept_->end(false);
@@ -257,7 +272,8 @@ void JobRunner::end_job(JobState state, std::string why) {
   if (named_) kept_->end(state == JobState::interrupted);
   named_ = false;
   if (job_.history == 0) return;
-  shared_.options.history->end(job_.history, history_state_of(state), job_.why, shared_.wall_time());
+  shared_.options.history->end(job_.history, history_state_of(state), job_.why.text, shared_.wall_time(),
+                               kept_form(job_.why));
 }
 
 // A hold amid the wait is no second one.
@@ -291,19 +307,25 @@ void JobRunner::on_end(const MachineChange& change) {
       break;
     case Outcome::stopped:
       end_job(named_ && is_broken_off ? JobState::interrupted : JobState::stopped,
-              leaves_               ? "passo serve was told to end"
-              : stopped_by_.empty() ? "it was stopped"
-                                    : "stopped by " + stopped_by_);
+              leaves_ ? sentence_of_end() : sentence_of_stop());
       break;
     case Outcome::failed: {
       // What came true only in the run: a probe that touched nothing, a way that leads out of the travel.
-      const std::string words = change.fault ? change.fault->message() : "";
+      const Sentence why = change.fault ? change.fault->sentence() : Sentence();
       const bool is_of_program = change.fault && change.fault->fault == MachineFault::program_wrong;
       end_job(named_ && is_broken_off ? JobState::interrupted : JobState::failed,
-              is_of_program ? words_of_error(findings_, words) : words);
+              is_of_program ? first_error(findings_, why) : why);
       break;
     }
   }
+}
+
+Sentence JobRunner::sentence_of_stop() const {
+  if (!stopped_by_) return {.code = "job.stopped", .text = "it was stopped"};
+  if (stopped_by_->empty()) {
+    return {.code = "job.stopped-by-stranger", .text = "stopped by somebody who does not own the motion"};
+  }
+  return {.code = "job.stopped-by", .arguments = {{"name", *stopped_by_}}, .text = "stopped by " + *stopped_by_};
 }
 
 // What a program has found, and set, counts when the program has come to its end.
@@ -344,17 +366,17 @@ void JobRunner::step_aside() {
   mdi_.begin_anew();
 }
 
-Result<Reentry, ReentryProblem> JobRunner::way_behind_stop() const {
+Result<Reentry, Sentence> JobRunner::way_behind_stop() const {
   return parked_->way_behind_stop(shared_.machine, shared_.programs, shared_.session.status().position.place);
 }
 
 WebAnswer JobRunner::go_on() {
   if (is_checking()) return not_idle(shared_.session.state());
   if (auto refused = refuse_begin()) return std::move(*refused);
-  if (const auto way = way_behind_stop(); !way) return error_answer(409, way.error().code, way.error().why);
+  if (const auto way = way_behind_stop(); !way) return error_answer(409, way.error().code, way.error());
   job_ = parked_->job;
   job_.state = JobState::checking;
-  job_.why.clear();
+  job_.why = {};
   goes_on_ = true;
   named_ = false;
   begins_ = {.owner = shared_.owner.changes()};
@@ -364,22 +386,25 @@ WebAnswer JobRunner::go_on() {
 
 WebAnswer JobRunner::stop_parked() {
   job_ = parked_->job;
-  end_job(JobState::stopped, stopped_by_.empty() ? "it was stopped" : "stopped by " + stopped_by_);
+  end_job(JobState::stopped, sentence_of_stop());
   return ticket_answer(shared_.session, 0);
 }
 
 WebAnswer JobRunner::parked_refusal() const {
-  return error_answer(
-      409, "jobs.waits",
-      fmt::format("{} waits at line {}: go on with it or stop it first", parked_->job.name, parked_->wait.line));
+  const std::string& name = parked_->job.name;
+  const std::uint32_t line = parked_->wait.line;
+  return error_answer(409, "jobs.waits",
+                      Sentence{.code = "jobs.waits",
+                               .arguments = {{"name", name}, {"line", std::to_string(line)}},
+                               .text = fmt::format("{} waits at line {}: go on with it or stop it first", name, line)});
 }
 
 void JobRunner::leave() {
   leaves_ = true;
-  stopped_by_.clear();
+  stopped_by_.reset();
   if (!parked_) return;
   job_ = parked_->job;
-  end_job(JobState::stopped, "passo serve was told to end");
+  end_job(JobState::stopped, sentence_of_end());
 }
 
 }  // namespace passo

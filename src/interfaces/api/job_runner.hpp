@@ -41,10 +41,10 @@ class JobRunner {
   bool is_journal_written() const { return !named_ || kept_->is_written(); }
   // The job that was broken off. Null: there is none.
   const InterruptedJob* interrupted() const { return kept_ ? kept_->interrupted() : nullptr; }
-  Result<Reentry, ReentryProblem> way_of_interrupted() { return kept_->reentry(); }
+  Result<Reentry, Sentence> way_of_interrupted() { return kept_->reentry(); }
   void drop_interrupted() { kept_->drop(); }
   // From where the machine stands to the first motion of a line. Goes through the program.
-  Result<Reentry, ReentryProblem> way_to(const StoredProgram& program, const LinePlace& from) const;
+  Result<Reentry, Sentence> way_to(const StoredProgram& program, const LinePlace& from) const;
 
   struct Wanted {
     std::int64_t history = 0;            // its number in the history; 0: it gets one
@@ -57,7 +57,8 @@ class JobRunner {
   // True: the job had not begun yet, and does not begin any more.
   bool call_off();
   // Who is about to stop the job.
-  void set_stopped_by(std::string who) { stopped_by_ = std::move(who); }
+  // `who`: empty for a client that is not in control. Nothing: it has no name.
+  void set_stopped_by(std::optional<std::string> who) { stopped_by_ = std::move(who); }
 
   // The spindle stands, and the machine can be led back onto the path.
   bool is_free_to_move(const MachineStatus& status) const;
@@ -80,11 +81,12 @@ class JobRunner {
   void begin_checked_job();
   void name_job();
   void start_job();
-  void end_job(JobState state, std::string why = {});
+  void end_job(JobState state, Sentence why = {});
+  Sentence sentence_of_stop() const;
   void on_end(const MachineChange& change);
   void keep_results();
   void record_wait();
-  Result<Reentry, ReentryProblem> way_behind_stop() const;
+  Result<Reentry, Sentence> way_behind_stop() const;
 
   const ApiShared& shared_;
   MdiLines& mdi_;
@@ -107,9 +109,9 @@ class JobRunner {
   Diagnostics findings_;              // of the run
   JobLog log_;
   std::optional<ParkedJob> parked_;
-  bool goes_on_ = false;     // the parked job is about to begin behind its stop
-  bool wait_noted_ = false;  // where the job waits for a person now
-  std::string stopped_by_;   // who has asked to stop the job
+  bool goes_on_ = false;                   // the parked job is about to begin behind its stop
+  bool wait_noted_ = false;                // where the job waits for a person now
+  std::optional<std::string> stopped_by_;  // who has asked to stop the job
   bool leaves_ = false;
   std::uint64_t last_job_ = 0;
   std::uint64_t ended_ = 0;

@@ -90,7 +90,7 @@ WebAnswer JobsApi::run(const ApiCall& call) {
   if (!from) return no_place();
   if (shared_.session.state() == MachineState::idle) {
     if (const auto way = jobs_.way_to(*program, *from); !way) {
-      return error_answer(409, way.error().code, way.error().why);
+      return error_answer(409, way.error().code, way.error());
     }
   }
   return jobs_.begin(*program, {.from = from});
@@ -185,7 +185,7 @@ WebAnswer JobsApi::list_history(const ApiCall& call) {
 WebAnswer JobsApi::list_alarms(const ApiCall& call) {
   Json list = Json::array();
   for (const HistoryAlarm& one : shared_.options.history->alarms(most_from(call))) {
-    list.push_back({{"at", one.at}, {"words", one.words}});
+    list.push_back({{"at", one.at}, {"words", one.words}, {"sentence", sentence_json(one.sentence, one.words)}});
   }
   return json_answer(200, {{"alarms", std::move(list)}});
 }

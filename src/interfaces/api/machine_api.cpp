@@ -77,7 +77,7 @@ WebAnswer MachineApi::hold(const ApiCall& call) {
 WebAnswer MachineApi::stop(const ApiCall& call) {
   if (jobs_.call_off()) return ticket_answer(shared_.session, 0);
   const bool is_owner = shared_.owner.is_client(call.request.key);
-  jobs_.set_stopped_by(is_owner ? shared_.owner.name() : "somebody who does not own the motion");
+  jobs_.set_stopped_by(is_owner ? shared_.owner.name() : std::string());
   return jobs_.parked() && !shared_.session.busy() ? jobs_.stop_parked() : ask(request::Stop{});
 }
 
@@ -140,7 +140,8 @@ WebAnswer MachineApi::set_work_zero(const ApiCall& call) {
   if (status.state != MachineState::idle || jobs_.is_checking()) return not_idle(status.state);
   if (jobs_.interrupted() != nullptr) {
     return error_answer(409, "jobs.interrupted",
-                        "a job was broken off, and needs its zero: resume it or drop it first");
+                        Sentence{.code = "jobs.interrupted.zero",
+                                 .text = "a job was broken off, and needs its zero: resume it or drop it first"});
   }
   const Frame frame = shared_.programs.work_frame();
   const Point& at = status.position.place;
@@ -150,7 +151,7 @@ WebAnswer MachineApi::set_work_zero(const ApiCall& call) {
   const auto is_far = [](double value) { return std::abs(value) > farthest_zero; };
   if (std::ranges::any_of(place.values, is_far)) return bad_body("the place is too far away");
   if (!shared_.offsets.set_work_zero(at - (frame.machine_from_work(place) - frame.work_offset()))) {
-    return unwritten("the zero of the work", shared_.offsets.trouble());
+    return unwritten("the zero of the work", "zero", shared_.offsets.trouble());
   }
   mdi_.apply_offsets();
   return json_answer(200, {{"work_offset", as_json(shared_.machine, shared_.programs.work_zero())}});
@@ -167,7 +168,10 @@ WebAnswer MachineApi::run_line(const ApiCall& call) {
   }
   MdiLines::Answer answer = mdi_.execute(*line);
   if (!answer.code.empty()) {
-    const Json error = {{"code", answer.code}, {"message", answer.message}, {"expected", answer.expected}};
+    const Json error = {{"code", answer.code},
+                        {"message", answer.message},
+                        {"sentence", as_json(answer.sentence)},
+                        {"expected", answer.expected}};
     return json_answer(409, {{"error", error}});
   }
   return json_answer(200, {{"words", std::move(answer.words)}, {"change", shared_.session.status().version}});
@@ -179,7 +183,8 @@ void MachineApi::on_change(const MachineChange& change) {
   if (change.state == MachineState::alarm || change.state == MachineState::fault) {
     ++alarms_;
     JobHistory* const history = shared_.options.history;
-    if (history != nullptr) history->record_alarm(shared_.session.status().trouble_words, shared_.wall_time());
+    const Sentence trouble = shared_.session.status().trouble_sentence;
+    if (history != nullptr) history->record_alarm(trouble.text, shared_.wall_time(), kept_form(trouble));
   }
   homing_.on_change(change.state);
 }
@@ -200,17 +205,17 @@ void MachineApi::poll() {
 }
 
 // What has happened and is not on the disk. Empty: all is.
-std::string MachineApi::unkept() const {
-  std::string words;
-  const auto add = [&words](std::string_view what, std::string_view why) {
-    if (!words.empty()) words += "; ";
-    words += fmt::format("{} cannot be written: {}", what, why);
+std::vector<Sentence> MachineApi::unkept() const {
+  std::vector<Sentence> all;
+  const auto add = [&all](std::string_view what, std::string_view finer, const std::string& why) {
+    all.push_back(sentence_of_unwritten(what, finer, why));
   };
   const ApiOptions& options = shared_.options;
-  if (options.history != nullptr && options.history->is_behind()) add("the history", options.history->trouble());
-  if (!shared_.offsets.trouble().empty()) add("the offsets", shared_.offsets.trouble());
-  if (!jobs_.is_journal_written()) add("the journal of the job", options.keeper->trouble());
-  return words;
+  if (options.history != nullptr && options.history->is_behind())
+    add("the history", "history", options.history->trouble());
+  if (!shared_.offsets.trouble().empty()) add("the offsets", "offsets", shared_.offsets.trouble());
+  if (!jobs_.is_journal_written()) add("the journal of the job", "journal", options.keeper->trouble());
+  return all;
 }
 
 std::string MachineApi::status_text() const {
@@ -228,7 +233,14 @@ std::string MachineApi::status_text() const {
   json["work_rotation"] = frame.rotation_degrees();
   json["owner"] = as_json(shared_.owner);
   json["job"] = as_json(jobs_.job());
-  json["unkept"] = unkept();
+  std::string unkept_words;
+  Json sentences = Json::array();
+  for (const Sentence& one : unkept()) {
+    unkept_words += (unkept_words.empty() ? "" : "; ") + one.text;
+    sentences.push_back(as_json(one));
+  }
+  json["unkept"] = std::move(unkept_words);
+  json["unkept_sentences"] = std::move(sentences);
   json["mdi"] = as_json(machine, mdi_, status.now_at);
   return json.dump() + "\n";
 }

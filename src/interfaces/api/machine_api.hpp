@@ -55,7 +55,7 @@ class MachineApi {
 
  private:
   WebAnswer ask(Request wanted);
-  std::string unkept() const;
+  std::vector<Sentence> unkept() const;
   std::string metrics_text() const;
 
   const ApiShared& shared_;

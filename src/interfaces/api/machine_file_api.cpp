@@ -81,7 +81,9 @@ Json unset_json(std::string text, std::string message) {
 // Reading a machine file may take some milliseconds: nothing waits for them while nothing moves.
 std::optional<WebAnswer> MachineFileApi::refuse_while_moving() const {
   if (!shared_.session.busy() && !jobs_.is_checking()) return {};
-  return error_answer(409, "machine.busy", "the machine moves: the machine file can wait");
+  return error_answer(
+      409, "machine.busy",
+      Sentence{.code = "machine.busy.machine-file", .text = "the machine moves: the machine file can wait"});
 }
 
 WebAnswer MachineFileApi::get(const ApiCall&) {
@@ -149,10 +151,16 @@ WebAnswer MachineFileApi::write(const ApiCall& call) {
   Diagnostics findings;
   if (!parse_machine(text, file.name, findings)) {
     const std::string why = findings.all().empty() ? "it has errors" : findings.all().front().message;
-    return error_answer(409, "machine-file.unsound", fmt::format("this is no sound machine: {}", why));
+    return error_answer(409, "machine-file.unsound",
+                        Sentence{.code = "machine-file.unsound",
+                                 .arguments = {{"finding", why}},
+                                 .text = fmt::format("this is no sound machine: {}", why)});
   }
   if (const std::string why = file.write(*before, text); !why.empty()) {
-    return error_answer(507, "machine-file.unwritten", fmt::format("{} cannot be written: {}", file.name, why));
+    return error_answer(507, "machine-file.unwritten",
+                        Sentence{.code = "machine-file.unwritten",
+                                 .arguments = {{"name", file.name}, {"why", why}},
+                                 .text = fmt::format("{} cannot be written: {}", file.name, why)});
   }
   return get(call);
 }

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "api_answers.hpp"
 #include <fmt/format.h>
 
 #include "passo/grbl/grbl_reports.hpp"
@@ -33,8 +34,16 @@ std::vector<std::string> lines_of(std::string_view text) {
   return lines;
 }
 
-MdiLines::Answer refused(std::string code, std::string message) {
-  return {.code = std::move(code), .message = std::move(message), .expected = {}, .words = {}};
+MdiLines::Answer refused(std::string_view code, Sentence sentence) {
+  return {.code = std::string(code),
+          .message = sentence.text,
+          .expected = {},
+          .words = {},
+          .sentence = std::move(sentence)};
+}
+
+MdiLines::Answer refused(const Refusal& refusal) {
+  return refused(code_of(refusal.code()), refusal.sentence());
 }
 
 MdiLines::Answer told(std::string_view text) {
@@ -80,7 +89,9 @@ ModesInForce MdiLines::modes() const {
 MdiLines::Answer MdiLines::execute(std::string_view line) {
   const std::string_view text = without_blanks(line);
   if (text.size() > longest_line) {
-    return refused("mdi.too-long", fmt::format("the line is longer than {} characters", longest_line));
+    return refused("mdi.too-long", {.code = "mdi.too-long",
+                                    .arguments = {{"count", std::to_string(longest_line)}},
+                                    .text = fmt::format("the line is longer than {} characters", longest_line)});
   }
   if (text.empty()) return {};
   if (text.front() != '$') return execute_code(text);
@@ -93,14 +104,13 @@ MdiLines::Answer MdiLines::execute(std::string_view line) {
 
 MdiLines::Answer MdiLines::execute_code(std::string_view line) {
   const MachineState state = session_.state();
-  if (!streams() && state != MachineState::idle) {
-    return refused("machine.busy", fmt::format("the machine is not idle: {}", name_of(state)));
-  }
+  if (!streams() && state != MachineState::idle) return refused("machine.busy", sentence_of_busy(state));
   if (streams() && (stops_ || !program_->room())) {
-    return refused("machine.busy", "earlier lines are still running: wait");
+    return refused("machine.busy",
+                   {.code = "machine.busy.earlier-lines", .text = "earlier lines are still running: wait"});
   }
-  if (const auto closed = session_.closed_limit()) return refused(std::string(code_of(closed->code)), closed->message);
-  if (const auto lost = session_.lost_place()) return refused(std::string(code_of(lost->code)), lost->message);
+  if (const auto closed = session_.closed_limit()) return refused(*closed);
+  if (const auto lost = session_.lost_place()) return refused(*lost);
   if (!streams()) program_->drop(session_.status().position.place);
   if (auto wrong = program_->add_line(line, session_.now())) {
     return {.code = std::move(wrong->code),
@@ -145,19 +155,25 @@ MdiLines::Answer MdiLines::execute_command(const std::string& text) {
     if (state != MachineState::alarm && state != MachineState::fault) return told("[MSG:Nothing is locked]");
     return ask(request::ResetMachine{});
   }
-  if (text.starts_with("$J=")) return refused("mdi.unsupported", "the console cannot jog: use the page Set up");
-  if (text == "$C") return refused("mdi.unsupported", "the console has no check mode: open the program in Files");
+  const auto unsupported = [](const char* finer, const char* words) {
+    return refused("mdi.unsupported", {.code = std::string("mdi.unsupported.") + finer, .text = words});
+  };
+  if (text.starts_with("$J=")) return unsupported("jog", "the console cannot jog: use the page Set up");
+  if (text == "$C") return unsupported("check", "the console has no check mode: open the program in Files");
   if (text.size() > 1 && text[1] >= '0' && text[1] <= '9') {
-    return refused("mdi.unsupported", "settings are kept in the machine file: change them on the page Machine");
+    return unsupported("setting", "settings are kept in the machine file: change them on the page Machine");
   }
-  return refused("mdi.unsupported", fmt::format("the console does not support {}: it supports $$ $# $G $I $H $X $SLP",
-                                                text.substr(0, 20)));
+  const std::string word = text.substr(0, 20);
+  return refused("mdi.unsupported",
+                 {.code = "mdi.unsupported",
+                  .arguments = {{"word", word}},
+                  .text = fmt::format("the console does not support {}: it supports $$ $# $G $I $H $X $SLP", word)});
 }
 
 MdiLines::Answer MdiLines::ask(Request wanted) {
   const bool is_stream = std::holds_alternative<request::Stream>(wanted);
   const auto ticket = session_.request(std::move(wanted));
-  if (!ticket) return refused(std::string(code_of(ticket.error().code)), ticket.error().message);
+  if (!ticket) return refused(ticket.error());
   if (is_stream) ticket_ = *ticket;
   return {};
 }

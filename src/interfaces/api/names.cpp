@@ -1,5 +1,6 @@
 // Names that people give: of programs and drawings in a query, and of clients.
 #include <algorithm>
+#include <optional>
 
 #include "api_json.hpp"
 #include <fmt/format.h>
@@ -17,17 +18,22 @@ bool is_control(char32_t c) {
   return c < 0x20 || (c >= 0x7F && c < 0xA0) || (c >= 0x2028 && c <= 0x202E) || (c >= 0x2066 && c <= 0x2069);
 }
 
+struct NameFault {
+  std::string_view finer;  // of the code http.bad-name
+  std::string_view why;
+};
+
 // Why it is no name. Empty: it is one.
-std::string_view fault_of(std::string_view name) {
-  if (name.size() > longest_name) return "it is longer than 200 bytes";
-  if (name.front() == '.') return "it begins with a dot";
+std::optional<NameFault> fault_of(std::string_view name) {
+  if (name.size() > longest_name) return NameFault{"length", "it is longer than 200 bytes"};
+  if (name.front() == '.') return NameFault{"dot", "it begins with a dot"};
   if (name.find('/') != std::string_view::npos || name.find('\\') != std::string_view::npos) {
-    return "it has a / or a \\";
+    return NameFault{"slash", "it has a / or a \\"};
   }
   while (!name.empty()) {
     const CodePoint first = first_code_point(name);
-    if (first.length == 0) return "it is not UTF-8";
-    if (is_control(first.value)) return "it has control characters";
+    if (first.length == 0) return NameFault{"encoding", "it is not UTF-8"};
+    if (is_control(first.value)) return NameFault{"control", "it has control characters"};
     name.remove_prefix(first.length);
   }
   return {};
@@ -38,12 +44,14 @@ std::string_view fault_of(std::string_view name) {
 Result<std::string, WebAnswer> name_from(std::string_view query, std::string_view otherwise) {
   const std::string_view written = query_value(query, "name");
   if (written.empty()) return std::string(otherwise);
-  const auto refused = [](std::string_view why) {
-    return Failure{error_answer(400, "http.bad-name", fmt::format("this name cannot be kept: {}", why))};
+  const auto refused = [](const NameFault& fault) {
+    return Failure{error_answer(400, "http.bad-name",
+                                Sentence{.code = fmt::format("http.bad-name.{}", fault.finer),
+                                         .text = fmt::format("this name cannot be kept: {}", fault.why)})};
   };
   auto name = percent_decoded(written);
-  if (!name) return refused("a % in it is not followed by two hexadecimal digits; %25 stands for %");
-  if (const std::string_view fault = fault_of(*name); !fault.empty()) return refused(fault);
+  if (!name) return refused({"percent", "a % in it is not followed by two hexadecimal digits; %25 stands for %"});
+  if (const auto fault = fault_of(*name)) return refused(*fault);
   return std::move(*name);
 }
 

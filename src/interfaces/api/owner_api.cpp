@@ -41,8 +41,11 @@ WebAnswer OwnerApi::claim(const ApiCall& call) {
   MotionOwner& owner = shared_.owner;
   MachineSession& session = shared_.session;
   if (!may_pass_on() || jobs_.is_checking()) {
-    return error_answer(409, "owner.moves",
-                        fmt::format("the machine moves for {}: hold it first, or wait", owner.name()));
+    return error_answer(
+        409, "owner.moves",
+        Sentence{.code = "owner.moves",
+                 .arguments = {{"name", owner.name()}},
+                 .text = fmt::format("the machine moves for {}: hold it first, or wait", owner.name())});
   }
   heard_ = session.now();
   streams_.clear();

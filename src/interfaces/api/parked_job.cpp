@@ -19,10 +19,10 @@ bool is_changed(const SavedParameters& before, const SavedParameters& now, int s
 
 }  // namespace
 
-Result<Reentry, ReentryProblem> ParkedJob::way_behind_stop(const MachineDescription& machine,
-                                                           const ProgramStore& programs, const Point& stands) const {
-  const auto refused = [](std::string_view code, std::string_view why) {
-    return Failure{ReentryProblem{.code = code, .why = std::string(why)}};
+Result<Reentry, Sentence> ParkedJob::way_behind_stop(const MachineDescription& machine, const ProgramStore& programs,
+                                                     const Point& stands) const {
+  const auto refused = [](std::string_view code, std::string_view why, SentenceArguments arguments = {}) {
+    return Failure{Sentence{std::string(code), std::move(arguments), std::string(why)}};
   };
   const auto refused_for = [&](ReentryRefusal refusal) { return refused(code_of(refusal), message_of(refusal)); };
   const StoredProgram* const program = programs.find(job.program);
@@ -47,7 +47,8 @@ Result<Reentry, ReentryProblem> ParkedJob::way_behind_stop(const MachineDescript
     return refused(
         "waits.other-zero",
         fmt::format("the program works with {}, and another zero was set: set that one, or set the other back",
-                    name_of_system(stop->system)));
+                    name_of_system(stop->system)),
+        {{"system", std::string(name_of_system(stop->system))}});
   }
   auto way = plan_reentry(machine, stop->at, stands);
   if (!way) return refused_for(way.error());

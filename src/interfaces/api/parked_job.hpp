@@ -23,8 +23,8 @@ struct ParkedJob {
   std::vector<ProbeOutcome> probes;  // what it has probed
 
   // From where the machine stands to behind the stop.
-  Result<Reentry, ReentryProblem> way_behind_stop(const MachineDescription& machine, const ProgramStore& programs,
-                                                  const Point& stands) const;
+  Result<Reentry, Sentence> way_behind_stop(const MachineDescription& machine, const ProgramStore& programs,
+                                            const Point& stands) const;
 };
 
 }  // namespace passo

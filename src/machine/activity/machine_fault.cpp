@@ -1,6 +1,5 @@
 #include "passo/activity/machine_fault.hpp"
 
-#include <algorithm>
 #include <cstddef>
 #include <iterator>
 
@@ -48,21 +47,13 @@ const MachineFaultRow& row_of(MachineFault fault) {
   return rows[static_cast<std::size_t>(fault)];
 }
 
-// In one pass, because the value of an argument may have braces itself.
 std::string ActivityFault::message() const {
-  const std::string_view sentence = row_of(fault).sentence;
-  std::string words;
-  for (std::size_t at = 0; at < sentence.size();) {
-    const std::size_t open = std::min(sentence.find('{', at), sentence.size());
-    const std::size_t close = std::min(sentence.find('}', open), sentence.size());
-    words += sentence.substr(at, open - at);
-    if (open == sentence.size()) break;
-    const std::string_view name = sentence.substr(open + 1, close - open - 1);
-    const auto found = std::ranges::find(arguments, name, &std::pair<std::string_view, std::string>::first);
-    if (found != arguments.end()) words += found->second;
-    at = close + 1;
-  }
-  return words;
+  return filled(row_of(fault).sentence, arguments);
+}
+
+Sentence ActivityFault::sentence() const {
+  if (!trouble.code.empty()) return trouble;
+  return {std::string(code()), arguments, message()};
 }
 
 bool is_of_board(MachineFault fault) {

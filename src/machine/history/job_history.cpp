@@ -24,6 +24,11 @@ constexpr const char* table_of_waits = R"(
   CREATE TABLE IF NOT EXISTS waits (
     job INTEGER NOT NULL, number INTEGER NOT NULL, at REAL NOT NULL, code TEXT NOT NULL, line INTEGER NOT NULL,
     tool INTEGER NOT NULL, words TEXT NOT NULL, PRIMARY KEY (job, number)) WITHOUT ROWID;)";
+// Younger, too. Older programs write no sentence beside their words.
+constexpr const char* column_of_sentence = "ALTER TABLE {} ADD COLUMN sentence TEXT NOT NULL DEFAULT ''";
+constexpr std::string_view killed = "passo serve was killed, or its computer lost its power";
+constexpr std::string_view killed_sentence =
+    R"({"code":"job.killed","arguments":{},"text":"passo serve was killed, or its computer lost its power"})";
 constexpr std::int64_t no_tool = -1;
 
 constexpr std::int64_t number_of(HistoryState state) {
@@ -56,6 +61,8 @@ class Statement {
     return *this;
   }
 
+  // False: the database has no such tables or columns.
+  bool is_good() const { return statement_ != nullptr; }
   // True: there is a row.
   bool step() {
     read_ = -1;
@@ -111,10 +118,14 @@ Result<std::unique_ptr<JobHistory>, std::string> JobHistory::open(const std::str
   if (known > version) return failed(fmt::format("it is of version {}, and this program knows {}", known, version));
   if (known == 0 && !history->run(fmt::format("BEGIN;{}COMMIT;", tables).c_str())) return failed(reason());
   if (!history->run(table_of_waits)) return failed(reason());
-  Statement interrupt(database,
-                      "UPDATE jobs SET state = ?, why = 'passo serve was killed, or its computer lost its power'"
-                      " WHERE state = ?");
-  interrupt.with(number_of(HistoryState::interrupted)).with(number_of(HistoryState::running));
+  for (const char* const table : {"jobs", "alarms"}) {
+    Statement column(database, fmt::format("SELECT sentence FROM {} LIMIT 0", table).c_str());
+    if (column.is_good()) continue;
+    if (!history->run(fmt::format(fmt::runtime(column_of_sentence), table).c_str())) return failed(reason());
+  }
+  Statement interrupt(database, "UPDATE jobs SET state = ?, why = ?, sentence = ? WHERE state = ?");
+  interrupt.with(number_of(HistoryState::interrupted)).with(killed).with(killed_sentence);
+  interrupt.with(number_of(HistoryState::running));
   if (!interrupt.run()) return failed(reason());
   return history;
 }
@@ -159,8 +170,8 @@ std::optional<std::int64_t> JobHistory::add_running(std::string_view name, std::
 }
 
 std::vector<HistoryJob> JobHistory::jobs(const char* where, std::int64_t value) const {
-  const std::string sql =
-      fmt::format("SELECT id, name, dialect, bytes, state, why, queued_at, begun_at, ended_at FROM jobs {}", where);
+  const std::string sql = fmt::format(
+      "SELECT id, name, dialect, bytes, state, why, sentence, queued_at, begun_at, ended_at FROM jobs {}", where);
   Statement select(database_, sql.c_str());
   select.with(value);
   std::vector<HistoryJob> found;
@@ -174,6 +185,7 @@ std::vector<HistoryJob> JobHistory::jobs(const char* where, std::int64_t value) 
     const bool is_known = state >= 0 && state <= number_of(HistoryState::interrupted);
     job.state = is_known ? static_cast<HistoryState>(state) : HistoryState::interrupted;
     job.why = select.text();
+    job.why_sentence = select.text();
     job.queued_at = select.real();
     job.begun_at = select.real();
     job.ended_at = select.real();
@@ -181,6 +193,7 @@ std::vector<HistoryJob> JobHistory::jobs(const char* where, std::int64_t value) 
     if (end == unwritten_.end()) continue;
     job.state = end->state;
     job.why = end->why;
+    job.why_sentence = end->why_sentence;
     job.ended_at = end->at;
   }
   add_waits(found, where, value);
@@ -222,16 +235,18 @@ std::optional<std::string> JobHistory::program_of(std::int64_t id) const {
 
 bool JobHistory::begin(std::int64_t id, double now) {
   is_kept_ = false;
-  Statement update(database_, "UPDATE jobs SET state = ?, begun_at = ?, why = '', ended_at = 0 WHERE id = ?");
+  Statement update(database_,
+                   "UPDATE jobs SET state = ?, begun_at = ?, why = '', sentence = '', ended_at = 0 WHERE id = ?");
   update.with(number_of(HistoryState::running)).with(now).with(id);
   if (!judge(update.run())) return false;
   std::erase_if(unwritten_, [id](const End& one) { return one.id == id; });
   return sqlite3_changes(database_) == 1;
 }
 
-bool JobHistory::end(std::int64_t id, HistoryState state, std::string_view why, double now) {
+bool JobHistory::end(std::int64_t id, HistoryState state, std::string_view why, double now,
+                     std::string_view why_sentence) {
   if (!find(id)) return false;
-  End end{.id = id, .state = state, .why = std::string(why), .at = now};
+  End end{.id = id, .state = state, .why = std::string(why), .why_sentence = std::string(why_sentence), .at = now};
   if (write(end)) return true;
   unwritten_.push_back(std::move(end));
   return false;
@@ -240,9 +255,10 @@ bool JobHistory::end(std::int64_t id, HistoryState state, std::string_view why, 
 bool JobHistory::write(const End& end) {
   is_kept_ = false;
   Statement update(database_,
-                   "UPDATE jobs SET state = ?1, why = ?2, ended_at = ?3,"
+                   "UPDATE jobs SET state = ?1, why = ?2, ended_at = ?3, sentence = ?6,"
                    " program = CASE WHEN ?1 = ?4 THEN NULL ELSE program END WHERE id = ?5");
   update.with(number_of(end.state)).with(end.why).with(end.at).with(number_of(HistoryState::done)).with(end.id);
+  update.with(end.why_sentence);
   if (!judge(update.run())) return false;
   // What is too old is forgotten the next time, if not now.
   Statement forget(database_, "DELETE FROM jobs WHERE state > 1 AND id <= (SELECT max(id) FROM jobs) - ?");
@@ -269,8 +285,8 @@ bool JobHistory::remove(std::int64_t id) {
   return judge(gone.run()) && sqlite3_changes(database_) == 1;
 }
 
-bool JobHistory::record_alarm(std::string_view words, double now) {
-  HistoryAlarm alarm{.at = now, .words = std::string(words)};
+bool JobHistory::record_alarm(std::string_view words, double now, std::string_view sentence) {
+  HistoryAlarm alarm{.at = now, .words = std::string(words), .sentence = std::string(sentence)};
   if (write(alarm)) return true;
   constexpr std::size_t most_unwritten = 1000;
   if (unwritten_alarms_.size() < most_unwritten) unwritten_alarms_.push_back(std::move(alarm));
@@ -279,8 +295,8 @@ bool JobHistory::record_alarm(std::string_view words, double now) {
 
 bool JobHistory::write(const HistoryAlarm& alarm) {
   is_kept_ = false;
-  Statement insert(database_, "INSERT INTO alarms (at, words) VALUES (?, ?)");
-  if (!judge(insert.with(alarm.at).with(alarm.words).run())) return false;
+  Statement insert(database_, "INSERT INTO alarms (at, words, sentence) VALUES (?, ?, ?)");
+  if (!judge(insert.with(alarm.at).with(alarm.words).with(alarm.sentence).run())) return false;
   Statement forget(database_, "DELETE FROM alarms WHERE id <= (SELECT max(id) FROM alarms) - ?");
   static_cast<void>(forget.with(most_alarms).run());
   return true;
@@ -301,7 +317,7 @@ std::vector<HistoryJob> JobHistory::ended(std::int64_t most) const {
 }
 
 std::vector<HistoryAlarm> JobHistory::alarms(std::int64_t most) const {
-  Statement select(database_, "SELECT at, words FROM alarms ORDER BY id DESC LIMIT ?");
+  Statement select(database_, "SELECT at, words, sentence FROM alarms ORDER BY id DESC LIMIT ?");
   select.with(most);
   // Newest first, also those that are not written yet.
   std::vector<HistoryAlarm> found(unwritten_alarms_.rbegin(), unwritten_alarms_.rend());
@@ -309,6 +325,7 @@ std::vector<HistoryAlarm> JobHistory::alarms(std::int64_t most) const {
     HistoryAlarm& alarm = found.emplace_back();
     alarm.at = select.real();
     alarm.words = select.text();
+    alarm.sentence = select.text();
   }
   return found;
 }

@@ -42,9 +42,8 @@ KeptJob::KeptJob(const MachineDescription& machine, MachineSession& session, Job
       names_(std::move(names)),
       run_(keeper.store()) {}
 
-void KeptJob::refuse(std::string_view code, std::string_view why) {
-  interrupted_->code = code;
-  interrupted_->why = why;
+void KeptJob::refuse(std::string_view code, std::string_view why, SentenceArguments arguments) {
+  interrupted_->why = {std::string(code), std::move(arguments), std::string(why)};
 }
 
 void KeptJob::find(const BrokenOff& found) {
@@ -57,7 +56,8 @@ void KeptJob::find(const BrokenOff& found) {
   const std::string text = program();
   const JobIdentity now{
       .made_by = names_.made_by, .program = stamp_of(title_of(number), text), .machine = names_.machine};
-  if (const auto change = change_since(found.head, now)) return refuse(code_of(*change), describe(*change, found.head));
+  if (const auto change = change_since(found.head, now))
+    return refuse(code_of(*change), describe(*change, found.head), {{"version", found.head.made_by}});
   find_way_back(text);
   if (found.refused) return refuse(code_of(*found.refused), message_of(*found.refused));
   interrupted_->point = find_resume_point(ProgramReader::from_text(job->name, text), machine_, options(),
@@ -90,20 +90,19 @@ void KeptJob::compare_switches() {
   interrupted_->shift = words_of_shift(machine_, homing->homed(), *interrupted_->range, homing->start() - hello_at_);
 }
 
-Result<Reentry, ReentryProblem> KeptJob::reentry() {
+Result<Reentry, Sentence> KeptJob::reentry() {
   const KnownPosition position = session_.status().position;
   if (!interrupted_->back_at) {
-    return Failure{ReentryProblem{.code = interrupted_->code, .why = interrupted_->why}};
+    return Failure{interrupted_->why};
   }
   if (position.trust == Trust::unknown) {
     return Failure{
-        ReentryProblem{.code = "reentry.place-unknown", .why = "where the machine stands is not known: home it first"}};
+        Sentence{.code = "reentry.place-unknown", .text = "where the machine stands is not known: home it first"}};
   }
-  if (!interrupted_->shift.empty())
-    return Failure{ReentryProblem{.code = "reentry.shifted", .why = interrupted_->shift}};
+  if (!interrupted_->shift.empty()) return Failure{Sentence{.code = "reentry.shifted", .text = interrupted_->shift}};
   auto way = plan_reentry(machine_, *interrupted_->back_at, position.place);
   if (way) return std::move(*way);
-  return Failure{ReentryProblem{.code = code_of(way.error()), .why = std::string(message_of(way.error()))}};
+  return Failure{Sentence{.code = std::string(code_of(way.error())), .text = std::string(message_of(way.error()))}};
 }
 
 void KeptJob::hear(const BoardStatus& status, const Greeting& greeting) {
@@ -121,8 +120,7 @@ void KeptJob::check_place() {
   const bool is_sure = interrupted_->point && !interrupted_->journal.refused && !interrupted_->point->in_thread;
   const auto& status = session_.board().status();
   if (!is_sure || session_.state() != MachineState::idle || !status) return;
-  interrupted_->code.clear();
-  interrupted_->why.clear();
+  interrupted_->why = {};
   if (stands_at(interrupted_->journal.head, *interrupted_->point, *status, machine_)) return;
   refuse(code_of(ResumeRefusal::counts_differ), "the machine was moved since: move it back to the place of the job");
 }
@@ -200,7 +198,7 @@ bool KeptJob::reenter(std::uint64_t path) {
 bool KeptJob::resume(std::uint64_t path) {
   if (!is_of(path)) return false;
   check_place();
-  if (!interrupted_->code.empty()) return false;
+  if (!interrupted_->why.code.empty()) return false;
   const BoardStatus& status = *session_.board().status();
   const JournalHead& before = interrupted_->journal.head;
   JournalHead head = head_of_resumption(before, status, *interrupted_->point);

@@ -129,29 +129,42 @@ class LeadIn {
     const auto z = std::ranges::find(machine_.axes, Axis::z, &AxisDescription::axis);
     const bool has_z = z != machine_.axes.end();
     const double top = has_z ? std::max(z->travel_high, now_[Axis::z]) : now_[Axis::z];
-    if (at_.tool > 0) say(fmt::format("tool {} is in the spindle (nothing is changed)", at_.tool));
-    if (has_z) go_to_height(top, "up to", {});
+    if (at_.tool > 0)
+      say("way.tool", "tool {tool} is in the spindle (nothing is changed)", {{"tool", std::to_string(at_.tool)}});
+    if (has_z) go_to_height(top, {});
     switch_on();
     Point over = at_.point;
     over[Axis::z] = now_[Axis::z];
     if (over != now_) {
-      say(fmt::format("over to {}, at rapid speed", place_words(machine_, over, !has_z)));
+      say("way.over", "over to {place}, at rapid speed", {{"place", place_words(machine_, over, !has_z)}});
       go_to(over, {});
     }
     if (outputs_.flood != at_.outputs.flood || outputs_.mist != at_.outputs.mist) {
-      say(fmt::format("coolant on:{}{}", at_.outputs.flood ? " flood" : "", at_.outputs.mist ? " mist" : ""));
+      say_coolant();
       act(Action::Kind::outputs, at_.outputs, Seconds(0));
     }
     const double clearance = at_.clearance.value_or(top);
-    if (clearance > at_.point[Axis::z] && clearance < now_[Axis::z]) go_to_height(clearance, "down to", {});
-    go_to_height(at_.point[Axis::z], "down to", at_.feed > MmPerSecond(0) ? at_.feed : careful_feed);
-    say(at_.line == 0 ? "the program ends" : fmt::format("the program goes on at line {}", at_.line));
+    if (clearance > at_.point[Axis::z] && clearance < now_[Axis::z]) go_to_height(clearance, {});
+    go_to_height(at_.point[Axis::z], at_.feed > MmPerSecond(0) ? at_.feed : careful_feed);
+    if (at_.line == 0) {
+      say("way.end", "the program ends", {});
+    } else {
+      say("way.goes-on", "the program goes on at line {line}", {{"line", std::to_string(at_.line)}});
+    }
     // A lead-in is never empty: the spindle is switched on in it.
     if (way_.lead_in.empty()) act(Action::Kind::outputs, at_.outputs, Seconds(0));
   }
 
  private:
-  void say(std::string words) { way_.steps.push_back(std::move(words)); }
+  void say(const char* code, std::string_view words, SentenceArguments arguments) {
+    std::string text = filled(words, arguments);
+    way_.steps.push_back({code, std::move(arguments), std::move(text)});
+  }
+  void say_coolant() {
+    const auto& [flood, mist] = std::pair(at_.outputs.flood, at_.outputs.mist);
+    if (flood && mist) return say("way.coolant.both", "coolant on: flood mist", {});
+    say(flood ? "way.coolant.flood" : "way.coolant.mist", flood ? "coolant on: flood" : "coolant on: mist", {});
+  }
   // Without a speed: a rapid.
   void go_to(const Point& place, std::optional<MmPerSecond> speed) {
     Segment segment{.curve = Curve::line(now_, place),
@@ -162,12 +175,19 @@ class LeadIn {
     way_.lead_in.emplace_back(segment);
     now_ = place;
   }
-  void go_to_height(double height, const char* words, std::optional<MmPerSecond> speed) {
+  void go_to_height(double height, std::optional<MmPerSecond> speed) {
     if (now_[Axis::z] == height) return;
     Point place = now_;
     place[Axis::z] = height;
-    say(fmt::format("{} Z{:.3f}, {}", words, height,
-                    speed ? fmt::format("at {:.0f} mm/min", speed->value() * 60) : "at rapid speed"));
+    const std::string z = fmt::format("{:.3f}", height);
+    if (speed) {
+      say("way.down-feed", "down to Z{z}, at {feed}",
+          {{"z", z}, {"feed", fmt::format("{:.0f} mm/min", speed->value() * 60)}});
+    } else if (height > now_[Axis::z]) {
+      say("way.up", "up to Z{z}, at rapid speed", {{"z", z}});
+    } else {
+      say("way.down", "down to Z{z}, at rapid speed", {{"z", z}});
+    }
     go_to(place, speed);
   }
   void act(Action::Kind kind, const OutputState& outputs, Seconds dwell) {
@@ -182,9 +202,12 @@ class LeadIn {
     const Seconds wait = std::max({at_.spindle_wait, machine_.silence.spindle_wait, run_up});
     OutputState spindle = at_.outputs;
     spindle.mist = spindle.flood = false;
-    say(fmt::format("spindle on, {} at {:.0f} turns a minute, and a wait of {:g} s",
-                    spindle.spindle == SpindleDirection::clockwise ? "clockwise" : "counterclockwise",
-                    spindle.revolutions_per_minute, wait.value()));
+    const bool is_clockwise = spindle.spindle == SpindleDirection::clockwise;
+    say(is_clockwise ? "way.spindle.clockwise" : "way.spindle.counterclockwise",
+        is_clockwise ? "spindle on, clockwise at {speed} turns a minute, and a wait of {wait} s"
+                     : "spindle on, counterclockwise at {speed} turns a minute, and a wait of {wait} s",
+        {{"speed", fmt::format("{:.0f}", spindle.revolutions_per_minute)},
+         {"wait", fmt::format("{:g}", wait.value())}});
     act(Action::Kind::outputs, spindle, Seconds(0));
     act(Action::Kind::dwell, spindle, wait);
   }

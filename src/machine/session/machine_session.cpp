@@ -96,7 +96,7 @@ void MachineSession::go_online(Seconds most) {
   if (!board_.ready()) return;
   const bool wants_encoder = options_.over_a_line && machine_.spindle.counts_per_turn > 0;
   if (const auto words = unsuited(board_, passo::step_options(machine_), wants_encoder)) {
-    trouble_.words = *words;
+    trouble_.sentence.text = *words;
     move_to(MachineEvent::lose_board);
     return;
   }
@@ -202,7 +202,8 @@ void MachineSession::end_work() {
 
 std::pair<Outcome, std::optional<ActivityFault>> MachineSession::judge_work() const {
   if (const auto error = board_.error()) {
-    return {Outcome::failed, ActivityFault{fault_of(*error), {{"trouble", describe(*error)}}}};
+    const Sentence trouble = sentence_of(*error);
+    return {Outcome::failed, ActivityFault{fault_of(*error), {{"trouble", trouble.text}}, trouble}};
   }
   if (work_->findings->any_error()) {
     return {Outcome::failed, ActivityFault{MachineFault::program_wrong}};
@@ -242,7 +243,7 @@ void MachineSession::check_board() {
   if (!board_.error() || state_ == MachineState::alarm || state_ == MachineState::fault) return;
   const LinkError error = *board_.error();
   if (busy() && is_of_work(error)) return;  // the drive ends by itself
-  trouble_ = {.error = error, .words = describe(error)};
+  trouble_ = {.error = error, .sentence = sentence_of(error)};
   if (busy()) end_work();
   place_.doubt();
   place_.forget_board();
@@ -323,7 +324,8 @@ MachineStatus MachineSession::status() const {
   status.overrides = overrides_;
   status.stops = stops_;
   status.trouble = trouble_.error;
-  status.trouble_words = trouble_.words;
+  status.trouble_words = trouble_.sentence.text;
+  status.trouble_sentence = trouble_.sentence;
   if (!busy() || !work_->drive) return status;
   const MotionDrive& drive = *work_->drive;
   status.holds = drive.holds();

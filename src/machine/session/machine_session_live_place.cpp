@@ -19,10 +19,7 @@ std::optional<Refusal> MachineSession::lost_place() const {
   if (!options_.needs_place || position().trust != Trust::unknown) return {};
   const bool homes_all_axes = machine_.homing.size() == machine_.axes.size();
   if (!homes_all_axes && !position().is_lost) return {};
-  return Refusal{.code = RefusalCode::place_unknown,
-                 .message = homes_all_axes
-                                ? "where the machine stands is not known: home it first"
-                                : "where the machine stands is not known: jog it to a known place, and confirm it"};
+  return Refusal{homes_all_axes ? RefusalReason::unknown_so_home : RefusalReason::unknown_so_jog};
 }
 
 // Asks the board where it is, and takes over what it has told.

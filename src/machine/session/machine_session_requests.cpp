@@ -33,38 +33,43 @@ bool leaves_travel(const MachineDescription& machine, const Point& place) {
   });
 }
 
-// The axes whose switch may be the closed one; a number where no axis has a switch on that input.
-std::string switch_words(const MachineDescription& machine, unsigned input) {
+// The axes whose switch may be the closed one: "X or Y". Empty: no axis has a switch on that input.
+std::string axes_with_switch(const MachineDescription& machine, unsigned input) {
   std::string axes;
   for (const AxisDescription& axis : machine.axes) {
     if (!axis.home || (axis.home_switches() >> input & 1U) == 0) continue;
     axes += (axes.empty() ? "" : " or ") + std::string{letter_of(axis.axis)};
   }
-  return axes.empty() ? "number " + std::to_string(input + 1) : "of " + axes;
+  return axes;
 }
 
-Failure<Refusal> refusal(RefusalCode code, const char* message) {
-  return Failure{Refusal{.code = code, .message = message}};
+RefusalReason reason_of(StopCause::Kind kind) {
+  switch (kind) {
+    case StopCause::Kind::unknown: break;
+    case StopCause::Kind::emergency_stop: return RefusalReason::emergency_stop;
+    case StopCause::Kind::drive_alarm: return RefusalReason::drive_alarm;
+    case StopCause::Kind::limit_switch_of_axis: return RefusalReason::limit_switch_of_axis;
+    case StopCause::Kind::limit_switch: return RefusalReason::limit_switch;
+  }
+  return RefusalReason::motors_stopped;
+}
+
+const char* finer_code_of(StopCause::Kind kind) {
+  switch (kind) {
+    case StopCause::Kind::unknown: break;
+    case StopCause::Kind::emergency_stop: return ".emergency-stop";
+    case StopCause::Kind::drive_alarm: return ".drive-alarm";
+    case StopCause::Kind::limit_switch_of_axis: return ".limit-switch-of-axis";
+    case StopCause::Kind::limit_switch: return ".limit-switch";
+  }
+  return "";
+}
+
+Failure<Refusal> refusal(RefusalReason reason) {
+  return Failure{Refusal{reason}};
 }
 
 }  // namespace
-
-std::string_view code_of(RefusalCode code) {
-  switch (code) {
-    case RefusalCode::busy: return "machine.busy";
-    case RefusalCode::not_ready: return "machine.not-ready";
-    case RefusalCode::alarm: return "machine.alarm";
-    case RefusalCode::asleep: return "machine.asleep";
-    case RefusalCode::nothing_runs: return "machine.nothing-runs";
-    case RefusalCode::not_waiting: return "machine.not-waiting";
-    case RefusalCode::door_open: return "machine.door-open";
-    case RefusalCode::no_switches: return "machine.no-switches";
-    case RefusalCode::bad_value: return "machine.bad-value";
-    case RefusalCode::limit_closed: return "machine.limit-closed";
-    case RefusalCode::place_unknown: return "run.place-unknown";
-  }
-  return "machine";
-}
 
 Result<Ticket, Refusal> MachineSession::request(Request wanted) {
   return std::visit([this](auto& one) { return handle(one); }, wanted);
@@ -78,56 +83,66 @@ std::optional<Refusal> MachineSession::refuse(MachineEvent event) const {
 
 Refusal MachineSession::why_not() const {
   switch (state_) {
-    case MachineState::offline: return {RefusalCode::not_ready, "the board has not answered yet"};
-    case MachineState::alarm: return {RefusalCode::alarm, alarm_words() + ": reset the machine first"};
-    case MachineState::fault: return {RefusalCode::alarm, "the board was lost: reset the machine first"};
-    case MachineState::sleep: return {RefusalCode::asleep, "the machine sleeps: wake it first"};
-    case MachineState::door: return {RefusalCode::door_open, "the door is open"};
-    case MachineState::await_line:
-      return {RefusalCode::busy,
-              "the lines before have left the spindle or the coolant on, or go on: send M5 M9, or stop, first"};
+    case MachineState::offline: return {RefusalReason::not_ready};
+    case MachineState::alarm: return refusal_in_alarm();
+    case MachineState::fault: return {RefusalReason::board_lost};
+    case MachineState::sleep: return {RefusalReason::asleep};
+    case MachineState::door: return {RefusalReason::door_open};
+    case MachineState::await_line: return {RefusalReason::outputs_left_on};
     default: break;
   }
-  if (busy()) return {RefusalCode::busy, "the machine is busy"};
-  return {RefusalCode::nothing_runs, "nothing is going on"};
+  if (busy()) return {RefusalReason::busy};
+  return {RefusalReason::nothing_going_on};
 }
 
-// A sentence without a full stop, with what only the session knows of it.
-std::string MachineSession::describe(LinkError error) const {
-  std::string words(message_of(error));
-  if (error == LinkError::cannot_set_up) return words + ": it has no " + words_of_setup(board_.undone_setup());
+// With what only the session knows of it.
+Sentence MachineSession::sentence_of(LinkError error) const {
+  Sentence sentence{.code = std::string(code_of(error)), .text = std::string(message_of(error))};
+  const auto add = [&sentence](std::string_view finer, std::string_view name, std::string value, const char* more) {
+    sentence.code += finer;
+    sentence.arguments.emplace_back(name, std::move(value));
+    sentence.text += filled(more, sentence.arguments);
+  };
+  if (error == LinkError::stopped) return sentence_of_stop();
+  if (error == LinkError::cannot_set_up) {
+    add(".lacks", "missing", words_of_setup(board_.undone_setup()), ": it has no {missing}");
+  }
   if (error == LinkError::cannot_time) {
-    return words + ": it makes " +
-           words_of_timing(board_.timing(), board_.wanted_timing(), machine_.board.clock.value());
+    add(".makes", "timing", words_of_timing(board_.timing(), board_.wanted_timing(), machine_.board.clock.value()),
+        ": it makes {timing}");
   }
-  if (error == LinkError::stopped) return words_of_stop();
-  if (error != LinkError::stood_still || !work_) return words;
-  const std::uint32_t line = work_->standstill_line.value_or(0);
-  return line == 0 ? words : words + "; that was near line " + std::to_string(line) + " of the program";
+  const std::uint32_t line =
+      error == LinkError::stood_still && work_ ? work_->standstill_line.value_or(0) : std::uint32_t{0};
+  if (line != 0) add(".at-line", "line", std::to_string(line), "; that was near line {line} of the program");
+  return sentence;
 }
 
-std::string MachineSession::words_of_stop() const {
+Sentence MachineSession::sentence_of_stop() const {
   const std::uint16_t inputs = board_.stopped_by();
-  if (inputs == 0) return std::string(message_of(LinkError::stopped));
+  const std::string code(code_of(LinkError::stopped));
+  if (inputs == 0) return {.code = code, .text = std::string(message_of(LinkError::stopped))};
   if (state_ == MachineState::offline && (inputs & input_emergency_stop) != 0) {
-    return "the emergency stop is pressed: release it first";
+    return {.code = code + ".emergency-stop-is-pressed", .text = "the emergency stop is pressed: release it first"};
   }
-  return stop_cause(inputs, machine_).what + ": where the motors are is not certain";
+  const StopCause cause = stop_cause(inputs, machine_);
+  return {.code = code + finer_code_of(cause.kind),
+          .arguments = cause.arguments,
+          .text = cause.what + ": where the motors are is not certain"};
 }
 
-std::string MachineSession::alarm_words() const {
-  if (trouble_.error == LinkError::drivers_off) return "the drivers were switched off";
-  const std::uint16_t inputs = board_.stopped_by();
-  return inputs == 0 ? "the motors were stopped at once" : stop_cause(inputs, machine_).what;
+Refusal MachineSession::refusal_in_alarm() const {
+  if (trouble_.error == LinkError::drivers_off) return {RefusalReason::drivers_off};
+  StopCause cause = stop_cause(board_.stopped_by(), machine_);
+  return {reason_of(cause.kind), std::move(cause.arguments)};
 }
 
 std::optional<Refusal> MachineSession::closed_limit() const {
   const unsigned closed = board_.inputs() & ~unsigned{options_.greeting.setup.alarms};
   for (unsigned input = 0; input < max_motors; ++input) {
     if ((closed & (unsigned{input_limit} << input)) == 0) continue;
-    return Refusal{.code = RefusalCode::limit_closed,
-                   .message = "the limit switch " + switch_words(machine_, input) +
-                              " is closed: jog away from it, or home the machine, first"};
+    std::string axes = axes_with_switch(machine_, input);
+    if (axes.empty()) return Refusal{RefusalReason::switch_closed, {{"number", std::to_string(input + 1)}}};
+    return Refusal{RefusalReason::switch_of_axes_closed, {{"axes", std::move(axes)}}};
   }
   return {};
 }
@@ -139,9 +154,7 @@ std::optional<Refusal> MachineSession::refuse_way(const Point& way) const {
     const double part = way[axis.axis];
     if (!axis.home || part == 0 || (board_.inputs() & axis.home_switches()) == 0) continue;
     if ((part > 0) != axis.home->toward_high) continue;
-    return Refusal{.code = RefusalCode::limit_closed,
-                   .message = std::string("the limit switch of ") + letter_of(axis.axis) +
-                              " is closed at that end: move the other way"};
+    return Refusal{RefusalReason::switch_closed_there, {{"axis", std::string(1, letter_of(axis.axis))}}};
   }
   return {};
 }
@@ -241,7 +254,7 @@ MachineSession::Answer MachineSession::handle(request::Stream& stream) {
 
 // Asked again before the machine rests, it brakes no second time: it would never get to where the lines go on.
 MachineSession::Answer MachineSession::handle(request::DropLines&) {
-  if (!busy() || work_->lines == nullptr) return refusal(RefusalCode::nothing_runs, "no lines are queued");
+  if (!busy() || work_->lines == nullptr) return refusal(RefusalReason::no_lines_queued);
   const Ticket ticket = ++last_ticket_;
   waiting_holds_.push_back(ticket);
   work_->lines->drop(position().place);
@@ -304,9 +317,9 @@ MachineSession::Answer MachineSession::handle(request::Jog& jog) {
   const bool good = std::isfinite(speed) && speed > 0 && is_finite(jog.way.direction) &&
                     std::isfinite(jog.way.distance.value()) && jog.way.distance >= Mm(0) &&
                     length_of(jog.way.direction) > 0;
-  if (!good) return refusal(RefusalCode::bad_value, "a jog needs a direction, and a speed above 0");
+  if (!good) return refusal(RefusalReason::bad_jog);
   if (!(jog.lease >= request::Jog::shortest_lease && jog.lease <= request::Jog::longest_lease)) {
-    return refusal(RefusalCode::bad_value, "the lease of a jog is 0.1 to 10 s");
+    return refusal(RefusalReason::bad_lease);
   }
   if (auto refused = refuse_way(jog.way.direction)) return Failure{*refused};
   auto work = std::make_unique<Work>();
@@ -319,7 +332,7 @@ MachineSession::Answer MachineSession::handle(request::Jog& jog) {
 
 // Has no effect on a jog that has begun to brake.
 MachineSession::Answer MachineSession::handle(request::RenewLease&) {
-  if (state_ != MachineState::jog) return refusal(RefusalCode::nothing_runs, "no jog is going on");
+  if (state_ != MachineState::jog) return refusal(RefusalReason::no_jog);
   work_->lease_end = now() + work_->lease;
   return at_once();
 }
@@ -327,7 +340,7 @@ MachineSession::Answer MachineSession::handle(request::RenewLease&) {
 MachineSession::Answer MachineSession::handle(request::Home&) {
   if (auto refused = refuse(MachineEvent::begin_home)) return Failure{*refused};
   if (machine_.homing.empty()) {
-    return refusal(RefusalCode::no_switches, "no axis has a switch to be homed by, a table [axis.X.home]");
+    return refusal(RefusalReason::no_switches);
   }
   auto work = std::make_unique<Work>();
   auto path = std::make_unique<HomingPath>(machine_, work->answers, position().place);
@@ -342,10 +355,10 @@ MachineSession::Answer MachineSession::handle(request::Home&) {
 MachineSession::Answer MachineSession::handle(request::Probe& probe) {
   if (auto refused = refuse(MachineEvent::begin_probe)) return Failure{*refused};
   if (!is_finite(probe.target) || !(probe.speed > MmPerSecond(0)) || !std::isfinite(probe.speed.value())) {
-    return refusal(RefusalCode::bad_value, "a probe move needs a place to go to, and a speed above 0");
+    return refusal(RefusalReason::bad_probe);
   }
   if (position().trust != Trust::unknown && leaves_travel(machine_, probe.target)) {
-    return refusal(RefusalCode::bad_value, "the probe move would leave the machine's travel");
+    return refusal(RefusalReason::probe_leaves_travel);
   }
   if (auto refused = refuse_way(probe.target - position().place)) return Failure{*refused};
   auto work = std::make_unique<Work>();
@@ -366,7 +379,7 @@ MachineSession::Answer MachineSession::handle(request::Check& check) {
 
 // A hold ends an activity that is not a program.
 MachineSession::Answer MachineSession::handle(request::Hold& hold) {
-  if (!busy() || state_ == MachineState::check) return refusal(RefusalCode::nothing_runs, "nothing moves");
+  if (!busy() || state_ == MachineState::check) return refusal(RefusalReason::nothing_moves);
   const Ticket ticket = ++last_ticket_;
   if (!work_->is_program()) {
     work_->drive->stop();
@@ -381,13 +394,13 @@ MachineSession::Answer MachineSession::handle(request::Hold& hold) {
 }
 
 MachineSession::Answer MachineSession::handle(request::Resume&) {
-  if (!busy() || !work_->is_program()) return refusal(RefusalCode::nothing_runs, "no program is held");
+  if (!busy() || !work_->is_program()) return refusal(RefusalReason::no_program_held);
   MotionDrive& drive = *work_->drive;
   const HoldReasons holds = drive.holds();
   if (drive.stopped() || !holds.any_of({HoldReason::operator_hold, HoldReason::door, HoldReason::line_end})) {
-    return refusal(RefusalCode::nothing_runs, "no program is held");
+    return refusal(RefusalReason::no_program_held);
   }
-  if (panel_->door_is_open()) return refusal(RefusalCode::door_open, "the door is open");
+  if (panel_->door_is_open()) return refusal(RefusalReason::door_open);
   work_->stops_outputs = false;
   drive.resume(HoldReason::operator_hold);
   drive.resume(HoldReason::door);
@@ -398,7 +411,7 @@ MachineSession::Answer MachineSession::handle(request::Resume&) {
 }
 
 MachineSession::Answer MachineSession::handle(request::Stop&) {
-  if (!busy()) return refusal(RefusalCode::nothing_runs, "nothing is going on");
+  if (!busy()) return refusal(RefusalReason::nothing_going_on);
   const Ticket ticket = waiting_holds_.emplace_back(++last_ticket_);
   work_->stopped = true;
   if (work_->drive) work_->drive->stop();
@@ -408,10 +421,10 @@ MachineSession::Answer MachineSession::handle(request::Stop&) {
 MachineSession::Answer MachineSession::handle(request::Override& change) {
   if (!is_factor(change.feed, highest_factor) || !is_factor(change.adaptive_feed, 1) ||
       !is_factor(change.spindle, highest_factor)) {
-    return refusal(RefusalCode::bad_value, "an override is a factor of 0 to 2, the machine's own 0 to 1");
+    return refusal(RefusalReason::bad_override);
   }
   if (!is_factor(change.rapids, 1) || change.rapids.value_or(1) < least_rapids) {
-    return refusal(RefusalCode::bad_value, "the override of rapids is a factor of 0.05 to 1");
+    return refusal(RefusalReason::bad_rapid_override);
   }
   overrides_.feed = change.feed.value_or(overrides_.feed);
   overrides_.adaptive_feed = change.adaptive_feed.value_or(overrides_.adaptive_feed);
@@ -431,12 +444,12 @@ MachineSession::Answer MachineSession::handle(request::Override& change) {
 
 MachineSession::Answer MachineSession::handle(request::SwitchOutputs& wanted) {
   if (!busy() || !work_->is_program() || work_->finishing || work_->drive->stopped()) {
-    return refusal(RefusalCode::nothing_runs, "no program runs");
+    return refusal(RefusalReason::no_program_runs);
   }
   MotionDrive& drive = *work_->drive;
   const bool held = drive.state() == MotionDrive::State::held && state_ == MachineState::hold;
   if (wanted.spindle_stands && !held) {
-    return refusal(RefusalCode::nothing_runs, "the spindle is stopped in a hold only, when the machine rests");
+    return refusal(RefusalReason::spindle_turns);
   }
   if (wanted.mist) drive.switch_mist(*wanted.mist);
   if (wanted.flood) drive.switch_flood(*wanted.flood);
@@ -460,7 +473,7 @@ MachineSession::Answer MachineSession::handle(request::ChooseStops& chosen) {
 
 MachineSession::Answer MachineSession::handle(request::OperatorDone&) {
   if (!busy() || !work_->drive || !work_->drive->waits_for()) {
-    return refusal(RefusalCode::not_waiting, "the program does not wait for the operator");
+    return refusal(RefusalReason::not_waiting);
   }
   if (WaitWords* const words = work_->wait_words()) words->pass(work_->drive->waits_for()->source.line);
   work_->drive->done();
@@ -470,7 +483,7 @@ MachineSession::Answer MachineSession::handle(request::OperatorDone&) {
 
 MachineSession::Answer MachineSession::handle(request::SetPosition& set) {
   if (state_ != MachineState::idle) return Failure{why_not()};
-  if (!is_finite(set.position.place)) return refusal(RefusalCode::bad_value, "a place has a number for each axis");
+  if (!is_finite(set.position.place)) return refusal(RefusalReason::bad_place);
   KnownPosition position = set.position;
   position.downs = this->position().downs;  // the motors stand where they stood
   stand_at(position);

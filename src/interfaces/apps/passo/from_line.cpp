@@ -32,7 +32,7 @@ std::optional<Reentry> way_to_line(const RunArguments& arguments, const ProgramR
     return {};
   }
   fmt::print(stderr, "passo: the next moves (machine coordinates):\n");
-  for (std::size_t i = 0; i < way->steps.size(); ++i) fmt::print(stderr, "  {}. {}\n", i + 1, way->steps[i]);
+  for (std::size_t i = 0; i < way->steps.size(); ++i) fmt::print(stderr, "  {}. {}\n", i + 1, way->steps[i].text);
   if (!arguments.yes && asks_operator() && !is_agreed()) {
     code = fail(exit_failed, "the machine has not moved");
     return {};

@@ -83,8 +83,8 @@ HomingReport home_machine(OpenedMachine& machine, bool shows) {
   const Seconds from = session.now();
   const auto ticket = session.request(request::Home{});
   if (!ticket) {
-    report.code = code_of(ticket.error().code);
-    report.message = ticket.error().message;
+    report.code = code_of(ticket.error().code());
+    report.message = ticket.error().message();
     return report;
   }
   {

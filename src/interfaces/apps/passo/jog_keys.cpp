@@ -154,7 +154,7 @@ class KeyJog {
       direction_ = key.direction;
       const JogWay way{.direction = direction_, .speed = speed_};
       const auto taken = session_.request(request::Jog{.way = way, .lease = lease});
-      refusal_ = taken ? "" : "  " + taken.error().message;
+      refusal_ = taken ? "" : "  " + taken.error().message();
     } else if (key.direction == direction_) {
       try_request(session_, request::RenewLease{});
     } else {

@@ -291,7 +291,7 @@ std::string place_words(const MachineDescription& machine, const Point& place) {
 }
 
 std::string describe(const Refusal& refusal) {
-  return fmt::format("{} [{}]", refusal.message, code_of(refusal.code));
+  return fmt::format("{} [{}]", refusal.message(), code_of(refusal.code()));
 }
 
 void try_request(MachineSession& session, Request wanted) {

@@ -50,6 +50,22 @@ TEST_F(JobHistoryTest, keeps_where_a_job_has_waited) {
   EXPECT_EQ(history->find(2)->waits.size(), std::size_t{JobHistory::most_waits});
 }
 
+TEST_F(JobHistoryTest, keeps_the_sentence_beside_the_words) {
+  {
+    const auto history = open();
+    history->add_running("a.ngc", "linuxcnc", "M2\n", 10);
+    EXPECT_TRUE(history->end(1, HistoryState::failed, "stopped", 20, R"({"code":"job.stopped"})"));
+    EXPECT_TRUE(history->record_alarm("lost", 21, R"({"code":"link.no-answer"})"));
+    history->add_running("b.ngc", "linuxcnc", "M2\n", 30);  // and the server is killed
+  }
+  const auto history = open();
+  EXPECT_EQ(history->find(1)->why_sentence, R"({"code":"job.stopped"})");
+  EXPECT_EQ(history->alarms(1)[0].sentence, R"({"code":"link.no-answer"})");
+  EXPECT_NE(history->find(2)->why_sentence.find(R"("code":"job.killed")"), std::string::npos);
+  EXPECT_TRUE(history->begin(1, 40));
+  EXPECT_EQ(history->find(1)->why_sentence, "");
+}
+
 TEST_F(JobHistoryTest, gives_each_of_many_jobs_its_own_waits) {
   const auto history = open();
   for (std::uint32_t job = 1; job <= 20; ++job) {

@@ -135,13 +135,12 @@ TEST(JobEnds, decide_what_becomes_of_the_journal) {
   const Answered wrong{.outcome = Outcome::failed, .fault = ActivityFault{MachineFault::program_wrong}};
   EXPECT_EQ(end(wrong), JobEnd::over);
   EXPECT_EQ(end(wrong, LinkError::no_answer, true), JobEnd::over);
-  const Answered refused{.outcome = Outcome::failed, .refused = Refusal{.code = RefusalCode::alarm, .message = "a"}};
+  const Answered refused{.outcome = Outcome::failed, .refused = Refusal{RefusalReason::motors_stopped}};
   EXPECT_EQ(end(refused), JobEnd::over) << "it did not begin";
   EXPECT_EQ(end(refused, {}, true), JobEnd::interrupted) << "the earlier job stays";
-  const Answered lost{.outcome = Outcome::failed,
-                      .refused = Refusal{.code = RefusalCode::place_unknown, .message = "a"}};
+  const Answered lost{.outcome = Outcome::failed, .refused = Refusal{RefusalReason::unknown_so_home}};
   EXPECT_EQ(end(lost), JobEnd::interrupted);
-  EXPECT_EQ(refused.message(), "a");
+  EXPECT_EQ(refused.message(), refused.refused->message());
 }
 
 TEST(JobEnds, are_stopped_without_an_answer_to_the_request) {

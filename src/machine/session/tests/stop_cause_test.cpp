@@ -16,6 +16,10 @@ TEST(StopCauses, are_named) {
   EXPECT_EQ(stop_cause(input_limit << 1, machine).remedy, "jog off it (passo jog Y+2)");
   EXPECT_EQ(stop_cause(input_limit << 7, machine).what, "limit switch 8 closed");
   EXPECT_EQ(stop_cause(0, machine).remedy, "");
+  EXPECT_EQ(stop_cause(0, machine).kind, StopCause::Kind::unknown);
+  const StopCause cause = stop_cause(input_limit << 1, machine);
+  EXPECT_EQ(cause.kind, StopCause::Kind::limit_switch_of_axis);
+  EXPECT_EQ(cause.arguments, (SentenceArguments{{"axis", "Y"}}));
 }
 
 }  // namespace

@@ -39,6 +39,8 @@ enum class LinkError : std::uint8_t {
   thread_lost,     // the machine stopped in a thread, because a queue update came too late
   thread_outrun,   // the axes could not keep up with the spindle in a thread
 };
+// A stable code, e.g. "link.no-answer".
+std::string_view code_of(LinkError error);
 // A sentence without a full stop.
 std::string_view message_of(LinkError error);
 

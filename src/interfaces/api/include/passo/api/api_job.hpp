@@ -5,6 +5,8 @@
 #include <string>
 #include <string_view>
 
+#include "passo/base/sentence.hpp"
+
 namespace passo {
 
 enum class JobState : std::uint8_t { none, checking, running, done, stopped, failed, interrupted };
@@ -15,7 +17,7 @@ struct ApiJob {
   std::uint64_t program = 0;
   std::string name;
   JobState state = JobState::none;
-  std::string why;           // of one that failed, a sentence without a full stop
+  Sentence why;              // of one that failed
   std::int64_t history = 0;  // its number in the history; 0: nobody keeps one
   friend bool operator==(const ApiJob&, const ApiJob&) = default;
 };

@@ -19,6 +19,7 @@
 
 #include "passo/activity/open_program.hpp"
 #include "passo/api/program_store.hpp"
+#include "passo/base/sentence.hpp"
 #include "passo/machine_file/machine_description.hpp"
 #include "passo/session/machine_session.hpp"
 
@@ -36,6 +37,7 @@ class MdiLines {
     std::string message;
     std::string expected;            // what would have been right; may be empty
     std::vector<std::string> words;  // what a line with $ asks for
+    Sentence sentence = {};          // the message with its code; without a code: a finding in the line
   };
   Answer execute(std::string_view line);
 

@@ -7,8 +7,8 @@
 #include <span>
 #include <string>
 #include <string_view>
-#include <utility>
-#include <vector>
+
+#include "passo/base/sentence.hpp"
 
 namespace passo {
 
@@ -58,11 +58,14 @@ const MachineFaultRow& row_of(MachineFault fault);
 // A fault that has happened, with what its sentence tells.
 struct ActivityFault {
   MachineFault fault = MachineFault::program_wrong;
-  std::vector<std::pair<std::string_view, std::string>> arguments = {};
+  SentenceArguments arguments = {};
+  Sentence trouble = {};  // of a fault of the board: what is wrong with the board
 
   std::string_view code() const { return row_of(fault).code; }
   // The sentence with its arguments.
   std::string message() const;
+  // Of a fault of the board, the board's own trouble: it says more.
+  Sentence sentence() const;
 };
 
 // True: the board, and not the work, has failed. What was going on may go on later.

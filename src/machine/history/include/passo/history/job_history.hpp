@@ -44,7 +44,8 @@ struct HistoryJob {
   std::string dialect;
   std::uint64_t bytes = 0;  // of the program
   HistoryState state = HistoryState::queued;
-  std::string why;  // of one that failed
+  std::string why;           // of one that failed
+  std::string why_sentence;  // the same as the caller has it; empty: an older program has written it
   // Seconds since 1970; 0: not yet.
   double queued_at = 0;
   double begun_at = 0;
@@ -55,6 +56,7 @@ struct HistoryJob {
 struct HistoryAlarm {
   double at = 0;
   std::string words;
+  std::string sentence;  // as HistoryJob::why_sentence
 };
 
 class JobHistory {
@@ -83,11 +85,11 @@ class JobHistory {
   // False: there is no such job, or it cannot be written; an end is then kept in memory. The program of a job that is
   // done is forgotten.
   bool begin(std::int64_t id, double now);
-  bool end(std::int64_t id, HistoryState state, std::string_view why, double now);
+  bool end(std::int64_t id, HistoryState state, std::string_view why, double now, std::string_view why_sentence = {});
   bool record_wait(std::int64_t id, const HistoryWait& wait);
   // Takes a job that waits out of the queue. False: it does not wait.
   bool remove(std::int64_t id);
-  bool record_alarm(std::string_view words, double now);
+  bool record_alarm(std::string_view words, double now, std::string_view sentence = {});
 
   // In the order of the queue.
   std::vector<HistoryJob> queue() const;
@@ -111,6 +113,7 @@ class JobHistory {
     std::int64_t id = 0;
     HistoryState state = HistoryState::done;
     std::string why;
+    std::string why_sentence;
     double at = 0;
   };
   // Notes the trouble, if `done` is false.

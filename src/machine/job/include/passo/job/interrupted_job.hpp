@@ -34,8 +34,7 @@ struct InterruptedJob {
   HistoryJob job;
   BrokenOff journal;
   std::optional<ResumePoint> point;  // its stop point on the path
-  std::string code;
-  std::string why;  // a sentence without a full stop
+  Sentence why;                      // without a code: it can
   // The point at which the machine can return to the path: its stop point, or before the last executed step.
   std::optional<ResumePoint> back_at;
   std::optional<Box> range;  // where its motors may have been stopped, if the board has lost its place

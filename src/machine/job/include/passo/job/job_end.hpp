@@ -17,7 +17,7 @@ struct Answered {
   std::optional<ActivityFault> fault = {};
   std::optional<Refusal> refused = {};  // it never began
 
-  std::string message() const { return refused ? refused->message : fault ? fault->message() : std::string(); }
+  std::string message() const { return refused ? refused->message() : fault ? fault->message() : std::string(); }
 };
 // `changes`: those of the session since the request. Without an answer among them the request was stopped.
 Answered answer_of(const std::vector<MachineChange>& changes, Ticket ticket);

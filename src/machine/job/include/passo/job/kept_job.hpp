@@ -22,12 +22,6 @@
 
 namespace passo {
 
-// Why something is refused, for an answer.
-struct ReentryProblem {
-  std::string_view code;
-  std::string why;
-};
-
 class KeptJob {
  public:
   struct Names {
@@ -66,7 +60,7 @@ class KeptJob {
   // The same, to go on with the job that was broken off. False, with the reason in interrupted(): it cannot go on.
   [[nodiscard]] bool resume(std::uint64_t path);
   // The path back to the job from the current position.
-  Result<Reentry, ReentryProblem> reentry();
+  Result<Reentry, Sentence> reentry();
   // The same as resume(), by that way.
   [[nodiscard]] bool reenter(std::uint64_t path);
   // True: the board has heard the number, so the job may begin.
@@ -81,7 +75,7 @@ class KeptJob {
 
  private:
   bool write(const JournalHead& head, std::optional<JobEntry> entry);
-  void refuse(std::string_view code, std::string_view why);
+  void refuse(std::string_view code, std::string_view why, SentenceArguments arguments = {});
   void check_place();
   void compare_switches();
   void find_way_back(const std::string& text);

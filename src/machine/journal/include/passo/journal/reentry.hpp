@@ -12,6 +12,7 @@
 
 #include "passo/activity/homing_path.hpp"
 #include "passo/base/result.hpp"
+#include "passo/base/sentence.hpp"
 #include "passo/journal/resume_point.hpp"
 
 namespace passo {
@@ -53,8 +54,8 @@ Result<ResumePoint, LineProblem> find_line(const ProgramReader& program, const M
 
 struct Reentry {
   ResumePoint at;
-  std::vector<PathItem> lead_in;   // from the current position to that point; ends in a stop
-  std::vector<std::string> steps;  // the same for people, in order
+  std::vector<PathItem> lead_in;  // from the current position to that point; ends in a stop
+  std::vector<Sentence> steps;    // the same for people, in order
 };
 
 // The range of each axis on a path between two places, the first of which comes first. `probes`: what its first probe

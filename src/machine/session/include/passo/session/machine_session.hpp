@@ -80,7 +80,7 @@ class MachineSession {
   // An activity is running or held.
   bool busy() const;
   // The reason why this board cannot control the machine, as a sentence without a full stop.
-  const std::string& trouble_words() const { return trouble_.words; }
+  const std::string& trouble_words() const { return trouble_.sentence.text; }
 
   // The current or else the last activity, for reports. Null: none of this kind.
   const MotionDrive* drive() const;
@@ -103,7 +103,7 @@ class MachineSession {
   // An error that blocks the machine until a reset.
   struct Trouble {
     std::optional<LinkError> error = {};  // none: the board does not suit the machine
-    std::string words = {};
+    Sentence sentence = {};
   };
 
   // One function for each request.
@@ -129,7 +129,7 @@ class MachineSession {
   Answer handle(request::Wake& wake);
   std::optional<Refusal> refuse(MachineEvent event) const;
   Refusal why_not() const;
-  std::string alarm_words() const;
+  Refusal refusal_in_alarm() const;
   std::optional<Refusal> refuse_way(const Point& way) const;
   Answer at_once();
   Answer begin(MachineEvent event, std::unique_ptr<Work> work);
@@ -163,10 +163,10 @@ class MachineSession {
   void report_tails();
   void on_standstill();
   void check_board();
-  std::string describe(LinkError error) const;
+  Sentence sentence_of(LinkError error) const;
   void poll_panel();
   void poll_place();
-  std::string words_of_stop() const;
+  Sentence sentence_of_stop() const;
   bool watches_counts() const { return options_.over_a_line || options_.tells_place; }
 
   void move_to(MachineEvent event);

@@ -7,6 +7,7 @@
 
 #include "passo/activity/activity.hpp"
 #include "passo/activity/homing_path.hpp"
+#include "passo/base/sentence.hpp"
 #include "passo/drive/holds.hpp"
 #include "passo/link/link.hpp"
 #include "passo/session/known_position.hpp"
@@ -69,6 +70,7 @@ struct MachineStatus {
   std::optional<Axis> homing_axis;
   std::optional<LinkError> trouble;  // the error of an alarm or a fault
   std::string trouble_words;         // a sentence without a full stop
+  Sentence trouble_sentence;         // the same with its code
 };
 
 // The result of a request.

@@ -17,6 +17,7 @@
 #include "passo/interpreter/interpreter.hpp"
 #include "passo/journal/resume_point.hpp"
 #include "passo/session/known_position.hpp"
+#include "passo/session/refusal.hpp"
 
 namespace passo {
 
@@ -136,25 +137,5 @@ using Request =
                  request::ResetMachine, request::Sleep, request::Wake>;
 
 using Ticket = std::uint64_t;
-
-enum class RefusalCode : std::uint8_t {
-  busy,           // something else is going on
-  not_ready,      // the board has not answered yet
-  alarm,          // a reset has to come first
-  asleep,         // a wake has to come first
-  nothing_runs,   // there is nothing to hold, resume, stop or renew
-  not_waiting,    // the program does not wait for the operator
-  door_open,      // the door has to be closed first
-  no_switches,    // the machine has no switches for homing
-  bad_value,      // not a number, or out of range
-  limit_closed,   // a limit switch is closed: only a jog off it or homing is possible
-  place_unknown,  // nobody knows where the machine stands: only a jog, homing or a stated place is possible
-};
-std::string_view code_of(RefusalCode code);
-
-struct Refusal {
-  RefusalCode code = RefusalCode::busy;
-  std::string message;  // a sentence without a full stop
-};
 
 }  // namespace passo

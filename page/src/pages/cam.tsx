@@ -1,0 +1,173 @@
+// CAM: drawings and pictures become programs. The picture follows the form.
+import { useEffect } from 'preact/hooks';
+import { say } from '../core/language';
+import { goTo } from '../core/route';
+import { lengthUnit } from '../core/units';
+import { isLive } from '../machine/connection';
+import { needFile } from '../machine/machine_file';
+import { clearDrawings, cam, madeCount } from '../machine/cam';
+import { token } from '../machine/token';
+import { Button } from '../parts/button';
+import { DropZone } from '../parts/drop_zone';
+import { Choice } from '../parts/view_dialog';
+import { forms, usualOf, withUnit, type Field, type Form } from './cam_forms';
+import { BoardLayers, BoardSteps } from './cam_board';
+import { ask, fieldsOf, formNow, job, layers, lookAtCam, partsOf, pick, picked, set, takeDrawings, valuesOf } from './cam_order';
+
+function Drawings({ form }: { form: Form }) {
+  const files = cam.value?.files ?? [];
+  const why = isLive.value ? '' : say('why.lost');
+  return (
+    <section class="panel" aria-label={say('cam.files')}>
+      <h2>{say('cam.files')}</h2>
+      <DropZone words={say('cam.drop')} accept={form.files} take={takeDrawings} />
+      {form.job === 'wire' && <p class="dim">{say('cam.wire.sides')}</p>}
+      <ul class="cam-files">
+        {files.map((name) => (
+          <li key={name}>
+            <label>
+              <input type="checkbox" checked={picked.value.includes(name)} onChange={(event) => pick(name, event.currentTarget.checked)} />{' '}
+              {name}
+            </label>
+          </li>
+        ))}
+      </ul>
+      {files.length > 0 && (
+        <Button
+          icon="trash"
+          why={why}
+          onClick={() => {
+            picked.value = [];
+            layers.value = {};
+            return clearDrawings();
+          }}
+        >
+          {say('cam.forget')}
+        </Button>
+      )}
+    </section>
+  );
+}
+
+function OneField({ form, field }: { form: Form; field: Field }) {
+  const value = valuesOf(form)[field.option];
+  if (field.kind === 'flag') {
+    return (
+      <label class="cam-flag">
+        <input type="checkbox" checked={value === true} onChange={(event) => set(form, field.option, event.currentTarget.checked)} />
+        <span>{say(field.title)}</span>
+      </label>
+    );
+  }
+  const words = typeof value === 'string' ? value : '';
+  if (field.kind === 'text') {
+    return (
+      <label class="form-field">
+        <span class="dim">{say(field.title)}</span>
+        <input type="text" value={words} placeholder={usualOf(field)} onInput={(event) => set(form, field.option, event.currentTarget.value)} onChange={(event) => set(form, field.option, withUnit(field, event.currentTarget.value.trim()))} />
+      </label>
+    );
+  }
+  const files = field.kind === 'file' ? (cam.value?.files ?? []).map((name) => [name, name] as const) : [];
+  const choices = [...field.choices.map(([one, title]) => [one, say(title)] as const), ...files];
+  return (
+    <label class="form-field">
+      <span class="dim">{say(field.title)}</span>
+      <select value={words} onChange={(event) => set(form, field.option, event.currentTarget.value)}>
+        <option value="">{field.without !== null && say(field.without)}</option>
+        {choices.map(([one, title]) => (
+          <option key={one} value={one}>
+            {title}
+          </option>
+        ))}
+      </select>
+    </label>
+  );
+}
+
+function Fields({ form, fields }: { form: Form; fields: readonly Field[] }) {
+  return (
+    <div class="form-fields">
+      {fields.map((field) => (
+        <OneField key={`${form.job} ${field.option}`} form={form} field={field} />
+      ))}
+    </div>
+  );
+}
+
+function Result() {
+  const now = cam.value;
+  const shown = now !== null && now.state === 'done' && now.picture !== '';
+  const secret = token.value === '' ? '' : `&token=${token.value}`;
+  return (
+    <section class="panel cam-result" aria-label={say('cam.result')}>
+      <div class="position-head">
+        <h2>{say('cam.result')}</h2>
+        <span role="status" data-testid="cam-state">
+          {say(`cam.state.${now?.state ?? 'none'}`)}
+        </span>
+      </div>
+      {shown && now.job !== 'board' && <img src={`api/v1/cam/picture?order=${madeCount.value}${secret}`} alt={say('cam.picture')} />}
+      {now !== null && now.words !== '' && (
+        <pre class={`toml ${now.state === 'failed' ? 'failed' : ''}`} lang="en" tabIndex={0}>
+          {now.words}
+        </pre>
+      )}
+      <BoardSteps />
+      {now?.job !== 'board' && <div class="row">
+        <Button kind="accent" icon="run" why={now?.program == null ? say('cam.none') : ''} onClick={() => goTo('files')}>
+          {say('cam.open')}
+        </Button>
+      </div>}
+    </section>
+  );
+}
+
+export function CamPage() {
+  useEffect(() => {
+    if (!isLive.value) return;
+    void lookAtCam();
+    void needFile();
+  }, [isLive.value]);
+  const form = formNow();
+  if (form === undefined) return null;
+  return (
+    <div class="cam">
+      <div class="pins-side">
+        <section class="panel" aria-label={say('cam.job')}>
+          <Choice
+            title={say('cam.job')}
+            value={form.job}
+            all={forms.value.map((one) => [one.job, say(one.title)] as const)}
+            set={(to) => {
+              job.value = to;
+              ask(formNow());
+            }}
+          />
+        </section>
+        <Drawings form={form} />
+        <section class="panel" aria-label={say(form.title)}>
+          <h2>{say(form.title)}</h2>
+          <Fields form={form} fields={form.fields} />
+          {form.more.length > 0 && (
+            <details>
+              <summary>{say('cam.more')}</summary>
+              <Fields form={form} fields={form.more} />
+            </details>
+          )}
+          {partsOf(form).map((part) => (
+            <details key={part.job}>
+              <summary>
+                {say(part.title)}: {say('cam.board.options')}
+              </summary>
+              <Fields form={part} fields={fieldsOf(part).filter((field) => !field.ofJob)} />
+            </details>
+          ))}
+          <p class="dim">{say('cam.lengths', { unit: lengthUnit() })}</p>
+        </section>
+        {form.job === 'board' && <BoardLayers />}
+      </div>
+      <Result />
+    </div>
+  );
+}

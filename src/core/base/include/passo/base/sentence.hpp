@@ -1,0 +1,24 @@
+// Sentence: one sentence for people, in a form that can be translated. Clients in other languages find their own words
+// by its code and its arguments; the text is English.
+#pragma once
+
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+namespace passo {
+
+using SentenceArguments = std::vector<std::pair<std::string_view, std::string>>;
+
+struct Sentence {
+  std::string code;  // stable, e.g. "machine.asleep"; empty: none, so only the text can be shown
+  SentenceArguments arguments = {};
+  std::string text = {};  // without a full stop
+  friend bool operator==(const Sentence&, const Sentence&) = default;
+};
+
+// The sentence with the value of each {argument} in its place.
+std::string filled(std::string_view sentence, const SentenceArguments& arguments);
+
+}  // namespace passo
