@@ -119,7 +119,7 @@ TEST_F(ServeMqtt, obeys_no_message) {
   ASSERT_TRUE(becomes("shop/router/state", "Idle")) << passo::test::read(path("said"));
   mosquitto* const other = mosquitto_new(nullptr, true, nullptr);
   ASSERT_EQ(mosquitto_connect(other, "127.0.0.1", static_cast<int>(port_), 10), MOSQ_ERR_SUCCESS);
-  const auto turn = [other] {
+  const auto poll = [other] {
     for (int i = 0; i < 10; ++i) mosquitto_loop(other, 20, 1);
   };
   poll();
