@@ -148,8 +148,7 @@ TEST(Hpgl, what_is_wrong_is_told_with_its_place) {
   EXPECT_THAT(plotted("IN;7").words, testing::HasSubstr("[hpgl.syntax]"));
   EXPECT_THAT(plotted("IN;PD9999999999,0;").words, testing::HasSubstr("[hpgl.syntax]"));
   const Plotted odd = plotted("IN;QQ1;IW0,0,1,1;PU0,0;PD40,0;");
-  EXPECT_THAT(odd.drawing.notes,
-              testing::ElementsAre("ignored: 1 clipping windows", "ignored: 1 unknown commands QQ"));
+  EXPECT_THAT(odd.drawing.notes, testing::ElementsAre("ignored: 1 clipping windows", "ignored: 1 unknown commands QQ"));
 }
 
 TEST(Hpgl, is_told_by_its_first_commands) {

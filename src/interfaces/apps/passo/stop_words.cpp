@@ -72,8 +72,8 @@ std::string stop_words(OpenedMachine& opened, const MachineDescription& machine,
 std::string slip_words(OpenedMachine& opened, const MachineDescription& machine, const std::string& program,
                        std::uint32_t line) {
   return fmt::format(
-      "it stood still amid motion{}: it could not make its events in time, and steps may be lost. It "
-      "was near {}. To go on, lower max_event_rate_hz of the machine file, {} [board.slipped]",
+      "it stopped during motion{}: it could not make its events in time, and steps may be lost. It "
+      "was near {}. To continue, lower max_event_rate_hz of the machine file, {} [board.slipped]",
       line_words(line, program),
       place_words(machine, counted_place(opened, machine, opened.session().board().standstill())),
       remedy_for_place(machine, program));
