@@ -95,13 +95,13 @@ class SessionRun {
   }
   Ticket taken(Request wanted) {
     const auto answer = ask(std::move(wanted));
-    EXPECT_TRUE(answer) << name_of(state()) << ": " << answer.error().message;
+    EXPECT_TRUE(answer) << name_of(state()) << ": " << answer.error().message();
     return answer ? *answer : 0;
   }
   // Empty: it was not refused.
   std::string refusal_of(Request wanted) {
     const auto answer = ask(std::move(wanted));
-    return answer ? std::string() : std::string(code_of(answer.error().code));
+    return answer ? std::string() : std::string(code_of(answer.error().code()));
   }
 
   // Streams a line of a program that never ends.

@@ -130,13 +130,13 @@ class SessionSoak : public testing::Test {
       place = set->position.place;
     }
     const auto answer = session_.request(std::move(wanted));
-    tell(fmt::format("{} {}", names[kind], answer ? "taken" : answer.error().message));
+    tell(fmt::format("{} {}", names[kind], answer ? "taken" : answer.error().message()));
     if (!answer) {
       ++refused_;
-      EXPECT_FALSE(answer.error().message.empty());
-      const bool is_barred = answer.error().code == RefusalCode::limit_closed && session_.closed_limit();
-      EXPECT_TRUE(refuses || is_barred || answer.error().code == RefusalCode::bad_value)
-          << answer.error().message << at();
+      EXPECT_FALSE(answer.error().message().empty());
+      const bool is_barred = answer.error().code() == RefusalCode::limit_closed && session_.closed_limit();
+      EXPECT_TRUE(refuses || is_barred || answer.error().code() == RefusalCode::bad_value)
+          << answer.error().message() << at();
     } else {
       EXPECT_FALSE(refuses) << "request " << kind << " was taken" << at();
       EXPECT_TRUE(open_.emplace(*answer, Open{.kind = kind, .since = session_.now()}).second)
@@ -153,7 +153,7 @@ class SessionSoak : public testing::Test {
         EXPECT_TRUE(follows(state_, change.state)) << name_of(state_) << " to " << name_of(change.state) << at();
         state_ = change.state;
         tell(fmt::format("{}, {} {}", name_of(state_), name_of(session_.status().position.trust),
-                         session_.status().trouble_words));
+                         session_.status().trouble_sentence.text));
         ++entered_[static_cast<std::size_t>(state_)];
       } else if (change.kind == MachineChange::Kind::answered) {
         const auto open = open_.find(change.ticket);

@@ -139,10 +139,10 @@ TEST(SessionStates, take_just_the_requests_that_the_table_has) {
       const auto run = in(situation);
       const bool wanted = asked.is_taken(situation);
       const auto answer = run->ask(asked.request());
-      ASSERT_EQ(answer.has_value(), wanted) << (answer ? "" : answer.error().message);
+      ASSERT_EQ(answer.has_value(), wanted) << (answer ? "" : answer.error().message());
       if (!wanted) {
         EXPECT_EQ(run->state(), situation.state) << "a refusal changes nothing";
-        EXPECT_FALSE(answer.error().message.empty());
+        EXPECT_FALSE(answer.error().message().empty());
       }
       for (int i = 0; i < 20; ++i) run->poll();
       if (run->session().busy()) {

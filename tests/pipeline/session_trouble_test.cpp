@@ -29,7 +29,7 @@ void expect_refuses_all_but_a_reset(SessionRun& run) {
   EXPECT_EQ(run.refusal_of(request::SetPosition{}), "machine.alarm");
   EXPECT_EQ(run.refusal_of(request::Hold{}), "machine.nothing-runs");
   EXPECT_EQ(run.refusal_of(request::Stop{}), "machine.nothing-runs");
-  EXPECT_FALSE(run.session().status().trouble_words.empty());
+  EXPECT_FALSE(run.session().status().trouble_sentence.text.empty());
   EXPECT_EQ(run.session().status().position.trust, Trust::unknown);
 }
 
@@ -160,9 +160,9 @@ TEST(LineTrouble, a_standstill_amid_motion_is_an_alarm_and_the_place_is_not_trus
     EXPECT_EQ(run.session().status().trouble, LinkError::stood_still);
     EXPECT_EQ(run.outcome(program), Outcome::failed);
     EXPECT_EQ(run.answer(program)->fault->fault, MachineFault::board_slipped);
-    EXPECT_NE(run.session().status().trouble_words.find("near line " + std::string(at < 1 ? "2" : "3")),
+    EXPECT_NE(run.session().status().trouble_sentence.text.find("near line " + std::string(at < 1 ? "2" : "3")),
               std::string::npos)
-        << run.session().status().trouble_words;
+        << run.session().status().trouble_sentence.text;
     run.pass(Seconds(4));
     expect_refuses_all_but_a_reset(run);
     run.taken(request::ResetMachine{});

@@ -145,7 +145,7 @@ Json as_json(const MachineDescription& machine, const MachineStatus& status) {
       {"waits_for_tool", Json()},
       {"waits_for_operator", status.waits_for.has_value()},
       {"waits", status.waits_for ? waits_json(*status.waits_for) : Json()},
-      {"trouble", status.trouble_words},
+      {"trouble", status.trouble_sentence.text},
       {"trouble_sentence", as_json(status.trouble_sentence)}};
   if (status.waits_for && status.waits_for->kind == Action::Kind::tool_change) {
     json["waits_for_tool"] = status.waits_for->tool;

@@ -324,7 +324,6 @@ MachineStatus MachineSession::status() const {
   status.overrides = overrides_;
   status.stops = stops_;
   status.trouble = trouble_.error;
-  status.trouble_words = trouble_.sentence.text;
   status.trouble_sentence = trouble_.sentence;
   if (!busy() || !work_->drive) return status;
   const MotionDrive& drive = *work_->drive;

@@ -11,7 +11,6 @@
 #include "passo/activity/probe_line.hpp"
 #include "passo/activity/stage_options.hpp"
 #include "passo/geometry/euclid.hpp"
-#include "passo/session/stop_cause.hpp"
 
 namespace passo {
 namespace {
@@ -43,28 +42,6 @@ std::string axes_with_switch(const MachineDescription& machine, unsigned input) 
   return axes;
 }
 
-RefusalReason reason_of(StopCause::Kind kind) {
-  switch (kind) {
-    case StopCause::Kind::unknown: break;
-    case StopCause::Kind::emergency_stop: return RefusalReason::emergency_stop;
-    case StopCause::Kind::drive_alarm: return RefusalReason::drive_alarm;
-    case StopCause::Kind::limit_switch_of_axis: return RefusalReason::limit_switch_of_axis;
-    case StopCause::Kind::limit_switch: return RefusalReason::limit_switch;
-  }
-  return RefusalReason::motors_stopped;
-}
-
-const char* finer_code_of(StopCause::Kind kind) {
-  switch (kind) {
-    case StopCause::Kind::unknown: break;
-    case StopCause::Kind::emergency_stop: return ".emergency-stop";
-    case StopCause::Kind::drive_alarm: return ".drive-alarm";
-    case StopCause::Kind::limit_switch_of_axis: return ".limit-switch-of-axis";
-    case StopCause::Kind::limit_switch: return ".limit-switch";
-  }
-  return "";
-}
-
 Failure<Refusal> refusal(RefusalReason reason) {
   return Failure{Refusal{reason}};
 }
@@ -93,47 +70,6 @@ Refusal MachineSession::why_not() const {
   }
   if (busy()) return {RefusalReason::busy};
   return {RefusalReason::nothing_going_on};
-}
-
-// With what only the session knows of it.
-Sentence MachineSession::sentence_of(LinkError error) const {
-  Sentence sentence{.code = std::string(code_of(error)), .text = std::string(message_of(error))};
-  const auto add = [&sentence](std::string_view finer, std::string_view name, std::string value, const char* more) {
-    sentence.code += finer;
-    sentence.arguments.emplace_back(name, std::move(value));
-    sentence.text += filled(more, sentence.arguments);
-  };
-  if (error == LinkError::stopped) return sentence_of_stop();
-  if (error == LinkError::cannot_set_up) {
-    add(".lacks", "missing", words_of_setup(board_.undone_setup()), ": it has no {missing}");
-  }
-  if (error == LinkError::cannot_time) {
-    add(".makes", "timing", words_of_timing(board_.timing(), board_.wanted_timing(), machine_.board.clock.value()),
-        ": it makes {timing}");
-  }
-  const std::uint32_t line =
-      error == LinkError::stood_still && work_ ? work_->standstill_line.value_or(0) : std::uint32_t{0};
-  if (line != 0) add(".at-line", "line", std::to_string(line), "; that was near line {line} of the program");
-  return sentence;
-}
-
-Sentence MachineSession::sentence_of_stop() const {
-  const std::uint16_t inputs = board_.stopped_by();
-  const std::string code(code_of(LinkError::stopped));
-  if (inputs == 0) return {.code = code, .text = std::string(message_of(LinkError::stopped))};
-  if (state_ == MachineState::offline && (inputs & input_emergency_stop) != 0) {
-    return {.code = code + ".emergency-stop-is-pressed", .text = "the emergency stop is pressed: release it first"};
-  }
-  const StopCause cause = stop_cause(inputs, machine_);
-  return {.code = code + finer_code_of(cause.kind),
-          .arguments = cause.arguments,
-          .text = cause.what + ": where the motors are is not certain"};
-}
-
-Refusal MachineSession::refusal_in_alarm() const {
-  if (trouble_.error == LinkError::drivers_off) return {RefusalReason::drivers_off};
-  StopCause cause = stop_cause(board_.stopped_by(), machine_);
-  return {reason_of(cause.kind), std::move(cause.arguments)};
 }
 
 std::optional<Refusal> MachineSession::closed_limit() const {

@@ -173,7 +173,7 @@ export const operations = {
   'cam.option.block': 'Block: X,Y,X,Y',
   'cam.option.heat': 'Wire heat: S of M3',
   'cam.option.block-at': 'Distance from left tower to block',
-  'cam.engrave.tool': 'Largest cutter diameter',
+  'cam.engrave.tool': 'Cutter diameter at its widest',
   'cam.isolate.tool': 'Cutter widths, e.g. 1,0.2',
   'cam.engrave.depth': 'Maximum depth, below 0',
   'cam.relief.depth': 'Depth from white to black',

@@ -14,7 +14,7 @@ export const run = {
   'run.progress': 'Progress',
   'run.left': 'Time left',
   'run.end': 'Ends at',
-  'run.whole': 'Duration about',
+  'run.whole': 'Takes about',
   'run.overrides': 'Overrides',
   'run.feed': 'Feed',
   'run.rapids': 'Rapids',

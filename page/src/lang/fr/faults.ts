@@ -168,8 +168,8 @@ export const faults: Same<typeof en> = {
   'way.spindle.clockwise': 'broche en marche, sens horaire à {speed} tr/min, puis attente de {wait} s',
   'way.spindle.counterclockwise': 'broche en marche, sens antihoraire à {speed} tr/min, puis attente de {wait} s',
   'way.coolant.flood': 'arrosage en marche',
-  'way.coolant.mist': 'brumisation en marche',
-  'way.coolant.both': 'arrosage et brumisation en marche',
+  'way.coolant.mist': 'brouillard en marche',
+  'way.coolant.both': 'arrosage et brouillard en marche',
   'way.goes-on': 'le programme continue à la ligne {line}',
   'way.end': 'le programme se termine',
 };

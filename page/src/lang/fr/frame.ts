@@ -11,7 +11,7 @@ export const frame: Same<typeof en> = {
   'page.machine': 'Machine',
   'page.lab': 'Labora­toire',
   'page.cam': 'FAO',
-  'page.pins': 'Broches',
+  'page.pins': 'E/S',
   // The frame
   'frame.pages': 'Pages',
   'frame.actions': 'Commandes de la machine',

@@ -175,7 +175,7 @@ export const operations: Same<typeof en> = {
   'cam.option.block': 'Bloc : X,Y,X,Y',
   'cam.option.heat': 'Chauffe du fil : S de M3',
   'cam.option.block-at': 'Distance tour gauche – bloc',
-  'cam.engrave.tool': 'Plus grand diamètre de la fraise',
+  'cam.engrave.tool': 'Diamètre max. de la fraise',
   'cam.isolate.tool': 'Largeurs des fraises, ex. 1,0.2',
   'cam.engrave.depth': 'Profondeur maximale, sous 0',
   'cam.relief.depth': 'Profondeur du blanc au noir',

@@ -4,8 +4,8 @@ import type { Same } from '../same';
 
 export const pins: Same<typeof en> = {
   // Inputs and outputs
-  'pin.board': 'La carte et ses broches',
-  'pin.name': 'Broche',
+  'pin.board': 'La carte et ses entrées/sorties',
+  'pin.name': 'E/S',
   'pin.state': 'État',
   'pin.level': 'Niveau',
   'pin.polarity': 'Polarité',
@@ -22,9 +22,9 @@ export const pins: Same<typeof en> = {
   'pin.emergency_stop': 'Arrêt d’urgence',
   'pin.hold': 'Bouton de pause',
   'pin.start': 'Bouton de départ',
-  'pin.spindle': 'Broche d’usinage',
+  'pin.spindle': 'Broche',
   'pin.spindle_reverse': 'Broche inversée',
-  'pin.mist': 'Brumisation',
+  'pin.mist': 'Brouillard',
   'pin.flood': 'Arrosage',
   'pin.motor': 'Moteur {number} ({axis})',
   // Outputs by hand

@@ -18,7 +18,7 @@ export const set_up: Same<typeof en> = {
   'jog.gamepad': 'Manette {name} : croix directionnelle et stick gauche déplacent X et Y, gâchettes hautes et stick droit déplacent Z.',
   'jog.zero': 'Origine pièce',
   'jog.zero.axis': 'Zéro {axis}',
-  'jog.zero.all': 'Zéro sur tous',
+  'jog.zero.all': 'Tout à zéro',
   'jog.zero.ask': 'Définir ici l’origine pièce de {axes} ?',
   'jog.zero.facts': 'Tous les programmes utiliseront cette origine. Position actuelle : {place}.',
   'jog.goto': 'Aller à l’origine',

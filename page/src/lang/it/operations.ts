@@ -175,7 +175,7 @@ export const operations: Same<typeof en> = {
   'cam.option.block': 'Blocco: X,Y,X,Y',
   'cam.option.heat': 'Riscaldamento del filo: S di M3',
   'cam.option.block-at': 'Distanza torre sinistra – blocco',
-  'cam.engrave.tool': 'Diametro massimo della fresa',
+  'cam.engrave.tool': 'Diametro max. della fresa',
   'cam.isolate.tool': 'Larghezze delle frese, es. 1,0.2',
   'cam.engrave.depth': 'Profondità massima, sotto 0',
   'cam.relief.depth': 'Profondità dal bianco al nero',

@@ -133,13 +133,13 @@ class KeyJog {
         session_.poll(end - session_.now());
       }
       show();
-      if (!session_.status().trouble_words.empty()) break;
+      if (!session_.status().trouble_sentence.text.empty()) break;
     }
     try_request(session_, request::Stop{});
     while (session_.busy()) session_.poll(a_turn);
     show();
     fmt::print("\n");
-    if (const std::string words = session_.status().trouble_words; !words.empty()) {
+    if (const std::string words = session_.status().trouble_sentence.text; !words.empty()) {
       return fail(exit_failed, "the board: " + words);
     }
     return interrupted_by() != 0 ? 128 + interrupted_by() : exit_done;

@@ -78,7 +78,7 @@ std::string ServedStatus::text_of(const MachineStatus& status, const WebApi* api
     all["job"] = api->job().name;
     if (const auto left = api->time_left()) all["left"] = std::round(left->value());
   }
-  if (!status.trouble_words.empty()) all["trouble"] = status.trouble_words;
+  if (!status.trouble_sentence.text.empty()) all["trouble"] = status.trouble_sentence.text;
   return all.dump(-1, ' ', false, nlohmann::ordered_json::error_handler_t::replace);
 }
 

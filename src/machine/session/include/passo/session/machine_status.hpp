@@ -69,8 +69,7 @@ struct MachineStatus {
   std::optional<HomingStage> homing;  // the stage of homing; the next member is its axis
   std::optional<Axis> homing_axis;
   std::optional<LinkError> trouble;  // the error of an alarm or a fault
-  std::string trouble_words;         // a sentence without a full stop
-  Sentence trouble_sentence;         // the same with its code
+  Sentence trouble_sentence;
 };
 
 // The result of a request.
