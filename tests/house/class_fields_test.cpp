@@ -31,7 +31,6 @@ const std::map<std::string, Exception> exceptions = {
     {"MachineStatus", {23, "what a status says of a machine"}},
     {"GrblController", {24, "to be cut: the stream of lines, and the answer that is due"}},
     {"Leveller", {31, "to be cut: the frames it follows, and what it writes"}},
-    {"ProgramFlow", {30, "to be cut: where it reads, and what waits"}},
     {"GrblSender", {30, "to be cut: the window of lines, and the conversation"}},
     {"MachineSession::Work", {28, "to be cut: what a run has ahead, and the modes of a jog"}},
     {"ProbingCycle", {25, "to be cut: the plan of a cycle, and what it has found"}},
