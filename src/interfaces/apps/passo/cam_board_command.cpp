@@ -224,8 +224,7 @@ int BoardMaker::turn_over(const CamDrillArguments& drill, std::optional<std::arr
       fmt::format("Move the probe into the {} one of the two holes, below its rim, and run the program.", which),
       "G54 then lies as the board does; set Z0 to the face that is up now."};
   return add_probing({.kind = ProbingKind::bores,
-                      .reach = width,
-                      .back = std::min(0.3, width / 10),
+                      .touch = {.reach = width, .back = std::min(0.3, width / 10)},
                       .x = x,
                       .y = y,
                       .second_x = second_x,

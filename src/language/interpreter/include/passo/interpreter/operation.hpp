@@ -49,11 +49,20 @@ struct SelectPlane {
 struct SetFeedMode {
   FeedMode mode = FeedMode::units_per_minute;
 };
-// In units per minute the rate is in mm a second. In units per revolution it is in mm a revolution. Inverse time (G93)
-// never gets here: the interpreter knows each move's length and gives units per minute, as LinuxCNC's does.
+// The feed of G94. Inverse time (G93) never gets here: the interpreter knows each move's length and gives units per
+// minute, as LinuxCNC's does. `rotary` is for moves of A B C alone.
+struct FeedPerSecond {
+  MmPerSecond linear{0};
+  double rotary = 0;  // degrees a second, in any length units
+};
+// The feed of G95: for each revolution of the spindle.
+struct FeedPerRevolution {
+  Mm linear{0};
+  double rotary = 0;  // degrees a revolution
+};
+// In the mode that SetFeedMode has told before.
 struct SetFeedRate {
-  double rate = 0;
-  double rotary_rate = 0;  // for moves of A B C alone: degrees a second (a revolution), in any length units
+  std::variant<FeedPerSecond, FeedPerRevolution> feed;
 };
 struct SetPathMode {
   PathMode mode = PathMode::continuous;

@@ -24,6 +24,7 @@
 #include "passo/diagnostics/diagnostic.hpp"
 #include "passo/interpreter/frame.hpp"
 #include "passo/interpreter/machine_answers.hpp"
+#include "passo/path/outside_travel.hpp"
 #include "passo/path/segment.hpp"
 
 namespace passo {
@@ -62,7 +63,6 @@ struct PathMemory {
   Point position_;        // machine
 
   LengthUnits units_ = LengthUnits::mm;  // for messages
-  FeedMode feed_mode_ = FeedMode::units_per_minute;
   operation::SetFeedRate feed_rate_;
   std::optional<Mm> synchronised_pitch_;
   PathMode path_mode_ = PathMode::continuous;
@@ -78,9 +78,7 @@ struct PathMemory {
   MmPerSecond refused_feed_{0};  // the last feed that no axis can make, and that follows the spindle
   Seconds run_up_left_{0};       // the spindle has not reached its speed before that
 
-  // The axes on which the path is now outside the machine. An excursion is reported once, not at each of its moves.
-  AxisSet below_;
-  AxisSet above_;
+  OutsideTravel outside_;
   AxisSet missing_;
   std::array<bool, 4> told_{};  // what was already reported, by Lack
 };
@@ -100,7 +98,8 @@ class PathBuilder final : public Source<PathItem>, private PathMemory {
   // Says that the path goes on from somewhere else. What was read of the path before is not part of it any more.
   void stand_at(const Point& machine) {
     position_ = machine;
-    below_ = above_ = missing_ = AxisSet();
+    outside_ = {};
+    missing_ = AxisSet();
     refused_feed_ = MmPerSecond(0);
   }
   // Notes what the operations so far have set, and goes back to that, as if those since had not come. Call when next()
@@ -139,6 +138,7 @@ class PathBuilder final : public Source<PathItem>, private PathMemory {
   void refuse_surface_speed(const operation::SetSpindleMode& mode);
   Heeds heeds() const;
   SpindleLock lock() const;
+  Mm pitch() const;
   OutputState outputs() const;
   Action outputs_action(Action::Kind kind = Action::Kind::outputs, Seconds dwell = Seconds(0)) const;
   bool must_await_index(const PathItem& item);
@@ -148,7 +148,7 @@ class PathBuilder final : public Source<PathItem>, private PathMemory {
   void check_thread(const Curve& curve, MmPerSecond speed);
   void check_travel(const Curve& curve);
   bool is_within_travel(const Box& box) const;
-  void check_side(Axis axis, bool high_side, double reached, const Curve& curve, AxisSet& outside);
+  void check_side(Axis axis, TravelEnd end, double reached, const Curve& curve);
   void check_axes(const Curve& curve);
   // Reports at the axis word, or, where there is none, at the words that ask for the current operation.
   void report(Severity severity, std::string code, std::string message, std::string expected,
