@@ -31,12 +31,8 @@ const std::map<std::string, Exception> exceptions = {
     {"MachineStatus", {23, "what a status says of a machine"}},
     {"GrblController", {24, "to be cut: the stream of lines, and the answer that is due"}},
     {"GrblSender", {30, "to be cut: the window of lines, and the conversation"}},
-    {"MachineSession::Work", {28, "to be cut: what a run has ahead, and the modes of a jog"}},
-    {"HomingPath", {25, "to be cut: the stages of homing"}},
-    {"SpindleTracker", {22, "to be cut: the await of the index"}},
     {"DrillingPlan", {22, "the words of a drilling cycle"}},
     {"ProgramState", {21, "the modal state of a program"}},
-    {"OpenProgram", {21, "to be cut: the queue of lines"}},
     {"BlockExecutor", {21, "one family of codes each"}},
 };
 

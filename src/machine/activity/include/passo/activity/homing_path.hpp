@@ -12,19 +12,20 @@
 // An axis with two motors is squared before it latches. Each motor goes on alone to its own switch. Both back off
 // together. The second motor then falls behind a little, so that the first one's switch is sure to close first: so the
 // exact places of both switches are found, one by one, without racking the axis by more than that. In the path a motor
-// that moves alone moves its axis (TwinMotors): `goes_` tells where each of them truly is.
+// that moves alone moves its axis (TwinMotors): HomedMotors tells where each of them truly is.
 //
 // The place of an axis is unknown until the axis is homed. Until then the path counts from where the machine stood.
 #pragma once
 
-#include <array>
-#include <cstddef>
 #include <cstdint>
 #include <optional>
 #include <string_view>
 #include <vector>
 
 #include "passo/activity/activity.hpp"
+#include "passo/activity/homed_motors.hpp"
+#include "passo/activity/homing_turn.hpp"
+#include "passo/activity/switch_watch.hpp"
 #include "passo/interpreter/machine_answers.hpp"
 #include "passo/kinematics/kinematics.hpp"
 #include "passo/machine_file/machine_description.hpp"
@@ -77,8 +78,6 @@ class HomingPath final : public Activity {
   enum class Step : std::uint8_t { begin, move, end, judge };
   // What a motor does alone, in this order.
   enum class Alone : std::uint8_t { close_first, close_second, lag, find_second, adjust };
-  static constexpr std::size_t first_motor = 0;
-  static constexpr std::size_t second_motor = 1;
 
   const HomeDescription& home() const { return *axis_->home; }
   // Steps a millimetre or a degree of the axis that is being homed.
@@ -95,7 +94,7 @@ class HomingPath final : public Activity {
   bool is_pair() const { return axis_->second.has_value(); }
   void begin_turn();
   void seek_together();
-  void look_at(std::size_t which);
+  void look_at(const AxisDescription& axis);
   void begin_axis(const AxisDescription& axis);
   void begin(HomingStage stage, double target);
   void begin_alone(Alone alone, double way);
@@ -107,8 +106,6 @@ class HomingPath final : public Activity {
   void judge_alone();
   void go_on_alone();
   void fall_further_behind();
-  double farthest_beyond() const;
-  double apart_from_switches() const;
   void judge_approach();
   void judge_retreat();
   void retreat(HomingStage stage, double target);
@@ -120,24 +117,18 @@ class HomingPath final : public Activity {
   const Kinematics kinematics_;
   const MachineAnswers& answers_;
   Point start_;
-  std::vector<const AxisDescription*> turn_;  // the axes of this turn that are not homed yet
-  std::size_t looked_at_ = 0;                 // of these
-  bool together_ = false;                     // all of them seek at once
-  std::optional<Point> met_;                  // where they were when the first of them met its switch
+  HomingTurn turn_;
   const AxisDescription* axis_ = nullptr;
   HomingStage stage_ = HomingStage::seek;
   Alone alone_ = Alone::close_first;
   bool settles_ = false;  // the motor that moved alone goes on to a whole step from the other
   Step step_ = Step::begin;
-  bool until_closed_ = true;  // the move ends when the switch closes; else when it opens
+  SwitchWatch watch_;
   Point target_;
   MmPerSecond speed_{0};
-  std::uint8_t limits_ = 0;        // the switches that are watched
-  bool knows_switch_ = false;      // knows roughly where the switch closes
-  std::array<double, 2> goes_{};   // where the axis's motors are; with one motor, both are the axis
-  std::array<double, 2> found_{};  // where each of them was when its switch closed
-  double lag_ = 0;                 // how far the second motor falls behind before the latch
-  int turns_ = 0;
+  bool knows_switch_ = false;  // knows roughly where the switch closes
+  HomedMotors motors_;
+  double lag_ = 0;  // how far the second motor falls behind before the latch
   Point position_;  // where the machine rests
   std::vector<HomedAxis> homed_;
   std::optional<MachineFault> fault_;

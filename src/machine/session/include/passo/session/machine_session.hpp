@@ -138,7 +138,8 @@ class MachineSession {
   DriveOptions drive_options() const;
   StepOptions step_options() const;
 
-  void put_on_drive(Work& work, const DriveOptions& options, bool knows_ahead);
+  void put_on_drive(Work& work, const DriveOptions& options, const Watchers& watchers = {}, bool knows_ahead = true,
+                    Seconds nominal_time = Seconds(0));
   // The clock by which it is told what the board executes.
   Seconds clock_of(const Work& work) const;
 
@@ -154,7 +155,7 @@ class MachineSession {
   void finish_work();
   void end_work();
   std::pair<Outcome, std::optional<ActivityFault>> judge_work() const;
-  void note_place();
+  void note_place(bool knows_counts);
   bool mind_lines(Seconds most);
   void go_on_after_drop();
   void mind_lease();
