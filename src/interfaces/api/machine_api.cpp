@@ -188,7 +188,7 @@ void MachineApi::heed(const MachineChange& change) {
 void MachineApi::turn() {
   if (mdi_.turn()) {
     SavedParameters parameters = mdi_.parameters();
-    parameters[work_system_parameter] = 1;  // programs begin with G54
+    begin_with_g54(parameters);
     shared_.offsets.take(parameters, mdi_.tools());
   }
   const MotionOwner& owner = shared_.owner;
