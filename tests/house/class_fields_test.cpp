@@ -29,18 +29,8 @@ const std::map<std::string, Exception> exceptions = {
     {"EventStream", {24, "the state of one motor's events, in registers in its inner loop"}},
     {"RunSummary", {23, "the lines of one summary"}},
     {"MachineStatus", {23, "what a status says of a machine"}},
-    {"GrblController", {24, "to be cut: the stream of lines, and the answer that is due"}},
-    {"Leveller", {31, "to be cut: the frames it follows, and what it writes"}},
-    {"ProgramFlow", {30, "to be cut: where it reads, and what waits"}},
-    {"GrblSender", {30, "to be cut: the window of lines, and the conversation"}},
-    {"MachineSession::Work", {28, "to be cut: what a run has ahead, and the modes of a jog"}},
-    {"ProbingCycle", {25, "to be cut: the plan of a cycle, and what it has found"}},
-    {"HomingPath", {25, "to be cut: the stages of homing"}},
-    {"SpindleTracker", {22, "to be cut: the await of the index"}},
-    {"PathMemory", {22, "what a path carries over from block to block"}},
     {"DrillingPlan", {22, "the words of a drilling cycle"}},
     {"ProgramState", {21, "the modal state of a program"}},
-    {"OpenProgram", {21, "to be cut: the queue of lines"}},
     {"BlockExecutor", {21, "one family of codes each"}},
 };
 

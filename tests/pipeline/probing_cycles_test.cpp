@@ -145,8 +145,8 @@ TEST_F(ProbingCycles, each_corner) {
 }
 
 TEST_F(ProbingCycles, a_corner_whose_side_is_beyond_the_reach_ends_the_program_and_breaks_no_probe) {
-  const CycleRun run =
-      run_cycle({.kind = ProbingKind::corner, .side = "front-left", .reach = 20}, machine_, at(70, 40, 0), {block_});
+  const CycleRun run = run_cycle({.kind = ProbingKind::corner, .side = "front-left", .touch = {.reach = 20}}, machine_,
+                                 at(70, 40, 0), {block_});
   EXPECT_THAT(run.words, testing::HasSubstr("gcode.probe"));
   EXPECT_GE(run.end[Axis::z], -11.3);
 }
@@ -183,8 +183,9 @@ TEST_F(ProbingCycles, the_middle_of_a_boss) {
 TEST_F(ProbingCycles, the_length_of_a_tool) {
   TouchBox setter = below(Axis::z, -17.3);
   setter.ranges[Axis::x] = {.low = 95, .high = 105};
-  const CycleRun run = run_cycle({.kind = ProbingKind::tool, .reach = 50, .x = 100, .y = 80, .tool = 7, .zero_z = -40},
-                                 machine_, at(0, 0, -3), {setter});
+  const CycleRun run = run_cycle(
+      {.kind = ProbingKind::tool, .touch = {.reach = 50}, .x = 100, .y = 80, .tool = {.number = 7, .zero_z = -40}},
+      machine_, at(0, 0, -3), {setter});
   EXPECT_EQ(run.words, "");
   const Tool* const tool = run.tools.find(7);
   ASSERT_NE(tool, nullptr);
@@ -227,7 +228,8 @@ std::vector<Touchable> plate_with_bores(double x1, double y1, double x2, double 
 }
 
 TEST_F(ProbingCycles, two_bores_tell_place_and_angle) {
-  const ProbingCycle cycle{.kind = ProbingKind::bores, .reach = 8, .x = 5, .y = 40, .second_x = 75, .second_y = 40};
+  const ProbingCycle cycle{
+      .kind = ProbingKind::bores, .touch = {.reach = 8}, .x = 5, .y = 40, .second_x = 75, .second_y = 40};
   // In the machine they are 70.02 mm apart, turned by 2.3 degrees.
   const double angle = 2.3 * std::numbers::pi / 180;
   const double x2 = 30 + 70.02 * std::cos(angle);
@@ -251,7 +253,8 @@ TEST_F(ProbingCycles, two_bores_tell_place_and_angle) {
 }
 
 TEST_F(ProbingCycles, bores_that_are_not_as_far_apart_as_they_should_be_end_the_program) {
-  const ProbingCycle cycle{.kind = ProbingKind::bores, .reach = 8, .x = 5, .y = 40, .second_x = 75, .second_y = 40};
+  const ProbingCycle cycle{
+      .kind = ProbingKind::bores, .touch = {.reach = 8}, .x = 5, .y = 40, .second_x = 75, .second_y = 40};
   const CycleRun run = run_cycle(cycle, machine_, at(31, 24, -8), plate_with_bores(30, 25, 101, 25));
   EXPECT_THAT(run.words, testing::HasSubstr("apart; they should be 70.0000 mm apart"));
   EXPECT_FALSE(probing_program({.kind = ProbingKind::bores, .second_x = 0, .second_y = 0}));

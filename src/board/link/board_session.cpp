@@ -26,7 +26,7 @@ constexpr int many_places = 200;
 
 // What a step generator hands on, and no board refuses.
 bool is_playable(const BoardSegment& segment) {
-  return segment.events > 0 && std::abs(segment.change) <= largest_change;
+  return segment.events > 0 && segment.events <= most_events && std::abs(segment.change) <= largest_change;
 }
 
 }  // namespace

@@ -57,10 +57,10 @@ void CycleText::head(std::string_view start, std::string_view end) {
 
 // #1 #2 #3: the way of the touch. What the probe touched is kept in #5061 and the following.
 void CycleText::write_subs() {
-  line("#<_reach> = {:.4f} (largest length of a probe move)", cycle_.reach);
-  line("#<_back> = {:.4f} (retract between the two touches)", cycle_.back);
-  line("#<_fast> = {:.4f} (speed of the first touch)", cycle_.fast);
-  line("#<_slow> = {:.4f} (speed of the second touch)", cycle_.slow);
+  line("#<_reach> = {:.4f} (largest length of a probe move)", cycle_.touch.reach);
+  line("#<_back> = {:.4f} (retract between the two touches)", cycle_.touch.back);
+  line("#<_fast> = {:.4f} (speed of the first touch)", cycle_.touch.fast);
+  line("#<_slow> = {:.4f} (speed of the second touch)", cycle_.touch.slow);
   line("o<touch> sub (#1 #2 #3: the direction)");
   line("  G91");
   line("  G38.2 X[#1*#<_reach>] Y[#2*#<_reach>] Z[#3*#<_reach>] F#<_fast>");
@@ -111,14 +111,14 @@ void CycleText::corner() {
   touch(0, 0, -1);
   set_zero('Z', -1, 0);
   line("G0 Z{:.4f}", cycle_.clearance);
-  go('X', -ways.x * cycle_.reach);
+  go('X', -ways.x * cycle_.touch.reach);
   line("o<lower> call [{:.4f}]", -cycle_.depth);
   touch(ways.x, 0, 0);
   set_zero('X', ways.x, 0);
   line("G0 X{:.4f}", -ways.x * (cycle_.clearance + cycle_.ball / 2));
   line("G0 Z{:.4f}", cycle_.clearance);
   line("G0 X{:.4f}", ways.x * cycle_.inside);
-  go('Y', -ways.y * cycle_.reach);
+  go('Y', -ways.y * cycle_.touch.reach);
   line("o<lower> call [{:.4f}]", -cycle_.depth);
   touch(0, ways.y, 0);
   set_zero('Y', ways.y, 0);
@@ -133,13 +133,13 @@ void CycleText::corner() {
 void CycleText::go_to_middle() {
   touch(-1, 0, 0);
   line("#<left> = #5061");
-  go('X', cycle_.back);
+  go('X', cycle_.touch.back);
   touch(1, 0, 0);
   line("#<middle_x> = [[#<left>+#5061]/2]");
   line("G0 X#<middle_x>");
   touch(0, -1, 0);
   line("#<front> = #5062");
-  go('Y', cycle_.back);
+  go('Y', cycle_.touch.back);
   touch(0, 1, 0);
   line("#<middle_y> = [[#<front>+#5062]/2]");
   line("#<diameter> = [#5062-#<front>+{:.4f}]", cycle_.ball);
@@ -224,15 +224,15 @@ void CycleText::boss() {
 }
 
 void CycleText::tool() {
-  const int tool = static_cast<int>(cycle_.tool);
+  const int tool = static_cast<int>(cycle_.tool.number);
   head("anywhere; the tool is in the spindle", "above the fixed probe");
   write_subs();
-  line("G53 G0 Z{:.4f}", cycle_.travel_z);
+  line("G53 G0 Z{:.4f}", cycle_.tool.travel_z);
   line("G53 G0 X{:.4f} Y{:.4f}", cycle_.x, cycle_.y);
   touch(0, 0, -1);
-  line("#<length> = [#<_abs_z>-#5422+#5063-{:.6f}]", cycle_.zero_z);
+  line("#<length> = [#<_abs_z>-#5422+#5063-{:.6f}]", cycle_.tool.zero_z);
   line("G10 L1 P{} Z#<length>", tool);
-  line("G53 G0 Z{:.4f}", cycle_.travel_z);
+  line("G53 G0 Z{:.4f}", cycle_.tool.travel_z);
   line("(PRINT,found: tool {} is #<length> long)", tool);
 }
 
@@ -274,7 +274,7 @@ void CycleText::map() {
     for (int i = 0; i < columns; ++i) {
       const double x = cycle_.x + cycle_.size_x * (row % 2 == 0 ? i : columns - 1 - i) / (columns - 1);
       line("G0 X{:.4f} Y{:.4f}", x, y);
-      line("G38.2 Z{:.4f} F{:.4f}", -cycle_.depth, cycle_.fast);
+      line("G38.2 Z{:.4f} F{:.4f}", -cycle_.depth, cycle_.touch.fast);
       line("(LOG,{:.4f},{:.4f},#5063)", x, y);
       line("G0 Z{:.4f}", cycle_.clearance);
     }

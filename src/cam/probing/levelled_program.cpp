@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 #include <utility>
 
 #include "leveller.hpp"
@@ -12,41 +11,15 @@
 namespace passo {
 namespace {
 
-constexpr double turn = 2 * std::numbers::pi;
-constexpr double same_height = 1e-9;  // mm; degrees
-constexpr double coarsest = 1e6;      // mm: an arc is not divided
-constexpr double least_step = 1e-5;   // mm, that is written
-// A piece of an arc that is shorter is written as a line: its ends might be one place as they are written.
-constexpr double shortest_arc = 1e-3;  // mm
-
-LevelPlace level_place(const Point& place) {
-  return {place[Axis::x], place[Axis::y], place[Axis::z]};
-}
-
 double sweep_of(double start_angle, double end_angle, std::int32_t turns) {
-  double sweep = std::fmod((end_angle - start_angle) * (turns > 0 ? 1 : -1), turn);
-  if (sweep < 0) sweep += turn;
-  if (sweep < 1e-12) sweep += turn;
-  sweep += turn * (std::abs(turns) - 1);
+  double sweep = std::fmod((end_angle - start_angle) * (turns > 0 ? 1 : -1), full_turn);
+  if (sweep < 0) sweep += full_turn;
+  if (sweep < 1e-12) sweep += full_turn;
+  sweep += full_turn * (std::abs(turns) - 1);
   return turns > 0 ? sweep : -sweep;
 }
 
 }  // namespace
-
-bool is_same_place(double a, double b) {
-  return std::abs(a - b) < same_height;
-}
-bool is_same_place(const Point& a, const Point& b) {
-  return std::ranges::all_of(all_axes, [&](Axis axis) { return is_same_place(a[axis], b[axis]); });
-}
-
-// From anywhere: no way is known to be straight up.
-bool LevelledMove::is_upright() const {
-  for (const Axis axis : all_axes) {
-    if (axis != Axis::z && !is_same_place(from[axis], to[axis])) return false;
-  }
-  return !is_arc && !from_anywhere;
-}
 
 Leveller::Leveller(Interpreter& interpreter, const InterpreterOptions& options, const std::string& file,
                    const HeightMap& map, const LevelOptions& wish, Diagnostics& diagnostics,
@@ -56,12 +29,10 @@ Leveller::Leveller(Interpreter& interpreter, const InterpreterOptions& options, 
       wish_(wish),
       diagnostics_(diagnostics),
       file_(file),
-      code_(write),
-      highest_(map.highest()),
+      writer_(map, wish, options.start[Axis::z], write),
       machine_unit_(options.machine_units == LengthUnits::inch ? 25.4 : 1),
       has_tools_(!options.tools.name.empty()),
-      place_(options.start),
-      height_(options.start[Axis::z]) {}
+      place_(options.start) {}
 
 void Leveller::report(const Operation& operation, Severity severity, std::string code, std::string message,
                       std::string expected) {
@@ -98,7 +69,8 @@ double Leveller::feed_of(const Point& end) const {
   bool is_rotary_only = true;
   for (const Axis axis : all_axes)
     is_rotary_only = is_rotary_only && (is_rotary(axis) || is_same_place(end[axis], place_[axis]));
-  return is_rotary_only && !is_same_place(end, place_) ? rotary_feed_ : feed_;
+  const bool is_rotary_feed = is_rotary_only && !is_same_place(end, place_);
+  return (is_rotary_feed ? feed_.rotary : feed_.linear.value()) * seconds_per_minute;
 }
 
 LevelledMove Leveller::move_to(const Operation& operation, const Point& end, bool rapid) {
@@ -112,13 +84,13 @@ LevelledMove Leveller::move_to(const Operation& operation, const Point& end, boo
   }
   if (!block.incremental) move.absolute = move.named;
   for (const Axis axis : {Axis::x, Axis::y}) {
-    move.from_anywhere = move.from_anywhere || (move.absolute.has(axis) && !known_.has(axis));
+    move.from_anywhere = move.from_anywhere || (move.absolute.has(axis) && !said_.has(axis));
   }
-  const bool is_of_machine = at_ == LevelHeight::of_machine;
+  const bool is_of_machine = said_.height() == LevelHeight::of_machine;
   const bool names_height = move.absolute.has(Axis::z) || !is_same_place(end[Axis::z], place_[Axis::z]);
-  move.from_above = at_ != LevelHeight::known && move.absolute.has(Axis::z);
+  move.from_above = said_.height() != LevelHeight::known && move.absolute.has(Axis::z);
   // Nothing is in the way of a rapid that is high enough all its way.
-  const double clear = highest_ + wish_.clear;
+  const double clear = writer_.highest() + wish_.clear;
   const bool is_clear =
       rapid && end[Axis::z] >= clear && (is_of_machine || place_[Axis::z] >= clear || move.is_upright());
   move.levelled = !is_clear && (names_height || !is_of_machine);
@@ -127,21 +99,15 @@ LevelledMove Leveller::move_to(const Operation& operation, const Point& end, boo
            "the height map is not applied to this feed move, because the program has not set a work Z yet",
            "a move to a Z in work coordinates before");
   }
-  const bool is_assumed = !move.from_anywhere && (!known_.has(Axis::x) || !known_.has(Axis::y));
+  const bool is_assumed = !move.from_anywhere && (!said_.has(Axis::x) || !said_.has(Axis::y));
   if (move.levelled && is_assumed && !std::exchange(told_place_, true)) {
     report(
         operation, Severity::warning, "level.place",
         fmt::format("the program has not set work X and Y yet; X{:.3f} Y{:.3f} is assumed", end[Axis::x], end[Axis::y]),
         "a move to X and Y in work coordinates before");
   }
-  if (names_height) {
-    const bool becomes_known = at_ == LevelHeight::known || move.absolute.has(Axis::z);
-    at_ = becomes_known ? LevelHeight::known : LevelHeight::of_work;
-  }
-  move.is_new_place = (move.absolute.bits() & ~known_.bits()) != 0;
-  for (const Axis axis : all_axes) {
-    if (move.absolute.has(axis)) known_.add(axis);
-  }
+  move.is_new_place = !said_.has_all(move.absolute);
+  said_.note_move(move.absolute, names_height);
   return move;
 }
 
@@ -149,7 +115,8 @@ void Leveller::handle_straight(const Operation& operation, const Point& end, boo
   const LevelledMove move = move_to(operation, end, rapid);
   if (is_same_place(move.from, move.to) && !move.is_new_place) return;
   if (!rapid && move.levelled) check_lead(operation, end);
-  add({.line = {}, .move = move, .is_move = true});
+  writer_.add(move);
+  place_ = move.to;
 }
 
 void Leveller::handle_arc(const Operation& operation, const operation::ArcFeed& arc) {
@@ -165,7 +132,8 @@ void Leveller::handle_arc(const Operation& operation, const operation::ArcFeed& 
   move.center_y = arc.second_center.value();
   move.sweep = sweep_of(std::atan2(place_[Axis::y] - move.center_y, place_[Axis::x] - move.center_x),
                         std::atan2(arc.end[Axis::y] - move.center_y, arc.end[Axis::x] - move.center_x), arc.turns);
-  add({.line = {}, .move = move, .is_move = true});
+  writer_.add(move);
+  place_ = move.to;
 }
 
 // On a surface that is not flat, an arc of the planes ZX and YZ is no arc any more: it becomes chords.
@@ -202,21 +170,12 @@ void Leveller::handle_move(const Operation& operation) {
   handle_straight(operation, end, rapid != nullptr);
 }
 
-// The end of a program switches off what the program has switched off, and M9 stands for two operations.
-bool Leveller::is_off_already(std::string_view line) {
-  if (line == "M5") return std::exchange(spindle_is_off_, true);
-  if (line == "M9") return std::exchange(coolant_is_off_, true);
-  if (line == "M3" || line == "M4") spindle_is_off_ = false;
-  if (line == "M7" || line == "M8") coolant_is_off_ = false;
-  return false;
-}
-
 bool Leveller::handle(const Operation& operation) {
   if (cycle_.block != blocks_.last().number) end_cycle();
   for (const FrameBlock& block : blocks_.take_executed()) read_block(block);
   if (std::holds_alternative<operation::Reset>(operation.what) && !is_reset_) {
     is_reset_ = true;
-    add_line("G17 G21 G40 G80 G90 G94");
+    writer_.add_line("G17 G21 G40 G80 G90 G94");
     return true;
   }
   if (keeps_cycle(operation)) return true;
@@ -224,15 +183,15 @@ bool Leveller::handle(const Operation& operation) {
   if (is_any_of<operation::StraightTraverse, operation::StraightFeed, operation::ArcFeed>(operation)) {
     handle_move(operation);
   } else if (const auto* rate = std::get_if<operation::SetFeedRate>(&operation.what)) {
-    feed_ = rate->rate * 60;
-    rotary_feed_ = rate->rotary_rate * 60;
+    // G95 was refused.
+    if (const auto* feed = std::get_if<operation::FeedPerSecond>(&rate->feed)) feed_ = *feed;
   } else if (const auto* mode = std::get_if<operation::SetPathMode>(&operation.what)) {
     path_mode_ = *mode;
-    add_line(path_mode_line(*mode, mode->tolerance));
+    writer_.add_line(path_mode_line(*mode, mode->tolerance));
   } else if (const auto* merge = std::get_if<operation::SetMergeTolerance>(&operation.what)) {
-    if (merge->tolerance != path_mode_.tolerance) add_line(path_mode_line(path_mode_, merge->tolerance));
+    if (merge->tolerance != path_mode_.tolerance) writer_.add_line(path_mode_line(path_mode_, merge->tolerance));
   } else if (auto line = plain_line_of(operation)) {
-    if (!line->empty() && !is_off_already(*line)) add_line(std::move(*line));
+    if (!line->empty() && !off_codes_.is_off_already(*line)) writer_.add_line(std::move(*line));
   } else {
     refuse(operation, "level.cannot", "the height map cannot be applied to this operation",
            "lines, arcs and canned cycles; no probing, threading, tapping, splines or inputs");
@@ -241,123 +200,9 @@ bool Leveller::handle(const Operation& operation) {
          !std::holds_alternative<operation::Finish>(operation.what);
 }
 
-void Leveller::add(Item item) {
-  if (item.is_move) {
-    ++count_.moves_before;
-    place_ = item.move.to;
-    any_levelled_ = any_levelled_ || item.move.levelled;
-    const LevelledMove& move = item.move;
-    const bool goes_down = move.to[Axis::z] < move.from[Axis::z] || move.from_above;
-    if (move.is_upright() && (goes_down || !run_.empty())) {
-      run_.push_back(std::move(item));
-      return;
-    }
-    emit_run();
-    return emit(item);
-  }
-  if (run_.empty()) return emit(item);
-  run_.push_back(std::move(item));
-}
-
-// A run that ends where its first feed began, or higher, is a hole. Below that its heights are those of the program. If
-// nobody knows where it began, it is a hole if the tool comes up again.
-void Leveller::emit_run(bool rises) {
-  if (run_.empty()) return;
-  const auto feed = std::ranges::find_if(run_, [](const Item& item) { return item.is_move && !item.move.rapid; });
-  double top = feed != run_.end() ? feed->move.from[Axis::z] : 0;
-  double end = top;
-  for (const Item& item : run_) end = item.is_move ? item.move.to[Axis::z] : end;
-  if (feed != run_.end() && feed->move.from_above) {
-    rises = rises || end > feed->move.to[Axis::z] + same_height;
-    top = std::max(end, feed->move.to[Axis::z] + 2 * same_height);
-  }
-  const bool is_hole = !wish_.holes && feed != run_.end() && (rises || end >= top - same_height);
-  if (is_hole) ++count_.holes;
-  for (Item& item : run_) {
-    if (is_hole && item.move.to[Axis::z] < top - same_height) item.move.levelled = false;
-    emit(item);
-  }
-  run_.clear();
-}
-
 void Leveller::finish() {
   end_cycle();
-  emit_run();
-}
-
-void Leveller::emit(const Item& item) {
-  if (item.is_move) return emit_move(item.move);
-  code_.line(item.line);
-}
-
-// After a rapid that was not levelled: the whole way of this move is levelled, from its beginning.
-void Leveller::begin_at_height(const LevelledMove& move) {
-  const double height = move.from[Axis::z] + map_.height(move.from[Axis::x], move.from[Axis::y]);
-  if (move.from_anywhere || move.from_above || std::abs(height - height_) < least_step) return;
-  PlainMove plain{.rapid = move.rapid, .feed = move.feed, .to = move.from};
-  plain.to[Axis::z] = height_ = height;
-  code_.move(plain);
-  ++count_.moves_after;
-}
-
-void Leveller::emit_move(const LevelledMove& move) {
-  PlainMove plain{
-      .rapid = move.rapid, .feed = move.feed, .named = move.named, .absolute = move.absolute, .to = move.to};
-  const LevelPlace from = level_place(move.from);
-  const LevelPlace to = level_place(move.to);
-  if (move.is_arc && !move.levelled) return emit_arc_piece(move, 0, {.end = to});
-  const bool is_whole = (move.from_anywhere || move.from_above) && !move.is_arc;
-  if (!move.levelled || is_whole || move.is_upright()) {
-    plain.to[Axis::z] = move.levelled ? to.z + map_.height(to.x, to.y) : to.z;
-    code_.move(plain);
-    ++count_.moves_after;
-    height_ = plain.to[Axis::z];
-    return;
-  }
-  begin_at_height(move);
-  const double tolerance = move.from_above ? coarsest : wish_.tolerance;
-  const auto pieces = move.is_arc ? level_arc(map_, from, to, move.center_x, move.center_y, move.sweep, tolerance)
-                                  : level_line(map_, from, to, tolerance);
-  double part = 0;
-  for (const LevelledPiece& piece : pieces) {
-    if (move.is_arc) {
-      emit_arc_piece(move, part, piece);
-    } else {
-      plain.to = move.from + (move.to - move.from) * piece.part;
-      if (piece.part == 1) plain.to = move.to;
-      plain.to[Axis::z] = height_ = piece.end.z;
-      code_.move(plain);
-      ++count_.moves_after;
-    }
-    part = piece.part;
-  }
-}
-
-// Whole turns are written one by one.
-void Leveller::emit_arc_piece(const LevelledMove& move, double from_part, const LevelledPiece& piece) {
-  const double sweep = move.sweep * (piece.part - from_part);
-  const int turns = std::max(1, static_cast<int>(std::ceil(std::abs(sweep) / turn - 1e-9)));
-  const double start_radius = std::hypot(move.from[Axis::x] - move.center_x, move.from[Axis::y] - move.center_y);
-  const double end_radius = std::hypot(move.to[Axis::x] - move.center_x, move.to[Axis::y] - move.center_y);
-  const double start_angle = std::atan2(move.from[Axis::y] - move.center_y, move.from[Axis::x] - move.center_x);
-  const double from_height = height_;
-  for (int i = 1; i <= turns; ++i) {
-    const double share = static_cast<double>(i) / turns;
-    const double part = from_part + (piece.part - from_part) * share;
-    PlainMove plain{.rapid = false, .feed = move.feed, .named = move.named, .absolute = move.absolute, .to = move.to};
-    if (part != 1) {
-      const double radius = start_radius + (end_radius - start_radius) * part;
-      plain.to = move.from + (move.to - move.from) * part;
-      plain.to[Axis::x] = move.center_x + radius * std::cos(start_angle + move.sweep * part);
-      plain.to[Axis::y] = move.center_y + radius * std::sin(start_angle + move.sweep * part);
-    }
-    plain.to[Axis::z] = height_ = i == turns ? piece.end.z : from_height + (piece.end.z - from_height) * share;
-    if (std::abs(sweep) / turns * std::max(start_radius, end_radius) >= shortest_arc) {
-      plain.arc = PlainMove::Arc{.center_x = move.center_x, .center_y = move.center_y, .clockwise = sweep < 0};
-    }
-    code_.move(plain);
-    ++count_.moves_after;
-  }
+  writer_.end_run();
 }
 
 LevelCount write_levelled_program(ProgramReader program, const InterpreterOptions& options, const HeightMap& map,

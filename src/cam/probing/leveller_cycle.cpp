@@ -41,23 +41,23 @@ bool Leveller::keeps_cycle(const Operation& operation) {
   }
   if (std::exchange(cycle_.block, block.number) != block.number) {
     read_cycle_words(block);
-    const bool is_known = at_ == LevelHeight::known;
+    const bool is_known = said_.height() == LevelHeight::known;
     if (block.incremental || (is_known && !(cycle_.is_kept && block.to_start))) return false;
     if (!is_drilling(block.cycle) || is_known) {
       refuse(operation, "level.height", fmt::format("{} starts at a height that the program has not set", block.cycle),
              "a move to a Z before the cycle");
     }
-    emit_run();
-    if (!std::exchange(cycle_.is_kept, true)) cycle_.began_at = at_;
+    writer_.end_run();
+    if (!std::exchange(cycle_.is_kept, true)) cycle_.began_at = said_.height();
     cycle_.is_open = true;
-    cycle_block_ = block;
+    cycle_.line = block;
   }
   if (!cycle_.is_open) return false;
   if (end != nullptr) {
     if (std::holds_alternative<operation::StraightFeed>(operation.what)) check_lead(operation, *end);
-    height_ += (*end)[Axis::z] - place_[Axis::z];
+    writer_.rise((*end)[Axis::z] - place_[Axis::z]);
     place_ = *end;
-    ++count_.moves_before;
+    ++writer_.count().moves_before;
     return true;
   }
   return true;
@@ -81,24 +81,19 @@ void Leveller::end_cycle() {
   std::string words;
   for (auto [letter, value] : cycle_.words) {
     if (letter == 'R') {
-      if (!cycle_block_.to_start) place_[Axis::z] = value;
+      if (!cycle_.line.to_start) place_[Axis::z] = value;
       value += surface;
-      if (!cycle_block_.to_start) height_ = value;
+      if (!cycle_.line.to_start) writer_.set_height(value);
     }
     if (letter == 'Z' && wish_.holes) value += surface;
     words += fmt::format(" {}{:.5f}", letter, value);
   }
-  if (cycle_block_.has('L')) words += fmt::format(" L{:g}", cycle_block_.value('L'));
-  if (!wish_.holes) ++count_.holes;
-  Point stands = place_;
-  stands[Axis::z] = height_;
-  code_.cycle(fmt::format("{} {}", cycle_block_.to_start ? "G98" : "G99", cycle_block_.cycle), words, feed_, stands,
-              !cycle_block_.to_start);
-  ++count_.moves_after;
-  known_.add(Axis::x);
-  known_.add(Axis::y);
-  at_ = cycle_block_.to_start ? cycle_.began_at : LevelHeight::known;
-  if (at_ == LevelHeight::known) known_.add(Axis::z);
+  if (cycle_.line.has('L')) words += fmt::format(" L{:g}", cycle_.line.value('L'));
+  if (!wish_.holes) ++writer_.count().holes;
+  writer_.code().cycle(fmt::format("{} {}", cycle_.line.to_start ? "G98" : "G99", cycle_.line.cycle), words,
+                       feed_.linear.value() * seconds_per_minute, writer_.at_height(place_), !cycle_.line.to_start);
+  ++writer_.count().moves_after;
+  said_.note_cycle(cycle_.line.to_start ? cycle_.began_at : LevelHeight::known);
 }
 
 }  // namespace passo

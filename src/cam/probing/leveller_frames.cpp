@@ -43,11 +43,11 @@ void Leveller::read_block(const FrameBlock& block) {
 }
 
 void Leveller::read_system(const FrameBlock& block) {
-  emit_run();
-  add_line(block.system.name);
+  writer_.end_run();
+  writer_.add_line(block.system.name);
   // The interpreter has the number already; where it stays, no operation follows.
-  const int before = std::exchange(system_, system_of_code(block.system.name));
-  if (before != system_ && !wish_.knows_offsets) lose(every_axis);
+  const int before = std::exchange(written_.system, system_of_code(block.system.name));
+  if (before != written_.system && !wish_.knows_offsets) lose(every_axis);
 }
 
 // G10 L1, L10 and L11 set a tool, L2 and L20 the zero of the work.
@@ -57,7 +57,7 @@ void Leveller::read_tool_entry(const FrameBlock& block) {
     return refuse(block, "level.offset", fmt::format("G10 L{} changes the work zero", kind),
                   "work offsets set before the program (e.g. G54)");
   }
-  emit_run();
+  writer_.end_run();
   std::string line = fmt::format("G10 L{}", kind);
   for (const char letter : {'P', 'R', 'I', 'J', 'Q'}) {
     if (!block.has(letter) || kind == 0) continue;
@@ -65,18 +65,18 @@ void Leveller::read_tool_entry(const FrameBlock& block) {
     line += fmt::format(" {}{:g}", letter, block.value(letter) * unit);
   }
   // L10 and L11 say where the tool is; the levelled program is higher.
-  if (kind != 0) line += axis_words_of(block, kind == 1 ? 0 : height_ - place_[Axis::z]);
-  add_line(std::move(line));
+  if (kind != 0) line += axis_words_of(block, kind == 1 ? 0 : writer_.higher_than(place_));
+  writer_.add_line(std::move(line));
 }
 
 // The machine keeps where it stands: higher than the program would stand by the height of the surface.
 void Leveller::store_home(const FrameBlock& block) {
-  emit_run();
-  add_line(block.place.name);
-  const double higher = (height_ - place_[Axis::z]) / machine_unit_;
+  writer_.end_run();
+  writer_.add_line(block.place.name);
+  const double higher = writer_.higher_than(place_) / machine_unit_;
   if (std::abs(higher) < 1e-6) return;
   const int parameter = block.place.name == "G28.1" ? 5163 : 5183;
-  add_line(fmt::format("#{}=[#{}{:+.6f}]", parameter, parameter, -higher));
+  writer_.add_line(fmt::format("#{}=[#{}{:+.6f}]", parameter, parameter, -higher));
 }
 
 // True: the operation is about the frame, and is done.
@@ -84,13 +84,11 @@ bool Leveller::follow_frame(const Operation& operation) {
   const Frame before = frame_;
   if (!frame_.follow(operation)) return false;
   if (is_reset_) write_frame(operation, before);
-  emit_run();
+  writer_.end_run();
   const Point after = frame_.work_from_machine(before.machine_from_work(place_));
-  height_ += after[Axis::z] - place_[Axis::z];
+  writer_.rise(after[Axis::z] - place_[Axis::z]);
   place_ = after;
-  Point stands = place_;
-  stands[Axis::z] = height_;
-  code_.stand_at(stands);
+  writer_.stand_at(place_);
   return true;
 }
 
@@ -98,23 +96,23 @@ void Leveller::write_frame(const Operation& operation, const Frame& before) {
   if (std::holds_alternative<operation::SetToolOffset>(operation.what)) return write_tool_offset();
   const FrameBlock& block = blocks_.last();
   if (frame_.work_system() != before.work_system()) {
-    if (frame_.work_system() == system_) return;                  // written with its block
+    if (frame_.work_system() == written_.system) return;          // written with its block
     if (block.value('M') == 2 || block.value('M') == 30) return;  // the end of the program, here and there
-    system_ = frame_.work_system();
-    emit_run();
-    add_line(code_of_system(system_));  // M72
+    written_.system = frame_.work_system();
+    writer_.end_run();
+    writer_.add_line(code_of_system(written_.system));  // M72
     return lose(every_axis);
   }
   const bool has_moved = frame_.g92_offset() != before.g92_offset();
-  if (block.place.name.starts_with("G92.") && block.number != g92_block_) {
-    g92_block_ = block.number;
-    if (has_moved && any_levelled_) {
+  if (block.place.name.starts_with("G92.") && block.number != written_.g92_block) {
+    written_.g92_block = block.number;
+    if (has_moved && writer_.any_levelled()) {
       return refuse(operation, "level.offset",
                     fmt::format("{} changes the work zero after moves on the surface", block.place.name),
                     "work offsets set before the program (e.g. G54)");
     }
-    emit_run();
-    add_line(block.place.name);
+    writer_.end_run();
+    writer_.add_line(block.place.name);
     if (!wish_.knows_offsets) lose(every_axis);
   }
 }
@@ -134,25 +132,22 @@ void Leveller::write_tool_offset() {
   } else if (block.has('H')) {
     line += fmt::format(" H{}", std::lround(block.value('H')));
   }
-  emit_run();
-  add_line(std::move(line));
-  const bool was_known = std::exchange(has_tool_offset_, true) || wish_.knows_offsets;
+  writer_.end_run();
+  writer_.add_line(std::move(line));
+  const bool was_known = std::exchange(written_.has_tool_offset, true) || wish_.knows_offsets;
   if (!was_known || !has_tools_) lose(only(Axis::z));
 }
 
 void Leveller::lose(AxisSet axes) {
-  for (const Axis axis : all_axes) {
-    if (axes.has(axis)) known_.remove(axis);
-  }
-  if (axes.has(Axis::z) && at_ == LevelHeight::known) at_ = LevelHeight::of_work;
-  code_.forget(axes);
+  said_.lose(axes);
+  writer_.code().forget(axes);
 }
 
 void Leveller::handle_machine_move(const Point& end, bool rapid) {
   const FrameBlock& block = blocks_.last();
   if (block.named.empty()) return;
-  emit_run(block.named.has(Axis::z));
-  code_.machine_move(rapid, feed_of(end), block.named, frame_.machine_from_work(end));
+  writer_.end_run(block.named.has(Axis::z));
+  writer_.code().machine_move(rapid, feed_of(end), block.named, frame_.machine_from_work(end));
   stand_in_machine(end, block.named);
 }
 
@@ -160,33 +155,30 @@ void Leveller::handle_machine_move(const Point& end, bool rapid) {
 bool Leveller::handle_home(const Point& end) {
   const FrameBlock& block = blocks_.last();
   if (std::exchange(homing_, block.number) != block.number) {
-    const bool is_known = (block.named.bits() & ~known_.bits()) == 0;
-    return is_same_place(end, place_) && (block.incremental || is_known);
+    return is_same_place(end, place_) && (block.incremental || said_.has_all(block.named));
   }
   const AxisSet axes = block.named.empty() ? every_axis : block.named;
-  emit_run(axes.has(Axis::z));
-  code_.home(block.place.name, block.named);
+  writer_.end_run(axes.has(Axis::z));
+  writer_.code().home(block.place.name, block.named);
   stand_in_machine(end, axes);
   return true;
 }
 
 // In a work that is turned X and Y change together.
 void Leveller::stand_in_machine(const Point& end, AxisSet axes) {
-  ++count_.moves_before;
-  ++count_.moves_after;
+  ++writer_.count().moves_before;
+  ++writer_.count().moves_after;
   if (axes.has(Axis::x) || axes.has(Axis::y)) {
     axes.add(Axis::x);
     axes.add(Axis::y);
   }
-  const double higher = axes.has(Axis::z) ? 0 : height_ - place_[Axis::z];
+  const double higher = axes.has(Axis::z) ? 0 : writer_.higher_than(place_);
   if (!wish_.knows_offsets) lose(axes);
   if (axes.has(Axis::z)) lose(only(Axis::z));
-  if (axes.has(Axis::z)) at_ = LevelHeight::of_machine;
+  if (axes.has(Axis::z)) said_.leave_work();
   place_ = end;
-  height_ = end[Axis::z] + higher;
-  Point stands = place_;
-  stands[Axis::z] = height_;
-  code_.stand_at(stands);
+  writer_.set_height(end[Axis::z] + higher);
+  writer_.stand_at(place_);
 }
 
 }  // namespace passo

@@ -28,43 +28,53 @@ constexpr std::uint32_t has_system = all & ~of({Kind::tool});
 constexpr std::uint32_t has_ball = of({Kind::edge, Kind::corner, Kind::bore, Kind::boss, Kind::bores});
 
 using C = ProbingCycle;
+// A number of a cycle, by the members that lead to it.
+template <auto... members>
+double& part(ProbingCycle& cycle) {
+  return (cycle.*....*members);
+}
+
 constexpr double far = 1e5;  // mm
 constexpr ProbingField fields[] = {
-    {"system", &C::system, 1, 9, true, has_system, "work offset that stores the result: 1 is G54, 9 is G59.3"},
-    {"ball", &C::ball, 0, 100, false, has_ball, "diameter of the probe's ball, mm"},
-    {"reach", &C::reach, 0.1, 1000, false, touches_twice, "largest length of a probe move, mm"},
-    {"fast", &C::fast, 1, 10000, false, all, "feed rate of the first touch (for a map the only one), mm/min"},
-    {"slow", &C::slow, 1, 10000, false, touches_twice, "feed rate of the second touch, mm/min"},
-    {"back", &C::back, 0.01, 100, false, touches_twice, "retract distance between the two touches, mm"},
-    {"clearance", &C::clearance, 0.1, 1000, false, all, "clearance from the touched surface after a touch, mm"},
-    {"depth", &C::depth, 0.01, 1000, false, of({Kind::corner, Kind::boss, Kind::map}),
+    {"system", part<&C::system>, 1, 9, true, has_system, "work offset that stores the result: 1 is G54, 9 is G59.3"},
+    {"ball", part<&C::ball>, 0, 100, false, has_ball, "diameter of the probe's ball, mm"},
+    {"reach", part<&C::touch, &C::Touch::reach>, 0.1, 1000, false, touches_twice, "largest length of a probe move, mm"},
+    {"fast", part<&C::touch, &C::Touch::fast>, 1, 10000, false, all,
+     "feed rate of the first touch (for a map the only one), mm/min"},
+    {"slow", part<&C::touch, &C::Touch::slow>, 1, 10000, false, touches_twice, "feed rate of the second touch, mm/min"},
+    {"back", part<&C::touch, &C::Touch::back>, 0.01, 100, false, touches_twice,
+     "retract distance between the two touches, mm"},
+    {"clearance", part<&C::clearance>, 0.1, 1000, false, all, "clearance from the touched surface after a touch, mm"},
+    {"depth", part<&C::depth>, 0.01, 1000, false, of({Kind::corner, Kind::boss, Kind::map}),
      "depth below the top at which the sides are touched; for a map: search depth below Z0, mm"},
-    {"height", &C::height, -1000, 1000, false, of({Kind::surface}), "work Z of the touched surface, mm"},
-    {"inside", &C::inside, 0.1, 1000, false, of({Kind::corner}),
+    {"height", part<&C::height>, -1000, 1000, false, of({Kind::surface}), "work Z of the touched surface, mm"},
+    {"inside", part<&C::inside>, 0.1, 1000, false, of({Kind::corner}),
      "distance from the corner at which the second side is touched, mm"},
-    {"size_x", &C::size_x, 0.01, 10000, false, of({Kind::boss, Kind::map}), "width along X, mm"},
-    {"size_y", &C::size_y, 0.01, 10000, false, of({Kind::boss, Kind::map}), "width along Y, mm"},
-    {"along", &C::along, 0.1, 10000, false, of({Kind::angle}), "distance of the two touched points, mm"},
-    {"x", &C::x, -far, far, false, of({Kind::tool, Kind::bores, Kind::map}),
+    {"size_x", part<&C::size_x>, 0.01, 10000, false, of({Kind::boss, Kind::map}), "width along X, mm"},
+    {"size_y", part<&C::size_y>, 0.01, 10000, false, of({Kind::boss, Kind::map}), "width along Y, mm"},
+    {"along", part<&C::along>, 0.1, 10000, false, of({Kind::angle}), "distance of the two touched points, mm"},
+    {"x", part<&C::x>, -far, far, false, of({Kind::tool, Kind::bores, Kind::map}),
      "X of the lower left corner of a map or of the first bore, in work coordinates; X of the tool probe, in machine "
      "coordinates, mm"},
-    {"y", &C::y, -far, far, false, of({Kind::tool, Kind::bores, Kind::map}), "Y of the same point, mm"},
-    {"second_x", &C::second_x, -far, far, false, of({Kind::bores}), "X of the second bore in work coordinates, mm"},
-    {"second_y", &C::second_y, -far, far, false, of({Kind::bores}), "Y of the second bore in work coordinates, mm"},
-    {"fit", &C::fit, 0.001, 1000, false, of({Kind::bores}), "bore spacing tolerance, mm"},
-    {"columns", &C::columns, 2, 200, true, of({Kind::map}), "number of points along X"},
-    {"rows", &C::rows, 2, 200, true, of({Kind::map}), "number of points along Y"},
-    {"tool", &C::tool, 1, 99999, true, of({Kind::tool}), "tool number"},
-    {"travel_z", &C::travel_z, -far, far, false, of({Kind::tool}),
+    {"y", part<&C::y>, -far, far, false, of({Kind::tool, Kind::bores, Kind::map}), "Y of the same point, mm"},
+    {"second_x", part<&C::second_x>, -far, far, false, of({Kind::bores}),
+     "X of the second bore in work coordinates, mm"},
+    {"second_y", part<&C::second_y>, -far, far, false, of({Kind::bores}),
+     "Y of the second bore in work coordinates, mm"},
+    {"fit", part<&C::fit>, 0.001, 1000, false, of({Kind::bores}), "bore spacing tolerance, mm"},
+    {"columns", part<&C::columns>, 2, 200, true, of({Kind::map}), "number of points along X"},
+    {"rows", part<&C::rows>, 2, 200, true, of({Kind::map}), "number of points along Y"},
+    {"tool", part<&C::tool, &C::MeasuredTool::number>, 1, 99999, true, of({Kind::tool}), "tool number"},
+    {"travel_z", part<&C::tool, &C::MeasuredTool::travel_z>, -far, far, false, of({Kind::tool}),
      "clearance height: machine Z for moves to the tool probe, mm"},
-    {"zero_z", &C::zero_z, -far, far, false, of({Kind::tool}),
+    {"zero_z", part<&C::tool, &C::MeasuredTool::zero_z>, -far, far, false, of({Kind::tool}),
      "machine Z at which a tool of length 0 touches the tool probe, mm"},
 };
 
 // Empty: all values are in their ranges.
-std::string wrong_value(const ProbingCycle& cycle) {
+std::string wrong_value(ProbingCycle cycle) {
   for (const ProbingField& field : fields) {
-    const double value = cycle.*field.value;
+    const double value = field.value(cycle);
     if (!field.is_of(cycle.kind)) continue;
     if (!(value >= field.low && value <= field.high))
       return fmt::format("{}: expected {:g} to {:g}, not {:g}", field.name, field.low, field.high, value);

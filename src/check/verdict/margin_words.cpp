@@ -1,5 +1,6 @@
 #include "passo/verdict/margin_words.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 #include <fmt/format.h>
@@ -52,6 +53,11 @@ std::string cure_of(const MarginSpot& spot) {
                         : "F <= " + rounded_down(60 * spot.safe_path_speed->value());
   }
   return words.empty() ? "a stronger motor, or less load" : words;
+}
+
+bool is_torque_enough(const MarginVerdict& margin) {
+  return std::ranges::none_of(
+      margin.worst, [](const MarginSpot& spot) { return spot.verdict != Verdict::safe && spot.want == Want::torque; });
 }
 
 }  // namespace passo

@@ -14,7 +14,7 @@
 #include "passo/api/mdi_lines.hpp"
 #include "passo/api/motion_owner.hpp"
 #include "passo/api/program_store.hpp"
-#include "passo/history/job_history.hpp"
+#include "passo/job/job_history.hpp"
 #include "passo/job/kept_job.hpp"
 
 namespace passo {

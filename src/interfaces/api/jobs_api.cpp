@@ -66,7 +66,7 @@ std::optional<ProbingCycle> cycle_from(const Json& body, std::uint64_t& program,
                            field == nullptr ? "this cycle does not know it" : "expected a number");
       return {};
     }
-    cycle.*(field->value) = value.get<double>();
+    field->value(cycle) = value.get<double>();
   }
   return cycle;
 }
@@ -116,7 +116,8 @@ WebAnswer JobsApi::probe(const ApiCall& call) {
   const MachineSession& session = shared_.session;
   if (session.state() != MachineState::idle || jobs_.is_checking()) return not_idle(session.state());
   if (cycle->kind == ProbingKind::tool) {
-    programs.set_offsets(programs.parameters(), with_tool(programs.tools(), static_cast<std::int32_t>(cycle->tool)));
+    programs.set_offsets(programs.parameters(),
+                         with_tool(programs.tools(), static_cast<std::int32_t>(cycle->tool.number)));
   }
   const StoredProgram* const program =
       programs.add(fmt::format("probe {}", name_of(cycle->kind)), Dialect::linuxcnc, *text);

@@ -193,7 +193,7 @@ void MachineApi::on_change(const MachineChange& change) {
 void MachineApi::poll() {
   if (mdi_.poll()) {
     SavedParameters parameters = mdi_.parameters();
-    parameters[work_system_parameter] = 1;  // programs begin with G54
+    begin_with_g54(parameters);
     shared_.offsets.adopt(parameters, mdi_.tools());
   }
   const MotionOwner& owner = shared_.owner;

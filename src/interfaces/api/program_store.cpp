@@ -95,7 +95,7 @@ InterpreterOptions ProgramStore::options_of(Dialect dialect) const {
   InterpreterOptions options;
   options.dialect = dialect;
   options.parameters = parameters_;
-  options.parameters[work_system_parameter] = 1;
+  begin_with_g54(options.parameters);
   options.tools = tools_;
   return options;
 }

@@ -19,9 +19,6 @@ bool changes_offsets(const std::string& line) {
          line.find("G30.1") != std::string::npos;
 }
 
-// A stream whose lines are done ends when nothing has come for so long.
-constexpr Seconds longest_rest{1};
-
 bool is_off(const OutputState& outputs) {
   return outputs.spindle == SpindleDirection::off && !outputs.mist && !outputs.flood;
 }
@@ -102,9 +99,7 @@ void GrblController::share_changed_offsets() {
 void GrblController::let_drive(bool drives) {
   if (drives == drives_) return;
   drives_ = drives;
-  if (std::exchange(waits_, Waits::none) != Waits::none) answer(GrblError::locked);
-  after_stop_ = nullptr;
-  homing_.reset();
+  if (due_.call_off()) answer(GrblError::locked);
   checks_ = resets_ = false;
   alarm_ = has_lost_place();
   if (!session_.busy()) program_.go_on_at(session_.status().position.place);
@@ -117,7 +112,7 @@ void GrblController::disconnect() {
   if (!drives_) return;
   if (jogs()) {
     cancel_jog();
-  } else if (!is_idle() && waits_ == Waits::none) {
+  } else if (!is_idle() && !due_.is_due()) {
     hold();
   }
 }
@@ -134,10 +129,9 @@ std::vector<std::string> GrblController::take_replies() {
 
 void GrblController::poll(const std::vector<MachineChange>& changes) {
   for (const MachineChange& change : changes) on_change(change);
-  if (waits_ == Waits::probe && !program_.asks()) end_probe();
-  if (waits_ == Waits::stop && !session_.busy()) {
-    waits_ = Waits::none;
-    std::exchange(after_stop_, nullptr)();
+  if (due_.waits_for_probe() && !program_.asks()) end_probe();
+  if (!session_.busy()) {
+    if (const auto next = due_.take_rest()) next();
   }
   if (resets_ && !session_.busy() && session_.state() != MachineState::offline) end_reset();
   share_changed_offsets();
@@ -153,7 +147,7 @@ void GrblController::on_change(const MachineChange& change) {
       if (change.state == MachineState::alarm) raise_alarm_of_board();
       if (change.state == MachineState::fault) raise(GrblAlarm::lost_place);
       if (change.state == MachineState::run) wait_told_ = false;
-      if (change.state == MachineState::await_line) rests_since_ = change.time;
+      if (change.state == MachineState::await_line) stream_.record_rest(change.time);
       return;
     case MachineChange::Kind::came_to_rest: return report_wait();
     case MachineChange::Kind::position_lost: return raise(GrblAlarm::lost_place);
@@ -161,10 +155,8 @@ void GrblController::on_change(const MachineChange& change) {
     case MachineChange::Kind::answered: break;
     default: return;
   }
-  if (stream_ == change.ticket) stream_.reset();
-  if (waits_ != Waits::homing || homing_ != change.ticket) return;
-  homing_.reset();
-  waits_ = Waits::none;
+  stream_.on_answer(change.ticket);
+  if (!due_.take_homing(change.ticket)) return;
   program_.go_on_at(session_.status().position.place);
   if (change.outcome == Outcome::done) {
     alarm_ = session_.lost_place().has_value();  // the axes without a switch
@@ -186,7 +178,7 @@ void GrblController::report_wait() {
 
 // The probe move is done, and its line can be answered.
 void GrblController::end_probe() {
-  waits_ = Waits::none;
+  due_.call_off();
   const bool failed = program_.answer_fault().has_value();
   if (failed)
     raise(row_of(probe_ && probe_->refused ? MachineFault::probe_before : MachineFault::probe_untouched).alarm);
@@ -213,35 +205,32 @@ void GrblController::raise(GrblAlarm alarm) {
   say(fmt::format("ALARM:{}\r\n", static_cast<int>(alarm)));
 }
 
-// Ends what goes on, at rest on the path. `after_stop_` then tells what comes next.
-void GrblController::stop_for(Waits waits) {
-  waits_ = waits;
+// Ends what goes on, at rest on the path.
+void GrblController::stop_machine() {
   if (session_.busy()) ask(request::Stop{});
 }
 
 // The program's place is the machine's whenever a stream begins.
 void GrblController::begin_stream() {
-  if (session_.state() != MachineState::idle || resets_ || waits_ == Waits::homing || !drives_) return;
+  if (session_.state() != MachineState::idle || resets_ || due_.waits_for_homing() || !drives_) return;
   if (program_.is_to_begin(session_.now())) request_stream();
 }
 
 void GrblController::request_stream() {
   const auto ticket = session_.request(request::Stream{.program = &program_});
-  if (ticket) stream_ = *ticket;
-  stream_ends_ = false;
+  stream_.begin(ticket ? std::optional(*ticket) : std::nullopt);
 }
 
 // The lines are done, and have left nothing on: the machine is idle, for others too. A sender that answers within a
 // second goes on with the same stream.
 void GrblController::end_stream() {
-  if (!stream_ || stream_ends_ || session_.state() != MachineState::await_line) return;
+  if (session_.state() != MachineState::await_line || !stream_.may_end(session_.now(), is_here_)) return;
   if (program_.queued() > 0 || program_.asks() || !is_off(session_.drive()->outputs())) return;
-  if (is_here_ && session_.now() - rests_since_ < longest_rest) return;
-  stream_ends_ = ask(request::Stop{});
+  if (ask(request::Stop{})) stream_.note_asked_to_end();
 }
 
 bool GrblController::may_take_line() const {
-  if (waits_ != Waits::none || resets_) return false;
+  if (due_.is_due() || resets_) return false;
   const MachineState state = session_.state();
   return state != MachineState::offline && program_.room();
 }
@@ -279,7 +268,7 @@ void GrblController::handle_code(const std::string& text) {
   }
   offsets_changed_ = offsets_changed_ || (!checks_ && changes_offsets(text));
   if (program_.asks()) {
-    waits_ = Waits::probe;
+    due_.wait_for_probe();
     return begin_stream();
   }
   report_end();
@@ -303,7 +292,7 @@ bool GrblController::jogs() const {
 bool GrblController::is_idle() const {
   const MachineState state = session_.state();
   return (state == MachineState::idle || state == MachineState::await_line) && program_.queued() == 0 &&
-         !program_.asks() && !alarm_ && !checks_ && waits_ == Waits::none;
+         !program_.asks() && !alarm_ && !checks_ && !due_.is_due();
 }
 
 std::string_view GrblController::state_name() const {

@@ -42,7 +42,7 @@ void GrblController::handle_command(const std::string& text) {
   // All others only at rest, as in grbl. Settings are shown in check mode and asleep too.
   const bool stands = !session_.busy() || session_.state() == MachineState::await_line;
   const bool at_rest = is_idle() || (alarm_ && stands);
-  const bool shows = text == "$$" && (checks_ || session_.state() == MachineState::sleep) && waits_ == Waits::none;
+  const bool shows = text == "$$" && (checks_ || session_.state() == MachineState::sleep) && !due_.is_due();
   if (!at_rest && !shows) return answer(GrblError::not_idle);
   if (text == "$$") {
     std::string all;
@@ -116,24 +116,23 @@ void GrblController::handle_jog(const std::string& text) {
 void GrblController::home() {
   if (machine_.homing.empty()) return answer(GrblError::setting_disabled);
   if (is_door_open()) return answer(GrblError::door_open);
-  after_stop_ = [this] { begin_homing(); };
-  stop_for(Waits::stop);
+  due_.wait_for_rest([this] { begin_homing(); });
+  stop_machine();
 }
 
 void GrblController::begin_homing() {
   const auto ticket = session_.request(request::Home{});
   if (!ticket) return answer(GrblError::locked);
-  homing_ = *ticket;
-  waits_ = Waits::homing;
+  due_.wait_for_homing(*ticket);
 }
 
 void GrblController::sleep() {
   say("[MSG:Sleeping]\r\n");
-  after_stop_ = [this] {
+  due_.wait_for_rest([this] {
     ask(request::Sleep{});
     answer(GrblError::none);
-  };
-  stop_for(Waits::stop);
+  });
+  stop_machine();
 }
 
 void GrblController::handle_startup_line(const std::string& text) {

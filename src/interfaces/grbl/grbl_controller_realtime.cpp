@@ -95,7 +95,7 @@ void GrblController::hold() {
 
 // As a hold, also amid a jog. At rest the spindle and the coolant are off, until the resume.
 void GrblController::open_door() {
-  if (alarm_ || checks_ || resets_ || waits_ == Waits::homing) return;
+  if (alarm_ || checks_ || resets_ || due_.waits_for_homing()) return;
   cancel_jog();
   if (session_.state() == MachineState::idle) request_stream();
   ask(request::Hold{.for_door = true});
@@ -138,10 +138,9 @@ void GrblController::cancel_jog() {
 // Brakes on the path. The answer, the banner, comes when the machine rests.
 void GrblController::reset() {
   input_.clear();
-  after_stop_ = nullptr;
-  homing_.reset();
+  due_.call_off();
   resets_ = true;
-  stop_for(Waits::none);
+  stop_machine();
   if (session_.state() == MachineState::sleep) ask(request::Wake{});
   const MachineState state = session_.state();
   if (state == MachineState::alarm || state == MachineState::fault) ask(request::ResetMachine{});

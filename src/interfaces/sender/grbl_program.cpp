@@ -58,8 +58,8 @@ void set_offsets(InterpreterOptions& options, const GrblMachine& machine) {
       options.parameters[first + axis] = offset.values[static_cast<std::size_t>(axis)] / unit;
     }
   };
-  options.parameters[work_system_parameter] = 1;
-  options.parameters[g92_active_parameter] = 0;
+  begin_with_g54(options.parameters);
+  forget_g92(options.parameters);
   for (const auto& [name, offset] : machine.offsets) {
     if (name == "G92") {
       options.parameters[g92_active_parameter] = offset == Point() ? 0 : 1;

@@ -39,11 +39,11 @@ std::string without_end(std::string_view text) {
   return std::string(text.substr(0, text.find('\n')));
 }
 
-// The bytes that lead from one percentage to another: 100 first, where that is nearer, then steps of 10 and of 1.
-std::string steps_to(int& now, int wanted, char hundred, char ten_up) {
+// The bytes that lead to a percentage, wherever the machine is now: 100 first, then steps of 10 and of 1.
+std::string steps_to(int wanted, char hundred, char ten_up) {
   wanted = std::clamp(wanted, 10, 200);
   std::string bytes(1, hundred);
-  now = 100;
+  int now = 100;
   const auto steps = [&](int size, char up, char down) {
     for (; std::abs(wanted - now) >= size; now += wanted > now ? size : -size) bytes += wanted > now ? up : down;
   };
@@ -56,17 +56,6 @@ std::string steps_to(int& now, int wanted, char hundred, char ten_up) {
 
 GrblSender::GrblSender(Seconds now) : now_(now), begun_(now), stage_since_(now), heard_(now) {}
 
-std::optional<Point> GrblSender::place() const {
-  if (!report_) return {};
-  if (report_->machine_place) return *report_->machine_place * machine_.unit();
-  if (!report_->work_place) return {};
-  if (offset_) return (*report_->work_place + *offset_) * machine_.unit();
-  // A machine whose reports ($10) tell no offset: from its own offsets.
-  const auto zero = machine_.work_zero();
-  if (!zero) return {};
-  return *report_->work_place * machine_.unit() + *zero;
-}
-
 void GrblSender::ask_for_offsets() {
   if (machine_.settings.empty()) add("$$");
   add("$#");
@@ -74,19 +63,19 @@ void GrblSender::ask_for_offsets() {
 }
 
 std::string GrblSender::alarm_words() const {
-  const bool has_number = report_ && report_->state == "Alarm" && report_->detail > 0;
-  return locked_by_.empty() && has_number ? words_of_alarm(report_->detail) : locked_by_;
+  const bool has_number = report() && report()->state == "Alarm" && report()->detail > 0;
+  return locked_by_.empty() && has_number ? words_of_alarm(report()->detail) : locked_by_;
 }
 
 std::string_view GrblSender::waits_for() const {
-  if (stage_ != Stage::ready || is_held_ || !report_) return {};
-  return words_of_grbl_wait(*report_);
+  if (stage_ != Stage::ready || is_held_ || !report()) return {};
+  return words_of_grbl_wait(*report());
 }
 
 void GrblSender::add(std::string text, std::uint32_t line, Seconds silence) {
   if (text.starts_with('M')) silence = std::max(silence, longest_spindle_start);
   text += '\n';
-  waiting_.push_back({.text = std::move(text), .line = line, .silence = silence});
+  window_.add({.text = std::move(text), .line = line, .silence = silence});
 }
 
 void GrblSender::hold() {
@@ -99,29 +88,25 @@ void GrblSender::resume() {
   act('~');
 }
 
-bool GrblSender::at_rest() const {
-  return all_answered() && report_ && report_->state == "Idle" && reported_ > answered_;
-}
-
 void GrblSender::override_feed(int percent) {
-  urgent_ += steps_to(feed_percent_, percent, '\x90', '\x91');
+  urgent_ += steps_to(percent, '\x90', '\x91');
 }
 
 void GrblSender::override_spindle(int percent) {
-  urgent_ += steps_to(spindle_percent_, percent, '\x99', '\x9A');
+  urgent_ += steps_to(percent, '\x99', '\x9A');
 }
 
 void GrblSender::stop() {
   if (stops() || stopped()) return;
-  waiting_.clear();
+  window_.drop_waiting();
   // Homing hears no hold, and the place is not known anyway.
-  if (!unanswered_.empty() && unanswered_.front().text == homing_line) {
+  if (window_.oldest() != nullptr && window_.oldest()->text == homing_line) {
     act(soft_reset);
     return enter(Stage::dropping);
   }
   enter(Stage::braking);
   asked_ = Seconds(-1);
-  reported_ = Seconds(-1);
+  reports_.outdate();
   act('!');
 }
 
@@ -139,10 +124,9 @@ void GrblSender::enter(Stage stage) {
 // later one, but no earlier one.
 std::uint32_t GrblSender::first_held_line() const {
   std::size_t held = machine_.blocks;
-  if (report_ && report_->blocks_free) held = machine_.blocks - std::min(machine_.blocks, *report_->blocks_free);
+  if (report() && report()->blocks_free) held = machine_.blocks - std::min(machine_.blocks, *report()->blocks_free);
   // What was answered after the report is held too, perhaps.
-  held = std::min(std::max<std::size_t>(held + 4, 1), held_lines_.size());
-  return held == 0 ? last_line_ : held_lines_[held_lines_.size() - held];
+  return window_.first_held(held + 4);
 }
 
 void GrblSender::fail(GrblFault fault) {
@@ -151,13 +135,15 @@ void GrblSender::fail(GrblFault fault) {
 
 void GrblSender::end_with(GrblFault fault) {
   fail(std::move(fault));
-  waiting_.clear();
+  window_.drop_waiting();
   stage_ = Stage::stopped;
 }
 
 GrblFault GrblSender::fault_between_lines(std::string code, std::string message) const {
-  return {
-      .code = std::move(code), .message = std::move(message), .first_line = first_held_line(), .last_line = last_line_};
+  return {.code = std::move(code),
+          .message = std::move(message),
+          .first_line = first_held_line(),
+          .last_line = window_.last_line()};
 }
 
 void GrblSender::check_silence() {
@@ -171,16 +157,17 @@ void GrblSender::check_silence() {
 
 // Bytes that a bad line has swallowed are never answered, and neither is a line by a machine that needs a reset.
 void GrblSender::check_lost_bytes() {
-  const bool is_locked = report_->state == "Alarm";
-  const bool waits = !unanswered_.empty() || (is_locked && has_work_);
-  if ((report_->state != "Idle" && !is_locked) || !waits) {
+  const bool is_locked = report()->state == "Alarm";
+  const LineWindow::Line* const oldest = window_.oldest();
+  const bool waits = oldest != nullptr || (is_locked && has_work());
+  if ((report()->state != "Idle" && !is_locked) || !waits) {
     idle_since_ = now_;
     return;
   }
   Seconds since = std::max({idle_since_, told_, answered_});
-  if (!unanswered_.empty()) since = std::max(since, unanswered_.front().sent);
+  if (oldest != nullptr) since = std::max(since, oldest->sent);
   // By its reports, not by the clock: a machine that is silent is not idle.
-  if (reported_ - since < longest_idle + silence_of_oldest()) return;
+  if (reports_.came() - since < longest_idle + silence_of_oldest()) return;
   if (is_locked && greets()) {
     return end_with(
         {.code = "grbl.locked",
@@ -191,31 +178,32 @@ void GrblSender::check_lost_bytes() {
   }
   if (is_locked) return end_with(fault_between_lines("grbl.alarm", "the machine is locked by an alarm"));
   if (greets()) return end_with(fault_of_greeting());
-  const Line& oldest = unanswered_.front();
   fail({.code = "grbl.lost-bytes",
         .message = fmt::format("the machine is idle, but has not answered \"{}\": bytes were lost on the serial link",
-                               without_end(oldest.text)),
-        .first_line = oldest.line,
-        .last_line = oldest.line});
+                               without_end(oldest->text)),
+        .first_line = oldest->line,
+        .last_line = oldest->line});
   stop();
 }
 
 // Whatever its state is: a machine that has something to do moves or answers.
 void GrblSender::check_standstill() {
-  const bool has_nothing_to_do = unanswered_.empty() && (report_->state == "Idle" || report_->state == "Alarm");
-  if (has_nothing_to_do || !words_of_grbl_wait(*report_).empty()) progress_ = now_;
+  const bool has_nothing_to_do =
+      window_.oldest() == nullptr && (report()->state == "Idle" || report()->state == "Alarm");
+  if (has_nothing_to_do || !words_of_grbl_wait(*report()).empty()) progress_ = now_;
   if (now_ - progress_ < longest_standstill + silence_of_oldest()) return;
   fail(fault_between_lines("grbl.no-answer",
                            fmt::format("the machine is in state {}, but has neither moved nor answered for {:.0f} s",
-                                       report_->state, (now_ - progress_).value())));
+                                       report()->state, (now_ - progress_).value())));
   stop();
 }
 
 GrblFault GrblSender::fault_of_greeting() const {
   constexpr std::size_t most_shown = 60;
   std::string words = "the machine does not report its state";
-  if (report_) words = "the machine does not identify itself";
-  if (report_ && !unanswered_.empty()) words += fmt::format(" (to \"{}\")", without_end(unanswered_.front().text));
+  if (report()) words = "the machine does not identify itself";
+  if (report() && window_.oldest() != nullptr)
+    words += fmt::format(" (to \"{}\")", without_end(window_.oldest()->text));
   const std::string& heard = last_line_heard_.empty() ? came_ : last_line_heard_;
   const bool is_readable = std::ranges::all_of(heard, [](char letter) { return letter >= ' ' && letter <= '~'; });
   if (!is_readable) {
@@ -263,13 +251,13 @@ void GrblSender::greet() {
       if (now_ - std::max(heard_, stage_since_) < quiet && now_ - stage_since_ < longest_clearing) return;
       enter(Stage::looking);
       heard_ = now_;
-      report_.reset();
+      reports_.forget_last();
       return;
     case Stage::looking:
       // The state is told in each state; lines are answered in few.
       ask_for_status();
-      if (!report_) return check_silence();
-      if (auto trouble = trouble_of_grbl_state(*report_)) return end_with(std::move(*trouble));
+      if (!report()) return check_silence();
+      if (auto trouble = trouble_of_grbl_state(*report())) return end_with(std::move(*trouble));
       enter(Stage::asking);
       add("$I");
       return ask_for_offsets();
@@ -284,8 +272,8 @@ void GrblSender::greet() {
 void GrblSender::watch() {
   ask_for_status();
   // It cannot come out of these by itself.
-  if (report_->state == "Sleep" || report_->state == "Check") {
-    GrblFault trouble = *trouble_of_grbl_state(*report_);
+  if (report()->state == "Sleep" || report()->state == "Check") {
+    GrblFault trouble = *trouble_of_grbl_state(*report());
     return end_with(fault_between_lines(std::move(trouble.code), std::move(trouble.message)));
   }
   check_lost_bytes();
@@ -296,7 +284,7 @@ void GrblSender::watch() {
 void GrblSender::brake() {
   ask_for_status();
   // A hold at rest, or nothing to hold. A dwell is no motion and is not held: it rests too.
-  const bool rests = report_ && reported_ > stage_since_ && report_->rests();
+  const bool rests = reports_.came_after(stage_since_) && report()->rests();
   if (!rests && now_ - stage_since_ < longest_braking) return;
   act(soft_reset);
   enter(Stage::dropping);
@@ -306,19 +294,7 @@ std::string GrblSender::take_bytes(Seconds now) {
   poll(now);
   std::string bytes = std::exchange(urgent_, {});
   const bool may_send = (stage_ == Stage::asking || stage_ == Stage::ready) && !fault_;
-  while (may_send && !waiting_.empty()) {
-    Line& next = waiting_.front();
-    if (unanswered_bytes_ + next.text.size() > buffer_size()) break;
-    next.sent = now;
-    bytes += next.text;
-    unanswered_bytes_ += next.text.size();
-    if (next.line != 0) last_line_ = next.line;
-    has_work_ = has_work_ || next.line != 0;
-    ++lines_sent_;
-    unanswered_.push_back(std::move(next));
-    waiting_.pop_front();
-  }
-  return bytes;
+  return may_send ? bytes + window_.send(now, machine_.bytes) : bytes;
 }
 
 void GrblSender::receive(std::string_view bytes, Seconds now) {
@@ -357,15 +333,8 @@ void GrblSender::hear(std::string_view line) {
 }
 
 void GrblSender::hear_report(const GrblReport& report) {
-  if (report.work_offset) offset_ = report.work_offset;
-  const bool is_news = !report_ || report.state != report_->state || report.machine_place != report_->machine_place ||
-                       report.work_place != report_->work_place;
-  if (is_news) progress_ = now_;
-  // Free bytes in a buffer without a line of ours: no more fit, whatever it has told.
-  const bool shows_size = unanswered_.empty() && report.bytes_free && *report.bytes_free >= 64;
-  if (shows_size) empty_buffer_ = *report.bytes_free;
-  report_ = report;
-  reported_ = now_;
+  if (reports_.hear(report, now_)) progress_ = now_;
+  if (report.bytes_free) window_.hear_free_bytes(*report.bytes_free);
 }
 
 void GrblSender::hear_greeting() {
@@ -376,14 +345,12 @@ void GrblSender::hear_greeting() {
     case Stage::looking:
     case Stage::asking:
       // A board that starts for longer than an Arduino does. It has not heard the questions, or has forgotten them.
-      waiting_.clear();
-      unanswered_.clear();
-      unanswered_bytes_ = 0;
+      window_.drop_waiting();
+      window_.drop_sent();
       machine_.version.clear();
       return enter(Stage::clearing);
     case Stage::dropping:
-      unanswered_.clear();
-      unanswered_bytes_ = 0;
+      window_.drop_sent();
       stage_ = Stage::stopped;
       return;
     case Stage::ready:
@@ -391,25 +358,21 @@ void GrblSender::hear_greeting() {
   }
   end_with(fault_between_lines(
       "grbl.restarted", "the machine restarted (reset button, power or another program). Its position may be lost"));
-  unanswered_.clear();
-  unanswered_bytes_ = 0;
+  window_.drop_sent();
 }
 
 void GrblSender::answer(std::optional<std::string_view> error) {
-  if (unanswered_.empty()) return;  // of what another sender has left
+  if (window_.oldest() == nullptr) return;  // of what another sender has left
   // The same, if it comes late: the answer to $I tells the version.
   if (stage_ == Stage::asking && machine_.version.empty()) return;
-  const Line line = std::move(unanswered_.front());
-  unanswered_.pop_front();
-  unanswered_bytes_ -= line.text.size();
+  const LineWindow::Line line = *window_.take_answered();
   answered_ = progress_ = now_;
   if (!error) {
-    if (line.line != 0) held_lines_.push_back(line.line);
-    if (held_lines_.size() > machine_.blocks + 8) held_lines_.pop_front();
+    window_.note_held(line.line, machine_.blocks + 8);
     return;
   }
   // In some alarms it answers few questions. They are asked again.
-  if (stage_ == Stage::asking && report_->state == "Alarm") return;
+  if (stage_ == Stage::asking && report()->state == "Alarm") return;
   const auto number = read_code(*error);
   fail({.code = "grbl.error",
         .message = fmt::format("the machine rejects \"{}\": error:{}{}{}", without_end(line.text), *error,
@@ -417,7 +380,7 @@ void GrblSender::answer(std::optional<std::string_view> error) {
         .first_line = line.line,
         .last_line = line.line});
   // What follows is in the machine already. It must not go on without the refused line.
-  if (has_work_ && stage_ == Stage::ready) stop();
+  if (has_work() && stage_ == Stage::ready) stop();
 }
 
 std::string GrblSender::words_of_alarm(int number) const {

@@ -120,7 +120,6 @@ const char* name_of(Plane plane) {
 // the number of the spindle.
 struct Call {
   Line& line;
-  FeedMode feed_mode;
   LengthUnits machine_units;
 
   void operator()(const operation::SetLengthUnits& set) const {
@@ -146,8 +145,10 @@ struct Call {
     line << (set.mode == FeedMode::units_per_revolution ? "SET_FEED_MODE(0, 1)" : "SET_FEED_MODE(0, 0)");
   }
   void operator()(const operation::SetFeedRate& set) const {
-    const double minutes = feed_mode == FeedMode::units_per_revolution ? 1 : seconds_per_minute;
-    (line << "SET_FEED_RATE(").length(set.rate * minutes) << ")";
+    const auto* per_second = std::get_if<operation::FeedPerSecond>(&set.feed);
+    const double feed = per_second != nullptr ? per_second->linear.value() * seconds_per_minute
+                                              : std::get<operation::FeedPerRevolution>(set.feed).linear.value();
+    (line << "SET_FEED_RATE(").length(feed) << ")";
   }
   void operator()(const operation::SetPathMode& set) const {
     if (set.mode == PathMode::continuous) {
@@ -277,14 +278,13 @@ struct Call {
 
 void CanonPrinter::print(const Operation& operation, std::string& out) {
   if (const auto* set = std::get_if<operation::SetLengthUnits>(&operation.what)) units_ = set->units;
-  if (const auto* set = std::get_if<operation::SetFeedMode>(&operation.what)) feed_mode_ = set->mode;
   if (std::holds_alternative<operation::ReadInput>(operation.what)) return;  // rs274 prints nothing for it
   // The text of (PRINT,…) goes to the operator unchanged. rs274 prints no counter and no N before it.
   Line line(out, units_);
   if (!std::holds_alternative<operation::Print>(operation.what)) {
     line.head(++count_, operation.source.line_number);
   }
-  std::visit(Call{line, feed_mode_, machine_units_}, operation.what);
+  std::visit(Call{line, machine_units_}, operation.what);
   line << "\n";
 }
 

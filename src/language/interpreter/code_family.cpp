@@ -146,8 +146,11 @@ void CodeFamily::emit_inverse_time_feed(double length, bool rotary) {
 }
 
 void CodeFamily::emit_feed_rate(double units) {
-  const double time = state_.modal.per_revolution() ? 1 : seconds_per_minute;
-  emit(operation::SetFeedRate{units * state_.length_unit() / time, units / time});
+  const double linear = units * state_.length_unit();
+  if (state_.modal.per_revolution())
+    return emit(operation::SetFeedRate{operation::FeedPerRevolution{Mm(linear), units}});
+  emit(operation::SetFeedRate{
+      operation::FeedPerSecond{MmPerSecond(linear / seconds_per_minute), units / seconds_per_minute}});
 }
 
 // The range is one spindle, or with $-1 all spindles if the code allows that. Without `$` it is spindle 0.

@@ -78,8 +78,7 @@ class Explainer final : public BlockWatcher {
   void follow(const Operation& operation) {
     using namespace passo::operation;
     const OperationKind& what = operation.what;
-    if (const auto* rate = std::get_if<SetFeedRate>(&what)) feed_ = *rate;
-    if (const auto* mode = std::get_if<SetFeedMode>(&what)) per_turn_ = mode->mode == FeedMode::units_per_revolution;
+    if (const auto* rate = std::get_if<SetFeedRate>(&what)) feed_ = rate->feed;
     if (const auto* speed = std::get_if<SetSpindleSpeed>(&what)) spindle_speed_ = speed->revolutions_per_minute;
     if (const auto* sync = std::get_if<StartSpeedFeedSync>(&what)) pitch_ = sync->pitch.value();
     if (std::holds_alternative<StopSpeedFeedSync>(what)) pitch_.reset();
@@ -123,8 +122,9 @@ class Explainer final : public BlockWatcher {
     Explanation::Moves& moves = current_->moves;
     moves.feed_length += length;
     place_ = end;
-    double rate = turns_only ? feed_.rotary_rate : feed_.rate;
-    if (pitch_ || per_turn_) rate = pitch_.value_or(rate) * spindle_speed_ / seconds_per_minute;
+    const auto* per_turn = std::get_if<operation::FeedPerRevolution>(&feed_);
+    double rate = std::visit([&](const auto& feed) { return turns_only ? feed.rotary : feed.linear.value(); }, feed_);
+    if (pitch_ || per_turn != nullptr) rate = pitch_.value_or(rate) * spindle_speed_ / seconds_per_minute;
     if (rate > 0 && moves.feed_time) {
       *moves.feed_time += length / rate;
     } else if (length > 0) {
@@ -135,8 +135,7 @@ class Explainer final : public BlockWatcher {
   std::string file_;
   LineRange range_;
   Explanations& result_;
-  operation::SetFeedRate feed_;
-  bool per_turn_ = false;
+  std::variant<operation::FeedPerSecond, operation::FeedPerRevolution> feed_;
   std::optional<double> pitch_;
   double spindle_speed_ = 0;
   Point place_;  // work coordinates, after the operations so far

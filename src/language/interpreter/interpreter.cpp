@@ -118,15 +118,15 @@ class Interpreter::Implementation {
  private:
   // grbl throws the '/' away and runs the line.
   static ProgramFlow::Options flow_options(const InterpreterOptions& options) {
-    return {options.block_delete && options.dialect != Dialect::grbl,
-            options.idle_passes,
-            options.repeated_steps,
-            options.main_passes,
-            options.sub_folders,
-            options.dialect,
-            !(options.settings && options.settings->is_on("RS274NGC", "DISABLE_FANUC_STYLE_SUB")),
-            options.open_ended,
-            options.more_grbl_axes.c_str()};
+    return {.lines = {.block_delete = options.block_delete && options.dialect != Dialect::grbl,
+                      .sub_folders = options.sub_folders,
+                      .dialect = options.dialect,
+                      .open_ended = options.open_ended,
+                      .more_grbl_axes = options.more_grbl_axes.c_str()},
+            .bounds = {.idle_passes = options.idle_passes,
+                       .repeated_steps = options.repeated_steps,
+                       .main_passes = options.main_passes},
+            .numbered_programs = !(options.settings && options.settings->is_on("RS274NGC", "DISABLE_FANUC_STYLE_SUB"))};
   }
 
   // One block: none, one or several operations. False: the next line was not given yet.

@@ -13,8 +13,6 @@ namespace {
 
 using enum ControlKind;
 
-constexpr double highest_label = 1e9;
-
 std::string_view name_of(ControlKind kind) {
   switch (kind) {
     case sub: return "sub";
@@ -40,19 +38,14 @@ std::string_view name_of_end(ControlKind kind) {
 
 ProgramFlow::ProgramFlow(ProgramReader reader, const Options& options, ProgramState& state, Parameters& parameters,
                          SymbolTable& symbols, Reporter& reporter)
-    : options_(options),
+    : numbered_programs_(options.numbered_programs),
       state_(state),
       parameters_(parameters),
       symbols_(symbols),
       reporter_(reporter),
-      value_name_(symbols.intern("_value")),
-      returned_name_(symbols.intern("_value_returned")) {
-  files_.push_back(std::make_unique<File>(std::move(reader), 0, symbols_));
-  if (options_.dialect == Dialect::grbl) files_.front()->parser.accept_line_numbers_anywhere();
-  file_ = files_.front().get();
-  (void)parameters_.set_named(value_name_, 0);
-  (void)parameters_.set_named(returned_name_, 0);
-  set_block(line_);
+      returned_(symbols, parameters),
+      lines_(std::move(reader), options.lines, state, parameters, symbols, reporter),
+      bounds_(options.bounds) {
   reporter_.set_call_stack(*this);
 }
 
@@ -63,9 +56,9 @@ const Block* ProgramFlow::next() {
       contour_depth_ = 0;
       return nullptr;
     }
-    switch (read()) {
-      case Read::end:
-        if (options_.open_ended) return nullptr;
+    switch (lines_.read()) {
+      case ProgramLines::Read::end:
+        if (lines_.open_ended()) return nullptr;
         while (any_open()) {
           report_unclosed(open_.back());
           open_.pop_back();
@@ -74,23 +67,24 @@ const Block* ProgramFlow::next() {
           const Frame& frame = frames_.back();
           report_unclosed({frame.place.numbered ? program : sub, frame.sub, frame.place.at, {}});
         }
-        block_->text = {};  // the text is the reader's, and is lost
+        lines_.block().text = {};  // the text is the reader's, and is lost
         return finish(End::file);
-      case Read::skipped: continue;
-      case Read::block: break;
+      case ProgramLines::Read::skipped: continue;
+      case ProgramLines::Read::block: break;
     }
-    if (block_->percent) {
-      if (is_percent_end()) return finish(End::percent);
+    const Block& block = lines_.block();
+    if (block.percent) {
+      if (lines_.percent_signs().closes()) return finish(End::percent);
       continue;
     }
-    if (watcher_ != nullptr) watcher_->before(*block_, file_->name, state_, parameters_, symbols_);
-    if (!block_->control) {
-      begun_ = begun_ || !block_->words.empty() || !block_->assignments.empty();
-      return block_;
+    if (watcher_ != nullptr) watcher_->before(block, lines_.file().name, state_, parameters_, symbols_);
+    if (!block.control) {
+      if (!block.words.empty() || !block.assignments.empty()) lines_.percent_signs().note_content();
+      return &block;
     }
-    begun_ = true;
-    state_.line = block_->line;
-    obey(*block_->control);
+    lines_.percent_signs().note_content();
+    state_.line = block.line;
+    obey(*block.control);
     if (watcher_ != nullptr) watcher_->after(state_);
     if (contour_depth_ != 0) {
       left_sub_.reset();  // nothing was executed in the sub, so nothing is restored
@@ -99,13 +93,6 @@ const Block* ProgramFlow::next() {
     }
   }
   return nullptr;
-}
-
-// A '%' before everything else opens the program. The next '%' closes it.
-bool ProgramFlow::is_percent_end() {
-  const bool ends = std::exchange(begun_, true);
-  opened_percent_ = opened_percent_ || !ends;
-  return ends;
 }
 
 const Block* ProgramFlow::finish(End end) {
@@ -143,14 +130,14 @@ void ProgramFlow::begin_sub(Symbol label, const Control& control) {
     finish(End::error);
     return;
   }
-  const ReaderPosition after = file_->reader.position();
-  const auto [known, added] = file_->subs.try_emplace(label.id, SubPlace{block_at_, after, false});
+  const ReaderPosition after = lines_.after();
+  const auto [known, added] = lines_.file().subs.try_emplace(label.id, SubPlace{lines_.at(), after, false});
   if (!added && known->second.after.offset != after.offset) {
     stray(label, control,
           fmt::format("a second subroutine {}; the first one is in line {}", label_text(label), known->second.at.line),
           "another name");
   }
-  skip_to({sub, label, block_at_, after}, kinds({endsub}));
+  skip_to({sub, label, lines_.at(), after}, kinds({endsub}));
 }
 
 void ProgramFlow::leave_sub(Symbol label, const Control& control) {
@@ -169,13 +156,12 @@ void ProgramFlow::leave_sub(Symbol label, const Control& control) {
     return leave_frame();
   }
   double value = 0;
-  if (!control.arguments.empty() && !value_of(*block_, control.arguments.front(), parameters_, reporter_, value))
+  if (!control.arguments.empty() && !value_of(lines_.block(), control.arguments.front(), parameters_, reporter_, value))
     return;
   if (control.kind == endsub) {
     for (std::size_t i = frame.first_open; i < open_.size(); ++i) report_unclosed(open_[i]);
   }
-  (void)parameters_.set_named(value_name_, value);
-  (void)parameters_.set_named(returned_name_, control.arguments.empty() ? 0 : 1);
+  returned_.set(value, !control.arguments.empty());
   leave_frame();
 }
 
@@ -193,10 +179,10 @@ void ProgramFlow::begin_if(Symbol label, const Control& control) {
 // An if has its label alone, as in LinuxCNC: in the file, or in its sub.
 void ProgramFlow::check_used_once(Symbol label, const Control& control) {
   constexpr std::size_t most_remembered = 10'000;  // computed labels have no bound of their own
-  if (file_->ifs.size() >= most_remembered) return;
+  if (lines_.file().ifs.size() >= most_remembered) return;
   const std::uint32_t inside = frames_.empty() ? 0 : frames_.back().sub.id + 1;
-  const auto [first, added] = file_->ifs.try_emplace({inside, label.id}, block_at_);
-  if (added || first->second.offset == block_at_.offset) return;
+  const auto [first, added] = lines_.file().ifs.try_emplace({inside, label.id}, lines_.at());
+  if (added || first->second.offset == lines_.at().offset) return;
   stray(label, control,
         fmt::format("a second if {}; the first one is in line {}", label_text(label), first->second.line),
         "another label");
@@ -205,7 +191,7 @@ void ProgramFlow::check_used_once(Symbol label, const Control& control) {
 // Goes from a branch that is not taken to the one that is taken, or behind the endif.
 bool ProgramFlow::skip_branch(const Open& from) {
   while (skip_to(from, kinds({elseif, else_, endif}))) {
-    const Control& control = *block_->control;
+    const Control& control = *lines_.block().control;
     double condition = 1;
     if (control.kind == endif) return open_.pop_back(), true;
     if (control.kind == else_) return true;
@@ -227,7 +213,7 @@ void ProgramFlow::next_branch(Symbol label, const Control& control) {
 
 void ProgramFlow::begin_while(Symbol label, const Control& control) {
   Open* open = innermost(while_, label);
-  const bool again = open != nullptr && open->at.offset == block_at_.offset;
+  const bool again = open != nullptr && open->at.offset == lines_.at().offset;
   if (!again) open = &push(while_, label);
   double condition = 0;
   if (argument(control, condition) && condition != 0) return;
@@ -284,7 +270,7 @@ void ProgramFlow::leave_or_continue_loop(Symbol label, const Control& control) {
     if (leave) {
       open_.pop_back();
     } else {
-      file_->reader.seek(block_at_);  // the line at the loop's end decides
+      lines_.seek(lines_.at());  // the line at the loop's end decides
     }
     return;
   }
@@ -303,8 +289,8 @@ ProgramFlow::Kinds ProgramFlow::end_of(ControlKind construct) {
 }
 
 ProgramFlow::Open& ProgramFlow::push(ControlKind kind, Symbol label) {
-  if (is_outermost()) steps_ = 0;
-  return open_.emplace_back(Open{kind, label, block_at_, file_->reader.position(), reporter_.errors()});
+  if (is_outermost()) bounds_.begin();
+  return open_.emplace_back(Open{kind, label, lines_.at(), lines_.after(), reporter_.errors()});
 }
 
 ProgramFlow::Open* ProgramFlow::innermost(ControlKind kind, Symbol label) {
@@ -329,55 +315,58 @@ ProgramFlow::Open* ProgramFlow::require_innermost(ControlKind kind, Symbol label
 // line does nothing, never end. So the loop is left.
 void ProgramFlow::go_round(const Open& loop, ReaderPosition to) {
   if (reporter_.errors() > loop.errors_before) return open_.pop_back();
-  if (may_go_round(loop)) file_->reader.seek(to);
+  if (may_go_round(loop)) lines_.seek(to);
 }
 
-// False: the loop went round too often.
 bool ProgramFlow::may_go_on_with_cycle(Span repeated) {
-  if (steps_ <= options_.repeated_steps) return true;
+  if (bounds_.allows_more_operations()) return true;
   reporter_.error("gcode.endless-cycle", repeated,
-                  fmt::format("the cycle reached {} operations", options_.repeated_steps),
+                  fmt::format("the cycle reached {} operations", bounds_.limits().repeated_steps),
                   "fewer repetitions (L), larger pecks (Q), or a higher --step-limit");
   finish(End::error);
   return false;
 }
 
+// False: the loop went round too often.
 bool ProgramFlow::may_go_round(const Open& loop) {
-  const bool idles = ++idle_passes_ > options_.idle_passes;
-  if (!idles && ++steps_ <= options_.repeated_steps) return true;
-  file_->reader.seek(loop.at);
-  (void)read();
+  const ProgramBounds::Reached reached = bounds_.count_pass();
+  if (reached == ProgramBounds::Reached::nothing) return true;
+  const bool idles = reached == ProgramBounds::Reached::idle;
+  lines_.seek(loop.at);
+  (void)lines_.read();
   reporter_.error(
-      "gcode.endless-loop", block_->control ? block_->control->span : Span{1, 1},
-      idles ? fmt::format("the loop went round {}, and the machine did nothing", counted(options_.idle_passes, "time"))
-            : fmt::format("the loop reached {} passes, calls and operations", options_.repeated_steps),
+      "gcode.endless-loop", lines_.block().control ? lines_.block().control->span : Span{1, 1},
+      idles ? fmt::format("the loop went round {}, and the machine did nothing",
+                          counted(bounds_.limits().idle_passes, "time"))
+            : fmt::format("the loop reached {} passes, calls and operations", bounds_.limits().repeated_steps),
       idles ? "a loop that ends, or that moves" : "a loop that ends, or a higher --step-limit");
   finish(End::error);
   return false;
 }
 
-// Reads on to the line with an O-word of `from`'s label and one of the wanted kinds. Then block_ is that line. A
-// construct of the same label and kind inside is skipped as a whole.
+// Reads on to the line with an O-word of `from`'s label and one of the wanted kinds. Then the block at hand is
+// that of this line. A construct of the same label and kind inside is skipped as a whole.
 bool ProgramFlow::skip_to(const Open& from, Kinds wanted) {
   const Open opening = from;  // `from` may be in open_
   int inside = 0;
   for (;;) {
     Symbol label;
-    if (!read_control(label)) {
+    if (!lines_.read_control(label)) {
       if (end_ == End::none && !reporter_.full()) report_unclosed(opening);
       while (any_open()) open_.pop_back();
       finish(End::error);
       return false;
     }
-    const ControlKind kind = block_->control->kind;
+    const ControlKind kind = lines_.block().control->kind;
     if (!frames_.empty() && kind == endsub && label == frames_.back().sub && opening.kind != sub) {
       report_unclosed(opening);
       while (any_open()) open_.pop_back();
-      file_->reader.seek(block_at_);  // the sub ends here
+      lines_.seek(lines_.at());  // the sub ends here
       return false;
     }
     if (kind == sub && opening.kind == sub) {
-      stray(label, *block_->control, fmt::format("a subroutine inside the subroutine {}", label_text(opening.label)),
+      stray(label, *lines_.block().control,
+            fmt::format("a subroutine inside the subroutine {}", label_text(opening.label)),
             "endsub before the next subroutine");
       finish(End::error);
       return false;
@@ -398,41 +387,31 @@ bool ProgramFlow::label_of(const Control& control, Symbol& label) {
   label = control.label;
   if (!control.computed_label) return true;
   double value = 0;
-  if (!value_of(*block_, *control.computed_label, parameters_, reporter_, value)) return false;
-  const std::optional<double> whole = whole_within(value, 0, highest_label);
-  if (!whole) {
+  if (!value_of(lines_.block(), *control.computed_label, parameters_, reporter_, value)) return false;
+  const std::optional<Symbol> computed = label_of_value(value, symbols_);
+  if (!computed) {
     reporter_.error("gcode.bad-o-word", control.computed_label->span,
                     fmt::format("the label is {}", plain_number(value)), "a whole number, 0 or more");
     return false;
   }
-  label = symbols_.intern(plain_number(*whole));
-  return true;
-}
-
-// A line that is skipped is not executed, so its label may have no value. False: it has none, or is no label.
-bool ProgramFlow::label_of_skipped(const Control& control, Symbol& label) const {
-  label = control.label;
-  if (!control.computed_label) return true;
-  const Evaluation value = evaluate(*block_, *control.computed_label, parameters_);
-  const std::optional<double> whole = value ? whole_within(*value, 0, highest_label) : std::nullopt;
-  if (!whole) return false;
-  label = symbols_.intern(plain_number(*whole));
+  label = *computed;
   return true;
 }
 
 bool ProgramFlow::argument(const Control& control, double& value) {
-  if (!control.arguments.empty()) return value_of(*block_, control.arguments.front(), parameters_, reporter_, value);
+  if (!control.arguments.empty())
+    return value_of(lines_.block(), control.arguments.front(), parameters_, reporter_, value);
   reporter_.error("gcode.missing-condition", control.span, "the O-word needs a value", "[…] after it");
   return false;
 }
 
 void ProgramFlow::report_unclosed(const Open& open) {
-  if (is_doubtful(open.label)) return;
-  const ReaderPosition here = file_->reader.position();
+  if (lines_.doubtful_labels().has(open.label)) return;
+  const ReaderPosition here = lines_.after();
   std::string_view text;
   std::uint32_t line = open.at.line;
-  file_->reader.seek(open.at);
-  (void)file_->reader.next_line(text, line, reporter_.diagnostics());
+  lines_.seek(open.at);
+  (void)lines_.file().reader.next_line(text, line, reporter_.diagnostics());
   const std::size_t first = text.find_first_of("oO");
   const Span span = first == std::string_view::npos
                         ? Span{1, 1}
@@ -441,31 +420,33 @@ void ProgramFlow::report_unclosed(const Open& open) {
                      fmt::format("{} {} is never closed", name_of(open.kind), label_text(open.label)),
                      open.kind == program ? std::string("M99")
                                           : fmt::format("o{} {}", label_text(open.label), name_of_end(open.kind)));
-  reread_block_text();
-  file_->reader.seek(here);
+  lines_.reread_block_text();
+  lines_.seek(here);
 }
 
 // M2 may stand in a branch, before the end of its construct.
 void ProgramFlow::report_never_closed() {
-  const ReaderPosition here = file_->reader.position();
+  const ReaderPosition here = lines_.after();
   while (any_open()) {
     const Open open = open_.back();
     open_.pop_back();
     if (!is_closed_further_on(open)) report_unclosed(open);
   }
-  file_->reader.seek(here);
+  lines_.seek(here);
 }
 
 // Reads on to the end of the construct. Nothing that is read is executed, and so nothing else is reported.
 bool ProgramFlow::is_closed_further_on(const Open& open) {
-  const ReaderPosition here = file_->reader.position();
+  const ReaderPosition here = lines_.after();
   Block block;
   Diagnostics unheeded;
   std::string_view text;
   std::uint32_t line = 0;
   int inside = 0;
-  while (file_->reader.next_line(text, line, unheeded)) {
-    if (!may_be_control(text) || !file_->parser.parse(text, line, block, unheeded) || !block.control) continue;
+  while (lines_.file().reader.next_line(text, line, unheeded)) {
+    if (!ProgramLines::may_be_control(text) || !lines_.file().parser.parse(text, line, block, unheeded) ||
+        !block.control)
+      continue;
     if (!frames_.empty() && block.control->kind == endsub && block.control->label == frames_.back().sub) break;
     // A computed label may be this one, so the construct is not said to lack its end.
     if (!block.control->computed_label && block.control->label != open.label) continue;
@@ -473,12 +454,12 @@ bool ProgramFlow::is_closed_further_on(const Open& open) {
     if (block.control->kind == open.kind && !closes) ++inside;
     if (closes && inside-- == 0) return true;
   }
-  file_->reader.seek(here);
+  lines_.seek(here);
   return false;
 }
 
 bool ProgramFlow::stray(Symbol label, const Control& control, std::string message, std::string expected) {
-  if (is_doubtful(label)) return false;
+  if (lines_.doubtful_labels().has(label)) return false;
   reporter_.error("gcode.stray-o-word", control.span, std::move(message), std::move(expected));
   return false;
 }

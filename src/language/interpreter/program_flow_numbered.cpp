@@ -30,14 +30,14 @@ void ProgramFlow::call_program(const SubprogramJump& jump) {
   if (jump.kind == Kind::modal_macro && std::ranges::any_of(frames_, &Frame::modal_macro)) return;
   const Symbol label = symbols_.intern(fmt::format("{}", jump.program));
   if (!may_call(jump.span)) return;
-  Frame frame{file_,
-              file_->reader.position(),
+  Frame frame{&lines_.file(),
+              lines_.after(),
               label,
               {},
               open_.size(),
               reporter_.errors(),
               static_cast<std::uint64_t>(jump.passes)};
-  File* const file = find_sub(label);
+  File* const file = lines_.find_sub(label);
   if (file == nullptr) return report_unknown_sub(label, jump.span, true);
   frame.place = file->subs.at(label.id);
   if (!check_style(frame.place, label, jump.span, jump.code()) || jump.kind == Kind::find_macro) return;
@@ -71,7 +71,7 @@ ProgramFlow::Followed ProgramFlow::end_program(const SubprogramJump& jump) {
     leave_frame();
     return Followed::left_sub;
   }
-  File* const file = file_;
+  File* const file = &lines_.file();
   const bool again = --frame.passes_left > 0 && reporter_.errors() == frame.errors_before;
   if (again && !may_go_round({ControlKind::program, frame.sub, frame.place.at, {}})) return Followed::goes_on;
   leave_frame();
@@ -81,23 +81,23 @@ ProgramFlow::Followed ProgramFlow::end_program(const SubprogramJump& jump) {
 
 // M99 in the main program. The program begins again, as often as is allowed, unless it has errors. False: it does not.
 bool ProgramFlow::restart_main(const SubprogramJump& jump) {
-  if (++main_passes_ == options_.main_passes || reporter_.errors() > 0) return false;
-  if (++idle_passes_ > options_.idle_passes) {
-    reporter_.error(
-        "gcode.endless-loop", jump.span,
-        fmt::format("the program began again {}, and the machine did nothing", counted(options_.idle_passes, "time")),
-        "a program that moves, or M2 in place of M99");
+  if (!bounds_.count_main_pass() || reporter_.errors() > 0) return false;
+  if (!bounds_.count_restart()) {
+    reporter_.error("gcode.endless-loop", jump.span,
+                    fmt::format("the program began again {}, and the machine did nothing",
+                                counted(bounds_.limits().idle_passes, "time")),
+                    "a program that moves, or M2 in place of M99");
     finish(End::error);
     return true;
   }
   open_.clear();
-  begun_ = false;
-  file_->reader.seek({});
+  lines_.percent_signs().restart();
+  lines_.seek({});
   return true;
 }
 
 bool ProgramFlow::check_numbered_programs(Span span, std::string_view what) {
-  if (options_.numbered_programs) return true;
+  if (numbered_programs_) return true;
   reporter_.error("gcode.no-numbered-programs", span,
                   fmt::format("{}, but the settings disable numbered programs", what),
                   "o<name> sub and o<name> call, or the settings without [RS274NGC]DISABLE_FANUC_STYLE_SUB");

@@ -235,9 +235,17 @@ std::string tool_table_text(std::string_view text, LengthUnits units, const Tool
   return result;
 }
 
+void add_new_tools(std::string& text, const ToolTable& known, const ToolTable& table) {
+  for (const auto& [number, tool] : table.all()) {
+    if (known.find(number) != nullptr) continue;
+    if (!text.empty() && text.back() != '\n') text += '\n';
+    text += fmt::format("T{} P{}\n", number, tool.pocket);
+  }
+}
+
 std::string tool_table_text(const ToolTable& table) {
   std::string lines;
-  for (const auto& [number, tool] : table.all()) lines += fmt::format("T{} P{}\n", number, tool.pocket);
+  add_new_tools(lines, ToolTable(), table);
   return tool_table_text(lines, LengthUnits::mm, table);
 }
 

@@ -13,8 +13,6 @@ namespace {
 constexpr double travels_to_seek = 1.1;
 constexpr double pull_offs_to_latch = 3;
 constexpr double hardly_a_step = 1e-3;
-// How often a switch may open and close on the way off.
-constexpr int most_turns = 8;
 
 const AxisDescription* find(const MachineDescription& machine, Axis axis) {
   const auto found = std::ranges::find(machine.axes, axis, &AxisDescription::axis);
@@ -75,7 +73,7 @@ bool HomingPath::next(PathItem& item) {
 }
 
 Action HomingPath::action(Action::Kind kind, const Point& place) const {
-  return {.kind = kind, .probe_toward = until_closed_, .limit = limits_, .place = place};
+  return {.kind = kind, .probe_toward = watch_.until_closed(), .limit = watch_.inputs(), .place = place};
 }
 
 double HomingPath::off(double place) const {
@@ -84,14 +82,14 @@ double HomingPath::off(double place) const {
 
 // Goes on with the axes of this turn, or else of the next one.
 void HomingPath::begin_turn() {
-  if (turn_.empty() && homed_.size() < machine_.homing.size()) {
+  if (turn_.axes().empty() && homed_.size() < machine_.homing.size()) {
     std::size_t i = homed_.size();
-    do turn_.push_back(find(machine_, machine_.homing[i]));
+    do turn_.add(*find(machine_, machine_.homing[i]));
     while (is_same_turn(machine_, i++));
   }
   axis_ = nullptr;
-  if (turn_.size() == 1) return begin_axis(*turn_.front());
-  if (!turn_.empty()) seek_together();
+  if (turn_.axes().size() == 1) return begin_axis(*turn_.axes().front());
+  if (!turn_.axes().empty()) seek_together();
 }
 
 // Every axis seeks at its own speed. The way ends where the first of them has gone as far as it may.
@@ -99,40 +97,37 @@ void HomingPath::seek_together() {
   double time = std::numeric_limits<double>::infinity();
   double squares = 0;
   unsigned limits = 0;
-  for (const AxisDescription* axis : turn_) {
+  for (const AxisDescription* axis : turn_.axes()) {
     const double own = travels_to_seek * (axis->travel_high - axis->travel_low) / axis->home->seek.value();
     if (own < time) axis_ = axis;
     time = std::min(time, own);
     squares += axis->home->seek.value() * axis->home->seek.value();
     limits |= axis->home_switches();
   }
-  together_ = until_closed_ = true;
+  turn_.seek_together();
+  watch_.wait_for_closing();
   begin(HomingStage::seek, stands());
-  for (const AxisDescription* axis : turn_) {
+  for (const AxisDescription* axis : turn_.axes()) {
     const double way = axis->home->seek.value() * time;
     target_[axis->axis] += axis->home->toward_high ? way : -way;
   }
-  limits_ = static_cast<std::uint8_t>(limits);
+  watch_.watch(limits);
   speed_ = MmPerSecond(std::sqrt(squares));
 }
 
 // Watches the switch of one axis without a move: the watch is refused if the switch is closed.
-void HomingPath::begin_look(std::size_t which) {
-  looked_at_ = which;
-  axis_ = turn_[which];
-  until_closed_ = true;
+void HomingPath::begin_look(const AxisDescription& axis) {
+  axis_ = &axis;
+  watch_.wait_for_closing();
   begin(HomingStage::look, stands());
 }
 
 void HomingPath::begin_axis(const AxisDescription& axis) {
   axis_ = &axis;
-  together_ = false;
-  turns_ = 0;
   knows_switch_ = false;
   lag_ = lag_of(axis, steps_per_unit());
-  until_closed_ = true;
-  goes_ = {stands(), stands()};
-  found_ = goes_;
+  watch_.begin_axis();
+  motors_.begin_at(stands());
   begin(HomingStage::seek, stands() + direction() * travels_to_seek * (axis_->travel_high - axis_->travel_low));
 }
 
@@ -142,13 +137,13 @@ void HomingPath::begin(HomingStage stage, double target) {
   target_ = position_;
   target_[axis_->axis] = target;
   speed_ = stage == HomingStage::latch ? home().latch : home().seek;
-  limits_ = axis_->home_switches();
+  watch_.watch(axis_->home_switches());
   step_ = Step::begin;
 }
 
 void HomingPath::begin_alone(Alone alone, double way) {
   alone_ = alone;
-  until_closed_ = true;
+  watch_.wait_for_closing();
   move_alone(way);
 }
 
@@ -156,7 +151,7 @@ void HomingPath::move_alone(double way) {
   begin(HomingStage::square, stands() + way);
   speed_ = home().latch;
   const int input = alone_ == Alone::close_first ? home().input : axis_->second->input;
-  limits_ = static_cast<std::uint8_t>(1U << static_cast<unsigned>(input));
+  watch_.watch(1U << static_cast<unsigned>(input));
 }
 
 // The machine rests after a move, and the outcome is known.
@@ -164,7 +159,7 @@ void HomingPath::judge() {
   const Point before = position_;
   if (!outcome().refused) position_ = outcome().rest;
   record_way(before);
-  if (together_) return judge_together();
+  if (turn_.seeks_together()) return judge_together();
   switch (stage_) {
     case HomingStage::look: return judge_look();
     case HomingStage::square: return judge_alone();
@@ -181,28 +176,27 @@ void HomingPath::record_way(const Point& before) {
   const double way = stands() - before[axis_->axis];
   const double to_contact = outcome().contact[axis_->axis] - before[axis_->axis];
   const bool retreats = stage_ == HomingStage::back_off || stage_ == HomingStage::pull_off;
-  const bool has_closed = !outcome().refused && outcome().touched && until_closed_ && !retreats;
-  for (const std::size_t motor : {first_motor, second_motor}) {
+  const bool has_closed = !outcome().refused && outcome().touched && watch_.until_closed() && !retreats;
+  const std::optional<double> to_switch = has_closed ? std::optional(to_contact) : std::nullopt;
+  for (const std::size_t motor : {HomedMotors::first, HomedMotors::second}) {
     const bool is_alone = stage_ == HomingStage::square;
     const bool is_first = alone_ == Alone::close_first;
-    if (is_alone && is_first != (motor == first_motor)) continue;
-    if (has_closed) found_[motor] = goes_[motor] + to_contact;
-    goes_[motor] += way;
+    if (is_alone && is_first != (motor == HomedMotors::first)) continue;
+    motors_.go(motor, way, to_switch);
   }
 }
 
 void HomingPath::judge_together() {
   if (!outcome().refused && !outcome().touched) return fail(MachineFault::switch_not_met);
-  together_ = false;
-  if (outcome().touched && !outcome().refused) met_ = outcome().contact;
-  begin_look(0);
+  turn_.rest(outcome().refused ? std::nullopt : std::optional(outcome().contact));
+  begin_look(*turn_.axes().front());
 }
 
 // The switch may have opened again by itself: then the first axis seeks alone.
 void HomingPath::judge_look() {
-  if (outcome().refused) return begin_axis(*turn_[looked_at_]);
-  if (looked_at_ + 1 < turn_.size()) return begin_look(looked_at_ + 1);
-  begin_axis(*turn_.front());
+  if (outcome().refused) return begin_axis(*axis_);
+  if (const AxisDescription* const next = turn_.after(*axis_)) return begin_look(*next);
+  begin_axis(*turn_.axes().front());
 }
 
 void HomingPath::judge_approach() {
@@ -213,14 +207,15 @@ void HomingPath::judge_approach() {
   }
   if (!outcome().refused && !outcome().touched) return fail(MachineFault::switch_not_met);
   if (stage_ == HomingStage::latch) {
-    if (!is_pair()) return retreat(HomingStage::pull_off, off(found_[first_motor]));
+    if (!is_pair()) return retreat(HomingStage::pull_off, off(motors_.found(HomedMotors::first)));
     return begin_alone(Alone::find_second, direction() * (lag_ + axis_->second->most_skew));
   }
   if (is_pair()) return begin_alone(Alone::close_first, direction() * axis_->second->most_skew);
   // A switch that is closed from the beginning.
-  if (outcome().refused) return retreat(HomingStage::back_off, off(met_ ? (*met_)[axis_->axis] : stands()));
+  if (outcome().refused)
+    return retreat(HomingStage::back_off, off(turn_.met() ? (*turn_.met())[axis_->axis] : stands()));
   knows_switch_ = true;
-  retreat(HomingStage::back_off, off(found_[first_motor]));
+  retreat(HomingStage::back_off, off(motors_.found(HomedMotors::first)));
 }
 
 // The motors are whole steps apart before they go on together: otherwise they would not step at the same events.
@@ -230,18 +225,18 @@ void HomingPath::judge_alone() {
   if (!settles_ && met == is_free)
     return fail(is_free ? MachineFault::switch_still_closed : MachineFault::switch_not_met);
   if (!settles_ && alone_ == Alone::find_second && outcome().refused) return fall_further_behind();
-  const double apart = goes_[first_motor] - goes_[second_motor];
+  const double apart = motors_.apart();
   const double steps = (alone_ == Alone::close_first ? apart : -apart) * steps_per_unit() * direction();
   const double left = std::ceil(steps - hardly_a_step) - steps;
   settles_ = !settles_ && left > hardly_a_step;
   if (!settles_) return go_on_alone();
-  until_closed_ = false;
+  watch_.wait_for_opening();
   move_alone(direction() * left / steps_per_unit());
 }
 
 // The second motor's switch has closed before the first one's: after the fast seek their places were not known well.
 void HomingPath::fall_further_behind() {
-  if (++turns_ > most_turns) return fail(MachineFault::switch_unsteady);
+  if (!watch_.allows_another_try()) return fail(MachineFault::switch_unsteady);
   lag_ *= 2;
   retreat(HomingStage::back_off, off(stands()));
 }
@@ -251,20 +246,21 @@ void HomingPath::go_on_alone() {
     case Alone::close_first: return begin_alone(Alone::close_second, direction() * axis_->second->most_skew);
     case Alone::close_second:
       knows_switch_ = true;
-      return retreat(HomingStage::back_off, off(stands()) - direction() * farthest_beyond());
+      return retreat(HomingStage::back_off, off(stands()) - direction() * motors_.farthest_beyond(direction()));
     case Alone::lag:
-      until_closed_ = true;
+      watch_.wait_for_closing();
       return begin(HomingStage::latch,
                    stands() + direction() * pull_offs_to_latch * pull_off_of(*axis_, steps_per_unit()));
     case Alone::find_second:
-      return retreat(HomingStage::pull_off, stands() + off(found_[first_motor]) - goes_[first_motor]);
+      return retreat(HomingStage::pull_off,
+                     stands() + off(motors_.found(HomedMotors::first)) - motors_.is_at(HomedMotors::first));
     case Alone::adjust: return end_axis();
   }
 }
 
 // Moves off the switch, which is closed at first.
 void HomingPath::retreat(HomingStage stage, double target) {
-  until_closed_ = false;
+  watch_.wait_for_opening();
   begin(stage, target);
 }
 
@@ -278,46 +274,33 @@ void HomingPath::judge_retreat() {
     reverse_watch();
     return begin(stage_, is_first ? off(outcome().contact[axis_->axis]) : target);
   }
-  if (!until_closed_) return fail(MachineFault::switch_still_closed);
+  if (!watch_.until_closed()) return fail(MachineFault::switch_still_closed);
   if (stage_ == HomingStage::back_off) {
-    if (is_pair()) return begin_alone(Alone::lag, apart_from_switches() - direction() * lag_);
+    if (is_pair()) return begin_alone(Alone::lag, motors_.apart_from_switches() - direction() * lag_);
     begin(HomingStage::latch, stands() + direction() * pull_offs_to_latch * pull_off_of(*axis_, steps_per_unit()));
   } else if (is_pair()) {
     const double square = in_steps(axis_->second->square) / steps_per_unit();
-    begin_alone(Alone::adjust, off(found_[second_motor]) + square - goes_[second_motor]);
+    begin_alone(Alone::adjust, off(motors_.found(HomedMotors::second)) + square - motors_.is_at(HomedMotors::second));
   } else {
     end_axis();
   }
 }
 
-// How far the motors have gone on after their switches closed, the farther of the two.
-double HomingPath::farthest_beyond() const {
-  const double first = direction() * (goes_[first_motor] - found_[first_motor]);
-  const double second = direction() * (goes_[second_motor] - found_[second_motor]);
-  return std::max({first, second, 0.0});
-}
-
-// By how much the second motor has to move to be as far from its switch as the first one, as far as that is known.
-double HomingPath::apart_from_switches() const {
-  return (goes_[first_motor] - found_[first_motor]) - (goes_[second_motor] - found_[second_motor]);
-}
-
 void HomingPath::reverse_watch() {
-  until_closed_ = !until_closed_;
-  if (++turns_ > most_turns) fault_ = MachineFault::switch_unsteady;
+  if (!watch_.turn()) fault_ = MachineFault::switch_unsteady;
 }
 
 void HomingPath::end_axis() {
-  const double found = in_steps(found_[first_motor]);
+  const double found = in_steps(motors_.found(HomedMotors::first));
   HomedAxis homed{.axis = axis_->axis,
                   .way = (found - in_steps(start_[axis_->axis])) / steps_per_unit(),
-                  .place = home().switch_at + (in_steps(goes_[first_motor]) - found) / steps_per_unit()};
+                  .place = home().switch_at + (in_steps(motors_.is_at(HomedMotors::first)) - found) / steps_per_unit()};
   if (is_pair()) {
-    homed.squared = (in_steps(goes_[second_motor]) - in_steps(goes_[first_motor])) / steps_per_unit();
+    homed.squared =
+        (in_steps(motors_.is_at(HomedMotors::second)) - in_steps(motors_.is_at(HomedMotors::first))) / steps_per_unit();
   }
   homed_.push_back(homed);
-  std::erase(turn_, axis_);
-  if (turn_.empty()) met_.reset();
+  turn_.remove(*axis_);
   begin_turn();
 }
 

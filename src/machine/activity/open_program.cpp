@@ -6,7 +6,6 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include "passo/activity/nominal_time.hpp"
 #include "passo/activity/stage_options.hpp"
 #include "passo/interpreter/saved_offsets.hpp"
 
@@ -35,9 +34,9 @@ std::optional<Diagnostic> first_error(const Diagnostics& diagnostics) {
 
 OpenProgram::OpenProgram(const MachineDescription& machine, InterpreterOptions options, const Point& start)
     : options_(std::move(options)),
-      limits_(motion_limits(machine)),
       path_options_(path_options(machine, "line")),
-      answers_(AnswerBook::Answers{}) {
+      answers_(AnswerBook::Answers{}),
+      queue_(motion_limits(machine)) {
   options_.open_ended = true;
   options_.on_machine = true;
   path_options_.open_ended = true;
@@ -57,8 +56,8 @@ void OpenProgram::begin(const Point& start) {
 void OpenProgram::restart(const Point& place) {
   forget_queue();
   options_.parameters = interpreter_->saved_parameters();
-  for (int number = g92_active_parameter; number < work_system_parameter; ++number) options_.parameters.erase(number);
-  options_.parameters[work_system_parameter] = 1;
+  forget_g92(options_.parameters);
+  begin_with_g54(options_.parameters);
   options_.units = LengthUnits::mm;
   begin(place);
 }
@@ -78,7 +77,6 @@ void OpenProgram::apply_offsets(const SavedParameters& parameters, const Point& 
 void OpenProgram::forget_queue() {
   wait_words_ = {};
   queue_.clear();
-  queued_time_ = Seconds(0);
   jogs_ = false;
   outputs_ = {};
 }
@@ -132,7 +130,7 @@ std::optional<Diagnostic> OpenProgram::check(std::string_view line) {
   for (PathItem item; pull_answer(item);) {
     if (is_kind(item, Action::Kind::probe_end)) answers_.record(touched_at(std::get<Action>(item).place));
   }
-  queue_.resize(kept);
+  queue_.cut_to(kept);
   if (interpreter_->ended()) begin_after_end();
   return answer;
 }
@@ -147,23 +145,16 @@ std::optional<Diagnostic> OpenProgram::judge(std::string_view line) {
 std::optional<Diagnostic> OpenProgram::queue_line(std::string_view line, Seconds now, bool jogs) {
   const std::size_t kept = queue_.size();
   answer_fault_.reset();
-  auto answer = read(line);
+  auto answer = read(line, jogs);
   if (answer) return answer;
-  // As in grbl, a jog goes at the speed that it names.
-  for (std::size_t i = kept; jogs && i < queue_.size(); ++i) {
-    if (auto* const segment = std::get_if<Segment>(&queue_[i])) segment->heeds.feed_override = false;
-  }
-  if (!queue_.empty()) {
-    jogs_ = jogs;
-    last_came_ = now;
-    if (kept == 0) first_came_ = now;
-  }
+  if (!queue_.empty()) jogs_ = jogs;
+  queue_.add_line(kept, now);
   if (interpreter_->ended() && !asks_) begin_after_end();
   return answer;
 }
 
 // Interprets a line, and queues what the line asks for. Of a line with an error, nothing stays.
-std::optional<Diagnostic> OpenProgram::read(std::string_view line) {
+std::optional<Diagnostic> OpenProgram::read(std::string_view line, bool jogs) {
   const std::size_t kept = queue_.size();
   interpreter_->keep();
   builder_->keep();
@@ -172,7 +163,10 @@ std::optional<Diagnostic> OpenProgram::read(std::string_view line) {
   interpreter_->push_line(line);
   for (PathItem item; builder_->next(item);) {
     if (diagnostics_.any_error()) break;
-    push(item);
+    // As in grbl, a jog goes at the speed that it names.
+    if (auto* const segment = std::get_if<Segment>(&item); segment != nullptr && jogs)
+      segment->heeds.feed_override = false;
+    queue_.push(item);
     asks_ = is_kind(item, Action::Kind::probe_begin);
     if (asks_) break;
   }
@@ -187,40 +181,16 @@ void OpenProgram::roll_back(std::size_t kept) {
   asks_ = false;
   for (PathItem item; builder_->next(item);) {
   }
-  while (queue_.size() > kept) {
-    queued_time_ -= nominal_time_of(queue_.back(), limits_);
-    queue_.pop_back();
-  }
+  queue_.cut_to(kept);
   diagnostics_.clear();
   interpreter_->roll_back();
   builder_->roll_back();
   wait_words_ = kept_words_;
 }
 
-void OpenProgram::push(const PathItem& item) {
-  queued_time_ += nominal_time_of(item, limits_);
-  queue_.push_back(item);
-}
-
-bool OpenProgram::room() const {
-  if (asks_) return false;
-  return queue_.size() < enough_items || (queue_.size() < most_items && queued_time_ < enough_time);
-}
-
-bool OpenProgram::is_to_begin(Seconds now) const {
-  if (queue_.empty() && !asks_) return false;
-  return !room() || now - last_came_ >= quiet || now - first_came_ >= longest_wait;
-}
-
-bool OpenProgram::expects_more(Seconds now) const {
-  return room() && queue_.size() < enough_items && now - last_came_ < quiet;
-}
-
 bool OpenProgram::next(PathItem& item) {
   if (!queue_.empty()) {
-    item = std::move(queue_.front());
-    queue_.pop_front();
-    queued_time_ = queue_.empty() ? Seconds(0) : queued_time_ - nominal_time_of(item, limits_);
+    item = queue_.pull();
   } else if (!pull_answer(item)) {
     item = Action{.kind = Action::Kind::await_line, .outputs = outputs_, .place = builder_->position()};
     return true;
@@ -259,7 +229,6 @@ bool OpenProgram::pull_answer(PathItem& item) {
 void OpenProgram::drop(const Point& place) {
   wait_words_ = {};
   queue_.clear();
-  queued_time_ = Seconds(0);
   asks_ = false;
   builder_->stand_at(place);
   interpreter_->stand_at(place);

@@ -10,10 +10,6 @@
 namespace passo {
 namespace {
 
-// A spindle is at speed when a turn takes as long as ordered, or nearly as long as the turn before.
-constexpr double near_speed = 0.1;
-constexpr double steady = 0.02;
-constexpr int most_turns = 1000;
 // How often the tracker reads the encoder while it waits for the spindle, and how long the spindle may stand while
 // running up and in a thread.
 constexpr Seconds between_looks{0.005};
@@ -49,11 +45,8 @@ bool SpindleTracker::let_go() {
 
 // Over a line, the delay of what is sent is measured first.
 void SpindleTracker::begin_await(double revolutions_per_minute) {
-  wanted_ = seconds_per_minute / revolutions_per_minute;
-  turn_begun_ = {};
-  turn_before_ = 0;
-  turns_ = 0;
-  at_speed_ = begins_ = false;
+  run_up_.begin(revolutions_per_minute);
+  begins_ = false;
   looks_at_ = Seconds(0);
   step_ = stages_.feed.is_remote() ? AwaitStep::measure : AwaitStep::measured_loaded;
   alone_ = stages_.link.answer_time();
@@ -96,19 +89,11 @@ bool SpindleTracker::await_index() {
 
 void SpindleTracker::find_index() {
   if (!check_encoder(longest_run_up)) return;
-  const SpindleReading& now = encoder_.now();
-  const double turned = std::abs(now.turns - turn_begun_.turns);
-  if (turned >= 1) {
-    const double turn = (now.time - turn_begun_.time).value() / turned;
-    at_speed_ = at_speed_ || std::abs(turn - wanted_) < near_speed * wanted_ ||
-                std::abs(turn - turn_before_) < steady * turn || ++turns_ == most_turns;
-    turn_before_ = turn;
-    turn_begun_ = now;
-  }
+  run_up_.read(encoder_.now());
   const bool remote = stages_.feed.is_remote();
   const Seconds left = time_to_index(remote ? stages_.link.answer_time() + late_ : Seconds(0));
   encoder_known_ = encoder_known_ || encoder_.is_right();
-  begins_ = at_speed_ && encoder_known_ && encoder_.index() && left < 2 * between_looks;
+  begins_ = run_up_.at_speed() && encoder_known_ && encoder_.index() && left < 2 * between_looks;
   looks_at_ = stages_.link.now() + (begins_ ? left : between_looks);
 }
 

@@ -6,6 +6,7 @@
 
 #include <fmt/format.h>
 
+#include "passo/base/ensure.hpp"
 #include "passo/journal/record_text.hpp"
 
 namespace passo {
@@ -144,6 +145,7 @@ bool read_outcomes(std::string_view text, std::vector<ProbeOutcome>& outcomes) {
 }  // namespace
 
 void JournalWriter::begin(const JournalHead& head) {
+  ensure(head.numbers.session != 0 && head.job_counts.size() <= max_motors);  // read_head() takes no other
   std::string text = text_of(head);
   end_record(text);
   head_size_ = text.size();
@@ -156,11 +158,14 @@ void JournalWriter::begin(const JournalHead& head) {
 
 void JournalWriter::record(const BoardRest& rest) {
   const std::size_t place = noted_ % rests;
-  if (!failed_) failed_ = !store_.overwrite(head_size_ + place * line_size, line_of(noted_, rest));
+  const std::string line = line_of(noted_, rest);
+  ensure(head_size_ > 0 && line.size() == line_size);  // read_line() takes no other
+  if (!failed_) failed_ = !store_.overwrite(head_size_ + place * line_size, line);
   ++noted_;
 }
 
 void JournalWriter::record(const ProbeOutcome& outcome) {
+  ensure(head_size_ > 0);
   std::string line = text_of(probes_++, outcome) + ' ';
   line += record_check(line);
   if (!failed_) failed_ = !store_.append(line + '\n');

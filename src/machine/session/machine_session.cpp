@@ -151,7 +151,7 @@ void MachineSession::poll_check() {
 }
 
 void MachineSession::poll_work(Seconds most) {
-  if (work_->finishing) {
+  if (work_->stage == Work::Stage::asks_counts) {
     if (!board_.settled()) board_.poll(most);
     if (board_.settled()) end_work();
     return;
@@ -160,7 +160,8 @@ void MachineSession::poll_work(Seconds most) {
   if (poll_lines(most)) return;
   const MotionDrive::Progress turn = work_->drive->advance();
   if (turn == MotionDrive::Progress::ended) return finish_work();
-  if (work_->program_ends && clock_of(*work_) >= *work_->program_ends) end_overrides();
+  PlannedAhead& ahead = work_->ahead;
+  if (ahead.plans_program_end() && ahead.take_program_end(clock_of(*work_))) end_overrides();
   update_holds();
   update_door();
   if (turn != MotionDrive::Progress::waits) return;
@@ -174,7 +175,7 @@ void MachineSession::finish_work() {
   report_tails();
   const bool asks = watches_counts() || closed_limit();
   if (!asks || board_.error()) return end_work();
-  work_->finishing = true;
+  work_->stage = Work::Stage::asks_counts;
   board_.inquire(Question::status);
 }
 
@@ -182,8 +183,8 @@ void MachineSession::end_work() {
   // The standstill may have been heard of when the drive had ended already.
   on_standstill();
   if (board_.standstill()) board_.fail(LinkError::stood_still);
-  work_->ended = true;
-  if (work_->program_ends) end_overrides();
+  const bool knows_counts = std::exchange(work_->stage, Work::Stage::ended) == Work::Stage::asks_counts;
+  if (work_->ahead.take_program_end()) end_overrides();
   Outcome outcome = Outcome::done;
   std::optional<ActivityFault> fault;
   if (work_->checker) {
@@ -191,7 +192,7 @@ void MachineSession::end_work() {
     outcome = work_->stopped ? Outcome::stopped : good ? Outcome::done : Outcome::failed;
   } else {
     std::tie(outcome, fault) = judge_work();
-    record_place();
+    record_place(knows_counts);
   }
   if (board_.error() && is_of_work(*board_.error())) board_.forgive();
   const Ticket ticket = work_->ticket;
@@ -217,10 +218,10 @@ std::pair<Outcome, std::optional<ActivityFault>> MachineSession::judge_work() co
 }
 
 // Takes over the place at rest. If the board was lost, the place is not known until the board answers again.
-void MachineSession::record_place() {
+void MachineSession::record_place(bool knows_counts) {
   if (board_.error() && !is_of_work(*board_.error())) return;
   place_.rest_at(work_->drive->place(), work_->drive->downs());
-  const bool agrees = !work_->finishing || place_.agrees_with(watched_status());
+  const bool agrees = !knows_counts || place_.agrees_with(watched_status());
   if (!agrees) publish({.kind = MachineChange::Kind::position_lost});
   const bool is_homed = work_->homing != nullptr && work_->homing->done() && !work_->drive->stopped();
   // The second motor of an axis has turned alone: of the first one the counts know nothing more.
@@ -234,7 +235,7 @@ void MachineSession::on_standstill() {
   if (!board_.standstill() || board_.error()) return;
   if (!busy()) return board_.fail(LinkError::stood_still);
   if (!work_->is_program() || work_->checker || work_->standstill_line) return;
-  work_->standstill_line = work_->lines_ahead.at(clock_of(*work_)).line;
+  work_->standstill_line = work_->ahead.line_at(clock_of(*work_)).line;
 }
 
 // An error of the board ends what is going on. The machine is then in alarm or in fault until a reset.
@@ -253,7 +254,7 @@ void MachineSession::check_board() {
 
 void MachineSession::poll_panel() {
   if (!options_.over_a_line || board_.error() || !board_.ready()) return;
-  const bool finishing = busy() && work_->finishing;
+  const bool finishing = busy() && work_->stage == Work::Stage::asks_counts;
   const bool runs = busy() && work_->drive && !finishing;
   if (!finishing) panel_->ask(runs && work_->drive->state() == MotionDrive::State::held);
   const Panel::Pressed pressed = panel_->take_pressed();
@@ -307,7 +308,7 @@ std::vector<MachineChange> MachineSession::take_changes() {
 }
 
 bool MachineSession::busy() const {
-  return work_ && !work_->ended;
+  return work_ && work_->stage != Work::Stage::ended;
 }
 
 MachineStatus MachineSession::status() const {
@@ -329,16 +330,13 @@ MachineStatus MachineSession::status() const {
   const MotionDrive& drive = *work_->drive;
   status.holds = drive.holds();
   status.rests = drive.state() == MotionDrive::State::held || drive.state() == MotionDrive::State::ended;
-  status.ahead = work_->ahead;
+  status.ahead = work_->ahead.place();
   status.activity = work_->activity->kind();
-  status.progress = work_->activity->progress();
-  if (work_->whole > Seconds(0)) {
-    const Seconds done = std::max(work_->progress_ahead.at(clock_of(*work_)), Seconds(0));
-    status.progress = std::min((work_->path->time() + done) / work_->whole, 1.0);
-  }
+  status.progress = work_->ahead.progress_at(clock_of(*work_), work_->path->time());
+  if (!status.progress) status.progress = work_->activity->progress();
   status.committed = drive.committed();
   status.outputs = drive.outputs();
-  status.executes = work_->lines_ahead.at(clock_of(*work_));
+  status.executes = work_->ahead.line_at(clock_of(*work_));
   if (const auto& wait = drive.waits_for()) {
     status.waits_for = OperatorWait{.kind = wait->kind,
                                     .tool = wait->tool,

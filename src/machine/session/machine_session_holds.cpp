@@ -1,23 +1,19 @@
 // MachineSession: why a program rests, and what a person changes meanwhile.
-#include <utility>
-
 #include "work.hpp"
 
 namespace passo {
 
 // Stops the jog in time. The moves that one step commits may not end after the lease.
 void MachineSession::check_lease() {
-  if (!work_->lease_end) return;
   const Seconds pulled = 3 * live_commitment.longest_move;
-  if (now() + work_->drive->committed() + pulled > *work_->lease_end) work_->drive->stop();
+  if (work_->lease.is_over_at(now() + work_->drive->committed() + pulled)) work_->drive->stop();
 }
 
 // As in grbl, the operator's factors are 100 % again after M2 and M30.
 void MachineSession::end_overrides() {
-  work_->program_ends.reset();
   overrides_ = {.adaptive_feed = overrides_.adaptive_feed};
   ++version_;
-  if (!work_->ended) put_overrides_on(*work_->drive);
+  if (busy()) put_overrides_on(*work_->drive);
 }
 
 // Sets the state of a program by its strongest reason to rest.
@@ -40,19 +36,15 @@ void MachineSession::update_holds() {
   } else if (state_ != MachineState::run && !drive.stopped()) {
     move_to(MachineEvent::resume);
   }
-  if (!held) {
-    work_->rest_told = false;
-  } else if (!std::exchange(work_->rest_told, true)) {
-    publish({.kind = MachineChange::Kind::came_to_rest});
-    answer_holds(Outcome::done);
-  }
+  if (!work_->rest.begins(held)) return;
+  publish({.kind = MachineChange::Kind::came_to_rest});
+  answer_holds(Outcome::done);
 }
 
 // A hold as for a door: at rest, spindle and coolant are off.
 void MachineSession::update_door() {
-  if (!work_->stops_outputs || work_->drive->state() != MotionDrive::State::held) return;
-  work_->stops_outputs = false;
-  work_->drive->stop_outputs();
+  const bool rests = work_->drive->state() == MotionDrive::State::held;
+  if (rests && work_->rest.take_stop_of_outputs()) work_->drive->stop_outputs();
 }
 
 void MachineSession::report_tails() {

@@ -36,7 +36,8 @@ void MachineSession::poll_place() {
     live_place_.hear(kinematics_of(machine_).axes(motors, position().downs, live_place_.at()), *heard);
   }
   const Seconds between = options_.over_a_line ? between_places_over_a_line : between_places;
-  if (work_->finishing || !board_.settled() || !live_place_.is_due(now(), heard, between)) return;
+  const bool is_asked = work_->stage == Work::Stage::asks_counts;
+  if (is_asked || !board_.settled() || !live_place_.is_due(now(), heard, between)) return;
   live_place_.on_asked(now());
   board_.ask();
 }

@@ -36,7 +36,7 @@ bool MachineSession::poll_lines(Seconds most) {
 // The machine rests, and the path was dropped up to here. The program goes on from where that is.
 void MachineSession::go_on_after_drop() {
   work_->drops = false;
-  work_->lines->drop(work_->drive->dropped_to().value_or(work_->ahead));
+  work_->lines->drop(work_->drive->dropped_to().value_or(work_->ahead.place()));
   answer_holds(Outcome::done);
 }
 

@@ -148,8 +148,6 @@ MachineSession::Answer MachineSession::handle(request::Start& start) {
                                            *work->findings, start.nominal_time, std::move(start.known_probes));
   work->program = program.get();
   work->activity = std::move(program);
-  if (start.live) work->whole = start.nominal_time;
-  work->watchers = std::move(start.watchers);
   DriveOptions options = drive_options();
   options.counts_per_turn = counts;
   options.guards_by_probe = machine_.probe.guards && start.answers_probes;
@@ -162,11 +160,12 @@ MachineSession::Answer MachineSession::handle(request::Start& start) {
     work->stops_before = start.from->stops;
   }
   options.lead_in = std::move(start.lead_in);
-  if (!options.lead_in.empty() && work->watchers.rests) {
-    work->watchers.rests = [from = *start.from, lead_in = options.lead_in.size(), tell = work->watchers.rests](
-                               const BoardRest& rest) { tell(without_lead_in(from, lead_in, rest)); };
+  Watchers& watchers = start.watchers;
+  if (!options.lead_in.empty() && watchers.rests) {
+    watchers.rests = [from = *start.from, lead_in = options.lead_in.size(),
+                      tell = watchers.rests](const BoardRest& rest) { tell(without_lead_in(from, lead_in, rest)); };
   }
-  put_on_drive(*work, options, start.live);
+  put_on_drive(*work, options, watchers, start.live, start.live ? start.nominal_time : Seconds(0));
   if (is_on_path && work->drive->ledger() != nullptr) {
     work->drive->switch_on(start.from->outputs, start.from->spindle_wait);
   }
@@ -181,10 +180,9 @@ MachineSession::Answer MachineSession::handle(request::Stream& stream) {
   auto work = std::make_unique<Work>();
   work->lines = stream.program;
   work->activity = std::make_unique<OpenRun>(*stream.program, machine_);
-  work->watchers = std::move(stream.watchers);
   DriveOptions options = drive_options();
   options.waits_for_operator = true;
-  put_on_drive(*work, options, true);
+  put_on_drive(*work, options, stream.watchers);
   return begin(MachineEvent::begin_run, std::move(work));
 }
 
@@ -204,30 +202,23 @@ Seconds MachineSession::clock_of(const Work& work) const {
 }
 
 // Puts the work's activity on a drive, and connects all watchers.
-void MachineSession::put_on_drive(Work& work, const DriveOptions& options, bool knows_ahead) {
+void MachineSession::put_on_drive(Work& work, const DriveOptions& options, const Watchers& watchers, bool knows_ahead,
+                                  Seconds nominal_time) {
   AnswerBook& answers = work.lines != nullptr ? work.lines->answers() : work.answers;
   const MotionLimits limits = motion_limits(machine_);
   work.path = std::make_unique<LeftOutTime>(*work.activity, limits, options.begin_at.value_or(PathPlace()));
-  work.progress_ahead.begin_with(options.lead_in, limits);
+  work.ahead.begin(position().place, options.lead_in, limits, nominal_time);
   work.drive = std::make_unique<MotionDrive>(*work.path, limits, step_options(), board_, answers, options);
   MotionDrive& drive = *work.drive;
-  Watchers& watchers = work.watchers;
-  work.ahead = position().place;
   if (knows_ahead) {
     drive.motion().watch([this, &work, limits](const MotionItem& item) {
       const auto* move = std::get_if<PlannedMove>(&item);
-      const Seconds time = move != nullptr ? move->duration() : std::get<Action>(item).dwell;
+      const auto* action = std::get_if<Action>(&item);
+      const Seconds time = move != nullptr ? move->duration() : action->dwell;
       const RefillLedger* const ledger = work.drive->ledger();
       const Seconds ends = ledger != nullptr ? ledger->given_time() : now() + work.drive->committed();
-      const Seconds begins = ends - time;
-      if (move == nullptr) {
-        if (time > Seconds(0)) work.progress_ahead.plan(time, begins, ends, clock_of(work));
-        if (std::get<Action>(item).kind == Action::Kind::program_end) work.program_ends = ends;
-        return;
-      }
-      work.ahead = move->segment.tool_at(move->to);
-      work.lines_ahead.plan(move->segment.source, begins, clock_of(work));
-      work.progress_ahead.plan(nominal_time_of(*move, limits), begins, ends, clock_of(work));
+      if (move != nullptr) work.ahead.plan(*move, limits, ends - time, ends, clock_of(work));
+      if (action != nullptr) work.ahead.plan(*action, ends - time, ends, clock_of(work));
     });
   }
   if (work.program != nullptr && watchers.operations) work.program->operations().watch(watchers.operations);
@@ -235,8 +226,8 @@ void MachineSession::put_on_drive(Work& work, const DriveOptions& options, bool 
   if (watchers.planned) drive.motion().watch(watchers.planned);
   if (watchers.motion && drive.ledger() == nullptr) drive.motion().watch(watchers.motion);
   if (watchers.items) drive.items().watch(watchers.items);
-  drive.probe().watch([this, &work](const ProbeOutcome& outcome) {
-    if (work.watchers.probe) work.watchers.probe(outcome);
+  drive.probe().watch([this, watcher = watchers.probe](const ProbeOutcome& outcome) {
+    if (watcher) watcher(outcome);
     publish({.kind = MachineChange::Kind::probed, .probe = outcome});
   });
   if (RefillLedger* const ledger = drive.ledger()) {
@@ -260,16 +251,15 @@ MachineSession::Answer MachineSession::handle(request::Jog& jog) {
   if (auto refused = refuse_way(jog.way.direction)) return Failure{*refused};
   auto work = std::make_unique<Work>();
   work->activity = std::make_unique<JogLine>(machine_, position().place, jog.way, position().trust != Trust::unknown);
-  work->lease = jog.lease;
-  work->lease_end = now() + jog.lease;
-  put_on_drive(*work, drive_options(), true);
+  work->lease.begin(jog.lease, now());
+  put_on_drive(*work, drive_options());
   return begin(MachineEvent::begin_jog, std::move(work));
 }
 
 // Has no effect on a jog that has begun to brake.
 MachineSession::Answer MachineSession::handle(request::RenewLease&) {
   if (state_ != MachineState::jog) return refusal(RefusalReason::no_jog);
-  work_->lease_end = now() + work_->lease;
+  work_->lease.renew(now());
   return at_once();
 }
 
@@ -284,7 +274,7 @@ MachineSession::Answer MachineSession::handle(request::Home&) {
   work->activity = std::move(path);
   DriveOptions options = drive_options();
   options.live = endless_commitment;
-  put_on_drive(*work, options, true);
+  put_on_drive(*work, options);
   return begin(MachineEvent::begin_home, std::move(work));
 }
 
@@ -300,7 +290,7 @@ MachineSession::Answer MachineSession::handle(request::Probe& probe) {
   auto work = std::make_unique<Work>();
   work->activity =
       std::make_unique<ProbeLine>(position().place, probe.target, probe.speed, probe.toward, work->answers);
-  put_on_drive(*work, drive_options(), true);
+  put_on_drive(*work, drive_options());
   return begin(MachineEvent::begin_probe, std::move(work));
 }
 
@@ -321,8 +311,7 @@ MachineSession::Answer MachineSession::handle(request::Hold& hold) {
     work_->drive->stop();
   } else {
     work_->drive->hold(hold.for_door ? HoldReason::door : HoldReason::operator_hold);
-    work_->stops_outputs = work_->stops_outputs || hold.for_door;
-    work_->rest_told = false;
+    work_->rest.hold(hold.for_door);
   }
   waiting_holds_.push_back(ticket);
   update_holds();
@@ -337,7 +326,7 @@ MachineSession::Answer MachineSession::handle(request::Resume&) {
     return refusal(RefusalReason::no_program_held);
   }
   if (panel_->door_is_open()) return refusal(RefusalReason::door_open);
-  work_->stops_outputs = false;
+  work_->rest.resume();
   drive.resume(HoldReason::operator_hold);
   drive.resume(HoldReason::door);
   drive.resume(HoldReason::line_end);
@@ -379,7 +368,7 @@ MachineSession::Answer MachineSession::handle(request::Override& change) {
 }
 
 MachineSession::Answer MachineSession::handle(request::SwitchOutputs& wanted) {
-  if (!busy() || !work_->is_program() || work_->finishing || work_->drive->stopped()) {
+  if (!busy() || !work_->is_program() || work_->stage != Work::Stage::moves || work_->drive->stopped()) {
     return refusal(RefusalReason::no_program_runs);
   }
   MotionDrive& drive = *work_->drive;

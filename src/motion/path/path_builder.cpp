@@ -39,9 +39,9 @@ template <class What>
 concept OfOthers =
     is_one_of<What, operation::SetWorkOffset, operation::SetG92Offset, operation::SetRotation, operation::SetToolOffset,
               operation::ReloadTools, operation::SelectPlane, operation::SelectTool, operation::StartToolChange,
-              operation::SetToolNumber, operation::SetToolTableEntry, operation::PalletShuttle, operation::Finish,
-              operation::TurnProbe, operation::Comment, operation::Message, operation::Print, operation::Log,
-              operation::Reset, operation::SetFeedReference>;
+              operation::SetToolNumber, operation::SetToolTableEntry, operation::PalletShuttle, operation::SetFeedMode,
+              operation::Finish, operation::TurnProbe, operation::Comment, operation::Message, operation::Print,
+              operation::Log, operation::Reset, operation::SetFeedReference>;
 
 template <class... Handlers>
 struct Overloaded : Handlers... {
@@ -124,7 +124,6 @@ bool PathBuilder::add(const Operation& operation, PathItem& item) {
           [&](const operation::ArcFeed& arc) { return add_arc(arc, item); },
           [&](const operation::NurbsFeed& curve) { return begin_spline(curve, item); },
           [&](const operation::SetLengthUnits& set) { return units_ = set.units, false; },
-          [&](const operation::SetFeedMode& mode) { return feed_mode_ = mode.mode, false; },
           [&](const operation::SetFeedRate& rate) { return feed_rate_ = rate, false; },
           [&](const operation::RigidTap& tap) { return begin_tap(tap, item); },
           [&](const operation::StartSpeedFeedSync& sync) { return synchronised_pitch_ = sync.pitch, false; },
@@ -356,7 +355,7 @@ bool PathBuilder::add_curve(const Curve& curve, bool rapid, PathItem& item) {
                  .work_zero = frame_.machine_from_work(Point()),
                  .heeds = heeds(),
                  .lock = rapid ? SpindleLock::none : lock(),
-                 .pitch = Mm(synchronised_pitch_ ? synchronised_pitch_->value() : feed_rate_.rate),
+                 .pitch = pitch(),
                  .source = operation_.source};
   return true;
 }
@@ -409,7 +408,14 @@ Heeds PathBuilder::heeds() const {
 // ends where the spindle is reversed.
 SpindleLock PathBuilder::lock() const {
   if (synchronised_pitch_) return tap_step_ == tap_.size() ? SpindleLock::place : SpindleLock::speed;
-  return feed_mode_ == FeedMode::units_per_revolution ? SpindleLock::speed : SpindleLock::none;
+  const bool is_per_revolution = std::holds_alternative<operation::FeedPerRevolution>(feed_rate_.feed);
+  return is_per_revolution ? SpindleLock::speed : SpindleLock::none;
+}
+
+// Without a lock the pitch means nothing. It is the feed all the same: the fingerprints of kept journals count it.
+Mm PathBuilder::pitch() const {
+  if (synchronised_pitch_) return *synchronised_pitch_;
+  return std::visit([](const auto& feed) { return Mm(feed.linear.value()); }, feed_rate_.feed);
 }
 
 Action PathBuilder::outputs_action(Action::Kind kind, Seconds dwell) const {

@@ -59,8 +59,10 @@ bool PathBuilder::must_await_index(const PathItem& item) {
 
 MmPerSecond PathBuilder::feed_along(const Curve& curve) {
   if (synchronised_pitch_) return feed_with_spindle(synchronised_pitch_->value());
-  const double rate = turns_only_rotary_axes(curve) ? feed_rate_.rotary_rate : feed_rate_.rate;
-  if (feed_mode_ == FeedMode::units_per_revolution) return feed_with_spindle(rate);
+  const bool is_rotary = turns_only_rotary_axes(curve);
+  const double rate = std::visit(
+      [is_rotary](const auto& feed) { return is_rotary ? feed.rotary : feed.linear.value(); }, feed_rate_.feed);
+  if (std::holds_alternative<operation::FeedPerRevolution>(feed_rate_.feed)) return feed_with_spindle(rate);
   if (rate > 0) return MmPerSecond(rate);
   report(Severity::error, "path.no-feed", "a feed move without a feed rate", "F above 0 before the move, or on it");
   return speed_after_error;

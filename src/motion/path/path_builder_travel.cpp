@@ -55,7 +55,7 @@ bool PathBuilder::is_within_travel(const Box& box) const {
 // Most arcs lie within the travel with their whole circles. Only another arc is measured exactly.
 void PathBuilder::check_travel(const Curve& curve) {
   if (is_within_travel(curve.bounds())) {
-    above_ = below_ = {};
+    outside_ = {};
     return;
   }
   const Box box = curve.extents();
@@ -63,31 +63,25 @@ void PathBuilder::check_travel(const Curve& curve) {
     if (!options_.axes.has(axis)) continue;
     const TravelLimit& travel = options_.travel[axis];
     if (box.high[axis] > travel.high + slack) {
-      check_side(axis, true, box.high[axis], curve, above_);
+      check_side(axis, TravelEnd::high, box.high[axis], curve);
     } else {
-      above_.remove(axis);
+      outside_.stays_within(axis, TravelEnd::high);
     }
     if (box.low[axis] < travel.low - slack) {
-      check_side(axis, false, box.low[axis], curve, below_);
+      check_side(axis, TravelEnd::low, box.low[axis], curve);
     } else {
-      below_.remove(axis);
+      outside_.stays_within(axis, TravelEnd::low);
     }
   }
 }
 
-// The curve leaves the travel on this side. A new excursion is reported. The excursion lasts until a move ends inside
-// the travel.
-void PathBuilder::check_side(Axis axis, bool high_side, double reached, const Curve& curve, AxisSet& outside) {
+// The curve leaves the travel on this side. A new excursion is reported.
+void PathBuilder::check_side(Axis axis, TravelEnd end, double reached, const Curve& curve) {
+  const bool high_side = end == TravelEnd::high;
   const TravelLimit& travel = options_.travel[axis];
   const double limit = high_side ? travel.high : travel.low;
   const double end_beyond = high_side ? curve.end()[axis] - limit : limit - curve.end()[axis];
-  const bool is_new = !outside.has(axis);
-  if (end_beyond > slack) {
-    outside.add(axis);
-  } else {
-    outside.remove(axis);
-  }
-  if (!is_new) return;
+  if (!outside_.leaves(axis, end, end_beyond > slack)) return;
   const auto shown = [&](double value) { return in_units(value, axis, units_); };
   const std::string limits = fmt::format("{} within {} to {}", letter_of(axis), shown(travel.low), shown(travel.high));
   report(Severity::error, std::string(travel_exceeded),

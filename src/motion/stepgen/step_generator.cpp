@@ -94,7 +94,8 @@ class StepGenerator::Implementation {
   bool enough() const { return events_.size() > fitter_.longest() || stream_.now() - board_.time() >= longest_wait_; }
 
   bool send(const BoardSegment& segment, BoardItem& item) {
-    ensure(segment.events > 0 && std::abs(segment.change) <= largest_change);  // and BoardSession takes no other
+    // And BoardSession takes no other.
+    ensure(segment.events > 0 && segment.events <= most_events && std::abs(segment.change) <= largest_change);
     board_.play(segment);
     item = segment;
     return true;
@@ -153,7 +154,9 @@ class StepGenerator::Implementation {
         apply(*action);
         return true;
       }
-      stream_.start_move(std::get<PlannedMove>(motion_item_));
+      const auto& move = std::get<PlannedMove>(motion_item_);
+      ensure(move.phase_count > 0 && move.from() <= move.to);  // as Planner hands it on
+      stream_.start_move(move);
       rests_ = false;
     }
     switch (stream_.fill(events_, fitter_.longest() + 1)) {

@@ -2,6 +2,8 @@
 
 #include "speed_law.hpp"
 
+#include "passo/base/ensure.hpp"
+
 namespace passo {
 
 class Planner::Implementation {
@@ -44,6 +46,7 @@ bool Planner::next(MotionItem& item) {
   auto* move = std::get_if<PlannedMove>(&item);
   if (move == nullptr) move = &item.emplace<PlannedMove>();
   if (stands ? own.law->brake(*move) : own.law->go_on(*move)) {
+    ensure(move->phase_count > 0 && move->from() <= move->to);  // and StepGenerator takes no other
     if (move->to >= move->segment.curve.length()) own.path.pop();
     return true;
   }

@@ -120,7 +120,7 @@ TEST(ProbingCycle, refuses_values_out_of_range) {
     for (const ProbingField& field : probing_fields()) {
       if (!field.is_of(kind)) continue;
       ProbingCycle wrong = cycle;
-      wrong.*field.value = field.high * 2 + 1;
+      field.value(wrong) = field.high * 2 + 1;
       const auto program = probing_program(wrong);
       ASSERT_FALSE(program) << field.name;
       EXPECT_THAT(program.error(), HasSubstr(std::string(field.name)));

@@ -34,6 +34,17 @@ TEST(MarginWords, cure_a_rapid_by_the_velocity_of_its_axis) {
   EXPECT_EQ(cure_of(spot), "");
 }
 
+TEST(MarginWords, tell_swings_from_a_lack_of_torque) {
+  MarginSpot spot = doubtful_spot();
+  MarginVerdict margin{.verdict = Verdict::doubtful, .axes = {}, .worst = {spot}};
+  EXPECT_FALSE(is_torque_enough(margin));
+  margin.worst.front().want = Want::jump;
+  EXPECT_TRUE(is_torque_enough(margin));
+  spot.verdict = Verdict::safe;
+  margin.worst.push_back(spot);
+  EXPECT_TRUE(is_torque_enough(margin));
+}
+
 TEST(MarginWords, name_the_swing) {
   MarginSpot spot = doubtful_spot();
   spot.rate = Hertz(1234567);

@@ -50,13 +50,13 @@ TEST(ProbingSchema, is_that_of_the_description) {
   numbers = {{"type", "object"},
              {"description", "The numbers of probing cycles. x-cycles: the cycles that know one"},
              {"properties", Json::object()}};
-  const ProbingCycle usual;
+  ProbingCycle usual;
   for (const ProbingField& field : probing_fields()) {
     Json& one = numbers["properties"][std::string(field.name)];
     one = {{"type", field.is_whole ? "integer" : "number"},
            {"minimum", field.low},
            {"maximum", field.high},
-           {"default", usual.*(field.value)},
+           {"default", field.value(usual)},
            {"description", std::string(field.words)}};
     for (const ProbingKind kind : all_probing_kinds()) {
       if (field.is_of(kind)) one["x-cycles"].push_back(std::string(name_of(kind)));

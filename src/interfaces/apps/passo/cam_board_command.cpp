@@ -223,8 +223,7 @@ int BoardMaker::turn_over(const CamDrillArguments& drill, std::optional<std::arr
                 fmt::format("Move the probe into the {} of the two holes, below its rim, and run the program.", which),
                 "G54 is then aligned with the board; set Z0 on the upper face."};
   return add_probing({.kind = ProbingKind::bores,
-                      .reach = width,
-                      .back = std::min(0.3, width / 10),
+                      .touch = {.reach = width, .back = std::min(0.3, width / 10)},
                       .x = x,
                       .y = y,
                       .second_x = second_x,

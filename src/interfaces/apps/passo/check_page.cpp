@@ -85,7 +85,7 @@ std::string speed_words(const Judgement& page) {
     words += fmt::format("; {}\n", describe(part.bound));
   };
   for (std::size_t i = 0; i < std::min(most_parts, page.speed.slowest.size()); ++i) {
-    if (page.speed.slowest[i].lost >= notable_loss) add("slowest", page.speed.slowest[i]);
+    if (page.speed.slowest[i].is_slow()) add("slowest", page.speed.slowest[i]);
   }
   std::size_t feeds = 0;
   for (SpeedPart part : page.speed.fastest) {
@@ -95,19 +95,13 @@ std::string speed_words(const Judgement& page) {
   return words;
 }
 
-// Whether no line needs more torque for its motion than there surely is.
-bool only_swings(const MarginVerdict& margin) {
-  return std::ranges::none_of(
-      margin.worst, [](const MarginSpot& spot) { return spot.verdict != Verdict::safe && spot.want == Want::torque; });
-}
-
 std::string motor_words(const Judgement& page) {
   if (!page.knows_motors) return "";
   std::string words = fmt::format("motors          {}", name_of(page.margin.verdict));
   if (page.margin.verdict == Verdict::safe) words += ": enough torque, even if the motors are weak";
   if (page.margin.verdict == Verdict::doubtful) words += ": weak motors may lose steps";
   if (page.margin.verdict == Verdict::lost) words += ": they lose steps";
-  if (page.margin.verdict != Verdict::safe && only_swings(page.margin)) {
+  if (page.margin.verdict != Verdict::safe && is_torque_enough(page.margin)) {
     words += ", because of resonance; the torque alone would be enough";
   }
   words += "\n";

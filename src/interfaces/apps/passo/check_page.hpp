@@ -9,9 +9,6 @@
 
 namespace passo {
 
-// A line of the program that loses less than this against its feed is not told as slow.
-inline constexpr Seconds notable_loss{0.005};
-
 // 0:12:31
 std::string clock_words(Seconds time);
 const AxisDescription& description_of(const MachineDescription& machine, Axis axis);

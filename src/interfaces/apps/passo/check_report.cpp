@@ -12,6 +12,7 @@
 #include "passo/base/counted.hpp"
 #include "passo/base/sensible_number.hpp"
 #include "passo/diagnostics/shown_place.hpp"
+#include "passo/machine_file/machine_kind.hpp"
 #include "passo/report/html.hpp"
 #include "passo/report/picture.hpp"
 #include "passo/verdict/margin_words.hpp"
@@ -144,7 +145,7 @@ std::string bounds(const Judgement& page) {
 std::string parts(const char* title, const std::vector<SpeedPart>& parts, bool by_loss) {
   HtmlTable table({"line", "#speed, mm/min", "#programmed", by_loss ? "#lost" : "#time", "limited by"});
   for (const SpeedPart& part : parts) {
-    if (by_loss && part.lost < notable_loss) continue;
+    if (by_loss && !part.is_slow()) continue;
     const MmPerSecond speed = by_loss ? part.mean() : part.highest;
     const char* const unit = part.turns ? " deg" : "";
     table.row({fmt::format("{}", part.line), fmt::format("{:.0f}{}", 60 * speed.value(), unit),
@@ -203,10 +204,7 @@ std::string view(const CheckReport& report, PictureView which, const char* name,
   options.width = 480;
   options.height = 460;
   options.pixels_per_unit = 3;
-  const auto has = [&](Axis axis) {
-    return std::ranges::find(report.machine.axes, axis, &AxisDescription::axis) != report.machine.axes.end();
-  };
-  options.is_lathe = has(Axis::x) && has(Axis::z) && !has(Axis::y);
+  options.is_lathe = is_lathe(report.machine);
   std::string bytes;
   OutputFile file = OutputFile::into(bytes);
   if (!draw_view(report.path, which, options, file) || !file.commit()) return "";

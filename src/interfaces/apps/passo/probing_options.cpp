@@ -54,7 +54,7 @@ void add_probe_options(CLI::App& command, ProbeArguments& arguments) {
     }
     for (const ProbingField& field : probing_fields()) {
       if (!field.is_of(kind)) continue;
-      one.add_option(option_of(field.name), arguments.cycle.*field.value, std::string(field.words))
+      one.add_option(option_of(field.name), field.value(arguments.cycle), std::string(field.words))
           ->check(CLI::Range(field.low, field.high))
           ->capture_default_str();
     }

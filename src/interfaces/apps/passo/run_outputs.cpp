@@ -11,6 +11,7 @@
 #include <fmt/format.h>
 
 #include "passo/interpreter/tool_table_file.hpp"
+#include "passo/machine_file/machine_kind.hpp"
 #include "passo/report/path_recorder.hpp"
 #include "passo/report/picture.hpp"
 #include "passo/report/trace_csv.hpp"
@@ -46,10 +47,7 @@ PictureOptions picture_look(const RunArguments& arguments, const MachineDescript
   if (arguments.view == "side") look.view = FlatView::side;
   if (arguments.view == "lathe") look.view = FlatView::lathe;
   look.rapids = !arguments.no_rapids;
-  const auto has = [&](Axis axis) {
-    return std::ranges::find(machine.axes, axis, &AxisDescription::axis) != machine.axes.end();
-  };
-  look.is_lathe = has(Axis::x) && has(Axis::z) && !has(Axis::y);
+  look.is_lathe = is_lathe(machine);
   return look;
 }
 

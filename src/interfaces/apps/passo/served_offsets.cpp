@@ -6,7 +6,6 @@
 #include <utility>
 
 #include "program_input.hpp"
-#include <fmt/format.h>
 
 #include "passo/interpreter/tool_table_file.hpp"
 #include "passo/report/output_file.hpp"
@@ -54,11 +53,7 @@ std::string ServedOffsets::keep(const SavedParameters& parameters, const ToolTab
   }
   if (tools == tools_) return {};
   std::string lines = tool_lines_;
-  for (const auto& [number, tool] : tools.all()) {
-    if (tools_.find(number) != nullptr) continue;
-    if (!lines.empty() && lines.back() != '\n') lines += '\n';
-    lines += fmt::format("T{} P{}\n", number, tool.pocket);
-  }
+  add_new_tools(lines, tools_, tools);
   lines = tool_table_text(lines, LengthUnits::mm, tools);
   if (std::string why = replace(tool_file_, lines); !why.empty()) return why;
   tools_ = tools;

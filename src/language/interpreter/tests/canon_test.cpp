@@ -59,11 +59,11 @@ TEST(Canon, feeds_and_lengths_are_told_in_the_units_of_that_place) {
   std::string out;
   printer.print({operation::SetLengthUnits{LengthUnits::inch}, {}}, out);
   out.clear();
-  printer.print({operation::SetFeedRate{25.4 / 60}, {}}, out);
+  printer.print({operation::SetFeedRate{operation::FeedPerSecond{MmPerSecond(25.4 / 60)}}, {}}, out);
   EXPECT_EQ(out, "    2 N..... SET_FEED_RATE(1.0000)\n");
   out.clear();
   printer.print({operation::SetFeedMode{FeedMode::units_per_revolution}, {}}, out);
-  printer.print({operation::SetFeedRate{2.54}, {}}, out);
+  printer.print({operation::SetFeedRate{operation::FeedPerRevolution{Mm(2.54)}}, {}}, out);
   EXPECT_EQ(out, "    3 N..... SET_FEED_MODE(0, 1)\n    4 N..... SET_FEED_RATE(0.1000)\n");
 }
 

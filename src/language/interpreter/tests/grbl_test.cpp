@@ -146,11 +146,13 @@ TEST(Grbl, keeps_the_feed_where_g94_is_active_already) {
 TEST(Grbl, takes_the_feed_in_the_units_of_its_own_block) {
   const Interpreted inches = as_grbl("G1 G20 X1 F10\nM2");
   EXPECT_TRUE(inches.diagnostics.all().empty()) << inches.rendered();
-  EXPECT_DOUBLE_EQ(inches.all<operation::SetFeedRate>().front().rate, 254.0 / 60);
+  EXPECT_DOUBLE_EQ(std::get<operation::FeedPerSecond>(inches.all<operation::SetFeedRate>().front().feed).linear.value(),
+                   254.0 / 60);
   EXPECT_EQ(inches.all<operation::SetLengthUnits>().size(), 2U) << "at the start, and by G20";
   const Interpreted mm = as_grbl("G20\nF254 G21 G1 X1\nM2");
   EXPECT_TRUE(mm.diagnostics.all().empty()) << mm.rendered();
-  EXPECT_DOUBLE_EQ(mm.all<operation::SetFeedRate>().front().rate, 254.0 / 60);
+  EXPECT_DOUBLE_EQ(std::get<operation::FeedPerSecond>(mm.all<operation::SetFeedRate>().front().feed).linear.value(),
+                   254.0 / 60);
 }
 
 TEST(Grbl, takes_a_line_number_amid_the_line) {
@@ -170,7 +172,8 @@ TEST(Grbl, probes_in_inverse_time) {
   const Interpreted result = as_grbl("G93\nG38.3 Z-10 F2\nM2");
   EXPECT_FALSE(result.diagnostics.any_error()) << result.rendered();
   EXPECT_TRUE(result.diagnostics.all().empty()) << result.rendered();
-  EXPECT_NEAR(result.all<operation::SetFeedRate>().front().rate, 20.0 / 60, 1e-12);
+  EXPECT_NEAR(std::get<operation::FeedPerSecond>(result.all<operation::SetFeedRate>().front().feed).linear.value(),
+              20.0 / 60, 1e-12);
 }
 
 TEST(Grbl, passes_over_centre_words_outside_the_plane_of_an_arc) {

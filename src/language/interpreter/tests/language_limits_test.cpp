@@ -37,8 +37,8 @@ TEST(Limits, inverse_time_has_no_slowest_feed) {
   const Interpreted result = interpret_text("G21 G93\nG1 X0.01 F1\nG1 X0.01 F1\nM2\n");
   const auto feeds = result.all<operation::SetFeedRate>();
   ASSERT_GE(feeds.size(), 2U);
-  EXPECT_NEAR(0.01 / feeds[0].rate, 60, 1e-9) << "seconds";
-  EXPECT_GT(feeds[1].rate, 0) << "of a move that leads nowhere";
+  EXPECT_NEAR(0.01 / std::get<operation::FeedPerSecond>(feeds[0].feed).linear.value(), 60, 1e-9) << "seconds";
+  EXPECT_GT(std::get<operation::FeedPerSecond>(feeds[1].feed).linear.value(), 0) << "of a move that leads nowhere";
 }
 
 TEST(Limits, a_rounding_error_below_zero_is_zero) {

@@ -6,6 +6,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "passo/interpreter/saved_offsets.hpp"
 #include "passo/interpreter/tool_table_file.hpp"
 
 namespace passo {
@@ -93,6 +94,13 @@ TEST(ToolTableFile, lengths_are_in_the_units_of_the_machine_and_angles_are_not) 
   EXPECT_EQ(tool.front_angle_deg, 1);
 }
 
+TEST(SavedOffsets, begin_with_g54_and_without_g92) {
+  SavedParameters saved{{5161, 4}, {5210, 1}, {5211, 2}, {5219, 3}, {5220, 7}, {5221, 8}};
+  begin_with_g54(saved);
+  forget_g92(saved);
+  EXPECT_EQ(saved, (SavedParameters{{5161, 4}, {5220, 1}, {5221, 8}}));
+}
+
 TEST(ToolTableFile, an_empty_one_has_no_tools_and_is_a_table) {
   const ToolTable table = tools_of("");
   EXPECT_TRUE(table.all().empty());
@@ -116,6 +124,18 @@ TEST(ToolTableFile, is_written_with_what_changed_and_all_else_as_it_was) {
 TEST(ToolTableFile, is_written_without_a_file_before) {
   const std::string text = "T1 P4 Z1.5 D3\nT7 P7\n";
   EXPECT_EQ(tool_table_text(tools_of(text)), text);
+}
+
+TEST(ToolTableFile, gets_a_line_for_each_new_tool_at_its_end) {
+  std::string text = "; tools\nT1 P4 Z1.5";
+  const ToolTable known = tools_of(text);
+  add_new_tools(text, known, known);
+  EXPECT_EQ(text, "; tools\nT1 P4 Z1.5");
+  add_new_tools(text, known, tools_of("T1 P9\nT5 P2 Z3\nT7 P7\n"));
+  EXPECT_EQ(text, "; tools\nT1 P4 Z1.5\nT5 P2\nT7 P7\n");
+  std::string empty;
+  add_new_tools(empty, ToolTable(), known);
+  EXPECT_EQ(empty, "T1 P4\n");
 }
 
 TEST(ToolTableFile, is_written_in_the_units_of_the_machine) {

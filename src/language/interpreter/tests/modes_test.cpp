@@ -46,8 +46,8 @@ TEST(Modes, lengths_are_millimetres_whatever_the_program_says) {
   EXPECT_DOUBLE_EQ(end_of(result)[Axis::a], 90);
   EXPECT_DOUBLE_EQ(end_of(result)[Axis::u], 50.8);
   const auto feed = result.all<operation::SetFeedRate>().front();
-  EXPECT_DOUBLE_EQ(feed.rate, 25.4);
-  EXPECT_DOUBLE_EQ(feed.rotary_rate, 1);
+  EXPECT_DOUBLE_EQ(std::get<operation::FeedPerSecond>(feed.feed).linear.value(), 25.4);
+  EXPECT_DOUBLE_EQ(std::get<operation::FeedPerSecond>(feed.feed).rotary, 1);
 }
 
 TEST(Modes, units_change_where_the_tool_is_told_and_not_where_it_is) {
@@ -59,7 +59,8 @@ TEST(Modes, units_change_where_the_tool_is_told_and_not_where_it_is) {
 TEST(Modes, units_of_a_block_hold_for_its_axis_words_and_not_for_its_feed) {
   const Interpreted result = interpret_text("G21\nG20 F10 G1 X1\nM2\n");
   EXPECT_DOUBLE_EQ(end_of(result)[Axis::x], 25.4);
-  EXPECT_DOUBLE_EQ(result.all<operation::SetFeedRate>().front().rate, 10.0 / 60);
+  EXPECT_DOUBLE_EQ(std::get<operation::FeedPerSecond>(result.all<operation::SetFeedRate>().front().feed).linear.value(),
+                   10.0 / 60);
   ASSERT_EQ(result.diagnostics.all().size(), 1U);
   EXPECT_EQ(result.diagnostics.all().front().code, "gcode.feed-before-units");
   EXPECT_FALSE(result.diagnostics.any_error());
@@ -84,14 +85,15 @@ TEST(Modes, inverse_time_gives_each_move_its_own_feed) {
   const Interpreted result = interpret_text("G21 G93\nG1 X30 F2\nA90 F4\nM2\n");
   const auto feeds = result.all<operation::SetFeedRate>();
   ASSERT_GE(feeds.size(), 2U);
-  EXPECT_DOUBLE_EQ(feeds[0].rate, 30 * 2 / 60.0);
-  EXPECT_DOUBLE_EQ(feeds[1].rotary_rate, 90 * 4 / 60.0);
+  EXPECT_DOUBLE_EQ(std::get<operation::FeedPerSecond>(feeds[0].feed).linear.value(), 30 * 2 / 60.0);
+  EXPECT_DOUBLE_EQ(std::get<operation::FeedPerSecond>(feeds[1].feed).rotary, 90 * 4 / 60.0);
 }
 
 TEST(Modes, feed_for_each_revolution_is_millimetres_a_revolution) {
   const Interpreted result = interpret_text("G20 S100\nG95 F.1\nG1 X1\nM2\n");
   EXPECT_FALSE(result.diagnostics.any_error()) << result.rendered();
-  EXPECT_DOUBLE_EQ(result.all<operation::SetFeedRate>()[1].rate, 2.54);
+  EXPECT_DOUBLE_EQ(std::get<operation::FeedPerRevolution>(result.all<operation::SetFeedRate>()[1].feed).linear.value(),
+                   2.54);
 }
 
 TEST(Modes, m2_puts_back_what_programs_expect) {

@@ -89,7 +89,7 @@ TEST(Splines, inverse_time_counts_the_length_of_the_curve) {
   const Interpreted result = interpret_text("G93 G5.1 X10 I5 J0 F2\nM2\n");
   const std::vector<operation::SetFeedRate> rates = result.all<operation::SetFeedRate>();
   ASSERT_FALSE(rates.empty());
-  EXPECT_NEAR(rates.front().rate, 20.0 / 60, 1e-12);
+  EXPECT_NEAR(std::get<operation::FeedPerSecond>(rates.front().feed).linear.value(), 20.0 / 60, 1e-12);
 }
 
 Point last_feed(const std::string& program) {

@@ -10,8 +10,8 @@
 #include "kit/seed.hpp"
 #include <gtest/gtest.h>
 
+#include "passo/geometry/surface.hpp"
 #include "passo/plant/ideal_plant.hpp"
-#include "passo/surface/surface.hpp"
 #include "passo/wire/message.hpp"
 
 namespace passo {

@@ -151,7 +151,7 @@ TEST_F(SpindleTest, a_rigid_tap_is_refused_too) {
 TEST_F(SpindleTest, a_feed_a_turn_is_refused_once_for_each_speed) {
   add(operation::SetFeedMode{FeedMode::units_per_revolution});
   clockwise(3000);
-  feed(1.5);
+  feed_per_revolution(1.5);
   go(10, 0);
   go(20, 0);
   speed(4000);

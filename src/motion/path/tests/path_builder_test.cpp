@@ -170,7 +170,7 @@ TEST_F(PathTest, an_arc_in_chords_with_its_corners_rounded_is_within_the_toleran
 TEST_F(PathTest, feeds_follow_their_mode) {
   options_.axes.add(Axis::a);
   options_.travel[Axis::a] = {.low = -360, .high = 360};
-  add(operation::SetFeedRate{20, 6});
+  add(operation::SetFeedRate{operation::FeedPerSecond{MmPerSecond(20), 6}});
   go(10, 0);
   Point turned = xyz(10, 0);
   turned[Axis::a] = 90;
@@ -179,7 +179,7 @@ TEST_F(PathTest, feeds_follow_their_mode) {
   add(operation::SetSpindleSpeed{600});
   add(operation::TurnSpindle{SpindleDirection::counterclockwise});
   add(operation::SetFeedMode{FeedMode::units_per_revolution});
-  feed(0.25);
+  feed_per_revolution(0.25);
   go(20, 30);
   add(operation::StartSpeedFeedSync{.pitch = Mm(1.5)});
   go(20, 40);
@@ -376,7 +376,7 @@ TEST_F(PathTest, the_very_end_of_the_travel_may_be_reached) {
 }
 
 TEST_F(PathTest, an_axis_that_the_machine_does_not_have_is_named_once_and_only_if_it_moves) {
-  add(operation::SetFeedRate{10, 10});
+  add(operation::SetFeedRate{operation::FeedPerSecond{MmPerSecond(10), 10}});
   Point end = xyz(1, 0);
   add(operation::StraightFeed{end});
   end[Axis::a] = 90;

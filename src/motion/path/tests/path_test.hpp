@@ -28,7 +28,8 @@ class PathTest : public testing::Test {
   void add(What what) {
     operations_.push_back({.what = what, .source = {.line = static_cast<std::uint32_t>(operations_.size() + 1)}});
   }
-  void feed(double rate) { add(operation::SetFeedRate{rate, rate}); }
+  void feed(double rate) { add(operation::SetFeedRate{operation::FeedPerSecond{MmPerSecond(rate), rate}}); }
+  void feed_per_revolution(double rate) { add(operation::SetFeedRate{operation::FeedPerRevolution{Mm(rate), rate}}); }
   void go(double x, double y, double z = 0) { add(operation::StraightFeed{xyz(x, y, z)}); }
   void arc(double x, double y, double center_x, double center_y, std::int32_t turns) {
     add(operation::ArcFeed{

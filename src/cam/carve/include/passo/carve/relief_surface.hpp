@@ -10,7 +10,7 @@
 #include "passo/carve/height_grid.hpp"
 #include "passo/carve/level_picture.hpp"
 #include "passo/diagnostics/diagnostic.hpp"
-#include "passo/surface/surface.hpp"
+#include "passo/geometry/surface.hpp"
 
 namespace passo {
 

@@ -21,16 +21,27 @@ namespace passo {
 enum class ProbingKind : std::uint8_t { surface, edge, corner, bore, boss, tool, angle, bores, map };
 
 struct ProbingCycle {
+  // Each touch is made twice. A map touches once a place, with `fast`.
+  struct Touch {
+    double reach = 25;  // how far it looks
+    double fast = 300;  // speed of the first touch
+    double slow = 30;   // speed of the second touch
+    double back = 1;    // between the two touches
+  };
+  // Of a tool that is measured.
+  struct MeasuredTool {
+    double number = 1;
+    double travel_z = 0;  // the machine's Z at which nothing is in the way
+    double zero_z = 0;    // the machine's Z at which a tool of length 0 touches
+  };
+
   ProbingKind kind = ProbingKind::surface;
   // Of an edge and of an angle: the way of the touch, "x+", "x-", "y+" or "y-". Of a corner: which, as "front-left";
   // front is towards Y-, left towards X-.
   std::string side = {};
-  double system = 1;     // the work system that gets what is found: 1 is G54, 9 is G59.3
-  double ball = 0;       // diameter of the probe's ball
-  double reach = 25;     // how far a touch looks
-  double fast = 300;     // speed of the first touch
-  double slow = 30;      // speed of the second touch
-  double back = 1;       // between the two touches
+  double system = 1;  // the work system that gets what is found: 1 is G54, 9 is G59.3
+  double ball = 0;    // diameter of the probe's ball
+  Touch touch = {};
   double clearance = 5;  // how far the probe goes off what it has touched
   double depth = 3;      // how far below the top the sides are touched; of a map: how far below the zero it looks
   double height = 0;     // of a surface: the work's Z of what is touched, as the thickness of a plate
@@ -47,15 +58,13 @@ struct ProbingCycle {
   double fit = 0.3;    // how much nearer or farther apart the bores may be than in the program
   double columns = 5;  // of a map
   double rows = 5;
-  double tool = 1;      // number of the tool that is measured
-  double travel_z = 0;  // of a tool: the machine's Z at which nothing is in the way
-  double zero_z = 0;    // of a tool: the machine's Z at which a tool of length 0 touches
+  MeasuredTool tool = {};
 };
 
 // What can be said of a cycle by a number: for command lines, APIs and their checks.
 struct ProbingField {
   std::string_view name;
-  double ProbingCycle::*value = nullptr;
+  double& (*value)(ProbingCycle& cycle) = nullptr;
   double low = 0;
   double high = 0;
   bool is_whole = false;

@@ -14,7 +14,7 @@
 #include <vector>
 
 #include "passo/diagnostics/diagnostic.hpp"
-#include "passo/surface/surface.hpp"
+#include "passo/geometry/surface.hpp"
 
 namespace passo {
 

@@ -11,5 +11,7 @@ namespace passo {
 std::string cause_of(const MarginSpot& spot);
 // "a <= 380 mm/s², or F <= 900", what would be safe. Empty for a safe spot.
 std::string cure_of(const MarginSpot& spot);
+// Whether no line needs more torque for its motion than there surely is: what is not safe are swings alone.
+bool is_torque_enough(const MarginVerdict& margin);
 
 }  // namespace passo

@@ -57,6 +57,9 @@ struct SpeedPart {
   SpeedBound bound = {};  // where the most time is lost; for a rapid and in `fastest`: at the highest speed
 
   MmPerSecond mean() const { return time > Seconds(0) ? way / time : MmPerSecond(0); }
+  // What loses less against its feed is not worth a word.
+  static constexpr Seconds notable_loss{0.005};
+  bool is_slow() const { return lost >= notable_loss; }
 };
 
 struct SpeedReport {

@@ -8,7 +8,7 @@
 #include "passo/api/maker.hpp"
 #include "passo/api/motion_times.hpp"
 #include "passo/api/studies.hpp"
-#include "passo/history/job_history.hpp"
+#include "passo/job/job_history.hpp"
 #include "passo/job/kept_job.hpp"
 #include "passo/web/web_server.hpp"
 

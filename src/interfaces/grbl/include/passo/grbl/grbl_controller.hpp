@@ -22,11 +22,13 @@
 #include <vector>
 
 #include "passo/activity/open_program.hpp"
+#include "passo/grbl/due_answer.hpp"
 #include "passo/grbl/grbl_input.hpp"
 #include "passo/grbl/grbl_memory.hpp"
 #include "passo/grbl/grbl_reports.hpp"
 #include "passo/grbl/grbl_settings.hpp"
 #include "passo/grbl/grbl_store.hpp"
+#include "passo/grbl/line_stream.hpp"
 #include "passo/grbl/poll_lease.hpp"
 #include "passo/grbl/report_turns.hpp"
 #include "passo/machine_file/machine_description.hpp"
@@ -96,8 +98,6 @@ class GrblController {
   std::vector<std::string> take_replies();
 
  private:
-  enum class Waits : std::uint8_t { none, probe, homing, stop };
-
   // Real-time commands.
   void act(std::uint8_t byte);
   void act_as_watcher(std::uint8_t byte);
@@ -150,7 +150,7 @@ class GrblController {
   void end_reset();
   void raise_alarm_of_board();
   void raise(GrblAlarm alarm);
-  void stop_for(Waits waits);
+  void stop_machine();
   void stop_at_soft_limit();
 
   static int number_of(const Diagnostic& wrong);
@@ -174,13 +174,9 @@ class GrblController {
   GrblStore store_;
   std::function<void(const SavedParameters&)> share_offsets_;
   std::vector<std::string> replies_;
-  Waits waits_ = Waits::none;
-  std::function<void()> after_stop_;
-  std::optional<Ticket> homing_;
-  std::optional<Ticket> stream_;  // of the lines
-  bool stream_ends_ = false;      // it was asked to end
-  Seconds rests_since_{0};        // it has waited for a line since then
-  bool is_here_ = true;           // the sender
+  DueAnswer due_;
+  LineStream stream_;
+  bool is_here_ = true;  // the sender
   std::optional<ProbeOutcome> probe_;
   bool alarm_ = false;   // locked, until $X, $H
   bool checks_ = false;  // $C

@@ -17,11 +17,8 @@
 // For an alarm it lies between two lines: the machine holds some lines that it has answered already.
 #pragma once
 
-#include <algorithm>
 #include <cstddef>
 #include <cstdint>
-#include <deque>
-#include <limits>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -30,6 +27,8 @@
 #include "passo/sender/grbl_machine.hpp"
 #include "passo/sender/grbl_reply.hpp"
 #include "passo/sender/grbl_words.hpp"
+#include "passo/sender/heard_reports.hpp"
+#include "passo/sender/line_window.hpp"
 #include "passo/units/units.hpp"
 
 namespace passo {
@@ -53,9 +52,9 @@ class GrblSender {
   bool ready() const { return stage_ == Stage::ready; }
   const GrblMachine& machine() const { return machine_; }
   // The last status report. Empty: none has come.
-  const std::optional<GrblReport>& report() const { return report_; }
+  const std::optional<GrblReport>& report() const { return reports_.last(); }
   // The machine position, mm. Empty: not known yet.
-  std::optional<Point> place() const;
+  std::optional<Point> place() const { return reports_.place(machine_); }
   // Asks again for what a machine in an alarm may not have told, and for its offsets and modes.
   void ask_for_offsets();
   // The alarm that the machine was in when it was greeted, as a clause; empty: it has not told which.
@@ -67,16 +66,16 @@ class GrblSender {
   // because of it (homing, a dwell). Spindles may take their time anyway.
   void add(std::string text, std::uint32_t line = 0, Seconds silence = Seconds(0));
   // Few lines wait here.
-  bool wants_lines() const { return waiting_.size() < 32; }
+  bool wants_lines() const { return window_.waiting() < 32; }
   // Each line was sent and answered.
-  bool all_answered() const { return waiting_.empty() && unanswered_.empty(); }
+  bool all_answered() const { return window_.all_answered(); }
   // All lines were answered, and a report that came later shows that the machine rests.
-  bool at_rest() const;
+  bool at_rest() const { return all_answered() && reports_.came_after(answered_) && report()->state == "Idle"; }
   // Bytes that the machine can hold, as far as it has told.
-  std::size_t buffer_size() const { return std::min(machine_.bytes, empty_buffer_); }
+  std::size_t buffer_size() const { return window_.usable(machine_.bytes); }
   // Bytes of lines that the machine may hold in its receive buffer.
-  std::size_t unanswered_bytes() const { return unanswered_bytes_; }
-  std::uint64_t lines_sent() const { return lines_sent_; }
+  std::size_t unanswered_bytes() const { return window_.sent_bytes(); }
+  std::uint64_t lines_sent() const { return window_.lines_sent(); }
 
   void hold();
   void resume();
@@ -96,13 +95,6 @@ class GrblSender {
 
  private:
   enum class Stage : std::uint8_t { waking, clearing, looking, asking, ready, braking, dropping, stopped };
-  struct Line {
-    std::string text;  // with its end
-    std::uint32_t line = 0;
-    Seconds silence{0};
-    Seconds sent{0};
-  };
-
   void act(char byte) { urgent_ += byte; }
   bool greets() const { return stage_ < Stage::ready; }
   void enter(Stage stage);
@@ -125,7 +117,8 @@ class GrblSender {
   void check_lost_bytes();
   void check_standstill();
   void ask_for_status();
-  Seconds silence_of_oldest() const { return unanswered_.empty() ? Seconds(0) : unanswered_.front().silence; }
+  bool has_work() const { return window_.last_line() != 0; }
+  Seconds silence_of_oldest() const { return window_.oldest() == nullptr ? Seconds(0) : window_.oldest()->silence; }
   std::uint32_t first_held_line() const;
 
   Stage stage_ = Stage::waking;
@@ -142,22 +135,10 @@ class GrblSender {
   std::string last_line_heard_;
   std::string locked_by_;  // the alarm that it told while it was greeted
   std::string urgent_;
-  std::deque<Line> waiting_;
-  std::deque<Line> unanswered_;
-  std::size_t unanswered_bytes_ = 0;
-  std::uint64_t lines_sent_ = 0;
-  std::deque<std::uint32_t> held_lines_;  // answered lines that the planner may still hold
-  std::uint32_t last_line_ = 0;
-  bool has_work_ = false;  // lines of a program were sent
-  bool is_held_ = false;   // by hold()
+  LineWindow window_;
+  bool is_held_ = false;  // by hold()
   GrblMachine machine_;
-  std::size_t empty_buffer_ =
-      std::numeric_limits<std::size_t>::max();  // bytes that were free in it when it held no line of ours
-  std::optional<GrblReport> report_;
-  std::optional<Point> offset_;  // of the work, as reported
-  Seconds reported_{-1};
-  int feed_percent_ = 100;
-  int spindle_percent_ = 100;
+  HeardReports reports_;
   std::optional<GrblFault> fault_;
 };
 

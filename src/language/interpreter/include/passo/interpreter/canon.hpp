@@ -27,7 +27,6 @@ class CanonPrinter {
   std::uint64_t count_ = 0;
   LengthUnits machine_units_;
   LengthUnits units_ = LengthUnits::mm;
-  FeedMode feed_mode_ = FeedMode::units_per_minute;
 };
 
 }  // namespace passo

@@ -49,11 +49,20 @@ struct SelectPlane {
 struct SetFeedMode {
   FeedMode mode = FeedMode::units_per_minute;
 };
-// In units per minute, the rate is in mm/s; in units per revolution, in mm/rev. Inverse time (G93) never occurs here:
-// the interpreter converts it with the length of each move, as LinuxCNC does.
+// The feed of G94. Inverse time (G93) never occurs here: the interpreter converts it with the length of each move, as
+// LinuxCNC does. `rotary` is for moves of A B C only.
+struct FeedPerSecond {
+  MmPerSecond linear{0};
+  double rotary = 0;  // degrees/s, with any length unit
+};
+// The feed of G95, per revolution of the spindle.
+struct FeedPerRevolution {
+  Mm linear{0};
+  double rotary = 0;  // degrees per revolution
+};
+// In the mode of the last SetFeedMode.
 struct SetFeedRate {
-  double rate = 0;
-  double rotary_rate = 0;  // for moves of A B C only: degrees/s (or per revolution), with any length unit
+  std::variant<FeedPerSecond, FeedPerRevolution> feed;
 };
 struct SetPathMode {
   PathMode mode = PathMode::continuous;

@@ -34,6 +34,14 @@ inline Point saved_point(const SavedParameters& saved, int first) {
   return point;
 }
 
+// Programs begin with G54, whatever was in force before.
+inline void begin_with_g54(SavedParameters& saved) {
+  saved[work_system_parameter] = 1;
+}
+inline void forget_g92(SavedParameters& saved) {
+  for (int number = g92_active_parameter; number < work_system_parameter; ++number) saved.erase(number);
+}
+
 // "G54" … "G59", "G59.1" … "G59.3", for 1 to 9.
 inline std::string name_of_system(int system) {
   constexpr int last_whole = 6;  // G59

@@ -23,6 +23,8 @@ namespace passo {
 // Returns `text`, the text of such a file, with its tools as they are now in `table`. Numbers that differ are written
 // anew. Words that were missing are written after the others. Order, remarks and all other lines stay.
 std::string tool_table_text(std::string_view text, LengthUnits units, const ToolTable& table);
+// Adds a line to `text` for each tool of `table` that `known`, the tools of the text, lacks.
+void add_new_tools(std::string& text, const ToolTable& known, const ToolTable& table);
 // The text of a file with these tools, in mm.
 std::string tool_table_text(const ToolTable& table);
 

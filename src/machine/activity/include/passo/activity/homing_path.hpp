@@ -12,19 +12,21 @@
 // An axis with two motors is squared before it latches. Each motor continues separately to its own switch. Both back
 // off together. The second motor then lags slightly, so that the first one's switch certainly closes first. In this
 // way, the exact positions of both switches are found one after the other, without racking the axis by more than the
-// lag. In the path, a motor that moves separately moves its axis (TwinMotors): `goes_` has the true position of each.
+// lag. In the path, a motor that moves separately moves its axis (TwinMotors): HomedMotors has the true position of
+// each.
 //
 // The position of an axis is unknown until it is homed. Until then, the path counts from the start position.
 #pragma once
 
-#include <array>
-#include <cstddef>
 #include <cstdint>
 #include <optional>
 #include <string_view>
 #include <vector>
 
 #include "passo/activity/activity.hpp"
+#include "passo/activity/homed_motors.hpp"
+#include "passo/activity/homing_turn.hpp"
+#include "passo/activity/switch_watch.hpp"
 #include "passo/interpreter/machine_answers.hpp"
 #include "passo/kinematics/kinematics.hpp"
 #include "passo/machine_file/machine_description.hpp"
@@ -77,8 +79,6 @@ class HomingPath final : public Activity {
   enum class Step : std::uint8_t { begin, move, end, judge };
   // The separate moves of the two motors, in this order.
   enum class Alone : std::uint8_t { close_first, close_second, lag, find_second, adjust };
-  static constexpr std::size_t first_motor = 0;
-  static constexpr std::size_t second_motor = 1;
 
   const HomeDescription& home() const { return *axis_->home; }
   // Steps per millimetre or degree of the current axis.
@@ -95,7 +95,7 @@ class HomingPath final : public Activity {
   bool is_pair() const { return axis_->second.has_value(); }
   void begin_turn();
   void seek_together();
-  void begin_look(std::size_t which);
+  void begin_look(const AxisDescription& axis);
   void begin_axis(const AxisDescription& axis);
   void begin(HomingStage stage, double target);
   void begin_alone(Alone alone, double way);
@@ -107,8 +107,6 @@ class HomingPath final : public Activity {
   void judge_alone();
   void go_on_alone();
   void fall_further_behind();
-  double farthest_beyond() const;
-  double apart_from_switches() const;
   void judge_approach();
   void judge_retreat();
   void retreat(HomingStage stage, double target);
@@ -120,24 +118,18 @@ class HomingPath final : public Activity {
   const Kinematics kinematics_;
   const MachineAnswers& answers_;
   Point start_;
-  std::vector<const AxisDescription*> turn_;  // the axes of this group that are not homed yet
-  std::size_t looked_at_ = 0;                 // of these
-  bool together_ = false;                     // all of them seek together
-  std::optional<Point> met_;                  // their positions when the first of them reached its switch
+  HomingTurn turn_;
   const AxisDescription* axis_ = nullptr;
   HomingStage stage_ = HomingStage::seek;
   Alone alone_ = Alone::close_first;
   bool settles_ = false;  // the separately moved motor continues to a whole-step distance from the other
   Step step_ = Step::begin;
-  bool until_closed_ = true;  // the move ends when the switch closes; otherwise when it opens
+  SwitchWatch watch_;
   Point target_;
   MmPerSecond speed_{0};
-  std::uint8_t limits_ = 0;        // the watched switches
-  bool knows_switch_ = false;      // the approximate closing point of the switch is known
-  std::array<double, 2> goes_{};   // the positions of the axis' motors; with one motor, both are that of the axis
-  std::array<double, 2> found_{};  // the position of each of them when its switch closed
-  double lag_ = 0;                 // lag of the second motor before the latch
-  int turns_ = 0;
+  bool knows_switch_ = false;  // the approximate closing point of the switch is known
+  HomedMotors motors_;
+  double lag_ = 0;  // lag of the second motor before the latch
   Point position_;  // the position at the last stop
   std::vector<HomedAxis> homed_;
   std::optional<MachineFault> fault_;

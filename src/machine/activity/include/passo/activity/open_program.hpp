@@ -10,12 +10,11 @@
 // While the queue is empty, the path has an action await_line, at which the machine stops. A probe move is built only
 // when it is executed, because the following lines depend on its result. Until then, no line is accepted.
 //
-// The queue is bounded: room() shows whether it accepts another line. A queue of many short moves is long, for the
-// look-ahead; a queue of long moves is short, so that lines are not acknowledged too early.
+// room() shows whether the queue accepts another line. A queue of many short moves is long, for the look-ahead; a queue
+// of long moves is short, so that lines are not acknowledged too early.
 #pragma once
 
 #include <cstddef>
-#include <deque>
 #include <memory>
 #include <optional>
 #include <string>
@@ -23,6 +22,7 @@
 #include <utility>
 
 #include "passo/activity/activity.hpp"
+#include "passo/activity/line_queue.hpp"
 #include "passo/activity/wait_words.hpp"
 #include "passo/base/tap.hpp"
 #include "passo/diagnostics/diagnostic.hpp"
@@ -37,15 +37,6 @@ namespace passo {
 
 class OpenProgram final : public Source<PathItem> {
  public:
-  // More items are queued only while they last no longer than `enough_time`, and never more than `most_items`.
-  static constexpr std::size_t enough_items = 256;
-  static constexpr std::size_t most_items = 1024;
-  static constexpr Seconds enough_time{10};
-  // The machine begins to move when the queue is full, when no line has come for `quiet`, or when the first line has
-  // waited for `longest_wait`. So the look-ahead sees more than the first line.
-  static constexpr Seconds quiet{0.03};
-  static constexpr Seconds longest_wait{0.5};
-
   // `machine` outlives the program. The options' dialect, units, tools and parameters count.
   OpenProgram(const MachineDescription& machine, InterpreterOptions options, const Point& start);
 
@@ -59,7 +50,7 @@ class OpenProgram final : public Source<PathItem> {
   // What add_line() would say. Nothing changes.
   [[nodiscard]] std::optional<Diagnostic> judge(std::string_view line);
 
-  bool room() const;
+  bool room() const { return !asks_ && queue_.has_room(); }
   // True: a line has asked the machine, and was not answered yet.
   bool asks() const { return asks_; }
   // True: the last line taken was M2, M30, or one that ends programs. The program begins anew with the next line.
@@ -72,8 +63,8 @@ class OpenProgram final : public Source<PathItem> {
 
   // For the session that plays the path: whether a machine that rests is to go on, and whether a machine that moves is
   // to wait a little with pulling more.
-  bool is_to_begin(Seconds now) const;
-  bool expects_more(Seconds now) const;
+  bool is_to_begin(Seconds now) const { return asks_ || queue_.is_to_begin(now); }
+  bool expects_more(Seconds now) const { return !asks_ && queue_.expects_more(now); }
   AnswerBook& answers() { return answers_; }
   // Why the last question of the program has ended the program, if it did: G38.2 without a contact.
   const std::optional<Diagnostic>& answer_fault() const { return answer_fault_; }
@@ -103,24 +94,19 @@ class OpenProgram final : public Source<PathItem> {
   void begin_with(const ModesInForce& modes, int motion, const Point& place);
   void begin_after_end();
   void forget_queue();
-  std::optional<Diagnostic> read(std::string_view line);
+  std::optional<Diagnostic> read(std::string_view line, bool jogs = false);
   std::optional<Diagnostic> queue_line(std::string_view line, Seconds now, bool jogs);
-  void push(const PathItem& item);
   bool pull_answer(PathItem& item);
   void roll_back(std::size_t kept);
 
   InterpreterOptions options_;
-  MotionLimits limits_;
   PathOptions path_options_;
   Diagnostics diagnostics_;
   AnswerBook answers_;
   std::unique_ptr<Interpreter> interpreter_;
   std::unique_ptr<Tap<Operation>> operations_;
   std::unique_ptr<PathBuilder> builder_;
-  std::deque<PathItem> queue_;
-  Seconds queued_time_{0};
-  Seconds first_came_{0};  // the first line of the queue
-  Seconds last_came_{0};
+  LineQueue queue_;
   bool asks_ = false;
   bool ended_ = false;
   bool jogs_ = false;

@@ -6,9 +6,9 @@
 #include <variant>
 
 #include "passo/geometry/axes.hpp"
+#include "passo/geometry/surface.hpp"
 #include "passo/machine_file/machine_description.hpp"
 #include "passo/plant/fitted_plant.hpp"
-#include "passo/surface/surface.hpp"
 
 namespace passo {
 

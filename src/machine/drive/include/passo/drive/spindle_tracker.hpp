@@ -13,6 +13,7 @@
 #include "passo/drive/feed.hpp"
 #include "passo/drive/spindle_encoder.hpp"
 #include "passo/drive/spindle_follower.hpp"
+#include "passo/drive/spindle_run_up.hpp"
 #include "passo/link/link.hpp"
 #include "passo/trajectory/planner.hpp"
 
@@ -85,11 +86,7 @@ class SpindleTracker {
 
   // State while the tracker waits for the index.
   AwaitStep step_ = AwaitStep::ask;
-  double wanted_ = 0;  // seconds a turn
-  SpindleReading turn_begun_;
-  double turn_before_ = 0;  // seconds
-  int turns_ = 0;
-  bool at_speed_ = false;
+  SpindleRunUp run_up_;
   bool begins_ = false;
   Seconds alone_{0};  // how long an answer takes without a refill before it
   Seconds looks_at_{0};

@@ -4,7 +4,7 @@
 #include <optional>
 #include <string>
 
-#include "passo/history/job_history.hpp"
+#include "passo/job/job_history.hpp"
 #include "passo/job/job_keeper.hpp"
 #include "passo/job/journaled_run.hpp"
 #include "passo/link/board_session.hpp"

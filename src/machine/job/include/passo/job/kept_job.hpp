@@ -13,9 +13,9 @@
 #include <string_view>
 #include <vector>
 
-#include "passo/history/job_history.hpp"
 #include "passo/interpreter/interpreter.hpp"
 #include "passo/job/interrupted_job.hpp"
+#include "passo/job/job_history.hpp"
 #include "passo/job/job_identity.hpp"
 #include "passo/machine_file/machine_description.hpp"
 #include "passo/session/machine_session.hpp"

@@ -8,8 +8,8 @@
 #include <memory>
 #include <optional>
 
+#include "passo/geometry/surface.hpp"
 #include "passo/plant/motor_steps.hpp"
-#include "passo/surface/surface.hpp"
 
 namespace passo {
 

@@ -136,7 +136,8 @@ class MachineSession {
   DriveOptions drive_options() const;
   StepOptions step_options() const;
 
-  void put_on_drive(Work& work, const DriveOptions& options, bool knows_ahead);
+  void put_on_drive(Work& work, const DriveOptions& options, const Watchers& watchers = {}, bool knows_ahead = true,
+                    Seconds nominal_time = Seconds(0));
   // The clock of the board's executed motion.
   Seconds clock_of(const Work& work) const;
 
@@ -152,7 +153,7 @@ class MachineSession {
   void finish_work();
   void end_work();
   std::pair<Outcome, std::optional<ActivityFault>> judge_work() const;
-  void record_place();
+  void record_place(bool knows_counts);
   bool poll_lines(Seconds most);
   void go_on_after_drop();
   void check_lease();

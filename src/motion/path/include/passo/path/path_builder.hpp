@@ -25,6 +25,7 @@
 #include "passo/diagnostics/diagnostic.hpp"
 #include "passo/interpreter/frame.hpp"
 #include "passo/interpreter/machine_answers.hpp"
+#include "passo/path/outside_travel.hpp"
 #include "passo/path/segment.hpp"
 
 namespace passo {
@@ -63,7 +64,6 @@ struct PathMemory {
   Point position_;        // machine
 
   LengthUnits units_ = LengthUnits::mm;  // for messages
-  FeedMode feed_mode_ = FeedMode::units_per_minute;
   operation::SetFeedRate feed_rate_;
   std::optional<Mm> synchronised_pitch_;
   PathMode path_mode_ = PathMode::continuous;
@@ -79,9 +79,7 @@ struct PathMemory {
   MmPerSecond refused_feed_{0};  // the last synchronized feed that exceeded the velocity of an axis
   Seconds run_up_left_{0};       // the time until the spindle has reached its speed
 
-  // The axes on which the path is now outside the machine. An excursion is reported once, not at each of its moves.
-  AxisSet below_;
-  AxisSet above_;
+  OutsideTravel outside_;
   AxisSet missing_;
   std::array<bool, 4> told_{};  // what was already reported, by Lack
 };
@@ -101,7 +99,8 @@ class PathBuilder final : public Source<PathItem>, private PathMemory {
   // Continues the path from another position. The path read so far is dropped.
   void stand_at(const Point& machine) {
     position_ = machine;
-    below_ = above_ = missing_ = AxisSet();
+    outside_ = {};
+    missing_ = AxisSet();
     refused_feed_ = MmPerSecond(0);
   }
   // Saves the state after the operations so far, and restores it, as if the later ones had not come. Call it when
@@ -140,6 +139,7 @@ class PathBuilder final : public Source<PathItem>, private PathMemory {
   void refuse_surface_speed(const operation::SetSpindleMode& mode);
   Heeds heeds() const;
   SpindleLock lock() const;
+  Mm pitch() const;
   OutputState outputs() const;
   Action outputs_action(Action::Kind kind = Action::Kind::outputs, Seconds dwell = Seconds(0)) const;
   bool must_await_index(const PathItem& item);
@@ -149,7 +149,7 @@ class PathBuilder final : public Source<PathItem>, private PathMemory {
   void check_thread(const Curve& curve, MmPerSecond speed);
   void check_travel(const Curve& curve);
   bool is_within_travel(const Box& box) const;
-  void check_side(Axis axis, bool high_side, double reached, const Curve& curve, AxisSet& outside);
+  void check_side(Axis axis, TravelEnd end, double reached, const Curve& curve);
   void check_axes(const Curve& curve);
   // Reports at the axis word or, without one, at the words of the current operation.
   void report(Severity severity, std::string code, std::string message, std::string expected,

@@ -1,4 +1,4 @@
-#include "passo/history/job_history.hpp"
+#include "passo/job/job_history.hpp"
 
 #include <algorithm>
 #include <map>

@@ -1,4 +1,4 @@
-#include "passo/surface/surface.hpp"
+#include "passo/geometry/surface.hpp"
 
 #include <cmath>
 #include <numbers>

@@ -1,8 +1,12 @@
-// ProgramFlow: the lines. A line is read and parsed, or its block was kept from an earlier pass.
-#include <algorithm>
+#include "program_lines.hpp"
 
+#include <algorithm>
+#include <filesystem>
+
+#include "block_words.hpp"
 #include "grbl_dialect.hpp"
-#include "program_flow.hpp"
+#include "whole_number.hpp"
+#include <fmt/format.h>
 
 namespace passo {
 namespace {
@@ -17,11 +21,28 @@ bool is_percent(std::string_view text) {
   return first != std::string_view::npos && text.find_last_not_of(" \t") == first && text[first] == '%';
 }
 
+constexpr double highest_label = 1e9;
+
 }  // namespace
+
+ProgramLines::ProgramLines(ProgramReader reader, Options options, const ProgramState& state,
+                           const Parameters& parameters, SymbolTable& symbols, Reporter& reporter)
+    : options_(std::move(options)), state_(state), parameters_(parameters), symbols_(symbols), reporter_(reporter) {
+  files_.push_back(std::make_unique<File>(std::move(reader), 0, symbols_));
+  if (options_.dialect == Dialect::grbl) files_.front()->parser.accept_line_numbers_anywhere();
+  file_ = files_.front().get();
+  set_block(line_);
+}
+
+void ProgramLines::seek(File& file, ReaderPosition place) {
+  file_ = &file;
+  file_->reader.seek(place);
+  set_block(*block_);
+}
 
 // Whether an 'O' comes first, after white space, '/' and N with its number. Nothing else is looked at in a skipped
 // line.
-bool ProgramFlow::may_be_control(std::string_view text) {
+bool ProgramLines::may_be_control(std::string_view text) {
   std::size_t i = 0;
   const auto at = [&](std::string_view any) { return i < text.size() && any.find(text[i]) != std::string_view::npos; };
   while (at(" \t/")) ++i;
@@ -33,14 +54,14 @@ bool ProgramFlow::may_be_control(std::string_view text) {
 }
 
 // Whether a line that cannot be read has a word of the O-words, as "20 while [1]" has, which lacks its O.
-bool ProgramFlow::names_control(std::string_view text) {
+bool ProgramLines::names_control(std::string_view text) {
   std::string small;
   for (const char c : text) small += c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
   constexpr std::string_view names[] = {"sub", "call", "return", "while", "repeat", "if", "else", "do"};
   return std::ranges::any_of(names, [&](std::string_view name) { return small.find(name) != std::string::npos; });
 }
 
-ProgramFlow::Read ProgramFlow::read() {
+ProgramLines::Read ProgramLines::read() {
   block_at_ = file_->reader.position();
   if (reporter_.full()) return Read::end;
   if (recall()) return Read::block;
@@ -53,7 +74,7 @@ ProgramFlow::Read ProgramFlow::read() {
 }
 
 // Takes the block of the next line, if it is kept.
-bool ProgramFlow::recall() {
+bool ProgramLines::recall() {
   if (block_at_.offset >= file_->read_to) return false;
   KeptBlock* const kept = kept_.find(file_->number, block_at_);
   if (kept == nullptr) return false;
@@ -62,14 +83,14 @@ bool ProgramFlow::recall() {
   return true;
 }
 
-bool ProgramFlow::next_line(std::string_view& text, std::uint32_t& line) {
+bool ProgramLines::next_line(std::string_view& text, std::uint32_t& line) {
   const bool good = file_->reader.next_line(text, line, faults_);
   if (!faults_.all().empty()) reporter_.pass_on(faults_);
   return good;
 }
 
 // A line that is no G-code is reported once, however often a loop reads it. A line that is read a second time is kept.
-bool ProgramFlow::parse(std::string_view text, std::uint32_t line) {
+bool ProgramLines::parse(std::string_view text, std::uint32_t line) {
   std::set<std::uint32_t>& unreadable = file_->unreadable;
   if (!unreadable.empty() && unreadable.contains(line)) {
     reporter_.meet_again();
@@ -91,24 +112,24 @@ bool ProgramFlow::parse(std::string_view text, std::uint32_t line) {
 }
 
 // An O-word that cannot be read may begin or end a construct. Its label is known if the fault comes after its keyword.
-void ProgramFlow::doubt_label() {
+void ProgramLines::doubt_label() {
   const bool is_control = may_be_control(block_->text);
   if (!is_control && !names_control(block_->text)) return;
   const bool is_named = !faults_.all().empty() && faults_.all().front().code != "gcode.bad-o-word";
   if (is_control && is_named && block_->control && block_->control->label) {
-    doubtful_labels_.insert(block_->control->label.id);
+    doubtful_labels_.add(block_->control->label);
   } else {
-    all_labels_doubtful_ = true;
+    doubtful_labels_.add_all();
   }
 }
 
-void ProgramFlow::set_block(Block& block) {
+void ProgramLines::set_block(Block& block) {
   block_ = &block;
   reporter_.set_block(block, file_->name);
 }
 
 // grbl reads word by word, so of several errors it tells the first.
-bool ProgramFlow::is_readable(std::string_view text, std::uint32_t line) {
+bool ProgramLines::is_readable(std::string_view text, std::uint32_t line) {
   const bool good = file_->parser.parse(text, line, *block_, faults_);
   if (options_.dialect == Dialect::linuxcnc) return good;
   // Senders send no '%' of a file.
@@ -118,8 +139,7 @@ bool ProgramFlow::is_readable(std::string_view text, std::uint32_t line) {
   return false;
 }
 
-// Reads on to the next line with an O-word. False: there is none.
-bool ProgramFlow::read_control(Symbol& label, bool within_percents) {
+bool ProgramLines::read_control(Symbol& label, bool within_percents) {
   for (;;) {
     std::string_view text;
     std::uint32_t line = 0;
@@ -134,9 +154,7 @@ bool ProgramFlow::read_control(Symbol& label, bool within_percents) {
   }
 }
 
-// For use after another place of the file was read. The text of a block that is not kept belongs to the reader, and is
-// lost.
-void ProgramFlow::reread_block_text() {
+void ProgramLines::reread_block_text() {
   if (block_ != &line_) return;
   std::uint32_t line = 0;
   file_->reader.seek(block_at_);
@@ -144,15 +162,14 @@ void ProgramFlow::reread_block_text() {
 }
 
 // True: the line is the closing '%' of the main file. What follows is not part of the program.
-bool ProgramFlow::closes_program(std::string_view text) {
-  if (!opened_percent_ || file_ != files_.front().get() || !is_percent(text)) return false;
+bool ProgramLines::closes_program(std::string_view text) {
+  if (!percent_signs_.opened() || file_ != files_.front().get() || !is_percent(text)) return false;
   return std::exchange(file_->seen_percent, true);
 }
 
 // Subs and numbered programs may stand behind the end. Nothing that is read is executed, and so nothing else is
 // reported.
-void ProgramFlow::report_moves_after_end() {
-  if (options_.open_ended || !frames_.empty()) return;
+void ProgramLines::report_moves_after_end() {
   const ReaderPosition here = file_->reader.position();
   Block block;
   Diagnostics unheeded;
@@ -179,16 +196,114 @@ void ProgramFlow::report_moves_after_end() {
   file_->reader.seek(here);
 }
 
-bool ProgramFlow::lacks_closing_percent() {
-  if (!opened_percent_) return false;
+bool ProgramLines::lacks_closing_percent(ReaderPosition from) {
+  if (!percent_signs_.opened()) return false;
   ProgramReader& reader = files_.front()->reader;
-  if (!frames_.empty()) reader.seek(frames_.front().return_to);
+  reader.seek(from);
   std::string_view text;
   std::uint32_t line = 0;
   while (reader.next_line(text, line, reporter_.diagnostics())) {
     if (is_percent(text)) return false;
   }
   return true;
+}
+
+// A line that is skipped is not executed, so its label may have no value. False: it has none, or is no label.
+bool ProgramLines::label_of_skipped(const Control& control, Symbol& label) const {
+  label = control.label;
+  if (!control.computed_label) return true;
+  const Evaluation value = evaluate(*block_, *control.computed_label, parameters_);
+  const std::optional<Symbol> computed = value ? label_of_value(*value, symbols_) : std::nullopt;
+  label = computed.value_or(label);
+  return computed.has_value();
+}
+
+ProgramLines::File* ProgramLines::find_sub(Symbol label) {
+  if (find_in(*file_, label)) return file_;
+  for (const auto& file : files_) {
+    if (file.get() != file_ && find_in(*file, label)) return file.get();
+  }
+  return open_named(label);
+}
+
+// Whether the file has the sub. Reads the part of the file whose subs are not known yet, once, and goes back to where
+// the file was.
+bool ProgramLines::find_in(File& file, Symbol label) {
+  if (file.subs.contains(label.id)) return true;
+  if (file.seen_all) return false;
+  File* const reading = file_;
+  const Block current = *block_;  // the block of the call, which the search overwrites
+  const ReaderPosition here = file.reader.position();
+  const ReaderPosition call_at = block_at_;
+  file_ = &file;
+  file.reader.seek(file.seen);
+  Symbol found;
+  while (!file.seen_all && !file.subs.contains(label.id)) {
+    if (!read_control(found, true)) {
+      file.seen_all = true;
+    } else if (block_->control->kind == ControlKind::sub || block_->control->kind == ControlKind::program) {
+      const bool numbered = block_->control->kind == ControlKind::program;
+      file.subs.try_emplace(found.id, SubPlace{block_at_, file.reader.position(), numbered});
+    }
+  }
+  file.seen = file.reader.position();
+  file.reader.seek(here);
+  file_ = reading;
+  line_ = current;
+  set_block(line_);
+  block_at_ = call_at;
+  const ReaderPosition next = file_->reader.position();
+  reread_block_text();
+  file_->reader.seek(next);
+  return file.subs.contains(label.id);
+}
+
+// The first file of that name counts, as in LinuxCNC.
+ProgramLines::File* ProgramLines::open_named(Symbol label) {
+  const std::string name = std::string(symbols_.name(label)) + ".ngc";
+  File* file = open_in(std::filesystem::path(files_.front()->name).parent_path().string(), name);
+  for (std::size_t i = 0; file == nullptr && i < options_.sub_folders.size(); ++i) {
+    file = open_in(options_.sub_folders[i], name);
+  }
+  return file != nullptr && find_in(*file, label) ? file : nullptr;
+}
+
+ProgramLines::File* ProgramLines::open_in(const std::string& folder, const std::string& name) {
+  constexpr std::size_t most_files = 64;
+  const std::filesystem::path path = std::filesystem::path(folder) / name;
+  for (const auto& file : files_) {
+    if (file->name == path.string()) return file.get();
+  }
+  std::error_code problem;
+  if (files_.size() >= most_files || !std::filesystem::is_regular_file(path, problem)) return nullptr;
+  auto reader = ProgramReader::open(path.string());
+  if (!reader) return nullptr;
+  files_.push_back(std::make_unique<File>(std::move(*reader), files_.size(), symbols_));
+  return files_.back().get();
+}
+
+// Files that have the right name but not the sub are named too, because the sub may be spelled differently there.
+std::string ProgramLines::places_looked_at(const std::string& file) const {
+  std::string places = "next to the program";
+  for (const std::string& folder : options_.sub_folders) places += " or in " + folder;
+  for (const auto& open : files_) {
+    if (open.get() == file_) continue;
+    const bool has_its_name = std::filesystem::path(open->name).filename() == file;
+    places += fmt::format("; {} {}", open->name, has_its_name ? "is there without it" : "was looked through");
+  }
+  return places;
+}
+
+std::string label_text(const SymbolTable& symbols, Symbol label) {
+  const std::string_view name = symbols.name(label);
+  const bool number = name.find_first_not_of("0123456789") == std::string_view::npos;
+  return number ? std::string(name) : fmt::format("<{}>", name);
+}
+
+std::optional<Symbol> label_of_value(double value, SymbolTable& symbols) {
+  const std::optional<double> whole = whole_within(value, 0, highest_label);
+  if (!whole) return {};
+  return symbols.intern(plain_number(*whole));
 }
 
 }  // namespace passo

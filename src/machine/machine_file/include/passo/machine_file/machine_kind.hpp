@@ -1,0 +1,18 @@
+// What kind of machine a description is of, by the axes that it has.
+#pragma once
+
+#include <algorithm>
+
+#include "passo/machine_file/machine_description.hpp"
+
+namespace passo {
+
+inline bool has_axis(const MachineDescription& machine, Axis axis) {
+  return std::ranges::find(machine.axes, axis, &AxisDescription::axis) != machine.axes.end();
+}
+// X and Z, and no Y.
+inline bool is_lathe(const MachineDescription& machine) {
+  return has_axis(machine, Axis::x) && has_axis(machine, Axis::z) && !has_axis(machine, Axis::y);
+}
+
+}  // namespace passo

@@ -1,0 +1,23 @@
+#include "../jog_lease.hpp"
+
+#include <gtest/gtest.h>
+
+namespace passo {
+namespace {
+
+TEST(JogLease, lasts_from_its_last_renewal) {
+  JogLease lease;
+  lease.begin(Seconds(0.5), Seconds(10));
+  EXPECT_FALSE(lease.is_over_at(Seconds(10.5)));
+  EXPECT_TRUE(lease.is_over_at(Seconds(10.6)));
+  lease.renew(Seconds(10.4));
+  EXPECT_FALSE(lease.is_over_at(Seconds(10.9)));
+  EXPECT_TRUE(lease.is_over_at(Seconds(11)));
+}
+
+TEST(JogLease, never_ends_if_it_has_not_begun) {
+  EXPECT_FALSE(JogLease().is_over_at(Seconds(1e9)));
+}
+
+}  // namespace
+}  // namespace passo
