@@ -72,7 +72,7 @@ TEST(HeightMap, its_figures_find_the_plane) {
   EXPECT_NEAR(figures.farthest_off_plane, 0, 1e-12);
   EXPECT_NEAR(figures.lowest, -0.1, 1e-12);
   EXPECT_NEAR(figures.highest, 0.9, 1e-12);
-  EXPECT_EQ(words_of(HeightMap({0, 10}, {0, 10}, {0, 1, 0, 1})),
+  EXPECT_EQ(describe(HeightMap({0, 10}, {0, 10}, {0, 1, 0, 1})),
             "2 x 2 points, X0.000 to 10.000, Y0.000 to 10.000\n"
             "heights 0.000 to 1.000 mm, mean 0.500\n"
             "slope 10.000 mm per 100 mm in X, 0.000 mm per 100 mm in Y; at most 0.000 mm from that plane\n"

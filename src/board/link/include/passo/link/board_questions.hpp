@@ -38,9 +38,9 @@ class BoardQuestions {
   void begin_rehearsal(Seconds now) { rehearsed_ = now; }
 
   // Registers a sent frame: earlier answers are out of date.
-  void note_sent(Seconds now);
+  void record_sent(Seconds now);
   // Registers that the board has answered after all frames. False: this was already known.
-  bool note_answered(Seconds now);
+  bool on_answered(Seconds now);
   // Forgets the sent frames.
   void forget_sent() { answered_ = true; }
   bool answered() const { return answered_; }
@@ -48,7 +48,7 @@ class BoardQuestions {
   Seconds answer_time() const { return answer_time_; }
 
   // The newest answer about the spindle.
-  void note_turned(const Turned& turned) { turned_ = turned; }
+  void record_turned(const Turned& turned) { turned_ = turned; }
   std::optional<Turned> take_turned() { return std::exchange(turned_, std::nullopt); }
 
   // Drops all open queries. Numbers and the response time are kept.

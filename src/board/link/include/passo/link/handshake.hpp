@@ -44,23 +44,23 @@ class Handshake {
   std::uint8_t positions() const { return before_hello() ? std::uint8_t{max_motors} : motors(); }
 
   // Stores the time of the last message of the handshake.
-  void note_said(Seconds now) { said_ = now; }
+  void record_hello(Seconds now) { said_ = now; }
   Seconds said() const { return said_; }
 
   // Processes the answer to the pin set-up. Error: the board does not support it, or cannot make the timing.
-  std::optional<LinkError> note(const PinSetup& setup);
+  std::optional<LinkError> handle(const PinSetup& setup);
   // True: the board has the requested pin set-up, or none was requested.
   bool is_set_up() const;
   const PinSetup& set_up() const { return set_up_; }
   PinSetup undone_setup() const;
 
   // Processes the answer to the hello.
-  void note(const HelloReply& reply);
+  void handle(const HelloReply& reply);
   const std::optional<HelloReply>& reply() const { return reply_; }
   // Continues if the answer to the hello has arrived. Error: the board does not suit the machine.
   std::optional<LinkError> go_on();
   // Continues if the board has the session's number.
-  void note(const BoardStatus& status);
+  void handle(const BoardStatus& status);
 
  private:
   Greeting wanted_;

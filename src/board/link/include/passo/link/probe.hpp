@@ -45,8 +45,8 @@ class ProbeWatch {
   const ProbeReport& report() const { return report_; }
 
   // Processes a status, or a change that the board reports by itself.
-  News note(const BoardStatus& status);
-  News note(const Captured& captured);
+  News handle(const BoardStatus& status);
+  News handle(const Captured& captured);
   // Stores the captured positions that the board has sent.
   void recall(const Captured& kept, std::uint8_t motors);
 

@@ -53,7 +53,7 @@ class SendWindow {
   // Sends frames as long as at most `most_bytes` are unacknowledged. True: none waits.
   [[nodiscard]] bool fill(std::size_t most_bytes);
   // Acknowledges all frames up to the one with this low byte. False: an old acknowledgement, or an unknown frame.
-  [[nodiscard]] bool note_taken(std::uint8_t sequence);
+  [[nodiscard]] bool on_accepted(std::uint8_t sequence);
   // Repeats the first unacknowledged frames, in order.
   void repeat(std::size_t most_bytes);
   // Waits for the answer to this query, which shows whether the repeated frames have arrived. No frame is sent until

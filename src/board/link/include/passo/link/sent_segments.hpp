@@ -53,7 +53,7 @@ class SentSegments {
   void stand_at(const std::int32_t* counts);
 
   // Pulses from `from` to `to`, at most `most_pulses`, and none later than now. They reach up to the window's `end`.
-  PulseWindow look(Seconds from, Seconds to, Seconds now, std::size_t most_pulses) const;
+  PulseWindow window(Seconds from, Seconds to, Seconds now, std::size_t most_pulses) const;
 
  private:
   // The start of a segment.

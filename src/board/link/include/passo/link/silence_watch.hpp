@@ -25,13 +25,13 @@ class SilenceWatch {
   // Starts measuring the silence.
   void begin(Seconds now) { progressed_ = heard_ = quiet_since_ = now; }
   // A byte arrived; a complete frame arrived; the board answered, accepted or executed something.
-  void note_byte(Seconds now) { quiet_since_ = now; }
-  void note_frame(Seconds now) { heard_ = now; }
-  void note_progress(Seconds now) { progressed_ = now; }
+  void on_byte(Seconds now) { quiet_since_ = now; }
+  void on_frame(Seconds now) { heard_ = now; }
+  void on_progress(Seconds now) { progressed_ = now; }
   // A query was repeated. Its answer may take as long as the first one.
-  void note_asked_again(Seconds now) { quiet_since_ = now; }
+  void on_asked_again(Seconds now) { quiet_since_ = now; }
   // The board accepted something, or the host sent something.
-  void note_traffic(Seconds now) { moved_on_ = now; }
+  void on_traffic(Seconds now) { moved_on_ = now; }
 
   // The time until the next repeated query.
   Seconds until_question(Seconds now) const;

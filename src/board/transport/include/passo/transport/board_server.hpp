@@ -44,7 +44,7 @@ class BoardServer {
   // Accepts connections, and passes messages to the board. The board's answers go to whoever asked. Does not wait.
   void attend(BoardPort& board);
   // Sends the board's own messages to the host. Without a host they are dropped.
-  void tell_host(std::span<const std::uint8_t> bytes);
+  void send_to_host(std::span<const std::uint8_t> bytes);
   // True: a client was connected, and none is any more.
   bool all_have_left() const { return anybody_came_ && clients_.empty(); }
 
@@ -61,9 +61,9 @@ class BoardServer {
   };
 
   BoardServer(int listening, unsigned port) : listening_(listening), port_(port) {}
-  void take_callers();
+  void accept_clients();
   void hear(Client& client, BoardPort& board);
-  void take(Client& client, const WireFrame& frame, BoardPort& board);
+  void handle(Client& client, const WireFrame& frame, BoardPort& board);
   bool may_drive(const Client& client);
   static void tell(Client& client, std::span<const std::uint8_t> bytes);
   void part_with_the_gone();

@@ -55,7 +55,7 @@ struct BoardJob {
 BoardJob read_board_job(const std::vector<std::string>& paths, Diagnostics& diagnostics);
 
 // Sets the layer of a file, given by its name or short name, instead of the detected one. Returns why not; empty: done.
-std::string tell_kind(BoardJob& job, std::string_view name, std::string_view words);
+std::string set_kind(BoardJob& job, std::string_view name, std::string_view words);
 
 // An error if what is used of the job is of several boards: two of KiCad, or one and files of layers beside it.
 void refuse_two_boards(const BoardJob& job, Diagnostics& diagnostics);

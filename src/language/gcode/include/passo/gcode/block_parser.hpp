@@ -17,7 +17,7 @@ class BlockParser {
   BlockParser(std::string file, SymbolTable& symbols) : file_(std::move(file)), symbols_(symbols) {}
 
   // Allows N anywhere in a line, as in Grbl. In RS274/NGC it must be first.
-  void take_line_numbers_anywhere() { line_numbers_anywhere_ = true; }
+  void accept_line_numbers_anywhere() { line_numbers_anywhere_ = true; }
 
   // Returns false if the line has an error. The error is then in `diagnostics`, and the block must not be used.
   [[nodiscard]] bool parse(std::string_view text, std::uint32_t line, Block& block, Diagnostics& diagnostics) const;

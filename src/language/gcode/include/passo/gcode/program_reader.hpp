@@ -29,7 +29,7 @@ class ProgramReader {
   static Result<ProgramReader, Diagnostic> open(const std::string& path);
   // A program in memory, for tests and for manual data input. `name` is used as file name in diagnostics.
   static ProgramReader from_text(std::string name, std::string text);
-  // A program whose lines arrive one by one, with give_line(). Lines are not stored, so the program cannot jump back.
+  // A program whose lines arrive one by one, with push_line(). Lines are not stored, so the program cannot jump back.
   static ProgramReader from_lines(std::string name);
 
   ProgramReader(ProgramReader&&) noexcept;
@@ -43,7 +43,7 @@ class ProgramReader {
 
   // Only for from_lines(), after all earlier lines were read: the next next_line() returns this line. `text` has no
   // line end.
-  void give_line(std::string_view text);
+  void push_line(std::string_view text);
 
   // Another reader of the same program, at its start. This also works for standard input.
   ProgramReader again() const;

@@ -55,7 +55,7 @@ class FrameBlocks {
   // The last executed block.
   const FrameBlock& last() const;
   // The blocks with one of the codes above that were executed since the last call, in order.
-  std::vector<FrameBlock> take();
+  std::vector<FrameBlock> take_executed();
 
  private:
   class Watcher;

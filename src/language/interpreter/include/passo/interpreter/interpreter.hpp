@@ -56,8 +56,8 @@ struct InterpreterOptions {
   int spindles = 1;          // 1 to 8
   double orient_offset = 0;  // degrees that M19 adds
   bool user_codes = false;   // M100 to M199 are allowed
-  // True: the program's lines arrive one by one, with give_line(). next() then returns false when no line is left, and
-  // continues after the next give_line().
+  // True: the program's lines arrive one by one, with push_line(). next() then returns false when no line is left, and
+  // continues after the next push_line().
   bool open_ended = false;
   // Letters of further axes that the Grbl dialect accepts in addition to X, Y and Z, e.g. "AC".
   std::string more_grbl_axes;
@@ -74,13 +74,13 @@ class Interpreter final : public Source<Operation> {
   [[nodiscard]] bool next(Operation& operation) override;
 
   // Only for an open-ended program, whose reader is ProgramReader::from_lines(). Call when next() has returned false.
-  void give_line(std::string_view text);
+  void push_line(std::string_view text);
   // True: the program has ended, with M2, M30 or a fatal error. The interpreter accepts no more lines.
   bool ended() const;
   // Saves modes, offsets, parameters and the position after the lines so far, and restores them, as if the later lines
   // had not come. Call it when next() has returned false.
   void keep();
-  void take_back();
+  void roll_back();
   // Continues a program that has ended, with its modes.
   void reopen();
   // The active motion code in tenths: 0 for G0, 382 for G38.2.

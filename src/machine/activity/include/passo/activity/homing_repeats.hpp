@@ -29,7 +29,7 @@ class HomingRepeats {
 
   // Adds a homing. `stood`: the position before it, counted from the previous homing. Empty: unknown, so this homing
   // becomes the first.
-  void note(const std::vector<HomedAxis>& homed, const std::optional<Point>& stood);
+  void record(const std::vector<HomedAxis>& homed, const std::optional<Point>& stood);
   // One entry for each axis that was homed every time.
   std::vector<AxisRepeats> axes() const;
 
@@ -49,6 +49,6 @@ class HomingRepeats {
 };
 
 // A line of text for an axis, without a newline.
-std::string words_of(const AxisRepeats& repeats);
+std::string describe(const AxisRepeats& repeats);
 
 }  // namespace passo

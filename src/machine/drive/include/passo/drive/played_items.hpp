@@ -16,7 +16,7 @@ class PlayedItems {
 
   // Sent as motion, or as a part of the stop ramp that ends with that item, which is executed only if no queue update
   // comes.
-  void note_sent(ItemNumber number, const LinkItem& item, std::optional<ItemNumber> end_of_tail) {
+  void record_sent(ItemNumber number, const LinkItem& item, std::optional<ItemNumber> end_of_tail) {
     if (watcher_) sent_.push_back({.number = number, .item = item, .end_of_tail = end_of_tail});
   }
   // Outputs that were sent by themselves, and are switched.
