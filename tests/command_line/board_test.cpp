@@ -277,7 +277,7 @@ TEST_F(Boards, are_flashed_again_after_a_write_that_failed) {
     const Outcome failed = passo(flash, fake_avrdude(0, 1));
     EXPECT_EQ(failed.code, 1);
     EXPECT_NE(failed.err.find("firmware may be incomplete. Repeat the command"), std::string::npos) << failed.err;
-    EXPECT_NE(failed.err.find("stays in " + path("old.hex")), std::string::npos) << failed.err;
+    EXPECT_NE(failed.err.find("is kept in " + path("old.hex")), std::string::npos) << failed.err;
     write("old.hex", "what it held");
   }
   std::filesystem::remove(path("calls"));

@@ -21,7 +21,7 @@ class JogCommand : public passo::test::CommandLine {
 TEST_F(JogCommand, goes_by_a_distance_straight_and_says_where_it_rests) {
   const Outcome outcome = passo("jog" + on_router + "X+3 Y-4 -F 1200");
   EXPECT_EQ(outcome.code, 0) << outcome.err;
-  EXPECT_THAT(outcome.out, HasSubstr(" in X3.000 Y-4.000 Z0.000 (machine): distance completed\n"));
+  EXPECT_THAT(outcome.out, HasSubstr(" at X3.000 Y-4.000 Z0.000 (machine): distance completed\n"));
   const nlohmann::json json = jog("X2.5");
   EXPECT_EQ(json["position_mm"]["X"], 2.5);
   EXPECT_EQ(json["ended_by"], "distance");

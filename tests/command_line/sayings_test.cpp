@@ -61,14 +61,14 @@ TEST_F(Sayings, one_of_a_thing_has_no_plural) {
     EXPECT_THAT(words, IsEmpty()) << arguments;
   }
   EXPECT_THAT(all("explain " + line + ":9"), HasSubstr("line.ngc has 1 line: expected"));
-  EXPECT_THAT(all("explain " + once + ":2"), HasSubstr("1 turn, the last one"));
+  EXPECT_THAT(all("explain " + once + ":2"), HasSubstr("1 turn, where the last turn"));
 }
 
 TEST_F(Sayings, numbers_have_sensible_digits) {
   const std::string limit = "ramp --limit --table-size 256 --steps-per-rev 100 ";
   EXPECT_THAT(all(limit + "--max-rate 280"), HasSubstr("280 Hz needs an acceleration of at least 9.62113 rad"));
   EXPECT_THAT(all(limit + "--accel 20"), HasSubstr("reaches 403.701 Hz"));
-  EXPECT_THAT(all(limit + "--max-rate 1234567.891"), HasSubstr("for 1234568 Hz"));
+  EXPECT_THAT(all(limit + "--max-rate 1234567.891"), HasSubstr("1234568 Hz needs"));
   const std::string table = all("ramp --print-table 256 --format asm --clock 2e6 --steps-per-rev 400 --accel 33.3");
   EXPECT_THAT(table, HasSubstr("f = 2000000 Hz"));
   EXPECT_THAT(all("machine " + (machines / "bench.toml").string()), HasSubstr("to 1000000 events/s"));
