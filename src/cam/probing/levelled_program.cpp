@@ -57,7 +57,7 @@ void Leveller::refuse(const FrameBlock& block, std::string code, std::string mes
        .text = block.text});
 }
 
-void Leveller::look_beside(const Operation& operation, const Point& end) {
+void Leveller::check_lead(const Operation& operation, const Point& end) {
   const double beside = map_.distance_beside(end[Axis::x], end[Axis::y]);
   if (beside <= wish_.beside) return;
   refuse(operation, "level.beside",
@@ -111,18 +111,18 @@ LevelledMove Leveller::move_to(const Operation& operation, const Point& end, boo
   return move;
 }
 
-void Leveller::take_straight(const Operation& operation, const Point& end, bool rapid) {
+void Leveller::handle_straight(const Operation& operation, const Point& end, bool rapid) {
   const LevelledMove move = move_to(operation, end, rapid);
   if (is_same_place(move.from, move.to) && !move.is_new_place) return;
-  if (!rapid && move.levelled) look_beside(operation, end);
+  if (!rapid && move.levelled) check_lead(operation, end);
   writer_.add(move);
   place_ = move.to;
 }
 
-void Leveller::take_arc(const Operation& operation, const operation::ArcFeed& arc) {
-  if (arc.plane != Plane::xy) return take_upright_arc(operation, arc);
+void Leveller::handle_arc(const Operation& operation, const operation::ArcFeed& arc) {
+  if (arc.plane != Plane::xy) return handle_upright_arc(operation, arc);
   LevelledMove move = move_to(operation, arc.end, false);
-  if (move.levelled) look_beside(operation, arc.end);
+  if (move.levelled) check_lead(operation, arc.end);
   if (move.from_above && std::abs(arc.turns) > 1) {
     refuse(operation, "level.height", "a helix of several turns begins at a height that the program has not given",
            "a move to a Z before");
@@ -137,7 +137,7 @@ void Leveller::take_arc(const Operation& operation, const operation::ArcFeed& ar
 }
 
 // On a surface that is not flat, an arc of the planes ZX and YZ is no arc any more: it becomes chords.
-void Leveller::take_upright_arc(const Operation& operation, const operation::ArcFeed& arc) {
+void Leveller::handle_upright_arc(const Operation& operation, const operation::ArcFeed& arc) {
   const Axis first = arc.plane == Plane::zx ? Axis::z : Axis::y;
   const Axis second = arc.plane == Plane::zx ? Axis::x : Axis::z;
   const Point from = place_;
@@ -155,24 +155,24 @@ void Leveller::take_upright_arc(const Operation& operation, const operation::Arc
     Point end = from + (arc.end - from) * part;
     end[first] = a + radius * std::cos(start + sweep * part);
     end[second] = b + radius * std::sin(start + sweep * part);
-    take_straight(operation, i == chords ? arc.end : end, false);
+    handle_straight(operation, i == chords ? arc.end : end, false);
   }
 }
 
-void Leveller::take_move(const Operation& operation) {
+void Leveller::handle_move(const Operation& operation) {
   const auto* rapid = std::get_if<operation::StraightTraverse>(&operation.what);
   const auto* feed = std::get_if<operation::StraightFeed>(&operation.what);
-  if (rapid == nullptr && feed == nullptr) return take_arc(operation, std::get<operation::ArcFeed>(operation.what));
+  if (rapid == nullptr && feed == nullptr) return handle_arc(operation, std::get<operation::ArcFeed>(operation.what));
   const Point& end = rapid != nullptr ? rapid->end : feed->end;
   const std::string& code = blocks_.last().place.name;
-  if (code == "G53") return take_machine_move(end, rapid != nullptr);
-  if ((code == "G28" || code == "G30") && take_home(end)) return;
-  take_straight(operation, end, rapid != nullptr);
+  if (code == "G53") return handle_machine_move(end, rapid != nullptr);
+  if ((code == "G28" || code == "G30") && handle_home(end)) return;
+  handle_straight(operation, end, rapid != nullptr);
 }
 
-bool Leveller::take(const Operation& operation) {
+bool Leveller::handle(const Operation& operation) {
   if (cycle_.block != blocks_.last().number) end_cycle();
-  for (const FrameBlock& block : blocks_.take()) take_block(block);
+  for (const FrameBlock& block : blocks_.take_executed()) read_block(block);
   if (std::holds_alternative<operation::Reset>(operation.what) && !is_reset_) {
     is_reset_ = true;
     writer_.add_line("G17 G21 G40 G80 G90 G94");
@@ -181,7 +181,7 @@ bool Leveller::take(const Operation& operation) {
   if (keeps_cycle(operation)) return true;
   if (follow_frame(operation)) return true;
   if (is_any_of<operation::StraightTraverse, operation::StraightFeed, operation::ArcFeed>(operation)) {
-    take_move(operation);
+    handle_move(operation);
   } else if (const auto* rate = std::get_if<operation::SetFeedRate>(&operation.what)) {
     // G95 was refused.
     if (const auto* feed = std::get_if<operation::FeedPerSecond>(&rate->feed)) feed_ = *feed;
@@ -213,7 +213,7 @@ LevelCount write_levelled_program(ProgramReader program, const InterpreterOption
   Leveller leveller(interpreter, options, file, map, wish, diagnostics, write);
   Operation operation;
   while (!diagnostics.full() && interpreter.next(operation)) {
-    if (!leveller.take(operation)) break;
+    if (!leveller.handle(operation)) break;
   }
   leveller.finish();
   return leveller.count();

@@ -45,9 +45,9 @@ void LevelledWriter::add(Item item) {
       return;
     }
     end_run();
-    return give(item);
+    return emit(item);
   }
-  if (run_.empty()) return give(item);
+  if (run_.empty()) return emit(item);
   run_.push_back(std::move(item));
 }
 
@@ -67,13 +67,13 @@ void LevelledWriter::end_run(bool rises) {
   if (is_hole) ++count_.holes;
   for (Item& item : run_) {
     if (is_hole && item.move.to[Axis::z] < top - same_height) item.move.levelled = false;
-    give(item);
+    emit(item);
   }
   run_.clear();
 }
 
-void LevelledWriter::give(const Item& item) {
-  if (item.is_move) return give_move(item.move);
+void LevelledWriter::emit(const Item& item) {
+  if (item.is_move) return emit_move(item.move);
   code_.line(item.line);
 }
 
@@ -87,12 +87,12 @@ void LevelledWriter::begin_at_height(const LevelledMove& move) {
   ++count_.moves_after;
 }
 
-void LevelledWriter::give_move(const LevelledMove& move) {
+void LevelledWriter::emit_move(const LevelledMove& move) {
   PlainMove plain{
       .rapid = move.rapid, .feed = move.feed, .named = move.named, .absolute = move.absolute, .to = move.to};
   const LevelPlace from = level_place(move.from);
   const LevelPlace to = level_place(move.to);
-  if (move.is_arc && !move.levelled) return give_arc_piece(move, 0, {.end = to});
+  if (move.is_arc && !move.levelled) return emit_arc_piece(move, 0, {.end = to});
   const bool is_whole = (move.from_anywhere || move.from_above) && !move.is_arc;
   if (!move.levelled || is_whole || move.is_upright()) {
     plain.to[Axis::z] = move.levelled ? to.z + map_.height(to.x, to.y) : to.z;
@@ -108,7 +108,7 @@ void LevelledWriter::give_move(const LevelledMove& move) {
   double part = 0;
   for (const LevelledPiece& piece : pieces) {
     if (move.is_arc) {
-      give_arc_piece(move, part, piece);
+      emit_arc_piece(move, part, piece);
     } else {
       plain.to = move.from + (move.to - move.from) * piece.part;
       if (piece.part == 1) plain.to = move.to;
@@ -121,7 +121,7 @@ void LevelledWriter::give_move(const LevelledMove& move) {
 }
 
 // Whole turns are written one by one.
-void LevelledWriter::give_arc_piece(const LevelledMove& move, double from_part, const LevelledPiece& piece) {
+void LevelledWriter::emit_arc_piece(const LevelledMove& move, double from_part, const LevelledPiece& piece) {
   const double sweep = move.sweep * (piece.part - from_part);
   const int turns = std::max(1, static_cast<int>(std::ceil(std::abs(sweep) / full_turn - 1e-9)));
   const double start_radius = std::hypot(move.from[Axis::x] - move.center_x, move.from[Axis::y] - move.center_y);

@@ -84,10 +84,10 @@ class LevelledWriter {
   };
 
   void add(Item item);
-  void give(const Item& item);
-  void give_move(const LevelledMove& move);
+  void emit(const Item& item);
+  void emit_move(const LevelledMove& move);
   void begin_at_height(const LevelledMove& move);
-  void give_arc_piece(const LevelledMove& move, double from_part, const LevelledPiece& piece);
+  void emit_arc_piece(const LevelledMove& move, double from_part, const LevelledPiece& piece);
 
   const HeightMap& map_;
   const double highest_;

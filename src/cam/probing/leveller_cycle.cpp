@@ -40,7 +40,7 @@ bool Leveller::keeps_cycle(const Operation& operation) {
     return false;
   }
   if (std::exchange(cycle_.block, block.number) != block.number) {
-    take_cycle_words(block);
+    read_cycle_words(block);
     const bool is_known = said_.height() == LevelHeight::known;
     if (block.incremental || (is_known && !(cycle_.is_kept && block.to_start))) return false;
     if (!is_drilling(block.cycle) || is_known) {
@@ -55,7 +55,7 @@ bool Leveller::keeps_cycle(const Operation& operation) {
   }
   if (!cycle_.is_open) return false;
   if (end != nullptr) {
-    if (std::holds_alternative<operation::StraightFeed>(operation.what)) look_beside(operation, *end);
+    if (std::holds_alternative<operation::StraightFeed>(operation.what)) check_lead(operation, *end);
     writer_.rise((*end)[Axis::z] - place_[Axis::z]);
     place_ = *end;
     ++writer_.count().moves_before;
@@ -65,7 +65,7 @@ bool Leveller::keeps_cycle(const Operation& operation) {
 }
 
 // D counts in its own block alone.
-void Leveller::take_cycle_words(const FrameBlock& block) {
+void Leveller::read_cycle_words(const FrameBlock& block) {
   for (const char letter : {'Z', 'R', 'P', 'Q', 'D'}) {
     const bool is_given = block.has(letter);
     if (!is_given && letter != 'D') continue;

@@ -30,19 +30,19 @@ std::string axis_words_of(const FrameBlock& block, double more_z = 0) {
 }  // namespace
 
 // What no operation says.
-void Leveller::take_block(const FrameBlock& block) {
+void Leveller::read_block(const FrameBlock& block) {
   if (!is_reset_) return;
-  if (!block.system.empty()) take_system(block);
+  if (!block.system.empty()) read_system(block);
   const std::string& code = block.place.name;
   if (code == "G28.1" || code == "G30.1") return store_home(block);
-  if (code == "G10") return take_tool_entry(block);
+  if (code == "G10") return read_tool_entry(block);
   if (code == "G52" || code == "G92") {
     refuse(block, "level.offset", fmt::format("{} changes the zero of the work itself", code),
            "offsets that are set before the program (G54 and others)");
   }
 }
 
-void Leveller::take_system(const FrameBlock& block) {
+void Leveller::read_system(const FrameBlock& block) {
   writer_.end_run();
   writer_.add_line(block.system.name);
   // The interpreter has the number already; where it stays, no operation follows.
@@ -51,7 +51,7 @@ void Leveller::take_system(const FrameBlock& block) {
 }
 
 // G10 L1, L10 and L11 set a tool, L2 and L20 the zero of the work.
-void Leveller::take_tool_entry(const FrameBlock& block) {
+void Leveller::read_tool_entry(const FrameBlock& block) {
   const auto kind = static_cast<int>(std::lround(block.value('L')));
   if (kind != 0 && kind != 1 && kind != 10 && kind != 11) {
     return refuse(block, "level.offset", fmt::format("G10 L{} changes the zero of the work itself", kind),
@@ -143,7 +143,7 @@ void Leveller::lose(AxisSet axes) {
   writer_.code().forget(axes);
 }
 
-void Leveller::take_machine_move(const Point& end, bool rapid) {
+void Leveller::handle_machine_move(const Point& end, bool rapid) {
   const FrameBlock& block = blocks_.last();
   if (block.named.empty()) return;
   writer_.end_run(block.named.has(Axis::z));
@@ -152,7 +152,7 @@ void Leveller::take_machine_move(const Point& end, bool rapid) {
 }
 
 // G28 and G30 go to a place of the work first. False: this is that move, and it goes somewhere.
-bool Leveller::take_home(const Point& end) {
+bool Leveller::handle_home(const Point& end) {
   const FrameBlock& block = blocks_.last();
   if (std::exchange(homing_, block.number) != block.number) {
     return is_same_place(end, place_) && (block.incremental || said_.has_all(block.named));

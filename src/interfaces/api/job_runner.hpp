@@ -57,7 +57,7 @@ class JobRunner {
   // True: the job had not begun yet, and does not begin any more.
   bool call_off();
   // Who is about to stop the job.
-  void note_stopped_by(std::string who) { stopped_by_ = std::move(who); }
+  void set_stopped_by(std::string who) { stopped_by_ = std::move(who); }
 
   // The spindle stands, and the machine can be led back onto the path.
   bool is_free_to_move(const MachineStatus& status) const;
@@ -68,8 +68,8 @@ class JobRunner {
   WebAnswer stop_parked();
   WebAnswer parked_refusal() const;
 
-  void heed(const MachineChange& change);
-  void turn();
+  void on_change(const MachineChange& change);
+  void poll();
   // The program is about to end.
   void leave();
   WebAnswer no_room_in_history() const;
@@ -81,9 +81,9 @@ class JobRunner {
   void name_job();
   void start_job();
   void end_job(JobState state, std::string why = {});
-  void heed_end(const MachineChange& change);
+  void on_end(const MachineChange& change);
   void keep_results();
-  void note_wait();
+  void record_wait();
   Result<Reentry, ReentryProblem> way_behind_stop() const;
 
   const ApiShared& shared_;

@@ -84,7 +84,7 @@ std::optional<WebAnswer> MachineFileApi::refuse_while_moving() const {
   return error_answer(409, "machine.busy", "the machine moves: the machine file can wait");
 }
 
-WebAnswer MachineFileApi::look(const ApiCall&) {
+WebAnswer MachineFileApi::get(const ApiCall&) {
   const MachineFileAccess& file = shared_.options.machine_access;
   const FileStamp& in_force = shared_.options.machine_file;
   const auto text = file.read ? file.read() : std::nullopt;
@@ -154,7 +154,7 @@ WebAnswer MachineFileApi::write(const ApiCall& call) {
   if (const std::string why = file.write(*before, text); !why.empty()) {
     return error_answer(507, "machine-file.unwritten", fmt::format("{} cannot be written: {}", file.name, why));
   }
-  return look(call);
+  return get(call);
 }
 
 }  // namespace passo

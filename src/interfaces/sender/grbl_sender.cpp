@@ -146,7 +146,7 @@ GrblFault GrblSender::fault_between_lines(std::string code, std::string message)
           .last_line = window_.last_line()};
 }
 
-void GrblSender::mind_silence() {
+void GrblSender::check_silence() {
   const Seconds since = std::max(heard_, stage_since_);
   if (now_ - since < longest_silence + silence_of_oldest()) return;
   const char* const hint =
@@ -156,7 +156,7 @@ void GrblSender::mind_silence() {
 }
 
 // Bytes that a bad line has swallowed are never answered, and neither is a line by a machine that needs a reset.
-void GrblSender::mind_lost_bytes() {
+void GrblSender::check_lost_bytes() {
   const bool is_locked = report()->state == "Alarm";
   const LineWindow::Line* const oldest = window_.oldest();
   const bool waits = oldest != nullptr || (is_locked && has_work());
@@ -185,7 +185,7 @@ void GrblSender::mind_lost_bytes() {
 }
 
 // Whatever its state is: a machine that has something to do moves or answers.
-void GrblSender::mind_standstill() {
+void GrblSender::check_standstill() {
   const bool has_nothing_to_do =
       window_.oldest() == nullptr && (report()->state == "Idle" || report()->state == "Alarm");
   if (has_nothing_to_do || !words_of_grbl_wait(*report()).empty()) progress_ = now_;
@@ -221,7 +221,7 @@ void GrblSender::ask_for_status() {
   act('?');
 }
 
-void GrblSender::turn(Seconds now) {
+void GrblSender::poll(Seconds now) {
   now_ = now;
   switch (stage_) {
     case Stage::waking:
@@ -254,7 +254,7 @@ void GrblSender::greet() {
     case Stage::looking:
       // The state is told in each state; lines are answered in few.
       ask_for_status();
-      if (!report()) return mind_silence();
+      if (!report()) return check_silence();
       if (auto trouble = trouble_of_grbl_state(*report())) return end_with(std::move(*trouble));
       enter(Stage::asking);
       add("$I");
@@ -262,8 +262,8 @@ void GrblSender::greet() {
     default:
       if (all_answered()) return enter(Stage::ready);
       ask_for_status();
-      mind_lost_bytes();
-      return mind_silence();
+      check_lost_bytes();
+      return check_silence();
   }
 }
 
@@ -274,9 +274,9 @@ void GrblSender::watch() {
     GrblFault trouble = *trouble_of_grbl_state(*report());
     return end_with(fault_between_lines(std::move(trouble.code), std::move(trouble.message)));
   }
-  mind_lost_bytes();
-  if (stage_ == Stage::ready) mind_standstill();
-  if (stage_ == Stage::ready) mind_silence();
+  check_lost_bytes();
+  if (stage_ == Stage::ready) check_standstill();
+  if (stage_ == Stage::ready) check_silence();
 }
 
 void GrblSender::brake() {
@@ -289,7 +289,7 @@ void GrblSender::brake() {
 }
 
 std::string GrblSender::take_bytes(Seconds now) {
-  turn(now);
+  poll(now);
   std::string bytes = std::exchange(urgent_, {});
   const bool may_send = (stage_ == Stage::asking || stage_ == Stage::ready) && !fault_;
   return may_send ? bytes + window_.send(now, machine_.bytes) : bytes;

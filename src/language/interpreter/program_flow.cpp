@@ -46,7 +46,7 @@ ProgramFlow::ProgramFlow(ProgramReader reader, const Options& options, ProgramSt
       returned_(symbols, parameters),
       lines_(std::move(reader), options.lines, state, parameters, symbols, reporter),
       bounds_(options.bounds) {
-  reporter_.tell_calls_of(*this);
+  reporter_.set_call_stack(*this);
 }
 
 const Block* ProgramFlow::next() {

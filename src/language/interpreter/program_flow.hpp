@@ -49,7 +49,7 @@ class ProgramFlow final : public CallStack {
   // call_for_contour() ends.
   const Block* next();
   // Only with `open_ended`, when next() has returned null.
-  void give_line(std::string_view text) { lines_.give_line(text); }
+  void push_line(std::string_view text) { lines_.push_line(text); }
   // True: the next line was not given yet.
   bool waits_for_line() const { return lines_.open_ended() && end_ == End::none; }
   // Tells whether a sub was just left, and the line of its call.

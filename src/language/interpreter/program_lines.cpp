@@ -29,15 +29,15 @@ ProgramLines::ProgramLines(ProgramReader reader, Options options, const ProgramS
                            const Parameters& parameters, SymbolTable& symbols, Reporter& reporter)
     : options_(std::move(options)), state_(state), parameters_(parameters), symbols_(symbols), reporter_(reporter) {
   files_.push_back(std::make_unique<File>(std::move(reader), 0, symbols_));
-  if (options_.dialect == Dialect::grbl) files_.front()->parser.take_line_numbers_anywhere();
+  if (options_.dialect == Dialect::grbl) files_.front()->parser.accept_line_numbers_anywhere();
   file_ = files_.front().get();
-  look_at(line_);
+  set_block(line_);
 }
 
 void ProgramLines::seek(File& file, ReaderPosition place) {
   file_ = &file;
   file_->reader.seek(place);
-  look_at(*block_);
+  set_block(*block_);
 }
 
 // Whether an 'O' comes first, after white space, '/' and N with its number. Nothing else is looked at in a skipped
@@ -79,7 +79,7 @@ bool ProgramLines::recall() {
   KeptBlock* const kept = kept_.find(file_->number, block_at_);
   if (kept == nullptr) return false;
   file_->reader.seek(kept->after);
-  look_at(kept->block);
+  set_block(kept->block);
   return true;
 }
 
@@ -101,7 +101,7 @@ bool ProgramLines::parse(std::string_view text, std::uint32_t line) {
     kept = &kept_.make_room(file_->number, block_at_, file_->reader.position(), text);
     text = kept->text;
   }
-  look_at(kept != nullptr ? kept->block : line_);
+  set_block(kept != nullptr ? kept->block : line_);
   if (is_readable(text, line)) return true;
   doubt_label();
   reporter_.pass_on(faults_);
@@ -123,9 +123,9 @@ void ProgramLines::doubt_label() {
   }
 }
 
-void ProgramLines::look_at(Block& block) {
+void ProgramLines::set_block(Block& block) {
   block_ = &block;
-  reporter_.look_at(block, file_->name);
+  reporter_.set_block(block, file_->name);
 }
 
 // grbl reads word by word, so of several errors it tells the first.
@@ -250,7 +250,7 @@ bool ProgramLines::find_in(File& file, Symbol label) {
   file.reader.seek(here);
   file_ = reading;
   line_ = current;
-  look_at(line_);
+  set_block(line_);
   block_at_ = call_at;
   const ReaderPosition next = file_->reader.position();
   reread_block_text();

@@ -34,7 +34,7 @@ class ProgramLines {
     bool block_delete = false;
     std::vector<std::string> sub_folders;  // after the program's own
     Dialect dialect = Dialect::linuxcnc;
-    bool open_ended = false;        // the lines come one by one, with give_line()
+    bool open_ended = false;        // the lines come one by one, with push_line()
     LetterSet more_grbl_axes = {};  // that the dialect of grbl takes beside X, Y and Z
   };
   struct SubPlace {
@@ -70,7 +70,7 @@ class ProgramLines {
   enum class Read : std::uint8_t { block, skipped, end };
   Read read();
   // Only of open-ended lines.
-  void give_line(std::string_view text) { files_.front()->reader.give_line(text); }
+  void push_line(std::string_view text) { files_.front()->reader.push_line(text); }
   bool open_ended() const { return options_.open_ended; }
 
   Block& block() { return *block_; }
@@ -109,7 +109,7 @@ class ProgramLines {
   bool next_line(std::string_view& text, std::uint32_t& line);
   bool parse(std::string_view text, std::uint32_t line);
   bool recall();
-  void look_at(Block& block);
+  void set_block(Block& block);
   static bool names_control(std::string_view text);
   bool is_readable(std::string_view text, std::uint32_t line);
   bool closes_program(std::string_view text);

@@ -116,7 +116,7 @@ void HomingPath::seek_together() {
 }
 
 // Watches the switch of one axis without a move: the watch is refused if the switch is closed.
-void HomingPath::look_at(const AxisDescription& axis) {
+void HomingPath::begin_look(const AxisDescription& axis) {
   axis_ = &axis;
   watch_.wait_for_closing();
   begin(HomingStage::look, stands());
@@ -158,7 +158,7 @@ void HomingPath::move_alone(double way) {
 void HomingPath::judge() {
   const Point before = position_;
   if (!outcome().refused) position_ = outcome().rest;
-  note_way(before);
+  record_way(before);
   if (turn_.seeks_together()) return judge_together();
   switch (stage_) {
     case HomingStage::look: return judge_look();
@@ -172,7 +172,7 @@ void HomingPath::judge() {
 
 // Takes note of where the motors of the axis have gone, and of where the switch has closed. A contact that bounces
 // closes again on the way off: that is not its place.
-void HomingPath::note_way(const Point& before) {
+void HomingPath::record_way(const Point& before) {
   const double way = stands() - before[axis_->axis];
   const double to_contact = outcome().contact[axis_->axis] - before[axis_->axis];
   const bool retreats = stage_ == HomingStage::back_off || stage_ == HomingStage::pull_off;
@@ -189,20 +189,20 @@ void HomingPath::note_way(const Point& before) {
 void HomingPath::judge_together() {
   if (!outcome().refused && !outcome().touched) return fail(MachineFault::switch_not_met);
   turn_.rest(outcome().refused ? std::nullopt : std::optional(outcome().contact));
-  look_at(*turn_.axes().front());
+  begin_look(*turn_.axes().front());
 }
 
 // The switch may have opened again by itself: then the first axis seeks alone.
 void HomingPath::judge_look() {
   if (outcome().refused) return begin_axis(*axis_);
-  if (const AxisDescription* const next = turn_.after(*axis_)) return look_at(*next);
+  if (const AxisDescription* const next = turn_.after(*axis_)) return begin_look(*next);
   begin_axis(*turn_.axes().front());
 }
 
 void HomingPath::judge_approach() {
   if (outcome().refused && stage_ == HomingStage::latch) {
     // The switch has closed by itself after the axis backed off.
-    turn_watch();
+    reverse_watch();
     return retreat(HomingStage::back_off, stands());
   }
   if (!outcome().refused && !outcome().touched) return fail(MachineFault::switch_not_met);
@@ -271,7 +271,7 @@ void HomingPath::judge_retreat() {
   if (outcome().refused || outcome().touched) {
     const bool is_first = !knows_switch_ && outcome().touched;
     knows_switch_ = knows_switch_ || outcome().touched;
-    turn_watch();
+    reverse_watch();
     return begin(stage_, is_first ? off(outcome().contact[axis_->axis]) : target);
   }
   if (!watch_.until_closed()) return fail(MachineFault::switch_still_closed);
@@ -286,7 +286,7 @@ void HomingPath::judge_retreat() {
   }
 }
 
-void HomingPath::turn_watch() {
+void HomingPath::reverse_watch() {
   if (!watch_.turn()) fault_ = MachineFault::switch_unsteady;
 }
 

@@ -24,7 +24,7 @@ void LineQueue::cut_to(std::size_t size) {
   if (items_.empty()) time_ = Seconds(0);
 }
 
-void LineQueue::note_line(std::size_t before, Seconds now) {
+void LineQueue::add_line(std::size_t before, Seconds now) {
   if (items_.empty()) return;
   last_came_ = now;
   if (before == 0) first_came_ = now;

@@ -251,7 +251,7 @@ bool JobHistory::write(const End& end) {
   return true;
 }
 
-bool JobHistory::note_wait(std::int64_t id, const HistoryWait& wait) {
+bool JobHistory::record_wait(std::int64_t id, const HistoryWait& wait) {
   is_kept_ = false;
   Statement count(database_, "SELECT count(*) FROM waits WHERE job = ?");
   const std::int64_t noted = count.with(id).step() ? count.number() : most_waits;
@@ -269,7 +269,7 @@ bool JobHistory::remove(std::int64_t id) {
   return judge(gone.run()) && sqlite3_changes(database_) == 1;
 }
 
-bool JobHistory::note_alarm(std::string_view words, double now) {
+bool JobHistory::record_alarm(std::string_view words, double now) {
   HistoryAlarm alarm{.at = now, .words = std::string(words)};
   if (write(alarm)) return true;
   constexpr std::size_t most_unwritten = 1000;

@@ -156,7 +156,7 @@ void JournalWriter::begin(const JournalHead& head) {
   failed_ = !store_.replace(text);
 }
 
-void JournalWriter::note(const BoardRest& rest) {
+void JournalWriter::record(const BoardRest& rest) {
   const std::size_t place = noted_ % rests;
   const std::string line = line_of(noted_, rest);
   ensure(head_size_ > 0 && line.size() == line_size);  // read_line() takes no other
@@ -164,7 +164,7 @@ void JournalWriter::note(const BoardRest& rest) {
   ++noted_;
 }
 
-void JournalWriter::note(const ProbeOutcome& outcome) {
+void JournalWriter::record(const ProbeOutcome& outcome) {
   ensure(head_size_ > 0);
   std::string line = text_of(probes_++, outcome) + ' ';
   line += record_check(line);

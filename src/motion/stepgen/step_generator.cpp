@@ -151,7 +151,7 @@ class StepGenerator::Implementation {
     if (!stream_.in_move()) {
       if (!motion_->next(motion_item_)) return finish();
       if (const auto* action = std::get_if<Action>(&motion_item_)) {
-        take(*action);
+        apply(*action);
         return true;
       }
       const auto& move = std::get<PlannedMove>(motion_item_);
@@ -178,7 +178,7 @@ class StepGenerator::Implementation {
     return true;
   }
 
-  void take(const Action& action) {
+  void apply(const Action& action) {
     stream_.end_stretch();
     stream_.wait(action.dwell);
     more_ = false;

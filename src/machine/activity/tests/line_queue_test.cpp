@@ -37,11 +37,11 @@ TEST(LineQueue, has_room_for_many_short_items_and_few_long_ones) {
 
 TEST(LineQueue, begins_after_a_quiet_time_or_when_it_is_full) {
   LineQueue queue = queue_of(1, 1);
-  queue.note_line(0, Seconds(5));
+  queue.add_line(0, Seconds(5));
   EXPECT_FALSE(queue.is_to_begin(Seconds(5.02)));
   EXPECT_TRUE(queue.is_to_begin(Seconds(5.03)));
   LineQueue full = queue_of(LineQueue::enough_items, 1);
-  full.note_line(0, Seconds(5));
+  full.add_line(0, Seconds(5));
   EXPECT_TRUE(full.is_to_begin(Seconds(5)));
   EXPECT_FALSE(queue_of(0, 1).is_to_begin(Seconds(100)));
 }
@@ -51,18 +51,18 @@ TEST(LineQueue, lets_the_first_line_wait_no_longer_than_half_a_second) {
   for (int i = 0; i < 26; ++i) {
     const std::size_t before = queue.size();
     queue.push(dwell(0.001));
-    queue.note_line(before, Seconds(0.02 * i));
+    queue.add_line(before, Seconds(0.02 * i));
     EXPECT_EQ(queue.is_to_begin(Seconds(0.02 * i)), 0.02 * i >= 0.5) << i;
   }
 }
 
 TEST(LineQueue, expects_more_while_lines_come) {
   LineQueue queue = queue_of(1, 1);
-  queue.note_line(0, Seconds(5));
+  queue.add_line(0, Seconds(5));
   EXPECT_TRUE(queue.expects_more(Seconds(5.02)));
   EXPECT_FALSE(queue.expects_more(Seconds(5.03)));
   LineQueue full = queue_of(LineQueue::enough_items, 0.001);
-  full.note_line(0, Seconds(5));
+  full.add_line(0, Seconds(5));
   EXPECT_FALSE(full.expects_more(Seconds(5)));
 }
 

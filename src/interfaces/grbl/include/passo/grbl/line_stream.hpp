@@ -18,11 +18,11 @@ class LineStream {
     is_asked_to_end_ = false;
   }
   // This request is answered: if it was that for the stream, the stream has ended.
-  void note_answer(Ticket ticket) {
+  void on_answer(Ticket ticket) {
     if (ticket_ == ticket) ticket_.reset();
   }
   // The stream waits for a line from this time on.
-  void note_rest(Seconds time) { rests_since_ = time; }
+  void record_rest(Seconds time) { rests_since_ = time; }
   // For a stream that waits for a line: whether it has waited long enough.
   bool may_end(Seconds now, bool sender_is_here) const {
     if (!ticket_ || is_asked_to_end_) return false;

@@ -98,7 +98,7 @@ class GrblSender {
   void act(char byte) { urgent_ += byte; }
   bool greets() const { return stage_ < Stage::ready; }
   void enter(Stage stage);
-  void turn(Seconds now);
+  void poll(Seconds now);
   void greet();
   void watch();
   void brake();
@@ -113,9 +113,9 @@ class GrblSender {
   void end_with(GrblFault fault);
   GrblFault fault_between_lines(std::string code, std::string message) const;
   GrblFault fault_of_greeting() const;
-  void mind_silence();
-  void mind_lost_bytes();
-  void mind_standstill();
+  void check_silence();
+  void check_lost_bytes();
+  void check_standstill();
   void ask_for_status();
   bool has_work() const { return window_.last_line() != 0; }
   Seconds silence_of_oldest() const { return window_.oldest() == nullptr ? Seconds(0) : window_.oldest()->silence; }

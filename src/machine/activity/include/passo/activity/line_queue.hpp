@@ -37,7 +37,7 @@ class LineQueue {
   void clear() { cut_to(0); }
 
   // A line has come whole, before which the queue held `before` items.
-  void note_line(std::size_t before, Seconds now);
+  void add_line(std::size_t before, Seconds now);
   bool has_room() const;
   bool is_to_begin(Seconds now) const;
   bool expects_more(Seconds now) const;
