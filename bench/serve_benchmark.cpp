@@ -109,7 +109,7 @@ class RealBoard {
       server_->wait(Seconds(0.0005));
       for (const Seconds until(now()); board_.elapsed() < until;) {
         const bool said = board_.run(until - board_.elapsed());
-        server_->tell_host(board_.replies());
+        server_->send_to_host(board_.replies());
         if (!said) break;
       }
       server_->attend(board_);

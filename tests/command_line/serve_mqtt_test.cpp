@@ -122,12 +122,12 @@ TEST_F(ServeMqtt, obeys_no_message) {
   const auto turn = [other] {
     for (int i = 0; i < 10; ++i) mosquitto_loop(other, 20, 1);
   };
-  turn();
+  poll();
   const std::string line = "G91 G0 X30\n";
   for (const char* const topic :
        {"shop/router", "shop/router/command", "shop/router/gcode", "shop/router/status/set"}) {
     mosquitto_publish(other, nullptr, topic, static_cast<int>(line.size()), line.data(), 1, true);
-    turn();
+    poll();
   }
   mosquitto_disconnect(other);
   mosquitto_destroy(other);

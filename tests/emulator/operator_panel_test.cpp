@@ -41,7 +41,7 @@ Ran run(double pressed) {
                           .care = {.answer_within = Seconds(0.1), .patience = Seconds(60)},
                           .greeting = {.session = 1},
                           .start = {.place = Point(), .trust = Trust::commanded}});
-  for (int i = 0; i < 1000 && session.state() == MachineState::offline; ++i) session.turn(Seconds(0.02));
+  for (int i = 0; i < 1000 && session.state() == MachineState::offline; ++i) session.poll(Seconds(0.02));
   EXPECT_EQ(session.state(), MachineState::idle) << session.trouble_words();
   const auto ticket = session.request(
       request::Start{.program = ProgramReader::from_text("t", "G21 G90 G1 F2400\nX120\nM2\n"), .options = {}});
@@ -63,7 +63,7 @@ Ran run(double pressed) {
     for (; next < std::size(presses) && session.now().value() - result.begun >= presses[next].at; ++next) {
       plant.set_switch(presses[next].which, presses[next].closed);
     }
-    session.turn(Seconds(0.02));
+    session.poll(Seconds(0.02));
     for (const MachineChange& change : session.take_changes()) {
       if (change.kind == MachineChange::Kind::came_to_rest) ++result.rests;
       if (change.kind == MachineChange::Kind::answered) outcome = change.outcome;

@@ -115,7 +115,7 @@ void PicoBench::send_replace(std::span<const Item> items) {
   send({frame, encode(announcement.replace(), ++last_sent_, frame)});
 }
 
-bool PicoBench::say_hello() {
+bool PicoBench::send_hello() {
   std::uint8_t frame[largest_frame];
   if (setup_ != PinSetup{}) send_setup();
   decoder_.set_motors(motors_);
@@ -129,7 +129,7 @@ bool PicoBench::say_hello() {
 }
 
 void PicoBench::start(const std::vector<Item>& items, std::uint8_t limit) {
-  if (!say_hello()) throw std::runtime_error("the board does not answer");
+  if (!send_hello()) throw std::runtime_error("the board does not answer");
   if (limit != 0) {
     ask({.question = Question::watch, .limit = limit});
     run(pico_clock_rate / 500);
@@ -142,7 +142,7 @@ void PicoBench::start(const std::vector<Item>& items, std::uint8_t limit) {
 EdgeCheck PicoBench::play(const std::vector<BoardSegment>& segments) {
   const std::uint64_t lost = pico_->lost_bytes();
   EdgeCheck result;
-  if (!say_hello()) return result;
+  if (!send_hello()) return result;
   levels_before_ = levels();
   const auto under_way = [this] { return static_cast<std::uint8_t>(last_sent_ - last_executed_); };
   const std::size_t first = std::min<std::size_t>(segments.size(), capacity_ - 1U);

@@ -64,7 +64,7 @@ class PicoBench {
 
  private:
   void hear(std::uint8_t byte);
-  bool say_hello();
+  bool send_hello();
   void send_setup();
   void send_replace(std::span<const Item> items);
   void send_item(const Item& item);

@@ -159,7 +159,7 @@ void BoardBench::send_replace(std::span<const Item> items) {
   put_on_line({frame, encode(announcement.replace(), ++last_sent_, frame)});
 }
 
-bool BoardBench::say_hello() {
+bool BoardBench::send_hello() {
   std::uint8_t frame[largest_frame];
   const auto motors = static_cast<std::uint8_t>(board_.motors.size());
   const std::uint8_t size = encode(Hello{.motors = motors}, last_sent_, frame);
@@ -175,7 +175,7 @@ bool BoardBench::say_hello() {
 }
 
 void BoardBench::start(const std::vector<BoardSegment>& segments, std::uint8_t limit) {
-  if (!say_hello()) return;
+  if (!send_hello()) return;
   if (limit != 0) {
     ask({.question = Question::watch, .limit = limit});
     run(clock_rate / 200);
@@ -184,7 +184,7 @@ void BoardBench::start(const std::vector<BoardSegment>& segments, std::uint8_t l
 }
 
 void BoardBench::start_items(const std::vector<Item>& items) {
-  if (!say_hello()) return;
+  if (!send_hello()) return;
   send_replace(items);
   for (const Item& item : items) std::visit([this](const auto& one) { send_item(one); }, item);
 }
@@ -208,7 +208,7 @@ void BoardBench::run(std::uint64_t cycles) {
 EdgeCheck BoardBench::play(const std::vector<BoardSegment>& segments) {
   const std::uint64_t lost = uart_->overruns();
   EdgeCheck result;
-  if (!say_hello()) return result;
+  if (!send_hello()) return result;
 
   std::size_t sent = 0;
   const std::uint64_t start = chip_->cycles();

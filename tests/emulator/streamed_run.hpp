@@ -118,7 +118,7 @@ class BoardBench {
 
  private:
   void hear(std::uint8_t byte);
-  bool say_hello();
+  bool send_hello();
   void put_on_line(std::span<const std::uint8_t> frame);
   // After all that was executed, or just after a hello.
   void send_replace(std::span<const Item> items);

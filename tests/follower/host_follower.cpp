@@ -106,7 +106,7 @@ std::vector<OutputChange> run_on_host(const FollowerVector& vector, Nanoseconds 
       }
     }
     if (!follower) follower.emplace(hardware).begin();
-    follower->turn();
+    follower->poll();
   }
   return hardware.seen();
 }

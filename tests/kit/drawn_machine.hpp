@@ -128,7 +128,7 @@ inline JudgedRun play_and_judge(const MachineDescription& machine, const std::st
                        machine.board.highest_event_rate);
   board.connect(plant);
   MachineSession session(machine, board, {.start = {.place = {}, .trust = Trust::commanded}});
-  while (session.state() == MachineState::offline) session.turn(endless);
+  while (session.state() == MachineState::offline) session.poll(endless);
   Diagnostics findings;
   request::Start start{.program = ProgramReader::from_text("drawn.ngc", text),
                        .options = {},
@@ -139,7 +139,7 @@ inline JudgedRun play_and_judge(const MachineDescription& machine, const std::st
                        .findings = &findings};
   start.watchers.motion = [&](const MotionItem& item) { survey.watch(item); };
   if (!session.request(std::move(start)).has_value()) std::abort();
-  while (session.busy()) session.turn(endless);
+  while (session.busy()) session.poll(endless);
   static_cast<void>(plant.settle(Seconds(2)));
   if (findings.any_error()) std::fputs(render(findings, false).c_str(), stderr);
   const MarginVerdict verdict = survey.verdict();

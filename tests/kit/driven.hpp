@@ -34,7 +34,7 @@ inline StepOptions steps_from(const MachineDescription& machine, const Point& st
 // Lets this much time pass while the drive waits: in a hold, or while outputs are switched on. Ends early if the drive
 // ends.
 inline void let_pass(MotionDrive& drive, Seconds time) {
-  for (const Seconds end = drive.now() + time; end - drive.now() > hardly_any && drive.turn(end - drive.now());) {
+  for (const Seconds end = drive.now() + time; end - drive.now() > hardly_any && drive.poll(end - drive.now());) {
   }
 }
 
@@ -121,7 +121,7 @@ class DrivenProgram {
 
   // Lets the drive go on a little. False at the end of the program.
   [[nodiscard]] bool advance() {
-    const bool goes_on = drive_.turn();
+    const bool goes_on = drive_.poll();
     if (!goes_on || drive_.state() == MotionDrive::State::held) board_.catch_up();
     return goes_on;
   }
@@ -180,7 +180,7 @@ class DrivenHoming {
         unsuited_(passo::unsuited(board_.session(), steps_, false)),
         drive_(path_, motion_limits(machine), steps_, board_.session(), answers_, drive_options()) {}
 
-  [[nodiscard]] bool advance() { return drive_.turn(); }
+  [[nodiscard]] bool advance() { return drive_.poll(); }
   const std::optional<std::string>& unsuited() const { return unsuited_; }
   const HomingPath& path() const { return path_; }
   bool done() const { return path_.done() && !drive_.link().error(); }
@@ -220,7 +220,7 @@ class DrivenJog {
     });
   }
 
-  [[nodiscard]] bool advance() { return drive_.turn(); }
+  [[nodiscard]] bool advance() { return drive_.poll(); }
   const Point& target() const { return path_.target(); }
   // The end of the committed motion.
   const Point& place() const { return place_; }

@@ -25,7 +25,7 @@ class PromptTimer final : public MotionTimer {
   void begin(MotionTiming wanted) override {
     found_ = time_motion(wanted, machine_, [] { return true; });
   }
-  std::optional<MotionTimes> take() override { return std::exchange(found_, std::nullopt); }
+  std::optional<MotionTimes> take_times() override { return std::exchange(found_, std::nullopt); }
 
  private:
   const MachineDescription& machine_;
@@ -70,18 +70,18 @@ class ApiRun {
   Json post(const std::string& path, const std::string& body = "") { return ask("POST", path, body); }
   Json get(const std::string& path) { return ask("GET", path); }
 
-  void turn() {
-    run.session().turn(Seconds(0.005));
+  void poll() {
+    run.session().poll(Seconds(0.005));
     const auto changes = run.session().take_changes();
-    run.grbl().turn(changes);
-    api.heed(changes);
-    api.turn();
+    run.grbl().poll(changes);
+    api.on_change(changes);
+    api.poll();
     run.collect();
   }
   template <class Condition>
   bool turn_until(Condition condition, Seconds within = Seconds(300)) {
     const Seconds end = run.session().now() + within;
-    for (int turns = 0; !condition() && run.session().now() < end && turns < 1'000'000; ++turns) turn();
+    for (int turns = 0; !condition() && run.session().now() < end && turns < 1'000'000; ++turns) poll();
     return condition();
   }
   bool turn_until_state(const std::string& state) {

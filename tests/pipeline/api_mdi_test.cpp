@@ -30,7 +30,7 @@ class Mdi : public testing::Test {
     return answer["error"].value("code", "");
   }
   bool rests() {
-    run.turn();
+    run.poll();
     const Json status = run.get("/status");
     if (status["state"] == "Idle") return status["mdi"]["streams"] == false;
     return status["state"] == "Line" && status["outputs"] != off();
@@ -121,9 +121,9 @@ TEST_F(Mdi, begins_anew_after_a_job_and_after_m2) {
   EXPECT_TRUE(has("G90") && has("M5"));
   EXPECT_EQ(run.get("/status")["state"], "Idle");
   line("G55 G91");
-  run.owner.give_back();
-  run.owner.take_for_sender();
-  run.turn();
+  run.owner.release();
+  run.owner.claim_for_sender();
+  run.poll();
   EXPECT_TRUE(has("G54") && has("G90")) << "a sender has driven";
 }
 
@@ -134,7 +134,7 @@ TEST_F(Mdi, keeps_its_modes_over_a_stop_and_a_new_zero) {
   EXPECT_TRUE(has("G91") && has("G20"));
   run.post("/work", R"({"place": {"x": 0}})");
   EXPECT_EQ(run.status, 200U);
-  run.turn();
+  run.poll();
   EXPECT_TRUE(has("G91") && has("G20"));
 }
 
@@ -155,7 +155,7 @@ TEST_F(Mdi, runs_one_line_behind_the_other) {
   for (int i = 1; i <= 5; ++i) {
     run.post("/mdi", Json({{"line", fmt::format("G1 X{} F3000", i)}}).dump());
     EXPECT_EQ(run.status, 200U);
-    run.turn();
+    run.poll();
   }
   EXPECT_TRUE(run.turn_until_state("Idle"));
   EXPECT_NEAR(at("x"), 5, 1e-3);

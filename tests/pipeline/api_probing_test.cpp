@@ -49,7 +49,7 @@ TEST(ApiProbing, a_turned_work_is_told_and_its_zero_lies_along_its_axes) {
   ApiRun run;
   run.own();
   EXPECT_EQ(run.get("/status")["work_rotation"], 0.0);
-  run.api.take_offsets({{5221, 10}, {5222, 20}, {5230, 90}});
+  run.api.apply_offsets({{5221, 10}, {5222, 20}, {5230, 90}});
   EXPECT_EQ(run.get("/status")["work_rotation"], 90.0);
   EXPECT_EQ(run.get("/status")["work_offset"]["x"], 10.0);
   // The tool stands at X-20 Y10 of the work. Only its X becomes 0: the zero moves along the machine's Y.

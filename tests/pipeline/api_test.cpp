@@ -75,7 +75,7 @@ class NotedStudies final : public Studies {
     result = {.state = StudyResult::State::done, .words = "said", .report = R"({"margin": null})"};
     return true;
   }
-  const StudyResult& look() override { return result; }
+  const StudyResult& result() override { return result; }
   std::string loads() const override { return "line,load\n1,0.500\n"; }
   std::string picture() const override { return ""; }
   StudyOrder last;
@@ -259,7 +259,7 @@ TEST(Api, a_silent_owner_loses_the_motion_while_nothing_moves) {
 
 TEST(Api, senders_and_clients_share_a_machine_one_after_the_other) {
   ApiRun run;
-  ASSERT_TRUE(run.owner.take_for_sender());
+  ASSERT_TRUE(run.owner.claim_for_sender());
   run.run.send("G1 X20 F600\n");
   ASSERT_TRUE(run.turn_until_state("Run"));
   EXPECT_EQ(run.post("/owner")["error"]["code"], "owner.moves") << "for the sender";
@@ -275,7 +275,7 @@ TEST(Api, senders_and_clients_share_a_machine_one_after_the_other) {
   run.post("/jog", R"({"direction": {"y": 1}, "speed": 600, "distance": 3, "lease": 5})");
   ASSERT_TRUE(run.turn_until_state("Idle"));
   run.ask("DELETE", "/owner");
-  ASSERT_TRUE(run.owner.take_for_sender());
+  ASSERT_TRUE(run.owner.claim_for_sender());
   run.run.grbl().let_drive(true);
   run.run.send("G91 G1 Y1 F600\n");
   ASSERT_TRUE(run.turn_until([&] { return run.get("/status")["place"]["y"] == 4.0; })) << run.get("/status");
@@ -357,7 +357,7 @@ TEST(Api, a_program_that_was_checked_from_this_place_begins_at_once) {
   const auto turns_to = [&](const std::string& state) {
     int turns = 0;
     for (; turns < 10'000 && run.get("/status")["state"] != state && run.get(program)["state"] != state; ++turns)
-      run.turn();
+      run.poll();
     return turns;
   };
   run.post(program + "/check");
@@ -377,10 +377,10 @@ TEST(HomingRepeats, are_counted_from_the_first_homing_since_the_place_was_known)
   const double switch_at = x.home->switch_at;
   const double step = 1 / x.steps_per_unit;
   HomingRepeats repeats(machine);
-  repeats.note({{.axis = Axis::x, .way = 123, .place = 0}}, std::nullopt);
+  repeats.record({{.axis = Axis::x, .way = 123, .place = 0}}, std::nullopt);
   // Stands at 0, and the switch closes one step farther, then two steps nearer than that.
   for (const double shift : {step, -2 * step}) {
-    repeats.note({{.axis = Axis::x, .way = switch_at + shift, .place = 0}}, Point());
+    repeats.record({{.axis = Axis::x, .way = switch_at + shift, .place = 0}}, Point());
   }
   auto all = repeats.axes();
   ASSERT_EQ(all.size(), 1U);
@@ -388,7 +388,7 @@ TEST(HomingRepeats, are_counted_from_the_first_homing_since_the_place_was_known)
   EXPECT_EQ(all[0].spread_steps, 2);
   EXPECT_NEAR(all[0].last, -2000 * step, 1e-9);
   EXPECT_NEAR(all[0].mean, 0, 1e-9) << "0, 1 and -1 steps";
-  repeats.note({{.axis = Axis::x, .way = 5, .place = 0}}, std::nullopt);
+  repeats.record({{.axis = Axis::x, .way = 5, .place = 0}}, std::nullopt);
   EXPECT_EQ(repeats.axes()[0].homings, 1U);
 }
 

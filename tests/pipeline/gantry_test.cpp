@@ -45,13 +45,13 @@ class HomedMachine {
                   .start = {.place = Point(), .trust = Trust::commanded}}) {
     board_.connect(plant_);
     board_.wire(wiring);
-    while (session_.state() == MachineState::offline) session_.turn(endless);
+    while (session_.state() == MachineState::offline) session_.poll(endless);
   }
 
   std::vector<HomedAxis> home() {
     const auto ticket = session_.request(request::Home{});
     EXPECT_TRUE(ticket);
-    while (session_.busy()) session_.turn(endless);
+    while (session_.busy()) session_.poll(endless);
     return session_.homing() == nullptr ? std::vector<HomedAxis>{} : session_.homing()->homed();
   }
   void jog(Axis axis, double way) {
@@ -59,7 +59,7 @@ class HomedMachine {
                      .lease = Seconds(10)};
     jog.way.direction[axis] = way;
     EXPECT_TRUE(session_.request(jog));
-    while (session_.busy()) session_.turn(endless);
+    while (session_.busy()) session_.poll(endless);
   }
   MachineSession& session() { return session_; }
   // The true position of a motor, in steps.

@@ -119,7 +119,7 @@ TEST(GrblAlarms, tell_why_the_machine_has_stopped) {
   soft.send("G0 X9999\n");
   EXPECT_EQ(next_alarm(soft), "ALARM:2");
   GrblRun lost;
-  lost.grbl().turn({{.kind = MachineChange::Kind::position_lost}});
+  lost.grbl().poll({{.kind = MachineChange::Kind::position_lost}});
   EXPECT_EQ(next_alarm(lost), "ALARM:3");
 }
 

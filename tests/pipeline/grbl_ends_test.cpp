@@ -117,7 +117,7 @@ TEST(GrblJog, a_cancel_amid_its_line_cancels) {
 TEST(GrblJog, a_cancel_just_after_its_line_cancels) {
   GrblRun run;
   run.send("$J=G91X100F1000\n");
-  run.turn();
+  run.poll();
   run.send("\x85");
   run.pass(Seconds(2));
   EXPECT_EQ(run.session().status().now_at[Axis::x], 0);

@@ -43,7 +43,7 @@ class GrblRun {
         program_(description_, in_grbl(description_), start.place),
         grbl_(description_, session_, program_) {
     board_.connect(plant_);
-    while (session_.state() == MachineState::offline) session_.turn(Seconds(0.01));
+    while (session_.state() == MachineState::offline) session_.poll(Seconds(0.01));
   }
 
   static KnownPosition at_zero() { return {.place = Point(), .trust = Trust::commanded}; }
@@ -55,9 +55,9 @@ class GrblRun {
   const MachineDescription& description() const { return description_; }
 
   void send(const std::string& bytes) { grbl_.receive(bytes); }
-  void turn(Seconds most = Seconds(0.005)) {
-    session_.turn(most);
-    grbl_.turn(session_.take_changes());
+  void poll(Seconds most = Seconds(0.005)) {
+    session_.poll(most);
+    grbl_.poll(session_.take_changes());
     collect();
   }
   void collect() {
@@ -71,13 +71,13 @@ class GrblRun {
     }
   }
   void pass(Seconds time) {
-    for (const Seconds end = session_.now() + time; session_.now() < end;) turn();
+    for (const Seconds end = session_.now() + time; session_.now() < end;) poll();
   }
   // False: that did not come about in time.
   template <class Condition>
   bool turn_until(Condition condition, Seconds within = Seconds(600)) {
     const Seconds end = session_.now() + within;
-    for (int turns = 0; !condition() && session_.now() < end && turns < 10'000'000; ++turns) turn();
+    for (int turns = 0; !condition() && session_.now() < end && turns < 10'000'000; ++turns) poll();
     return condition();
   }
   // The next line of the controller. Empty: none came within a minute.

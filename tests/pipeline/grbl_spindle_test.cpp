@@ -83,15 +83,15 @@ TEST(GrblSpindle, the_drivers_have_their_time_before_the_first_motion) {
 TEST(OpenProgramOf, a_thread_that_an_axis_cannot_follow_is_refused_each_time) {
   const MachineDescription machine = test::example_machine("router");
   OpenProgram program(machine, InterpreterOptions(), Point());
-  EXPECT_FALSE(program.take("G21 G90 M3 S6000", Seconds(0)));
+  EXPECT_FALSE(program.add_line("G21 G90 M3 S6000", Seconds(0)));
   for (int i = 0; i < 2; ++i) {
     const std::size_t queued = program.queued();
-    const auto refused = program.take("G33 Z-15 K4", Seconds(0));
+    const auto refused = program.add_line("G33 Z-15 K4", Seconds(0));
     ASSERT_TRUE(refused);
     EXPECT_EQ(refused->code, "path.thread-too-fast");
     EXPECT_EQ(program.queued(), queued);
   }
-  EXPECT_FALSE(program.take("G33 Z-15 K0.5", Seconds(0)));
+  EXPECT_FALSE(program.add_line("G33 Z-15 K0.5", Seconds(0)));
 }
 
 }  // namespace

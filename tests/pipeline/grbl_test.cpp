@@ -549,7 +549,7 @@ TEST(GrblMemoryOf, offsets_are_shared_with_others_at_rest) {
   SavedParameters others = shared.back();
   others[5221] = 7;
   others[5211] = 99;  // G92 belongs to a program
-  run.grbl().take_offsets(others);
+  run.grbl().apply_offsets(others);
   ASSERT_TRUE(run.turn_until([&] { return run.is("Idle"); }));
   run.replies.clear();
   run.send("$#\n");

@@ -112,7 +112,7 @@ class JobServer final : public JobKeeper {
     }
     if (board_status->session != 0 || bench_.numbers == 2) session_.start_at(position_of(*board_status));
     session_.greet(greeting);
-    while (session_.state() == MachineState::offline) session_.turn(Seconds(0.02));
+    while (session_.state() == MachineState::offline) session_.poll(Seconds(0.02));
     api_ = std::make_unique<WebApi>(bench_.description, session_, owner_, options(found));
     key_ = ask("POST", "/owner", "{}").value("key", "");
   }
@@ -136,17 +136,17 @@ class JobServer final : public JobKeeper {
   }
   Json get(const std::string& path) { return ask("GET", path); }
   Json post(const std::string& path, const std::string& body = "") { return ask("POST", path, body); }
-  void turn() {
-    session_.turn(Seconds(0.01));
-    api_->heed(session_.take_changes());
-    api_->turn();
+  void poll() {
+    session_.poll(Seconds(0.01));
+    api_->on_change(session_.take_changes());
+    api_->poll();
     if (const auto& zero = session_.zero_counts()) bench_.zero_counts = *zero;
     bench_.trust = session_.status().position.trust;
   }
   template <class Condition>
   bool turn_until(Condition condition, Seconds within = Seconds(300)) {
     const Seconds end = session_.now() + within;
-    for (int turns = 0; !condition() && session_.now() < end && turns < 1'000'000; ++turns) turn();
+    for (int turns = 0; !condition() && session_.now() < end && turns < 1'000'000; ++turns) poll();
     return condition();
   }
   // The job that was asked for has ended in some way.

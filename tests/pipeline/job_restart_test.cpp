@@ -181,7 +181,7 @@ TEST_F(JobRestart, a_job_whose_board_was_silent_goes_on_after_a_reset) {
   bench_.let_pass(Seconds(7));
   server.post("/reset");
   ASSERT_TRUE(server.turn_until([&] { return server.session().state() == MachineState::idle; }));
-  server.turn();
+  server.poll();
   EXPECT_EQ(server.get("/interrupted")["interrupted"]["goes_on"], true) << server.get("/interrupted");
   server.post("/interrupted/resume");
   ASSERT_TRUE(server.to_end());

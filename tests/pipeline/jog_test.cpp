@@ -18,7 +18,7 @@ Point jog(SessionRun& run, const request::Jog& wanted, bool renews = false) {
   run.taken(wanted);
   while (run.session().busy()) {
     if (renews) run.taken(request::RenewLease{});
-    run.turn(Seconds(0.005));
+    run.poll(Seconds(0.005));
   }
   EXPECT_EQ(run.state(), MachineState::idle);
   return run.session().status().position.place;
@@ -99,7 +99,7 @@ TEST_P(Jog, with_random_renewals_never_outlives_its_lease_nor_leaves_the_travel)
       double renewed = run.now().value();
       bool holds = true;
       while (run.session().busy()) {
-        run.turn(Seconds(0.005));
+        run.poll(Seconds(0.005));
         holds = holds && random.chance(0.97);
         if (!holds || !run.session().busy()) continue;
         run.taken(request::RenewLease{});

@@ -43,7 +43,7 @@ Held run(const std::string& program, const char* name, const std::vector<Press>&
     for (; next < presses.size() && since(run.now()) >= presses[next].at; ++next) {
       run.board().set_switch(presses[next].which, presses[next].closed);
     }
-    run.turn();
+    run.poll();
   }
   EXPECT_FALSE(run.session().board().error());
   EXPECT_EQ(run.outcome(ticket), Outcome::done);

@@ -71,12 +71,12 @@ class Happening {
   void reset() {
     server->post("/reset");
     ASSERT_TRUE(server->turn_until([&] { return server->session().state() == MachineState::idle; }));
-    server->turn();
+    server->poll();
   }
   void home() {
     server->post("/home");
     ASSERT_TRUE(server->turn_until([&] { return server->session().state() == MachineState::idle; }));
-    server->turn();
+    server->poll();
   }
   void expect_done() {
     ASSERT_TRUE(server->to_end());
@@ -202,7 +202,7 @@ TEST(Policies, a_client_that_goes_ends_its_jog_and_not_its_job) {
 
 TEST(Policies, a_sender_that_goes_leaves_a_held_program) {
   ApiRun run;
-  ASSERT_TRUE(run.owner.take_for_sender());
+  ASSERT_TRUE(run.owner.claim_for_sender());
   run.run.grbl().connect();
   run.run.send("M3 S1000\nG1 X30 F3000\nX0\n");
   ASSERT_TRUE(run.turn_until([&] { return run.get("/status")["place"]["x"] > 5.0; }));

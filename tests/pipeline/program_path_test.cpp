@@ -83,7 +83,7 @@ TEST(ProgramPath, tells_the_box_along_the_axes_of_a_turned_work) {
   store.set_offsets({{5220, 1}, {5221, 7}, {5230, 30}}, {});
   const std::uint64_t id = store.add("turned", Dialect::linuxcnc, "G1 X0 Y0 F600\nX40\nY20\nX0\nY0\nM2\n")->id;
   store.check(id, MachineDescription(), Point());
-  for (int i = 0; i < 100; ++i) store.turn();
+  for (int i = 0; i < 100; ++i) store.poll();
   const ProgramPath& path = store.find(id)->path_points;
   ASSERT_TRUE(path.complete());
   EXPECT_NEAR(path.work().high[0], 40, 1e-9);
@@ -99,7 +99,7 @@ TEST(ProgramPath, tells_how_far_all_moves_reach_rapids_and_g53_too) {
   const std::string text = "G0 X100 Y-50\nG53 G0 Z30\nG1 X0 Y0 F600\nX5\nG0 A90\nM2\n";
   const std::uint64_t id = store.add("far", Dialect::linuxcnc, text)->id;
   store.check(id, MachineDescription(), Point());
-  for (int i = 0; i < 100; ++i) store.turn();
+  for (int i = 0; i < 100; ++i) store.poll();
   const ProgramPath& path = store.find(id)->path_points;
   ASSERT_TRUE(path.complete() && path.reach());
   EXPECT_NEAR(path.reach()->work.high[Axis::x], 100, 1e-9) << "a rapid is a move";
@@ -115,7 +115,7 @@ TEST(ProgramPath, tells_how_far_an_arc_bulges_along_the_axes_of_a_turned_work) {
   store.set_offsets({{5220, 1}, {5221, 7}, {5230, 30}}, {});
   const std::uint64_t id = store.add("turned", Dialect::linuxcnc, "G1 X40 Y0 F600\nG3 X0 Y0 I-20\nM2\n")->id;
   store.check(id, MachineDescription(), Point());
-  for (int i = 0; i < 100; ++i) store.turn();
+  for (int i = 0; i < 100; ++i) store.poll();
   EXPECT_NEAR(store.find(id)->path_points.work().high[1], 20, 1e-9) << "not the highest of its chords";
 }
 

@@ -49,7 +49,7 @@ void home(JobServer& server) {
   server.post("/home");
   ASSERT_EQ(server.status, 200U);
   ASSERT_TRUE(server.turn_until([&] { return server.session().state() == MachineState::idle; }));
-  server.turn();
+  server.poll();
   ASSERT_EQ(server.session().status().position.trust, Trust::homed);
 }
 
@@ -94,7 +94,7 @@ class Reentered : public testing::Test {
   void reset(JobServer& server) {
     server.post("/reset");
     ASSERT_TRUE(server.turn_until([&] { return server.session().state() == MachineState::idle; }));
-    server.turn();
+    server.poll();
   }
 
   JobBench bench_{short_router()};
@@ -143,7 +143,7 @@ TEST(ReenteredAfterProbing, goes_on_from_what_the_probe_has_found) {
   EXPECT_EQ(server.job_state(), "interrupted");
   server.post("/reset");
   ASSERT_TRUE(server.turn_until([&] { return server.session().state() == MachineState::idle; }));
-  server.turn();
+  server.poll();
   home(server);
   server.post("/interrupted/reenter");
   EXPECT_EQ(server.status, 202U) << server.get("/interrupted");
@@ -191,7 +191,7 @@ void cut_at_random(std::uint64_t seed) {
       ASSERT_TRUE(server->to_end());
       server->post("/reset");
       ASSERT_TRUE(server->turn_until([&] { return server->session().state() == MachineState::idle; }));
-      server->turn();
+      server->poll();
     } else {
       server.reset();
       server = std::make_unique<JobServer>(bench);

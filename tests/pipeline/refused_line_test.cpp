@@ -94,14 +94,14 @@ void expect_refused_lines_change_nothing(Dialect dialect, std::vector<std::strin
   for (int i = 0; i < fewer(4000); ++i) {
     const std::string line = lines.next();
     const std::string before = state_of(all);
-    const bool is_refused = all.take(line, Seconds(0)).has_value();
+    const bool is_refused = all.add_line(line, Seconds(0)).has_value();
     if (is_refused) {
       ++refused;
       ASSERT_EQ(state_of(all), before) << line;
       continue;
     }
     ++taken;
-    ASSERT_FALSE(good.take(line, Seconds(0))) << line;
+    ASSERT_FALSE(good.add_line(line, Seconds(0))) << line;
     const std::string done = played(all);
     ASSERT_EQ(done, played(good)) << line;
     ASSERT_EQ(state_of(all), state_of(good)) << line;
@@ -131,9 +131,9 @@ TEST(RefusedLine, in_linuxcnc_s_dialect_leaves_everything_as_it_was) {
 // What was sent to a running program is beyond the travel, and ends it as well.
 TEST(RefusedLine, that_would_have_ended_the_program_does_not_end_it) {
   OpenProgram program(example_machine("router"), in_grbl(example_machine("router")), Point());
-  ASSERT_TRUE(program.take("G1 X9999 F100 M2", Seconds(0)));
+  ASSERT_TRUE(program.add_line("G1 X9999 F100 M2", Seconds(0)));
   EXPECT_FALSE(program.take_ended());
-  ASSERT_FALSE(program.take("G1 X5 F100", Seconds(0)));
+  ASSERT_FALSE(program.add_line("G1 X5 F100", Seconds(0)));
   EXPECT_EQ(program.queued(), 1U) << "the next line moves";
 }
 

@@ -107,15 +107,15 @@ class SessionRun {
   // Streams a line of a program that never ends.
   void stream(const std::string& line) {
     lines_ = std::make_unique<OpenProgram>(description_, InterpreterOptions(), Point());
-    const auto wrong = lines_->take(line, now());
+    const auto wrong = lines_->add_line(line, now());
     EXPECT_FALSE(wrong) << wrong->message;
     taken(request::Stream{.program = lines_.get()});
   }
 
-  void turn(Seconds most = Seconds(0.02)) {
+  void poll(Seconds most = Seconds(0.02)) {
     const MachineState before = state();
     const std::int64_t steps = steps_made();
-    session_.turn(most);
+    session_.poll(most);
     collect();
     if (state() == before && !row_of(before).may_move) {
       EXPECT_EQ(steps_made(), steps) << "steps in " << name_of(before);
@@ -128,7 +128,7 @@ class SessionRun {
   template <class Condition>
   bool turn_until(Condition condition, Seconds within = Seconds(120), Seconds most = Seconds(0.02)) {
     const Seconds end = now() + within;
-    for (int turns = 0; !condition() && now() < end && turns < 10'000'000; ++turns) turn(most);
+    for (int turns = 0; !condition() && now() < end && turns < 10'000'000; ++turns) poll(most);
     return condition();
   }
   bool turn_until(MachineState wanted, Seconds within = Seconds(120)) {

@@ -42,7 +42,7 @@ double worst_progress(bool over_a_line, const std::function<void(SessionRun&)>& 
     run.taken(start());
     bool is_before = true;
     while (run.session().busy()) {
-      run.turn(Seconds(0.05));
+      run.poll(Seconds(0.05));
       const auto progress = run.session().status().progress;
       if (!looks || !progress || !run.session().busy()) continue;
       const double made = static_cast<double>(run.steps_made()) / static_cast<double>(whole);

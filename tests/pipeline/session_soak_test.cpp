@@ -57,14 +57,14 @@ class SessionSoak : public testing::Test {
       for (SoakClient& client : clients_) {
         if (std::optional<Request> wanted = client.act(session_.status())) ask(std::move(*wanted));
       }
-      turn();
+      poll();
     }
   }
 
-  void turn() {
+  void poll() {
     const MachineState before = session_.state();
     const std::int64_t steps = world_.limits.steps();
-    session_.turn(random_.chance(0.9) ? Seconds(0.02) : Seconds(random_.between(0, 0.3)));
+    session_.poll(random_.chance(0.9) ? Seconds(0.02) : Seconds(random_.between(0, 0.3)));
     ++turns_;
     take_changes();
     world_.limits.look_until(world_.machine.now());

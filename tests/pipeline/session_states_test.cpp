@@ -144,7 +144,7 @@ TEST(SessionStates, take_just_the_requests_that_the_table_has) {
         EXPECT_EQ(run->state(), situation.state) << "a refusal changes nothing";
         EXPECT_FALSE(answer.error().message().empty());
       }
-      for (int i = 0; i < 20; ++i) run->turn();
+      for (int i = 0; i < 20; ++i) run->poll();
       if (run->session().busy()) {
         static_cast<void>(run->ask(request::Stop{}));
         run->to_end();

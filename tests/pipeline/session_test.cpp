@@ -56,7 +56,7 @@ TEST_P(Session, holds_a_program_on_its_path_and_resumes_it) {
   EXPECT_EQ(run.board().counts().events, events);
   // At rest already: answered at once.
   const Ticket again = run.taken(request::Hold{});
-  run.turn();
+  run.poll();
   EXPECT_EQ(run.outcome(again), Outcome::done);
   const Ticket resume = run.taken(request::Resume{});
   EXPECT_EQ(run.state(), MachineState::run);
@@ -75,7 +75,7 @@ TEST_P(Session, answers_a_hold_that_is_called_off_before_the_machine_rests) {
   run.pass(Seconds(0.7));
   const Ticket hold = run.taken(request::Hold{});
   run.taken(request::Resume{});
-  run.turn();
+  run.poll();
   EXPECT_EQ(run.outcome(hold), Outcome::stopped);
   run.to_end();
   EXPECT_EQ(run.outcome(program), Outcome::done);
@@ -227,7 +227,7 @@ TEST_P(Session, is_homed_to_a_place_that_is_true_wherever_it_thought_to_be) {
   run.make_ready();
   EXPECT_EQ(run.session().status().position.trust, Trust::unknown);
   const Ticket home = run.taken(request::Home{});
-  run.turn();
+  run.poll();
   EXPECT_EQ(run.session().status().homing_axis, Axis::z);
   run.to_end();
   EXPECT_EQ(run.outcome(home), Outcome::done);

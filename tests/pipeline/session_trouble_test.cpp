@@ -155,7 +155,7 @@ TEST(LineTrouble, a_standstill_amid_motion_is_an_alarm_and_the_place_is_not_trus
     run.pass(Seconds(at));
     ASSERT_EQ(run.board().counts().outputs.switches, unsigned{spindle_on});
     run.board().stand_still(Ticks{2000});
-    // From here on run.turn() sees neither a step nor an output that is on.
+    // From here on run.poll() sees neither a step nor an output that is on.
     ASSERT_TRUE(run.turn_until(MachineState::alarm, Seconds(0.7)));
     EXPECT_EQ(run.session().status().trouble, LinkError::stood_still);
     EXPECT_EQ(run.outcome(program), Outcome::failed);
@@ -490,7 +490,7 @@ TEST(LineTrouble, a_board_that_does_not_suit_is_a_fault) {
   other.board.clock = Hertz(router.board.clock.value() / 2);
   VirtualMachine board(3, router.board.clock);
   MachineSession session(other, board);
-  for (int i = 0; i < 10; ++i) session.turn(Seconds(0.1));
+  for (int i = 0; i < 10; ++i) session.poll(Seconds(0.1));
   EXPECT_EQ(session.state(), MachineState::fault);
   EXPECT_NE(session.trouble_words().find("its clock"), std::string::npos) << session.trouble_words();
 }

@@ -22,7 +22,7 @@ EmulatedUart::EmulatedUart(EmulatedChip& chip, std::uint32_t baud)
     : avr_(chip.avr()), byte_cycles_((10 * clock_rate + baud / 2) / baud) {
   avr_.io[AVR_DATA_TO_IO(ucsr0a)].r = {.param = this, .c = [](avr_t*, avr_io_addr_t, void* self) {
                                          auto& uart = *static_cast<EmulatedUart*>(self);
-                                         uart.note_look();
+                                         uart.record_poll();
                                          return static_cast<std::uint8_t>((uart.received_bytes_.empty() ? 0 : 0x80) |
                                                                           (uart.to_send_.size() < 2 ? 0x20 : 0) |
                                                                           (uart.to_send_.empty() ? 0x40 : 0));
@@ -54,7 +54,7 @@ void EmulatedUart::send(std::span<const std::uint8_t> bytes) {
   if (idle && !bytes.empty()) avr_cycle_timer_register(&avr_, byte_cycles_, on_line_in, this);
 }
 
-void EmulatedUart::note_look() {
+void EmulatedUart::record_poll() {
   constexpr std::uint8_t receives = 1 << 4;
   if ((avr_.data[ucsr0b] & receives) == 0) return;  // the program has not opened the line yet
   if (looked_ != 0) longest_unwatched_ = std::max(longest_unwatched_, avr_.cycle - looked_);

@@ -52,9 +52,9 @@ class PicoBoard final : public ProcessBoard {
     const auto pulses_at = [&](std::uint64_t cycle) {
       return std::abs(spindle.turns_at(time_of(cycle))) * spindle.counts_per_turn();
     };
-    chip().turn_encoder({.from = pulses_at(chip().cycle()),
-                         .to = pulses_at(until),
-                         .pulses_per_turn = static_cast<std::uint32_t>(spindle.counts_per_turn())});
+    chip().set_encoder({.from = pulses_at(chip().cycle()),
+                        .to = pulses_at(until),
+                        .pulses_per_turn = static_cast<std::uint32_t>(spindle.counts_per_turn())});
     return until;
   }
   double commanded_rpm() const override {

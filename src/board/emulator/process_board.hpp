@@ -23,7 +23,7 @@ class ProcessBoard : public EmulatedBoard {
   bool run(Seconds most) final {
     const double seconds = std::clamp(most.value(), 0.0, longest_silence);
     const std::uint64_t end = chip_->cycle() + static_cast<std::uint64_t>(seconds * clock_rate_);
-    look_at_plant();
+    update_inputs();
     while (said_.empty() && chip_->cycle() < end) {
       const std::int64_t events = plant_->events_to_next_change();
       const auto rises = static_cast<std::uint32_t>(
@@ -40,7 +40,7 @@ class ProcessBoard : public EmulatedBoard {
   std::vector<std::int64_t> positions() const final { return positions_; }
   void connect(Plant& plant) override {
     plant_ = &plant;
-    look_at_plant();
+    update_inputs();
   }
 
  protected:
@@ -87,7 +87,7 @@ class ProcessBoard : public EmulatedBoard {
     }
     const double rpm = commanded_rpm();
     if (rpm != rpm_) plant_->command_spindle(elapsed(), rpm_ = rpm);
-    look_at_plant();
+    update_inputs();
     said_.insert(said_.end(), chip_->said().begin(), chip_->said().end());
   }
   void follow(const PinChange& change, std::uint32_t before) {
@@ -97,7 +97,7 @@ class ProcessBoard : public EmulatedBoard {
       plant_->pulse(time_of(change.cycle), pulses_);
     }
   }
-  void look_at_plant() {
+  void update_inputs() {
     const std::uint16_t inputs = plant_->inputs_at(elapsed());
     if (inputs != std::exchange(inputs_, inputs)) set_pins(inputs);
   }

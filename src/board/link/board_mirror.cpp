@@ -8,19 +8,19 @@ constexpr std::uint16_t stopping_inputs = 0xFF | input_emergency_stop;
 
 }  // namespace
 
-bool BoardMirror::note(const BoardStatus& status, Seconds now) {
+bool BoardMirror::update(const BoardStatus& status, Seconds now) {
   const bool played = status_ && status.event != status_->event;
   status_ = status;
   status_time_ = now;
   return played;
 }
 
-void BoardMirror::note_items(ItemNumber executed, int free) {
+void BoardMirror::update_items(ItemNumber executed, int free) {
   executed_ = executed;
   free_ = free;
 }
 
-bool BoardMirror::note_inputs(const BoardStatus& status, std::uint16_t ignored) {
+bool BoardMirror::update_inputs(const BoardStatus& status, std::uint16_t ignored) {
   const auto inputs = static_cast<std::uint16_t>(status.inputs & ~(passo::outputs_timed_out | drivers_timed_out));
   const auto pressed = static_cast<std::uint16_t>(inputs & ~inputs_ & ~unsigned{ignored});
   pressed_ |= pressed;
@@ -28,23 +28,23 @@ bool BoardMirror::note_inputs(const BoardStatus& status, std::uint16_t ignored) 
   return pressed != 0;
 }
 
-bool BoardMirror::note_pressed(std::uint16_t inputs) {
+bool BoardMirror::record_pressed(std::uint16_t inputs) {
   pressed_ |= inputs;
   inputs_ |= inputs;
   return inputs != 0;
 }
 
-void BoardMirror::note_stop(std::uint16_t inputs) {
+void BoardMirror::record_stop(std::uint16_t inputs) {
   stopped_by_ = inputs;
   inputs_ |= inputs;
 }
 
-void BoardMirror::note_stop() {
+void BoardMirror::record_stop() {
   stopped_by_ = inputs_ & stopping_inputs;
 }
 
 // A status from before the last outputs says nothing of now.
-void BoardMirror::note_timeout(const BoardStatus& status, ItemNumber sent) {
+void BoardMirror::on_timeout(const BoardStatus& status, ItemNumber sent) {
   if (status.taken != static_cast<std::uint8_t>(sent)) return;
   outputs_timed_out_ = (status.inputs & passo::outputs_timed_out) != 0;
 }

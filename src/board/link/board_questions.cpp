@@ -16,12 +16,12 @@ bool BoardQuestions::settle(Question answered, Seconds now) {
   return true;
 }
 
-void BoardQuestions::note_sent(Seconds now) {
+void BoardQuestions::record_sent(Seconds now) {
   answered_ = false;
   unanswered_since_ = now;
 }
 
-bool BoardQuestions::note_answered(Seconds now) {
+bool BoardQuestions::on_answered(Seconds now) {
   if (std::exchange(answered_, true)) return false;
   answer_time_ = now - unanswered_since_;
   return true;

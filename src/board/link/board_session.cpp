@@ -50,7 +50,7 @@ BoardSession::Progress BoardSession::poll(Seconds most) {
     const Seconds left = std::max(end - port_.elapsed(), Seconds(0));
     const bool heard = hear(std::min(endless ? silence_.care().answer_within : patience, left));
     progress.heard = progress.heard || heard;
-    mind_silence(heard, endless);
+    check_silence(heard, endless);
   } while (!error_ && !news_ && end - port_.elapsed() > hardly_any);
   progress.news = news_;
   return progress;
@@ -68,14 +68,14 @@ void BoardSession::begin_to_expect() {
 }
 
 // Asks again, or gives up, after a silence. An endless wait expects something in any case.
-void BoardSession::mind_silence(bool heard, bool endless) {
+void BoardSession::check_silence(bool heard, bool endless) {
   if (error_) return;
   const Seconds now = port_.elapsed();
-  if (heard) silence_.note_byte(now);
+  if (heard) silence_.on_byte(now);
   if (!endless && !expects()) return silence_.begin(now);
   error_ = silence_.verdict(now, endless && !heard);
   if (error_ || (!silence_.is_to_ask_again(now, heard, endless) && !overdue())) return;
-  silence_.note_asked_again(now);
+  silence_.on_asked_again(now);
   ask_again();
 }
 
@@ -86,8 +86,8 @@ bool BoardSession::overdue() const {
 }
 
 void BoardSession::ask_again() {
-  if (handshake_.phase() == Handshake::Phase::greeting) return say_hello();
-  if (handshake_.phase() == Handshake::Phase::naming) return say_session();
+  if (handshake_.phase() == Handshake::Phase::greeting) return send_hello();
+  if (handshake_.phase() == Handshake::Phase::naming) return send_session();
   ask(questions_.awaited().value_or(Question::status));
 }
 
@@ -137,7 +137,7 @@ ItemNumber BoardSession::replace(ItemNumber after, std::span<const LinkItem> ite
 
 void BoardSession::await(Question question) {
   begin_to_expect();
-  silence_.note_progress(port_.elapsed());
+  silence_.on_progress(port_.elapsed());
   questions_.await(question);
   ask(question);
 }
@@ -178,7 +178,7 @@ bool BoardSession::hear(Seconds most) {
   std::span<const std::uint8_t> bytes = port_.replies();
   if (bytes.empty() && port_.run(most)) bytes = port_.replies();
   for (const std::uint8_t byte : bytes) read(byte);
-  look_at_greeting();
+  check_greeting();
   return !bytes.empty();
 }
 
@@ -187,8 +187,8 @@ void BoardSession::read(std::uint8_t byte) {
     gibberish_ += static_cast<char>(byte);
   }
   if (decoder_.feed(byte) != Decoded::frame) return;
-  silence_.note_frame(port_.elapsed());
-  take(decoder_.frame());
+  silence_.on_frame(port_.elapsed());
+  handle(decoder_.frame());
 }
 
 // The question goes behind all that was sent.
@@ -200,24 +200,24 @@ void BoardSession::ask() {
 void BoardSession::ask(Question question) {
   begin_to_expect();
   const Seconds now = port_.elapsed();
-  silence_.note_traffic(now);
+  silence_.on_traffic(now);
   const std::uint8_t number = questions_.put(question, window_.on_wire(), now);
   const std::uint8_t limit = question == Question::watch ? probe_.limit() : std::uint8_t{0};
   say(Ask{.motors = handshake_.positions(), .question = question, .limit = limit}, number);
 }
 
-void BoardSession::take(const WireFrame& frame) {
+void BoardSession::handle(const WireFrame& frame) {
   switch (frame.type) {
     case MessageType::hello_reply: {
       HelloReply reply;
       decode(frame, reply);
-      return handshake_.note(reply);
+      return handshake_.handle(reply);
     }
     case MessageType::credit: {
       Credit credit;
       decode(frame, credit);
       if (handshake_.before_hello() || !board()) return;
-      take(credit);
+      handle(credit);
       // The board seems to have dropped what was sent. Ask to be sure.
       if (silence_.may_lose() && holds_nothing_of(credit) && busy()) ask(Question::status);
       return;
@@ -229,38 +229,38 @@ void BoardSession::take(const WireFrame& frame) {
         twins_.settle(status.positions);
       }
       if (!handshake_.before_hello()) twins_.for_host(status.positions);
-      return take(status);
+      return handle(status);
     }
     case MessageType::error: {
       ErrorReport error;
       decode(frame, error);
-      return take(error);
+      return handle(error);
     }
     case MessageType::fault: {
       Fault fault;
       decode(frame, fault);
-      return take(fault);
+      return handle(fault);
     }
     case MessageType::pin_setup: {
       PinSetup setup;
       decode(frame, setup);
-      return take(setup);
+      return handle(setup);
     }
     case MessageType::captured: {
       Captured captured;
       decode(frame, handshake_.positions(), captured);
       if (!handshake_.before_hello()) twins_.for_host(captured.positions);
-      return take(captured);
+      return handle(captured);
     }
     case MessageType::turned: {
       Turned turned;
       decode(frame, turned);
-      return take(turned);
+      return handle(turned);
     }
     case MessageType::about: {
       About about;
       decode(frame, about);
-      mirror_.note(about);
+      mirror_.update(about);
       return settle(Question::about);
     }
     default:
@@ -270,24 +270,24 @@ void BoardSession::take(const WireFrame& frame) {
 }
 
 // A board that does not know yet how its switches are wired may take them for closed.
-void BoardSession::take(const Fault& fault) {
+void BoardSession::handle(const Fault& fault) {
   if (handshake_.before_hello() || !handshake_.is_set_up()) return;
-  mirror_.note_stop(fault.inputs);
+  mirror_.record_stop(fault.inputs);
   error_ = LinkError::stopped;
 }
 
 // Ignores a credit that a later credit has overtaken, and a credit that is impossible.
-void BoardSession::take(const Credit& credit) {
+void BoardSession::handle(const Credit& credit) {
   const int more = later_by(credit.executed, executed());
   const ItemNumber before = window_.taken();
   const auto more_taken = static_cast<std::uint8_t>(credit.taken - static_cast<std::uint8_t>(before));
   const auto taken = static_cast<ItemNumber>(before + more_taken);
   if (more < 0 || later_by(taken, sent()) > 0 || later_by(credit.executed, taken) > 0) return;
   if (!board() || credit.free > board()->capacity) return;
-  note_taken(credit.taken);
+  on_accepted(credit.taken);
   if (more == 0 && window_.taken() == before && credit.free <= mirror_.free()) return;
-  if (more != 0) silence_.note_progress(port_.elapsed());
-  mirror_.note_items(credit.executed, credit.free);
+  if (more != 0) silence_.on_progress(port_.elapsed());
+  mirror_.update_items(credit.executed, credit.free);
   news_ = true;
 }
 
@@ -296,8 +296,8 @@ bool BoardSession::holds_nothing_of(const Credit& credit) const {
          credit.taken == static_cast<std::uint8_t>(sent());
 }
 
-void BoardSession::take(const BoardStatus& status) {
-  if (mirror_.note(status, port_.elapsed())) silence_.note_progress(port_.elapsed());
+void BoardSession::handle(const BoardStatus& status) {
+  if (mirror_.update(status, port_.elapsed())) silence_.on_progress(port_.elapsed());
   if (handshake_.before_hello()) {
     mirror_.set_inputs(status.inputs);
     return settle(Question::status);
@@ -308,9 +308,9 @@ void BoardSession::take(const BoardStatus& status) {
   }
   const bool is_asked_for_more = questions_.last() == Question::spindle && status.answers == questions_.number();
   if (is_asked_for_more && (status.state & board_encodes) == 0) return doubt(LinkError::no_encoder, Question::spindle);
-  if (mirror_.note_inputs(status, probe_.input())) news_ = true;
-  if (questions_.usual() == Question::status) note_answer(status.taken);
-  note_probe(probe_.note(status));
+  if (mirror_.update_inputs(status, probe_.input())) news_ = true;
+  if (questions_.usual() == Question::status) on_answer(status.taken);
+  on_probe_news(probe_.handle(status));
   if (questions_.awaited() == Question::watch && probe_.is_confirmed_by(status, executed())) {
     probe_.confirm(status);
     settle(Question::watch);
@@ -320,12 +320,12 @@ void BoardSession::take(const BoardStatus& status) {
   // Before the board has heard of the session it is no wonder.
   if (!is_known && has_session && handshake_.phase() == Handshake::Phase::ready) return doubt(LinkError::was_reset);
   const bool slipped = is_known && (status.state & board_slipped) != 0;
-  if (slipped && !standstill() && !note_standstill(status)) return;
+  if (slipped && !standstill() && !on_standstill(status)) return;
   if (is_known && (status.state & board_trusted) == 0) {
     if ((status.inputs & drivers_timed_out) != 0) return doubt(LinkError::drivers_off);
     // A board that has stood still is not trusted either, and goes on. One that stops forgets that it stood still.
     if (!slipped) {
-      mirror_.note_stop();
+      mirror_.record_stop();
       return doubt(LinkError::stopped);
     }
   }
@@ -333,15 +333,15 @@ void BoardSession::take(const BoardStatus& status) {
   if (status.answers == questions_.number()) settle(Question::status);
   if (!is_known) return;
   doubts_ = 0;
-  mirror_.note_timeout(status, sent());
+  mirror_.on_timeout(status, sent());
   const Credit credit{.executed = status.executed, .taken = status.taken, .free = status.free};
-  note_progress(credit, status.answers);
-  mirror_.note_rest(holds_nothing_of(credit) && (status.state & (board_moves | board_replaces)) == 0);
+  on_progress(credit, status.answers);
+  mirror_.record_rest(holds_nothing_of(credit) && (status.state & (board_moves | board_replaces)) == 0);
   news_ = news_ || rests();
 }
 
-void BoardSession::note_progress(const Credit& credit, std::uint8_t answers) {
-  take(credit);
+void BoardSession::on_progress(const Credit& credit, std::uint8_t answers) {
+  handle(credit);
   if (answers != questions_.number() && !window_.awaits_answer(answers)) return;
   // A frame that was sent before the question and has not arrived before it is lost.
   window_.go_on();
@@ -351,11 +351,11 @@ void BoardSession::note_progress(const Credit& credit, std::uint8_t answers) {
   if (!answered() && questions_.usual() == Question::spindle) ask();
 }
 
-void BoardSession::take(const Turned& turned) {
+void BoardSession::handle(const Turned& turned) {
   if (handshake_.before_hello()) return;
-  questions_.note_turned(turned);
-  note_answer(turned.progress.taken);
-  note_progress(turned.progress, turned.answers);
+  questions_.record_turned(turned);
+  on_answer(turned.progress.taken);
+  on_progress(turned.progress, turned.answers);
   settle(Question::spindle);
 }
 
@@ -368,28 +368,28 @@ void BoardSession::doubt(LinkError error, Question again) {
 }
 
 // False: not sure yet.
-bool BoardSession::note_standstill(const BoardStatus& status) {
+bool BoardSession::on_standstill(const BoardStatus& status) {
   if (++doubts_ < sure_of_status) {
     ask(Question::status);
     return false;
   }
-  mirror_.note_standstill(status);
+  mirror_.on_standstill(status);
   news_ = true;
   return true;
 }
 
-void BoardSession::take(const Captured& captured) {
+void BoardSession::handle(const Captured& captured) {
   if ((captured.input & captured_kept) != 0) {
     if (questions_.awaited() == Question::kept) probe_.recall(captured, motors());
     return settle(Question::kept);
   }
   const auto pressed =
       static_cast<std::uint16_t>(captured.input & ~(probe_.input() | captured_kept | captured_released));
-  if (mirror_.note_pressed(pressed)) news_ = true;
-  note_probe(probe_.note(captured));
+  if (mirror_.record_pressed(pressed)) news_ = true;
+  on_probe_news(probe_.handle(captured));
 }
 
-void BoardSession::note_probe(ProbeWatch::News news) {
+void BoardSession::on_probe_news(ProbeWatch::News news) {
   if (news == ProbeWatch::News::happened) {
     news_ = true;
     sent_segments_.stop(port_.elapsed());
@@ -397,14 +397,14 @@ void BoardSession::note_probe(ProbeWatch::News news) {
   if (news == ProbeWatch::News::begin_again) ask(Question::watch);
 }
 
-void BoardSession::note_answer(std::uint8_t taken) {
-  if (static_cast<std::uint8_t>(sent()) != taken || !questions_.note_answered(port_.elapsed())) return;
+void BoardSession::on_answer(std::uint8_t taken) {
+  if (static_cast<std::uint8_t>(sent()) != taken || !questions_.on_answered(port_.elapsed())) return;
   news_ = true;
   // What was sent must be done, too, and what was asked answered.
-  if (!busy() && !questions_.awaited()) silence_.note_progress(port_.elapsed());
+  if (!busy() && !questions_.awaited()) silence_.on_progress(port_.elapsed());
 }
 
-void BoardSession::take(const ErrorReport& error) {
+void BoardSession::handle(const ErrorReport& error) {
   if (handshake_.before_hello() || error_) return;
   switch (error.reason) {
     case WireError::bad_frame:
@@ -426,7 +426,7 @@ void BoardSession::take(const ErrorReport& error) {
       break;
   }
   if (!silence_.may_lose()) error_ = LinkError::refused;
-  note_taken(static_cast<std::uint8_t>(error.expected - 1));
+  on_accepted(static_cast<std::uint8_t>(error.expected - 1));
   // A complaint during a repetition is about older frames. If it is not, the answer to the question after the
   // repetition tells.
   if (!window_.awaits_answer()) repeat();
@@ -444,10 +444,10 @@ void BoardSession::send_counted(const Message& message, More... more) {
 void BoardSession::send_frame(const SendWindow::Frame& frame) {
   if (error_) return;
   begin_to_expect();
-  mirror_.note_rest(false);
+  mirror_.record_rest(false);
   const Seconds now = port_.elapsed();
-  questions_.note_sent(now);
-  silence_.note_traffic(now);
+  questions_.record_sent(now);
+  silence_.on_traffic(now);
   window_.push(frame);
   put_frames_on_wire();
 }
@@ -462,10 +462,10 @@ std::size_t BoardSession::most_under_way() const {
   return is_small ? most_under_way_to_small : SendWindow::no_limit;
 }
 
-void BoardSession::note_taken(std::uint8_t sequence) {
-  if (!window_.note_taken(sequence)) return;
-  silence_.note_progress(port_.elapsed());
-  silence_.note_traffic(port_.elapsed());
+void BoardSession::on_accepted(std::uint8_t sequence) {
+  if (!window_.on_accepted(sequence)) return;
+  silence_.on_progress(port_.elapsed());
+  silence_.on_traffic(port_.elapsed());
   news_ = true;
   put_frames_on_wire();
 }

@@ -21,12 +21,12 @@ void BoardSession::greet(const Greeting& greeting) {
   decoder_.set_motors(greeting.motors);
   sent_segments_.begin(greeting.motors);
   const Seconds now = port_.elapsed();
-  silence_.note_frame(now);
-  silence_.note_progress(now);
-  if (handshake_.is_set_up()) return say_hello();
+  silence_.on_frame(now);
+  silence_.on_progress(now);
+  if (handshake_.is_set_up()) return send_hello();
   // The hello waits for the answer: the board looks at its switches when it is greeted.
-  handshake_.note_said(now);
-  silence_.note_asked_again(now);
+  handshake_.record_hello(now);
+  silence_.on_asked_again(now);
   say(greeting.setup, std::uint8_t{0});
 }
 
@@ -48,51 +48,51 @@ void BoardSession::hang_up() {
 }
 
 // The setup counts for one hello. A board of another version knows no setup, and answers the hello.
-void BoardSession::say_hello() {
+void BoardSession::send_hello() {
   const Seconds now = port_.elapsed();
-  handshake_.note_said(now);
-  silence_.note_asked_again(now);
+  handshake_.record_hello(now);
+  silence_.on_asked_again(now);
   const Greeting& greeting = handshake_.wanted();
   if (greeting.setup != PinSetup{}) say(greeting.setup, std::uint8_t{0});
   say(Hello{.motors = greeting.motors}, greeting.number);
 }
 
-void BoardSession::take(const PinSetup& setup) {
+void BoardSession::handle(const PinSetup& setup) {
   if (handshake_.phase() != Handshake::Phase::greeting || handshake_.is_set_up()) return;
-  if (const auto error = handshake_.note(setup)) {
+  if (const auto error = handshake_.handle(setup)) {
     error_ = error;
   } else {
-    say_hello();
+    send_hello();
   }
 }
 
 void BoardSession::name_session(std::uint16_t number) {
   ensure(number != 0 && !busy());
   handshake_.rename(number);
-  silence_.note_progress(port_.elapsed());
-  say_session();
+  silence_.on_progress(port_.elapsed());
+  send_session();
 }
 
-void BoardSession::say_session() {
+void BoardSession::send_session() {
   const Seconds now = port_.elapsed();
-  handshake_.note_said(now);
-  silence_.note_asked_again(now);
+  handshake_.record_hello(now);
+  silence_.on_asked_again(now);
   say(Session{.number = handshake_.session(), .silence = handshake_.wanted().silence}, std::uint8_t{0});
   ask(Question::status);
 }
 
 // Goes on with the greeting if the answer that it waits for has come.
-void BoardSession::look_at_greeting() {
+void BoardSession::check_greeting() {
   if (handshake_.phase() == Handshake::Phase::greeting && board()) {
-    mirror_.note_room(board()->capacity);
+    mirror_.set_room(board()->capacity);
     if (const auto error = handshake_.go_on()) error_ = error;
     if (handshake_.phase() == Handshake::Phase::naming) {
-      silence_.note_progress(port_.elapsed());
+      silence_.on_progress(port_.elapsed());
       mirror_.forget_status();
-      say_session();
+      send_session();
     }
   }
-  if (status()) handshake_.note(*status());
+  if (status()) handshake_.handle(*status());
   news_ = news_ || handshake_.phase() == Handshake::Phase::ready;
 }
 

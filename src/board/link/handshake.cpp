@@ -21,7 +21,7 @@ void Handshake::rename(std::uint16_t session) {
   phase_ = Phase::naming;
 }
 
-std::optional<LinkError> Handshake::note(const PinSetup& setup) {
+std::optional<LinkError> Handshake::handle(const PinSetup& setup) {
   set_up_ = setup;
   if (!is_set_up()) return undone_setup() != PinSetup{} ? LinkError::cannot_set_up : LinkError::cannot_time;
   reply_.reset();  // an answer to a hello before
@@ -46,7 +46,7 @@ PinSetup Handshake::undone_setup() const {
           .filter = set_up_.filter == 0 ? setup.filter : std::uint8_t{0}};
 }
 
-void Handshake::note(const HelloReply& reply) {
+void Handshake::handle(const HelloReply& reply) {
   if (phase_ == Phase::greeting) reply_ = reply;
 }
 
@@ -63,7 +63,7 @@ std::optional<LinkError> Handshake::go_on() {
   return {};
 }
 
-void Handshake::note(const BoardStatus& status) {
+void Handshake::handle(const BoardStatus& status) {
   if (phase_ == Phase::naming && status.session == wanted_.session) phase_ = Phase::ready;
 }
 

@@ -36,7 +36,7 @@ void ProbeWatch::confirm(const BoardStatus& status) {
 
 // A Captured message may be lost, but every status shows the same. If the probe was at the beginning already as it is
 // to become, its first change is away from that. Then the watch begins again.
-ProbeWatch::News ProbeWatch::note(const BoardStatus& status) {
+ProbeWatch::News ProbeWatch::handle(const BoardStatus& status) {
   const bool touched = (status.inputs & input()) != 0;
   const bool came = std::exchange(report_.touched, touched) != touched;
   if (until_ == ProbeUntil::off) return News::none;
@@ -51,7 +51,7 @@ ProbeWatch::News ProbeWatch::note(const BoardStatus& status) {
   return kept ? News::begin_again : News::none;
 }
 
-ProbeWatch::News ProbeWatch::note(const Captured& captured) {
+ProbeWatch::News ProbeWatch::handle(const Captured& captured) {
   if ((captured.input & input()) == 0) return News::none;
   report_.touched = (captured.input & captured_released) == 0;
   if (until_ != until_is(report_.touched)) return News::none;

@@ -20,7 +20,7 @@ void SendWindow::push(const Frame& frame) {
   if (!keeps_) return put_counted(frame);
   if (kept_.empty()) statistics_.begin_burst(port_.elapsed());
   kept_.push_back(frame);
-  statistics_.note_in_burst();
+  statistics_.record_in_burst();
 }
 
 // A board that plays dense motion takes frames more slowly than the line brings them.
@@ -37,7 +37,7 @@ bool SendWindow::fill(std::size_t most_bytes) {
 }
 
 // A number that is not between the last frame known to be taken and the last frame sent is old, and ignored.
-bool SendWindow::note_taken(std::uint8_t sequence) {
+bool SendWindow::on_accepted(std::uint8_t sequence) {
   const auto more = static_cast<std::uint8_t>(sequence - static_cast<std::uint8_t>(taken_));
   if (more == 0 || more > untaken()) return false;
   taken_ = static_cast<ItemNumber>(taken_ + more);
@@ -52,7 +52,7 @@ void SendWindow::repeat(std::size_t most_bytes) {
   const ItemNumber behind = std::exchange(on_wire_, taken_);
   repeats_ = false;
   static_cast<void>(fill(most_bytes));
-  statistics_.note_repeated(std::min(later_by(on_wire_, taken_), later_by(behind, taken_)));
+  statistics_.record_repeated(std::min(later_by(on_wire_, taken_), later_by(behind, taken_)));
 }
 
 void SendWindow::await_answer(std::uint8_t question) {
@@ -66,7 +66,7 @@ void SendWindow::put_counted(const Frame& frame) {
 }
 
 void SendWindow::put(std::span<const std::uint8_t> frame) {
-  statistics_.note_sent(frame.size());
+  statistics_.record_sent(frame.size());
   port_.receive(frame);
 }
 

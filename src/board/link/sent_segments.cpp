@@ -76,7 +76,7 @@ SentSegments::Place SentSegments::after(const Place& place, const BoardSegment& 
   return end;
 }
 
-PulseWindow SentSegments::look(Seconds from, Seconds to, Seconds now, std::size_t most_pulses) const {
+PulseWindow SentSegments::window(Seconds from, Seconds to, Seconds now, std::size_t most_pulses) const {
   PulseWindow window;
   window.newest = std::min(now, time_of(end_.time));
   window.oldest = kept_.empty() ? window.newest : time_of(kept_.front().place.time);

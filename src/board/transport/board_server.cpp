@@ -58,14 +58,14 @@ void BoardServer::wait(Seconds most) const {
 }
 
 void BoardServer::attend(BoardPort& board) {
-  take_callers();
+  accept_clients();
   for (const auto& client : clients_) {
     if (!client->gone) hear(*client, board);
   }
   part_with_the_gone();
 }
 
-void BoardServer::take_callers() {
+void BoardServer::accept_clients() {
   constexpr std::chrono::milliseconds before_next(50);
   while (Clock::now() >= accepts_at_) {
     const int descriptor = accept4(listening_, nullptr, nullptr, SOCK_CLOEXEC | SOCK_NONBLOCK);
@@ -106,7 +106,7 @@ void BoardServer::hear(Client& client, BoardPort& board) {
   }
   for (std::size_t i = 0; i < static_cast<std::size_t>(got) && !client.gone; ++i) {
     client.last_bytes.push_back(bytes[i]);
-    if (client.decoder.feed(bytes[i]) == Decoded::frame) take(client, client.decoder.frame(), board);
+    if (client.decoder.feed(bytes[i]) == Decoded::frame) handle(client, client.decoder.frame(), board);
   }
   const std::size_t kept = client.last_bytes.size();
   if (kept > largest_frame) {
@@ -115,7 +115,7 @@ void BoardServer::hear(Client& client, BoardPort& board) {
 }
 
 // Gives the board the frame as it came: the last bytes are the frame.
-void BoardServer::take(Client& client, const WireFrame& frame, BoardPort& board) {
+void BoardServer::handle(Client& client, const WireFrame& frame, BoardPort& board) {
   const std::size_t size =
       std::size_t{frame_overhead} + payload_size(static_cast<std::uint8_t>(frame.type), client.motors);
   if (is_of_a_host(frame)) {
@@ -129,7 +129,7 @@ void BoardServer::take(Client& client, const WireFrame& frame, BoardPort& board)
       client.decoder.set_motors(motors_);
     }
   }
-  tell_host(board.replies());
+  send_to_host(board.replies());
   board.receive(std::span(client.last_bytes).last(size));
   tell(client, board.replies());
 }
@@ -143,7 +143,7 @@ bool BoardServer::may_drive(const Client& client) {
   return host_->gone;
 }
 
-void BoardServer::tell_host(std::span<const std::uint8_t> bytes) {
+void BoardServer::send_to_host(std::span<const std::uint8_t> bytes) {
   if (host_ != nullptr) tell(*host_, bytes);
 }
 

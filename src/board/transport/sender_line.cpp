@@ -130,7 +130,7 @@ SenderLine::~SenderLine() {
 // A pseudo-terminal that nobody has open reports a hang-up.
 bool SenderLine::has_reader() const {
   pollfd one{.fd = sender_, .events = POLLIN, .revents = 0};
-  static_cast<void>(poll(&one, 1, 0));
+  static_cast<void>(::poll(&one, 1, 0));
   return (one.revents & POLLHUP) == 0;
 }
 
@@ -144,7 +144,7 @@ void SenderLine::add_to(std::vector<pollfd>& all, bool reads) const {
   if (events != 0) all.push_back({.fd = sender_, .events = events, .revents = 0});
 }
 
-SenderLine::News SenderLine::look(bool reads) {
+SenderLine::News SenderLine::poll(bool reads) {
   News news;
   if (kind_ == Kind::serial) {
     hear_serial(news, reads);
@@ -155,7 +155,7 @@ SenderLine::News SenderLine::look(bool reads) {
     broken_ = broken_ || (!is_open && connected_);
     connected_ = connected_ || is_open;
   } else {
-    take_caller(news);
+    accept_client(news);
   }
   if (connected_ && !broken_) send_unsent();
   if (connected_ && !broken_ && reads && kind_ != Kind::serial) read_bytes(news);
@@ -187,7 +187,7 @@ void SenderLine::hear_serial(News& news, bool reads) {
   connected_ = true;
 }
 
-void SenderLine::take_caller(News& news) {
+void SenderLine::accept_client(News& news) {
   if (Clock::now() < accepts_at_) return;
   const int descriptor = accept4(listening_, nullptr, nullptr, SOCK_CLOEXEC | SOCK_NONBLOCK);
   if (descriptor < 0) {

@@ -203,7 +203,7 @@ std::string short_name(const BoardFile& file) {
   return name.substr(name.rfind('/') + 1);
 }
 
-std::string tell_kind(BoardJob& job, std::string_view name, std::string_view words) {
+std::string set_kind(BoardJob& job, std::string_view name, std::string_view words) {
   const std::optional<BoardFileKind> kind = kind_of_words(words);
   if (!kind) {
     return fmt::format("'{}' is no layer: expected top copper, bottom copper, outline, drill or nothing", words);

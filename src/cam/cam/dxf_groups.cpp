@@ -98,7 +98,7 @@ bool DxfGroups::is_cut_off() {
   return false;
 }
 
-bool DxfGroups::take(std::size_t bytes, std::string_view& taken) {
+bool DxfGroups::read_bytes(std::size_t bytes, std::string_view& taken) {
   if (bytes > text_.size() - at_) return is_cut_off();
   taken = text_.substr(at_, bytes);
   at_ += bytes;
@@ -109,14 +109,14 @@ bool DxfGroups::next_binary(DxfGroup& group) {
   if (at_ >= text_.size()) return false;
   std::string_view bytes;
   if (has_short_codes_) {
-    if (!take(1, bytes)) return false;
+    if (!read_bytes(1, bytes)) return false;
     group.code = static_cast<unsigned char>(bytes[0]);
     if (group.code == 255) {
-      if (!take(2, bytes)) return false;
+      if (!read_bytes(2, bytes)) return false;
       group.code = static_cast<int>(number_in<std::int16_t>(bytes));
     }
   } else {
-    if (!take(2, bytes)) return false;
+    if (!read_bytes(2, bytes)) return false;
     group.code = static_cast<int>(number_in<std::int16_t>(bytes));
   }
   group.line = 0;
@@ -135,18 +135,18 @@ bool DxfGroups::read_binary_value(DxfGroup& group) {
       at_ = end + 1;
       return true;
     }
-    case GroupValue::chunk: return take(1, bytes) && take(static_cast<unsigned char>(bytes[0]), group.text);
+    case GroupValue::chunk: return read_bytes(1, bytes) && read_bytes(static_cast<unsigned char>(bytes[0]), group.text);
     case GroupValue::real:
-      if (!take(8, bytes)) return false;
+      if (!read_bytes(8, bytes)) return false;
       group.number = number_in<double>(bytes);
       if (std::isfinite(group.number)) return true;
       has_failed_ = true;
       refuse(0, "dxf.bad-number", fmt::format("the value of group {} is not finite", group.code), "");
       return false;
-    case GroupValue::int16: return take(2, bytes) && (group.number = number_in<std::int16_t>(bytes), true);
-    case GroupValue::int32: return take(4, bytes) && (group.number = number_in<std::int32_t>(bytes), true);
-    case GroupValue::int64: return take(8, bytes) && (group.number = number_in<std::int64_t>(bytes), true);
-    case GroupValue::byte: return take(1, bytes) && (group.number = number_in<std::uint8_t>(bytes), true);
+    case GroupValue::int16: return read_bytes(2, bytes) && (group.number = number_in<std::int16_t>(bytes), true);
+    case GroupValue::int32: return read_bytes(4, bytes) && (group.number = number_in<std::int32_t>(bytes), true);
+    case GroupValue::int64: return read_bytes(8, bytes) && (group.number = number_in<std::int64_t>(bytes), true);
+    case GroupValue::byte: return read_bytes(1, bytes) && (group.number = number_in<std::uint8_t>(bytes), true);
   }
   return false;
 }

@@ -34,7 +34,7 @@ class DxfGroups {
   bool next_of_text(DxfGroup& group);
   bool next_binary(DxfGroup& group);
   bool read_binary_value(DxfGroup& group);
-  bool take(std::size_t bytes, std::string_view& taken);
+  bool read_bytes(std::size_t bytes, std::string_view& taken);
   bool is_cut_off();
 
   std::string file_;

@@ -34,15 +34,15 @@ class EdgeGrid {
 
   const Edge& edge(std::uint32_t index) const { return edges_[index]; }
 
-  // Calls `take(edge index)` for all edges within `reach` of the box of the points, some of them more than once.
-  template <class Take>
-  void for_near(DrawnPoint a, DrawnPoint b, double reach, const Take& take) const {
+  // Calls `visit(edge index)` for all edges within `reach` of the box of the points, some of them more than once.
+  template <class Visit>
+  void for_near(DrawnPoint a, DrawnPoint b, double reach, const Visit& visit) const {
     const Cells cells =
         cells_of({{std::min(a.x, b.x), std::min(a.y, b.y)}, {std::max(a.x, b.x), std::max(a.y, b.y)}}, reach);
     for (std::int64_t row = cells.low_row; row <= cells.high_row; ++row) {
       for (std::int64_t column = cells.low_column; column <= cells.high_column; ++column) {
         const auto cell = static_cast<std::size_t>(row * columns_ + column);
-        for (std::uint32_t i = starts_[cell]; i < starts_[cell + 1]; ++i) take(entries_[i]);
+        for (std::uint32_t i = starts_[cell]; i < starts_[cell + 1]; ++i) visit(entries_[i]);
       }
     }
   }
@@ -62,8 +62,8 @@ class EdgeGrid {
     std::int64_t high_row;
   };
   Cells cells_of(const DrawnBox& box, double reach) const;
-  template <class Take>
-  void for_cells(const Edge& edge, const Take& take) const;
+  template <class Visit>
+  void for_cells(const Edge& edge, const Visit& visit) const;
 
   DrawnBox box_;
   double cell_;

@@ -48,7 +48,7 @@ std::optional<double> plain_number(std::string_view text) {
 
 ExcellonNumbers::ExcellonNumbers(std::string_view text, const ExcellonOptions& options, std::vector<std::string>& notes)
     : known_(options) {
-  guess(look_through(text), notes);
+  guess(scan_evidence(text), notes);
 }
 
 bool ExcellonNumbers::read_units(std::string_view line) {
@@ -74,7 +74,7 @@ bool ExcellonNumbers::read_units(std::string_view line) {
   return true;
 }
 
-void ExcellonNumbers::look_at_coordinates(std::string_view line, Evidence& evidence) {
+void ExcellonNumbers::scan_coordinates(std::string_view line, Evidence& evidence) {
   for (std::size_t at = line.find_first_of("XY"); at != std::string_view::npos; at = line.find_first_of("XY", at)) {
     std::size_t begin = ++at;
     if (begin < line.size() && (line[begin] == '-' || line[begin] == '+')) ++begin;
@@ -108,7 +108,7 @@ void ExcellonNumbers::read_comment(std::string_view comment, Evidence& evidence)
   evidence.says_zeros = evidence.says_zeros || says("zeros");
 }
 
-ExcellonNumbers::Evidence ExcellonNumbers::look_through(std::string_view text) {
+ExcellonNumbers::Evidence ExcellonNumbers::scan_evidence(std::string_view text) {
   Evidence evidence;
   TextLines lines(text);
   for (std::string_view line; lines.next(line);) {
@@ -130,7 +130,7 @@ ExcellonNumbers::Evidence ExcellonNumbers::look_through(std::string_view text) {
       while (end < line.size() && (is_digit(line[end]) || line[end] == '.')) ++end;
       evidence.largest_tool = std::max(evidence.largest_tool, plain_number(line.substr(c, end - c)).value_or(0));
     } else {
-      look_at_coordinates(line, evidence);
+      scan_coordinates(line, evidence);
     }
   }
   return evidence;

@@ -36,8 +36,8 @@ class ExcellonNumbers {
     double largest_tool = 0;      // diameter in the file's unit
     std::size_t most_digits = 0;  // in one coordinate
   };
-  Evidence look_through(std::string_view text);
-  static void look_at_coordinates(std::string_view line, Evidence& evidence);
+  Evidence scan_evidence(std::string_view text);
+  static void scan_coordinates(std::string_view line, Evidence& evidence);
   // A format that is stated in a comment: ";FORMAT={2:4/ absolute / inch / suppress leading zeros}".
   void read_comment(std::string_view comment, Evidence& evidence);
   void guess(const Evidence& evidence, std::vector<std::string>& notes);

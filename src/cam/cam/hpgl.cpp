@@ -176,7 +176,7 @@ void HpglPlotter::reset() {
   corners_ = usual_corners;
   scaling_.clear();
   find_scaling();
-  pen_.turn_sheet(0);
+  pen_.rotate_sheet(0);
   pen_.set_dashes({});
   is_down_ = false;
   is_relative_ = false;
@@ -234,7 +234,7 @@ void HpglPlotter::scale(const Numbers& n) {
 }
 
 void HpglPlotter::turn(const Numbers& n) {
-  pen_.turn_sheet(n.empty() ? 0 : static_cast<int>(std::clamp(n[0], 0.0, 270.0)) / 90);
+  pen_.rotate_sheet(n.empty() ? 0 : static_cast<int>(std::clamp(n[0], 0.0, 270.0)) / 90);
 }
 
 void HpglPlotter::line_type(const Numbers& n) {

@@ -238,7 +238,7 @@ void HpglPlotter::packed_line() {
       const std::optional<double> value = packed_number(is_base_32, 1);
       if (!value) return wrong();
       if (*next == ':') {
-        pen_.take_pen(static_cast<std::uint32_t>(std::clamp(*value, 0.0, 255.0)));
+        pen_.select_pen(static_cast<std::uint32_t>(std::clamp(*value, 0.0, 255.0)));
       } else {
         unit = std::pow(2.0, -std::clamp(*value, -26.0, 26.0));
       }

@@ -19,11 +19,11 @@ HpglPen::HpglPen(const std::string& file, const HpglOptions& options, Diagnostic
       builder_(file, diagnostics),
       unit_mm_(plotter_unit_mm * options.scale),
       tolerance_(options.tolerance.value() / unit_mm_) {
-  turn_sheet(0);
-  take_pen(1);
+  rotate_sheet(0);
+  select_pen(1);
 }
 
-void HpglPen::take_pen(std::uint32_t number) {
+void HpglPen::select_pen(std::uint32_t number) {
   end_path();
   has_pen_ = number > 0;
   if (!has_pen_) return;
@@ -32,7 +32,7 @@ void HpglPen::take_pen(std::uint32_t number) {
   is_chosen_ = options_.layers.empty() || std::ranges::find(options_.layers, name) != options_.layers.end();
 }
 
-void HpglPen::turn_sheet(int quarters) {
+void HpglPen::rotate_sheet(int quarters) {
   end_path();
   constexpr std::array<double, 4> cosines = {1, 0, -1, 0};
   const double c = cosines.at(static_cast<std::size_t>(quarters) % 4) * unit_mm_;

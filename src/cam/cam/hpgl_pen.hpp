@@ -24,9 +24,9 @@ class HpglPen {
   HpglPen(const std::string& file, const HpglOptions& options, Diagnostics& diagnostics);
 
   // 0: no pen; then nothing is drawn.
-  void take_pen(std::uint32_t number);
+  void select_pen(std::uint32_t number);
   // How the sheet is turned, counterclockwise about 0, in quarters.
-  void turn_sheet(int quarters);
+  void rotate_sheet(int quarters);
   // Lengths of lines and gaps in turn; empty: solid.
   void set_dashes(std::vector<double> lengths);
   // Of the file: where the command stands that draws.

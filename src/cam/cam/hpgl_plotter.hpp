@@ -65,7 +65,7 @@ class HpglPlotter {
   void absolute(const Numbers& n) { is_relative_ = false, go_along(n); }
   void relative(const Numbers& n) { is_relative_ = true, go_along(n); }
   void select_pen(const Numbers& n) {
-    pen_.take_pen(static_cast<std::uint32_t>(n.empty() ? 0 : std::clamp(n[0], 0.0, 255.0)));
+    pen_.select_pen(static_cast<std::uint32_t>(n.empty() ? 0 : std::clamp(n[0], 0.0, 255.0)));
   }
   void arc_absolute(const Numbers& n) { arc_about(user(n[0], n[1]), n[2]); }
   void arc_relative(const Numbers& n) { arc_about(target(n[0], n[1], true), n[2]); }

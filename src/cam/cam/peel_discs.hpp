@@ -26,9 +26,9 @@ class PeelDiscs {
     all_.push_back(disc);
   }
 
-  // Calls take(disc) for all discs that come within `reach` of the place, and some more.
-  template <class Take>
-  void for_near(double x, double y, double reach, const Take& take) const {
+  // Calls visit(disc) for all discs that come within `reach` of the place, and some more.
+  template <class Visit>
+  void for_near(double x, double y, double reach, const Visit& visit) const {
     for (const auto& entry_of_class : classes_) {
       const Class& sizes = entry_of_class.second;
       const double far = reach + sizes.side;
@@ -38,13 +38,13 @@ class PeelDiscs {
       const std::int64_t high = cell(y + far, sizes.side);
       if (static_cast<double>(right - left + 1) * static_cast<double>(high - low + 1) >
           static_cast<double>(sizes.cells.size())) {
-        for (const auto& entry : sizes.cells) take_all(entry.second, take);
+        for (const auto& entry : sizes.cells) visit_all(entry.second, visit);
         continue;
       }
       for (std::int64_t row = low; row <= high; ++row) {
         for (std::int64_t column = left; column <= right; ++column) {
           const auto found = sizes.cells.find(key(column, row));
-          if (found != sizes.cells.end()) take_all(found->second, take);
+          if (found != sizes.cells.end()) visit_all(found->second, visit);
         }
       }
     }
@@ -65,9 +65,9 @@ class PeelDiscs {
   };
   static std::int64_t cell(double place, double side) { return static_cast<std::int64_t>(std::floor(place / side)); }
   static std::int64_t key(std::int64_t column, std::int64_t row) { return column * 0x1'0000'0000 + row; }
-  template <class Take>
-  void take_all(const std::vector<std::size_t>& indices, const Take& take) const {
-    for (const std::size_t i : indices) take(all_[i]);
+  template <class Visit>
+  void visit_all(const std::vector<std::size_t>& indices, const Visit& visit) const {
+    for (const std::size_t i : indices) visit(all_[i]);
   }
 
   std::vector<PeelDisc> all_;

@@ -84,7 +84,7 @@ class Tour {
   void swap_pieces(Node p, Node a_first, Node a_last, Node b_first, Node b_last, Node q);
   void exchange(Node a, Node b, Node c, Node d);
   void reverse(std::size_t i, std::size_t j);
-  void take_back(std::size_t changes);
+  void roll_back(std::size_t changes);
   void queue(std::initializer_list<Node> nodes) {
     for (const Node node : nodes) {
       if (is_queued_[node]) continue;
@@ -152,7 +152,7 @@ void Tour::reverse(std::size_t i, std::size_t j) {
   }
 }
 
-void Tour::take_back(std::size_t changes) {
+void Tour::roll_back(std::size_t changes) {
   while (reversals_.size() > changes) {
     const auto [i, j] = reversals_.back();
     reversals_.pop_back();
@@ -274,7 +274,7 @@ void Tour::improve_by_chance() {
     const Node b_last = after(b_first, random.below(most));
     swap_pieces(p, a_first, a_last, b_first, b_last, next(b_last));
     improve_queued();
-    if (change_ > -least_gain) take_back(0);
+    if (change_ > -least_gain) roll_back(0);
   }
 }
 

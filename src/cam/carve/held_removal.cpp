@@ -13,7 +13,7 @@ void HeldRemoval::set(const HeldFeed& feed, Mm radius) {
   radius_ = radius.value();
 }
 
-void HeldRemoval::take(const CarvedCut& cut) {
+void HeldRemoval::add(const CarvedCut& cut) {
   if (feed_.mm3_a_minute <= 0) {
     stock_->cut(cut, first_number_ - 1);  // nobody asks for what it takes off
     writer_.write(cut, writer_.feed_of(cut));

@@ -26,7 +26,7 @@ class HeldRemoval {
   // `stock` outlives this; told() is its watcher.
   void set_stock(StockInWork* stock) { stock_ = stock; }
   void set(const HeldFeed& feed, Mm radius);
-  void take(const CarvedCut& cut);
+  void add(const CarvedCut& cut);
   void told(std::uint32_t number, double mm3);
   void settle();
   // The most that a piece takes off a minute, at its feed, since the last call.

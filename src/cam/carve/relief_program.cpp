@@ -155,7 +155,7 @@ void ReliefProgram::watch_stock() {
   pass_.set_stock(&*stock_);
   removal_.set_stock(&*stock_);
   writer_.set_taker(
-      {.take = [this](const CarvedCut& cut) { removal_.take(cut); }, .settle = [this] { removal_.settle(); }});
+      {.take = [this](const CarvedCut& cut) { removal_.add(cut); }, .settle = [this] { removal_.settle(); }});
 }
 
 ReliefReport ReliefProgram::write(bool wants_carved) {

@@ -55,7 +55,7 @@ MapFigures figures_of(const HeightMap& map) {
   return figures;
 }
 
-std::string words_of(const HeightMap& map) {
+std::string describe(const HeightMap& map) {
   const MapFigures figures = figures_of(map);
   std::string words =
       fmt::format("{} x {} places, X{:.3f} to {:.3f}, Y{:.3f} to {:.3f}\n", map.columns().size(), map.rows().size(),

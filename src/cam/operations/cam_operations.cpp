@@ -200,28 +200,28 @@ constexpr std::array operations = {
                  .options = options_with_defaults<CamWireArguments>},
 };
 
-std::string words_of(const std::string& value) {
+std::string describe(const std::string& value) {
   return value;
 }
-std::string words_of(const std::vector<std::string>& values) {
+std::string describe(const std::vector<std::string>& values) {
   return fmt::format("{}", fmt::join(values, " "));
 }
-std::string words_of(bool is_set) {
+std::string describe(bool is_set) {
   return is_set ? "true" : "";
 }
 template <class Number>
-std::string words_of(Number number) {
+std::string describe(Number number) {
   return fmt::format("{}", number);
 }
 template <class Number>
-std::string words_of(const std::optional<Number>& number) {
-  return number ? words_of(*number) : "";
+std::string describe(const std::optional<Number>& number) {
+  return number ? describe(*number) : "";
 }
 
 }  // namespace
 
 std::string text_of(const CamOption& option) {
-  return std::visit([](const auto* value) { return words_of(*value); }, option.value);
+  return std::visit([](const auto* value) { return describe(*value); }, option.value);
 }
 
 std::span<const CamOperation> cam_operations() {

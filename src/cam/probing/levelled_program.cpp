@@ -86,7 +86,7 @@ void Leveller::refuse(const FrameBlock& block, std::string code, std::string mes
        .text = block.text});
 }
 
-void Leveller::look_beside(const Operation& operation, const Point& end) {
+void Leveller::check_lead(const Operation& operation, const Point& end) {
   const double beside = map_.distance_beside(end[Axis::x], end[Axis::y]);
   if (beside <= wish_.beside) return;
   refuse(operation, "level.beside",
@@ -145,17 +145,17 @@ LevelledMove Leveller::move_to(const Operation& operation, const Point& end, boo
   return move;
 }
 
-void Leveller::take_straight(const Operation& operation, const Point& end, bool rapid) {
+void Leveller::handle_straight(const Operation& operation, const Point& end, bool rapid) {
   const LevelledMove move = move_to(operation, end, rapid);
   if (is_same_place(move.from, move.to) && !move.is_new_place) return;
-  if (!rapid && move.levelled) look_beside(operation, end);
+  if (!rapid && move.levelled) check_lead(operation, end);
   add({.line = {}, .move = move, .is_move = true});
 }
 
-void Leveller::take_arc(const Operation& operation, const operation::ArcFeed& arc) {
-  if (arc.plane != Plane::xy) return take_upright_arc(operation, arc);
+void Leveller::handle_arc(const Operation& operation, const operation::ArcFeed& arc) {
+  if (arc.plane != Plane::xy) return handle_upright_arc(operation, arc);
   LevelledMove move = move_to(operation, arc.end, false);
-  if (move.levelled) look_beside(operation, arc.end);
+  if (move.levelled) check_lead(operation, arc.end);
   if (move.from_above && std::abs(arc.turns) > 1) {
     refuse(operation, "level.height", "a helix of several turns begins at a height that the program has not given",
            "a move to a Z before");
@@ -169,7 +169,7 @@ void Leveller::take_arc(const Operation& operation, const operation::ArcFeed& ar
 }
 
 // On a surface that is not flat, an arc of the planes ZX and YZ is no arc any more: it becomes chords.
-void Leveller::take_upright_arc(const Operation& operation, const operation::ArcFeed& arc) {
+void Leveller::handle_upright_arc(const Operation& operation, const operation::ArcFeed& arc) {
   const Axis first = arc.plane == Plane::zx ? Axis::z : Axis::y;
   const Axis second = arc.plane == Plane::zx ? Axis::x : Axis::z;
   const Point from = place_;
@@ -187,19 +187,19 @@ void Leveller::take_upright_arc(const Operation& operation, const operation::Arc
     Point end = from + (arc.end - from) * part;
     end[first] = a + radius * std::cos(start + sweep * part);
     end[second] = b + radius * std::sin(start + sweep * part);
-    take_straight(operation, i == chords ? arc.end : end, false);
+    handle_straight(operation, i == chords ? arc.end : end, false);
   }
 }
 
-void Leveller::take_move(const Operation& operation) {
+void Leveller::handle_move(const Operation& operation) {
   const auto* rapid = std::get_if<operation::StraightTraverse>(&operation.what);
   const auto* feed = std::get_if<operation::StraightFeed>(&operation.what);
-  if (rapid == nullptr && feed == nullptr) return take_arc(operation, std::get<operation::ArcFeed>(operation.what));
+  if (rapid == nullptr && feed == nullptr) return handle_arc(operation, std::get<operation::ArcFeed>(operation.what));
   const Point& end = rapid != nullptr ? rapid->end : feed->end;
   const std::string& code = blocks_.last().place.name;
-  if (code == "G53") return take_machine_move(end, rapid != nullptr);
-  if ((code == "G28" || code == "G30") && take_home(end)) return;
-  take_straight(operation, end, rapid != nullptr);
+  if (code == "G53") return handle_machine_move(end, rapid != nullptr);
+  if ((code == "G28" || code == "G30") && handle_home(end)) return;
+  handle_straight(operation, end, rapid != nullptr);
 }
 
 // The end of a program switches off what the program has switched off, and M9 stands for two operations.
@@ -211,9 +211,9 @@ bool Leveller::is_off_already(std::string_view line) {
   return false;
 }
 
-bool Leveller::take(const Operation& operation) {
+bool Leveller::handle(const Operation& operation) {
   if (cycle_.block != blocks_.last().number) end_cycle();
-  for (const FrameBlock& block : blocks_.take()) take_block(block);
+  for (const FrameBlock& block : blocks_.take_executed()) read_block(block);
   if (std::holds_alternative<operation::Reset>(operation.what) && !is_reset_) {
     is_reset_ = true;
     add_line("G17 G21 G40 G80 G90 G94");
@@ -222,7 +222,7 @@ bool Leveller::take(const Operation& operation) {
   if (keeps_cycle(operation)) return true;
   if (follow_frame(operation)) return true;
   if (is_any_of<operation::StraightTraverse, operation::StraightFeed, operation::ArcFeed>(operation)) {
-    take_move(operation);
+    handle_move(operation);
   } else if (const auto* rate = std::get_if<operation::SetFeedRate>(&operation.what)) {
     feed_ = rate->rate * 60;
     rotary_feed_ = rate->rotary_rate * 60;
@@ -252,16 +252,16 @@ void Leveller::add(Item item) {
       run_.push_back(std::move(item));
       return;
     }
-    give_run();
-    return give(item);
+    emit_run();
+    return emit(item);
   }
-  if (run_.empty()) return give(item);
+  if (run_.empty()) return emit(item);
   run_.push_back(std::move(item));
 }
 
 // A run that ends where its first feed began, or higher, is a hole. Below that its heights are those of the program. If
 // nobody knows where it began, it is a hole if the tool comes up again.
-void Leveller::give_run(bool rises) {
+void Leveller::emit_run(bool rises) {
   if (run_.empty()) return;
   const auto feed = std::ranges::find_if(run_, [](const Item& item) { return item.is_move && !item.move.rapid; });
   double top = feed != run_.end() ? feed->move.from[Axis::z] : 0;
@@ -275,18 +275,18 @@ void Leveller::give_run(bool rises) {
   if (is_hole) ++count_.holes;
   for (Item& item : run_) {
     if (is_hole && item.move.to[Axis::z] < top - same_height) item.move.levelled = false;
-    give(item);
+    emit(item);
   }
   run_.clear();
 }
 
 void Leveller::finish() {
   end_cycle();
-  give_run();
+  emit_run();
 }
 
-void Leveller::give(const Item& item) {
-  if (item.is_move) return give_move(item.move);
+void Leveller::emit(const Item& item) {
+  if (item.is_move) return emit_move(item.move);
   code_.line(item.line);
 }
 
@@ -300,12 +300,12 @@ void Leveller::begin_at_height(const LevelledMove& move) {
   ++count_.moves_after;
 }
 
-void Leveller::give_move(const LevelledMove& move) {
+void Leveller::emit_move(const LevelledMove& move) {
   PlainMove plain{
       .rapid = move.rapid, .feed = move.feed, .named = move.named, .absolute = move.absolute, .to = move.to};
   const LevelPlace from = level_place(move.from);
   const LevelPlace to = level_place(move.to);
-  if (move.is_arc && !move.levelled) return give_arc_piece(move, 0, {.end = to});
+  if (move.is_arc && !move.levelled) return emit_arc_piece(move, 0, {.end = to});
   const bool is_whole = (move.from_anywhere || move.from_above) && !move.is_arc;
   if (!move.levelled || is_whole || move.is_upright()) {
     plain.to[Axis::z] = move.levelled ? to.z + map_.height(to.x, to.y) : to.z;
@@ -321,7 +321,7 @@ void Leveller::give_move(const LevelledMove& move) {
   double part = 0;
   for (const LevelledPiece& piece : pieces) {
     if (move.is_arc) {
-      give_arc_piece(move, part, piece);
+      emit_arc_piece(move, part, piece);
     } else {
       plain.to = move.from + (move.to - move.from) * piece.part;
       if (piece.part == 1) plain.to = move.to;
@@ -334,7 +334,7 @@ void Leveller::give_move(const LevelledMove& move) {
 }
 
 // Whole turns are written one by one.
-void Leveller::give_arc_piece(const LevelledMove& move, double from_part, const LevelledPiece& piece) {
+void Leveller::emit_arc_piece(const LevelledMove& move, double from_part, const LevelledPiece& piece) {
   const double sweep = move.sweep * (piece.part - from_part);
   const int turns = std::max(1, static_cast<int>(std::ceil(std::abs(sweep) / turn - 1e-9)));
   const double start_radius = std::hypot(move.from[Axis::x] - move.center_x, move.from[Axis::y] - move.center_y);
@@ -368,7 +368,7 @@ LevelCount write_levelled_program(ProgramReader program, const InterpreterOption
   Leveller leveller(interpreter, options, file, map, wish, diagnostics, write);
   Operation operation;
   while (!diagnostics.full() && interpreter.next(operation)) {
-    if (!leveller.take(operation)) break;
+    if (!leveller.handle(operation)) break;
   }
   leveller.finish();
   return leveller.count();

@@ -54,7 +54,7 @@ class Leveller {
            const LevelOptions& wish, Diagnostics& diagnostics, const std::function<void(std::string_view)>& write);
 
   // False: the program ends here.
-  bool take(const Operation& operation);
+  bool handle(const Operation& operation);
   void finish();
   const LevelCount& count() const { return count_; }
 
@@ -74,20 +74,20 @@ class Leveller {
     LevelHeight began_at = LevelHeight::of_machine;
   };
 
-  void take_move(const Operation& operation);
-  void take_straight(const Operation& operation, const Point& end, bool rapid);
-  void take_arc(const Operation& operation, const operation::ArcFeed& arc);
-  void take_upright_arc(const Operation& operation, const operation::ArcFeed& arc);
-  void take_machine_move(const Point& end, bool rapid);
-  bool take_home(const Point& end);
+  void handle_move(const Operation& operation);
+  void handle_straight(const Operation& operation, const Point& end, bool rapid);
+  void handle_arc(const Operation& operation, const operation::ArcFeed& arc);
+  void handle_upright_arc(const Operation& operation, const operation::ArcFeed& arc);
+  void handle_machine_move(const Point& end, bool rapid);
+  bool handle_home(const Point& end);
   LevelledMove move_to(const Operation& operation, const Point& end, bool rapid);
   double feed_of(const Point& end) const;
-  void look_beside(const Operation& operation, const Point& end);
+  void check_lead(const Operation& operation, const Point& end);
 
   // Frames, and places of the machine.
-  void take_block(const FrameBlock& block);
-  void take_system(const FrameBlock& block);
-  void take_tool_entry(const FrameBlock& block);
+  void read_block(const FrameBlock& block);
+  void read_system(const FrameBlock& block);
+  void read_tool_entry(const FrameBlock& block);
   void store_home(const FrameBlock& block);
   bool follow_frame(const Operation& operation);
   bool is_off_already(std::string_view line);
@@ -97,7 +97,7 @@ class Leveller {
   void lose(AxisSet axes);
 
   bool keeps_cycle(const Operation& operation);
-  void take_cycle_words(const FrameBlock& block);
+  void read_cycle_words(const FrameBlock& block);
   void end_cycle();
 
   void report(const Operation& operation, Severity severity, std::string code, std::string message,
@@ -110,11 +110,11 @@ class Leveller {
   void add(Item item);
   void add_line(std::string line) { add({.line = std::move(line), .move = {}}); }
   // `rises`: a machine's retract ends the run.
-  void give_run(bool rises = false);
-  void give(const Item& item);
-  void give_move(const LevelledMove& move);
+  void emit_run(bool rises = false);
+  void emit(const Item& item);
+  void emit_move(const LevelledMove& move);
   void begin_at_height(const LevelledMove& move);
-  void give_arc_piece(const LevelledMove& move, double from_part, const LevelledPiece& piece);
+  void emit_arc_piece(const LevelledMove& move, double from_part, const LevelledPiece& piece);
 
   FrameBlocks blocks_;
   const HeightMap& map_;

@@ -40,7 +40,7 @@ bool Leveller::keeps_cycle(const Operation& operation) {
     return false;
   }
   if (std::exchange(cycle_.block, block.number) != block.number) {
-    take_cycle_words(block);
+    read_cycle_words(block);
     const bool is_known = at_ == LevelHeight::known;
     if (block.incremental || (is_known && !(cycle_.is_kept && block.to_start))) return false;
     if (!is_drilling(block.cycle) || is_known) {
@@ -48,14 +48,14 @@ bool Leveller::keeps_cycle(const Operation& operation) {
              fmt::format("{} begins at a height that the program has not given", block.cycle),
              "a move to a Z before the cycle");
     }
-    give_run();
+    emit_run();
     if (!std::exchange(cycle_.is_kept, true)) cycle_.began_at = at_;
     cycle_.is_open = true;
     cycle_block_ = block;
   }
   if (!cycle_.is_open) return false;
   if (end != nullptr) {
-    if (std::holds_alternative<operation::StraightFeed>(operation.what)) look_beside(operation, *end);
+    if (std::holds_alternative<operation::StraightFeed>(operation.what)) check_lead(operation, *end);
     height_ += (*end)[Axis::z] - place_[Axis::z];
     place_ = *end;
     ++count_.moves_before;
@@ -65,7 +65,7 @@ bool Leveller::keeps_cycle(const Operation& operation) {
 }
 
 // D counts in its own block alone.
-void Leveller::take_cycle_words(const FrameBlock& block) {
+void Leveller::read_cycle_words(const FrameBlock& block) {
   for (const char letter : {'Z', 'R', 'P', 'Q', 'D'}) {
     const bool is_given = block.has(letter);
     if (!is_given && letter != 'D') continue;

@@ -30,20 +30,20 @@ std::string axis_words_of(const FrameBlock& block, double more_z = 0) {
 }  // namespace
 
 // What no operation says.
-void Leveller::take_block(const FrameBlock& block) {
+void Leveller::read_block(const FrameBlock& block) {
   if (!is_reset_) return;
-  if (!block.system.empty()) take_system(block);
+  if (!block.system.empty()) read_system(block);
   const std::string& code = block.place.name;
   if (code == "G28.1" || code == "G30.1") return store_home(block);
-  if (code == "G10") return take_tool_entry(block);
+  if (code == "G10") return read_tool_entry(block);
   if (code == "G52" || code == "G92") {
     refuse(block, "level.offset", fmt::format("{} changes the zero of the work itself", code),
            "offsets that are set before the program (G54 and others)");
   }
 }
 
-void Leveller::take_system(const FrameBlock& block) {
-  give_run();
+void Leveller::read_system(const FrameBlock& block) {
+  emit_run();
   add_line(block.system.name);
   // The interpreter has the number already; where it stays, no operation follows.
   const int before = std::exchange(system_, system_of_code(block.system.name));
@@ -51,13 +51,13 @@ void Leveller::take_system(const FrameBlock& block) {
 }
 
 // G10 L1, L10 and L11 set a tool, L2 and L20 the zero of the work.
-void Leveller::take_tool_entry(const FrameBlock& block) {
+void Leveller::read_tool_entry(const FrameBlock& block) {
   const auto kind = static_cast<int>(std::lround(block.value('L')));
   if (kind != 0 && kind != 1 && kind != 10 && kind != 11) {
     return refuse(block, "level.offset", fmt::format("G10 L{} changes the zero of the work itself", kind),
                   "offsets that are set before the program (G54 and others)");
   }
-  give_run();
+  emit_run();
   std::string line = fmt::format("G10 L{}", kind);
   for (const char letter : {'P', 'R', 'I', 'J', 'Q'}) {
     if (!block.has(letter) || kind == 0) continue;
@@ -71,7 +71,7 @@ void Leveller::take_tool_entry(const FrameBlock& block) {
 
 // The machine keeps where it stands: higher than the program would stand by the height of the surface.
 void Leveller::store_home(const FrameBlock& block) {
-  give_run();
+  emit_run();
   add_line(block.place.name);
   const double higher = (height_ - place_[Axis::z]) / machine_unit_;
   if (std::abs(higher) < 1e-6) return;
@@ -84,7 +84,7 @@ bool Leveller::follow_frame(const Operation& operation) {
   const Frame before = frame_;
   if (!frame_.follow(operation)) return false;
   if (is_reset_) write_frame(operation, before);
-  give_run();
+  emit_run();
   const Point after = frame_.work_from_machine(before.machine_from_work(place_));
   height_ += after[Axis::z] - place_[Axis::z];
   place_ = after;
@@ -101,7 +101,7 @@ void Leveller::write_frame(const Operation& operation, const Frame& before) {
     if (frame_.work_system() == system_) return;                  // written with its block
     if (block.value('M') == 2 || block.value('M') == 30) return;  // the end of the program, here and there
     system_ = frame_.work_system();
-    give_run();
+    emit_run();
     add_line(code_of_system(system_));  // M72
     return lose(every_axis);
   }
@@ -113,7 +113,7 @@ void Leveller::write_frame(const Operation& operation, const Frame& before) {
                     fmt::format("{} changes the zero of the work after moves on the surface", block.place.name),
                     "offsets that are set before the program (G54 and others)");
     }
-    give_run();
+    emit_run();
     add_line(block.place.name);
     if (!wish_.knows_offsets) lose(every_axis);
   }
@@ -134,7 +134,7 @@ void Leveller::write_tool_offset() {
   } else if (block.has('H')) {
     line += fmt::format(" H{}", std::lround(block.value('H')));
   }
-  give_run();
+  emit_run();
   add_line(std::move(line));
   const bool was_known = std::exchange(has_tool_offset_, true) || wish_.knows_offsets;
   if (!was_known || !has_tools_) lose(only(Axis::z));
@@ -148,23 +148,23 @@ void Leveller::lose(AxisSet axes) {
   code_.forget(axes);
 }
 
-void Leveller::take_machine_move(const Point& end, bool rapid) {
+void Leveller::handle_machine_move(const Point& end, bool rapid) {
   const FrameBlock& block = blocks_.last();
   if (block.named.empty()) return;
-  give_run(block.named.has(Axis::z));
+  emit_run(block.named.has(Axis::z));
   code_.machine_move(rapid, feed_of(end), block.named, frame_.machine_from_work(end));
   stand_in_machine(end, block.named);
 }
 
 // G28 and G30 go to a place of the work first. False: this is that move, and it goes somewhere.
-bool Leveller::take_home(const Point& end) {
+bool Leveller::handle_home(const Point& end) {
   const FrameBlock& block = blocks_.last();
   if (std::exchange(homing_, block.number) != block.number) {
     const bool is_known = (block.named.bits() & ~known_.bits()) == 0;
     return is_same_place(end, place_) && (block.incremental || is_known);
   }
   const AxisSet axes = block.named.empty() ? every_axis : block.named;
-  give_run(axes.has(Axis::z));
+  emit_run(axes.has(Axis::z));
   code_.home(block.place.name, block.named);
   stand_in_machine(end, axes);
   return true;

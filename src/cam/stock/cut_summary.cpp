@@ -55,14 +55,14 @@ void CutSummary::find_troubles(const MoveCut& cut) {
   const ToolShape& tool = tools_[cut.move.tool];
   const bool is_deep = cut.depth > least_depth;
   const double over_flutes = tool.flute_length > Mm(0) ? cut.depth - tool.flute_length.value() : 0;
-  note(CutTrouble::Kind::rapid, cut, cut.move.rapid && is_deep ? cut.depth : 0, cut.place);
-  note(CutTrouble::Kind::flutes, cut, over_flutes, cut.place);
-  note(CutTrouble::Kind::holder, cut, cut.holder, cut.holder_place);
-  note(CutTrouble::Kind::clamp, cut, cut.clamp, cut.clamp_place);
-  note(CutTrouble::Kind::below, cut, cut.below, cut.place);
+  record(CutTrouble::Kind::rapid, cut, cut.move.rapid && is_deep ? cut.depth : 0, cut.place);
+  record(CutTrouble::Kind::flutes, cut, over_flutes, cut.place);
+  record(CutTrouble::Kind::holder, cut, cut.holder, cut.holder_place);
+  record(CutTrouble::Kind::clamp, cut, cut.clamp, cut.clamp_place);
+  record(CutTrouble::Kind::below, cut, cut.below, cut.place);
 }
 
-void CutSummary::note(CutTrouble::Kind kind, const MoveCut& cut, double depth, const Vector3& place) {
+void CutSummary::record(CutTrouble::Kind kind, const MoveCut& cut, double depth, const Vector3& place) {
   const auto index = static_cast<std::size_t>(kind);
   Going& going = going_[index];
   if (!(depth > least_depth)) {

@@ -68,9 +68,9 @@ class StlReader {
   bool read_facet();
   // The next word. Empty: the text is at its end.
   std::string_view next();
-  bool take(std::string_view word);
+  bool read_word(std::string_view word);
   void skip_line() { at_ = std::min(bytes_.find('\n', at_), bytes_.size()); }
-  bool take_point(SurfacePoint& point);
+  bool read_point(SurfacePoint& point);
 
   const std::string& name_;
   std::string_view bytes_;
@@ -135,11 +135,11 @@ bool StlReader::refuse_word(std::string expected) {
   return false;
 }
 
-bool StlReader::take(std::string_view word) {
+bool StlReader::read_word(std::string_view word) {
   return is_word(next(), word) || refuse_word(fmt::format("'{}'", word));
 }
 
-bool StlReader::take_point(SurfacePoint& point) {
+bool StlReader::read_point(SurfacePoint& point) {
   for (double* value : {&point.x, &point.y, &point.z}) {
     std::string_view word = next();
     if (word.starts_with('+')) word.remove_prefix(1);
@@ -151,16 +151,16 @@ bool StlReader::take_point(SurfacePoint& point) {
 
 bool StlReader::read_facet() {
   SurfacePoint normal{};
-  if (!take("normal") || !take_point(normal) || !take("outer") || !take("loop")) return false;
+  if (!read_word("normal") || !read_point(normal) || !read_word("outer") || !read_word("loop")) return false;
   SurfaceTriangle triangle{};
   for (SurfacePoint& corner : triangle) {
-    if (!take("vertex") || !take_point(corner)) return false;
+    if (!read_word("vertex") || !read_point(corner)) return false;
   }
-  return take("endloop") && take("endfacet") && add(triangle);
+  return read_word("endloop") && read_word("endfacet") && add(triangle);
 }
 
 bool StlReader::read_text() {
-  if (!take("solid")) return false;
+  if (!read_word("solid")) return false;
   skip_line();  // a name of any words
   for (std::string_view word = next(); !word.empty(); word = next()) {
     if (is_word(word, "facet")) {

@@ -35,13 +35,13 @@ SimulatedPath::SimulatedPath(ProgramReader program, const InterpreterOptions& op
       interpreter_(std::move(program), options, diagnostics),
       builder_(interpreter_, path_options_, diagnostics),
       watched_(builder_) {
-  watched_.watch([this](const PathItem& item) { note_zeros(item); });
+  watched_.watch([this](const PathItem& item) { record_zeros(item); });
   if (machine == nullptr) return;
   limits_ = motion_limits(*machine);
   smoother_ = std::make_unique<PathSmoother>(watched_, smoothness(*machine));
 }
 
-void SimulatedPath::note_zeros(const PathItem& item) {
+void SimulatedPath::record_zeros(const PathItem& item) {
   const auto* const segment = std::get_if<Segment>(&item);
   if (segment == nullptr) return;
   const Point& tool = builder_.frame().tool_offset();

@@ -14,7 +14,7 @@ struct TroubleWords {
   Severity severity = Severity::error;
 };
 
-TroubleWords words_of(CutTrouble::Kind kind) {
+TroubleWords describe(CutTrouble::Kind kind) {
   switch (kind) {
     case CutTrouble::Kind::rapid:
       return {"simulate.rapid", "the rapid goes {1} deep through the stock with T{0}", "a way above the stock, or G1"};
@@ -51,7 +51,7 @@ void add_findings(const Simulation& simulation, Diagnostics& findings) {
                   .text = {}});
   };
   for (const CutTrouble& trouble : simulation.summary.troubles()) {
-    const TroubleWords words = words_of(trouble.kind);
+    const TroubleWords words = describe(trouble.kind);
     const std::string message =
         fmt::format(fmt::runtime(words.message), simulation.numbers[trouble.tool], mm_in_words(trouble.depth));
     add(words.severity, words.code, trouble.line, message + ", at " + place_in_words(trouble.place), words.expected);

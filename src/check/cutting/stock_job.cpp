@@ -56,8 +56,8 @@ std::map<std::int32_t, std::size_t> FeedLook::places() const {
   return places;
 }
 
-FeedLook look_at_feeds(const StockJob& job, const StockWishes& wishes, Diagnostics& findings,
-                       const std::function<void()>& after_move) {
+FeedLook survey_feeds(const StockJob& job, const StockWishes& wishes, Diagnostics& findings,
+                      const std::function<void()>& after_move) {
   FeedLook pass;
   SimulatedPath path(job.program.again(), job.options, job.machine, findings);
   TipMove move;

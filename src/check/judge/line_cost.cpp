@@ -59,7 +59,7 @@ Result<LineCost, std::string> line_cost(ProgramReader program, const MachineDesc
                           .greeting = greeting,
                           .start = {.place = Point(), .trust = Trust::commanded}});
   session.greet(greeting);
-  while (session.state() == MachineState::offline) session.turn(endless);
+  while (session.state() == MachineState::offline) session.poll(endless);
   if (session.state() != MachineState::idle && session.state() != MachineState::door) {
     return Failure{session.trouble_words()};
   }
@@ -72,7 +72,7 @@ Result<LineCost, std::string> line_cost(ProgramReader program, const MachineDesc
                                                      .findings = &unheard});
   if (!ticket) return Failure{std::string()};
   for (unsigned turns = 1; session.busy(); ++turns) {
-    session.turn(endless);
+    session.poll(endless);
     if (progress && turns % turns_between_looks == 0) progress(session.program()->nominal_time() / check.nominal_time);
   }
   return LineCost{.held_items = machine.board.held_items,

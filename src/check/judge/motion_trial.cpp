@@ -20,7 +20,7 @@ MotionProof prove_motion(ProgramReader program, const MachineDescription& machin
   board.connect(plant);
   board.wire(pin_setup(machine));
   MachineSession session(machine, board, {.start = {.place = options.start, .trust = Trust::commanded}});
-  while (session.state() == MachineState::offline) session.turn(endless);
+  while (session.state() == MachineState::offline) session.poll(endless);
   request::Start start{.program = std::move(program),
                        .options = options,
                        .nominal_time = nominal,
@@ -39,7 +39,7 @@ MotionProof prove_motion(ProgramReader program, const MachineDescription& machin
   start.watchers.items = [&](const BoardItem& item) { prover.watch(item); };
   static_cast<void>(session.request(std::move(start)).has_value());
   for (unsigned turns = 0; session.busy(); ++turns) {
-    session.turn(endless);
+    session.poll(endless);
     if (watchers.progress && turns % turns_between_looks == 0) {
       watchers.progress(session.program()->nominal_time() / nominal);
     }

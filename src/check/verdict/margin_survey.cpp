@@ -169,12 +169,12 @@ void MarginSurvey::watch_motor(const PlannedMove& move, std::size_t motor) {
   const SurveyedMotor& own = motors_[motor];
   Moment from(own, move, looks_[0], cut_);
   MarginSpot worst = spot_at(motor, from);
-  mind_lack(motor, worst);
+  update_lack(motor, worst);
   add_jump(motor, from, worst);
   for (std::size_t i = 1; i < looks_.size(); ++i) {
     const Moment to(own, move, looks_[i], cut_);
     const MarginSpot spot = spot_at(motor, to);
-    mind_lack(motor, spot);
+    update_lack(motor, spot);
     if (is_worse(spot, worst)) worst = spot;
     AxisPiece piece{.duration = to.time - from.time,
                     .from = from.place,
@@ -236,10 +236,10 @@ void MarginSurvey::judge(std::size_t motor, MarginSpot spot, const TrialFinding&
   } else if (spot.want == Want::jump) {
     static_cast<void>(is_lack(motor, spot));
   }
-  note(motor, spot);
+  record(motor, spot);
 }
 
-void MarginSurvey::note(std::size_t motor, const MarginSpot& spot) {
+void MarginSurvey::record(std::size_t motor, const MarginSpot& spot) {
   last_load_ = std::max(last_load_, spot.load());
   if (spot.line != line_) {  // its line has ended
     keep(spot);
@@ -287,7 +287,7 @@ void MarginSurvey::add_jump(std::size_t motor, const Moment& moment, MarginSpot&
 
 // Follows how long the motion itself needs more than there surely is. Within a quarter of its own period a rotor cannot
 // tell an acceleration from a jump of its speed.
-void MarginSurvey::mind_lack(std::size_t motor, const MarginSpot& spot) {
+void MarginSurvey::update_lack(std::size_t motor, const MarginSpot& spot) {
   State& state = states_[motor];
   if (spot.of_motion.value <= spot.there.low.value) {
     state.lacks_since.reset();
@@ -346,7 +346,7 @@ void MarginSurvey::find_safe_speed(MarginSpot& spot) {
 }
 
 // With its cure known, the spot tells what was short.
-void MarginSurvey::tell_lack(MarginSpot& spot) {
+void MarginSurvey::show_lack(MarginSpot& spot) {
   if (!spot.lack) return;
   spot.needed = spot.of_motion = spot.lack->needed;
   spot.of_cut = spot.lack->of_cut;
@@ -364,7 +364,7 @@ MarginVerdict MarginSurvey::verdict() {
       // One motor here, another there.
       if (trials_[m].usual_lost()) worst->verdict = Verdict::lost;
       find_safe_speed(*worst);
-      tell_lack(*worst);
+      show_lack(*worst);
       whole.verdict = std::max(whole.verdict, worst->verdict);
     }
     whole.axes.push_back({.axis = motors_[m].axis, .worst = worst});
@@ -372,7 +372,7 @@ MarginVerdict MarginSurvey::verdict() {
   whole.worst = worst_;
   for (MarginSpot& spot : whole.worst) {
     find_safe_speed(spot);
-    tell_lack(spot);
+    show_lack(spot);
   }
   return whole;
 }

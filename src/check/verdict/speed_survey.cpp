@@ -163,7 +163,7 @@ SpeedReport SpeedSurvey::report() {
   return report;
 }
 
-std::string words_of(const SpeedBound& bound) {
+std::string describe(const SpeedBound& bound) {
   const char letter = letter_of(bound.axis);
   switch (bound.kind) {
     case SpeedBound::Kind::feed: return "the programmed feed";

@@ -90,7 +90,7 @@ SourcePlace shown_place(const Diagnostic& diagnostic) {
   return place;
 }
 
-void Diagnostic::note_line(std::uint32_t line) {
+void Diagnostic::add_line(std::uint32_t line) {
   if (line == place.line || more_lines.size() >= most_lines) return;
   const auto after = std::ranges::lower_bound(more_lines, line);
   if (after == more_lines.end() || *after != line) more_lines.insert(after, line);
@@ -125,7 +125,7 @@ void Diagnostics::add_certain(Diagnostic diagnostic) {
       return other.severity == Severity::warning && other.code == diagnostic.code && other.file == diagnostic.file &&
              other.message == diagnostic.message;
     });
-    if (again != all_.end()) return again->note_line(diagnostic.place.line);
+    if (again != all_.end()) return again->add_line(diagnostic.place.line);
   }
   if (diagnostic.severity == Severity::error && ++errors_ > limit_) return;
   if (diagnostic.severity == Severity::warning && all_.size() >= 4 * limit_) return;
@@ -133,12 +133,12 @@ void Diagnostics::add_certain(Diagnostic diagnostic) {
   all_.push_back(std::move(diagnostic));
 }
 
-bool Diagnostics::note_again(std::string_view code, std::string_view file, std::uint32_t line) {
+bool Diagnostics::count_repeated(std::string_view code, std::string_view file, std::uint32_t line) {
   const auto found = std::ranges::find_if(all_, [&](const Diagnostic& kept) {
     return kept.severity == Severity::warning && kept.code == code && kept.file == file;
   });
   if (found == all_.end()) return false;
-  found->note_line(line);
+  found->add_line(line);
   return true;
 }
 

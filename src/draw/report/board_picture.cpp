@@ -68,7 +68,7 @@ std::optional<DrawnBox> box_of(const BoardJob& job, const Region& face, const st
   std::optional<DrawnBox> all;
   const auto take = [&](DrawnPoint point) {
     if (!all) all = DrawnBox{point, point};
-    take_into(*all, point);
+    extend(*all, point);
   };
   for (const Side& side : sides) {
     for (const Region* const region : {&side.copper, &side.mask, &side.print}) {

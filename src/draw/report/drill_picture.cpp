@@ -17,7 +17,7 @@ PlanView view_of(const DrillPlan& plan, DrawnPoint park, const Area& area) {
   DrawnBox box{park, park};
   for (const DrillTool& tool : plan.tools) {
     for (const DrillTarget& target : tool.targets) {
-      for (const PathPoint& point : target.points) take_into(box, point.at);
+      for (const PathPoint& point : target.points) extend(box, point.at);
     }
   }
   return {box, area};

@@ -19,14 +19,14 @@ const Pen sheet_pen{.colour = {0.45, 0.33, 0.18}, .width = 1.4};
 
 PlanView view_of(const MillScene& scene, const Area& area) {
   DrawnBox box = bounds(scene.face).value_or(DrawnBox{scene.park, scene.park});
-  take_into(box, scene.park);
+  extend(box, scene.park);
   if (scene.sheet) {
-    take_into(box, scene.sheet->least);
-    take_into(box, scene.sheet->most);
+    extend(box, scene.sheet->least);
+    extend(box, scene.sheet->most);
   }
   for (const MillTool& tool : scene.plan.tools) {
     for (const MillRun& run : tool.runs) {
-      for (const MillPoint& point : run) take_into(box, point.at);
+      for (const MillPoint& point : run) extend(box, point.at);
     }
   }
   return {box, area};

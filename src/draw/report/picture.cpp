@@ -36,7 +36,7 @@ std::string size_text(const PathRecorder& path, bool rapids) {
 }
 
 // What stands below the title.
-std::string words_of(const PathRecorder& path, const Scene& scene, const PictureOptions& options) {
+std::string describe(const PathRecorder& path, const Scene& scene, const PictureOptions& options) {
   std::string line = options.machine.empty() ? "" : options.machine + "   \u00B7   ";
   line += clock_text(path.time()) + "   \u00B7   " + size_text(path, options.rapids);
   if (!path.empty())
@@ -136,7 +136,7 @@ Status<OutputError> draw_picture(const PathRecorder& path, const PictureOptions&
   const double height = options.height;
   const Scene scene(path, options);
   const FlatView view = options.view == FlatView::automatic ? natural_view(path, options.is_lathe) : options.view;
-  begin_sheet(canvas, options, words_of(path, scene, options));
+  begin_sheet(canvas, options, describe(path, scene, options));
   constexpr double upper = 136;
   constexpr double lower = 150;
   const double views = width - 2 * margin;

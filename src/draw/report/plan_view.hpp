@@ -22,7 +22,7 @@ inline const Colour& colour_of_tool(std::size_t tool) {
   return colours[tool % colours.size()];
 }
 
-inline void take_into(DrawnBox& box, DrawnPoint point) {
+inline void extend(DrawnBox& box, DrawnPoint point) {
   box.least = {std::min(box.least.x, point.x), std::min(box.least.y, point.y)};
   box.most = {std::max(box.most.x, point.x), std::max(box.most.y, point.y)};
 }

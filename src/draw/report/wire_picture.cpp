@@ -52,13 +52,13 @@ void draw_face(Canvas& canvas, const PlanView& view, const WireScene& scene, boo
 DrawnBox box_of(const WireScene& scene) {
   DrawnBox box{scene.plan.faces.front().left, scene.plan.faces.front().left};
   if (scene.block) {
-    take_into(box, scene.block->least);
-    take_into(box, scene.block->most);
+    extend(box, scene.block->least);
+    extend(box, scene.block->most);
   }
   for (const std::vector<WirePlace>* way : {&scene.plan.faces, &scene.plan.towers}) {
     for (const WirePlace& at : *way) {
-      take_into(box, at.left);
-      take_into(box, at.right);
+      extend(box, at.left);
+      extend(box, at.right);
     }
   }
   return box;

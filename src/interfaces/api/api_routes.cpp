@@ -33,7 +33,7 @@ constexpr ApiRoute routes[] = {
     {"GET", "/status", "getStatus", anybody, none, &MachineApi::status},
     {"GET", "/stream", "openStream", anybody, none, &MachineApi::stream},
 
-    {"GET", "/cam", "getCam", anybody, none, &CamApi::look, Needs::maker},
+    {"GET", "/cam", "getCam", anybody, none, &CamApi::get, Needs::maker},
     {"POST", "/cam", "beginCam", anybody, json, &CamApi::begin},
     {"POST", "/cam/files", "sendCamFile", anybody, bytes, &CamApi::keep_file, Needs::maker},
     {"DELETE", "/cam/files", "clearCamFiles", anybody, none, &CamApi::clear_files, Needs::maker},
@@ -41,14 +41,14 @@ constexpr ApiRoute routes[] = {
     {"GET", "/cam/page", "getCamPage", anybody, none, &CamApi::page, Needs::maker},
     {"GET", "/cam/picture", "getCamPicture", anybody, none, &CamApi::picture, Needs::maker},
     // As these were called before; for one version.
-    {"GET", "/make", "getMake", anybody, none, &CamApi::look, Needs::maker},
+    {"GET", "/make", "getMake", anybody, none, &CamApi::get, Needs::maker},
     {"POST", "/make", "make", anybody, json, &CamApi::begin},
     {"POST", "/make/files", "sendMakeFile", anybody, bytes, &CamApi::keep_file, Needs::maker},
     {"DELETE", "/make/files", "clearMakeFiles", anybody, none, &CamApi::clear_files, Needs::maker},
     {"GET", "/make/page", "getMadePage", anybody, none, &CamApi::page, Needs::maker},
     {"GET", "/make/picture", "getMadePicture", anybody, none, &CamApi::picture, Needs::maker},
 
-    {"GET", "/interrupted", "getInterrupted", anybody, none, &JobsApi::look_at_interrupted, Needs::history},
+    {"GET", "/interrupted", "getInterrupted", anybody, none, &JobsApi::get_interrupted, Needs::history},
     {"DELETE", "/interrupted", "dropInterrupted", owner, none, &JobsApi::drop_interrupted, Needs::history},
     {"POST", "/interrupted/reenter", "reenterInterrupted", owner, none, &JobsApi::reenter_interrupted, Needs::history},
     {"POST", "/interrupted/resume", "resumeInterrupted", owner, none, &JobsApi::resume_interrupted, Needs::history},
@@ -57,7 +57,7 @@ constexpr ApiRoute routes[] = {
     {"POST", "/jog/renew", "renewJog", owner, none, &MachineApi::order<request::RenewLease>},
 
     {"GET", "/machine", "getMachine", anybody, none, &MachineApi::description},
-    {"GET", "/machine/file", "getMachineFile", anybody, none, &MachineFileApi::look},
+    {"GET", "/machine/file", "getMachineFile", anybody, none, &MachineFileApi::get},
     {"POST", "/machine/file", "writeMachineFile", owner, json, &MachineFileApi::write},
     {"POST", "/machine/file/draft", "draftMachineFile", anybody, json, &MachineFileApi::draft},
 
@@ -66,8 +66,8 @@ constexpr ApiRoute routes[] = {
     {"POST", "/outputs", "switchOutputs", owner, json, &MachineApi::switch_outputs},
     {"POST", "/override", "setOverride", owner, json, &MachineApi::set_overrides},
 
-    {"POST", "/owner", "takeOwnership", anybody, json, &OwnerApi::take},
-    {"DELETE", "/owner", "giveBackOwnership", anybody, none, &OwnerApi::give_back},
+    {"POST", "/owner", "takeOwnership", anybody, json, &OwnerApi::claim},
+    {"DELETE", "/owner", "giveBackOwnership", anybody, none, &OwnerApi::release},
     {"POST", "/owner/renew", "renewOwnership", owner, none, &OwnerApi::renew},
 
     {"POST", "/position", "setPosition", owner, json, &MachineApi::set_position},
@@ -75,7 +75,7 @@ constexpr ApiRoute routes[] = {
 
     {"GET", "/programs", "listPrograms", anybody, none, &ProgramsApi::list},
     {"POST", "/programs", "sendProgram", anybody, program, &ProgramsApi::send},
-    {"GET", "/programs/{id}", "getProgram", anybody, none, &ProgramsApi::look},
+    {"GET", "/programs/{id}", "getProgram", anybody, none, &ProgramsApi::get},
     {"DELETE", "/programs/{id}", "deleteProgram", owner, none, &ProgramsApi::remove},
     {"POST", "/programs/{id}/block-delete", "setBlockDelete", anybody, json, &ProgramsApi::set_block_delete},
     {"POST", "/programs/{id}/check", "checkProgram", anybody, none, &ProgramsApi::check},
@@ -98,16 +98,16 @@ constexpr ApiRoute routes[] = {
     {"POST", "/stop", "stop", anybody, none, &MachineApi::stop},
     {"POST", "/stops", "chooseStops", owner, json, &MachineApi::choose_stops},
 
-    {"GET", "/study", "getStudy", anybody, none, &StudiesApi::look, Needs::studies},
+    {"GET", "/study", "getStudy", anybody, none, &StudiesApi::get, Needs::studies},
     {"POST", "/study", "beginStudy", anybody, json, &StudiesApi::begin},
     {"GET", "/study/loads", "getStudyLoads", anybody, none, &StudiesApi::loads, Needs::studies},
     {"GET", "/study/picture", "getStudyPicture", anybody, none, &StudiesApi::picture, Needs::studies},
 
     {"GET", "/uploads", "listUploads", anybody, none, &ProgramsApi::list_uploads},
     {"POST", "/uploads", "beginUpload", anybody, none, &ProgramsApi::begin_upload},
-    {"GET", "/uploads/{id}", "getUpload", anybody, none, &ProgramsApi::look_at_upload},
+    {"GET", "/uploads/{id}", "getUpload", anybody, none, &ProgramsApi::get_upload},
     {"DELETE", "/uploads/{id}", "dropUpload", anybody, none, &ProgramsApi::drop_upload},
-    {"POST", "/uploads/{id}", "sendUploadPiece", anybody, program, &ProgramsApi::take_piece},
+    {"POST", "/uploads/{id}", "sendUploadPiece", anybody, program, &ProgramsApi::receive_piece},
 
     {"POST", "/wake", "wake", owner, none, &MachineApi::order<request::Wake>},
     {"POST", "/work", "setWorkZero", owner, json, &MachineApi::set_work_zero},

@@ -40,7 +40,7 @@ bool fits(BodyKind kind, std::string_view type) {
   return false;
 }
 
-std::string_view words_of(BodyKind kind) {
+std::string_view describe(BodyKind kind) {
   switch (kind) {
     case BodyKind::none: return "nothing";
     case BodyKind::json: return "JSON: application/json";
@@ -64,7 +64,7 @@ Result<Json, WebAnswer> read_body(BodyKind kind, const WebRequest& request, std:
   const std::string type = media_type(request.type);
   const auto wrong_type = [&](std::string_view what) {
     return Failure{
-        error_answer(415, "http.wrong-type", fmt::format("the body is {}; expected {}", what, words_of(kind)))};
+        error_answer(415, "http.wrong-type", fmt::format("the body is {}; expected {}", what, describe(kind)))};
   };
   if (!fits(kind, type)) return wrong_type(type.substr(0, 60));
   if (!said && request.body.empty()) return Json(Json::value_t::discarded);

@@ -110,9 +110,9 @@ Result<MakeOrder, std::string> order_from(const Json& said, const std::vector<st
 }  // namespace
 
 WebAnswer CamApi::state_answer(unsigned status) {
-  turn();
+  poll();
   const Maker& maker = *shared_.options.maker;
-  const MakeResult& result = shared_.options.maker->look();
+  const MakeResult& result = shared_.options.maker->result();
   const Json report = Json::parse(result.report, nullptr, false);
   Json jobs = Json::array();
   for (const CamOperation& operation : cam_operations()) jobs.push_back(operation.name);
@@ -128,7 +128,7 @@ WebAnswer CamApi::state_answer(unsigned status) {
                               {"page", result.has_page}});
 }
 
-WebAnswer CamApi::look(const ApiCall&) {
+WebAnswer CamApi::get(const ApiCall&) {
   return state_answer();
 }
 
@@ -139,7 +139,7 @@ WebAnswer CamApi::operations(const ApiCall&) {
 }
 
 WebAnswer CamApi::picture(const ApiCall& call) {
-  const MakeResult& result = shared_.options.maker->look();
+  const MakeResult& result = shared_.options.maker->result();
   const bool done = result.state == MakeResult::State::done && !result.picture_type.empty();
   const std::string_view digits = call.query("number");
   std::size_t number = 0;
@@ -152,7 +152,7 @@ WebAnswer CamApi::picture(const ApiCall& call) {
 
 // The page has its style within, and runs nothing.
 WebAnswer CamApi::page(const ApiCall&) {
-  if (!shared_.options.maker->look().has_page) return error_answer(404, "http.not-found", "there is no page");
+  if (!shared_.options.maker->result().has_page) return error_answer(404, "http.not-found", "there is no page");
   return {.type = "text/html; charset=utf-8",
           .body = shared_.options.maker->page(),
           .policy = "default-src 'none'; style-src 'unsafe-inline'; img-src data:; frame-ancestors 'none'"};
@@ -189,7 +189,7 @@ WebAnswer CamApi::begin(const ApiCall& call) {
   const MachineFileAccess& file = shared_.options.machine_access;
   if (!find_cam_operation(order->job)->parts.empty() && file.read) order->machine = file.read().value_or("");
   if (!maker.begin(*order)) {
-    if (maker.look().state == MakeResult::State::running)
+    if (maker.result().state == MakeResult::State::running)
       return error_answer(409, "make.busy", "another program is being made");
     return error_answer(507, "make.no-room", "there is no room for what is to be made: make room on the disk");
   }
@@ -198,9 +198,9 @@ WebAnswer CamApi::begin(const ApiCall& call) {
   return state_answer(202);
 }
 
-void CamApi::turn() {
+void CamApi::poll() {
   if (making_.empty()) return;
-  const MakeResult& result = shared_.options.maker->look();
+  const MakeResult& result = shared_.options.maker->result();
   if (result.state == MakeResult::State::running) return;
   const std::string source = std::exchange(making_, {});
   if (result.state != MakeResult::State::done) return;

@@ -18,7 +18,7 @@ class CamApi {
   // Both outlive this.
   CamApi(const ApiShared& shared, const JobRunner& jobs) : shared_(shared), jobs_(jobs) {}
 
-  WebAnswer look(const ApiCall& call);
+  WebAnswer get(const ApiCall& call);
   WebAnswer operations(const ApiCall& call);
   WebAnswer begin(const ApiCall& call);
   WebAnswer keep_file(const ApiCall& call);
@@ -28,7 +28,7 @@ class CamApi {
 
   // Programs that are made go to the others. What is made again of the same drawing takes the place of what was made
   // before, also where a board has other steps now.
-  void turn();
+  void poll();
 
  private:
   WebAnswer state_answer(unsigned status = 200);

@@ -16,7 +16,7 @@ class HomingRecord {
       : session_(session), repeats_(machine) {}
 
   // The machine is now in this state.
-  void heed(MachineState state);
+  void on_change(MachineState state);
   const std::vector<HomedAxis>& homed() const { return homed_; }
   const HomingRepeats& repeats() const { return repeats_; }
 

@@ -5,7 +5,7 @@
 
 namespace passo {
 
-void JobLog::note(const Operation& operation) {
+void JobLog::record(const Operation& operation) {
   if (all_.size() >= most_words) return;
   const auto note = [&](std::string_view kind, std::string_view text) {
     all_.push_back({.kind = kind, .line = operation.source.line, .text = std::string(text.substr(0, longest_words))});

@@ -18,7 +18,7 @@ class JobLog {
   static constexpr std::size_t most_words = 50'000;
   static constexpr std::size_t longest_words = 200;
 
-  void note(const Operation& operation);
+  void record(const Operation& operation);
   void clear() { all_.clear(); }
   // The lines of (LOG,…).
   std::string lines() const;

@@ -168,8 +168,8 @@ bool JobRunner::call_off() {
   return true;
 }
 
-void JobRunner::turn() {
-  if (kept_) kept_->look();
+void JobRunner::poll() {
+  if (kept_) kept_->poll();
   if (is_checking() && !shared_.programs.checks()) begin_checked_job();
 }
 
@@ -231,7 +231,7 @@ void JobRunner::start_job() {
   start.nominal_time = program.check.nominal_time;
   start.findings = &findings_;
   log_.clear();
-  start.watchers.operations = [this](const Operation& operation) { log_.note(operation); };
+  start.watchers.operations = [this](const Operation& operation) { log_.record(operation); };
   start.options.start = goes_on_ ? parked_->start : shared_.session.status().position.place;
   if (begins_.way) {
     start.from = begins_.way->at;
@@ -277,26 +277,26 @@ void JobRunner::end_job(JobState state, Sentence why) {
 }
 
 // A hold amid the wait is no second one.
-void JobRunner::note_wait() {
+void JobRunner::record_wait() {
   const auto wait = shared_.session.status().waits_for;
   if (job_.history == 0 || !ticket_ || !wait || std::exchange(wait_noted_, true)) return;
   const bool is_tool = wait->kind == Action::Kind::tool_change;
-  shared_.options.history->note_wait(job_.history, {.at = shared_.wall_time(),
-                                                    .code = code_of(*wait),
-                                                    .line = wait->line,
-                                                    .tool = is_tool ? std::optional(wait->tool) : std::nullopt,
-                                                    .words = wait->words});
+  shared_.options.history->record_wait(job_.history, {.at = shared_.wall_time(),
+                                                      .code = code_of(*wait),
+                                                      .line = wait->line,
+                                                      .tool = is_tool ? std::optional(wait->tool) : std::nullopt,
+                                                      .words = wait->words});
 }
 
-void JobRunner::heed(const MachineChange& change) {
+void JobRunner::on_change(const MachineChange& change) {
   const bool runs_again = change.kind == MachineChange::Kind::state && change.state == MachineState::run;
   if (runs_again) wait_noted_ = false;
-  if (change.kind == MachineChange::Kind::came_to_rest) note_wait();
+  if (change.kind == MachineChange::Kind::came_to_rest) record_wait();
   if (change.kind == MachineChange::Kind::probed && ticket_) probes_.push_back(*change.probe);
-  if (change.kind == MachineChange::Kind::answered && ticket_ && change.ticket == *ticket_) heed_end(change);
+  if (change.kind == MachineChange::Kind::answered && ticket_ && change.ticket == *ticket_) on_end(change);
 }
 
-void JobRunner::heed_end(const MachineChange& change) {
+void JobRunner::on_end(const MachineChange& change) {
   // What was broken off by the board, or because the program ends, may go on.
   const bool is_broken_off =
       change.outcome == Outcome::failed ? change.fault && is_of_board(change.fault->fault) : leaves_;
@@ -331,7 +331,7 @@ Sentence JobRunner::sentence_of_stop() const {
 // What a program has found, and set, counts when the program has come to its end.
 void JobRunner::keep_results() {
   if (const Program* const program = shared_.session.program(); program != nullptr) {
-    shared_.offsets.take(program->saved_parameters(), program->tools());
+    shared_.offsets.adopt(program->saved_parameters(), program->tools());
   }
   if (begins_.map_for == 0) return;
   Diagnostics ignored;
@@ -362,7 +362,7 @@ void JobRunner::step_aside() {
   ticket_.reset();
   if (std::exchange(named_, false)) kept_->end(false);
   static_cast<void>(session.request(request::Stop{}).has_value());
-  for (int turns = 0; session.busy() && turns < most_turns; ++turns) session.turn(a_turn);
+  for (int turns = 0; session.busy() && turns < most_turns; ++turns) session.poll(a_turn);
   mdi_.begin_anew();
 }
 

@@ -58,7 +58,7 @@ class JobRunner {
   bool call_off();
   // Who is about to stop the job.
   // `who`: empty for a client that is not in control. Nothing: it has no name.
-  void note_stopped_by(std::optional<std::string> who) { stopped_by_ = std::move(who); }
+  void set_stopped_by(std::optional<std::string> who) { stopped_by_ = std::move(who); }
 
   // The spindle stands, and the machine can be led back onto the path.
   bool is_free_to_move(const MachineStatus& status) const;
@@ -69,8 +69,8 @@ class JobRunner {
   WebAnswer stop_parked();
   WebAnswer parked_refusal() const;
 
-  void heed(const MachineChange& change);
-  void turn();
+  void on_change(const MachineChange& change);
+  void poll();
   // The program is about to end.
   void leave();
   WebAnswer no_room_in_history() const;
@@ -83,9 +83,9 @@ class JobRunner {
   void start_job();
   void end_job(JobState state, Sentence why = {});
   Sentence sentence_of_stop() const;
-  void heed_end(const MachineChange& change);
+  void on_end(const MachineChange& change);
   void keep_results();
-  void note_wait();
+  void record_wait();
   Result<Reentry, Sentence> way_behind_stop() const;
 
   const ApiShared& shared_;

@@ -190,7 +190,7 @@ WebAnswer JobsApi::list_alarms(const ApiCall& call) {
   return json_answer(200, {{"alarms", std::move(list)}});
 }
 
-WebAnswer JobsApi::look_at_interrupted(const ApiCall&) {
+WebAnswer JobsApi::get_interrupted(const ApiCall&) {
   const InterruptedJob* const job = jobs_.interrupted();
   Json json;
   if (job != nullptr) json = as_json(shared_.machine, *job, jobs_.way_of_interrupted());

@@ -27,7 +27,7 @@ class JobsApi {
   WebAnswer list_history(const ApiCall& call);
   WebAnswer list_alarms(const ApiCall& call);
 
-  WebAnswer look_at_interrupted(const ApiCall& call);
+  WebAnswer get_interrupted(const ApiCall& call);
   WebAnswer drop_interrupted(const ApiCall& call);
   WebAnswer resume_interrupted(const ApiCall& call);
   WebAnswer reenter_interrupted(const ApiCall& call);

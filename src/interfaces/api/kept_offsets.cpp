@@ -9,14 +9,14 @@ KeptOffsets::KeptOffsets(ProgramStore& programs, const ApiOptions& options) : pr
 }
 
 // Without a tool table, programs have none.
-void KeptOffsets::take(const SavedParameters& parameters, const ToolTable& all_tools) {
+void KeptOffsets::adopt(const SavedParameters& parameters, const ToolTable& all_tools) {
   const ToolTable& tools = programs_.tools().name.empty() ? programs_.tools() : all_tools;
   const bool changed = parameters != programs_.parameters() || tools != programs_.tools();
   programs_.set_offsets(parameters, ToolTable(tools));
   if (changed) write();
 }
 
-bool KeptOffsets::take(const SavedParameters& parameters) {
+bool KeptOffsets::adopt(const SavedParameters& parameters) {
   SavedParameters all = programs_.parameters();
   set_lasting_offsets(all, parameters);
   if (all == programs_.parameters()) return false;

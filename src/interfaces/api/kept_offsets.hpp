@@ -15,16 +15,16 @@ class KeptOffsets {
   KeptOffsets(ProgramStore& programs, const ApiOptions& options);
 
   // What a program or a person's line has found, and set.
-  void take(const SavedParameters& parameters, const ToolTable& tools);
+  void adopt(const SavedParameters& parameters, const ToolTable& tools);
   // Those of a sender, who has kept them. True: they are others than before.
-  bool take(const SavedParameters& parameters);
+  bool adopt(const SavedParameters& parameters);
   // False, with trouble(): it cannot be written, so the zero is as before.
   bool set_work_zero(const Point& zero);
   // Tries again what could not be written. True: all is on the disk.
   bool write_again();
   // Why the offsets are not on the disk. Empty: they are.
   const std::string& trouble() const { return trouble_; }
-  void note_trouble(std::string why) { trouble_ = std::move(why); }
+  void set_trouble(std::string why) { trouble_ = std::move(why); }
 
  private:
   void write();

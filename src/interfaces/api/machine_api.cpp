@@ -77,7 +77,7 @@ WebAnswer MachineApi::hold(const ApiCall& call) {
 WebAnswer MachineApi::stop(const ApiCall& call) {
   if (jobs_.call_off()) return ticket_answer(shared_.session, 0);
   const bool is_owner = shared_.owner.is_client(call.request.key);
-  jobs_.note_stopped_by(is_owner ? shared_.owner.name() : std::string());
+  jobs_.set_stopped_by(is_owner ? shared_.owner.name() : std::string());
   return jobs_.parked() && !shared_.session.busy() ? jobs_.stop_parked() : ask(request::Stop{});
 }
 
@@ -153,7 +153,7 @@ WebAnswer MachineApi::set_work_zero(const ApiCall& call) {
   if (!shared_.offsets.set_work_zero(at - (frame.machine_from_work(place) - frame.work_offset()))) {
     return unwritten("the zero of the work", "zero", shared_.offsets.trouble());
   }
-  mdi_.take_offsets();
+  mdi_.apply_offsets();
   return json_answer(200, {{"work_offset", as_json(shared_.machine, shared_.programs.work_zero())}});
 }
 
@@ -166,7 +166,7 @@ WebAnswer MachineApi::run_line(const ApiCall& call) {
   if (moves && jobs_.interrupted() != nullptr) {
     return error_answer(409, "jobs.interrupted", "a job was broken off: resume it or drop it first");
   }
-  MdiLines::Answer answer = mdi_.take(*line);
+  MdiLines::Answer answer = mdi_.execute(*line);
   if (!answer.code.empty()) {
     const Json error = {{"code", answer.code},
                         {"message", answer.message},
@@ -177,24 +177,24 @@ WebAnswer MachineApi::run_line(const ApiCall& call) {
   return json_answer(200, {{"words", std::move(answer.words)}, {"change", shared_.session.status().version}});
 }
 
-void MachineApi::heed(const MachineChange& change) {
+void MachineApi::on_change(const MachineChange& change) {
   if (change.kind == MachineChange::Kind::rested_by_tail) ++late_;
   if (change.kind != MachineChange::Kind::state) return;
   if (change.state == MachineState::alarm || change.state == MachineState::fault) {
     ++alarms_;
     JobHistory* const history = shared_.options.history;
     const Sentence trouble = shared_.session.status().trouble_sentence;
-    if (history != nullptr) history->note_alarm(trouble.text, shared_.wall_time(), kept_form(trouble));
+    if (history != nullptr) history->record_alarm(trouble.text, shared_.wall_time(), kept_form(trouble));
   }
-  homing_.heed(change.state);
+  homing_.on_change(change.state);
 }
 
 // One set of offsets and tools for lines and programs. Whoever owns the motion no longer leaves nothing on.
-void MachineApi::turn() {
-  if (mdi_.turn()) {
+void MachineApi::poll() {
+  if (mdi_.poll()) {
     SavedParameters parameters = mdi_.parameters();
     parameters[work_system_parameter] = 1;  // programs begin with G54
-    shared_.offsets.take(parameters, mdi_.tools());
+    shared_.offsets.adopt(parameters, mdi_.tools());
   }
   const MotionOwner& owner = shared_.owner;
   if (std::exchange(mdi_owner_, owner.changes()) == owner.changes() || owner.kind() == MotionOwner::Kind::client) {

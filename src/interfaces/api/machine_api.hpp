@@ -48,8 +48,8 @@ class MachineApi {
   }
 
   std::string status_text() const;
-  void heed(const MachineChange& change);
-  void turn();
+  void on_change(const MachineChange& change);
+  void poll();
   // What web servers count, for the metrics.
   void watch(const WebServer& server) { server_ = &server; }
 

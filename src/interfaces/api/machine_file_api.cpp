@@ -86,7 +86,7 @@ std::optional<WebAnswer> MachineFileApi::refuse_while_moving() const {
       Sentence{.code = "machine.busy.machine-file", .text = "the machine moves: the machine file can wait"});
 }
 
-WebAnswer MachineFileApi::look(const ApiCall&) {
+WebAnswer MachineFileApi::get(const ApiCall&) {
   const MachineFileAccess& file = shared_.options.machine_access;
   const FileStamp& in_force = shared_.options.machine_file;
   const auto text = file.read ? file.read() : std::nullopt;
@@ -162,7 +162,7 @@ WebAnswer MachineFileApi::write(const ApiCall& call) {
                                  .arguments = {{"name", file.name}, {"why", why}},
                                  .text = fmt::format("{} cannot be written: {}", file.name, why)});
   }
-  return look(call);
+  return get(call);
 }
 
 }  // namespace passo

@@ -15,7 +15,7 @@ class MachineFileApi {
   // Both outlive this.
   MachineFileApi(const ApiShared& shared, const JobRunner& jobs) : shared_(shared), jobs_(jobs) {}
 
-  WebAnswer look(const ApiCall& call);
+  WebAnswer get(const ApiCall& call);
   WebAnswer draft(const ApiCall& call);
   WebAnswer write(const ApiCall& call);
 

@@ -72,8 +72,8 @@ void MdiLines::begin_anew() {
   }
 }
 
-void MdiLines::take_offsets() {
-  program_->take_offsets(programs_.parameters(), session_.status().position.place);
+void MdiLines::apply_offsets() {
+  program_->apply_offsets(programs_.parameters(), session_.status().position.place);
   ++version_;
 }
 
@@ -86,7 +86,7 @@ ModesInForce MdiLines::modes() const {
   return modes;
 }
 
-MdiLines::Answer MdiLines::take(std::string_view line) {
+MdiLines::Answer MdiLines::execute(std::string_view line) {
   const std::string_view text = without_blanks(line);
   if (text.size() > longest_line) {
     return refused("mdi.too-long", {.code = "mdi.too-long",
@@ -94,15 +94,15 @@ MdiLines::Answer MdiLines::take(std::string_view line) {
                                     .text = fmt::format("the line is longer than {} characters", longest_line)});
   }
   if (text.empty()) return {};
-  if (text.front() != '$') return take_code(text);
+  if (text.front() != '$') return execute_code(text);
   std::string command;
   for (const char c : text) {
     if (c != ' ') command += static_cast<char>(c >= 'a' && c <= 'z' ? c - 'a' + 'A' : c);
   }
-  return take_command(command);
+  return execute_command(command);
 }
 
-MdiLines::Answer MdiLines::take_code(std::string_view line) {
+MdiLines::Answer MdiLines::execute_code(std::string_view line) {
   const MachineState state = session_.state();
   if (!streams() && state != MachineState::idle) return refused("machine.busy", sentence_of_busy(state));
   if (streams() && (stops_ || !program_->room())) {
@@ -112,7 +112,7 @@ MdiLines::Answer MdiLines::take_code(std::string_view line) {
   if (const auto closed = session_.closed_limit()) return refused(*closed);
   if (const auto lost = session_.lost_place()) return refused(*lost);
   if (!streams()) program_->drop(session_.status().position.place);
-  if (auto wrong = program_->take(line, session_.now())) {
+  if (auto wrong = program_->add_line(line, session_.now())) {
     return {.code = std::move(wrong->code),
             .message = std::move(wrong->message),
             .expected = std::move(wrong->expected),
@@ -132,7 +132,7 @@ MdiLines::Answer MdiLines::take_code(std::string_view line) {
 }
 
 // As a Grbl controller answers them, where that makes sense for a page.
-MdiLines::Answer MdiLines::take_command(const std::string& text) {
+MdiLines::Answer MdiLines::execute_command(const std::string& text) {
   const GrblUnits units{.axes = grbl_axes_of(machine_), .inches = false};
   if (text == "$") return told(help);
   if (text == "$G") return told(modes_text(modes(), units));
@@ -178,7 +178,7 @@ MdiLines::Answer MdiLines::ask(Request wanted) {
   return {};
 }
 
-void MdiLines::heed(const MachineChange& change) {
+void MdiLines::on_change(const MachineChange& change) {
   if (change.kind == MachineChange::Kind::probed) probe_ = change.probe;
   if (change.kind == MachineChange::Kind::state &&
       (change.state == MachineState::alarm || change.state == MachineState::fault)) {
@@ -188,13 +188,13 @@ void MdiLines::heed(const MachineChange& change) {
   if (is_mine) {
     ticket_.reset();
     // What was left on is off now, and stays off.
-    if (!std::exchange(stops_, false)) take_offsets();
+    if (!std::exchange(stops_, false)) apply_offsets();
     ++version_;
   }
   if (ended_ && !streams()) begin_anew();
 }
 
-bool MdiLines::turn() {
+bool MdiLines::poll() {
   if (streams() && !stops_ && session_.state() == MachineState::await_line && program_->queued() == 0 &&
       !program_->asks() && session_.drive() != nullptr && is_off(session_.drive()->outputs())) {
     if (const auto& wrong = program_->answer_fault(); wrong && trouble_.empty()) trouble_ = wrong->message;

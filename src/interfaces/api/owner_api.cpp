@@ -37,7 +37,7 @@ bool OwnerApi::may_pass_on() const {
 }
 
 // A sender's program that waits for its next line ends here.
-WebAnswer OwnerApi::take(const ApiCall& call) {
+WebAnswer OwnerApi::claim(const ApiCall& call) {
   MotionOwner& owner = shared_.owner;
   MachineSession& session = shared_.session;
   if (!may_pass_on() || jobs_.is_checking()) {
@@ -53,7 +53,7 @@ WebAnswer OwnerApi::take(const ApiCall& call) {
   const Json name = call.members().value("name", Json());
   const bool was_sender = owner.is_sender();
   std::string key = shared_.options.make_key();
-  owner.take_for_client(words_from(name.is_string() ? name.get<std::string>() : "", "client"), key);
+  owner.claim_for_client(words_from(name.is_string() ? name.get<std::string>() : "", "client"), key);
   if (was_sender && session.busy()) static_cast<void>(session.request(request::Stop{}).has_value());
   Json answer = as_json(owner);
   answer["key"] = std::move(key);
@@ -65,18 +65,18 @@ WebAnswer OwnerApi::renew(const ApiCall&) {
   return json_answer(200, as_json(shared_.owner));
 }
 
-WebAnswer OwnerApi::give_back(const ApiCall& call) {
+WebAnswer OwnerApi::release(const ApiCall& call) {
   if (!shared_.owner.is_client(call.request.key)) {
     return error_answer(403, "owner.not-you", "somebody else owns the motion");
   }
-  shared_.owner.give_back();
+  shared_.owner.release();
   return json_answer(200, as_json(shared_.owner));
 }
 
-void OwnerApi::turn() {
+void OwnerApi::poll() {
   if (shared_.owner.kind() != MotionOwner::Kind::client || shared_.session.busy()) return;
   const bool is_silent = shared_.session.now() - heard_ > MotionOwner::silent_for;
-  if (is_silent || is_gone()) shared_.owner.give_back();
+  if (is_silent || is_gone()) shared_.owner.release();
 }
 
 }  // namespace passo

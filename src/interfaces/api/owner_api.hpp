@@ -17,9 +17,9 @@ class OwnerApi {
   // Both outlive this.
   OwnerApi(const ApiShared& shared, const JobRunner& jobs) : shared_(shared), jobs_(jobs) {}
 
-  WebAnswer take(const ApiCall& call);
+  WebAnswer claim(const ApiCall& call);
   WebAnswer renew(const ApiCall& call);
-  WebAnswer give_back(const ApiCall& call);
+  WebAnswer release(const ApiCall& call);
 
   // A request has come with this key.
   void hear(std::string_view key);
@@ -28,7 +28,7 @@ class OwnerApi {
   void gone(std::uint64_t client);
   // While the machine moves for an owner who is gone, it keeps an owner: a sender would take what nobody owns. Whoever
   // asks gets it.
-  void turn();
+  void poll();
 
  private:
   bool is_gone() const;

@@ -190,7 +190,7 @@ void ProgramStore::forget_check(StoredProgram& program) {
   program.path_points = ProgramPath();
 }
 
-void ProgramStore::turn() {
+void ProgramStore::poll() {
   if (!checker_ || !checker_->go_on(items_a_turn)) return;
   StoredProgram& program = programs_.at(checked_);
   program.check = checker_->result();

@@ -11,7 +11,7 @@ constexpr double least_feed = 0.01;
 
 }  // namespace
 
-void ProgramTimes::take(const MotionTimes& times) {
+void ProgramTimes::record(const MotionTimes& times) {
   const StoredProgram* const program = shared_.programs.find(timed_);
   const bool is_its_path = program != nullptr && program->path == timed_path_;
   if (is_its_path && timed_factors_ == MotionFactors()) shared_.programs.set_planned_time(timed_, times.whole());
@@ -38,10 +38,10 @@ const StoredProgram* ProgramTimes::next(const MotionFactors& factors) const {
   return last;
 }
 
-void ProgramTimes::turn() {
+void ProgramTimes::poll() {
   MotionTimer* const timer = shared_.options.timer;
   if (timer == nullptr) return;
-  if (const std::optional<MotionTimes> times = timer->take()) take(*times);
+  if (const std::optional<MotionTimes> times = timer->take_times()) record(*times);
   const Overrides overrides = shared_.session.status().overrides;
   const MotionFactors factors{.feed = std::max(overrides.feed, least_feed), .rapids = overrides.rapids};
   const StoredProgram* const program = next(factors);

@@ -15,12 +15,12 @@ class ProgramTimes {
   ProgramTimes(const ApiShared& shared, const JobRunner& jobs) : shared_(shared), jobs_(jobs) {}
 
   // First the job that runs is timed, with its overrides, then each program that was checked.
-  void turn();
+  void poll();
   // Of the job that runs, as far as it is known.
   std::optional<Seconds> left(const MachineStatus& status) const;
 
  private:
-  void take(const MotionTimes& times);
+  void record(const MotionTimes& times);
   const StoredProgram* next(const MotionFactors& factors) const;
 
   const ApiShared& shared_;

@@ -19,7 +19,7 @@ const ProgramUpload* ProgramUploads::find(std::uint64_t id) const {
   return found == uploads_.end() ? nullptr : &found->second;
 }
 
-ProgramUploads::Taken ProgramUploads::take(std::uint64_t id, std::size_t from, std::string_view piece, Seconds now) {
+ProgramUploads::Taken ProgramUploads::append(std::uint64_t id, std::size_t from, std::string_view piece, Seconds now) {
   ProgramUpload& upload = uploads_.at(id);
   upload.heard = now;
   if (from != upload.text.size()) return Taken::gap;

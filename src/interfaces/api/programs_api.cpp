@@ -68,7 +68,7 @@ WebAnswer ProgramsApi::send(const ApiCall& call) {
   return program != nullptr ? json_answer(201, as_json(*program, false)) : no_room();
 }
 
-WebAnswer ProgramsApi::look(const ApiCall& call) {
+WebAnswer ProgramsApi::get(const ApiCall& call) {
   const StoredProgram* const program = shared_.programs.find(call.id);
   return program != nullptr ? json_answer(200, as_json(*program, true)) : refusal_answer(404);
 }
@@ -181,7 +181,7 @@ WebAnswer ProgramsApi::begin_upload(const ApiCall& call) {
   return upload != nullptr ? json_answer(201, upload_json(*upload)) : no_room();
 }
 
-WebAnswer ProgramsApi::look_at_upload(const ApiCall& call) {
+WebAnswer ProgramsApi::get_upload(const ApiCall& call) {
   const ProgramUpload* const upload = uploads_.find(call.id);
   return upload != nullptr ? json_answer(200, upload_json(*upload)) : no_upload();
 }
@@ -192,12 +192,12 @@ WebAnswer ProgramsApi::drop_upload(const ApiCall& call) {
   return json_answer(200, Json::object());
 }
 
-WebAnswer ProgramsApi::take_piece(const ApiCall& call) {
+WebAnswer ProgramsApi::receive_piece(const ApiCall& call) {
   const ProgramUpload* const upload = uploads_.find(call.id);
   if (upload == nullptr) return no_upload();
   const auto from = bytes_from(call.query("from"));
   if (!from) return bad_body("from: expected the byte where this piece begins");
-  switch (uploads_.take(call.id, *from, call.request.body, shared_.session.now())) {
+  switch (uploads_.append(call.id, *from, call.request.body, shared_.session.now())) {
     case ProgramUploads::Taken::more: return json_answer(200, upload_json(*upload));
     case ProgramUploads::Taken::gap:
       return error_answer(409, "uploads.gap",

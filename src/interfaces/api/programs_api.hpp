@@ -20,7 +20,7 @@ class ProgramsApi {
 
   WebAnswer list(const ApiCall& call);
   WebAnswer send(const ApiCall& call);
-  WebAnswer look(const ApiCall& call);
+  WebAnswer get(const ApiCall& call);
   WebAnswer remove(const ApiCall& call);
   WebAnswer check(const ApiCall& call);
   WebAnswer set_block_delete(const ApiCall& call);
@@ -34,9 +34,9 @@ class ProgramsApi {
 
   WebAnswer list_uploads(const ApiCall& call);
   WebAnswer begin_upload(const ApiCall& call);
-  WebAnswer look_at_upload(const ApiCall& call);
+  WebAnswer get_upload(const ApiCall& call);
   WebAnswer drop_upload(const ApiCall& call);
-  WebAnswer take_piece(const ApiCall& call);
+  WebAnswer receive_piece(const ApiCall& call);
 
  private:
   const ApiShared& shared_;

@@ -42,9 +42,9 @@ WebAnswer pulses_answer(MachineSession& session, const MachineDescription& machi
   if ((!from && !query_value(query, "from").empty()) || (!to && !query_value(query, "to").empty())) {
     return bad_body("from and to are seconds of the board's clock");
   }
-  const Seconds end = to.value_or(sent.look(now, now, now, 0).newest);
+  const Seconds end = to.value_or(sent.window(now, now, now, 0).newest);
   const Seconds begin = std::max(from.value_or(end - usual_window), end - longest_window);
-  const PulseWindow window = sent.look(begin, end, now, most_pulses);
+  const PulseWindow window = sent.window(begin, end, now, most_pulses);
   const double tick = 1 / machine.board.clock.value();
   std::string bytes;
   bytes.reserve(80 + 8 * window.pulses.size());

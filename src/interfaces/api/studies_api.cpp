@@ -32,7 +32,7 @@ WebAnswer file_answer(const char* type, std::string text) {
 }  // namespace
 
 WebAnswer StudiesApi::state_answer(unsigned status) const {
-  const StudyResult& result = shared_.options.studies->look();
+  const StudyResult& result = shared_.options.studies->result();
   const Json report = Json::parse(result.report, nullptr, false);
   return json_answer(status, {{"study", study_},
                               {"program", studied_ != 0 ? Json(studied_) : Json()},
@@ -41,7 +41,7 @@ WebAnswer StudiesApi::state_answer(unsigned status) const {
                               {"report", report.is_object() ? report : Json()}});
 }
 
-WebAnswer StudiesApi::look(const ApiCall&) {
+WebAnswer StudiesApi::get(const ApiCall&) {
   return state_answer(200);
 }
 

@@ -15,13 +15,13 @@ class StudiesApi {
   // Outlives this.
   explicit StudiesApi(const ApiShared& shared) : shared_(shared) {}
 
-  WebAnswer look(const ApiCall& call);
+  WebAnswer get(const ApiCall& call);
   WebAnswer begin(const ApiCall& call);
   WebAnswer loads(const ApiCall& call);
   WebAnswer picture(const ApiCall& call);
 
  private:
-  bool is_done() const { return shared_.options.studies->look().state == StudyResult::State::done; }
+  bool is_done() const { return shared_.options.studies->result().state == StudyResult::State::done; }
   WebAnswer state_answer(unsigned status) const;
 
   const ApiShared& shared_;

@@ -169,21 +169,21 @@ void WebApi::gone(std::uint64_t client) {
   parts_->owner_api.gone(client);
 }
 
-void WebApi::heed(const std::vector<MachineChange>& changes) {
+void WebApi::on_change(const std::vector<MachineChange>& changes) {
   for (const MachineChange& change : changes) {
-    parts_->mdi.heed(change);
-    parts_->machine_api.heed(change);
-    parts_->jobs.heed(change);
+    parts_->mdi.on_change(change);
+    parts_->machine_api.on_change(change);
+    parts_->jobs.on_change(change);
   }
 }
 
-void WebApi::turn() {
-  parts_->owner_api.turn();
-  parts_->programs.turn();
-  parts_->cam_api.turn();
-  parts_->times.turn();
-  parts_->machine_api.turn();
-  parts_->jobs.turn();
+void WebApi::poll() {
+  parts_->owner_api.poll();
+  parts_->programs.poll();
+  parts_->cam_api.poll();
+  parts_->times.poll();
+  parts_->machine_api.poll();
+  parts_->jobs.poll();
   if (!parts_->shared.session.busy()) parts_->keep_all();
 }
 
@@ -203,12 +203,12 @@ const ToolTable& WebApi::tools() const {
   return parts_->programs.tools();
 }
 
-void WebApi::take_offsets(const SavedParameters& parameters) {
-  if (parts_->offsets.take(parameters)) parts_->mdi.begin_anew();
+void WebApi::apply_offsets(const SavedParameters& parameters) {
+  if (parts_->offsets.adopt(parameters)) parts_->mdi.begin_anew();
 }
 
-void WebApi::note_unkept_offsets(std::string why) {
-  parts_->offsets.note_trouble(std::move(why));
+void WebApi::set_offsets_trouble(std::string why) {
+  parts_->offsets.set_trouble(std::move(why));
 }
 
 std::optional<Point> WebApi::broken_off_at() {

@@ -65,7 +65,7 @@ void GrblController::run_startup() {
   for (const std::string& line : store_.memory().startup) {
     if (alarm_) return;
     if (line.empty()) continue;
-    const auto wrong = program_.take(line, session_.now());
+    const auto wrong = program_.add_line(line, session_.now());
     const bool is_beyond = wrong && wrong->code == travel_exceeded;
     if (is_beyond) stop_at_soft_limit();
     const int error = wrong && !is_beyond ? number_of(*wrong) : 0;
@@ -86,8 +86,8 @@ int GrblController::number_of(const Diagnostic& wrong) {
   return grbl_error_number(wrong.code).value_or(static_cast<int>(GrblError::unsupported));
 }
 
-void GrblController::take_offsets(const SavedParameters& parameters) {
-  program_.take_offsets(parameters, session_.status().position.place);
+void GrblController::apply_offsets(const SavedParameters& parameters) {
+  program_.apply_offsets(parameters, session_.status().position.place);
 }
 
 // The disk may take its time while nothing moves.
@@ -123,7 +123,7 @@ void GrblController::disconnect() {
 }
 
 void GrblController::receive(std::string_view bytes) {
-  lease_.note_byte(session_.now());
+  lease_.on_byte(session_.now());
   input_.receive(bytes, [this](std::uint8_t byte) { act(byte); });
   start_up();
 }
@@ -132,8 +132,8 @@ std::vector<std::string> GrblController::take_replies() {
   return std::exchange(replies_, {});
 }
 
-void GrblController::turn(const std::vector<MachineChange>& changes) {
-  for (const MachineChange& change : changes) heed(change);
+void GrblController::poll(const std::vector<MachineChange>& changes) {
+  for (const MachineChange& change : changes) on_change(change);
   if (waits_ == Waits::probe && !program_.asks()) end_probe();
   if (waits_ == Waits::stop && !session_.busy()) {
     waits_ = Waits::none;
@@ -143,11 +143,11 @@ void GrblController::turn(const std::vector<MachineChange>& changes) {
   share_changed_offsets();
   if (jogs() && lease_.is_over(session_.now())) cancel_jog();
   begin_stream();
-  take_lines();
+  handle_lines();
   end_stream();
 }
 
-void GrblController::heed(const MachineChange& change) {
+void GrblController::on_change(const MachineChange& change) {
   switch (change.kind) {
     case MachineChange::Kind::state:
       if (change.state == MachineState::alarm) raise_alarm_of_board();
@@ -155,7 +155,7 @@ void GrblController::heed(const MachineChange& change) {
       if (change.state == MachineState::run) wait_told_ = false;
       if (change.state == MachineState::await_line) rests_since_ = change.time;
       return;
-    case MachineChange::Kind::came_to_rest: return tell_wait();
+    case MachineChange::Kind::came_to_rest: return report_wait();
     case MachineChange::Kind::position_lost: return raise(GrblAlarm::lost_place);
     case MachineChange::Kind::probed: probe_ = change.probe; return;
     case MachineChange::Kind::answered: break;
@@ -176,7 +176,7 @@ void GrblController::heed(const MachineChange& change) {
 }
 
 // What the program says where it waits for a person, once.
-void GrblController::tell_wait() {
+void GrblController::report_wait() {
   const auto wait = session_.status().waits_for;
   if (!wait || std::exchange(wait_told_, true)) return;
   if (wait->kind == Action::Kind::tool_change) say(fmt::format("[MSG:Tool {}]\r\n", wait->tool));
@@ -191,7 +191,7 @@ void GrblController::end_probe() {
   if (failed)
     raise(row_of(probe_ && probe_->refused ? MachineFault::probe_before : MachineFault::probe_untouched).alarm);
   if (!probe_ || !probe_->refused) say(probe_text(probe_, units()));
-  tell_end();
+  report_end();
   answer(GrblError::none);
 }
 
@@ -246,32 +246,32 @@ bool GrblController::may_take_line() const {
   return state != MachineState::offline && program_.room();
 }
 
-void GrblController::take_lines() {
+void GrblController::handle_lines() {
   while (may_take_line()) {
-    const auto line = input_.take_line();
+    const auto line = input_.pop_line();
     if (!line) return;
-    take(*line);
+    handle(*line);
   }
 }
 
-void GrblController::take(const GrblInput::Line& line) {
+void GrblController::handle(const GrblInput::Line& line) {
   if (line.too_long) return answer(GrblError::line_overflow);
   const bool may_act = drives_ && !alarm_ && !jogs() && session_.state() != MachineState::sleep;
   const std::string message = line.message.empty() ? "" : "(MSG," + line.message + ")";
   if (line.text.empty()) {
-    if (may_act && !checks_ && !message.empty()) static_cast<void>(program_.take(message, session_.now()));
+    if (may_act && !checks_ && !message.empty()) static_cast<void>(program_.add_line(message, session_.now()));
     return answer(GrblError::none);
   }
   if (!drives_ && !is_question(line.text)) return answer(GrblError::locked);
   if (line.cancelled && line.text.starts_with(jog_begins)) return answer(GrblError::none);
-  if (line.text[0] == '$') return take_command(line.text);
+  if (line.text[0] == '$') return handle_command(line.text);
   if (!may_act) return answer(GrblError::locked);
-  take_code(line.text + message);
+  handle_code(line.text + message);
 }
 
-void GrblController::take_code(const std::string& text) {
+void GrblController::handle_code(const std::string& text) {
   probe_ = program_.asks() ? std::nullopt : probe_;
-  const auto wrong = checks_ ? program_.check(text) : program_.take(text, session_.now());
+  const auto wrong = checks_ ? program_.check(text) : program_.add_line(text, session_.now());
   if (wrong) {
     if (checks_ || wrong->code != travel_exceeded) return answer(number_of(*wrong));
     stop_at_soft_limit();
@@ -282,12 +282,12 @@ void GrblController::take_code(const std::string& text) {
     waits_ = Waits::probe;
     return begin_stream();
   }
-  tell_end();
+  report_end();
   begin_stream();
   answer(GrblError::none);
 }
 
-void GrblController::tell_end() {
+void GrblController::report_end() {
   if (program_.take_ended()) say("[MSG:Pgm End]\r\n");
 }
 

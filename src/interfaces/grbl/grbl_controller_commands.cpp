@@ -27,7 +27,7 @@ bool is_jog(std::string_view words) {
 
 }  // namespace
 
-void GrblController::take_command(const std::string& text) {
+void GrblController::handle_command(const std::string& text) {
   if (text == "$") {
     say(help_text());
     return answer(GrblError::none);
@@ -38,7 +38,7 @@ void GrblController::take_command(const std::string& text) {
   }
   if (text == "$X") return unlock();
   if (text == "$C") return toggle_check();
-  if (text.starts_with(jog_begins)) return take_jog(text.substr(jog_begins.size()));
+  if (text.starts_with(jog_begins)) return handle_jog(text.substr(jog_begins.size()));
   // All others only at rest, as in grbl. Settings are shown in check mode and asleep too.
   const bool stands = !session_.busy() || session_.state() == MachineState::await_line;
   const bool at_rest = is_idle() || (alarm_ && stands);
@@ -60,12 +60,12 @@ void GrblController::take_command(const std::string& text) {
     say(build_text(store_.memory().build));
     return answer(GrblError::none);
   }
-  if (text.starts_with("$I=")) return take_build(text.substr(build_words_from));
+  if (text.starts_with("$I=")) return handle_build_info(text.substr(build_words_from));
   if (text == "$H") return home();
   if (text == "$SLP") return sleep();
-  if (text.starts_with("$N")) return take_startup_line(text);
+  if (text.starts_with("$N")) return handle_startup_line(text);
   if (text.starts_with("$RST=")) return restore(text);
-  take_setting(text);
+  handle_setting(text);
 }
 
 void GrblController::unlock() {
@@ -98,12 +98,12 @@ void GrblController::toggle_check() {
   answer(GrblError::none);
 }
 
-void GrblController::take_jog(const std::string& text) {
+void GrblController::handle_jog(const std::string& text) {
   const bool at_rest = is_idle();
   if (!at_rest && !(jogs() && !alarm_)) return answer(GrblError::not_idle);
   if (!is_jog(text)) return answer(GrblError::bad_jog);
   if (text.find_first_of("XYZABCUVW") == std::string::npos) return answer(GrblError::no_axis_words);
-  const auto wrong = program_.take_jog(text, session_.now());
+  const auto wrong = program_.add_jog(text, session_.now());
   if (!wrong) {
     begin_stream();
     return answer(GrblError::none);
@@ -136,7 +136,7 @@ void GrblController::sleep() {
   stop_for(Waits::stop);
 }
 
-void GrblController::take_startup_line(const std::string& text) {
+void GrblController::handle_startup_line(const std::string& text) {
   if (text == "$N") {
     say(fmt::format("$N0={}\r\n$N1={}\r\n", store_.memory().startup[0], store_.memory().startup[1]));
     return answer(GrblError::none);
@@ -155,7 +155,7 @@ void GrblController::take_startup_line(const std::string& text) {
 }
 
 // Senders and shops tell machines apart by these words, which stand in the answer to $I.
-void GrblController::take_build(const std::string& text) {
+void GrblController::handle_build_info(const std::string& text) {
   if (text.size() > GrblMemory::longest) return answer(GrblError::line_too_long_to_keep);
   GrblMemory memory = store_.memory();
   memory.build = text;
@@ -184,8 +184,8 @@ void GrblController::restore(const std::string& text) {
   memory.choices = GrblChoices();
   if (settings && !keep_memory(memory)) return answer(GrblError::bad_statement);
   if (text != "$RST=$") {
-    take_offsets({});
-    static_cast<void>(program_.take("G92.1", session_.now()));
+    apply_offsets({});
+    static_cast<void>(program_.add_line("G92.1", session_.now()));
     offsets_changed_ = true;
   }
   say("[MSG:Restoring defaults]\r\n");
@@ -193,7 +193,7 @@ void GrblController::restore(const std::string& text) {
   reset();
 }
 
-void GrblController::take_setting(const std::string& text) {
+void GrblController::handle_setting(const std::string& text) {
   const std::size_t equals = std::min(text.find('='), text.size());
   int number = 0;
   const char* const last = text.data() + equals;

@@ -24,7 +24,7 @@ double changed(double factor, int by) {
 void GrblController::act(std::uint8_t byte) {
   if (!drives_) return act_as_watcher(byte);
   switch (byte) {
-    case '?': lease_.note_question(session_.now()); return report_status();
+    case '?': lease_.on_question(session_.now()); return report_status();
     case '!': return jogs() ? cancel_jog() : hold();
     case '~': return resume();
     case 0x18: return reset();
@@ -121,7 +121,7 @@ void GrblController::switch_coolant(bool flood) {
   if (!is_idle()) return;
   const bool other = flood ? outputs.mist : outputs.flood;
   const std::string words = !on ? other ? flood ? "M9 M7" : "M9 M8" : "M9" : flood ? "M8" : "M7";
-  static_cast<void>(program_.take(words, session_.now()));
+  static_cast<void>(program_.add_line(words, session_.now()));
 }
 
 void GrblController::resume() {

@@ -75,7 +75,7 @@ void GrblInput::receive(std::string_view bytes, const std::function<void(std::ui
   }
 }
 
-std::optional<GrblInput::Line> GrblInput::take_line() {
+std::optional<GrblInput::Line> GrblInput::pop_line() {
   if (ends_ == 0) return {};
   const std::size_t end = waiting_.find_first_of("\r\n");
   Line line;

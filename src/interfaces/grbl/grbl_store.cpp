@@ -25,7 +25,7 @@ std::optional<std::string> GrblStore::keep(int number, double value) {
   auto after = settings_->with(number, value, reason);
   if (!after) return reason;
   if (!write_file_(settings_->text(), *after)) return "The machine file cannot be written, or was changed meanwhile";
-  settings_->take(std::move(*after));
+  settings_->set_text(std::move(*after));
   return {};
 }
 

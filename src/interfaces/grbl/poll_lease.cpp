@@ -8,7 +8,7 @@ constexpr Seconds slowest_pace{1};
 
 }  // namespace
 
-void PollLease::note_question(Seconds now) {
+void PollLease::on_question(Seconds now) {
   const bool asks_often = now - asked_at_ <= slowest_pace;
   pace_ = asks_often ? std::optional(now - asked_at_) : std::nullopt;
   asked_at_ = now;

@@ -55,9 +55,9 @@ void GrblMachine::hear(std::string_view line) {
 
 // "V,15,128": what it was built with, the planner's blocks, the bytes of the receive buffer.
 void GrblMachine::hear_options(std::string_view options) {
-  static_cast<void>(take_grbl_part(options, ','));
-  const auto told_blocks = read_grbl_number(take_grbl_part(options, ','));
-  const auto told_bytes = read_grbl_number(take_grbl_part(options, ','));
+  static_cast<void>(next_grbl_field(options, ','));
+  const auto told_blocks = read_grbl_number(next_grbl_field(options, ','));
+  const auto told_bytes = read_grbl_number(next_grbl_field(options, ','));
   if (told_blocks && *told_blocks >= 1 && *told_blocks <= 10000) blocks = static_cast<std::size_t>(*told_blocks);
   if (told_bytes && *told_bytes >= 64 && *told_bytes <= 65536) bytes = static_cast<std::size_t>(*told_bytes);
 }
@@ -65,7 +65,7 @@ void GrblMachine::hear_options(std::string_view options) {
 // "G0 G54 G17 G21 G90 G94 M5 M9 T0 F0 S0"
 void GrblMachine::hear_modes(std::string_view modes) {
   while (!modes.empty()) {
-    const std::string_view mode = take_grbl_part(modes, ' ');
+    const std::string_view mode = next_grbl_field(modes, ' ');
     if (is_system(mode)) system = mode;
   }
 }
@@ -81,7 +81,7 @@ void GrblMachine::hear_offset(std::string_view name, std::string_view value) {
 }
 
 void GrblMachine::hear_setting(std::string_view line) {
-  const std::string_view name = take_grbl_part(line, '=');
+  const std::string_view name = next_grbl_field(line, '=');
   const auto number = read_grbl_number(name.substr(1));
   const auto value = read_grbl_number(line.substr(0, line.find(' ')));
   if (number && std::abs(*number) < 1e6 && value) settings[static_cast<int>(*number)] = *value;

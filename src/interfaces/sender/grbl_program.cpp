@@ -99,7 +99,7 @@ ProgramCheck check_for_grbl(const ProgramReader& program, const MachineDescripti
 GrblProgram::GrblProgram(const ProgramReader& program, const MachineDescription& machine,
                          const InterpreterOptions& options, const Point& zero, bool waits)
     : code_(zero), checker_(program.again(), machine, options, unheard_), waits_(waits) {
-  checker_.watch([this](const PathItem& item) { take(item); });
+  checker_.watch([this](const PathItem& item) { add(item); });
   checker_.watch_operations([this, tools = options.tools](const Operation& operation) {
     words_.watch(operation, tools);
     if (from_line_ == 0 && listener_) listener_(operation);
@@ -126,7 +126,7 @@ std::optional<GrblProgram::Line> GrblProgram::next() {
   return {};
 }
 
-void GrblProgram::take(const PathItem& item) {
+void GrblProgram::add(const PathItem& item) {
   if (from_line_ != 0 && !reaches(item)) return;
   write(item);
 }

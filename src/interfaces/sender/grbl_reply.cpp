@@ -18,7 +18,7 @@ void read_field(std::string_view name, std::string_view value, std::string_view 
   if (name == "WCO") report.work_offset = read_grbl_place(value, axes);
   if (name == "Pn") report.pins = value;
   if (name != "Bf") return;
-  report.blocks_free = read_count(take_grbl_part(value, ','));
+  report.blocks_free = read_count(next_grbl_field(value, ','));
   report.bytes_free = read_count(value);
 }
 
@@ -37,7 +37,7 @@ std::optional<double> read_grbl_number(std::string_view text) {
   return value;
 }
 
-std::string_view take_grbl_part(std::string_view& text, char mark) {
+std::string_view next_grbl_field(std::string_view& text, char mark) {
   const std::size_t at = text.find(mark);
   const std::string_view part = text.substr(0, at);
   text = at == std::string_view::npos ? std::string_view() : text.substr(at + 1);
@@ -49,7 +49,7 @@ std::optional<Point> read_grbl_place(std::string_view text, std::string_view axe
   if (text.empty()) return {};
   for (const char letter : axes) {
     if (text.empty()) break;
-    const auto value = read_grbl_number(take_grbl_part(text, ','));
+    const auto value = read_grbl_number(next_grbl_field(text, ','));
     if (!value) return {};
     const auto axis = axis_of(letter);
     if (axis == Axis::x || axis == Axis::y || axis == Axis::z) place[*axis] = *value;
@@ -61,13 +61,13 @@ std::optional<GrblReport> read_grbl_report(std::string_view line, std::string_vi
   if (line.size() < 3 || line.front() != '<' || line.back() != '>' || is_report_of_old_grbl(line)) return {};
   line = line.substr(1, line.size() - 2);
   GrblReport report;
-  std::string_view state = take_grbl_part(line, '|');
-  report.state = take_grbl_part(state, ':');
+  std::string_view state = next_grbl_field(line, '|');
+  report.state = next_grbl_field(state, ':');
   if (report.state.empty()) return {};
   if (const auto detail = read_count(state)) report.detail = static_cast<int>(*detail);
   while (!line.empty()) {
-    std::string_view field = take_grbl_part(line, '|');
-    const std::string_view name = take_grbl_part(field, ':');
+    std::string_view field = next_grbl_field(line, '|');
+    const std::string_view name = next_grbl_field(field, ':');
     read_field(name, field, axes, report);
   }
   return report;

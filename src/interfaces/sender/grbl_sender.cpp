@@ -160,7 +160,7 @@ GrblFault GrblSender::fault_between_lines(std::string code, std::string message)
       .code = std::move(code), .message = std::move(message), .first_line = first_held_line(), .last_line = last_line_};
 }
 
-void GrblSender::mind_silence() {
+void GrblSender::check_silence() {
   const Seconds since = std::max(heard_, stage_since_);
   if (now_ - since < longest_silence + silence_of_oldest()) return;
   const char* const hint =
@@ -170,7 +170,7 @@ void GrblSender::mind_silence() {
 }
 
 // Bytes that a bad line has swallowed are never answered, and neither is a line by a machine that needs a reset.
-void GrblSender::mind_lost_bytes() {
+void GrblSender::check_lost_bytes() {
   const bool is_locked = report_->state == "Alarm";
   const bool waits = !unanswered_.empty() || (is_locked && has_work_);
   if ((report_->state != "Idle" && !is_locked) || !waits) {
@@ -199,7 +199,7 @@ void GrblSender::mind_lost_bytes() {
 }
 
 // Whatever its state is: a machine that has something to do moves or answers.
-void GrblSender::mind_standstill() {
+void GrblSender::check_standstill() {
   const bool has_nothing_to_do = unanswered_.empty() && (report_->state == "Idle" || report_->state == "Alarm");
   if (has_nothing_to_do || !words_of_grbl_wait(*report_).empty()) progress_ = now_;
   if (now_ - progress_ < longest_standstill + silence_of_oldest()) return;
@@ -233,7 +233,7 @@ void GrblSender::ask_for_status() {
   act('?');
 }
 
-void GrblSender::turn(Seconds now) {
+void GrblSender::poll(Seconds now) {
   now_ = now;
   switch (stage_) {
     case Stage::waking:
@@ -266,7 +266,7 @@ void GrblSender::greet() {
     case Stage::looking:
       // The state is told in each state; lines are answered in few.
       ask_for_status();
-      if (!report_) return mind_silence();
+      if (!report_) return check_silence();
       if (auto trouble = trouble_of_grbl_state(*report_)) return end_with(std::move(*trouble));
       enter(Stage::asking);
       add("$I");
@@ -274,8 +274,8 @@ void GrblSender::greet() {
     default:
       if (all_answered()) return enter(Stage::ready);
       ask_for_status();
-      mind_lost_bytes();
-      return mind_silence();
+      check_lost_bytes();
+      return check_silence();
   }
 }
 
@@ -286,9 +286,9 @@ void GrblSender::watch() {
     GrblFault trouble = *trouble_of_grbl_state(*report_);
     return end_with(fault_between_lines(std::move(trouble.code), std::move(trouble.message)));
   }
-  mind_lost_bytes();
-  if (stage_ == Stage::ready) mind_standstill();
-  if (stage_ == Stage::ready) mind_silence();
+  check_lost_bytes();
+  if (stage_ == Stage::ready) check_standstill();
+  if (stage_ == Stage::ready) check_silence();
 }
 
 void GrblSender::brake() {
@@ -301,7 +301,7 @@ void GrblSender::brake() {
 }
 
 std::string GrblSender::take_bytes(Seconds now) {
-  turn(now);
+  poll(now);
   std::string bytes = std::exchange(urgent_, {});
   const bool may_send = (stage_ == Stage::asking || stage_ == Stage::ready) && !fault_;
   while (may_send && !waiting_.empty()) {

@@ -403,7 +403,7 @@ unsigned WebServer::port() const {
   return implementation_->acceptor.local_endpoint(ignored).port();
 }
 
-void WebServer::turn(int steps) {
+void WebServer::poll(int steps) {
   for (int done = 0; done < steps && implementation_->context.poll_one() > 0; ++done) {
   }
 }

@@ -114,13 +114,13 @@ bool LineParser::parse() {
     }
   }
   if (c == '%') {
-    take();
+    consume();
     block_.percent = true;
     peek();
     return at_end() || fail_unexpected();
   }
   if (c == '/') {
-    take();
+    consume();
     block_.block_delete = true;
     c = peek();
   }
@@ -164,9 +164,9 @@ bool LineParser::parse_line_number() {
   if (as_word && block_.line_number) {
     return fail("gcode.repeated-word", n, 1, "a second N in one block", "each letter once");
   }
-  take();
+  consume();
   const bool is_negative = as_word && peek() == '-';
-  if (is_negative || (as_word && peek() == '+')) take();
+  if (is_negative || (as_word && peek() == '+')) consume();
   bool point = false;
   bool any_digit = false;
   const char* first = nullptr;
@@ -174,7 +174,7 @@ bool LineParser::parse_line_number() {
     if (first == nullptr) first = at_;
     point = point || c == '.';
     any_digit = any_digit || is_digit(c);
-    take();
+    consume();
   }
   if (!any_digit) {
     return fail("gcode.missing-value", n, 1, "N has no line number", "digits after N, as in N120");
@@ -186,7 +186,7 @@ bool LineParser::parse_line_number() {
 
 bool LineParser::parse_word(char letter) {
   const char* const start = at_;
-  take();
+  consume();
   Word& word = block_.words.emplace_back();
   word.letter = letter;
   if (!parse_expression(word.value, start)) return false;
@@ -196,7 +196,7 @@ bool LineParser::parse_word(char letter) {
 
 bool LineParser::parse_assignment() {
   const char* const start = at_;
-  take();
+  consume();
   Assignment& assignment = block_.assignments.emplace_back();
   if (peek() == '<') {
     if (!parse_name(assignment.symbol)) return false;
@@ -205,7 +205,7 @@ bool LineParser::parse_assignment() {
   }
   if (peek() != '=') return fail_assignment(start);
   const char* const equals = at_;
-  take();
+  consume();
   if (!parse_expression(assignment.value, equals)) return false;
   assignment.span = span_from(start);
   return true;
@@ -227,7 +227,7 @@ bool LineParser::parse_comment() {
   comment.text = std::string_view(open + 1, static_cast<std::size_t>(close - open - 1));
   comment.kind = take_keyword(comment.text);
   at_ = close;
-  take();
+  consume();
   comment.span = span_from(open);
   return true;
 }
@@ -243,7 +243,7 @@ void LineParser::parse_semicolon_comment() {
 
 bool LineParser::parse_control() {
   const char* const start = at_;
-  take();
+  consume();
   Control& control = block_.control.emplace();
   control.arguments.swap(block_.spare);
   if (!parse_label(control)) return false;
@@ -256,7 +256,7 @@ bool LineParser::parse_control() {
   }
   const char* const keyword_start = at_;
   std::array<char, 12> letters;  // longer than the longest keyword
-  const std::string_view name = take_letters(letters.data(), letters.size());
+  const std::string_view name = read_letters(letters.data(), letters.size());
   for (const ControlKeyword& keyword : control_keywords) {
     if (keyword.name != name) continue;
     control.kind = keyword.kind;
@@ -328,11 +328,11 @@ bool LineParser::parse_comments_only() {
   }
 }
 
-std::string_view LineParser::take_letters(char* buffer, std::size_t size) {
+std::string_view LineParser::read_letters(char* buffer, std::size_t size) {
   std::size_t count = 0;
   while (count < size && is_letter(peek())) {
     buffer[count++] = to_upper(*at_);
-    take();
+    consume();
   }
   return {buffer, count};
 }

@@ -95,9 +95,9 @@ class LineParser {
     while (at_ != end_ && is_blank(*at_)) ++at_;
     return at_ == end_ ? '\0' : to_upper(*at_);
   }
-  void take() { token_end_ = ++at_; }
+  void consume() { token_end_ = ++at_; }
   // Takes the next letters in upper case, without blanks, as far as `buffer` has room.
-  std::string_view take_letters(char* buffer, std::size_t size);
+  std::string_view read_letters(char* buffer, std::size_t size);
   Span span_from(const char* start) const {
     return {static_cast<std::uint32_t>(start - begin_ + 1), static_cast<std::uint32_t>(token_end_ - start)};
   }

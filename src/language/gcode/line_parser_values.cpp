@@ -148,7 +148,7 @@ bool LineParser::parse_sign(const char* owner) {
   const char* const after = skip_blanks(at_ + 1, end_);
   if (after != end_ && (is_digit(*after) || *after == '.')) return parse_number(owner);
   const bool negative = *at_ == '-';
-  take();
+  consume();
   const std::size_t first = block_.code.size();
   if (!parse_value(start)) return false;
   if (!negative) return true;
@@ -161,10 +161,10 @@ bool LineParser::parse_sign(const char* owner) {
 
 bool LineParser::parse_brackets() {
   const char* const open = at_;
-  take();
+  consume();
   if (!parse_binary(lowest, open)) return false;
   if (peek() != ']') return fail_in_brackets(open);
-  take();
+  consume();
   return true;
 }
 
@@ -188,7 +188,7 @@ bool LineParser::parse_binary(int lowest_precedence, const char* owner) {
 
 bool LineParser::parse_parameter() {
   const char* const start = at_;
-  take();
+  consume();
   if (peek() != '<') return parse_value(start) && emit(ExpressionOp::parameter, start);
   Symbol symbol;
   return parse_name(symbol) && emit(ExpressionOp::named_parameter, start, 0, symbol);
@@ -197,7 +197,7 @@ bool LineParser::parse_parameter() {
 bool LineParser::parse_function(const char* owner) {
   const char* const start = at_;
   std::array<char, 8> letters;  // longer than the longest name
-  const std::string_view name = take_letters(letters.data(), letters.size());
+  const std::string_view name = read_letters(letters.data(), letters.size());
   for (const Function& function : functions) {
     if (function.name != name) continue;
     if (function.op == ExpressionOp::exists_parameter) return parse_exists(start);
@@ -207,13 +207,13 @@ bool LineParser::parse_function(const char* owner) {
         return fail("gcode.unexpected-text", start, span_from(start).length, "ATAN has one argument only",
                     "two: ATAN[y]/[x]");
       }
-      take();
+      consume();
       if (!parse_function_argument(start)) return false;
     }
     return emit(function.op, start);
   }
   // No function has this name. If brackets follow, a function was meant; else a value is missing: "X Y5".
-  while (is_letter(peek())) take();
+  while (is_letter(peek())) consume();
   const Span written = span_from(start);
   const char next = peek();
   if (written.length > 1 && (next == '[' || next == '(')) return fail_function(start, {start, written.length});
@@ -231,7 +231,7 @@ bool LineParser::parse_function_argument(const char* name_start) {
 bool LineParser::parse_exists(const char* name_start) {
   bool good = peek() == '[';
   if (good) {
-    take();
+    consume();
     good = peek() == '#';
   }
   if (!good) {
@@ -239,7 +239,7 @@ bool LineParser::parse_exists(const char* name_start) {
                 "EXISTS is not asked about a parameter", "EXISTS[#<name>] or EXISTS[#5]");
   }
   const char* const hash = at_;
-  take();
+  consume();
   Symbol symbol;
   ExpressionOp op = ExpressionOp::exists_parameter;
   if (peek() == '<') {
@@ -252,13 +252,13 @@ bool LineParser::parse_exists(const char* name_start) {
     return fail("gcode.unexpected-text", name_start, span_from(name_start).length,
                 "EXISTS is asked about more than a parameter", "']' after the parameter, as in EXISTS[#<name>]");
   }
-  take();
+  consume();
   return emit(op, name_start, 0, symbol);
 }
 
 bool LineParser::parse_name(Symbol& symbol) {
   const char* const open = at_;
-  take();
+  consume();
   const char* const first = at_;
   bool any = false;
   for (; at_ != end_ && *at_ != '>'; ++at_) {
@@ -275,7 +275,7 @@ bool LineParser::parse_name(Symbol& symbol) {
   }
   if (!any) return fail("gcode.bad-parameter-name", open, 2, "the name is empty", "a name between '<' and '>'");
   symbol = symbols_.intern({first, static_cast<std::size_t>(at_ - first)});
-  take();
+  consume();
   return true;
 }
 

@@ -323,7 +323,7 @@ ProgramReader ProgramReader::from_lines(std::string name) {
   return from_text(std::move(name), {});
 }
 
-void ProgramReader::give_line(std::string_view text) {
+void ProgramReader::push_line(std::string_view text) {
   State& state = *state_;
   state.offset += state.filled;
   state.buffer.assign(text.begin(), text.end());

@@ -110,9 +110,9 @@ void BlockExecutor::keep() {
   drilling_.keep();
 }
 
-void BlockExecutor::take_back() {
+void BlockExecutor::roll_back() {
   block_.missing_feed_told = missing_feed_was_told_;
-  drilling_.take_back();
+  drilling_.roll_back();
   cycle_ = nullptr;
   reopen();  // the program had not ended when its last line came
 }
@@ -122,7 +122,7 @@ void BlockExecutor::finish(Closing closing) {
   (void)cutter_.release();
   block_.source.line_number = -1;
   if (closing == Closing::percent) emit(operation::Finish{});
-  if (closing == Closing::missing) note("interpreter: percent sign missing from end of file");
+  if (closing == Closing::missing) emit_comment("interpreter: percent sign missing from end of file");
   // Twice, as rs274 does: the end of the program, and of the interpreter. With settings it does not get there.
   emit(operation::Reset{});
   if (!has_settings_) emit(operation::Reset{});
@@ -306,7 +306,7 @@ bool BlockExecutor::move_by(CodeNumber number) {
     case code(72):
     case code(72, 1):
     case code(72, 2): return lathe_.start(number);
-    default: note("interpreter: motion mode set to none"); return true;  // G80
+    default: emit_comment("interpreter: motion mode set to none"); return true;  // G80
   }
 }
 

@@ -51,7 +51,7 @@ class BlockExecutor : private CodeFamily {
   // Notes what the blocks so far leave to the next ones, beside the program's state and its parameters; and goes back
   // to that. In grbl's dialect this is all; splines, cutter compensation and macros of LinuxCNC's remember more.
   void keep();
-  void take_back();
+  void roll_back();
   // Goes on after the end of the program.
   void reopen() { block_.ended = block_.gave_up = false; }
   // The jump that the block just executed requests.
@@ -69,7 +69,7 @@ class BlockExecutor : private CodeFamily {
 
   // True: the program waits for what the machine finds in the last probe move.
   bool awaits_probe() const { return probe_.awaits_outcome(); }
-  void take_probe_outcome() { probe_.take_outcome(); }
+  void apply_probe_outcome() { probe_.apply_outcome(); }
 
   // The lathe cycle that takes the blocks of its sub, one after the other, instead of execute(). Null: no such cycle.
   LatheCodes* wants_contour() { return lathe_.wants_contour() ? &lathe_ : nullptr; }

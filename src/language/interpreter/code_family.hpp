@@ -72,7 +72,7 @@ class CodeFamily {
   // nothing.
   void emit_ahead(const OperationKind& what) { operations_.push_ahead(operation_of(what)); }
   // LinuxCNC reports changes of its own modes as comments. Its canonical calls are what other programs compare with.
-  void note(std::string_view text) { emit(operation::Comment{text}); }
+  void emit_comment(std::string_view text) { emit(operation::Comment{text}); }
   Operation operation_of(const OperationKind& what) const {
     return {what, block_.source, block_.word, &block_.axis_words, goes_to_machine()};
   }

@@ -68,7 +68,7 @@ bool CutterCodes::check() {
 
 bool CutterCodes::set(CodeNumber number) {
   if (number != code(40)) return start(number);
-  note("interpreter: cutter radius compensation off");
+  emit_comment("interpreter: cutter radius compensation off");
   state_.modal.set(cutter_compensation, code(40));
   state_.cutter_shift = {};
   return report(cutter_.stop(), words_.span(cutter_compensation));
@@ -93,8 +93,8 @@ bool CutterCodes::start(CodeNumber number) {
     setup.left = !setup.left;
     setup.radius = -setup.radius;
   }
-  note(setup.left ? "interpreter: cutter radius compensation on left"
-                  : "interpreter: cutter radius compensation on right");
+  emit_comment(setup.left ? "interpreter: cutter radius compensation on left"
+                          : "interpreter: cutter radius compensation on right");
   state_.modal.set(cutter_compensation, setup.left ? code(41) : code(42));
   cutter_.start(setup);
   return true;

@@ -37,12 +37,12 @@ class Cycle : public Source<Operation> {
   // Gives the operations of the next step. False: there are no more steps.
   virtual bool step() = 0;
 
-  void give(const OperationKind& operation) {
+  void emit(const OperationKind& operation) {
     assert(count_ < longest_step);
     operations_[count_++] = operation;
   }
-  void traverse(const Point& end) { give(operation::StraightTraverse{position_ = end}); }
-  void feed(const Point& end) { give(operation::StraightFeed{position_ = end}); }
+  void traverse(const Point& end) { emit(operation::StraightTraverse{position_ = end}); }
+  void feed(const Point& end) { emit(operation::StraightFeed{position_ = end}); }
 
   OperationSource source_;
   Point position_;

@@ -42,7 +42,7 @@ std::string Doubts::normal(std::string_view name) {
 }
 
 // From the '#' at `at`. Returns where it ends.
-std::size_t Doubts::take_parameter(std::string_view line, std::size_t at) {
+std::size_t Doubts::scan_parameter(std::string_view line, std::size_t at) {
   const std::size_t close = line.find('>', at);
   const std::size_t next = line.find_first_not_of(" \t", at + 1);
   if (next == std::string_view::npos || line[next] != '<' || close == std::string_view::npos) return at;
@@ -51,13 +51,13 @@ std::size_t Doubts::take_parameter(std::string_view line, std::size_t at) {
   return close;
 }
 
-void Doubts::take(std::string_view line) {
+void Doubts::scan(std::string_view line) {
   for (std::size_t i = 0; i < line.size(); ++i) {
     const char c = line[i];
     if (c == ';') return;
     if (c == '(') i = closing(line, i, ')');
     if (c == '[') i = closing(line, i, ']');
-    if (c == '#') i = take_parameter(line, i);
+    if (c == '#') i = scan_parameter(line, i);
     if (c == '@' || c == '^') axes_ = axes_ | "XY";
     const char letter = c >= 'a' && c <= 'z' ? static_cast<char>(c - 'a' + 'A') : c;
     if (letter < 'A' || letter > 'Z') continue;

@@ -14,7 +14,7 @@ namespace passo {
 class Doubts {
  public:
   // `line` failed. It would have set whatever it names.
-  void take(std::string_view line);
+  void scan(std::string_view line);
 
   // Whether an error of this code may be a consequence.
   bool explain(std::string_view code) const;
@@ -27,7 +27,7 @@ class Doubts {
 
  private:
   static std::string normal(std::string_view name);
-  std::size_t take_parameter(std::string_view line, std::size_t at);
+  std::size_t scan_parameter(std::string_view line, std::size_t at);
 
   LetterSet letters_;
   LetterSet axes_;

@@ -20,7 +20,7 @@ class DrillingCodes final : public CycleCodes {
   }
   // Notes the words of the active cycle, and goes back to them.
   void keep() { before_ = kept_; }
-  void take_back() { kept_ = before_; }
+  void roll_back() { kept_ = before_; }
   Cycle& cycle() override { return *cycle_; }
   bool finish() override;
 

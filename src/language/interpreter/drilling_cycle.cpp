@@ -32,7 +32,7 @@ void DrillingCycle::begin() {
   const double between = plan_.returns_to_initial ? plan_.initial_height : plan_.retract;
   height_ = std::max(position_[plan_.axis], between);
   clear_ = std::max(plan_.retract, between);
-  if (plan_.path_mode != PathMode::exact_path) give(operation::SetPathMode{PathMode::exact_path, Mm(0)});
+  if (plan_.path_mode != PathMode::exact_path) emit(operation::SetPathMode{PathMode::exact_path, Mm(0)});
 }
 
 bool DrillingCycle::go_to_hole() {
@@ -77,9 +77,9 @@ void DrillingCycle::finish_hole() {
   if (taps(number)) return tap();
   if (number == code(87)) return bore_back();
   feed_to(plan_.bottom);
-  if (dwells(number)) give(operation::Dwell{Seconds(plan_.dwell)});
-  if (stops_spindle(number)) give(operation::TurnSpindle{});
-  if (number == code(88)) give(operation::ProgramStop{});
+  if (dwells(number)) emit(operation::Dwell{Seconds(plan_.dwell)});
+  if (stops_spindle(number)) emit(operation::TurnSpindle{});
+  if (number == code(88)) emit(operation::ProgramStop{});
   if (number == code(85)) feed_to(plan_.retract);
   if (number == code(88) && plan_.retracts_by_hand) {
     position_[plan_.axis] = clear_;
@@ -88,7 +88,7 @@ void DrillingCycle::finish_hole() {
   } else {
     traverse_to(clear_);
   }
-  if (stops_spindle(number)) give(operation::TurnSpindle{plan_.spindle});
+  if (stops_spindle(number)) emit(operation::TurnSpindle{plan_.spindle});
 }
 
 // The spindle is held at an angle. The tool, moved aside, goes down through the hole, goes back to the hole's axis and
@@ -99,45 +99,45 @@ void DrillingCycle::bore_back() {
   // LinuxCNC passes its number of the spindle's direction in place of M19's P.
   const auto way = static_cast<operation::OrientSpindle::Way>(static_cast<int>(plan_.spindle) + 1);
   const auto hold_spindle = [&] {
-    give(operation::TurnSpindle{});
-    give(operation::OrientSpindle{0, way});
+    emit(operation::TurnSpindle{});
+    emit(operation::OrientSpindle{0, way});
   };
   traverse_by(aside);
   hold_spindle();
   traverse_to(plan_.bottom);
   traverse_by(Point{} - aside);
-  give(operation::TurnSpindle{plan_.spindle});
+  emit(operation::TurnSpindle{plan_.spindle});
   feed_to(plan_.top);
   feed_to(plan_.bottom);
   hold_spindle();
   traverse_by(aside);
   traverse_to(clear_);
   traverse_by(Point{} - aside);
-  give(operation::TurnSpindle{plan_.spindle});
+  emit(operation::TurnSpindle{plan_.spindle});
 }
 
 // Tapping with a floating holder: the tool goes in and out with feed F, and no override may change the feed meanwhile.
 void DrillingCycle::tap() {
   const SpindleDirection out =
       plan_.spindle == SpindleDirection::clockwise ? SpindleDirection::counterclockwise : SpindleDirection::clockwise;
-  give(operation::SetFeedOverride{false});
-  give(operation::SetSpeedOverride{false});
+  emit(operation::SetFeedOverride{false});
+  emit(operation::SetSpeedOverride{false});
   feed_to(plan_.bottom);
-  give(operation::TurnSpindle{});
-  give(operation::TurnSpindle{out});
-  give(operation::Dwell{Seconds(plan_.dwell)});
+  emit(operation::TurnSpindle{});
+  emit(operation::TurnSpindle{out});
+  emit(operation::Dwell{Seconds(plan_.dwell)});
   feed_to(clear_);
-  give(operation::TurnSpindle{});
-  give(operation::TurnSpindle{plan_.spindle});
-  if (plan_.feed_override) give(operation::SetFeedOverride{true});
-  if (plan_.speed_override) give(operation::SetSpeedOverride{true});
+  emit(operation::TurnSpindle{});
+  emit(operation::TurnSpindle{plan_.spindle});
+  if (plan_.feed_override) emit(operation::SetFeedOverride{true});
+  if (plan_.speed_override) emit(operation::SetSpeedOverride{true});
 }
 
 void DrillingCycle::end() {
   if (plan_.path_mode == PathMode::exact_path) return;
   const bool continuous = plan_.path_mode == PathMode::continuous;
-  give(operation::SetPathMode{plan_.path_mode, continuous ? plan_.tolerance.path : Mm(0)});
-  give(operation::SetMergeTolerance{plan_.tolerance.merge});  // LinuxCNC gives both operations in any mode
+  emit(operation::SetPathMode{plan_.path_mode, continuous ? plan_.tolerance.path : Mm(0)});
+  emit(operation::SetMergeTolerance{plan_.tolerance.merge});  // LinuxCNC gives both operations in any mode
 }
 
 void DrillingCycle::traverse_to(double height) {

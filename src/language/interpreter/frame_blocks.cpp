@@ -94,7 +94,7 @@ class FrameBlocks::Watcher final : public BlockWatcher {
   }
 
   const FrameBlock& last() const { return last_; }
-  std::vector<FrameBlock> take() { return std::exchange(executed_, {}); }
+  std::vector<FrameBlock> take_executed() { return std::exchange(executed_, {}); }
 
  private:
   void take_code(const Word& word, double value) {
@@ -119,8 +119,8 @@ const FrameBlock& FrameBlocks::last() const {
   return watcher_->last();
 }
 
-std::vector<FrameBlock> FrameBlocks::take() {
-  return watcher_->take();
+std::vector<FrameBlock> FrameBlocks::take_executed() {
+  return watcher_->take_executed();
 }
 
 }  // namespace passo

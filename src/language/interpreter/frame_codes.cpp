@@ -50,7 +50,7 @@ void FrameCodes::restore_tool_offset(const ModalSnapshot& saved) {
 
 bool FrameCodes::select_work_system(CodeNumber number) {
   if (state_.modal[work_system] == number) {
-    note("interpreter: continuing to use same coordinate system");
+    emit_comment("interpreter: continuing to use same coordinate system");
     return true;
   }
   activate_system(system_of(number), true);
@@ -146,7 +146,7 @@ bool FrameCodes::set_work_offset() {
   if (is_active) {
     activate_system(system, false);
   } else {
-    note("interpreter: setting coordinate system origin");
+    emit_comment("interpreter: setting coordinate system origin");
   }
   return true;
 }

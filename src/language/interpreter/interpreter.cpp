@@ -50,7 +50,7 @@ class Interpreter::Implementation {
 
   bool next(Operation& operation) {
     while (operations_.empty()) {
-      if (executor_.awaits_probe()) executor_.take_probe_outcome();
+      if (executor_.awaits_probe()) executor_.apply_probe_outcome();
       if (finished_ || !step()) return false;
     }
     operation = operations_.front();
@@ -73,17 +73,17 @@ class Interpreter::Implementation {
 
   std::uint64_t offset() const { return flow_.offset(); }
 
-  void give_line(std::string_view text) { flow_.give_line(text); }
+  void push_line(std::string_view text) { flow_.push_line(text); }
   bool ended() const { return finished_ || executor_.ended(); }
   void keep() {
     kept_state_ = state_;
     parameters_.keep();
     executor_.keep();
   }
-  void take_back() {
+  void roll_back() {
     state_ = kept_state_;
-    parameters_.take_back();
-    executor_.take_back();
+    parameters_.roll_back();
+    executor_.roll_back();
     finished_ = false;
   }
   void reopen() {
@@ -243,8 +243,8 @@ void Interpreter::watch(BlockWatcher& watcher) {
   implementation_->watch(watcher);
 }
 
-void Interpreter::give_line(std::string_view text) {
-  implementation_->give_line(text);
+void Interpreter::push_line(std::string_view text) {
+  implementation_->push_line(text);
 }
 
 bool Interpreter::ended() const {
@@ -255,8 +255,8 @@ void Interpreter::keep() {
   implementation_->keep();
 }
 
-void Interpreter::take_back() {
-  implementation_->take_back();
+void Interpreter::roll_back() {
+  implementation_->roll_back();
 }
 
 void Interpreter::reopen() {

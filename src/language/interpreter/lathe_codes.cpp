@@ -195,7 +195,7 @@ bool LatheCodes::end_contour() {
   block_.source = contour_->source;
   state_.line = contour_->source.line;
   state_.position = contour_->start;
-  reporter_.look_at(contour_->block);  // what is found from here on is about the cycle
+  reporter_.set_block(contour_->block);  // what is found from here on is about the cycle
   if (!contour_->good || reporter_.errors() != contour_->errors_before) return false;
   if (contour_->shape.segments.size() < 2) {
     return fail_contour("the contour has fewer than two lines and arcs",

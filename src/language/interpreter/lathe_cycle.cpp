@@ -52,7 +52,7 @@ LatheFault LatheCycle::add_arc(const LatheMove& move, const LatheOrientation& or
   if (arc.fault != ArcFault::none) return LatheFault::vanished;
   const bool clockwise = (move.kind == LatheMove::Kind::clockwise) != orientation.swaps_arcs();
   last_motion_ = clockwise ? code(2) : code(3);
-  give(operation::ArcFeed{Plane::zx, end, Mm(center.real()), Mm(center.imag()), clockwise ? -1 : 1});
+  emit(operation::ArcFeed{Plane::zx, end, Mm(center.real()), Mm(center.imag()), clockwise ? -1 : 1});
   return LatheFault::none;
 }
 

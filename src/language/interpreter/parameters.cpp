@@ -136,7 +136,7 @@ void Parameters::keep() {
   kept_names_.clear();
 }
 
-void Parameters::take_back() {
+void Parameters::roll_back() {
   for (; !kept_numbers_.empty(); kept_numbers_.pop_back()) {
     numbers_[static_cast<std::size_t>(kept_numbers_.back().first)] = kept_numbers_.back().second;
   }

@@ -83,9 +83,9 @@ class Parameters final : public ParameterValues {
   Point point(int first) const;
   void set_point(int first, const Point& point);
 
-  // Notes what is set from now on. take_back() undoes what was set since.
+  // Notes what is set from now on. roll_back() undoes what was set since.
   void keep();
-  void take_back();
+  void roll_back();
 
   // A sub begins, with these arguments as its #1 …
   void enter_sub(std::span<const double> arguments);

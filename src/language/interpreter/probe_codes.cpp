@@ -52,7 +52,7 @@ bool ProbeCodes::probe(CodeNumber number) {
 }
 
 // Called when the machine is at rest after the probe move. The program goes on from there, or ends.
-void ProbeCodes::take_outcome() {
+void ProbeCodes::apply_outcome() {
   const CodeNumber number = *std::exchange(awaited_, std::nullopt);
   const ProbeOutcome& outcome = *block_.answers.probe();
   const std::string name = spelling('G', number);

@@ -14,7 +14,7 @@ class ProbeCodes : private CodeFamily {
   bool probe(CodeNumber code);
   // True: the program waits for what the machine finds in the last probe move.
   bool awaits_outcome() const { return awaited_.has_value(); }
-  void take_outcome();
+  void apply_outcome();
 
  private:
   bool check(CodeNumber code);

@@ -48,12 +48,12 @@ ProgramFlow::ProgramFlow(ProgramReader reader, const Options& options, ProgramSt
       value_name_(symbols.intern("_value")),
       returned_name_(symbols.intern("_value_returned")) {
   files_.push_back(std::make_unique<File>(std::move(reader), 0, symbols_));
-  if (options_.dialect == Dialect::grbl) files_.front()->parser.take_line_numbers_anywhere();
+  if (options_.dialect == Dialect::grbl) files_.front()->parser.accept_line_numbers_anywhere();
   file_ = files_.front().get();
   (void)parameters_.set_named(value_name_, 0);
   (void)parameters_.set_named(returned_name_, 0);
-  look_at(line_);
-  reporter_.tell_calls_of(*this);
+  set_block(line_);
+  reporter_.set_call_stack(*this);
 }
 
 const Block* ProgramFlow::next() {

@@ -50,7 +50,7 @@ class ProgramFlow final : public CallStack {
     std::vector<std::string> sub_folders;  // after the program's own
     Dialect dialect = Dialect::linuxcnc;
     bool numbered_programs = true;  // false: [RS274NGC]DISABLE_FANUC_STYLE_SUB
-    bool open_ended = false;        // the lines come one by one, with give_line()
+    bool open_ended = false;        // the lines come one by one, with push_line()
     LetterSet more_grbl_axes = {};  // that the dialect of grbl takes beside X, Y and Z
   };
   enum class End : std::uint8_t { none, file, percent, error };
@@ -62,7 +62,7 @@ class ProgramFlow final : public CallStack {
   // call_for_contour() ends.
   const Block* next();
   // Only with `open_ended`, when next() has returned null.
-  void give_line(std::string_view text) { files_.front()->reader.give_line(text); }
+  void push_line(std::string_view text) { files_.front()->reader.push_line(text); }
   // True: the next line was not given yet.
   bool waits_for_line() const { return options_.open_ended && end_ == End::none; }
   // Tells whether a sub was just left, and the line of its call.
@@ -160,7 +160,7 @@ class ProgramFlow final : public CallStack {
   bool next_line(std::string_view& text, std::uint32_t& line);
   bool parse(std::string_view text, std::uint32_t line);
   bool recall();
-  void look_at(Block& block);
+  void set_block(Block& block);
   static bool may_be_control(std::string_view text);
   static bool names_control(std::string_view text);
   bool is_readable(std::string_view text, std::uint32_t line);

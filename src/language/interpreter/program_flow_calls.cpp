@@ -72,7 +72,7 @@ void ProgramFlow::enter(const Frame& frame, File* file) {
   state_.call_depth = static_cast<int>(frames_.size());
   file_ = file;
   file_->reader.seek(frame.place.after);
-  look_at(*block_);
+  set_block(*block_);
 }
 
 void ProgramFlow::leave_frame() {
@@ -83,7 +83,7 @@ void ProgramFlow::leave_frame() {
   state_.call_depth = static_cast<int>(frames_.size());
   file_ = frame.caller;
   file_->reader.seek(frame.return_to);
-  look_at(*block_);
+  set_block(*block_);
   left_sub_ = frame.return_to.line - 1;
 }
 
@@ -139,7 +139,7 @@ bool ProgramFlow::find_in(File& file, Symbol label) {
   file.reader.seek(here);
   file_ = reading;
   line_ = current;
-  look_at(line_);
+  set_block(line_);
   block_at_ = call_at;
   const ReaderPosition next = file_->reader.position();
   reread_block_text();

@@ -58,7 +58,7 @@ bool ProgramFlow::recall() {
   KeptBlock* const kept = kept_.find(file_->number, block_at_);
   if (kept == nullptr) return false;
   file_->reader.seek(kept->after);
-  look_at(kept->block);
+  set_block(kept->block);
   return true;
 }
 
@@ -80,7 +80,7 @@ bool ProgramFlow::parse(std::string_view text, std::uint32_t line) {
     kept = &kept_.make_room(file_->number, block_at_, file_->reader.position(), text);
     text = kept->text;
   }
-  look_at(kept != nullptr ? kept->block : line_);
+  set_block(kept != nullptr ? kept->block : line_);
   if (is_readable(text, line)) return true;
   doubt_label();
   reporter_.pass_on(faults_);
@@ -102,9 +102,9 @@ void ProgramFlow::doubt_label() {
   }
 }
 
-void ProgramFlow::look_at(Block& block) {
+void ProgramFlow::set_block(Block& block) {
   block_ = &block;
-  reporter_.look_at(block, file_->name);
+  reporter_.set_block(block, file_->name);
 }
 
 // grbl reads word by word, so of several errors it tells the first.

@@ -27,16 +27,16 @@ class Reporter {
   explicit Reporter(Diagnostics& diagnostics) : diagnostics_(diagnostics) {}
 
   // Until the next call, reports are about this block of this file. Both are borrowed.
-  void look_at(const Block& block, const std::string& file) {
+  void set_block(const Block& block, const std::string& file) {
     block_ = &block;
     file_ = &file;
   }
 
   // The same for another block of that file.
-  void look_at(const Block& block) { block_ = &block; }
+  void set_block(const Block& block) { block_ = &block; }
 
   // Sets the stack that tells through which calls the program came to a finding. Borrowed.
-  void tell_calls_of(const CallStack& stack) { stack_ = &stack; }
+  void set_call_stack(const CallStack& stack) { stack_ = &stack; }
 
   void error(std::string_view code, Span span, std::string message, std::string expected = {});
   void warning(std::string_view code, Span span, std::string message, std::string expected = {});
@@ -57,7 +57,7 @@ class Reporter {
   void judge_lines_alone() { judges_alone_ = true; }
   // The block failed, and what it would have set is in doubt.
   void doubt() {
-    if (!judges_alone_) doubts_.take(block_->text);
+    if (!judges_alone_) doubts_.scan(block_->text);
   }
   Doubts& doubts() { return doubts_; }
 

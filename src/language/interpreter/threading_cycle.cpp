@@ -45,21 +45,21 @@ void ThreadingCycle::cut(double depth) {
 
   rapid(above, first);
   if (!thread.taper_at_start) rapid(bottom, first);
-  give(operation::SetFeedOverride{false});
+  emit(operation::SetFeedOverride{false});
   if (thread.taper_at_start) {
-    give(operation::StartSpeedFeedSync{Mm(slope_pitch), false});
+    emit(operation::StartSpeedFeedSync{Mm(slope_pitch), false});
     feed_to(crest, first);
     feed_to(bottom, first - thread.taper);
   }
-  give(operation::StartSpeedFeedSync{Mm(thread.pitch), false});
+  emit(operation::StartSpeedFeedSync{Mm(thread.pitch), false});
   feed_to(bottom, thread.taper_at_end ? last + thread.taper : last);
   if (thread.taper_at_end) {
-    give(operation::StartSpeedFeedSync{Mm(slope_pitch), false});
+    emit(operation::StartSpeedFeedSync{Mm(slope_pitch), false});
     feed_to(crest, last);
   }
-  give(operation::StopSpeedFeedSync{});
+  emit(operation::StopSpeedFeedSync{});
   rapid(above, last);
-  if (thread.feed_override) give(operation::SetFeedOverride{true});
+  if (thread.feed_override) emit(operation::SetFeedOverride{true});
 }
 
 }  // namespace passo

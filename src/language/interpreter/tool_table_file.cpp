@@ -173,7 +173,7 @@ std::string written(char letter, double value, bool plus) {
 }
 
 // The words of a line without its remark.
-std::vector<std::string_view> words_of(std::string_view line) {
+std::vector<std::string_view> split_words(std::string_view line) {
   std::vector<std::string_view> words;
   for (std::size_t at = line.find_first_not_of(blanks); at != std::string_view::npos;) {
     const std::size_t end = std::min(line.find_first_of(blanks, at), line.size());
@@ -226,7 +226,7 @@ std::string tool_table_text(std::string_view text, LengthUnits units, const Tool
     const std::string_view line = text.substr(0, end);
     text.remove_prefix(end);
     const std::string_view head = line.substr(0, line.find_first_of(";\n"));
-    const std::vector<std::string_view> words = words_of(head);
+    const std::vector<std::string_view> words = split_words(head);
     const Tool* const tool = tool_of(words, table);
     result += tool == nullptr ? std::string(head) : line_with(*tool, head, words, unit);
     result += line.substr(head.size());

@@ -117,7 +117,7 @@ void HomingPath::seek_together() {
 }
 
 // Watches the switch of one axis without a move: the watch is refused if the switch is closed.
-void HomingPath::look_at(std::size_t which) {
+void HomingPath::begin_look(std::size_t which) {
   looked_at_ = which;
   axis_ = turn_[which];
   until_closed_ = true;
@@ -163,7 +163,7 @@ void HomingPath::move_alone(double way) {
 void HomingPath::judge() {
   const Point before = position_;
   if (!outcome().refused) position_ = outcome().rest;
-  note_way(before);
+  record_way(before);
   if (together_) return judge_together();
   switch (stage_) {
     case HomingStage::look: return judge_look();
@@ -177,7 +177,7 @@ void HomingPath::judge() {
 
 // Takes note of where the motors of the axis have gone, and of where the switch has closed. A contact that bounces
 // closes again on the way off: that is not its place.
-void HomingPath::note_way(const Point& before) {
+void HomingPath::record_way(const Point& before) {
   const double way = stands() - before[axis_->axis];
   const double to_contact = outcome().contact[axis_->axis] - before[axis_->axis];
   const bool retreats = stage_ == HomingStage::back_off || stage_ == HomingStage::pull_off;
@@ -195,20 +195,20 @@ void HomingPath::judge_together() {
   if (!outcome().refused && !outcome().touched) return fail(MachineFault::switch_not_met);
   together_ = false;
   if (outcome().touched && !outcome().refused) met_ = outcome().contact;
-  look_at(0);
+  begin_look(0);
 }
 
 // The switch may have opened again by itself: then the first axis seeks alone.
 void HomingPath::judge_look() {
   if (outcome().refused) return begin_axis(*turn_[looked_at_]);
-  if (looked_at_ + 1 < turn_.size()) return look_at(looked_at_ + 1);
+  if (looked_at_ + 1 < turn_.size()) return begin_look(looked_at_ + 1);
   begin_axis(*turn_.front());
 }
 
 void HomingPath::judge_approach() {
   if (outcome().refused && stage_ == HomingStage::latch) {
     // The switch has closed by itself after the axis backed off.
-    turn_watch();
+    reverse_watch();
     return retreat(HomingStage::back_off, stands());
   }
   if (!outcome().refused && !outcome().touched) return fail(MachineFault::switch_not_met);
@@ -275,7 +275,7 @@ void HomingPath::judge_retreat() {
   if (outcome().refused || outcome().touched) {
     const bool is_first = !knows_switch_ && outcome().touched;
     knows_switch_ = knows_switch_ || outcome().touched;
-    turn_watch();
+    reverse_watch();
     return begin(stage_, is_first ? off(outcome().contact[axis_->axis]) : target);
   }
   if (!until_closed_) return fail(MachineFault::switch_still_closed);
@@ -302,7 +302,7 @@ double HomingPath::apart_from_switches() const {
   return (goes_[first_motor] - found_[first_motor]) - (goes_[second_motor] - found_[second_motor]);
 }
 
-void HomingPath::turn_watch() {
+void HomingPath::reverse_watch() {
   until_closed_ = !until_closed_;
   if (++turns_ > most_turns) fault_ = MachineFault::switch_unsteady;
 }

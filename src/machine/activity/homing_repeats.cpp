@@ -10,7 +10,7 @@
 
 namespace passo {
 
-void HomingRepeats::note(const std::vector<HomedAxis>& homed, const std::optional<Point>& stood) {
+void HomingRepeats::record(const std::vector<HomedAxis>& homed, const std::optional<Point>& stood) {
   if (!stood) {
     homings_ = 0;
     places_.clear();
@@ -55,7 +55,7 @@ std::vector<AxisRepeats> HomingRepeats::axes() const {
   return all;
 }
 
-std::string words_of(const AxisRepeats& repeats) {
+std::string describe(const AxisRepeats& repeats) {
   // No minus sign before a zero.
   const auto rounded = [](double value) { return std::round(value * 10) / 10 + 0.0; };
   return fmt::format("{}: the mean place is {:.1f} {unit} from the first, the spread {:.1f} {unit} ({})",

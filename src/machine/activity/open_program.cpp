@@ -65,10 +65,10 @@ void OpenProgram::restart(const Point& place) {
 
 void OpenProgram::go_on_at(const Point& place) {
   const SavedParameters parameters = interpreter_->saved_parameters();
-  take_offsets(parameters, place);
+  apply_offsets(parameters, place);
 }
 
-void OpenProgram::take_offsets(const SavedParameters& parameters, const Point& place) {
+void OpenProgram::apply_offsets(const SavedParameters& parameters, const Point& place) {
   forget_queue();
   options_.parameters = interpreter_->saved_parameters();
   set_lasting_offsets(options_.parameters, parameters);
@@ -107,15 +107,15 @@ void OpenProgram::begin_after_end() {
   ended_ = true;
 }
 
-std::optional<Diagnostic> OpenProgram::take(std::string_view line, Seconds now) {
-  return give(line, now, false);
+std::optional<Diagnostic> OpenProgram::add_line(std::string_view line, Seconds now) {
+  return queue_line(line, now, false);
 }
 
-std::optional<Diagnostic> OpenProgram::take_jog(std::string_view words, Seconds now) {
+std::optional<Diagnostic> OpenProgram::add_jog(std::string_view words, Seconds now) {
   const ModesInForce modes = interpreter_->modes();
   const double unit = modes.inches ? mm_per_inch : 1;
   const int motion = interpreter_->motion();
-  auto answer = give(fmt::format("G94 G1 {}", words), now, true);
+  auto answer = queue_line(fmt::format("G94 G1 {}", words), now, true);
   // Units come first, because F counts in them.
   static_cast<void>(read(modes.codes[3]));
   static_cast<void>(read(fmt::format("G94 F{:.6f}", modes.feed / unit)));
@@ -128,9 +128,9 @@ std::optional<Diagnostic> OpenProgram::take_jog(std::string_view words, Seconds 
 std::optional<Diagnostic> OpenProgram::check(std::string_view line) {
   const std::size_t kept = queue_.size();
   auto answer = read(line);
-  answers_.note({});
+  answers_.record({});
   for (PathItem item; pull_answer(item);) {
-    if (is_kind(item, Action::Kind::probe_end)) answers_.note(touched_at(std::get<Action>(item).place));
+    if (is_kind(item, Action::Kind::probe_end)) answers_.record(touched_at(std::get<Action>(item).place));
   }
   queue_.resize(kept);
   if (interpreter_->ended()) begin_after_end();
@@ -140,11 +140,11 @@ std::optional<Diagnostic> OpenProgram::check(std::string_view line) {
 std::optional<Diagnostic> OpenProgram::judge(std::string_view line) {
   const std::size_t kept = queue_.size();
   auto answer = read(line);
-  if (!answer) take_back(kept);
+  if (!answer) roll_back(kept);
   return answer;
 }
 
-std::optional<Diagnostic> OpenProgram::give(std::string_view line, Seconds now, bool jogs) {
+std::optional<Diagnostic> OpenProgram::queue_line(std::string_view line, Seconds now, bool jogs) {
   const std::size_t kept = queue_.size();
   answer_fault_.reset();
   auto answer = read(line);
@@ -169,7 +169,7 @@ std::optional<Diagnostic> OpenProgram::read(std::string_view line) {
   builder_->keep();
   kept_words_ = wait_words_;
   diagnostics_.clear();
-  interpreter_->give_line(line);
+  interpreter_->push_line(line);
   for (PathItem item; builder_->next(item);) {
     if (diagnostics_.any_error()) break;
     push(item);
@@ -178,12 +178,12 @@ std::optional<Diagnostic> OpenProgram::read(std::string_view line) {
   }
   if (!diagnostics_.any_error()) return {};
   const Diagnostic error = *first_error(diagnostics_);
-  take_back(kept);
+  roll_back(kept);
   return error;
 }
 
 // Goes back to what was before the line that was read last.
-void OpenProgram::take_back(std::size_t kept) {
+void OpenProgram::roll_back(std::size_t kept) {
   asks_ = false;
   for (PathItem item; builder_->next(item);) {
   }
@@ -192,8 +192,8 @@ void OpenProgram::take_back(std::size_t kept) {
     queue_.pop_back();
   }
   diagnostics_.clear();
-  interpreter_->take_back();
-  builder_->take_back();
+  interpreter_->roll_back();
+  builder_->roll_back();
   wait_words_ = kept_words_;
 }
 

@@ -19,7 +19,7 @@ bool is_probe(const PathItem& item) {
 }
 
 // Warns that the check does not cover the whole program.
-void tell_end(Diagnostics& diagnostics, const std::string& file, const PathItem& item) {
+void report_end(Diagnostics& diagnostics, const std::string& file, const PathItem& item) {
   const std::uint32_t line = std::visit([](const auto& what) { return what.source.line; }, item);
   diagnostics.add({.severity = Severity::warning,
                    .code = "path.unchecked",
@@ -55,13 +55,13 @@ ProgramChecker::ProgramChecker(ProgramReader program, const MachineDescription& 
 
 bool ProgramChecker::go_on(std::uint64_t items) {
   for (; items > 0 && !done_; --items) {
-    if (take_item()) continue;
+    if (pull_item()) continue;
     finish();
   }
   return done_;
 }
 
-bool ProgramChecker::take_item() {
+bool ProgramChecker::pull_item() {
   if (diagnostics_.full() || after_a_probe_ >= most_moves_after_a_probe || !builder_.next(item_)) return false;
   check_.nominal_time += nominal_time_of(item_, limits_);
   if (std::holds_alternative<Segment>(item_)) ++check_.moves;
@@ -79,7 +79,7 @@ void ProgramChecker::finish() {
   mistakes_.finish();
   low_rapids_.finish();
   spindle_mistakes_.finish();
-  if (after_a_probe_ == most_moves_after_a_probe) tell_end(diagnostics_, path_options_.file, item_);
+  if (after_a_probe_ == most_moves_after_a_probe) report_end(diagnostics_, path_options_.file, item_);
   diagnostics_.doubt_errors({});
   check_.tools_change = interpreter_.tools() != tools_;
   check_.good = !diagnostics_.any_error();

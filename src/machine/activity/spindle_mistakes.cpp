@@ -38,7 +38,7 @@ void SpindleMistakes::turn(const Operation& operation, SpindleDirection directio
   if (direction == SpindleDirection::off) {
     sped_up_.reset();
   } else if (direction != direction_) {
-    note_speed_up(operation);
+    check_speed_up(operation);
   }
   direction_ = direction;
 }
@@ -47,10 +47,10 @@ void SpindleMistakes::set_speed(const Operation& operation, double speed) {
   const double before = std::exchange(speed_, speed);
   if (direction_ == SpindleDirection::off || speed == before) return;
   changed_ = operation.source.line;
-  if (speed > before) note_speed_up(operation);
+  if (speed > before) check_speed_up(operation);
 }
 
-void SpindleMistakes::note_speed_up(const Operation& operation) {
+void SpindleMistakes::check_speed_up(const Operation& operation) {
   if (!may_be_early_ || early_ || sped_up_) return;
   sped_up_ = warning(operation, "path.spindle-early",
                      "a cut follows at once, and nothing waits until the spindle is at its speed",
@@ -67,7 +67,7 @@ void SpindleMistakes::feed(const Operation& operation) {
   any_changes_ |= changes;
   any_backwards_ |= backwards;
   ++places_;
-  if (laser_) return laser_->note_line(operation.source.line);
+  if (laser_) return laser_->add_line(operation.source.line);
   laser_ = warning(operation, "path.laser", {}, "a program for a spindle");
 }
 

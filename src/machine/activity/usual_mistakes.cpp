@@ -86,7 +86,7 @@ void UsualMistakes::change_tool() {
 // T alone selects a tool. Programs often select the next tool early, so only a program without any change is wrong.
 void UsualMistakes::select(const Operation& operation, std::int32_t tool) {
   if (changes_tools_ || tool == 0) return;
-  if (idle_tool_) return idle_tool_->note_line(operation.source.line);
+  if (idle_tool_) return idle_tool_->add_line(operation.source.line);
   idle_tool_ =
       warning(operation, "path.idle-tool", fmt::format("T{} has no effect: the program never changes its tool", tool),
               "M6 after the T word");

@@ -88,17 +88,17 @@ void DirectFeed::watch(const MotionItem& motion) {
   }
 }
 
-Feed::Turn DirectFeed::advance() {
-  if (stages_.link.error()) return Turn::ended;
-  if (!send_waiting()) return Turn::waits;
+Feed::Progress DirectFeed::advance() {
+  if (stages_.link.error()) return Progress::ended;
+  if (!send_waiting()) return Progress::waits;
   if (action_ || ended_) {
-    if (stages_.link.busy()) return Turn::waits;
-    if (!action_) return Turn::ended;
-    if (action_->kind != Action::Kind::feed_hold) return Turn::at_action;
+    if (stages_.link.busy()) return Progress::waits;
+    if (!action_) return Progress::ended;
+    if (action_->kind != Action::Kind::feed_hold) return Progress::at_action;
     action_.reset();
-    return Turn::rests_in_hold;
+    return Progress::rests_in_hold;
   }
-  if (ahead() >= ahead_.horizon && stages_.link.busy()) return Turn::waits;
+  if (ahead() >= ahead_.horizon && stages_.link.busy()) return Progress::waits;
   if (!stages_.items.next(item_)) {
     ended_ = true;
   } else if (const auto* segment = std::get_if<BoardSegment>(&item_)) {
@@ -106,11 +106,11 @@ Feed::Turn DirectFeed::advance() {
   } else {
     action_ = std::get<Action>(item_);
     if (is_for_outputs(*action_, options_.waits_for_operator)) {
-      stages_.outputs.take_over(*std::exchange(action_, std::nullopt));
+      stages_.outputs.apply(*std::exchange(action_, std::nullopt));
       pass_on_outputs();
     }
   }
-  return send_waiting() ? Turn::goes_on : Turn::waits;
+  return send_waiting() ? Progress::goes_on : Progress::waits;
 }
 
 // False: something still waits for room on the board.

@@ -18,7 +18,7 @@ bool LineStops::next(PathItem& item) {
     line_.reset();
     return true;
   }
-  note(item);
+  record(item);
   return true;
 }
 
@@ -28,7 +28,7 @@ bool LineStops::ends_before(const PathItem& item) const {
   return line_ && may_rest_ && std::visit(line_of, item) != *line_;
 }
 
-void LineStops::note(const PathItem& item) {
+void LineStops::record(const PathItem& item) {
   if (const auto* segment = std::get_if<Segment>(&item)) {
     line_ = segment->source.line;
     may_rest_ = segment->heeds.feed_hold && segment->lock != SpindleLock::place;

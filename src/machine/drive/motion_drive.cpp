@@ -61,10 +61,10 @@ void MotionDrive::watch(const MotionItem& item) {
   feed_->watch(item);
   if (move == nullptr) return;
   // Over a line, not all given motion is executed, so the end is not known here.
-  if (probe_.is_running() && !feed_->is_remote()) probe_.note_end(move->segment.tool_at(move->to));
+  if (probe_.is_running() && !feed_->is_remote()) probe_.record_end(move->segment.tool_at(move->to));
   if (spindle_.exists() && move->segment.reverse_at > Mm(0)) watch_tap(*move);
-  if (move->segment.heeds.spindle_override == outputs_.heeds_override()) return;
-  outputs_.heed_override(move->segment.heeds.spindle_override);
+  if (move->segment.heeds.spindle_override == outputs_.override_enabled()) return;
+  outputs_.enable_override(move->segment.heeds.spindle_override);
   pass_on_outputs();
 }
 
@@ -84,21 +84,21 @@ void MotionDrive::watch_tap(const PlannedMove& move) {
   pass_on_outputs();
 }
 
-MotionDrive::Turn MotionDrive::advance() {
-  if (state_ == State::ended) return Turn::ended;
+MotionDrive::Progress MotionDrive::advance() {
+  if (state_ == State::ended) return Progress::ended;
   if (board_.standstill()) stop();
-  if (!script_.go_on()) return Turn::waits;
-  if (state_ == State::ended) return Turn::ended;
-  if (state_ == State::held) return board_.error() ? end() : Turn::waits;
-  look_at_probe();
-  if (feed_->plans() && !follow()) return Turn::waits;
-  return take(feed_->advance());
+  if (!script_.go_on()) return Progress::waits;
+  if (state_ == State::ended) return Progress::ended;
+  if (state_ == State::held) return board_.error() ? end() : Progress::waits;
+  check_probe();
+  if (feed_->plans() && !follow()) return Progress::waits;
+  return handle(feed_->advance());
 }
 
-bool MotionDrive::turn(Seconds most) {
-  const Turn turn = advance();
-  if (turn == Turn::waits) wait(most);
-  return turn != Turn::ended;
+bool MotionDrive::poll(Seconds most) {
+  const Progress turn = advance();
+  if (turn == Progress::waits) wait(most);
+  return turn != Progress::ended;
 }
 
 void MotionDrive::wait(Seconds most) {
@@ -106,12 +106,12 @@ void MotionDrive::wait(Seconds most) {
   if (held && std::isinf(most.value())) return;
   const Seconds from = now();
   board_.poll(std::max(std::min(most, due() - from), Seconds(0)));
-  if (held || !script_.empty()) feed_->note_rest(now() - from);
+  if (held || !script_.empty()) feed_->record_rest(now() - from);
 }
 
 // When the drive must look again even without news.
 Seconds MotionDrive::due() const {
-  const Seconds next = std::max(awaits_index_ ? spindle_.looks_at() : Seconds(0), switching_.pause_end());
+  const Seconds next = std::max(awaits_index_ ? spindle_.next_poll() : Seconds(0), switching_.pause_end());
   return next - now() > hardly_any ? next : Seconds(std::numeric_limits<double>::infinity());
 }
 
@@ -127,21 +127,21 @@ bool MotionDrive::follow() {
   return true;
 }
 
-MotionDrive::Turn MotionDrive::take(Feed::Turn turn) {
-  holds_.note(HoldReason::line_lost, feed_->plays_tail());
+MotionDrive::Progress MotionDrive::handle(Feed::Progress turn) {
+  holds_.set(HoldReason::line_lost, feed_->plays_tail());
   switch (turn) {
-    case Feed::Turn::goes_on: break;
-    case Feed::Turn::waits: return Turn::waits;
-    case Feed::Turn::rests_in_hold: come_to_rest(); break;
-    case Feed::Turn::at_action: act(feed_->take_action()); break;
-    case Feed::Turn::lost_thread: lose_thread(); break;
-    case Feed::Turn::outputs_off:
+    case Feed::Progress::goes_on: break;
+    case Feed::Progress::waits: return Progress::waits;
+    case Feed::Progress::rests_in_hold: come_to_rest(); break;
+    case Feed::Progress::at_action: act(feed_->take_action()); break;
+    case Feed::Progress::lost_thread: lose_thread(); break;
+    case Feed::Progress::outputs_off:
       ++output_timeouts_;
       switching_.switch_on_again();
       break;
-    case Feed::Turn::ended: return end();
+    case Feed::Progress::ended: return end();
   }
-  return Turn::goes_on;
+  return Progress::goes_on;
 }
 
 // Carries out an action. All that came before is executed, and the machine rests.
@@ -150,7 +150,7 @@ void MotionDrive::act(const Action& action) {
     case Action::Kind::probe_begin: return begin_probe(action);
     case Action::Kind::probe_end: return end_probe(action);
     case Action::Kind::await_index: return await_index(action);
-    case Action::Kind::tap_turns: return turn_tap(action);
+    case Action::Kind::tap_turns: return reverse_tap(action);
     case Action::Kind::await_line: return await_line();
     default: return wait_for_operator(action);
   }
@@ -189,25 +189,25 @@ void MotionDrive::await_index(const Action& action) {
   script_.then([this] {
     awaits_index_ = false;
     if (!spindle_.trouble()) return;
-    holds_.note(HoldReason::stop);
+    holds_.set(HoldReason::stop);
     rest_in_hold();
   });
 }
 
 // The machine rests, and so does the spindle for a moment.
-void MotionDrive::turn_tap(const Action& action) {
+void MotionDrive::reverse_tap(const Action& action) {
   outputs_.order(action.outputs);
   pass_on_outputs();
   script_.until([this] { return feed_->settled(); });
   script_.then([this] {
-    answers_.note_tap_rest(end_of_tap_);
-    spindle_.turn_round();
+    answers_.record_tap_rest(end_of_tap_);
+    spindle_.reverse();
   });
 }
 
 // Pulled only when all before is executed, so the machine rests.
 void MotionDrive::await_line() {
-  holds_.note(HoldReason::await_line);
+  holds_.set(HoldReason::await_line);
   rest_in_hold();
 }
 
@@ -223,7 +223,7 @@ void MotionDrive::drop() {
   holds_.change(HoldReason::drop, true);
 }
 
-void MotionDrive::look_at_probe() {
+void MotionDrive::check_probe() {
   if (!probe_.is_new_contact()) return;
   feed_->brake();
   if (probe_.is_running()) return holds_.change(HoldReason::probe_contact, true);  // whatever M53 says
@@ -244,7 +244,7 @@ void MotionDrive::come_to_rest() {
     pipeline_.planner().drop_to_action();
     if (const auto rest = feed_->drop()) {
       dropped_to_ = rest;
-      probe_.note_end(*rest);
+      probe_.record_end(*rest);
     }
     holds_.end({HoldReason::probe_contact, HoldReason::tap, HoldReason::drop});
   } else {
@@ -276,9 +276,9 @@ void MotionDrive::switch_off_and_end(std::optional<LinkError> error) {
   });
 }
 
-MotionDrive::Turn MotionDrive::end() {
+MotionDrive::Progress MotionDrive::end() {
   state_ = State::ended;
-  return Turn::ended;
+  return Progress::ended;
 }
 
 void MotionDrive::hold(HoldReason reason) {
@@ -314,10 +314,10 @@ void MotionDrive::change_feed() {
 
 void MotionDrive::set_spindle_override(double factor) {
   outputs_.set_override(factor);
-  if (outputs_.is_news()) tell_outputs();
+  if (outputs_.is_news()) send_outputs();
 }
 
-void MotionDrive::tell_outputs() {
+void MotionDrive::send_outputs() {
   if (state_ == State::ended) return;
   if (state_ != State::held) return feed_->pass_on_outputs();
   switching_.switch_as_ordered();
@@ -325,12 +325,12 @@ void MotionDrive::tell_outputs() {
 
 void MotionDrive::switch_mist(bool on) {
   outputs_.switch_mist(on);
-  tell_outputs();
+  send_outputs();
 }
 
 void MotionDrive::switch_flood(bool on) {
   outputs_.switch_flood(on);
-  tell_outputs();
+  send_outputs();
 }
 
 void MotionDrive::stop_spindle(bool stands) {
@@ -341,7 +341,7 @@ void MotionDrive::stop_spindle(bool stands) {
 void MotionDrive::stop_outputs() {
   if (state_ != State::held || stopped()) return;
   outputs_.stop_all(true);
-  tell_outputs();
+  send_outputs();
 }
 
 void MotionDrive::stop() {

@@ -7,12 +7,12 @@ namespace passo {
 
 void MotionDrive::wait_for_operator(const Action& action) {
   ++stops_;
-  outputs_.take_over(action);
+  outputs_.apply(action);
   switching_.switch_as_ordered();
   if (action.kind == Action::Kind::optional_stop && !waits_at_optional_) return;
   script_.then([this, action] {
     waits_for_ = action;
-    holds_.note(action.kind == Action::Kind::tool_change ? HoldReason::tool_change : HoldReason::program_stop);
+    holds_.set(action.kind == Action::Kind::tool_change ? HoldReason::tool_change : HoldReason::program_stop);
     rest_in_hold();
   });
 }
@@ -37,7 +37,7 @@ void MotionDrive::stop_at_lines(bool wanted) {
 // The machine rests, and nobody has asked for that: a line has ended.
 void MotionDrive::rest_at_line() {
   if (std::exchange(reads_again_, false)) feed_->read_again();
-  if (pipeline_.line_stops().stops() && !holds_.any_of(lasting_holds)) holds_.note(HoldReason::line_end);
+  if (pipeline_.line_stops().stops() && !holds_.any_of(lasting_holds)) holds_.set(HoldReason::line_end);
 }
 
 }  // namespace passo

@@ -55,7 +55,7 @@ void OutputsAtRest::stop_spindle(bool stands) {
 }
 
 void OutputsAtRest::hold_speed(const Action& action) {
-  parts_.order.heed_override(action.heeds.spindle_override);
+  parts_.order.enable_override(action.heeds.spindle_override);
   if (!parts_.order.is_news()) return;
   const Seconds wait = times_.spindle_run_up * (parts_.order.change_of_speed() / 1000);
   switch_as_ordered();

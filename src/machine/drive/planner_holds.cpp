@@ -13,16 +13,16 @@ constexpr double no_feed = 0.01;
 void PlannerHolds::change(HoldReason reason, bool holds) {
   if (reasons_.has(reason) == holds) return;
   reasons_.set(reason, holds);
-  tell_planner();
+  update_planner();
 }
 
 void PlannerHolds::end(std::initializer_list<HoldReason> ended) {
   for (const HoldReason reason : ended) reasons_.remove(reason);
-  tell_planner();
+  update_planner();
 }
 
 // The planner takes back both of its holds at once, so the one that remains is told again.
-void PlannerHolds::tell_planner() {
+void PlannerHolds::update_planner() {
   const bool holds = reasons_.any_of(heeded_holds);
   const bool stops = reasons_.any_of(sure_holds);
   if ((planner_holds_ && !holds) || (planner_stops_ && !stops)) {
@@ -36,16 +36,16 @@ void PlannerHolds::tell_planner() {
 void PlannerHolds::set_feed_override(double factor) {
   feed_override_ = factor;
   planner_.set_feed_override(factor);
-  note_feed();
+  update_feed_hold();
 }
 
 void PlannerHolds::set_adaptive_feed(double factor) {
   adaptive_feed_ = factor;
   planner_.set_adaptive_feed(factor);
-  note_feed();
+  update_feed_hold();
 }
 
-void PlannerHolds::note_feed() {
+void PlannerHolds::update_feed_hold() {
   const double feed = std::min({feed_override_, adaptive_feed_, feed_override_ * adaptive_feed_});
   reasons_.set(HoldReason::zero_feed, feed < no_feed);
 }

@@ -18,7 +18,7 @@ void ProbeMove::begin(const Action& action, AxisSet downs) {
   running_ = true;
   contact_seen_ = false;
   end_.reset();
-  answers_.note(outcome_);
+  answers_.record(outcome_);
 }
 
 void ProbeMove::recall() {
@@ -36,7 +36,7 @@ void ProbeMove::find(const Point& planned_end) {
 
 void ProbeMove::end() {
   contact_seen_ = false;
-  answers_.note(outcome_);
+  answers_.record(outcome_);
   for (const auto& watcher : watchers_) watcher(outcome_);
 }
 

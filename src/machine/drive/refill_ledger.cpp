@@ -13,40 +13,40 @@ Seconds RefillLedger::executed_time() const {
   return whole_items + std::min(motion_.front().time, link_.now() - item_begins_);
 }
 
-void RefillLedger::note_given(const MotionItem& motion, Seconds time) {
-  motion_played_.note_given(motion);
+void RefillLedger::record_given(const MotionItem& motion, Seconds time) {
+  motion_played_.record_given(motion);
   given_time_ += time;
   given_in_all_ += time;
 }
 
-void RefillLedger::tell_rest(ItemNumber executed, const PathPlace& place) const {
+void RefillLedger::report_rest(ItemNumber executed, const PathPlace& place) const {
   if (rest_watcher_) rest_watcher_({.executed = executed, .place = place, .done = done_});
 }
 
-void RefillLedger::note_motion(const LinkItem& item, ItemNumber number, Seconds time) {
+void RefillLedger::record_motion(const LinkItem& item, ItemNumber number, Seconds time) {
   if (motion_.empty()) item_begins_ = link_.now();
   sent_time_ += time;
   motion_.push_back({.number = number, .time = time, .end = sent_time_, .item = item});
   ahead_ += time;
   if (told_ahead_) *told_ahead_ += time;
-  played_.note_sent(number, item, std::nullopt);
+  played_.record_sent(number, item, std::nullopt);
 }
 
-void RefillLedger::note_refill(Refill refill) {
+void RefillLedger::record_refill(Refill refill) {
   ensure(refill.last == link_.sent() && later_by(refill.last, refill.last_of_motion) >= 0);
   ItemNumber number = refill.last_of_motion;
-  for (const LinkItem& item : refill.tail.items) played_.note_sent(++number, item, refill.last);
+  for (const LinkItem& item : refill.tail.items) played_.record_sent(++number, item, refill.last);
   counts_.tail_items += refill.tail.items.size();
   ++counts_.refills;
   refill.tail.items = {};
   under_way_.push_back(std::move(refill));
 }
 
-void RefillLedger::note_question() {
+void RefillLedger::on_question() {
   longest_ahead_ = std::max(longest_ahead_, ahead_);
 }
 
-void RefillLedger::note_executed(ItemNumber executed) {
+void RefillLedger::on_executed(ItemNumber executed) {
   played_.show_executed(executed);
   for (; !motion_.empty() && later_by(motion_.front().number, executed) <= 0; motion_.pop_front()) {
     ahead_ -= motion_.front().time;
@@ -67,7 +67,7 @@ RestOnPath RefillLedger::end_refill(bool on_tail) {
   return std::move(tail.rest);
 }
 
-void RefillLedger::note_rest() {
+void RefillLedger::record_rest() {
   motion_played_.show(motion_played_.given());
   passed_ += sent_time_;
   given_time_ = sent_time_ = Seconds(0);

@@ -54,7 +54,7 @@ Seconds RefillPace::refill_at() const {
   return in_haste() ? horizon() - longest_move_ : std::min(refill_at_, reach_ - longest_move_);
 }
 
-void RefillPace::note_refill() {
+void RefillPace::record_refill() {
   reach_ = reach_ * longer;
 }
 

@@ -35,49 +35,50 @@ Refiller::Refiller(const Stages& stages, const StepOptions& steps, const TailOpt
 void Refiller::watch(const MotionItem& motion) {
   given_ = stages_.path.behind(given_, motion);
   const auto* move = std::get_if<PlannedMove>(&motion);
-  ledger_.note_given(motion, move != nullptr ? move->duration() : std::get<Action>(motion).dwell);
+  ledger_.record_given(motion, move != nullptr ? move->duration() : std::get<Action>(motion).dwell);
   if (move == nullptr || move->phase_count == 0) return;
-  speed_.note_given(*move);
+  speed_.record_given(*move);
 }
 
-Refiller::Turn Refiller::advance() {
-  if (stages_.link.error()) return Turn::ended;
+Refiller::Progress Refiller::advance() {
+  if (stages_.link.error()) return Progress::ended;
   const int recoveries = ledger_.recoveries();
   before_action_.reset();
-  note_executed();
-  if (ledger_.recoveries() != recoveries && guards_threads_ && stages_.path.is_in_thread()) return Turn::lost_thread;
+  on_executed();
+  if (ledger_.recoveries() != recoveries && guards_threads_ && stages_.path.is_in_thread())
+    return Progress::lost_thread;
   if (ledger_.under_way() == nullptr) {
     brakes_ = false;
     if (pulled_.empty()) {
       rested_ = tails_.at_rest(given_).rest;
-      ledger_.note_rest();
+      ledger_.record_rest();
     }
   }
   if (stages_.link.outputs_timed_out() && ledger_.under_way() == nullptr && !(pulled_.ends() && pulled_.empty())) {
-    take_up();
-    return Turn::outputs_off;
+    rewind();
+    return Progress::outputs_off;
   }
   if (!on_tail_ && !brakes_) {
     if (may_plan()) pull();
     if (const std::size_t items = size_of_refill(); items > 0) {
       send(items);
-      return Turn::goes_on;
+      return Progress::goes_on;
     }
   }
-  return ledger_.under_way() == nullptr ? turn_at_rest() : Turn::waits;
+  return ledger_.under_way() == nullptr ? advance_at_rest() : Progress::waits;
 }
 
 // The board has executed all that was sent.
-Refiller::Turn Refiller::turn_at_rest() {
+Refiller::Progress Refiller::advance_at_rest() {
   if (pulled_.empty()) {
-    if (pulled_.ends()) return Turn::ended;
-    if (pulled_.action()) return Turn::at_action;
-    return pulled_.take_hold() ? Turn::rests_in_hold : Turn::waits;
+    if (pulled_.ends()) return Progress::ended;
+    if (pulled_.action()) return Progress::at_action;
+    return pulled_.take_hold() ? Progress::rests_in_hold : Progress::waits;
   }
-  if (free_places() + 1 != places_ || waits_for_answer()) return Turn::waits;
-  if (begin_more_slowly()) return Turn::goes_on;
+  if (free_places() + 1 != places_ || waits_for_answer()) return Progress::waits;
+  if (begin_more_slowly()) return Progress::goes_on;
   stages_.link.fail(LinkError::too_few_places);
-  return Turn::ended;
+  return Progress::ended;
 }
 
 // Motion that follows the spindle is planned only when it is due, from the newest answer.
@@ -139,17 +140,17 @@ void Refiller::read_again() {
 }
 
 // Takes note of how far the board has told that it is.
-void Refiller::note_executed() {
+void Refiller::on_executed() {
   const ItemNumber executed = stages_.link.executed();
-  ledger_.note_executed(executed);
+  ledger_.on_executed(executed);
   const RefillLedger::Refill* const refill = ledger_.under_way();
   if (refill == nullptr) return;
   if (later_by(executed, refill->first) < 0) {
     // From the rest on, the board has begun nothing of the refill. If the board dropped the refill, it never will.
     if (!stages_.link.rests()) return;
     behind_ = executed;
-    take_up();
-    ledger_.note_recovery();
+    rewind();
+    ledger_.on_recovery();
     return;
   }
   stages_.path.forget_before(refill->tail.from.item);
@@ -158,12 +159,12 @@ void Refiller::note_executed() {
   rested_ = ledger_.end_refill(on_tail_);
   if (!on_tail_) return;
   behind_ = executed;
-  take_up();
-  if (!brakes_) ledger_.note_recovery();
+  rewind();
+  if (!brakes_) ledger_.on_recovery();
 }
 
 // The board rests. All that was sent after the rest came too late, and all that was pulled is pulled again.
-void Refiller::take_up() {
+void Refiller::rewind() {
   ledger_.forget_unexecuted();
   pulled_.clear();
   on_tail_ = false;
@@ -178,9 +179,9 @@ void Refiller::take_up() {
 // The machine rests, and no refill fits into the board. False: the path cannot begin more slowly.
 bool Refiller::begin_more_slowly() {
   const bool is_slower = speed_.begin_more_slowly(pulled_.highest_speed());
-  ledger_.note_slowdowns(speed_.slowdowns());
+  ledger_.set_slowdowns(speed_.slowdowns());
   if (!is_slower) return false;
-  take_up();
+  rewind();
   return !(guards_threads_ && stages_.path.is_in_thread());
 }
 
@@ -194,16 +195,16 @@ void Refiller::pull() {
     if (std::exchange(outputs_changed_, false)) {
       add(stages_.outputs.tell());
     } else if (!stages_.items.next(item_)) {
-      pulled_.note_end();
+      pulled_.record_end();
     } else if (const auto* segment = std::get_if<BoardSegment>(&item_)) {
       add(*segment);
     } else if (const auto& action = std::get<Action>(item_); action.kind == Action::Kind::feed_hold) {
-      pulled_.note_hold();
+      pulled_.record_hold();
     } else if (is_for_outputs(action, waits_for_operator_)) {
-      stages_.outputs.take_over(action);
+      stages_.outputs.apply(action);
       add(stages_.outputs.tell());
     } else {
-      pulled_.note_action(action);
+      pulled_.record_action(action);
     }
   }
   if (!pulled_.goes_on() && !pulled_.may_end()) pulled_.last().tail = tails_.at_rest(given_);
@@ -212,7 +213,7 @@ void Refiller::pull() {
 void Refiller::add(const LinkItem& item) {
   const Seconds time = ledger_.time_of(item);
   pulled_.add(item, time, speed_.speed());
-  speed_.note_motion(time);
+  speed_.record_motion(time);
   const StepGenerator& generator = stages_.generator;
   // A long dwell has more items than a board has places. So a refill may end within a dwell, and the next refill goes
   // on with it.
@@ -222,8 +223,8 @@ void Refiller::add(const LinkItem& item) {
     return;  // the motion comes to rest by itself soon
   } else if (pulled_.is_far_from_last_tail()) {
     pulled_.last().tail = tails_.brake(given_, counts_items());
-    speed_.note_tail(pulled_.last().tail->items.size());
-    ledger_.note_slowdowns(speed_.slowdowns());
+    speed_.record_tail(pulled_.last().tail->items.size());
+    ledger_.set_slowdowns(speed_.slowdowns());
   }
 }
 
@@ -264,24 +265,24 @@ void Refiller::send(std::size_t items) {
   for (std::size_t i = 0; i < items; ++i) items_.push_back(pulled_[i].item);
   items_.insert(items_.end(), tail.items.begin(), tail.items.end());
   // The items come after the frame that replaces.
-  ledger_.tell_rest(static_cast<ItemNumber>(stages_.link.sent() + 1 + items_.size()), tail.rest.place);
+  ledger_.report_rest(static_cast<ItemNumber>(stages_.link.sent() + 1 + items_.size()), tail.rest.place);
   const ItemNumber first = stages_.link.replace(behind_, items_);
   for (std::size_t i = 0; i < items; ++i) {
-    ledger_.note_motion(pulled_[i].item, static_cast<ItemNumber>(first + i), pulled_[i].time);
+    ledger_.record_motion(pulled_[i].item, static_cast<ItemNumber>(first + i), pulled_[i].time);
   }
   behind_ = static_cast<ItemNumber>(first + items - 1);
-  ledger_.note_refill({.first = first,
-                       .last_of_motion = behind_,
-                       .last = static_cast<ItemNumber>(first + items_.size() - 1),
-                       .tail = std::move(tail)});
+  ledger_.record_refill({.first = first,
+                         .last_of_motion = behind_,
+                         .last = static_cast<ItemNumber>(first + items_.size() - 1),
+                         .tail = std::move(tail)});
   pulled_.drop_first(items);
-  pace_.note_refill();
+  pace_.record_refill();
   if (pace_.attention() != Attention::none) ask();
 }
 
 void Refiller::ask() {
-  if (pace_.in_haste()) ledger_.note_question();
-  pace_.note_question();
+  if (pace_.in_haste()) ledger_.on_question();
+  pace_.on_question();
   stages_.link.ask();
 }
 
@@ -294,7 +295,7 @@ Action Refiller::take_action() {
 // the action.
 void Refiller::switch_outputs(const BoardOutputs& outputs) {
   ensure(ledger_.under_way() == nullptr && pulled_.empty());
-  ledger_.tell_rest(static_cast<ItemNumber>(stages_.link.sent() + 1), before_action_.value_or(given_));
+  ledger_.report_rest(static_cast<ItemNumber>(stages_.link.sent() + 1), before_action_.value_or(given_));
   switched_ = outputs;
   stages_.link.send(outputs);
 }

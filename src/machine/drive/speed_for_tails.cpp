@@ -21,7 +21,7 @@ constexpr double least_limit = 0.05;
 SpeedForTails::SpeedForTails(Planner& planner, std::size_t places, std::size_t least_refill)
     : planner_(planner), long_tail_((places - std::min(places, least_refill + 1)) / 2) {}
 
-void SpeedForTails::note_given(const PlannedMove& move) {
+void SpeedForTails::record_given(const PlannedMove& move) {
   const double speed = move.exit_velocity().value();
   const Point slope = move.segment.curve.tangent(move.to);
   double steepest = 0;
@@ -29,7 +29,7 @@ void SpeedForTails::note_given(const PlannedMove& move) {
   speed_ = {.on_path = speed, .of_axis = steepest * speed};
 }
 
-void SpeedForTails::note_tail(std::size_t items) {
+void SpeedForTails::record_tail(std::size_t items) {
   const bool is_long = items > long_tail_;
   if (is_long && speed_.of_axis > least_limit && (std::isinf(limit_) || limited_for_ > to_settle)) {
     limit_to(std::min(limit_, speed_.on_path) * slower);

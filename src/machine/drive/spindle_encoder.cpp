@@ -36,7 +36,7 @@ void SpindleEncoder::read(const SpindleCount& count) {
   if (last_ && count.indexes != last_->indexes) {
     const double index = now_.turns + difference(count.at_index, count.count) / counts_per_turn_;
     if (!first_index_) first_index_ = index;
-    if (index_) note_turns(index - *first_index_, std::abs(index - *index_) / (now_.time - indexed_then_).value());
+    if (index_) record_turns(index - *first_index_, std::abs(index - *index_) / (now_.time - indexed_then_).value());
     indexed_then_ = now_.time;
     index_ = indexed_at_ = index;
   }
@@ -44,7 +44,7 @@ void SpindleEncoder::read(const SpindleCount& count) {
 }
 
 // `turns` counts from the first index, so that counts lost bit by bit add up.
-void SpindleEncoder::note_turns(double turns, double speed) {
+void SpindleEncoder::record_turns(double turns, double speed) {
   const double most = std::max(good_turn + speed * good_time.value(), good_counts / counts_per_turn_);
   const bool good = std::abs(turns - std::round(turns)) <= std::min(most, worst_turn);
   doubts_ = good ? std::max(doubts_ - 1, 0) : doubts_ + 2;

@@ -48,7 +48,7 @@ void SpindleFollower::restart() {
 
 void SpindleFollower::begin(double index) {
   index_ = index;
-  way_ = turns_a_second() < 0 ? -1 : 1;
+  way_ = turns_per_second() < 0 ? -1 : 1;
   lag_ = -1;
   followed_ = reached_ = 0;
   direction_ = 1;
@@ -74,7 +74,7 @@ void SpindleFollower::read(const SpindleReading& reading) {
     readings_.pop_front();
 }
 
-double SpindleFollower::turns_a_second() const {
+double SpindleFollower::turns_per_second() const {
   if (readings_.size() < 2) return 0;
   const SpindleReading& from = readings_.front();
   const SpindleReading& to = readings_.back();
@@ -137,7 +137,7 @@ SpindleFollower::Course SpindleFollower::course(Seconds later) const {
   return {base + c0 + at * (c1 + at * c2), (c1 + 2 * c2 * at) / measured_over};
 }
 
-bool SpindleFollower::turns_back(Seconds committed) const {
+bool SpindleFollower::is_reversing(Seconds committed) const {
   return readings_.size() > 2 && course(committed).speed < least_ratio * programmed_;
 }
 

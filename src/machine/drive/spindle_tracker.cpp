@@ -85,8 +85,8 @@ bool SpindleTracker::await_index() {
         step_ = AwaitStep::answered;
         break;
       case AwaitStep::answered:
-        if (const auto turned = link.take_turned()) note(*turned);
-        look_for_index();
+        if (const auto turned = link.take_turned()) update(*turned);
+        find_index();
         step_ = AwaitStep::ask;
         break;
     }
@@ -94,8 +94,8 @@ bool SpindleTracker::await_index() {
   return true;
 }
 
-void SpindleTracker::look_for_index() {
-  if (!mind_encoder(longest_run_up)) return;
+void SpindleTracker::find_index() {
+  if (!check_encoder(longest_run_up)) return;
   const SpindleReading& now = encoder_.now();
   const double turned = std::abs(now.turns - turn_begun_.turns);
   if (turned >= 1) {
@@ -115,7 +115,7 @@ void SpindleTracker::look_for_index() {
 // The time until the motion has to be sent. The follower is told the index at which the thread begins. `answer`: the
 // time that the answer took, which is also the time that sending takes.
 Seconds SpindleTracker::time_to_index(Seconds answer) {
-  const double speed = follower_.turns_a_second();
+  const double speed = follower_.turns_per_second();
   if (!encoder_.index() || speed == 0) return Seconds(std::numeric_limits<double>::infinity());
   const double way = speed < 0 ? -1 : 1;
   const double ahead = encoder_.now().turns + speed * answer.value() - *encoder_.index();
@@ -126,7 +126,7 @@ Seconds SpindleTracker::time_to_index(Seconds answer) {
   return *index_time_ - encoder_.now().time - answer;
 }
 
-void SpindleTracker::note(const Turned& turned) {
+void SpindleTracker::update(const Turned& turned) {
   encoder_.read(turned.spindle);
   follower_.read(encoder_.now());
 }
@@ -143,13 +143,13 @@ bool SpindleTracker::follow() {
   }
   const std::optional<Turned> turned = stages_.link.take_turned();
   if (!turned) return true;
-  note(*turned);
+  update(*turned);
   const Seconds ahead = remote ? stages_.feed.ahead_of(*turned, encoder_.now().time) : stages_.feed.ahead();
   const bool by_place = follower_.lock() == SpindleLock::place;
-  if (!mind_encoder(by_place ? longest_stand : longest_run_up)) return true;
-  if (index_time_) mind_start();
-  if (by_place) mind_place(ahead);
-  if (turn_expected_ && follower_.turns_back(ahead)) {
+  if (!check_encoder(by_place ? longest_stand : longest_run_up)) return true;
+  if (index_time_) check_start();
+  if (by_place) check_lag(ahead);
+  if (turn_expected_ && follower_.is_reversing(ahead)) {
     turn_expected_ = false;
     turned_back_ = true;
   }
@@ -158,7 +158,7 @@ bool SpindleTracker::follow() {
 }
 
 // A single reading may be wrong, so the spindle must be too fast for a while.
-void SpindleTracker::mind_place(Seconds ahead) {
+void SpindleTracker::check_lag(Seconds ahead) {
   const Seconds time = encoder_.now().time;
   const bool outruns = follower_.outruns_axes(ahead);
   outruns_since_ = outruns ? std::optional(outruns_since_.value_or(time)) : std::nullopt;
@@ -168,19 +168,19 @@ void SpindleTracker::mind_place(Seconds ahead) {
 }
 
 // The thread has begun. The next thread is begun sooner by as much as the board tells that this one was late.
-void SpindleTracker::mind_start() {
+void SpindleTracker::check_start() {
   if (stages_.feed.is_remote()) {
     const auto began = stages_.feed.began();
     if (!began || ++looks_at_start_ < sure_of_start) return;
     const Seconds late = *began - *index_time_;
     late_ = std::clamp(late_ + late, Seconds(0), longest_lead);
-    if (std::abs(late.value() * follower_.turns_a_second()) > latest_start) trouble_ = LinkError::thread_lost;
+    if (std::abs(late.value() * follower_.turns_per_second()) > latest_start) trouble_ = LinkError::thread_lost;
   }
   index_time_.reset();
 }
 
 // Feed per revolution needs no index.
-bool SpindleTracker::mind_encoder(Seconds longest) {
+bool SpindleTracker::check_encoder(Seconds longest) {
   if (trouble_) return false;
   if (follower_.lock() != SpindleLock::speed && encoder_.is_wrong()) {
     trouble_ = LinkError::encoder_wrong;
@@ -190,9 +190,9 @@ bool SpindleTracker::mind_encoder(Seconds longest) {
   return !trouble_;
 }
 
-void SpindleTracker::turn_round() {
+void SpindleTracker::reverse() {
   turn_expected_ = false;
-  follower_.turn_round();
+  follower_.reverse();
 }
 
 }  // namespace passo

@@ -267,7 +267,7 @@ bool JobHistory::write(const End& end) {
   return true;
 }
 
-bool JobHistory::note_wait(std::int64_t id, const HistoryWait& wait) {
+bool JobHistory::record_wait(std::int64_t id, const HistoryWait& wait) {
   is_kept_ = false;
   Statement count(database_, "SELECT count(*) FROM waits WHERE job = ?");
   const std::int64_t noted = count.with(id).step() ? count.number() : most_waits;
@@ -285,7 +285,7 @@ bool JobHistory::remove(std::int64_t id) {
   return judge(gone.run()) && sqlite3_changes(database_) == 1;
 }
 
-bool JobHistory::note_alarm(std::string_view words, double now, std::string_view sentence) {
+bool JobHistory::record_alarm(std::string_view words, double now, std::string_view sentence) {
   HistoryAlarm alarm{.at = now, .words = std::string(words), .sentence = std::string(sentence)};
   if (write(alarm)) return true;
   constexpr std::size_t most_unwritten = 1000;

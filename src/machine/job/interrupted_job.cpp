@@ -17,8 +17,8 @@ BrokenOff broken_off(const Journal& journal, const BoardStatus& status, const Gr
   return found;
 }
 
-std::optional<BrokenOff> take_up(JobKeeper& keeper, JournaledRun& run, const BoardStatus& status,
-                                 const Greeting& greeting, bool outlives_host) {
+std::optional<BrokenOff> resume_job(JobKeeper& keeper, JournaledRun& run, const BoardStatus& status,
+                                    const Greeting& greeting, bool outlives_host) {
   const auto journal = Journal::read(keeper.read());
   if (!journal) return {};
   BrokenOff found = broken_off(*journal, status, greeting);

@@ -21,7 +21,7 @@ std::int64_t number_of(std::string_view name) {
   return error == std::errc() && end == name.data() + name.size() ? number : 0;
 }
 
-std::string words_of(JobChange change, const JournalHead& then) {
+std::string describe(JobChange change, const JournalHead& then) {
   switch (change) {
     case JobChange::version: return "the job was begun by version " + then.made_by;
     case JobChange::program: return "the history has another program under the job's number";
@@ -57,7 +57,7 @@ void KeptJob::find(const BrokenOff& found) {
   const JobIdentity now{
       .made_by = names_.made_by, .program = stamp_of(title_of(number), text), .machine = names_.machine};
   if (const auto change = change_since(found.head, now))
-    return refuse(code_of(*change), words_of(*change, found.head), {{"version", found.head.made_by}});
+    return refuse(code_of(*change), describe(*change, found.head), {{"version", found.head.made_by}});
   find_way_back(text);
   if (found.refused) return refuse(code_of(*found.refused), message_of(*found.refused));
   interrupted_->point = find_resume_point(ProgramReader::from_text(job->name, text), machine_, options(),
@@ -106,17 +106,17 @@ Result<Reentry, Sentence> KeptJob::reentry() {
 }
 
 void KeptJob::hear(const BoardStatus& status, const Greeting& greeting) {
-  if (auto found = take_up(keeper_, run_, status, greeting)) heard_ = std::move(found);
+  if (auto found = resume_job(keeper_, run_, status, greeting)) heard_ = std::move(found);
 }
 
-void KeptJob::look() {
+void KeptJob::poll() {
   if (interrupted_) compare_switches();
   if (!heard_ || session_.state() == MachineState::offline) return;
   find(*std::exchange(heard_, std::nullopt));
 }
 
 // Somebody may have moved the machine, and may have moved it back.
-void KeptJob::mind_place() {
+void KeptJob::check_place() {
   const bool is_sure = interrupted_->point && !interrupted_->journal.refused && !interrupted_->point->in_thread;
   const auto& status = session_.board().status();
   if (!is_sure || session_.state() != MachineState::idle || !status) return;
@@ -127,7 +127,7 @@ void KeptJob::mind_place() {
 
 const InterruptedJob* KeptJob::interrupted() {
   if (!interrupted_) return nullptr;
-  mind_place();
+  check_place();
   return &*interrupted_;
 }
 
@@ -197,7 +197,7 @@ bool KeptJob::reenter(std::uint64_t path) {
 
 bool KeptJob::resume(std::uint64_t path) {
   if (!is_of(path)) return false;
-  mind_place();
+  check_place();
   if (!interrupted_->why.code.empty()) return false;
   const BoardStatus& status = *session_.board().status();
   const JournalHead& before = interrupted_->journal.head;

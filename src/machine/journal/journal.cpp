@@ -154,13 +154,13 @@ void JournalWriter::begin(const JournalHead& head) {
   failed_ = !store_.replace(text);
 }
 
-void JournalWriter::note(const BoardRest& rest) {
+void JournalWriter::record(const BoardRest& rest) {
   const std::size_t place = noted_ % rests;
   if (!failed_) failed_ = !store_.overwrite(head_size_ + place * line_size, line_of(noted_, rest));
   ++noted_;
 }
 
-void JournalWriter::note(const ProbeOutcome& outcome) {
+void JournalWriter::record(const ProbeOutcome& outcome) {
   std::string line = text_of(probes_++, outcome) + ' ';
   line += record_check(line);
   if (!failed_) failed_ = !store_.append(line + '\n');

@@ -49,7 +49,7 @@ std::optional<RecordParts> read_record(std::string_view text, std::string_view t
 
 std::string RecordWords::name() {
   const std::size_t end = text_.find('\n');
-  take(end != std::string_view::npos && text_.starts_with(' '));
+  require(end != std::string_view::npos && text_.starts_with(' '));
   if (!good_) return {};
   const std::string_view all = text_.substr(1, end - 1);
   text_.remove_prefix(end);
@@ -61,7 +61,7 @@ std::string RecordWords::name() {
     }
     RecordWords code(all.substr(i + 1, 2));
     plain += static_cast<char>(code.number<std::uint8_t>(16));
-    take(code.good());
+    require(code.good());
     i += 2;
   }
   return plain;

@@ -119,7 +119,7 @@ class PointFinder {
       before_probe_ = point_;
       before_probe_.place = {.item = next_};
     }
-    if (is_amid_probe_) note_probe();
+    if (is_amid_probe_) on_probe_news();
     passed_.pass(item_);
     if (action != nullptr && action->kind == Action::Kind::probe_end) {
       is_amid_probe_ = false;
@@ -158,7 +158,7 @@ class PointFinder {
     point_ = before_probe_;
     return point_at(begins, {});
   }
-  void note_probe() {
+  void on_probe_news() {
     before_probe_.line = std::visit([](const auto& what) { return what.source.line; }, item_);
     const auto* segment = std::get_if<Segment>(&item_);
     if (segment != nullptr) before_probe_.probe = {.end = segment->curve.end(), .speed = segment->speed};

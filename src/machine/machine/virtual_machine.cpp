@@ -36,7 +36,7 @@ VirtualMachine::VirtualMachine(std::uint8_t motors, Hertz clock, Hertz highest_e
 
 void VirtualMachine::connect(Plant& plant) {
   hardware_.plant = &plant;
-  look_at_plant();
+  update_inputs();
 }
 
 void VirtualMachine::stand_at(const MotorSteps& positions) {
@@ -47,14 +47,14 @@ void VirtualMachine::stand_at(const MotorSteps& positions) {
 
 void VirtualMachine::wire(const PinSetup& wiring) {
   hardware_.wiring = wiring;
-  look_at_plant();
+  update_inputs();
 }
 
 void VirtualMachine::receive(std::span<const std::uint8_t> bytes) {
   if (board_.idle()) waits_ = false;  // the board may have stopped before its event
   for (const std::uint8_t byte : bytes) {
     board_.receive(byte);
-    if (std::exchange(hardware_.is_new_setup, false)) look_at_plant();
+    if (std::exchange(hardware_.is_new_setup, false)) update_inputs();
   }
   if (board_.owes_report()) board_.report();
 }
@@ -66,7 +66,7 @@ bool VirtualMachine::run(Seconds most) {
 
 bool VirtualMachine::run_to(Ticks time) {
   const std::int64_t end = time.count;
-  look_at_inputs();
+  check_inputs();
   while (hardware_.to_host.empty() && !board_.idle()) {
     if (!waits_) {
       const std::int64_t interval = board_.ticks_to_next_event();
@@ -79,7 +79,7 @@ bool VirtualMachine::run_to(Ticks time) {
     ++events_;
     board_.on_event();
     if (hardware_.now >= next_tenth_) count_silence();
-    if (--look_in_ <= 0) look_at_plant();
+    if (--look_in_ <= 0) update_inputs();
     if (board_.owes_report()) board_.report();
   }
   hardware_.pulse_plant();
@@ -97,24 +97,24 @@ void VirtualMachine::count_silence() {
 
 void VirtualMachine::set_switch(std::uint16_t which, bool closed) {
   hardware_.plant->set_switch(which, closed);
-  look_at_plant();
+  update_inputs();
 }
 
-void VirtualMachine::look_at_plant() {
+void VirtualMachine::update_inputs() {
   hardware_.pulse_plant();
   look_in_ = hardware_.plant->events_to_next_change();
-  look_at_inputs();
+  check_inputs();
 }
 
-void VirtualMachine::look_at_inputs() {
+void VirtualMachine::check_inputs() {
   const unsigned misread = hardware_.wiring.inputs ^ unsigned { hardware_.setup.inputs };
   const unsigned inputs = hardware_.plant->inputs_at(hardware_.time()) ^ misread;
-  if (inputs != told_) heed(inputs);
+  if (inputs != told_) on_inputs(inputs);
 }
 
 // Does what the firmware's main loop does: captures a watched input, tells the host what a person presses, and stops at
 // an input that stops, with the outputs off.
-void VirtualMachine::heed(unsigned now) {
+void VirtualMachine::on_inputs(unsigned now) {
   const unsigned changed = now ^ std::exchange(told_, static_cast<std::uint16_t>(now));
   const unsigned by_people = pressed_by_people(hardware_.alarms());
   const unsigned on = changed & now;
@@ -135,7 +135,7 @@ void VirtualMachine::reset_board() {
   hardware_.switch_off();
   hardware_.setup = {};
   told_ = 0;
-  look_at_plant();
+  update_inputs();
 }
 
 void VirtualMachine::stand_still(Ticks time) {

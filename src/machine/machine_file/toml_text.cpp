@@ -73,7 +73,7 @@ std::string quoted(std::string_view text) {
 }
 
 // As TOML has it. Empty: a number that is not finite.
-std::string words_of(const TomlText::Setting& setting) {
+std::string describe(const TomlText::Setting& setting) {
   struct Writer {
     std::string operator()(double number) const { return std::isfinite(number) ? fmt::format("{}", number) : ""; }
     std::string operator()(bool flag) const { return flag ? "true" : "false"; }
@@ -309,7 +309,7 @@ std::vector<TomlText::Value> TomlText::values() const {
 }
 
 Status<TomlTextError> TomlText::set(std::string_view path, const Setting& setting) {
-  const std::string words = words_of(setting);
+  const std::string words = describe(setting);
   if (words.empty()) return refusal(fmt::format("{} must be finite", path));
   if (!std::ranges::all_of(parts_of(path), is_plain)) return refusal(fmt::format("'{}' is no key", path));
   const auto tree = parsed(text_);

@@ -86,7 +86,7 @@ void ReducedMotor::begin(std::int64_t commanded, double place, RadiansPerSecond 
   area_ = 0;
   left_ = 0;
   since_ = long_ago;
-  look_at_currents();
+  check_currents();
   holds_ = std::abs(ahead_) <= most_load_angle;
   rests_ = false;
 }
@@ -99,7 +99,7 @@ double ReducedMotor::needed_time(RadiansPerSecond speed) const {
 
 // Each phase's current reaches its new value at an even rate. So the field of both is late by the time in which a lack
 // in proportion to |sin φ|, of a torque in proportion to |sin φ| too, ends under a back-EMF in proportion to |sin φ|.
-void ReducedMotor::look_at_currents() {
+void ReducedMotor::check_currents() {
   need_ = needed_time({speed_});
   if (measured_) return;
   constexpr double lack = 0.42;      // 1/2 of the mean of |sin φ|³ + |cos φ|³
@@ -150,10 +150,10 @@ void ReducedMotor::move(const Block& block) {
   drift_ = teeth_ * speed_;
   held_ = 0;
   area_ = 0;
-  look_at_currents();
+  check_currents();
   holds_ = std::abs(ahead_) <= most_load_angle && need_ < long_ago;
   if (speed_ * speed_ <= most_square_at_rest_) [[unlikely]]
-    look_for_rest(before);
+    check_rest(before);
 }
 
 double ReducedMotor::other_torque_at(double ahead) const {
@@ -167,7 +167,7 @@ double ReducedMotor::other_torque_at(double ahead) const {
   return amplitude * std::sin(ahead) - detent_ * mean * std::sin(4 * angle);
 }
 
-void ReducedMotor::look_for_rest(double before) {
+void ReducedMotor::check_rest(double before) {
   const double pull = torque_ - weight_;
   const bool is_stuck = speed_ == 0 && before == 0 && std::abs(pull) <= dry_ + resisting_;
   if (!is_stuck) {

@@ -93,7 +93,7 @@ RunningMotor::RunningMotor(const MotorSetup& setup)
 void RunningMotor::step(int way) {
   commanded_ += way;
   excite();
-  look_for_slip(in_motion);
+  check_slip(in_motion);
   rests_ = false;
 }
 
@@ -151,11 +151,11 @@ void RunningMotor::run(Seconds time) {
   for (std::int64_t i = 1; i <= last_count_; ++i) {
     integrate(size);
     if (i % steps_between_looks != 0) continue;
-    look_for_slip(in_motion);
-    look_for_rest(size);
+    check_slip(in_motion);
+    check_rest(size);
     if (rests_) return;
   }
-  look_for_slip(in_motion);
+  check_slip(in_motion);
 }
 
 void RunningMotor::integrate(const StepSize& size) {
@@ -232,13 +232,13 @@ void RunningMotor::turn(double electrical) {
 
 // At rest a rotor that is more than two full steps away from the field is drawn to another place. At speed the currents
 // lag too, so that a rotor in step may be that far away; three full steps are more than a rotor in step can be.
-void RunningMotor::look_for_slip(double allowed) {
+void RunningMotor::check_slip(double allowed) {
   const double periods = (static_cast<double>(commanded_) - place()) / (4 * steps_);
   if (std::abs(periods - static_cast<double>(slips_)) <= allowed / 4) return;
   slips_ = std::llround(periods);
 }
 
-void RunningMotor::look_for_rest(const StepSize& size) {
+void RunningMotor::check_rest(const StepSize& size) {
   const double holds = constant_ * rated_ / teeth_;  // energy
   const double pull = torque_ - weight_;
   const bool is_stuck = speed_ == 0 && std::abs(pull) <= dry_ + resisting_;
@@ -254,7 +254,7 @@ void RunningMotor::look_for_rest(const StepSize& size) {
   speed_ = 0;
   gain_ = 0;
   rests_ = true;
-  look_for_slip(at_rest_in_step);
+  check_slip(at_rest_in_step);
 }
 
 }  // namespace passo

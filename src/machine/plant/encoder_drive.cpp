@@ -58,12 +58,12 @@ void EncoderDrive::run(BoundedMotor& rotor, Seconds time) {
     time -= piece;
     if (since_ < cycle * (1 - 1e-9)) continue;
     since_ = Seconds(0);
-    look(rotor);
+    update(rotor);
     if (rests(rotor)) return;
   }
 }
 
-void EncoderDrive::look(BoundedMotor& rotor) {
+void EncoderDrive::update(BoundedMotor& rotor) {
   const double place = counted(rotor);
   const auto commanded = static_cast<double>(commanded_);
   speed_ += smoothing * ((place - last_counted_) / cycle.value() - speed_);

@@ -41,7 +41,7 @@ void RotorPlant::disturb(const Disturbance& disturbance) {
   next_disturbance_ = std::min(next_disturbance_, disturbance.from);
 }
 
-void RotorPlant::mind_disturbances(Seconds time) {
+void RotorPlant::update_disturbances(Seconds time) {
   next_disturbance_ = Seconds(HUGE_VAL);
   for (std::size_t i = 0; i < disturbances_.size(); ++i) {
     const Disturbance& one = disturbances_[i];
@@ -63,7 +63,7 @@ std::int64_t RotorPlant::events_to_next_change() const {
 }
 
 // `stepped`: the pulse that the motor has just got, if any. Before the pulse the lag was another one.
-inline void RotorPlant::look_at(std::size_t motor, int stepped) {
+inline void RotorPlant::update_lag(std::size_t motor, int stepped) {
   Fitted& one = motors_[motor];
   const double after = one.drive ? one.drive->error() * one.full_step : one.rotor->lag();
   const double lag = std::max(std::abs(after), std::abs(after - stepped * one.full_step));
@@ -74,8 +74,8 @@ inline void RotorPlant::look_at(std::size_t motor, int stepped) {
   }
   is_close_ &= lag <= small_lag && one.rotor->is_reduced();
   if (now_.value() >= one.margin_due.value()) [[unlikely]]
-    look_at_margin(one);
-  if (!one.rotor->is_reduced() && one.rotor->slipped() != one.record.lost) look_at_loss(motor);
+    update_margin(one);
+  if (!one.rotor->is_reduced() && one.rotor->slipped() != one.record.lost) record_loss(motor);
 }
 
 // Lets time pass for a motor, and then gives it its steps.
@@ -86,16 +86,16 @@ inline void RotorPlant::turn(std::size_t motor, Seconds passed, std::int64_t ste
   const bool rests = one.rotor->rests();
   if (rests && steps == 0) return;
   if (!rests && passed.value() > 0) one.rotor->run(passed);
-  give(motor, passed, steps);
+  apply_steps(motor, passed, steps);
 }
 
-void RotorPlant::give(std::size_t motor, Seconds passed, std::int64_t steps) {
+void RotorPlant::apply_steps(std::size_t motor, Seconds passed, std::int64_t steps) {
   Fitted& one = motors_[motor];
   const int way = steps > 0 ? 1 : -1;
   for (std::int64_t left = std::abs(steps); left > 0; --left) one.rotor->step(way);
   // Where the bound holds, the look after the next pulse is enough.
   if (steps == 0 && one.rotor->is_reduced() && passed < short_time) return;
-  look_at(motor, steps == 0 ? 0 : way);
+  update_lag(motor, steps == 0 ? 0 : way);
 }
 
 // The usual case of turn(), kept short: each motor passes here at each pulse. `way`: 1, -1, or 0 for no step. False:
@@ -105,14 +105,14 @@ inline bool RotorPlant::turn_freely(std::size_t motor, Seconds passed, int way) 
   const PulseDone done = one.rotor->turn(passed, way);
   if (done == PulseDone::nothing) return false;
   if (done == PulseDone::time_only) [[unlikely]] {
-    give(motor, passed, way);
+    apply_steps(motor, passed, way);
     return true;
   }
   if (way == 0) return true;
   const double after = one.rotor->lag();
   const double lag = std::max(std::abs(after), std::abs(after - way * one.full_step));
   if (lag > one.next_lag || now_.value() >= one.margin_due.value()) [[unlikely]]
-    look_at(motor, way);
+    update_lag(motor, way);
   return true;
 }
 
@@ -121,7 +121,7 @@ void RotorPlant::turn_with_encoder(std::size_t motor, Seconds passed, std::int64
   if (steps == 0 && one.drive->rests(*one.rotor)) return;
   one.drive->run(*one.rotor, passed);
   one.drive->pulse(*one.rotor, steps);
-  look_at(motor, 0);
+  update_lag(motor, 0);
   if (!one.drive->is_alarmed() || following_fault_) return;
   following_fault_ = {.time = now_, .motor = motor, .error = one.drive->error()};
   set_switch(input_emergency_stop, true);
@@ -131,7 +131,7 @@ void RotorPlant::turn_with_encoder(std::size_t motor, Seconds passed, std::int64
 void RotorPlant::pulse(Seconds time, const MotorSteps& steps) {
   const Seconds passed = pass_to(time);
   if (time.value() >= next_disturbance_.value()) [[unlikely]]
-    mind_disturbances(time);
+    update_disturbances(time);
   is_close_ = true;
   const bool is_short = passed.value() < short_time.value();
   const std::size_t fitted = fitted_;
@@ -142,12 +142,12 @@ void RotorPlant::pulse(Seconds time, const MotorSteps& steps) {
     if (motors_[m].rotor) turn(m, passed, steps[m]);
   }
   for (std::size_t m = 0; m < steps.size(); ++m) untaken_[m] += steps[m];
-  if (--quiet_pulses_ <= 0 || !is_close_) look_at_places();
+  if (--quiet_pulses_ <= 0 || !is_close_) update_places();
 }
 
 // The switches need not follow each pulse of rotors that stay close to their commanded places.
-void RotorPlant::look_at_places() {
-  take_places();
+void RotorPlant::update_places() {
+  update_positions();
   set_switches(now_);
   double wander = 0;  // steps, back and forth
   for (std::size_t m = 0; m < fitted_; ++m) {
@@ -158,7 +158,7 @@ void RotorPlant::look_at_places() {
   quiet_pulses_ = fitted_ > 0 && is_close_ && steps > spare ? steps - spare : 1;
 }
 
-void RotorPlant::take_places() {
+void RotorPlant::update_positions() {
   MotorPositions& moving = moving_positions();
   for (std::size_t m = 0; m < moving.size(); ++m) {
     const Fitted& one = motors_[m];
@@ -174,12 +174,12 @@ void RotorPlant::take_places() {
 void RotorPlant::run_to(Seconds time) {
   const Seconds passed = pass_to(time);
   if (time >= next_disturbance_) [[unlikely]]
-    mind_disturbances(time);
+    update_disturbances(time);
   if (fitted_ == 0 || passed.value() <= 0) return;
   for (std::size_t m = 0; m < fitted_; ++m) {
     if (motors_[m].rotor) turn(m, passed, 0);
   }
-  take_places();
+  update_positions();
   move_slides();
 }
 
@@ -189,14 +189,14 @@ Seconds RotorPlant::pass_to(Seconds time) {
   return passed;
 }
 
-void RotorPlant::look_at_loss(std::size_t motor) {
+void RotorPlant::record_loss(std::size_t motor) {
   Fitted& one = motors_[motor];
   const std::int64_t lost = one.rotor->slipped() - one.record.lost;
   one.record.lost += lost;
   if (losses_.size() < most_losses) losses_.push_back({.time = now_, .motor = motor, .steps = lost});
 }
 
-void RotorPlant::look_at_margin(Fitted& one) const {
+void RotorPlant::update_margin(Fitted& one) const {
   one.margin_due = now_ + between_margins;
   if (!one.pull_out) return;
   const RadiansPerSecond speed{std::abs(one.rotor->speed().value)};
@@ -211,7 +211,7 @@ void RotorPlant::look_at_margin(Fitted& one) const {
 std::uint16_t RotorPlant::inputs_at(Seconds time) {
   if (time <= now_ && quiet_pulses_ > 1) return switches().closed();
   run_to(time);
-  look_at_places();
+  update_places();
   return switches().closed();
 }
 
@@ -225,13 +225,13 @@ bool RotorPlant::settle(Seconds most) {
     if (now_ >= end) return false;
     run_to(now_ + look);
   }
-  look_at_places();
+  update_places();
   return true;
 }
 
 Truth RotorPlant::truth_at(Seconds time) {
   run_to(time);
-  look_at_places();
+  update_places();
   return truth_now(time);
 }
 

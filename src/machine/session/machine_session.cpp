@@ -66,19 +66,19 @@ void MachineSession::name_session(std::uint16_t number) {
   board_.name_session(number);
 }
 
-void MachineSession::turn(Seconds most) {
+void MachineSession::poll(Seconds most) {
   if (state_ == MachineState::offline) {
     go_online(most);
   } else if (state_ == MachineState::check) {
-    turn_check();
+    poll_check();
   } else if (busy()) {
-    turn_work(most);
+    poll_work(most);
   } else {
     board_.poll(std::isinf(most.value()) ? Seconds(0) : most);
   }
-  mind_board();
-  look_at_panel();
-  look_at_place();
+  check_board();
+  poll_panel();
+  poll_place();
 }
 
 // Says hello. Before a second hello, asks the board for its status and its place.
@@ -144,26 +144,26 @@ void MachineSession::find_place_again() {
 }
 
 // A check needs no board, but hears what the board says.
-void MachineSession::turn_check() {
+void MachineSession::poll_check() {
   board_.poll(Seconds(0));
   if (!work_->stopped && !work_->checker->go_on(items_a_turn)) return;
   end_work();
 }
 
-void MachineSession::turn_work(Seconds most) {
+void MachineSession::poll_work(Seconds most) {
   if (work_->finishing) {
     if (!board_.settled()) board_.poll(most);
     if (board_.settled()) end_work();
     return;
   }
-  mind_lease();
-  if (mind_lines(most)) return;
-  const MotionDrive::Turn turn = work_->drive->advance();
-  if (turn == MotionDrive::Turn::ended) return finish_work();
+  check_lease();
+  if (poll_lines(most)) return;
+  const MotionDrive::Progress turn = work_->drive->advance();
+  if (turn == MotionDrive::Progress::ended) return finish_work();
   if (work_->program_ends && clock_of(*work_) >= *work_->program_ends) end_overrides();
-  mind_holds();
-  mind_door();
-  if (turn != MotionDrive::Turn::waits) return;
+  update_holds();
+  update_door();
+  if (turn != MotionDrive::Progress::waits) return;
   const bool held = work_->drive->state() == MotionDrive::State::held;
   if (held && options_.over_a_line) most = std::min(most, Panel::in_a_hold);
   work_->drive->wait(most);
@@ -171,7 +171,7 @@ void MachineSession::turn_work(Seconds most) {
 
 // The drive has ended. Over a line, the board is asked where it stands. A limit switch that was closed may be open now.
 void MachineSession::finish_work() {
-  note_tails();
+  report_tails();
   const bool asks = watches_counts() || closed_limit();
   if (!asks || board_.error()) return end_work();
   work_->finishing = true;
@@ -180,7 +180,7 @@ void MachineSession::finish_work() {
 
 void MachineSession::end_work() {
   // The standstill may have been heard of when the drive had ended already.
-  note_standstill();
+  on_standstill();
   if (board_.standstill()) board_.fail(LinkError::stood_still);
   work_->ended = true;
   if (work_->program_ends) end_overrides();
@@ -191,7 +191,7 @@ void MachineSession::end_work() {
     outcome = work_->stopped ? Outcome::stopped : good ? Outcome::done : Outcome::failed;
   } else {
     std::tie(outcome, fault) = judge_work();
-    note_place();
+    record_place();
   }
   if (board_.error() && is_of_work(*board_.error())) board_.forgive();
   const Ticket ticket = work_->ticket;
@@ -217,11 +217,11 @@ std::pair<Outcome, std::optional<ActivityFault>> MachineSession::judge_work() co
 }
 
 // Takes over the place at rest. If the board was lost, the place is not known until the board answers again.
-void MachineSession::note_place() {
+void MachineSession::record_place() {
   if (board_.error() && !is_of_work(*board_.error())) return;
   place_.rest_at(work_->drive->place(), work_->drive->downs());
   const bool agrees = !work_->finishing || place_.agrees_with(watched_status());
-  if (!agrees) note({.kind = MachineChange::Kind::position_lost});
+  if (!agrees) publish({.kind = MachineChange::Kind::position_lost});
   const bool is_homed = work_->homing != nullptr && work_->homing->done() && !work_->drive->stopped();
   // The second motor of an axis has turned alone: of the first one the counts know nothing more.
   if (work_->homing != nullptr && board_.forget_shifts() && !is_homed) place_.doubt();
@@ -230,7 +230,7 @@ void MachineSession::note_place() {
 }
 
 // The drive brakes and switches the outputs off before it fails the link, so the line is noted now.
-void MachineSession::note_standstill() {
+void MachineSession::on_standstill() {
   if (!board_.standstill() || board_.error()) return;
   if (!busy()) return board_.fail(LinkError::stood_still);
   if (!work_->is_program() || work_->checker || work_->standstill_line) return;
@@ -238,8 +238,8 @@ void MachineSession::note_standstill() {
 }
 
 // An error of the board ends what is going on. The machine is then in alarm or in fault until a reset.
-void MachineSession::mind_board() {
-  note_standstill();
+void MachineSession::check_board() {
+  on_standstill();
   if (!board_.error() || state_ == MachineState::alarm || state_ == MachineState::fault) return;
   const LinkError error = *board_.error();
   if (busy() && is_of_work(error)) return;  // the drive ends by itself
@@ -251,12 +251,12 @@ void MachineSession::mind_board() {
   move_to(lost ? MachineEvent::lose_board : MachineEvent::stop_at_once);
 }
 
-void MachineSession::look_at_panel() {
+void MachineSession::poll_panel() {
   if (!options_.over_a_line || board_.error() || !board_.ready()) return;
   const bool finishing = busy() && work_->finishing;
   const bool runs = busy() && work_->drive && !finishing;
   if (!finishing) panel_->ask(runs && work_->drive->state() == MotionDrive::State::held);
-  const Panel::Pressed pressed = panel_->take();
+  const Panel::Pressed pressed = panel_->take_pressed();
   if (state_ == MachineState::idle && panel_->door_is_open()) {
     move_to(MachineEvent::open_door);
   } else if (state_ == MachineState::door && !busy() && !panel_->door_is_open()) {
@@ -274,7 +274,7 @@ void MachineSession::look_at_panel() {
     work_->drive->resume(HoldReason::door);
     work_->drive->resume(HoldReason::line_end);
   }
-  mind_holds();
+  update_holds();
 }
 
 void MachineSession::move_to(MachineEvent event) {
@@ -282,10 +282,10 @@ void MachineSession::move_to(MachineEvent event) {
   assert(next);
   if (!next) return;
   state_ = *next;
-  note({.kind = MachineChange::Kind::state, .state = state_});
+  publish({.kind = MachineChange::Kind::state, .state = state_});
 }
 
-void MachineSession::note(MachineChange change) {
+void MachineSession::publish(MachineChange change) {
   change.time = now();
   ++version_;
   if (changes_.size() == most_changes) changes_.pop_front();
@@ -293,7 +293,7 @@ void MachineSession::note(MachineChange change) {
 }
 
 void MachineSession::answer(Ticket ticket, Outcome outcome, std::optional<ActivityFault> fault) {
-  note({.kind = MachineChange::Kind::answered, .ticket = ticket, .outcome = outcome, .fault = std::move(fault)});
+  publish({.kind = MachineChange::Kind::answered, .ticket = ticket, .outcome = outcome, .fault = std::move(fault)});
 }
 
 void MachineSession::answer_holds(Outcome outcome) {

@@ -6,7 +6,7 @@
 namespace passo {
 
 // Stops the jog in time. The moves that one step commits may not end after the lease.
-void MachineSession::mind_lease() {
+void MachineSession::check_lease() {
   if (!work_->lease_end) return;
   const Seconds pulled = 3 * live_commitment.longest_move;
   if (now() + work_->drive->committed() + pulled > *work_->lease_end) work_->drive->stop();
@@ -21,12 +21,12 @@ void MachineSession::end_overrides() {
 }
 
 // Sets the state of a program by its strongest reason to rest.
-void MachineSession::mind_holds() {
+void MachineSession::update_holds() {
   if (!work_->is_program() || !work_->drive) return;
   const MotionDrive& drive = *work_->drive;
   const HoldReasons holds = drive.holds();
   const bool held = drive.state() == MotionDrive::State::held;
-  note_tails();
+  report_tails();
   if (holds.has(HoldReason::door)) {
     if (state_ != MachineState::door) move_to(MachineEvent::open_door);
   } else if (holds.any_of({HoldReason::operator_hold, HoldReason::program_stop, HoldReason::line_end}) ||
@@ -43,22 +43,22 @@ void MachineSession::mind_holds() {
   if (!held) {
     work_->rest_told = false;
   } else if (!std::exchange(work_->rest_told, true)) {
-    note({.kind = MachineChange::Kind::came_to_rest});
+    publish({.kind = MachineChange::Kind::came_to_rest});
     answer_holds(Outcome::done);
   }
 }
 
 // A hold as for a door: at rest, spindle and coolant are off.
-void MachineSession::mind_door() {
+void MachineSession::update_door() {
   if (!work_->stops_outputs || work_->drive->state() != MotionDrive::State::held) return;
   work_->stops_outputs = false;
   work_->drive->stop_outputs();
 }
 
-void MachineSession::note_tails() {
+void MachineSession::report_tails() {
   const RefillLedger* const tails = work_->drive->ledger();
   for (; tails != nullptr && work_->recoveries_told < tails->recoveries(); ++work_->recoveries_told) {
-    note({.kind = MachineChange::Kind::rested_by_tail});
+    publish({.kind = MachineChange::Kind::rested_by_tail});
   }
 }
 

@@ -23,7 +23,7 @@ std::optional<Refusal> MachineSession::lost_place() const {
 }
 
 // Asks the board where it is, and takes over what it has told.
-void MachineSession::look_at_place() {
+void MachineSession::poll_place() {
   if (!options_.tells_place) return;
   if (!busy()) return live_place_.rest_at(position().place);
   // At rest the drive knows the place itself: a question of before the rest may be answered after the rest.
@@ -37,7 +37,7 @@ void MachineSession::look_at_place() {
   }
   const Seconds between = options_.over_a_line ? between_places_over_a_line : between_places;
   if (work_->finishing || !board_.settled() || !live_place_.is_due(now(), heard, between)) return;
-  live_place_.note_asked(now());
+  live_place_.on_asked(now());
   board_.ask();
 }
 

@@ -14,7 +14,7 @@ constexpr Seconds a_wait_for_lines{0.001};
 
 // Lets a program that comes line by line go on when there are lines. True: the turn was spent waiting for more lines,
 // so that the look-ahead sees them.
-bool MachineSession::mind_lines(Seconds most) {
+bool MachineSession::poll_lines(Seconds most) {
   OpenProgram* const lines = work_->lines;
   if (lines == nullptr) return false;
   MotionDrive& drive = *work_->drive;
@@ -28,7 +28,7 @@ bool MachineSession::mind_lines(Seconds most) {
   // The machine may brake for the end of the queue. Lines that have come since lead on from there.
   if (may_wait && !waits && lines->queued() > 0) drive.pass_await_line(lines->last_mode());
   if (!waits) return false;
-  mind_holds();
+  update_holds();
   board_.poll(std::min(most, a_wait_for_lines));
   return true;
 }

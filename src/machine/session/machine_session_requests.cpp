@@ -49,7 +49,7 @@ Failure<Refusal> refusal(RefusalReason reason) {
 }  // namespace
 
 Result<Ticket, Refusal> MachineSession::request(Request wanted) {
-  return std::visit([this](auto& one) { return take(one); }, wanted);
+  return std::visit([this](auto& one) { return handle(one); }, wanted);
 }
 
 // Why an event may not happen now. Empty: the table allows the event.
@@ -126,7 +126,7 @@ DriveOptions MachineSession::drive_options() const {
   return options;
 }
 
-MachineSession::Answer MachineSession::take(request::Start& start) {
+MachineSession::Answer MachineSession::handle(request::Start& start) {
   if (auto refused = refuse(MachineEvent::begin_run)) return Failure{*refused};
   if (auto refused = closed_limit()) return Failure{*refused};
   // A journal knows where its job was broken off.
@@ -174,7 +174,7 @@ MachineSession::Answer MachineSession::take(request::Start& start) {
 }
 
 // The program outlives the stream, and so do its modes. So what the program has left on is switched on again.
-MachineSession::Answer MachineSession::take(request::Stream& stream) {
+MachineSession::Answer MachineSession::handle(request::Stream& stream) {
   if (auto refused = refuse(MachineEvent::begin_run)) return Failure{*refused};
   if (auto refused = closed_limit(); refused && !stream.program->jogs()) return Failure{*refused};
   if (auto refused = lost_place(); refused && !stream.program->jogs()) return Failure{*refused};
@@ -189,7 +189,7 @@ MachineSession::Answer MachineSession::take(request::Stream& stream) {
 }
 
 // Asked again before the machine rests, it brakes no second time: it would never get to where the lines go on.
-MachineSession::Answer MachineSession::take(request::DropLines&) {
+MachineSession::Answer MachineSession::handle(request::DropLines&) {
   if (!busy() || work_->lines == nullptr) return refusal(RefusalReason::no_lines_queued);
   const Ticket ticket = ++last_ticket_;
   waiting_holds_.push_back(ticket);
@@ -237,7 +237,7 @@ void MachineSession::put_on_drive(Work& work, const DriveOptions& options, bool 
   if (watchers.items) drive.items().watch(watchers.items);
   drive.probe().watch([this, &work](const ProbeOutcome& outcome) {
     if (work.watchers.probe) work.watchers.probe(outcome);
-    note({.kind = MachineChange::Kind::probed, .probe = outcome});
+    publish({.kind = MachineChange::Kind::probed, .probe = outcome});
   });
   if (RefillLedger* const ledger = drive.ledger()) {
     if (watchers.motion) ledger->watch_motion(watchers.motion);
@@ -247,7 +247,7 @@ void MachineSession::put_on_drive(Work& work, const DriveOptions& options, bool 
   if (work.is_program() && overrides_ != Overrides()) put_overrides_on(drive);
 }
 
-MachineSession::Answer MachineSession::take(request::Jog& jog) {
+MachineSession::Answer MachineSession::handle(request::Jog& jog) {
   if (auto refused = refuse(MachineEvent::begin_jog)) return Failure{*refused};
   const double speed = jog.way.speed.value();
   const bool good = std::isfinite(speed) && speed > 0 && is_finite(jog.way.direction) &&
@@ -267,13 +267,13 @@ MachineSession::Answer MachineSession::take(request::Jog& jog) {
 }
 
 // Has no effect on a jog that has begun to brake.
-MachineSession::Answer MachineSession::take(request::RenewLease&) {
+MachineSession::Answer MachineSession::handle(request::RenewLease&) {
   if (state_ != MachineState::jog) return refusal(RefusalReason::no_jog);
   work_->lease_end = now() + work_->lease;
   return at_once();
 }
 
-MachineSession::Answer MachineSession::take(request::Home&) {
+MachineSession::Answer MachineSession::handle(request::Home&) {
   if (auto refused = refuse(MachineEvent::begin_home)) return Failure{*refused};
   if (machine_.homing.empty()) {
     return refusal(RefusalReason::no_switches);
@@ -288,7 +288,7 @@ MachineSession::Answer MachineSession::take(request::Home&) {
   return begin(MachineEvent::begin_home, std::move(work));
 }
 
-MachineSession::Answer MachineSession::take(request::Probe& probe) {
+MachineSession::Answer MachineSession::handle(request::Probe& probe) {
   if (auto refused = refuse(MachineEvent::begin_probe)) return Failure{*refused};
   if (!is_finite(probe.target) || !(probe.speed > MmPerSecond(0)) || !std::isfinite(probe.speed.value())) {
     return refusal(RefusalReason::bad_probe);
@@ -304,7 +304,7 @@ MachineSession::Answer MachineSession::take(request::Probe& probe) {
   return begin(MachineEvent::begin_probe, std::move(work));
 }
 
-MachineSession::Answer MachineSession::take(request::Check& check) {
+MachineSession::Answer MachineSession::handle(request::Check& check) {
   if (auto refused = refuse(MachineEvent::begin_check)) return Failure{*refused};
   auto work = std::make_unique<Work>();
   if (check.findings != nullptr) work->findings = check.findings;
@@ -314,7 +314,7 @@ MachineSession::Answer MachineSession::take(request::Check& check) {
 }
 
 // A hold ends an activity that is not a program.
-MachineSession::Answer MachineSession::take(request::Hold& hold) {
+MachineSession::Answer MachineSession::handle(request::Hold& hold) {
   if (!busy() || state_ == MachineState::check) return refusal(RefusalReason::nothing_moves);
   const Ticket ticket = ++last_ticket_;
   if (!work_->is_program()) {
@@ -325,11 +325,11 @@ MachineSession::Answer MachineSession::take(request::Hold& hold) {
     work_->rest_told = false;
   }
   waiting_holds_.push_back(ticket);
-  mind_holds();
+  update_holds();
   return ticket;
 }
 
-MachineSession::Answer MachineSession::take(request::Resume&) {
+MachineSession::Answer MachineSession::handle(request::Resume&) {
   if (!busy() || !work_->is_program()) return refusal(RefusalReason::no_program_held);
   MotionDrive& drive = *work_->drive;
   const HoldReasons holds = drive.holds();
@@ -342,11 +342,11 @@ MachineSession::Answer MachineSession::take(request::Resume&) {
   drive.resume(HoldReason::door);
   drive.resume(HoldReason::line_end);
   answer_holds(Outcome::stopped);  // those that were called off before the machine came to rest
-  mind_holds();
+  update_holds();
   return at_once();
 }
 
-MachineSession::Answer MachineSession::take(request::Stop&) {
+MachineSession::Answer MachineSession::handle(request::Stop&) {
   if (!busy()) return refusal(RefusalReason::nothing_going_on);
   const Ticket ticket = waiting_holds_.emplace_back(++last_ticket_);
   work_->stopped = true;
@@ -354,7 +354,7 @@ MachineSession::Answer MachineSession::take(request::Stop&) {
   return ticket;
 }
 
-MachineSession::Answer MachineSession::take(request::Override& change) {
+MachineSession::Answer MachineSession::handle(request::Override& change) {
   if (!is_factor(change.feed, highest_factor) || !is_factor(change.adaptive_feed, 1) ||
       !is_factor(change.spindle, highest_factor)) {
     return refusal(RefusalReason::bad_override);
@@ -372,13 +372,13 @@ MachineSession::Answer MachineSession::take(request::Override& change) {
     if (change.adaptive_feed) drive.set_adaptive_feed(*change.adaptive_feed);
     if (change.spindle) drive.set_spindle_override(*change.spindle);
     if (change.rapids) drive.set_rapid_override(*change.rapids);
-    mind_holds();
+    update_holds();
   }
   ++version_;
   return at_once();
 }
 
-MachineSession::Answer MachineSession::take(request::SwitchOutputs& wanted) {
+MachineSession::Answer MachineSession::handle(request::SwitchOutputs& wanted) {
   if (!busy() || !work_->is_program() || work_->finishing || work_->drive->stopped()) {
     return refusal(RefusalReason::no_program_runs);
   }
@@ -395,29 +395,29 @@ MachineSession::Answer MachineSession::take(request::SwitchOutputs& wanted) {
 }
 
 // Of single block, a stream knows nothing: whoever sends its lines may wait between them.
-MachineSession::Answer MachineSession::take(request::ChooseStops& chosen) {
+MachineSession::Answer MachineSession::handle(request::ChooseStops& chosen) {
   stops_.single_block = chosen.single_block.value_or(stops_.single_block);
   stops_.optional_stop = chosen.optional_stop.value_or(stops_.optional_stop);
   if (busy() && work_->is_program()) {
     work_->drive->wait_at_optional(stops_.optional_stop);
     if (work_->program != nullptr) work_->drive->stop_at_lines(stops_.single_block);
-    mind_holds();
+    update_holds();
   }
   ++version_;
   return at_once();
 }
 
-MachineSession::Answer MachineSession::take(request::OperatorDone&) {
+MachineSession::Answer MachineSession::handle(request::OperatorDone&) {
   if (!busy() || !work_->drive || !work_->drive->waits_for()) {
     return refusal(RefusalReason::not_waiting);
   }
   if (WaitWords* const words = work_->wait_words()) words->pass(work_->drive->waits_for()->source.line);
   work_->drive->done();
-  mind_holds();
+  update_holds();
   return at_once();
 }
 
-MachineSession::Answer MachineSession::take(request::SetPosition& set) {
+MachineSession::Answer MachineSession::handle(request::SetPosition& set) {
   if (state_ != MachineState::idle) return Failure{why_not()};
   if (!is_finite(set.position.place)) return refusal(RefusalReason::bad_place);
   KnownPosition position = set.position;
@@ -426,19 +426,19 @@ MachineSession::Answer MachineSession::take(request::SetPosition& set) {
   return at_once();
 }
 
-MachineSession::Answer MachineSession::take(request::ResetMachine&) {
+MachineSession::Answer MachineSession::handle(request::ResetMachine&) {
   if (auto refused = refuse(MachineEvent::reset)) return Failure{*refused};
   begin_reset();
   return at_once();
 }
 
-MachineSession::Answer MachineSession::take(request::Sleep&) {
+MachineSession::Answer MachineSession::handle(request::Sleep&) {
   if (auto refused = refuse(MachineEvent::fall_asleep)) return Failure{*refused};
   move_to(MachineEvent::fall_asleep);
   return at_once();
 }
 
-MachineSession::Answer MachineSession::take(request::Wake&) {
+MachineSession::Answer MachineSession::handle(request::Wake&) {
   if (auto refused = refuse(MachineEvent::wake)) return Failure{*refused};
   move_to(MachineEvent::wake);
   return at_once();

@@ -29,7 +29,7 @@ class MachineSession::Panel {
     bool door = false;
     bool start = false;  // cycle start, while hold is not pressed and the door is closed
   };
-  Pressed take() {
+  Pressed take_pressed() {
     const unsigned pressed = board_.take_pressed();
     const bool barred = (board_.inputs() & (input_hold | input_door)) != 0;
     const bool holds = (pressed & (input_hold | input_door)) != 0;

@@ -50,7 +50,7 @@ BacklashTaker::BacklashTaker(Source<PathItem>& path, const BacklashOptions& opti
 
 bool BacklashTaker::next(PathItem& item) {
   if (!any_) return path_.next(item);
-  if (!std::exchange(started_, true) && give_start(item)) return true;
+  if (!std::exchange(started_, true) && emit_start(item)) return true;
   for (;;) {
     if (!turned_.empty() && followed_ <= from_) {
       take_up(from_ > 0 ? place_ : segment_.curve.start(), std::exchange(turned_, AxisSet()), item);
@@ -61,10 +61,10 @@ bool BacklashTaker::next(PathItem& item) {
       return true;
     }
     if (in_segment_) {
-      if (give_piece(item)) return true;
+      if (emit_piece(item)) return true;
       continue;
     }
-    if (!pull(item)) return give_end(item);
+    if (!pull(item)) return emit_end(item);
     if (!in_segment_) return true;
   }
 }
@@ -129,7 +129,7 @@ bool BacklashTaker::follow_to_next_turn() {
 }
 
 // Gives the part up to where an axis turns back, or up to the end. False: the part has no length.
-bool BacklashTaker::give_piece(PathItem& item) {
+bool BacklashTaker::emit_piece(PathItem& item) {
   if (turned_.empty() && !follow_to_next_turn()) {
     in_segment_ = false;
   } else if (followed_ <= from_) {
@@ -174,7 +174,7 @@ void BacklashTaker::take_up(const Point& at, AxisSet turned, PathItem& item) {
   item = segment;
 }
 
-bool BacklashTaker::give_start(PathItem& item) {
+bool BacklashTaker::emit_start(PathItem& item) {
   if (!options_.counts_items) return false;
   if (downs_.empty()) {
     item = Action{.place = options_.start};
@@ -184,7 +184,7 @@ bool BacklashTaker::give_start(PathItem& item) {
   return true;
 }
 
-bool BacklashTaker::give_end(PathItem& item) {
+bool BacklashTaker::emit_end(PathItem& item) {
   ended_ = true;
   if (std::exchange(asks_, false) && at_rest_) {
     downs_ = at_rest_().downs;

@@ -70,7 +70,7 @@ bool ChordFitter::goes_on_after(std::uint64_t number) {
   return turn * before * after <= 2 * share_of_tolerance * tolerance_ * (before + after);
 }
 
-void ChordFitter::take_chord(std::uint64_t number) {
+void ChordFitter::add_chord(std::uint64_t number) {
   const Curve& chord = segment_at(number)->curve;
   const Point& start = segment_at(ahead_.first())->curve.start();
   const auto add = [&](const Vertex& vertex, double weight) {
@@ -95,12 +95,12 @@ void ChordFitter::take_chord(std::uint64_t number) {
 
 ChordFitter::Fit ChordFitter::longest_fit() {
   const std::uint64_t first = ahead_.first();
-  take_chords(1);
+  add_chords(1);
   Fit longest;
   for (std::uint64_t goal = least_fitted; goal <= most_fitted; goal = more_than(goal)) {
     bool goes_on = goes_on_after(first + vertices_.size() - 1);
     while (goes_on && vertices_.size() < goal) {
-      take_chord(first + vertices_.size());
+      add_chord(first + vertices_.size());
       goes_on = goes_on_after(first + vertices_.size() - 1);
     }
     const bool is_all = !goes_on;
@@ -126,13 +126,13 @@ void ChordFitter::stay_clear_of_the_end() {
   const double end = vertices_.back().s - clearance * tolerance_;
   std::size_t count = vertices_.size();
   while (count > 0 && vertices_[count - 1].s > end) --count;
-  take_chords(count);
+  add_chords(count);
 }
 
-void ChordFitter::take_chords(std::size_t count) {
+void ChordFitter::add_chords(std::size_t count) {
   vertices_.clear();
   sums_ = {};
-  for (std::size_t i = 0; i < count; ++i) take_chord(ahead_.first() + i);
+  for (std::size_t i = 0; i < count; ++i) add_chord(ahead_.first() + i);
 }
 
 // A free end moves the start of the next chord. If that is too much for the chord or for its tube, the cubic ends at
@@ -230,7 +230,7 @@ bool ChordFitter::passes(Fit& fit) const {
   return fit.length >= least_length * whole;
 }
 
-void ChordFitter::give_cubic(const Fit& fit, PathItem& item, double& deviation) {
+void ChordFitter::emit_cubic(const Fit& fit, PathItem& item, double& deviation) {
   const std::uint64_t first = ahead_.first();
   const std::uint64_t next = first + fit.count;
   const Point start = segment_at(first)->curve.start();
@@ -265,7 +265,7 @@ bool ChordFitter::next(PathItem& item, double& deviation) {
   }
   const Fit fit = goes_on && since_corner_ >= clearance * tolerance_ ? longest_fit() : Fit{};
   if (fit.count > 0) {
-    give_cubic(fit, item, deviation);
+    emit_cubic(fit, item, deviation);
     since_corner_ = far;
   } else {
     std::swap(item, ahead_.front().item);

@@ -69,15 +69,15 @@ class ChordFitter {
   const Segment* segment_at(std::uint64_t number) const { return std::get_if<Segment>(&ahead_[number].item); }
   bool may_begin(const Segment& segment) const;
   bool goes_on_after(std::uint64_t number);
-  void take_chord(std::uint64_t number);
-  void take_chords(std::size_t count);
+  void add_chord(std::uint64_t number);
+  void add_chords(std::size_t count);
   bool comes_to_a_corner();
   void stay_clear_of_the_end();
   Fit longest_fit();
   Fit fit(bool end_is_free) const;
   Fit solved(bool end_is_free) const;
   bool passes(Fit& fit) const;
-  void give_cubic(const Fit& fit, PathItem& item, double& deviation);
+  void emit_cubic(const Fit& fit, PathItem& item, double& deviation);
 
   LineMerger merger_;
   Window<Ahead> ahead_;

@@ -65,7 +65,7 @@ bool LineMerger::pull() {
 
 LineMerger::Chord::Chord(const Point& way) : travel(way), length(length_of(way)), direction(way * (1 / length)) {}
 
-bool LineMerger::takes_in(const Segment& merged, const Segment& line, const Chord& chord) const {
+bool LineMerger::absorbs(const Segment& merged, const Segment& line, const Chord& chord) const {
   if (!are_alike(merged, line)) return false;
   const Point own = line.curve.end() - line.curve.start();
   const Point before = end_ - merged.curve.start();
@@ -106,7 +106,7 @@ bool LineMerger::extend(Segment& merged, double& deviation) {
     exact_.begin(first.direction, first.length, rounding);
   }
   const Chord chord(line.curve.end() - start);
-  if (!takes_in(merged, line, chord)) return false;
+  if (!absorbs(merged, line, chord)) return false;
   if (!exact_.has(chord.direction)) deviation = cone_.tolerance;
   if (deviation == 0) exact_.narrow(chord.direction, chord.length);
   cone_.narrow(chord.direction, chord.length);

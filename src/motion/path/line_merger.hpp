@@ -51,7 +51,7 @@ class LineMerger {
 
   bool pull();
   // `merged`: the first line, with the mode of the last; `line` is the next.
-  bool takes_in(const Segment& merged, const Segment& line, const Chord& chord) const;
+  bool absorbs(const Segment& merged, const Segment& line, const Chord& chord) const;
   void begin(const Segment& merged);
   bool extend(Segment& merged, double& deviation);
   bool stays_apart(const Segment& line) const;

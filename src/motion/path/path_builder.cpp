@@ -31,8 +31,8 @@ constexpr Mm least_spline_tolerance{1e-5};
 // How far a merged line may leave the path if the program does not say: this share of the tolerance.
 constexpr double merge_share = 0.05;
 
-// The operations that take() ignores, because other parts of the program act on them. A new operation must be named
-// here or handled in take(). Otherwise take() does not compile.
+// The operations that add() ignores, because other parts of the program act on them. A new operation must be named
+// here or handled in add(). Otherwise add() does not compile.
 template <class What, class... Others>
 inline constexpr bool is_one_of = (std::is_same_v<What, Others> || ...);
 template <class What>
@@ -72,8 +72,8 @@ bool PathBuilder::next(PathItem& item) {
     held_.pop_front();
     return true;
   }
-  bool has_item = take_chord(item) || take_spline_piece(item) || take_probe_step(item) || take_tap_step(item);
-  while (!has_item && next_operation()) has_item = take(operation_, item);
+  bool has_item = next_chord(item) || next_spline_piece(item) || next_probe_step(item) || next_tap_step(item);
+  while (!has_item && next_operation()) has_item = add(operation_, item);
   if (!has_item && !options_.open_ended) switch_off();
   // A change of the outputs, and the wait for the index, come before the item in hand. At the end of the operations
   // there is no item in hand.
@@ -104,7 +104,7 @@ void PathBuilder::switch_off() {
   commanded_ = OutputState{};
 }
 
-bool PathBuilder::take(const Operation& operation, PathItem& item) {
+bool PathBuilder::add(const Operation& operation, PathItem& item) {
   if (frame_.follow(operation)) return false;
   const auto act = [&](Action::Kind kind, Seconds dwell = Seconds(0), std::int32_t tool = 0) {
     item = Action{
@@ -118,15 +118,15 @@ bool PathBuilder::take(const Operation& operation, PathItem& item) {
   };
   return std::visit(
       Overloaded{
-          [&](const operation::StraightTraverse& move) { return take_line(move.end, true, item); },
-          [&](const operation::StraightFeed& move) { return take_line(move.end, false, item); },
-          [&](const operation::StraightProbe& probe) { return take_probe(probe, item); },
-          [&](const operation::ArcFeed& arc) { return take_arc(arc, item); },
-          [&](const operation::NurbsFeed& curve) { return take_spline(curve, item); },
+          [&](const operation::StraightTraverse& move) { return add_line(move.end, true, item); },
+          [&](const operation::StraightFeed& move) { return add_line(move.end, false, item); },
+          [&](const operation::StraightProbe& probe) { return add_probe(probe, item); },
+          [&](const operation::ArcFeed& arc) { return add_arc(arc, item); },
+          [&](const operation::NurbsFeed& curve) { return begin_spline(curve, item); },
           [&](const operation::SetLengthUnits& set) { return units_ = set.units, false; },
           [&](const operation::SetFeedMode& mode) { return feed_mode_ = mode.mode, false; },
           [&](const operation::SetFeedRate& rate) { return feed_rate_ = rate, false; },
-          [&](const operation::RigidTap& tap) { return take_tap(tap, item); },
+          [&](const operation::RigidTap& tap) { return begin_tap(tap, item); },
           [&](const operation::StartSpeedFeedSync& sync) { return synchronised_pitch_ = sync.pitch, false; },
           [&](const operation::StopSpeedFeedSync&) { return synchronised_pitch_.reset(), false; },
           [&](const operation::SetPathMode& mode) { return set_path_mode(mode), false; },
@@ -168,11 +168,11 @@ bool PathBuilder::take(const Operation& operation, PathItem& item) {
       operation.what);
 }
 
-bool PathBuilder::take_line(const Point& work_end, bool rapid, PathItem& item) {
-  return take_curve(Curve::line(position_, machine_end(work_end)), rapid, item);
+bool PathBuilder::add_line(const Point& work_end, bool rapid, PathItem& item) {
+  return add_curve(Curve::line(position_, machine_end(work_end)), rapid, item);
 }
 
-bool PathBuilder::take_probe(const operation::StraightProbe& probe, PathItem& item) {
+bool PathBuilder::add_probe(const operation::StraightProbe& probe, PathItem& item) {
   probe_step_ = ProbeStep::move;
   probe_end_ = probe.end;
   item = Action{.kind = Action::Kind::probe_begin,
@@ -183,11 +183,11 @@ bool PathBuilder::take_probe(const operation::StraightProbe& probe, PathItem& it
   return true;
 }
 
-bool PathBuilder::take_probe_step(PathItem& item) {
+bool PathBuilder::next_probe_step(PathItem& item) {
   if (probe_step_ == ProbeStep::move) {
     probe_step_ = ProbeStep::end;
     const bool refused = answers_.probe() != nullptr && answers_.probe()->refused;
-    if (!refused && take_line(probe_end_, false, item)) {
+    if (!refused && add_line(probe_end_, false, item)) {
       std::get<Segment>(item).mode = PathMode::exact_stop;
       return true;
     }
@@ -229,8 +229,8 @@ void PathBuilder::refuse_surface_speed(const operation::SetSpindleMode& mode) {
          "G97 and S in revolutions a minute");
 }
 
-bool PathBuilder::take_arc(const operation::ArcFeed& arc, PathItem& item) {
-  if (frame_.rotation_degrees() != 0 && arc.plane != Plane::xy) return take_tilted_arc(arc, item);
+bool PathBuilder::add_arc(const operation::ArcFeed& arc, PathItem& item) {
+  if (frame_.rotation_degrees() != 0 && arc.plane != Plane::xy) return add_tilted_arc(arc, item);
   const auto [first, second, normal] = axes_of(arc.plane);
   const Point end = machine_end(arc.end);
   Point work_center = arc.end;
@@ -245,7 +245,7 @@ bool PathBuilder::take_arc(const operation::ArcFeed& arc, PathItem& item) {
   const double start_radius = std::hypot(start_first, start_second);
   const double end_radius = std::hypot(end_first, end_second);
   if (arc.turns == 0 || std::max(start_radius, end_radius) < still) {
-    return take_curve(Curve::line(position_, end), false, item);
+    return add_curve(Curve::line(position_, end), false, item);
   }
 
   const double start_angle = std::atan2(start_second, start_first);
@@ -257,12 +257,12 @@ bool PathBuilder::take_arc(const operation::ArcFeed& arc, PathItem& item) {
                             .end_radius = end_radius,
                             .start_angle = start_angle,
                             .sweep = sweep_between(start_angle, std::atan2(end_second, end_first), arc.turns)};
-  return take_curve(Curve::arc(position_, end, data), false, item);
+  return add_curve(Curve::arc(position_, end, data), false, item);
 }
 
 // In the work frame the arc lies in its plane. So the sweep is computed, and the arc is cut into chords, in the work
 // frame.
-bool PathBuilder::take_tilted_arc(const operation::ArcFeed& arc, PathItem& item) {
+bool PathBuilder::add_tilted_arc(const operation::ArcFeed& arc, PathItem& item) {
   const PlaneAxes axes = axes_of(arc.plane);
   const Point start = frame_.work_from_machine(position_);
   const double first_center = arc.first_center.value();
@@ -271,7 +271,7 @@ bool PathBuilder::take_tilted_arc(const operation::ArcFeed& arc, PathItem& item)
     return std::atan2(point[axes.second] - second_center, point[axes.first] - first_center);
   };
   const double radius = std::hypot(start[axes.first] - first_center, start[axes.second] - second_center);
-  if (arc.turns == 0 || radius < still) return take_line(arc.end, false, item);
+  if (arc.turns == 0 || radius < still) return add_line(arc.end, false, item);
   const double sweep = sweep_between(angle_of(start), angle_of(arc.end), arc.turns);
   // A chord of angle a leaves its arc by r (1 - cos(a/2)).
   const Mm allowed = tolerance_ > Mm(0) ? std::min(tolerance_, exact_tolerance) : exact_tolerance;
@@ -281,10 +281,10 @@ bool PathBuilder::take_tilted_arc(const operation::ArcFeed& arc, PathItem& item)
   tilted_ = TiltedArc{.work = Curve::arc(start, arc.end, axes.first, axes.second, first_center, second_center, sweep),
                       .next = 0,
                       .chords = std::max(chords, 1U)};
-  return take_chord(item);
+  return next_chord(item);
 }
 
-bool PathBuilder::take_chord(PathItem& item) {
+bool PathBuilder::next_chord(PathItem& item) {
   while (tilted_) {
     TiltedArc& arc = *tilted_;
     ++arc.next;
@@ -292,7 +292,7 @@ bool PathBuilder::take_chord(PathItem& item) {
     const Point end =
         last ? arc.work.end() : arc.work.at(arc.work.length() * (static_cast<double>(arc.next) / arc.chords));
     if (last) tilted_.reset();
-    if (!take_line(end, false, item)) continue;
+    if (!add_line(end, false, item)) continue;
     be_piece(last, std::get<Segment>(item));
     return true;
   }
@@ -300,7 +300,7 @@ bool PathBuilder::take_chord(PathItem& item) {
 }
 
 // A frame is an affine map. So the converted spline is the spline of the converted control points.
-bool PathBuilder::take_spline(const operation::NurbsFeed& curve, PathItem& item) {
+bool PathBuilder::begin_spline(const operation::NurbsFeed& curve, PathItem& item) {
   const Point start = frame_.work_from_machine(position_);
   const auto machine_of = [&](const operation::ControlPoint& point) {
     Point work = start;
@@ -315,7 +315,7 @@ bool PathBuilder::take_spline(const operation::NurbsFeed& curve, PathItem& item)
   piece_tolerance_ =
       tolerance_ > Mm(0) ? std::max(tolerance_ * spline_share, least_spline_tolerance) : exact_tolerance * piece_share;
   const auto error = spline_->begin(curve.order - 1, piece_tolerance_);
-  if (!error) return take_spline_piece(item);
+  if (!error) return next_spline_piece(item);
   report(Severity::error, "path.bad-spline", "no tool can follow this spline", error->message);
   position_ = machine_of(curve.points.back());
   return false;
@@ -330,17 +330,17 @@ void PathBuilder::be_piece(bool last, Segment& segment) const {
   if (!last) segment.mode = PathMode::continuous;
 }
 
-bool PathBuilder::take_spline_piece(PathItem& item) {
+bool PathBuilder::next_spline_piece(PathItem& item) {
   SplinePiece piece;
   while (spline_->next(piece)) {
-    if (!take_curve(piece.curve_from(position_), false, item)) continue;
+    if (!add_curve(piece.curve_from(position_), false, item)) continue;
     be_piece(spline_->at_end(), std::get<Segment>(item));
     return true;
   }
   return false;
 }
 
-bool PathBuilder::take_curve(const Curve& curve, bool rapid, PathItem& item) {
+bool PathBuilder::add_curve(const Curve& curve, bool rapid, PathItem& item) {
   if (!curve.has_length()) return false;
   check_axes(curve);
   check_travel(curve);

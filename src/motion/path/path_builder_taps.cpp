@@ -17,10 +17,10 @@ constexpr double more_turns = 2;
 
 // The tap goes down in step with the spindle, goes on until the spindle has reversed, and goes back in step to where
 // the tap began.
-bool PathBuilder::take_tap(const operation::RigidTap& tap, PathItem& item) {
+bool PathBuilder::begin_tap(const operation::RigidTap& tap, PathItem& item) {
   if (answers_.tap_rest() == nullptr) return expand(tap), false;
   tap_start_ = position_;
-  if (!take_line(tap.end, false, item)) return false;
+  if (!add_line(tap.end, false, item)) return false;
   auto& down = std::get<Segment>(item);
   down.mode = PathMode::exact_stop;
   down.reverse_at = down.curve.length();
@@ -30,7 +30,7 @@ bool PathBuilder::take_tap(const operation::RigidTap& tap, PathItem& item) {
   return true;
 }
 
-bool PathBuilder::take_tap_step(PathItem& item) {
+bool PathBuilder::next_tap_step(PathItem& item) {
   switch (followed_tap_) {
     case TapStep::none: return false;
     case TapStep::turn: {
@@ -44,7 +44,7 @@ bool PathBuilder::take_tap_step(PathItem& item) {
     case TapStep::back: {
       followed_tap_ = TapStep::end;
       position_ = *answers_.tap_rest();
-      if (take_curve(Curve::line(position_, tap_start_), false, item)) {
+      if (add_curve(Curve::line(position_, tap_start_), false, item)) {
         std::get<Segment>(item).mode = PathMode::exact_stop;
         return true;
       }
@@ -69,8 +69,8 @@ void PathBuilder::expand(const operation::RigidTap& tap) {
 
 // The way in which the spindle comes to rest after a tap's end, as far as the travel allows.
 Mm PathBuilder::room_to_turn(const Curve& way) const {
-  const double turns_a_second = commanded_.revolutions_per_minute / per_minute;
-  const double to_rest = turns_a_second * turns_a_second * options_.spindle_run_up.value() * per_minute / 1000 / 2;
+  const double turns_per_second = commanded_.revolutions_per_minute / per_minute;
+  const double to_rest = turns_per_second * turns_per_second * options_.spindle_run_up.value() * per_minute / 1000 / 2;
   double room = synchronised_pitch_->value() * (room_factor * to_rest + more_turns);
   const Point end = way.end();
   const Point direction = way.tangent(Mm(0));

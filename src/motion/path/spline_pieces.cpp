@@ -195,7 +195,7 @@ Curve SplinePiece::curve_from(const Point& place) const {
 }
 
 template <class C>
-std::optional<CurveError> SplinePieces::take(const Result<C, CurveError>& curve) {
+std::optional<CurveError> SplinePieces::begin_curve(const Result<C, CurveError>& curve) {
   if (!curve) return curve.error();
   curve_ = *curve;
   u_ = curve->range().low;
@@ -213,14 +213,14 @@ std::optional<CurveError> SplinePieces::begin(int degree, Mm tolerance) {
   at_end_ = true;
   const bool one_piece = points.size() == static_cast<std::size_t>(degree) + 1;
   const bool weighted = std::ranges::any_of(points, [](const SplinePoint& point) { return point.weight != 1; });
-  if (one_piece && !weighted && degree == 2) return take(bezier_of<2>(points));
-  if (one_piece && !weighted && degree == 3) return take(bezier_of<3>(points));
-  return take(nurbs_of(points, degree));
+  if (one_piece && !weighted && degree == 2) return begin_curve(bezier_of<2>(points));
+  if (one_piece && !weighted && degree == 3) return begin_curve(bezier_of<3>(points));
+  return begin_curve(nurbs_of(points, degree));
 }
 
 // The deviation grows with the fourth power of the length. The next guess follows from that.
 template <class C>
-SplinePiece SplinePieces::take_longest(const C& curve, double tolerance) {
+SplinePiece SplinePieces::longest_piece(const C& curve, double tolerance) {
   constexpr double nearly = 0.95;
   constexpr double worth_trying = 1.2;  // times what was found
   const double end = curve.next_break(u_);
@@ -253,7 +253,7 @@ SplinePiece SplinePieces::take_longest(const C& curve, double tolerance) {
 // Joined cubics leave the spline by up to five times what each would alone. So the pieces are first chosen for a fifth
 // of the tolerance, then for less. If that does not suffice, the pieces are not joined.
 template <class C>
-void SplinePieces::take_stretch(const C& curve) {
+void SplinePieces::fit_stretch(const C& curve) {
   const double start = u_;
   const double step = step_;
   for (double share : {0.2, 0.04, 1.0}) {
@@ -262,7 +262,7 @@ void SplinePieces::take_stretch(const C& curve) {
     stretch_.clear();
     do {
       const double before = u_;
-      stretch_.push_back(take_longest(curve, share * tolerance_));
+      stretch_.push_back(longest_piece(curve, share * tolerance_));
       if (u_ < curve.range().high && u_ >= curve.next_break(before) && jumps_at(curve, u_, u_ - before)) break;
     } while (u_ < curve.range().high && !stretch_.back().straight && stretch_.size() < most_pieces);
     const bool cut_off = stretch_.back().straight && stretch_.size() > 1;
@@ -285,7 +285,7 @@ bool SplinePieces::next(SplinePiece& piece) {
         } else {
           if (given_ == stretch_.size()) {
             given_ = 0;
-            take_stretch(curve);
+            fit_stretch(curve);
           }
           piece = stretch_[given_++];
           at_end_ = given_ == stretch_.size() && u_ >= curve.range().high;

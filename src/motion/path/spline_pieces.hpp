@@ -60,11 +60,11 @@ class SplinePieces final : public Source<SplinePiece> {
 
  private:
   template <class C>
-  std::optional<CurveError> take(const Result<C, CurveError>& curve);
+  std::optional<CurveError> begin_curve(const Result<C, CurveError>& curve);
   template <class C>
-  void take_stretch(const C& curve);
+  void fit_stretch(const C& curve);
   template <class C>
-  SplinePiece take_longest(const C& curve, double tolerance);
+  SplinePiece longest_piece(const C& curve, double tolerance);
 
   std::variant<std::monostate, QuadraticBezier, CubicBezier, Nurbs> curve_;
   std::vector<SplinePoint> points_;

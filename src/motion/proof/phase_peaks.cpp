@@ -83,7 +83,7 @@ void PhasePeaks::watch(const PlannedMove& move) {
     ++proof_.phases;
     join(curve, phase, std::exchange(begins_segment, false) || at_rest_);
     at_rest_ = false;
-    look_at(curve, phase);
+    measure(curve, phase);
     see_feed(move.segment, phase);
     const Way end = way_at(phase, phase.duration.value());
     for (std::size_t i = 0; i < before_.size(); ++i) before_[i] = motion_of(curve.at(proof_.axes[i].axis, end.s), end);
@@ -169,7 +169,7 @@ void PhasePeaks::see_feed(const Segment& segment, const Phase& phase) {
   }
 }
 
-void PhasePeaks::look_at(const ExactCurve& curve, const Phase& phase) {
+void PhasePeaks::measure(const ExactCurve& curve, const Phase& phase) {
   const double duration = phase.duration.value();
   const double turn = phase.jerk.value() != 0 ? -phase.acceleration.value() / phase.jerk.value() : 0;
   for (std::size_t i = 0; i < proof_.axes.size(); ++i) {
@@ -178,11 +178,11 @@ void PhasePeaks::look_at(const ExactCurve& curve, const Phase& phase) {
       see(i, motion_of(curve.at(proof_.axes[i].axis, way.s), way), t);
     }
     // Under a falling limit the worst place of a phase with jerk may be anywhere, also on a line.
-    if (!curve.is_line() || (limits_[i].falls() && phase.jerk.value() != 0)) look_at_curved(curve, phase, i);
+    if (!curve.is_line() || (limits_[i].falls() && phase.jerk.value() != 0)) measure_curved(curve, phase, i);
   }
 }
 
-void PhasePeaks::look_at_curved(const ExactCurve& curve, const Phase& phase, std::size_t i) {
+void PhasePeaks::measure_curved(const ExactCurve& curve, const Phase& phase, std::size_t i) {
   const double duration = phase.duration.value();
   const auto motion_at = [&](double t) {
     const Way way = way_at(phase, t);

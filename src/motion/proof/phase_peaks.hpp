@@ -39,8 +39,8 @@ class PhasePeaks {
 
   static Way way_at(const Phase& phase, double t);
   static Motion motion_of(const Derivatives& q, const Way& way);
-  void look_at(const ExactCurve& curve, const Phase& phase);
-  void look_at_curved(const ExactCurve& curve, const Phase& phase, std::size_t i);
+  void measure(const ExactCurve& curve, const Phase& phase);
+  void measure_curved(const ExactCurve& curve, const Phase& phase, std::size_t i);
   void see(std::size_t i, const Motion& motion, double t);
   void see_feed(const Segment& segment, const Phase& phase);
   void join(const ExactCurve& curve, const Phase& phase, bool rests);

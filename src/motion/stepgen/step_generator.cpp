@@ -150,7 +150,7 @@ class StepGenerator::Implementation {
     if (!stream_.in_move()) {
       if (!motion_->next(motion_item_)) return finish();
       if (const auto* action = std::get_if<Action>(&motion_item_)) {
-        take(*action);
+        apply(*action);
         return true;
       }
       stream_.start_move(std::get<PlannedMove>(motion_item_));
@@ -175,7 +175,7 @@ class StepGenerator::Implementation {
     return true;
   }
 
-  void take(const Action& action) {
+  void apply(const Action& action) {
     stream_.end_stretch();
     stream_.wait(action.dwell);
     more_ = false;

@@ -70,7 +70,7 @@ class AccelerationLaw final : public SpeedLaw {
     while (decided_ == 0 && !(cells_.empty() && closed_)) look_ahead();
     if (cells_.empty()) return false;
     if (std::exchange(stands_, false) && rests_.any()) speed_squared_ = cells_[0].decided_entry;
-    give_move(move);
+    emit_move(move);
     return true;
   }
 
@@ -256,7 +256,7 @@ class AccelerationLaw final : public SpeedLaw {
     stands_ = true;
   }
 
-  void give_move(PlannedMove& move) {
+  void emit_move(PlannedMove& move) {
     move.begin_on(*path_.front());
     bool complete = false;
     while (decided_ > 0 && !complete && move.phase_count + most_phases_a_cell <= PlannedMove::most_phases) {

@@ -113,7 +113,7 @@ class JerkLaw final : public SpeedLaw {
   }
 
   bool produce(PlannedMove& move) {
-    if (!take(move)) return false;
+    if (!pull(move)) return false;
     rest_ = shorten(move, wishes_.longest_move);
     now_ = PathState::behind(move, path_.first());
     if (!rest_ && (has_stopped() || move.ends_at_rest())) now_.speed = now_.acceleration = 0;
@@ -123,7 +123,7 @@ class JerkLaw final : public SpeedLaw {
   // At the end of a stop the motion rests, whatever speed rounding has left: the window is that of the plan before.
   bool has_stopped() const { return change_ && given_pieces_ == change_->pieces().size() && change_->end().speed == 0; }
 
-  bool take(PlannedMove& move) {
+  bool pull(PlannedMove& move) {
     if (rest_) {
       move = *rest_;
       return true;
@@ -167,7 +167,7 @@ class JerkLaw final : public SpeedLaw {
       return true;
     }
     if (change_ && change_->end().speed == 0) return false;
-    return window_->look_at(outlook.cells++, segment, move);
+    return window_->peek(outlook.cells++, segment, move);
   }
 
   // Appends the move in parts no longer than other moves.

@@ -239,7 +239,7 @@ void JerkLift::tie_step(const Tie& tied) {
 }
 
 // Finds how slacks and prices change with the step, and the shares of these changes that may be made.
-JerkLift::Reach JerkLift::look_along(double target) {
+JerkLift::Reach JerkLift::reach_along(double target) {
   double back = 0;  // 1 / the distance at which the first x becomes 0
   TwoLanes slack_back;
   TwoLanes price_back;
@@ -317,7 +317,7 @@ bool JerkLift::raise(const Stretch& stretch, std::size_t first, std::size_t last
   for (int step = 0; step < most_steps; ++step) {
     assemble(target);
     solve();
-    const Reach reach = look_along(target);
+    const Reach reach = reach_along(target);
     if (!(reach.share > least_share)) break;
     for (std::size_t i = 2; i + 2 < at_.size(); ++i) at_[i] += reach.share * step_[i];
     if (step % steps_with_rows == steps_with_rows - 1) make_rows_again(stretch, first, last);

@@ -139,7 +139,7 @@ class JerkLift {
     double share = 0;
     double price_share = 0;
   };
-  Reach look_along(double target);
+  Reach reach_along(double target);
   double go(const Reach& reach);
   double time() const;
   bool is_allowed() const;

@@ -121,8 +121,8 @@ class JerkProfile {
   void add_steady(const JerkCell& cell, const NodeState& from, double exit, PlannedMove& move) const;
   Excess excess(std::size_t i) const;
   std::uint32_t axes_near_limits(std::size_t i, const NodeState& most, double jerk) const;
-  void look_at_half(std::size_t i, std::uint32_t axes, const NodeState& start, double jerk, double time, double way,
-                    int parts, Excess& worst) const;
+  void check_half(std::size_t i, std::uint32_t axes, const NodeState& start, double jerk, double time, double way,
+                  int parts, Excess& worst) const;
   static Inside inside(const NodeState& from, double jerk, double time);
   static bool is_possible(const PhasePair& pair, const NodeState& from);
   static double highest(const NodeState& from, double jerk, double time);  // speed within a phase, without its end

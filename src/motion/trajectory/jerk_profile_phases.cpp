@@ -103,9 +103,9 @@ JerkProfile::Excess JerkProfile::excess(std::size_t i) const {
       std::max(std::abs(pair.first), std::abs(pair.second)));
   if (near == 0) return worst;
   const auto look = [&](int parts) {
-    look_at_half(i, near, from, pair.first, pair.half, 0, parts, worst);
+    check_half(i, near, from, pair.first, pair.half, 0, parts, worst);
     const double way = inside(from, pair.first, pair.half).way;
-    look_at_half(i, near, pair.middle, pair.second, pair.half, way, parts, worst);
+    check_half(i, near, pair.middle, pair.second, pair.half, way, parts, worst);
   };
   const double pace = worst.pace;
   look(1);
@@ -139,8 +139,8 @@ std::uint32_t JerkProfile::axes_near_limits(std::size_t i, const NodeState& most
 
 // Looks at half the time of a cell that is not straight, in `parts` parts. `way` is the distance from the cell's start
 // to the start of that half. `axes`: those to look at, one bit each.
-void JerkProfile::look_at_half(std::size_t i, std::uint32_t axes, const NodeState& start, double jerk, double time,
-                               double way, int parts, Excess& worst) const {
+void JerkProfile::check_half(std::size_t i, std::uint32_t axes, const NodeState& start, double jerk, double time,
+                             double way, int parts, Excess& worst) const {
   const double length = cells_[i].length;
   const double seen = parts > 1 ? share_seen_closely : share_seen;
   const AxisShape* shape = shapes(i);

@@ -78,7 +78,7 @@ bool JerkWindow::add_cell(std::size_t i, PlannedMove& move) const {
   return cell.ends_segment;
 }
 
-bool JerkWindow::look_at(std::size_t ahead, std::uint64_t segment, PlannedMove& move) const {
+bool JerkWindow::peek(std::size_t ahead, std::uint64_t segment, PlannedMove& move) const {
   const std::size_t i = given_ + ahead;
   if (i >= profile_.planned()) return false;
   move.begin_on(*path_.at(segment));

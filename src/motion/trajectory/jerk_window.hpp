@@ -34,7 +34,7 @@ class JerkWindow {
   [[nodiscard]] bool next(PlannedMove& move);
   // Shows what comes next if nothing changes: cell number `ahead` from here, which lies on that segment. The plan to
   // rest after the decided cells is included. Returns false at rest at the end.
-  [[nodiscard]] bool look_at(std::size_t ahead, std::uint64_t segment, PlannedMove& move) const;
+  [[nodiscard]] bool peek(std::size_t ahead, std::uint64_t segment, PlannedMove& move) const;
 
  private:
   bool add_cell(std::size_t i, PlannedMove& move) const;

@@ -23,7 +23,7 @@ std::optional<SpeedChange> fastest_to_rest_after(double way, PathAhead& path, co
   std::vector<SpeedChange::Piece> pieces;
   PathState state = from;
   PlannedMove move;
-  for (std::size_t i = 0; window.look_at(i, state.segment, move); ++i) {
+  for (std::size_t i = 0; window.peek(i, state.segment, move); ++i) {
     if (move.phase_count == 0) return std::nullopt;
     for (const Phase& phase : move) pieces.push_back({.segment = state.segment, .phase = phase});
     const PathState after = PathState::behind(move, state.segment);

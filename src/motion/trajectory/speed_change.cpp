@@ -238,7 +238,7 @@ SpeedChange::Demand SpeedChange::excess(PathAhead& path, const Request& request)
   const Seconds whole = duration_from(0);
   for (const Piece& piece : pieces_) {
     const Segment& segment = *path.at(piece.segment);
-    look_over(piece, piece.phase.duration / whole, segment, request, worst);
+    check_piece(piece, piece.phase.duration / whole, segment, request, worst);
     if (!piece.ends_segment || &piece == &pieces_.back()) continue;  // the last one ends at rest
     // The profile passes a place slowly where the path's bend jumps. So does the change.
     const Segment& after = *path.at(piece.segment + 1);
@@ -252,8 +252,8 @@ SpeedChange::Demand SpeedChange::excess(PathAhead& path, const Request& request)
   return worst.most;
 }
 
-void SpeedChange::look_over(const Piece& piece, double part, const Segment& segment, const Request& request,
-                            Excess& worst) {
+void SpeedChange::check_piece(const Piece& piece, double part, const Segment& segment, const Request& request,
+                              Excess& worst) {
   const Phase& phase = piece.phase;
   const double time = phase.duration.value();
   const double way = phase.position_at(phase.duration).value() - phase.start.value();

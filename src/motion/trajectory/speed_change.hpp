@@ -96,7 +96,8 @@ class SpeedChange {
   Laid lay(PathAhead& path, const PathState& state);
   Demand excess(PathAhead& path, const Request& request) const;
   // `part`: of the time of the whole change.
-  static void look_over(const Piece& piece, double part, const Segment& segment, const Request& request, Excess& worst);
+  static void check_piece(const Piece& piece, double part, const Segment& segment, const Request& request,
+                          Excess& worst);
   static Look look_at(const Piece& piece, const Segment& segment, const Request& request, double time);
 
   std::vector<Phase> phases_;  // starts count from the start of the change

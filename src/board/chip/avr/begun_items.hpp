@@ -42,11 +42,11 @@ class BegunItems {
     ++count_;
     const uint8_t place = newest();
     ends_[place] = end;
-    lasts_[place].note();
+    lasts_[place].record();
     items_[place].events = 0;
   }
   // The last event of the newest one was made just now.
-  static void note_last() { lasts_[newest()].note(); }
+  static void record_last() { lasts_[newest()].record(); }
 
   // Of the oldest one.
   static uint8_t events() { return items_[oldest_].events; }
@@ -54,7 +54,7 @@ class BegunItems {
   static const RingTimes::Last& last() { return lasts_[oldest_]; }
   // Whether it is known to be done. Then its steps are asked for once, and it is forgotten.
   static bool is_over() { return is_over_; }
-  static bool note_over(bool over) { return is_over_ = over; }
+  static bool set_over(bool over) { return is_over_ = over; }
   static void forget() {
     is_over_ = false;
     --count_;

@@ -135,7 +135,7 @@ class ChipPlayer {
   }
 
   // Whether the oldest item is done.
-  static bool finished() { return BegunItems::note_over(BegunItems::count() != 0 && is_over()); }
+  static bool finished() { return BegunItems::set_over(BegunItems::count() != 0 && is_over()); }
   // Forgets the oldest item after its steps were counted.
   static void forget() {
     if (BegunItems::events() == 0) OutputActions::forget();
@@ -157,7 +157,7 @@ class ChipPlayer {
   // Behind a standstill on the Uno half of the ring is made first: else the next one would follow at once.
   static void refill(bool follows) {
     for (uint8_t pieces = most_pieces; pieces != 0; --pieces) {
-      if (captured()) note_capture();
+      if (captured()) on_capture();
       if (left_ == 0 || !has_room() || !make_events()) break;
       if (RingTimes::are_short && running == 0 && waiting() >= enough_to_start && halted == 0) start();
       SerialLine::poll();
@@ -208,7 +208,7 @@ class ChipPlayer {
   // Whether all events of the oldest item are played.
   static bool is_over() {
     const uint8_t ahead = waiting();
-    if (captured()) note_capture();  // after the look at the ring, because a capture may come at any time
+    if (captured()) on_capture();  // after the look at the ring, because a capture may come at any time
     const uint16_t end = BegunItems::end();
     if (noted_) return static_cast<int16_t>(end - captured_at_) <= 0;
     const int16_t since = static_cast<int16_t>(made_ - end);
@@ -218,13 +218,13 @@ class ChipPlayer {
   static int16_t left_of_oldest() {
     const uint8_t now = fetched_entry();
     uint16_t played = RingTimes::played(now, (head_ - now) & ring_mask, made_);
-    if (captured()) note_capture();  // after the look at the ring, because a capture may come at any time
+    if (captured()) on_capture();  // after the look at the ring, because a capture may come at any time
     if (noted_) played = captured_at_;
     return static_cast<int16_t>(BegunItems::end() - played);
   }
   // Notes the event of a capture, which follows from the ring's entry. This must be done before the interrupt has gone
   // round the ring once more.
-  [[gnu::noinline]] static void note_capture() {
+  [[gnu::noinline]] static void on_capture() {
     if (noted_) return;
     const uint8_t then = entry_of(captured_entry);
     captured_at_ = RingTimes::played(then, (head_ - then) & ring_mask, made_);
@@ -298,7 +298,7 @@ class ChipPlayer {
     expansion.address = entry_address(first);
     made_ = static_cast<uint16_t>(made_ + count);
     RingTimes::make_near(count);
-    if (left_ == 0) BegunItems::note_last();
+    if (left_ == 0) BegunItems::record_last();
     finish_piece(first, count);
   }
   [[gnu::always_inline]] static void finish_piece(uint8_t first, uint8_t count) {
@@ -344,7 +344,7 @@ class ChipPlayer {
     count = RingTimes::make(count, left_);
     SerialLine::breathe();
     made_ = static_cast<uint16_t>(made_ - left_);
-    if (left_ == 0) BegunItems::note_last();
+    if (left_ == 0) BegunItems::record_last();
     finish_piece(first, count);
   }
 
@@ -354,7 +354,7 @@ class ChipPlayer {
     turning_ = true;
     return true;
   }
-  [[gnu::noinline]] static void turn_now(uint8_t toggles) {
+  [[gnu::noinline]] static void reverse_now(uint8_t toggles) {
     TurnQueue::make_next();
     set_fetched_toggles(RingTimes::toggles_of(toggles));
   }
@@ -366,7 +366,7 @@ class ChipPlayer {
     while (RingTimes::is_only_a_wait(first) && !is_in_time(due, gap)) {
       const uint8_t next = static_cast<uint8_t>((first + 1) & ring_mask);
       if (next == head_) break;  // its event is not made yet
-      if ((flagged_byte(first) & flag_special) != 0) turn_now(flagged_byte(first));
+      if ((flagged_byte(first) & flag_special) != 0) reverse_now(flagged_byte(first));
       // All waits of the ring may be late, and nobody else reads the line.
       SerialLine::breathe();
       first = next;
@@ -379,7 +379,7 @@ class ChipPlayer {
     SerialLine::breathe();
     fetch_entry(first);
     const uint8_t toggles = flagged_byte(first);
-    if ((toggles & flag_special) != 0) turn_now(toggles);
+    if ((toggles & flag_special) != 0) reverse_now(toggles);
     SerialLine::breathe();
     // A short time comes round again.
     while (RingTimes::are_short && static_cast<uint16_t>(due - now()) > 240) SerialLine::breathe();

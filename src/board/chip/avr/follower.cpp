@@ -154,6 +154,6 @@ extern "C" int main() {
   passo::follower.begin();
   for (;;) {
     asm volatile("wdr");
-    passo::follower.turn();
+    passo::follower.poll();
   }
 }

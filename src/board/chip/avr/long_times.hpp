@@ -38,7 +38,7 @@ class RingTimes {
 
   // Where the last event of an item is in the ring, if that must be kept beside the number of events.
   struct Last {
-    void note() {}
+    void record() {}
     // `since`: events made after the item.
     bool is_played(uint8_t waiting, uint16_t since) const { return waiting <= since; }
   };

@@ -143,7 +143,7 @@ void start_watchdog() {
   done.steps = MotorOutputs::set_idle(wanted.steps);
   done.timing = MotorOutputs::set_timing(wanted.timing);
   SerialLine::poll();
-  reader.look(Wiring::inputs(), false, pressed_by_people(Wiring::alarms()));
+  reader.update(Wiring::inputs(), false, pressed_by_people(Wiring::alarms()));
   board.set_inputs(reader.inputs());
   watch();
   return done;
@@ -202,7 +202,7 @@ bool take_tick() {
   if (changed || (running != 0 && ChipPlayer::watches())) {
     raw = static_cast<uint16_t>((raw & ~watched) | watched_in_motion(raw, before, changed));
   }
-  const uint16_t on = reader.look(raw, tick, by_people);
+  const uint16_t on = reader.update(raw, tick, by_people);
   // During motion the interrupt has stopped already. At rest nobody else looks.
   if ((on & board.stopping()) != 0 && !board.idle()) return stop_at_once(on);
   if ((on & stopping_at_rest(Wiring::alarms())) != 0) return stop_at_once(on);
@@ -274,11 +274,11 @@ void Hardware::keep_up() {
 }
 
 // One turn of the loop. Events come first: nothing else here may take longer than the events ahead of the interrupt.
-[[gnu::noinline]] void turn() {
+[[gnu::noinline]] void run_once() {
   static uint8_t turns = 0;
   asm volatile("wdr");
   SerialLine& line = hardware.line;
-  SpindleCounter::look();
+  SpindleCounter::poll();
   line.poll();
   keep_up();
   // Some bytes at a time: events must not wait for a flood of them. Nor must a capture: until it is told, no item is
@@ -288,7 +288,7 @@ void Hardware::keep_up() {
     line.poll();
     if (static_cast<uint8_t>(taken - looked) < most_bytes_at_once) continue;
     looked = taken;
-    SpindleCounter::look();
+    SpindleCounter::poll();
     // A question's answer takes as long as several short parts.
 #pragma clang loop unroll(disable)
     for (uint8_t parts = ChipPlayer::begins_many() ? 3 : 1; parts != 0 && ChipPlayer::is_low(); --parts) {
@@ -328,5 +328,5 @@ extern "C" int main() {
   Wiring::enable_motors(true);
   start_watchdog();
   asm volatile("sei");
-  for (;;) turn();
+  for (;;) run_once();
 }

@@ -46,7 +46,7 @@ class RingTimes {
 
   struct Last {
     uint16_t entry;
-    void note() { entry = made_; }
+    void record() { entry = made_; }
     bool is_played(uint8_t waiting, uint16_t /*since*/) const {
       return waiting <= static_cast<uint16_t>(made_ - entry);
     }

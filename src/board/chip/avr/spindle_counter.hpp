@@ -27,10 +27,10 @@ class SpindleCounter {
   }
 
   // Must be called before 65,536 pulses or ticks have passed.
-  [[gnu::always_inline]] static void look() {
+  [[gnu::always_inline]] static void poll() {
     if (!exists()) return;
-    if ((Tifr4::read() & input_captured) != 0) note_index();
-    if ((Tifr1::read() & timer_overflow) != 0) note_overflow();
+    if ((Tifr4::read() & input_captured) != 0) on_index();
+    if ((Tifr1::read() & timer_overflow) != 0) on_overflow();
   }
   // Whether timer 1 has overflowed since the last call. This class clears the timer's flag.
   static bool take_tick() {
@@ -40,10 +40,10 @@ class SpindleCounter {
   }
 
   [[gnu::noinline]] static SpindleCount count() {
-    look();
+    poll();
     SerialLine::breathe();
     const uint16_t time = time_now();
-    take_pulses();
+    count_pulses();
     // An overflow that is not noted yet counts only if the time is after it.
     const bool overflowed = (Tifr1::read() & timer_overflow) != 0 && time < 0x8000;
     const uint16_t overflows = static_cast<uint16_t>(overflows_ + (overflowed ? 1 : 0));
@@ -54,19 +54,19 @@ class SpindleCounter {
   }
 
  private:
-  [[gnu::noinline]] static void note_overflow() {
+  [[gnu::noinline]] static void on_overflow() {
     Tifr1::write(timer_overflow);
     ++overflows_;
     ticked_ = true;
-    take_pulses();
+    count_pulses();
   }
-  [[gnu::noinline]] static void note_index() {
+  [[gnu::noinline]] static void on_index() {
     Tifr4::write(input_captured);
-    take_pulses();
+    count_pulses();
     at_index_ = count_;
     ++indexes_;
   }
-  static void take_pulses() {
+  static void count_pulses() {
     const uint16_t now = pulses();
     count_ += static_cast<uint16_t>(now - pulses_);
     pulses_ = now;

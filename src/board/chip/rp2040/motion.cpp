@@ -72,7 +72,7 @@ void Hardware::watch() {
 PinSetup Hardware::set_up(const PinSetup& wanted) {
   PinSetup done = PicoWiring::set_up(wanted);
   done.timing = PicoPlayer::set_timing(wanted.timing);
-  reader.look(PicoWiring::inputs(), false, pressed_by_people(PicoWiring::alarms()));
+  reader.update(PicoWiring::inputs(), false, pressed_by_people(PicoWiring::alarms()));
   board().set_inputs(reader.inputs());
   hardware.watch();
   return done;
@@ -121,7 +121,7 @@ void look_at_inputs() {
     const uint16_t now = !changed ? (is_on == was_on ? raw : before) : was_on ? 0 : PicoWiring::captured_inputs();
     raw = static_cast<uint16_t>((raw & ~watched) | (now & watched));
   }
-  const uint16_t on = reader.look(raw, tick, by_people);
+  const uint16_t on = reader.update(raw, tick, by_people);
   // During motion the interrupt has stopped already. At rest nobody else looks.
   if ((on & board().stopping()) != 0 && !board().idle()) return stop_at_once(on);
   if ((on & stopping_at_rest(PicoWiring::alarms())) != 0) return stop_at_once(on);
@@ -134,7 +134,7 @@ void look_at_inputs() {
 }
 
 // One turn of the loop.
-void turn() {
+void run_once() {
   PicoLine& line = hardware.line;
   WatchdogLoad::write(2'000'000);  // a second; the chip counts each tick twice (errata RP2040-E1)
   line.poll();
@@ -142,7 +142,7 @@ void turn() {
   // Before the first events of a motion are on their way.
   look_at_inputs();
   if (take_tick<100'000>()) board().count_silence();
-  SpindleCounter::look();
+  SpindleCounter::poll();
   board().settle();
   PicoPlayer::end();
   PicoPlayer::refill();
@@ -258,7 +258,7 @@ void passo_switch_moved() {
   interrupts_on();
   watch_input();
   for (;;) {
-    turn();
+    run_once();
     sleep_if_idle();
   }
 }

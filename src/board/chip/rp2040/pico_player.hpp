@@ -191,7 +191,7 @@ class PicoPlayer {
     const uint32_t played = StepStream::played();
     const uint32_t ahead = (StepStream::pushed() - played) / 2;
     if (ahead >= most_ahead_) return begin();
-    look_for_slip(played);
+    check_slip(played);
     uint32_t count = most_ahead_ - ahead;
     if (count > most_at_once) count = most_at_once;
     if (count > left_) count = left_;
@@ -270,14 +270,14 @@ class PicoPlayer {
   }
 
   // All that was published is played, and more belongs to the same motion: it comes too late.
-  static void look_for_slip(uint32_t played) {
+  static void check_slip(uint32_t played) {
     if (played == StepStream::published() && played != rest_) slipped_ = true;
   }
 
   // The pins fall after the last event of a segment. How soon they must depends on the next one. Until then the event
   // itself is kept back.
   static void end_pulse(uint32_t most) {
-    look_for_slip(StepStream::played());
+    check_slip(StepStream::played());
     fell_ = most < longest_pulse_ ? most : longest_pulse_;
     StepStream::push(fell_, direction_pins_);
     pending_ = false;

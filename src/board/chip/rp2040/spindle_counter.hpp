@@ -26,23 +26,23 @@ class SpindleCounter {
   }
 
   // Must be called before 65,536 pulses have passed.
-  static void look() {
+  static void poll() {
     if (!exists()) return;
     interrupts_off();
-    take_pulses();
+    count_pulses();
     interrupts_on();
   }
   // The interrupt of the pins.
   [[gnu::always_inline]] static void index_moved() {
     if (!exists() || (gpio_edges(pins.encoder_index) & falls) == 0) return;
-    take_pulses();
+    count_pulses();
     at_index_ = count_;
     ++indexes_;
   }
 
   static SpindleCount count() {
     interrupts_off();
-    take_pulses();
+    count_pulses();
     // The board's clock ticks 16 times in a microsecond.
     const SpindleCount now = {
         .count = count_, .tick = TimerLow::read() * 16, .at_index = at_index_, .indexes = indexes_};
@@ -54,7 +54,7 @@ class SpindleCounter {
   static constexpr uint32_t slice = PicoPins::slice_of(pins.encoder_pulses);
   static constexpr uint32_t falls = edge_bits(pins.encoder_index, edge_low);
 
-  [[gnu::always_inline]] static void take_pulses() {
+  [[gnu::always_inline]] static void count_pulses() {
     const uint16_t now = static_cast<uint16_t>(pwm(slice, pwm_ctr));
     count_ += static_cast<uint16_t>(now - pulses_);
     pulses_ = now;

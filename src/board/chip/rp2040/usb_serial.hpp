@@ -34,9 +34,9 @@ class UsbSerial {
       if ((done & bit_of(0, true)) != 0) control_sent();
       if ((done & bit_of(0, false)) != 0) control_came();
       if ((done & bit_of(usb_data, true)) != 0) sending_ = false;
-      if ((done & bit_of(usb_data, false)) != 0) take_packet();
+      if ((done & bit_of(usb_data, false)) != 0) handle_packet();
     }
-    if ((status & usb_setup_received) != 0) take_setup();
+    if ((status & usb_setup_received) != 0) handle_setup();
     send_packet();
   }
   // Lets the interrupt wake the loop.
@@ -96,7 +96,7 @@ class UsbSerial {
   static constexpr uint32_t control_of(uint32_t endpoint, bool in) { return 8 * endpoint + (in ? 0 : 4); }
 
   // The controller runs at another clock: it must see the word before it sees that the buffer is its own (4.1.2.5.1).
-  static void give(uint32_t endpoint, bool in, uint32_t word) {
+  static void arm(uint32_t endpoint, bool in, uint32_t word) {
     usb_word(word_of(endpoint, in)) = word;
     asm volatile("nop\n nop\n nop\n nop\n nop\n nop\n nop\n nop\n nop\n nop\n nop\n nop");
     usb_word(word_of(endpoint, in)) = word | available;
@@ -129,10 +129,10 @@ class UsbSerial {
 
   void await_packet() {
     read_ = received_ = 0;
-    give(usb_data, false, out_pid_ | usb_packet);
+    arm(usb_data, false, out_pid_ | usb_packet);
     out_pid_ ^= second;
   }
-  void take_packet() {
+  void handle_packet() {
     if (!configured_) return;
     received_ = usb_word(word_of(usb_data, false)) & length_mask;
     if (received_ == 0) await_packet();
@@ -141,13 +141,13 @@ class UsbSerial {
     if (!configured_ || sending_ || head_ == tail_) return;
     uint32_t count = 0;
     while (head_ != tail_ && count < most_sent) usb_byte(in_buffer + count++) = ring_[tail_++ & ring_mask];
-    give(usb_data, true, full | in_pid_ | count);
+    arm(usb_data, true, full | in_pid_ | count);
     in_pid_ ^= second;
     sending_ = true;
   }
 
   // Endpoint 0: a setup packet, data one way or none, and an empty packet the other way.
-  void take_setup() {
+  void handle_setup() {
     UsbSieStatus::write(usb_setup_received);
     // Whatever an earlier request left is void.
     usb_word(word_of(0, true)) = 0;
@@ -203,7 +203,7 @@ class UsbSerial {
   // The rate means nothing here, but hosts want to read what they wrote.
   void of_the_line() {
     switch (request_) {
-      case Request::set_line_coding: return give(0, false, second | usb_packet);
+      case Request::set_line_coding: return arm(0, false, second | usb_packet);
       case Request::get_line_coding: return answer(line_coding_, line_coding_size);
       case Request::set_line_state:
         tail_ = head_;  // whoever opens the line wants nothing that was said to somebody else
@@ -222,10 +222,10 @@ class UsbSerial {
     for (uint32_t i = 0; i < count; ++i) usb_byte(control_buffer + i) = data_[i];
     data_ += count;
     left_ -= count;
-    give(0, true, full | pid_ | count);
+    arm(0, true, full | pid_ | count);
     pid_ ^= second;
   }
-  void acknowledge() { give(0, true, full | second); }
+  void acknowledge() { arm(0, true, full | second); }
   void refuse() {
     UsbStallArm::write(3);
     usb_word(word_of(0, true)) = stall;
@@ -233,7 +233,7 @@ class UsbSerial {
   }
   void control_sent() {
     if (left_ != 0) return send_control();
-    if ((setup_type_ & usb_in) != 0) return give(0, false, second);
+    if ((setup_type_ & usb_in) != 0) return arm(0, false, second);
     if (request_ == Request::set_address) UsbAddress::write(address_);
   }
   void control_came() {

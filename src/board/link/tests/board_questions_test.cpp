@@ -23,12 +23,12 @@ TEST(BoardQuestions, time_an_answer_from_the_first_question_or_the_last_frame) {
   questions.put(Question::status, 1, Seconds(1));
   questions.put(Question::status, 1, Seconds(2));
   EXPECT_FALSE(questions.answered());
-  EXPECT_TRUE(questions.note_answered(Seconds(4)));
+  EXPECT_TRUE(questions.on_answered(Seconds(4)));
   EXPECT_EQ(questions.answer_time(), Seconds(3));
-  EXPECT_FALSE(questions.note_answered(Seconds(5))) << "known";
-  questions.note_sent(Seconds(6));
+  EXPECT_FALSE(questions.on_answered(Seconds(5))) << "known";
+  questions.record_sent(Seconds(6));
   questions.put(Question::status, 2, Seconds(7));
-  EXPECT_TRUE(questions.note_answered(Seconds(8)));
+  EXPECT_TRUE(questions.on_answered(Seconds(8)));
   EXPECT_EQ(questions.answer_time(), Seconds(2));
 }
 

@@ -40,7 +40,7 @@ TEST(SendWindow, without_loss_sends_at_once_and_keeps_nothing) {
   EXPECT_FALSE(window.keeps_any());
   EXPECT_FALSE(window.waits());
   EXPECT_EQ(window.untaken(), 2);
-  EXPECT_TRUE(window.note_taken(6));
+  EXPECT_TRUE(window.on_accepted(6));
   EXPECT_EQ(window.untaken(), 0);
 }
 
@@ -52,7 +52,7 @@ TEST(SendWindow, has_no_more_bytes_under_way_than_the_board_can_keep) {
   EXPECT_FALSE(window.fill(35));
   EXPECT_EQ(port.came, (std::vector{1, 2, 3}));
   EXPECT_TRUE(window.waits());
-  EXPECT_TRUE(window.note_taken(2));
+  EXPECT_TRUE(window.on_accepted(2));
   EXPECT_TRUE(window.fill(35));
   EXPECT_EQ(port.came, (std::vector{1, 2, 3, 4, 5}));
   EXPECT_FALSE(window.waits());
@@ -64,7 +64,7 @@ TEST(SendWindow, repeats_from_the_first_frame_that_is_missing_and_then_waits_for
   window.begin(0);
   push_frames(window, 4);
   EXPECT_TRUE(window.fill(SendWindow::no_limit));
-  EXPECT_TRUE(window.note_taken(2));
+  EXPECT_TRUE(window.on_accepted(2));
   port.came.clear();
   window.repeat(SendWindow::no_limit);
   window.await_answer(7);
@@ -85,11 +85,11 @@ TEST(SendWindow, ignores_what_the_board_cannot_have_taken) {
   window.begin(250);
   push_frames(window, 10);
   EXPECT_TRUE(window.fill(SendWindow::no_limit));
-  EXPECT_FALSE(window.note_taken(250)) << "old";
-  EXPECT_FALSE(window.note_taken(5)) << "260 is the last one";
-  EXPECT_TRUE(window.note_taken(4));
+  EXPECT_FALSE(window.on_accepted(250)) << "old";
+  EXPECT_FALSE(window.on_accepted(5)) << "260 is the last one";
+  EXPECT_TRUE(window.on_accepted(4));
   EXPECT_EQ(window.taken(), 260);
-  EXPECT_FALSE(window.note_taken(3)) << "overtaken";
+  EXPECT_FALSE(window.on_accepted(3)) << "overtaken";
   EXPECT_FALSE(window.keeps_any());
 }
 
@@ -101,7 +101,7 @@ TEST(SendWindow, knows_the_boards_pace_from_long_bursts_only) {
     push_frames(window, frames);
     EXPECT_TRUE(window.fill(SendWindow::no_limit));
     static_cast<void>(port.run(time));
-    EXPECT_TRUE(window.note_taken(static_cast<std::uint8_t>(window.sent())));
+    EXPECT_TRUE(window.on_accepted(static_cast<std::uint8_t>(window.sent())));
   };
   burst(2, Seconds(1));
   EXPECT_EQ(window.statistics().time_a_frame(), Seconds(0));

@@ -14,7 +14,7 @@ TEST(SilenceWatch, asks_again_after_a_silence_and_gives_up_after_a_long_one) {
   EXPECT_NEAR(watch.until_question(Seconds(10.04)).value(), 0.06, 1e-12);
   EXPECT_TRUE(watch.is_to_ask_again(Seconds(10.1), false, false));
   EXPECT_FALSE(watch.is_to_ask_again(Seconds(10.1), true, false));
-  watch.note_asked_again(Seconds(10.1));
+  watch.on_asked_again(Seconds(10.1));
   EXPECT_FALSE(watch.is_to_ask_again(Seconds(10.15), false, false));
   EXPECT_EQ(watch.verdict(Seconds(14.9), false), std::nullopt);
   EXPECT_EQ(watch.verdict(Seconds(15.1), false), LinkError::no_answer);
@@ -23,12 +23,12 @@ TEST(SilenceWatch, asks_again_after_a_silence_and_gives_up_after_a_long_one) {
 TEST(SilenceWatch, gives_up_a_peer_that_talks_and_does_nothing) {
   SilenceWatch watch(lossy, Seconds(0));
   for (double time = 1; time <= 10; time += 1) {
-    watch.note_byte(Seconds(time));
-    watch.note_frame(Seconds(time));
+    watch.on_byte(Seconds(time));
+    watch.on_frame(Seconds(time));
     EXPECT_EQ(watch.verdict(Seconds(time), false), std::nullopt) << time;
   }
   EXPECT_EQ(watch.verdict(Seconds(10.5), false), LinkError::no_progress);
-  watch.note_progress(Seconds(10));
+  watch.on_progress(Seconds(10));
   EXPECT_EQ(watch.verdict(Seconds(10.5), false), std::nullopt);
 }
 

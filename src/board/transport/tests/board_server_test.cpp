@@ -78,7 +78,7 @@ class Caller {
     EXPECT_EQ(write(descriptor_, bytes.data(), bytes.size()), static_cast<ssize_t>(bytes.size()));
   }
   void look(std::uint8_t number) { say(Ask{.motors = max_motors}, number); }
-  void say_hello() {
+  void send_hello() {
     say(Hello{.motors = motors}, std::uint8_t{1});
     motors_ = motors;
     decoder_.set_motors(motors);
@@ -145,13 +145,13 @@ TEST_F(Served, a_browser_is_sent_away_and_none_of_its_frames_reaches_the_board) 
   for (const std::string_view head : {"POST / HTTP/1.1\r\n\r\n", "\x16\x03\x01", "\n"}) {
     const auto browser = call();
     browser->put(std::span(reinterpret_cast<const std::uint8_t*>(head.data()), head.size()));
-    browser->say_hello();
+    browser->send_hello();
     attend();
     EXPECT_EQ(browser->answered(), -2);
   }
   EXPECT_EQ(heard(MessageType::hello), 0);
   const auto host = call();
-  host->say_hello();
+  host->send_hello();
   attend();
   EXPECT_EQ(heard(MessageType::hello), 1);
 }
@@ -167,7 +167,7 @@ TEST_F(Served, answers_are_not_held_back) {
 
 TEST_F(Served, many_may_look_while_one_drives_and_each_hears_its_own_answers) {
   const auto host = call();
-  host->say_hello();
+  host->send_hello();
   std::vector<std::unique_ptr<Caller>> lookers;
   for (std::uint8_t i = 0; i < 8; ++i) {
     lookers.push_back(call());
@@ -189,7 +189,7 @@ TEST_F(Served, a_silent_one_blocks_nobody) {
   const std::vector<std::uint8_t> noise(1000, 0x55);
   chatter->put(noise);
   const auto host = call();
-  host->say_hello();
+  host->send_hello();
   host->say(Ask{.motors = motors}, std::uint8_t{7});
   attend();
   EXPECT_EQ(host->answered(), 7);
@@ -198,7 +198,7 @@ TEST_F(Served, a_silent_one_blocks_nobody) {
 
 TEST_F(Served, half_a_frame_of_one_does_not_spoil_that_of_another) {
   const auto host = call();
-  host->say_hello();
+  host->send_hello();
   attend();
   std::uint8_t frame[largest_frame];
   const std::size_t size = encode(BoardOutputs{.switches = 1, .spindle_rpm = 1000}, std::uint8_t{2}, frame);
@@ -217,15 +217,15 @@ TEST_F(Served, half_a_frame_of_one_does_not_spoil_that_of_another) {
 
 TEST_F(Served, a_second_host_is_sent_away_and_one_that_has_gone_has_a_successor) {
   auto first = call();
-  first->say_hello();
+  first->send_hello();
   const auto second = call();
-  second->say_hello();
+  second->send_hello();
   attend();
   EXPECT_EQ(second->answered(), -2);
   EXPECT_EQ(heard(MessageType::hello), 1);
   // In the same instant, before anybody has noticed.
   const auto third = call();
-  third->say_hello();
+  third->send_hello();
   first->hang_up();
   third->say(Ask{.motors = motors}, std::uint8_t{3});
   attend();
@@ -236,7 +236,7 @@ TEST_F(Served, a_second_host_is_sent_away_and_one_that_has_gone_has_a_successor)
 // Its line was broken, and it goes on without a hello.
 TEST_F(Served, a_host_that_calls_again_is_known_by_what_it_says) {
   auto host = call();
-  host->say_hello();
+  host->send_hello();
   attend();
   host->hang_up();
   const auto again = call();
@@ -247,11 +247,11 @@ TEST_F(Served, a_host_that_calls_again_is_known_by_what_it_says) {
 
 TEST_F(Served, a_host_that_says_nothing_more_gives_way) {
   const auto stopped = call();
-  stopped->say_hello();
+  stopped->send_hello();
   attend();
   usleep(static_cast<useconds_t>((BoardServer::most_silence.value() + 0.1) * 1e6));
   const auto next = call();
-  next->say_hello();
+  next->send_hello();
   attend();
   EXPECT_EQ(heard(MessageType::hello), 2);
   EXPECT_EQ(stopped->answered(), -2);
@@ -259,12 +259,12 @@ TEST_F(Served, a_host_that_says_nothing_more_gives_way) {
 
 TEST_F(Served, nobody_who_does_not_read_makes_the_board_wait) {
   const auto host = call();
-  host->say_hello();
+  host->send_hello();
   attend();
   const std::vector<std::uint8_t> much(4096, 0x11);
-  for (int i = 0; i < 10'000; ++i) server_->tell_host(much);  // 40 MB: more than the kernel keeps
+  for (int i = 0; i < 10'000; ++i) server_->send_to_host(much);  // 40 MB: more than the kernel keeps
   const auto next = call();
-  next->say_hello();
+  next->send_hello();
   attend();
   EXPECT_EQ(heard(MessageType::hello), 2);
 }

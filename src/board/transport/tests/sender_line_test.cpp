@@ -28,7 +28,7 @@ template <class Wanted>
 SenderLine::News look_for(SenderLine& line, const Wanted& wanted, bool reads = true) {
   SenderLine::News news;
   for (int i = 0; i < 2000; ++i, usleep(1000)) {
-    news = line.look(reads);
+    news = line.poll(reads);
     if (wanted(news)) break;
   }
   return news;
@@ -60,7 +60,7 @@ TEST(SenderLine, serves_one_sender_over_tcp_and_sends_a_second_one_away) {
   EXPECT_EQ(look_for(**line, spoke).bytes, "G0\n");
   (*line)->send("ok\r\n");
   EXPECT_EQ(read_from(first, 4), "ok\r\n");
-  static_cast<void>((*line)->look(true));
+  static_cast<void>((*line)->poll(true));
   EXPECT_TRUE(read_from(second, 1000).starts_with("[MSG:Another sender"));
   close(second);
   close(first);
@@ -76,7 +76,7 @@ TEST(SenderLine, leaves_bytes_where_they_are_until_it_is_to_read) {
   const int sender = connect_to((*line)->port());
   EXPECT_TRUE(look_for(**line, came, false).came);
   ASSERT_EQ(write(sender, "G0\n", 3), 3);
-  for (int i = 0; i < 20; ++i, usleep(1000)) EXPECT_TRUE((*line)->look(false).bytes.empty());
+  for (int i = 0; i < 20; ++i, usleep(1000)) EXPECT_TRUE((*line)->poll(false).bytes.empty());
   EXPECT_EQ(look_for(**line, spoke).bytes, "G0\n");
   close(sender);
 }
@@ -87,14 +87,14 @@ TEST(SenderLine, a_pseudo_terminal_serves_one_sender_after_the_other_without_an_
   {
     auto line = SenderLine::open_terminal(link);
     ASSERT_TRUE(line) << line.error();
-    EXPECT_FALSE((*line)->look(true).came) << "nobody has come yet";
+    EXPECT_FALSE((*line)->poll(true).came) << "nobody has come yet";
     for (int round = 0; round < 2; ++round) {
       const int sender = open(link.c_str(), O_RDWR | O_NOCTTY);
       ASSERT_GE(sender, 0);
       EXPECT_TRUE(look_for(**line, came).came);
       (*line)->send("hello\r\n");
       EXPECT_EQ(read_from(sender, 7), "hello\r\n");
-      for (int i = 0; i < 20; ++i, usleep(1000)) EXPECT_TRUE((*line)->look(true).bytes.empty()) << "an echo";
+      for (int i = 0; i < 20; ++i, usleep(1000)) EXPECT_TRUE((*line)->poll(true).bytes.empty()) << "an echo";
       ASSERT_EQ(write(sender, "?\n", 2), 2);
       EXPECT_EQ(look_for(**line, spoke).bytes, "?\n");
       close(sender);
@@ -111,12 +111,12 @@ TEST(SenderLine, of_a_serial_port_has_a_sender_when_somebody_speaks_and_none_whe
   auto line = SenderLine::open_serial(ptsname(sender), 115'200);
   ASSERT_TRUE(line) << line.error();
   EXPECT_FALSE(SenderLine::open_serial(ptsname(sender), 115'200)) << "it is this program's";
-  EXPECT_FALSE((*line)->look(true).came);
+  EXPECT_FALSE((*line)->poll(true).came);
   ASSERT_EQ(write(sender, "?", 1), 1);
   const SenderLine::News news = look_for(**line, came);
   EXPECT_TRUE(news.came);
   EXPECT_EQ(news.bytes, "?");
-  EXPECT_FALSE((*line)->gives_way()) << "it has just spoken";
+  EXPECT_FALSE((*line)->yields()) << "it has just spoken";
   (*line)->send("<Idle>\r\n");
   EXPECT_EQ(read_from(sender, 8), "<Idle>\r\n");
   close(sender);
@@ -133,7 +133,7 @@ TEST(SenderLine, over_tcp_sends_a_stranger_away_unheard) {
   const int stranger = connect_to((*line)->port());
   EXPECT_TRUE(look_for(**line, came).came);
   ASSERT_EQ(write(stranger, "PO", 2), 2);
-  for (int i = 0; i < 20; ++i, usleep(1000)) EXPECT_TRUE((*line)->look(true).bytes.empty());
+  for (int i = 0; i < 20; ++i, usleep(1000)) EXPECT_TRUE((*line)->poll(true).bytes.empty());
   const std::string_view rest = "ST /?~ HTTP/1.1\r\nHost: 127.0.0.1\r\n\r\nM3S12000\n";
   ASSERT_EQ(write(stranger, rest.data(), rest.size()), static_cast<ssize_t>(rest.size()));
   const SenderLine::News news = look_for(**line, [](const auto& one) { return spoke(one) || went(one); });
@@ -155,7 +155,7 @@ TEST(SenderLine, of_a_terminal_hears_nothing_of_a_stranger_until_it_has_gone) {
   EXPECT_TRUE(look_for(**line, came).came);
   for (const std::string_view piece : {"GET / HTTP/1.1\r\n", "\r\nG0X9\n", "?~\n"}) {
     ASSERT_EQ(write(stranger, piece.data(), piece.size()), static_cast<ssize_t>(piece.size()));
-    for (int i = 0; i < 20; ++i, usleep(1000)) EXPECT_TRUE((*line)->look(true).bytes.empty());
+    for (int i = 0; i < 20; ++i, usleep(1000)) EXPECT_TRUE((*line)->poll(true).bytes.empty());
   }
   close(stranger);
   EXPECT_TRUE(look_for(**line, went).went);
@@ -173,7 +173,7 @@ TEST(SenderLine, of_a_serial_port_hears_a_sender_again_after_a_stranger_and_a_pa
   ASSERT_TRUE(line) << line.error();
   const std::string_view request = "GET /?~ HTTP/1.1\r\n\r\nM3S1000\n";
   ASSERT_EQ(write(sender, request.data(), request.size()), static_cast<ssize_t>(request.size()));
-  for (int i = 0; i < 20; ++i, usleep(1000)) EXPECT_FALSE((*line)->look(true).came);
+  for (int i = 0; i < 20; ++i, usleep(1000)) EXPECT_FALSE((*line)->poll(true).came);
   usleep(1'100'000);
   ASSERT_EQ(write(sender, "?", 1), 1);
   EXPECT_EQ(look_for(**line, came).bytes, "?");

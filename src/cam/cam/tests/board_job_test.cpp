@@ -196,7 +196,7 @@ TEST_F(BoardJobFiles, a_board_of_kicad_and_layers_of_another_board_are_not_one) 
     Diagnostics found;
     BoardJob job = read_board_job(paths, found);
     if (!nothing.empty()) {
-      EXPECT_EQ(tell_kind(job, nothing, "nothing"), "");
+      EXPECT_EQ(set_kind(job, nothing, "nothing"), "");
     }
     refuse_two_boards(job, found);
     return found.all().empty() ? "" : found.all().front().code;

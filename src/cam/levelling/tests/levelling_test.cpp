@@ -72,7 +72,7 @@ TEST(HeightMap, its_figures_find_the_plane) {
   EXPECT_NEAR(figures.farthest_off_plane, 0, 1e-12);
   EXPECT_NEAR(figures.lowest, -0.1, 1e-12);
   EXPECT_NEAR(figures.highest, 0.9, 1e-12);
-  EXPECT_EQ(words_of(HeightMap({0, 10}, {0, 10}, {0, 1, 0, 1})),
+  EXPECT_EQ(describe(HeightMap({0, 10}, {0, 10}, {0, 1, 0, 1})),
             "2 x 2 places, X0.000 to 10.000, Y0.000 to 10.000\n"
             "heights 0.000 to 1.000 mm, mean 0.500\n"
             "rises by 10.000 mm over 100 mm of X, 0.000 over 100 mm of Y; 0.000 mm at most off that plane\n"

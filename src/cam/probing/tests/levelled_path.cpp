@@ -38,7 +38,7 @@ class Tracer {
   explicit Tracer(Interpreter& interpreter, const Point& start) : blocks_(interpreter), place_(start) {}
 
   void follow(const Operation& operation, std::vector<PathMove>& moves) {
-    for (const FrameBlock& block : blocks_.take()) {
+    for (const FrameBlock& block : blocks_.take_executed()) {
       stores_home_ |= block.place.name == "G28.1" || block.place.name == "G30.1";
       if (block.system.empty() || std::exchange(system_, block.system.name) == block.system.name) continue;
       moves.emplace_back().changes_frame = true;
@@ -117,7 +117,7 @@ class Comparison {
       cycle_start_ = move.from[Axis::z];
       before_cycle_ = height_;
     }
-    if (move.of_machine) return take_machine_move();
+    if (move.of_machine) return handle_machine_move();
     const bool names_xy = move.named.has(Axis::x) || move.named.has(Axis::y);
     bool from_anywhere = false;
     if (names_xy && !move.incremental) {
@@ -126,7 +126,7 @@ class Comparison {
       known_y_ = known_y_ || move.named.has(Axis::y);
     }
     const bool is_assumed = !knows_place();
-    return move.is_arc && move.plane != Plane::xy ? take_upright_arc(is_assumed)
+    return move.is_arc && move.plane != Plane::xy ? handle_upright_arc(is_assumed)
                                                   : take_along(from_anywhere, is_assumed);
   }
 
@@ -164,7 +164,7 @@ class Comparison {
     return fmt::format("line {}: {} (near line {} of the levelled program)", move_->line, what, at);
   }
 
-  std::string take_machine_move() {
+  std::string handle_machine_move() {
     const PathMove& move = *move_;
     if (!wish_.all_known && (move.named.has(Axis::x) || move.named.has(Axis::y))) known_x_ = known_y_ = false;
     const double before = higher_;
@@ -325,7 +325,7 @@ class Comparison {
   }
 
   // Its chords are within the tolerance of the circle, on the surface.
-  std::string take_upright_arc(bool is_assumed) {
+  std::string handle_upright_arc(bool is_assumed) {
     const PathMove& move = *move_;
     const auto [first, second] = axes_of_plane(move.plane);
     const double radius =

@@ -23,7 +23,7 @@ CutOutcome cut(const std::string& text, const CutMaterial& wood) {
   wishes.block = {.x = {0, 60}, .y = {-10, 10}, .z = {-10, 0}};
   wishes.cell = 0.1;
   Diagnostics findings;
-  const FeedLook look = look_at_feeds(job, wishes, findings);
+  const FeedLook look = survey_feeds(job, wishes, findings);
   return cut_with_force(job, wishes, look, *shapes_of(job, wishes, look), *stock_field(wishes, look), wood);
 }
 

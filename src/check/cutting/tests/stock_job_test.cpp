@@ -19,7 +19,7 @@ const std::string slot = "G21 G90 G54\nG0 Z5\nG0 X10 Y0\nG1 Z-2 F300\nG1 X30\nG0
 
 FeedLook look_at(const StockJob& job, const StockWishes& wishes) {
   Diagnostics findings;
-  FeedLook look = look_at_feeds(job, wishes, findings);
+  FeedLook look = survey_feeds(job, wishes, findings);
   EXPECT_FALSE(findings.any_error());
   return look;
 }
@@ -27,7 +27,7 @@ FeedLook look_at(const StockJob& job, const StockWishes& wishes) {
 TEST(StockJobs, look_at_what_the_feeds_reach) {
   unsigned moves = 0;
   Diagnostics findings;
-  const FeedLook look = look_at_feeds(job_of(slot), with_flat(6), findings, [&moves] { ++moves; });
+  const FeedLook look = survey_feeds(job_of(slot), with_flat(6), findings, [&moves] { ++moves; });
   EXPECT_EQ(look.moves, moves);
   EXPECT_EQ(moves, 5U);
   EXPECT_EQ(look.feeds.low, (Vector3{7, -3, -2})) << "the edges of the tool in X and Y, its tip in Z";

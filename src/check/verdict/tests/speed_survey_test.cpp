@@ -114,7 +114,7 @@ TEST(SpeedSurvey, names_jerk_and_torque) {
   ASSERT_EQ(report.shares.size(), 2U);
   EXPECT_EQ(report.shares[0].bound, (SpeedBound{.kind = Kind::jerk, .axis = Axis::y}));
   EXPECT_EQ(report.shares[1].bound, (SpeedBound{.kind = Kind::torque, .axis = Axis::x}));
-  EXPECT_EQ(words_of(report.shares[1].bound), "the torque of X's motor");
+  EXPECT_EQ(describe(report.shares[1].bound), "the torque of X's motor");
 }
 
 TEST(SpeedSurvey, keeps_the_lines_that_lose_most_and_those_that_are_fastest) {

@@ -24,19 +24,19 @@ TEST(Render, names_the_first_of_the_other_lines) {
   Diagnostics diagnostics;
   Diagnostic warning = missing_feed();
   warning.severity = Severity::warning;
-  EXPECT_FALSE(diagnostics.note_again(warning.code, warning.file, 9)) << "nothing is kept yet";
+  EXPECT_FALSE(diagnostics.count_repeated(warning.code, warning.file, 9)) << "nothing is kept yet";
   diagnostics.add(warning);
   for (const std::uint32_t line : {9U, 3U, 5U, 9U, 7U, 11U}) {
-    EXPECT_TRUE(diagnostics.note_again(warning.code, warning.file, line));
+    EXPECT_TRUE(diagnostics.count_repeated(warning.code, warning.file, line));
   }
-  EXPECT_FALSE(diagnostics.note_again(warning.code, "sub.ngc", 9));
+  EXPECT_FALSE(diagnostics.count_repeated(warning.code, "sub.ngc", 9));
   warning.place.line = 12;
   diagnostics.add(warning);
   ASSERT_EQ(diagnostics.all().size(), 1U);
   EXPECT_EQ(diagnostics.all()[0].more_lines, (std::vector<std::uint32_t>{5, 7, 9, 11, 12}));
   EXPECT_EQ(more_lines_in_words(diagnostics.all()[0]), "and 5 more, lines 5, 7, 9, ...");
   EXPECT_TRUE(render(diagnostics, false).ends_with("      = and 5 more, lines 5, 7, 9, ...\n"));
-  for (std::uint32_t line = 100; line < 3000; ++line) diagnostics.note_again(warning.code, warning.file, line);
+  for (std::uint32_t line = 100; line < 3000; ++line) diagnostics.count_repeated(warning.code, warning.file, line);
   EXPECT_EQ(more_lines_in_words(diagnostics.all()[0]), "and 1000 or more, lines 5, 7, 9, ...");
 }
 

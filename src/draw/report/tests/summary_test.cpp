@@ -63,7 +63,7 @@ TEST(LineLoad, is_that_of_the_busiest_second) {
   LineLoad load;
   std::uint64_t sent = 5000;                 // the queue is filled at once
   for (int tick = 0; tick <= 500; ++tick) {  // 5 s; 2 kB/s, in the fourth second 8 kB/s
-    load.look(Seconds(0.01 * tick), sent);
+    load.update(Seconds(0.01 * tick), sent);
     sent += tick >= 300 && tick < 400 ? 80 : 20;
   }
   EXPECT_NEAR(static_cast<double>(load.busiest()), 8000, 100);

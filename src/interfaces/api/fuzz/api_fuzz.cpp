@@ -33,12 +33,12 @@ class Bench {
     } else {
       look(api_.answer(read(first, request)));
     }
-    for (int i = 0; i < turns_of_request; ++i) turn();
+    for (int i = 0; i < turns_of_request; ++i) poll();
   }
-  void turn() {
-    world_.session.turn(Seconds(0.01));
-    api_.heed(world_.session.take_changes());
-    api_.turn();
+  void poll() {
+    world_.session.poll(Seconds(0.01));
+    api_.on_change(world_.session.take_changes());
+    api_.poll();
   }
 
  private:

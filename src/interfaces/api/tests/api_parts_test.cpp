@@ -65,11 +65,11 @@ Operation said(auto what, std::uint32_t line) {
 
 TEST(JobLog, has_what_was_said_with_its_line) {
   JobLog log;
-  log.note(said(operation::Print{.text = "one"}, 3));
-  log.note(said(operation::Log{.kind = operation::Log::Kind::open, .text = "file"}, 4));
-  log.note(said(operation::Log{.text = "1,2"}, 5));
-  log.note(said(operation::Message{.text = "two"}, 6));
-  log.note(said(operation::Log{.text = "3,4"}, 7));
+  log.record(said(operation::Print{.text = "one"}, 3));
+  log.record(said(operation::Log{.kind = operation::Log::Kind::open, .text = "file"}, 4));
+  log.record(said(operation::Log{.text = "1,2"}, 5));
+  log.record(said(operation::Message{.text = "two"}, 6));
+  log.record(said(operation::Log{.text = "3,4"}, 7));
   EXPECT_EQ(log.lines(), "1,2\n3,4\n");
   ASSERT_EQ(log.json().size(), 4U) << "the name of a file is nothing said";
   EXPECT_EQ(log.json()[0], (Json{{"kind", "print"}, {"line", 3}, {"text", "one"}}));
@@ -81,7 +81,7 @@ TEST(JobLog, has_what_was_said_with_its_line) {
 TEST(JobLog, is_bounded) {
   JobLog log;
   const std::string text(1000, 'a');
-  for (std::size_t i = 0; i < JobLog::most_words + 10; ++i) log.note(said(operation::Print{.text = text}, 1));
+  for (std::size_t i = 0; i < JobLog::most_words + 10; ++i) log.record(said(operation::Print{.text = text}, 1));
   const Json all = log.json();
   EXPECT_EQ(all.size(), JobLog::most_words);
   EXPECT_EQ(all.back()["text"].get<std::string>().size(), JobLog::longest_words);
@@ -109,15 +109,15 @@ TEST(KeptOffsets, are_those_of_the_beginning_and_are_written_when_they_change) {
   KeptOffsets offsets(programs, disk.options);
   EXPECT_EQ(programs.work_zero()[Axis::x], 4.0);
   SavedParameters found = programs.parameters();
-  offsets.take(found, {});
+  offsets.adopt(found, {});
   EXPECT_EQ(disk.writes, 0) << "nothing has changed";
   found[work_offset_parameter(1)] = 5;
-  offsets.take(found, {});
+  offsets.adopt(found, {});
   EXPECT_EQ(disk.writes, 1);
   EXPECT_EQ(disk.written, found);
-  EXPECT_FALSE(offsets.take(found)) << "a sender's are the same";
+  EXPECT_FALSE(offsets.adopt(found)) << "a sender's are the same";
   found[work_offset_parameter(1)] = 6;
-  EXPECT_TRUE(offsets.take(found));
+  EXPECT_TRUE(offsets.adopt(found));
   EXPECT_EQ(programs.work_zero()[Axis::x], 6.0);
   EXPECT_EQ(disk.writes, 1) << "the sender keeps them";
 }
@@ -129,7 +129,7 @@ TEST(KeptOffsets, without_a_tool_table_have_no_tools) {
   ToolTable tools;
   tools.name = "of a program";
   ASSERT_TRUE(tools.add({.number = 3, .pocket = 3}));
-  offsets.take(programs.parameters(), tools);
+  offsets.adopt(programs.parameters(), tools);
   EXPECT_EQ(programs.tools().find(3), nullptr);
 }
 

@@ -52,7 +52,7 @@ std::optional<pid_t> owner_of(const sockaddr_un& address, socklen_t size) {
 
 }  // namespace
 
-Result<BoardClaim, std::string> BoardClaim::take(const BoardAddress& address) {
+Result<BoardClaim, std::string> BoardClaim::acquire(const BoardAddress& address) {
   const std::string name = usual_name(address);
   socklen_t size = 0;
   const sockaddr_un unique = address_of(name, size);

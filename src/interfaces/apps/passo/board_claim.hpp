@@ -12,7 +12,7 @@ namespace passo {
 class BoardClaim {
  public:
   // The error is a sentence that tells which process has the board.
-  static Result<BoardClaim, std::string> take(const BoardAddress& address);
+  static Result<BoardClaim, std::string> acquire(const BoardAddress& address);
 
   BoardClaim(BoardClaim&& other) noexcept : descriptor_(std::exchange(other.descriptor_, -1)) {}
   BoardClaim& operator=(BoardClaim&& other) noexcept {

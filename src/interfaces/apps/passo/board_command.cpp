@@ -148,7 +148,7 @@ int board_monitor(const BoardMonitorArguments& arguments) {
   int code = exit_done;
   const auto port = open_named(arguments.board, code);
   if (!port) return code;
-  note_signals();
+  catch_signals();
   const bool live = rewrites_lines(STDOUT_FILENO) && !arguments.json;
   if (!arguments.json) fmt::print("state     steps of each motor   item + events done   switches that are on\n");
   BoardSession board(*port, inquiry_care);

@@ -36,7 +36,7 @@ class RealTime {
     const Seconds before = machine_.elapsed();
     for (Seconds now = elapsed(); machine_.elapsed() < now;) {
       const bool said = machine_.run(now - machine_.elapsed());
-      server.tell_host(machine_.replies());
+      server.send_to_host(machine_.replies());
       if (!said) break;
     }
     plays_ = machine_.elapsed() > before;
@@ -98,7 +98,7 @@ int board_serve(const BoardServeArguments& arguments) {
                          static_cast<std::size_t>(board.held_items));
   machine.connect(plant);
   machine.wire(wiring);
-  note_signals();
+  catch_signals();
   std::signal(SIGUSR1, press_reset);
   fmt::print("A virtual board of {}, {:.0f} ticks a second: tcp:127.0.0.1:{}\n", counted(motors, "motor"),
              clock.value(), (*server)->port());

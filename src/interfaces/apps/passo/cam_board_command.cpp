@@ -351,7 +351,7 @@ std::string heed_words(BoardJob& job, const std::vector<std::string>& told) {
   for (const std::string& one : told) {
     const std::size_t at = one.rfind('=');
     if (at == std::string::npos) return "--as: expected FILE=LAYER, not '" + one + "'";
-    const std::string why = tell_kind(job, one.substr(0, at), one.substr(at + 1));
+    const std::string why = set_kind(job, one.substr(0, at), one.substr(at + 1));
     if (!why.empty()) return "--as: " + why;
   }
   return {};

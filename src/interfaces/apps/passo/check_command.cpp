@@ -209,9 +209,9 @@ std::optional<CutOutcome> cut(const CheckArguments& arguments, const MachineDesc
   const StockJob job{program.again(), options, &machine};
   Diagnostics known;  // the check has them
   const FeedLook look = shown_feeds(job, *wishes, known);
-  const auto tools = told_shapes(job, *wishes, look);
+  const auto tools = shapes_or_message(job, *wishes, look);
   if (!tools) return std::nullopt;
-  std::optional<HeightField> field = told_field(*wishes, look);
+  std::optional<HeightField> field = field_or_message(*wishes, look);
   if (!field) return std::nullopt;
   CutOutcome outcome =
       cut_with_force(job, *wishes, look, *tools, std::move(*field),
@@ -289,7 +289,7 @@ int check(const CheckArguments& arguments) {
                  [&](double share) { progress.update(share_of_first_look + (1 - share_of_first_look) * share); });
   }
   progress.clear();
-  if (page) page->line = told_line_cost(*program, *machine, *options, first.result, page->summary.time());
+  if (page) page->line = line_cost_with_progress(*program, *machine, *options, first.result, page->summary.time());
   if (page && !arguments.loads.empty()) {
     const int code = write_text(arguments.loads, loads.text());
     if (code != exit_done) return code;

@@ -24,7 +24,7 @@ const AxisDescription& description_of(const MachineDescription& machine, Axis ax
 }
 
 std::string limit_words(const SpeedShare& share) {
-  std::string words = words_of(share.bound);
+  std::string words = describe(share.bound);
   if (!(share.limit > 0)) return words;
   const char* const unit = is_rotary(share.bound.axis) ? "deg" : "mm";
   const bool velocity = share.bound.kind == SpeedBound::Kind::velocity;
@@ -82,7 +82,7 @@ std::string speed_words(const Judgement& page) {
     if (part.lost > Seconds(0)) {
       words += fmt::format(" of {:.4g}, {:.2g} s lost", part.programmed.value(), part.lost.value());
     }
-    words += fmt::format("; {}\n", words_of(part.bound));
+    words += fmt::format("; {}\n", describe(part.bound));
   };
   for (std::size_t i = 0; i < std::min(most_parts, page.speed.slowest.size()); ++i) {
     if (page.speed.slowest[i].lost >= notable_loss) add("slowest", page.speed.slowest[i]);

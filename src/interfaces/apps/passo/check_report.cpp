@@ -149,7 +149,7 @@ std::string parts(const char* title, const std::vector<SpeedPart>& parts, bool b
     const char* const unit = part.turns ? " deg" : "";
     table.row({fmt::format("{}", part.line), fmt::format("{:.0f}{}", 60 * speed.value(), unit),
                part.rapid ? "rapid" : fmt::format("{:.0f}{}", 60 * part.programmed.value(), unit),
-               fmt::format("{:.2g} s", (by_loss ? part.lost : part.time).value()), words_of(part.bound)});
+               fmt::format("{:.2g} s", (by_loss ? part.lost : part.time).value()), describe(part.bound)});
   }
   const std::string html = table.html();
   return html.empty() ? "" : fmt::format("<h3>{}</h3>\n", title) + html;

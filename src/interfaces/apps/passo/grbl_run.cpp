@@ -76,7 +76,7 @@ bool make_ready(OpenedGrbl& opened, const std::string& board, bool homes, int& c
   }
   for (const char* line : {"G21G90G94G17G40G49G54", "M5", "M9"}) sender.add(line);
   sender.ask_for_offsets();
-  if (!opened.turn_to_rest()) {
+  if (!opened.poll_until_rest()) {
     code = opened.give_up();
     return false;
   }
@@ -138,12 +138,12 @@ int end_broken_off(const RunArguments& arguments, OpenedGrbl& opened, const std:
   const GrblSender& sender = opened.sender();
   std::string words = interrupted_by() != 0 ? "interrupted" : "held";
   if (sender.fault()) {
-    words = words_of(*sender.fault(), arguments.program.program);
+    words = describe(*sender.fault(), arguments.program.program);
   } else if (waits && interrupted_by() == 0) {
     words = fmt::format(
         "{} waits at {}, and there is no terminal to ask on: run it on one, or with --yes when all is "
         "prepared [run.waits]",
-        arguments.program.program, words_of(*waits));
+        arguments.program.program, describe(*waits));
   }
   // The report may be from before the brake, if the machine has not answered any more.
   const int failed = fail(
@@ -165,7 +165,7 @@ int stream(const RunArguments& arguments, OpenedGrbl& opened, GrblProgram& lines
   TimedBytes timed(changes, begun);
   while (!(lines.ended() && !lines.stop() && sender.at_rest()) && !sender.stopped()) {
     feed(sender, lines);
-    opened.turn(OpenedGrbl::between_looks);
+    opened.poll(OpenedGrbl::between_looks);
     if (interrupted_by() != 0 || timed.look(opened)) sender.stop();
     if (const std::string_view wait = opened.news_of_wait(); !wait.empty()) {
       progress.clear();

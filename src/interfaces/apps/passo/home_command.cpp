@@ -77,7 +77,7 @@ int home(const HomeArguments& arguments) {
   do {
     const Point stood = opened->session().status().position.place;
     report = home_machine(*opened, !arguments.quiet);
-    homings.note(report.axes, times == 0 ? std::nullopt : std::optional(stood));
+    homings.record(report.axes, times == 0 ? std::nullopt : std::optional(stood));
   } while (report.code.empty() && ++times < arguments.repeat);
   std::vector<AxisRepeats> repeats;
   if (times > 1) repeats = homings.axes();
@@ -86,10 +86,10 @@ int home(const HomeArguments& arguments) {
   } else if (!arguments.quiet) {
     print(report);
     if (!repeats.empty()) fmt::print("homed {} times:\n", times);
-    for (const AxisRepeats& one : repeats) fmt::print("{}\n", words_of(one));
+    for (const AxisRepeats& one : repeats) fmt::print("{}\n", describe(one));
   }
   if (report.code.empty()) return exit_done;
-  const int failed = fail(exit_failed, words_of(report));
+  const int failed = fail(exit_failed, describe(report));
   return interrupted_by() != 0 ? 128 + interrupted_by() : failed;
 }
 

@@ -31,7 +31,7 @@ class StageLine {
   StageLine(const StageLine&) = delete;
   StageLine& operator=(const StageLine&) = delete;
 
-  void look(const HomingPath& path) {
+  void update(const HomingPath& path) {
     if (path.axis() == nullptr) return;
     show(fmt::format("{} {}", letter_of(path.axis()->axis), name_of(path.stage())));
   }
@@ -48,7 +48,7 @@ class StageLine {
   std::string shown_;
 };
 
-void note_end(MachineSession& session, const Answered& answered, HomingReport& report) {
+void record_end(MachineSession& session, const Answered& answered, HomingReport& report) {
   const HomingPath* const path = session.homing();
   report.axes = path->homed();
   if (answered.outcome == Outcome::done) return;
@@ -68,7 +68,7 @@ void note_end(MachineSession& session, const Answered& answered, HomingReport& r
 
 }  // namespace
 
-std::string words_of(const HomingReport& report) {
+std::string describe(const HomingReport& report) {
   const std::string axis = report.axis ? fmt::format("homing {}: ", letter_of(*report.axis)) : "homing: ";
   return fmt::format("{}{} [{}]", axis, report.message, report.code);
 }
@@ -89,10 +89,10 @@ HomingReport home_machine(OpenedMachine& machine, bool shows) {
   }
   {
     StageLine line(shows);
-    turn_to_the_end(machine, [&] { line.look(*session.homing()); });
+    poll_until_end(machine, [&] { line.update(*session.homing()); });
   }
   report.time = session.now() - from;
-  note_end(session, answer_of(session.take_changes(), *ticket), report);
+  record_end(session, answer_of(session.take_changes(), *ticket), report);
   return report;
 }
 

@@ -23,8 +23,8 @@ struct HomingReport {
 // Homes a machine that has been greeted. Ctrl-C brakes. With `shows`, shows the progress on standard error if that is a
 // terminal.
 HomingReport home_machine(OpenedMachine& machine, bool shows);
-// words_of() says why the machine is not homed. words_without_homing() says why a machine with this file cannot home.
-std::string words_of(const HomingReport& report);
+// describe() says why the machine is not homed. words_without_homing() says why a machine with this file cannot home.
+std::string describe(const HomingReport& report);
 std::string words_without_homing(const std::string& machine_file);
 
 }  // namespace passo

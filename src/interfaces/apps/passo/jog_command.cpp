@@ -77,7 +77,7 @@ Ending jog_to_rest(OpenedMachine& opened, const JogWords& words, const JogArgume
   const auto ticket = session.request(request::Jog{.way = way, .lease = Seconds(arguments.lease)});
   if (!ticket) {
     Ending refused;
-    refused.failure = words_of(ticket.error());
+    refused.failure = describe(ticket.error());
     return refused;
   }
   bool brakes = false;
@@ -87,7 +87,7 @@ Ending jog_to_rest(OpenedMachine& opened, const JogWords& words, const JogArgume
     }
     const bool holds = !arguments.held || session.now() - begun < Seconds(*arguments.held);
     if (holds && !brakes) try_request(session, request::RenewLease{});
-    session.turn(opened.has_board() ? between_renewals : endless);
+    session.poll(opened.has_board() ? between_renewals : endless);
   }
   const Answered answered = answer_of(session.take_changes(), *ticket);
   const MachineStatus status = session.status();

@@ -130,13 +130,13 @@ class KeyJog {
       if (key.kind == Key::Kind::quit) break;
       act(key);
       for (const Seconds end = session_.now() + a_turn; end - session_.now() > hardly_any;) {
-        session_.turn(end - session_.now());
+        session_.poll(end - session_.now());
       }
       show();
       if (!session_.status().trouble_sentence.text.empty()) break;
     }
     try_request(session_, request::Stop{});
-    while (session_.busy()) session_.turn(a_turn);
+    while (session_.busy()) session_.poll(a_turn);
     show();
     fmt::print("\n");
     if (const std::string words = session_.status().trouble_sentence.text; !words.empty()) {

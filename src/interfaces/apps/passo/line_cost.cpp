@@ -17,8 +17,9 @@ std::string so_often(int count) {
 
 }  // namespace
 
-std::optional<LineCost> told_line_cost(const ProgramReader& program, const MachineDescription& machine,
-                                       const InterpreterOptions& options, const ProgramCheck& check, Seconds without) {
+std::optional<LineCost> line_cost_with_progress(const ProgramReader& program, const MachineDescription& machine,
+                                                const InterpreterOptions& options, const ProgramCheck& check,
+                                                Seconds without) {
   if (!has_line_cost(machine, check)) return {};
   ProgressDisplay progress(program.name());
   const auto cost = line_cost(program.again(), machine, options, check, without,

@@ -11,8 +11,9 @@
 namespace passo {
 
 // line_cost() with a progress line. Empty: it cannot be told. A board that refuses comes as a message.
-std::optional<LineCost> told_line_cost(const ProgramReader& program, const MachineDescription& machine,
-                                       const InterpreterOptions& options, const ProgramCheck& check, Seconds without);
+std::optional<LineCost> line_cost_with_progress(const ProgramReader& program, const MachineDescription& machine,
+                                                const InterpreterOptions& options, const ProgramCheck& check,
+                                                Seconds without);
 
 // A line for the page of `passo check`, with a line end.
 std::string to_text(const LineCost& cost);

@@ -17,7 +17,7 @@ constexpr int between_words = 10;  // seconds
 
 }  // namespace
 
-void LineWatch::look(Seconds silence, Seconds patience, bool ended) {
+void LineWatch::update(Seconds silence, Seconds patience, bool ended) {
   if (ended) {
     if (told_ >= 0 && rewrites_) say_("\n");
     told_ = -1;

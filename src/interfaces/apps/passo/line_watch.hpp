@@ -19,8 +19,8 @@ class LineWatch {
   LineWatch(bool rewrites, std::function<void(const std::string&)> say) : rewrites_(rewrites), say_(std::move(say)) {}
 
   // `silence`: for how long an answer has been due. `patience`: after so long the run ends. `ended`: it has.
-  void look(Seconds silence, Seconds patience, bool ended = false);
-  void look(const BoardSession& board) { look(board.silent_for(), board.patience(), board.error().has_value()); }
+  void update(Seconds silence, Seconds patience, bool ended = false);
+  void update(const BoardSession& board) { update(board.silent_for(), board.patience(), board.error().has_value()); }
 
  private:
   bool rewrites_;

@@ -194,7 +194,7 @@ LineChart chart_of(const LoopStudy& study) {
   return chart;
 }
 
-std::string words_of(const LoopStudy& study) {
+std::string describe(const LoopStudy& study) {
   std::string words =
       fmt::format("{} counts a turn, {:g} \u00B5s", study.setup.counts_per_turn, study.setup.period.value() * 1e6);
   if (study.cycle) {
@@ -214,7 +214,7 @@ Status<OutputError> write_file(const std::string& path, const LoopStudy& study) 
   Status<OutputError> done = Unit{};
   if (const auto format = picture_format_of(path)) {
     const PictureOptions options{
-        .format = *format, .program = "Motor with an encoder: the response to a step", .machine = words_of(study)};
+        .format = *format, .program = "Motor with an encoder: the response to a step", .machine = describe(study)};
     done = draw_line_chart(chart_of(study), options, *file);
   } else {
     file->write(table_of(study));

@@ -55,7 +55,7 @@ bool LowProcess::begin(const std::string& folder, const std::vector<std::string>
   return process > 0;
 }
 
-std::optional<int> LowProcess::look() {
+std::optional<int> LowProcess::poll() {
   int status = 0;
   if (process_ == 0 || waitpid(process_, &status, WNOHANG) != process_) return {};
   process_ = 0;

@@ -34,7 +34,7 @@ class LowProcess {
   bool begin(const std::string& folder, const std::vector<std::string>& words);
   bool runs() const { return process_ != 0; }
   // How it has ended, as waitpid() tells; once. Empty: it runs, or there is none.
-  std::optional<int> look();
+  std::optional<int> poll();
   void end();
 
  private:

@@ -56,8 +56,8 @@ std::optional<CableCut> read_cable_cut(const std::string& text) {
   return std::nullopt;
 }
 
-void TailWatch::look(const MachineSession& session, const VirtualMachine& machine,
-                     const MachineDescription& description) {
+void TailWatch::update(const MachineSession& session, const VirtualMachine& machine,
+                       const MachineDescription& description) {
   const RefillLedger* const ledger = session.ledger();
   if (ledger == nullptr || static_cast<std::size_t>(ledger->recoveries()) == tails_.size()) return;
   std::int64_t last_step = 0;
@@ -96,7 +96,7 @@ std::optional<MidRunChanges> MidRunChanges::read(const std::vector<std::string>&
 
 Seconds MidRunChanges::act(MachineSession& session, const VirtualMachine& machine,
                            const MachineDescription& description) {
-  const Seconds most = mind_rest(session, machine, description);
+  const Seconds most = update_rest(session, machine, description);
   for (; next_ < changes_.size() && changes_[next_].at <= now(session) && session.busy(); ++next_) {
     // The next hold waits until this hold is over.
     if (!changes_[next_].factor && holds_now_) break;
@@ -119,8 +119,8 @@ void MidRunChanges::apply(const Change& change, MachineSession& session) {
 
 // Decides how long the machine goes on resting, and returns that time. A hold lasts until its pause is over; a hold
 // without a pause stops the program. A feed of 0 lasts until the next change; if there is none, the program is stopped.
-Seconds MidRunChanges::mind_rest(MachineSession& session, const VirtualMachine& machine,
-                                 const MachineDescription& description) {
+Seconds MidRunChanges::update_rest(MachineSession& session, const VirtualMachine& machine,
+                                   const MachineDescription& description) {
   const MachineStatus status = session.status();
   if (!session.busy() || status.state != MachineState::hold || !status.rests) return endless;
   if (!holds_now_) {

@@ -30,7 +30,7 @@ std::vector<double> place_of(const VirtualMachine& machine, const MachineDescrip
 class TailWatch {
  public:
   // Call after each turn of the session.
-  void look(const MachineSession& session, const VirtualMachine& machine, const MachineDescription& description);
+  void update(const MachineSession& session, const VirtualMachine& machine, const MachineDescription& description);
   const std::vector<TailSummary>& tails() const { return tails_; }
 
  private:
@@ -63,7 +63,7 @@ class MidRunChanges {
 
  private:
   Seconds now(const MachineSession& session) const { return session.now() - begun_; }
-  Seconds mind_rest(MachineSession& session, const VirtualMachine& machine, const MachineDescription& description);
+  Seconds update_rest(MachineSession& session, const VirtualMachine& machine, const MachineDescription& description);
   void apply(const Change& change, MachineSession& session);
 
   std::vector<Change> changes_;

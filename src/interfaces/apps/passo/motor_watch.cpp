@@ -21,7 +21,7 @@ MotorWatch::MotorWatch(RotorPlant& plant, const MachineDescription& machine, Sec
   }
 }
 
-void MotorWatch::look(Seconds now) {
+void MotorWatch::poll(Seconds now) {
   for (std::size_t m = 0; m < motors_.size(); ++m) {
     const RotorRecord& record = plant_.record(m);
     if (record.least_margin_at > looked_) motors_[m].worst_line = lines_.line_at(record.least_margin_at);
@@ -37,7 +37,7 @@ void MotorWatch::look(Seconds now) {
 PhysicsSummary MotorWatch::finish(Seconds now) {
   constexpr Seconds longest_ringing{2};
   static_cast<void>(plant_.settle(longest_ringing));  // what still rings then is far below a step
-  look(now);
+  poll(now);
   const Truth truth = plant_.truth_at(now);
   PhysicsSummary summary;
   summary.fault_line = fault_line_;

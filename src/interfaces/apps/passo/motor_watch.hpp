@@ -20,7 +20,7 @@ class MotorWatch {
   // What is planned, in order.
   void plan(const MotionItem& item) { lines_.watch(item); }
   // Call after each turn of the session. `now`: the board's time.
-  void look(Seconds now);
+  void poll(Seconds now);
   // Lets the rotors come to rest. `now`: the board's time at the end.
   PhysicsSummary finish(Seconds now);
 

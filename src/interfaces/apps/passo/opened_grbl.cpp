@@ -25,7 +25,7 @@ std::unique_ptr<OpenedGrbl> OpenedGrbl::open(const std::string& board, int& code
     code = fail(exit_bad_program, address.error());
     return nullptr;
   }
-  auto claim = BoardClaim::take(*address);
+  auto claim = BoardClaim::acquire(*address);
   if (!claim) {
     code = fail(exit_failed, claim.error());
     return nullptr;
@@ -37,7 +37,7 @@ std::unique_ptr<OpenedGrbl> OpenedGrbl::open(const std::string& board, int& code
   }
   std::unique_ptr<OpenedGrbl> opened(new OpenedGrbl(board, std::move(*claim), std::move(*port)));
   GrblSender& sender = opened->sender_;
-  while (!sender.ready() && !sender.fault() && interrupted_by() == 0) opened->turn(between_looks);
+  while (!sender.ready() && !sender.fault() && interrupted_by() == 0) opened->poll(between_looks);
   if (sender.ready()) return opened;
   code = opened->give_up();
   return nullptr;
@@ -45,11 +45,11 @@ std::unique_ptr<OpenedGrbl> OpenedGrbl::open(const std::string& board, int& code
 
 int OpenedGrbl::give_up() const {
   const auto& fault = sender_.fault();
-  const int failed = fault ? fail(exit_failed, fmt::format("{}: {}", board_, words_of(*fault, ""))) : exit_failed;
+  const int failed = fault ? fail(exit_failed, fmt::format("{}: {}", board_, describe(*fault, ""))) : exit_failed;
   return fault && interrupted_by() == 0 ? failed : exit_of_signal();
 }
 
-void OpenedGrbl::turn(Seconds most) {
+void OpenedGrbl::poll(Seconds most) {
   const std::string bytes = sender_.take_bytes(now());
   port_->receive({reinterpret_cast<const std::uint8_t*>(bytes.data()), bytes.size()});
   // A line that is opened anew may reset the machine, so a line that broke stays so.
@@ -59,11 +59,11 @@ void OpenedGrbl::turn(Seconds most) {
   sender_.receive({reinterpret_cast<const char*>(came.data()), came.size()}, now());
 }
 
-bool OpenedGrbl::turn_to_rest(const std::function<void()>& watch) {
+bool OpenedGrbl::poll_until_rest(const std::function<void()>& watch) {
   while (!sender_.at_rest() || sender_.stops()) {
     if (interrupted_by() != 0) sender_.stop();
     if (sender_.stopped() || (sender_.fault() && !sender_.stops())) break;
-    turn(between_looks);
+    poll(between_looks);
     if (const std::string_view wait = news_of_wait(); !wait.empty()) note(std::string(wait));
     if (watch) watch();
   }
@@ -78,9 +78,9 @@ std::string_view OpenedGrbl::news_of_wait() {
 bool OpenedGrbl::home(int& code) {
   sender_.add("$H", 0, longest_homing);
   // Homing may move the zero of the work: startup lines ($N0) run after it.
-  const bool homed = turn_to_rest();
+  const bool homed = poll_until_rest();
   if (homed) sender_.ask_for_offsets();
-  if (homed && turn_to_rest()) return true;
+  if (homed && poll_until_rest()) return true;
   code = give_up();
   return false;
 }
@@ -91,7 +91,7 @@ std::string OpenedGrbl::place_words() const {
   return fmt::format("X{:.3f} Y{:.3f} Z{:.3f}", (*place)[Axis::x], (*place)[Axis::y], (*place)[Axis::z]);
 }
 
-std::string words_of(const GrblFault& fault, const std::string& program) {
+std::string describe(const GrblFault& fault, const std::string& program) {
   std::string where;
   if (fault.last_line != 0 && !program.empty()) {
     where = fault.first_line < fault.last_line

@@ -28,11 +28,11 @@ class OpenedGrbl {
   const GrblSender& sender() const { return sender_; }
   Seconds now() const { return port_->elapsed(); }
   // Sends what is to be sent and hears what comes, for `most` at most.
-  void turn(Seconds most);
+  void poll(Seconds most);
   // Turns until the machine has done all lines and rests, or has a fault. Ctrl-C brakes, and drops what it holds.
   // Shows what somebody must do at the machine. `look`, if any, is called after each turn. False: it was interrupted,
   // or there is a fault.
-  [[nodiscard]] bool turn_to_rest(const std::function<void()>& look = {});
+  [[nodiscard]] bool poll_until_rest(const std::function<void()>& look = {});
   // What somebody must do at the machine, if that is new: once for each wait.
   std::string_view news_of_wait();
   // Shows why the machine is not at rest with all lines done. Returns the exit code.
@@ -54,6 +54,6 @@ class OpenedGrbl {
 };
 
 // The fault for people: where, what, and its code.
-std::string words_of(const GrblFault& fault, const std::string& program);
+std::string describe(const GrblFault& fault, const std::string& program);
 
 }  // namespace passo

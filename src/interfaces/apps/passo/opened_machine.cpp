@@ -105,7 +105,7 @@ std::unique_ptr<OpenedMachine> OpenedMachine::open(const MachineDescription& mac
   }
   const bool outlives = address->kind != BoardAddress::Kind::emulated;
   if (outlives) {
-    auto claim = BoardClaim::take(*address);
+    auto claim = BoardClaim::acquire(*address);
     if (!claim) {
       code = fail(exit_failed, claim.error());
       return nullptr;
@@ -233,7 +233,7 @@ bool OpenedMachine::greet(const Greeting& greeting, int& code) {
   frames_asked_ = session.board().frames_sent();
   bytes_asked_ = session.board().bytes_sent();
   session.greet(greeting);
-  while (session.state() == MachineState::offline) session.turn(endless);
+  while (session.state() == MachineState::offline) session.poll(endless);
   const MachineState state = session.state();
   if (state == MachineState::idle || state == MachineState::door) return true;
   code = fail(exit_failed, "the board: " + session.trouble_words());
@@ -291,7 +291,7 @@ std::string place_words(const MachineDescription& machine, const Point& place) {
   return words;
 }
 
-std::string words_of(const Refusal& refusal) {
+std::string describe(const Refusal& refusal) {
   return fmt::format("{} [{}]", refusal.message(), code_of(refusal.code()));
 }
 
@@ -299,7 +299,7 @@ void try_request(MachineSession& session, Request wanted) {
   static_cast<void>(session.request(std::move(wanted)).has_value());
 }
 
-void turn_to_the_end(OpenedMachine& machine, const std::function<void()>& look) {
+void poll_until_end(OpenedMachine& machine, const std::function<void()>& look) {
   MachineSession& session = machine.session();
   LineWatch line = line_watch();
   bool asked_to_stop = false;
@@ -307,8 +307,8 @@ void turn_to_the_end(OpenedMachine& machine, const std::function<void()>& look) 
     if (interrupted_by() != 0 && !std::exchange(asked_to_stop, true)) {
       try_request(session, request::Stop{});
     }
-    session.turn(machine.is_on_a_line() ? LineWatch::between_looks : endless);
-    if (machine.is_on_a_line()) line.look(session.board());
+    session.poll(machine.is_on_a_line() ? LineWatch::between_looks : endless);
+    if (machine.is_on_a_line()) line.update(session.board());
     if (look) look();
   }
 }

@@ -120,10 +120,10 @@ class OpenedMachine {
 // The words for a place, with the letters of the axes: "X1.000 Y-2.500".
 std::string place_words(const MachineDescription& machine, const Point& place);
 // "the machine is busy [machine.busy]".
-std::string words_of(const Refusal& refusal);
+std::string describe(const Refusal& refusal);
 // Makes a request that may be refused. A refusal means that the machine is already where the request would lead.
 void try_request(MachineSession& session, Request wanted);
 // Turns the session until nothing is going on. Ctrl-C brakes. `look`, if any, is called after each turn.
-void turn_to_the_end(OpenedMachine& machine, const std::function<void()>& look = {});
+void poll_until_end(OpenedMachine& machine, const std::function<void()>& look = {});
 
 }  // namespace passo

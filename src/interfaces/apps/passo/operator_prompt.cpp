@@ -40,7 +40,7 @@ bool asks_operator() {
   return is_terminal(STDIN_FILENO) && is_terminal(STDERR_FILENO);
 }
 
-std::string words_of(const OperatorWait& wait) {
+std::string describe(const OperatorWait& wait) {
   std::string words = fmt::format("line {}: {}", wait.line, what(wait));
   if (wait.words.empty()) return words;
   words += ": " + wait.words;
@@ -64,7 +64,7 @@ void ProgramStops::watch(const PathItem& item) {
 
 std::string ProgramStops::words() const {
   std::string words;
-  for (const OperatorWait& stop : stops_) words += (words.empty() ? "" : "; ") + words_of(stop);
+  for (const OperatorWait& stop : stops_) words += (words.empty() ? "" : "; ") + describe(stop);
   if (count_ > most_told) words += fmt::format("; and {} more", count_ - most_told);
   return words;
 }
@@ -77,7 +77,7 @@ void ProgramStops::tell(const RunArguments& arguments) const {
              arguments.program.program, words());
 }
 
-Seconds OperatorPrompt::look(MachineSession& session) {
+Seconds OperatorPrompt::poll(MachineSession& session) {
   // This runs in each turn, and making the status takes time. So the status is made only if the program may wait.
   if (session.state() == MachineState::run) {
     asked_ = false;
@@ -90,7 +90,7 @@ Seconds OperatorPrompt::look(MachineSession& session) {
   }
   if (!asks_operator()) {
     if (!fault_) {
-      fault_ = ActivityFault{MachineFault::program_waits, {{"program", program_}, {"wait", words_of(*wait)}}};
+      fault_ = ActivityFault{MachineFault::program_waits, {{"program", program_}, {"wait", describe(*wait)}}};
       try_request(session, request::Stop{});
     }
     return endless;
@@ -102,7 +102,7 @@ Seconds OperatorPrompt::look(MachineSession& session) {
 bool OperatorPrompt::hears_enter(const OperatorWait& wait) {
   if (!std::exchange(asked_, true)) {
     fmt::print(stderr, "{}{} waits at {}. Press Enter to go on. ", rewrites_lines(STDERR_FILENO) ? "\r\033[K" : "",
-               program_, words_of(wait));
+               program_, describe(wait));
     std::fflush(stderr);
   }
   return enter_was_pressed(between_looks);

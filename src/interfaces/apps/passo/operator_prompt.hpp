@@ -16,7 +16,7 @@ namespace passo {
 // Whether somebody can be asked: standard input and standard error are a terminal.
 bool asks_operator();
 // "line 12: tool 2 (M6): 6 mm drill".
-std::string words_of(const OperatorWait& wait);
+std::string describe(const OperatorWait& wait);
 
 // The stops of a program, reported by a check, and before a run that asks nobody.
 class ProgramStops {
@@ -42,7 +42,7 @@ class OperatorPrompt {
   explicit OperatorPrompt(std::string program) : program_(std::move(program)) {}
   // Call it before each turn. Asks when the program waits, and notices when Enter is pressed. Returns how long the turn
   // may take. If nobody can be asked, the program is stopped.
-  Seconds look(MachineSession& session);
+  Seconds poll(MachineSession& session);
   // The same for a machine without a session that rests at a stop: true when Enter was pressed. Takes 50 ms at most.
   bool hears_enter(const OperatorWait& wait);
   bool gave_up() const { return fault_.has_value(); }

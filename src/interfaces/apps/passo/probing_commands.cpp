@@ -63,7 +63,7 @@ int level(const LevelArguments& arguments) {
     map = map->lowered_by(map->height(zero->first, zero->second));
   }
   if (arguments.program.program.empty()) {
-    fmt::print("{}", words_of(*map));
+    fmt::print("{}", describe(*map));
     return exit_done;
   }
   std::optional<ProgramReader> program = open_program(arguments.program);

@@ -23,7 +23,7 @@ int refuse(ResumeRefusal refusal) {
   return refuse(code_of(refusal), std::string(message_of(refusal)));
 }
 
-std::string words_of(const ResumePoint& point, const MachineDescription& machine) {
+std::string describe(const ResumePoint& point, const MachineDescription& machine) {
   const std::string line = point.line == 0 ? "at the end of the program" : fmt::format("at line {}", point.line);
   return fmt::format("{} {} (machine coordinates)", line, place_words(machine, point.point));
 }
@@ -137,7 +137,7 @@ std::optional<JobEntry> ResumableRun::find_place(OpenedMachine& machine, const P
   JobEntry entry = entry_at_rest(before_->head(), *found, status, subject.machine);
   const auto known = machine.place();
   machine.start_at({.place = *entry.stands, .trust = known ? known->trust : Trust::counted});
-  fmt::print(stderr, "passo: goes on {}\n", words_of(*found, subject.machine));
+  fmt::print(stderr, "passo: goes on {}\n", describe(*found, subject.machine));
   return entry;
 }
 

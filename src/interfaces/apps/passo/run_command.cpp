@@ -236,11 +236,11 @@ RunSummary play(const Run& run, request::Start start, Answered& answered) {
     for (unsigned turns = 0; session.busy(); ++turns) {
       if ((interrupted_by() != 0 || run.outputs.failed()) && !std::exchange(brakes, true)) stop(session);
       const Seconds most = run.changes.any() ? run.changes.act(session, run.opened.machine(), machine) : endless;
-      session.turn(std::min({most, longest_turn, prompt.look(session)}));
-      if (run.opened.is_on_a_line()) line.look(session.board());
-      if (!run.opened.has_board()) tails.look(session, run.opened.machine(), machine);
-      load.look(session.now(), run.opened.bytes_sent());
-      if (motors) motors->look(session.now());
+      session.poll(std::min({most, longest_turn, prompt.poll(session)}));
+      if (run.opened.is_on_a_line()) line.update(session.board());
+      if (!run.opened.has_board()) tails.update(session, run.opened.machine(), machine);
+      load.update(session.now(), run.opened.bytes_sent());
+      if (motors) motors->poll(session.now());
       if (turns % turns_between_looks == 0) progress.update(session.program()->nominal_time() / run.check.nominal_time);
     }
     answered = answer_of(session.take_changes(), *ticket);
@@ -274,7 +274,7 @@ std::string stopped_words(const Answered& answered, const RunSummary& summary) {
 int home_first(OpenedMachine& machine, bool shows) {
   const HomingReport report = home_machine(machine, shows);
   if (report.code.empty()) return exit_done;
-  const int failed = fail(exit_failed, words_of(report));
+  const int failed = fail(exit_failed, describe(report));
   return interrupted_by() != 0 ? 128 + interrupted_by() : failed;
 }
 
@@ -296,7 +296,7 @@ int make_ready(const ResumableRun::Subject& subject, const ProgramReader& progra
   if (code != exit_done) return code;
   // Only from the greeting does the board know at which level a switch is closed.
   if (const auto closed = machine.session().closed_limit()) {
-    code = fail(exit_failed, words_of(*closed));
+    code = fail(exit_failed, describe(*closed));
     if (resumable != nullptr) resumable->end(machine.session(), {.outcome = Outcome::failed, .refused = *closed});
   }
   return code;

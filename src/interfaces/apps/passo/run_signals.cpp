@@ -62,7 +62,7 @@ void brake_on_signals() {
   handle_with(brake_on_signal);
 }
 
-void note_signals() {
+void catch_signals() {
   handle_with(note_signal);
 }
 

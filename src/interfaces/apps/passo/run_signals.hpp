@@ -13,7 +13,7 @@ void end_on_signals();
 void brake_on_signals();
 // For a command that moves nothing and ends by itself when it is told to: interrupted_by() reports the first signal,
 // and a second signal ends the program.
-void note_signals();
+void catch_signals();
 // The signal's number; 0: no signal has come.
 int interrupted_by();
 // What a command returns that a signal has ended: 128 and its number. If no signal has come, shows that as an error, so

@@ -124,7 +124,7 @@ std::unique_ptr<ServedJournal> open_journal(const std::string& folder, OpenedMac
   std::error_code error;
   std::filesystem::create_directories(folder, error);
   auto journal = ServedJournal::open(folder, opened);
-  if (!journal || !journal->take_up(greeting)) return nullptr;
+  if (!journal || !journal->resume_job(greeting)) return nullptr;
   if (!opened.is_on_a_line() && journal->found()) {
     opened.start_at({.place = Point(), .trust = Trust::unknown, .is_lost = true});
   } else {

@@ -31,12 +31,12 @@ void ServeDaemon::serve() {
   while (interrupted_by() == 0) {
     wait();
     for (const auto& line : lines_) attend(*line);
-    if (web_ != nullptr) web_->turn();
-    mind_owner();
-    turn();
-    mind_place();
+    if (web_ != nullptr) web_->poll();
+    check_owner();
+    poll();
+    keep_place_if_changed();
     reply();
-    if (status_ != nullptr) status_->turn(session_, web_ != nullptr ? &web_->api() : nullptr);
+    if (status_ != nullptr) status_->poll(session_, web_ != nullptr ? &web_->api() : nullptr);
     service_.alive();
   }
 }
@@ -45,7 +45,7 @@ void ServeDaemon::stop() {
   if (web_ != nullptr) web_->leave();
   if (session_.busy()) try_request(session_, request::Stop{});
   while (session_.busy()) {
-    session_.turn(machine_.has_board() ? busy_look : Seconds(1));
+    session_.poll(machine_.has_board() ? busy_look : Seconds(1));
     service_.alive();
   }
   hear_changes();
@@ -58,7 +58,7 @@ bool ServeDaemon::works() const {
   return session_.busy() || session_.state() == MachineState::offline || is_greeted;
 }
 
-// While the machine is busy, its board is waited for in turn(). A look that may not sleep would only cost: each socket
+// While the machine is busy, its board is waited for in poll(). A look that may not sleep would only cost: each socket
 // of each client is looked at again.
 void ServeDaemon::wait() {
   if (works() && machine_.has_board()) return;
@@ -68,7 +68,7 @@ void ServeDaemon::wait() {
   std::vector<pollfd> all;
   for (const auto& line : lines_) line->add_to(all, may_read(*line));
   if (web_ != nullptr) web_->add_to(all);
-  static_cast<void>(poll(all.data(), all.size(), static_cast<int>(most.value() * 1e3)));
+  static_cast<void>(::poll(all.data(), all.size(), static_cast<int>(most.value() * 1e3)));
 }
 
 // One sender at a time; others are told that they have to wait.
@@ -77,17 +77,17 @@ bool ServeDaemon::may_read(const SenderLine& line) const {
 }
 
 // A sender on a serial port may have gone without a sign. While nothing goes on, it gives way to another.
-void ServeDaemon::mind_silent_driver(const SenderLine& line) {
+void ServeDaemon::check_silent_driver(const SenderLine& line) {
   if (driver_ == nullptr || driver_ == &line || !line.is_connected()) return;
-  if (!driver_->gives_way() || session_.busy()) return;
+  if (!driver_->yields() || session_.busy()) return;
   driver_->part();
   driver_ = nullptr;
   grbl_.disconnect();
 }
 
 void ServeDaemon::attend(SenderLine& line) {
-  const SenderLine::News news = line.look(may_read(line));
-  mind_silent_driver(line);
+  const SenderLine::News news = line.poll(may_read(line));
+  check_silent_driver(line);
   if (line.is_connected() && driver_ == nullptr) {
     driver_ = &line;
     driver_spoke_ = false;
@@ -96,7 +96,7 @@ void ServeDaemon::attend(SenderLine& line) {
   }
   if (driver_ != &line) return;
   if (!news.bytes.empty()) {
-    if (!std::exchange(driver_spoke_, true)) mind_owner();
+    if (!std::exchange(driver_spoke_, true)) check_owner();
     grbl_.receive(news.bytes);
   }
   if (!news.went) return;
@@ -106,11 +106,11 @@ void ServeDaemon::attend(SenderLine& line) {
 
 // A sender has the motion that nobody else wants. One who has gone keeps nothing. Whoever has said nothing yet may be a
 // browser, and has nothing.
-void ServeDaemon::mind_owner() {
+void ServeDaemon::check_owner() {
   if (driver_ != nullptr && driver_spoke_) {
-    owner_.take_for_sender();
+    owner_.claim_for_sender();
   } else if (owner_.is_sender()) {
-    owner_.give_back();
+    owner_.release();
   }
   // A sender's held program waits for the next sender, unless a client comes.
   if (owner_.kind() != MotionOwner::Kind::nobody) grbl_.let_drive(owner_.is_sender());
@@ -118,26 +118,26 @@ void ServeDaemon::mind_owner() {
 
 void ServeDaemon::hear_changes() {
   const std::vector<MachineChange> changes = session_.take_changes();
-  grbl_.turn(changes);
+  grbl_.poll(changes);
   if (web_ != nullptr) web_->hear_changes(changes);
 }
 
-void ServeDaemon::turn() {
+void ServeDaemon::poll() {
   if (machine_.has_board()) {
-    session_.turn(works() ? busy_look : Seconds(0));
+    session_.poll(works() ? busy_look : Seconds(0));
     return hear_changes();
   }
   for (int turns = 0; turns < most_turns; ++turns) {
     const Seconds ahead = clock_.ahead_of(session_.now());
     if (ahead < hardly_late) break;
-    session_.turn(ahead);
+    session_.poll(ahead);
     hear_changes();
   }
   hear_changes();
 }
 
 // Homing, or a person, may have said where the machine stands. Whoever kills the daemon then takes nothing of it away.
-void ServeDaemon::mind_place() {
+void ServeDaemon::keep_place_if_changed() {
   const std::uint64_t version = session_.status().version;
   if (works() || std::exchange(kept_version_, version) == version) return;
   machine_.keep_place();

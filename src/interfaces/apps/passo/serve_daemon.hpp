@@ -59,11 +59,11 @@ class ServeDaemon {
   void wait();
   bool may_read(const SenderLine& line) const;
   void attend(SenderLine& line);
-  void mind_silent_driver(const SenderLine& line);
-  void mind_owner();
-  void turn();
+  void check_silent_driver(const SenderLine& line);
+  void check_owner();
+  void poll();
   void hear_changes();
-  void mind_place();
+  void keep_place_if_changed();
   void reply();
 
   OpenedMachine& machine_;

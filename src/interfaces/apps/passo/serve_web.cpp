@@ -136,9 +136,9 @@ Seconds ServedWeb::most_wait(Seconds most) const {
   return api_.is_checking() ? Seconds(0) : most;
 }
 
-void ServedWeb::turn() {
-  server_->turn();
-  api_.turn();
+void ServedWeb::poll() {
+  server_->poll();
+  api_.poll();
   if (server_->watchers() > 0) publish();
 }
 
@@ -160,15 +160,15 @@ void ServedWeb::publish() {
 
 void ServedWeb::share_offsets(GrblController& grbl) {
   grbl_ = &grbl;
-  grbl.take_offsets(api_.parameters());
+  grbl.apply_offsets(api_.parameters());
   grbl.share_offsets([this](const SavedParameters& parameters) {
-    api_.take_offsets(parameters);
-    if (offsets_) api_.note_unkept_offsets(offsets_->keep(api_.parameters(), api_.tools()));
+    api_.apply_offsets(parameters);
+    if (offsets_) api_.set_offsets_trouble(offsets_->keep(api_.parameters(), api_.tools()));
   });
 }
 
 std::string ServedWeb::keep(const SavedParameters& parameters, const ToolTable& tools) {
-  if (grbl_ != nullptr) grbl_->take_offsets(parameters);
+  if (grbl_ != nullptr) grbl_->apply_offsets(parameters);
   return offsets_ ? offsets_->keep(parameters, tools) : std::string();
 }
 

@@ -42,7 +42,7 @@ class ServedWeb {
   // What the loop wakes up for, and how long it may sleep.
   void add_to(std::vector<pollfd>& all) const { server_->add_to(all); }
   Seconds most_wait(Seconds most) const;
-  void hear_changes(const std::vector<MachineChange>& changes) { api_.heed(changes); }
+  void hear_changes(const std::vector<MachineChange>& changes) { api_.on_change(changes); }
   // Where the motors of the job that was broken off were last, as far as that is sure.
   std::optional<Point> broken_off_at() { return api_.broken_off_at(); }
   // A job that is stopped from now on can go on when the program runs again.
@@ -51,7 +51,7 @@ class ServedWeb {
   // From now on senders and programs have the same offsets. `grbl` outlives this.
   void share_offsets(GrblController& grbl);
   // Hears the clients, and tells those who watch what is new.
-  void turn();
+  void poll();
 
  private:
   ServedWeb(const ServeArguments& arguments, const MachineDescription& machine, MachineSession& session,

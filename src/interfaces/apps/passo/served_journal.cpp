@@ -19,10 +19,10 @@ std::unique_ptr<ServedJournal> ServedJournal::open(const std::string& folder, Op
   return nullptr;
 }
 
-bool ServedJournal::take_up(const Greeting& greeting) {
+bool ServedJournal::resume_job(const Greeting& greeting) {
   JournaledRun run(file_);
   // A virtual board lives and dies with its host.
-  found_ = passo::take_up(*this, run, machine_.before(), greeting, machine_.is_on_a_line());
+  found_ = passo::resume_job(*this, run, machine_.before(), greeting, machine_.is_on_a_line());
   if (!run.is_written()) fail(exit_failed, file_.path() + ": this journal cannot be written: " + file_.trouble());
   return run.is_written();
 }

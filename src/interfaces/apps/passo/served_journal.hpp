@@ -19,7 +19,7 @@ class ServedJournal final : public JobKeeper {
 
   // Call at rest, before the machine is greeted: looks whether a job was broken off, and takes note that the board
   // hears this greeting next. False, with a message: the journal cannot be written.
-  [[nodiscard]] bool take_up(const Greeting& greeting);
+  [[nodiscard]] bool resume_job(const Greeting& greeting);
   const std::optional<BrokenOff>& found() const { return found_; }
 
   JournalStore& store() override { return file_; }

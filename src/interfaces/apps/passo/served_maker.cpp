@@ -98,12 +98,12 @@ bool ServedMaker::begin(const MakeOrder& order) {
   return process_.begin(folder_.name(), words) || failed();
 }
 
-const MakeResult& ServedMaker::look() {
-  const std::optional<int> end = process_.look();
+const MakeResult& ServedMaker::result() {
+  const std::optional<int> end = process_.poll();
   if (!end) return result_;
   result_.words = content_of(folder_.path(LowProcess::said_file)).substr(0, LowProcess::longest_words);
   bool good = WIFEXITED(*end) && WEXITSTATUS(*end) == 0;
-  if (result_.job == board_job) look_at_board();
+  if (result_.job == board_job) poll_board();
   std::error_code none;
   good = good && !made_.empty() && fs::exists(folder_.path(made_.front()), none);
   result_.state = good ? MakeResult::State::done : MakeResult::State::failed;
@@ -117,7 +117,7 @@ const MakeResult& ServedMaker::look() {
 }
 
 // A board's programs are numbered: "2-isolate-front.ngc".
-void ServedMaker::look_at_board() {
+void ServedMaker::poll_board() {
   result_.report = content_of(folder_.path(LowProcess::printed_file));
   std::error_code none;
   std::vector<std::pair<int, std::string>> found;

@@ -20,13 +20,13 @@ class ServedMaker final : public Maker {
   bool keep(const std::string& name, std::string_view bytes) override;
   void clear() override;
   bool begin(const MakeOrder& order) override;
-  const MakeResult& look() override;
+  const MakeResult& result() override;
   std::string program(std::size_t number) const override;
   std::string picture(std::optional<std::size_t> number) const override;
   std::string page() const override;
 
  private:
-  void look_at_board();
+  void poll_board();
 
   struct Kept {
     std::string name;

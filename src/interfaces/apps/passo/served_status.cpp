@@ -81,7 +81,7 @@ std::string ServedStatus::text_of(const MachineStatus& status, const WebApi* api
   return all.dump(-1, ' ', false, nlohmann::ordered_json::error_handler_t::replace);
 }
 
-void ServedStatus::turn(const MachineSession& session, const WebApi* api) {
+void ServedStatus::poll(const MachineSession& session, const WebApi* api) {
   const auto now = std::chrono::steady_clock::now();
   if (now - told_at_ < between_messages) return;
   told_at_ = now;

@@ -24,7 +24,7 @@ class ServedStatus {
   static bool check(const ServeArguments& arguments, int& code);
 
   // `api`: knows the job and the time left; null: nobody does.
-  void turn(const MachineSession& session, const WebApi* api);
+  void poll(const MachineSession& session, const WebApi* api);
   std::string name() const { return name_; }
 
  private:

@@ -41,8 +41,8 @@ bool ServedStudies::begin(const StudyOrder& order) {
   return true;
 }
 
-const StudyResult& ServedStudies::look() {
-  const std::optional<int> end = process_.look();
+const StudyResult& ServedStudies::result() {
+  const std::optional<int> end = process_.poll();
   if (!end) return result_;
   result_.words = content_of(folder_.path(LowProcess::said_file)).substr(0, LowProcess::longest_words);
   result_.report = content_of(folder_.path(LowProcess::printed_file));

@@ -12,7 +12,7 @@ namespace passo {
 class ServedStudies final : public Studies {
  public:
   bool begin(const StudyOrder& order) override;
-  const StudyResult& look() override;
+  const StudyResult& result() override;
   std::string loads() const override;
   std::string picture() const override;
 

@@ -28,7 +28,7 @@ void ServedTimer::begin(MotionTiming wanted) {
   news_.notify_one();
 }
 
-std::optional<MotionTimes> ServedTimer::take() {
+std::optional<MotionTimes> ServedTimer::take_times() {
   const std::lock_guard lock(mutex_);
   return std::exchange(found_, std::nullopt);
 }

@@ -20,7 +20,7 @@ class ServedTimer final : public MotionTimer {
   ServedTimer(const ServedTimer&) = delete;
   ServedTimer& operator=(const ServedTimer&) = delete;
   void begin(MotionTiming wanted) override;
-  std::optional<MotionTimes> take() override;
+  std::optional<MotionTimes> take_times() override;
 
  private:
   void run();

@@ -94,7 +94,7 @@ std::optional<HeightField> target_of(const SimulateArguments& arguments, const W
   const StockJob job{std::move(*reader), *options, wishes.machine ? &*wishes.machine : nullptr};
   const FeedLook look = shown_feeds(job, wishes.stock, findings);
   if (findings.any_error()) return std::nullopt;
-  const auto tools = told_shapes(job, wishes.stock, look);
+  const auto tools = shapes_or_message(job, wishes.stock, look);
   if (!tools) return std::nullopt;
   cut(job, wishes, look, *tools, threads, target);
   return target;
@@ -139,9 +139,9 @@ int simulate_job(const SimulateArguments& arguments, const Wishes& wishes, const
   const FeedLook look = shown_feeds(job, wishes.stock, errors);
   if (errors.any_error()) return exit_bad_program;
   if (look.moves == 0) return fail(exit_bad_program, "the program has no move [simulate.no-move]");
-  const auto tools = told_shapes(job, wishes.stock, look);
+  const auto tools = shapes_or_message(job, wishes.stock, look);
   if (!tools) return exit_bad_program;
-  std::optional<HeightField> field = told_field(wishes.stock, look);
+  std::optional<HeightField> field = field_or_message(wishes.stock, look);
   if (!field) return exit_bad_program;
   const unsigned threads = arguments.threads > 0 ? arguments.threads : std::thread::hardware_concurrency();
 

@@ -42,13 +42,13 @@ bool add_tool_shapes(const std::string& path, StockWishes& wishes) {
 
 FeedLook shown_feeds(const StockJob& job, const StockWishes& wishes, Diagnostics& findings) {
   FindingsDisplay display(findings);
-  FeedLook look = look_at_feeds(job, wishes, findings, [&display] { display.update(); });
+  FeedLook look = survey_feeds(job, wishes, findings, [&display] { display.update(); });
   display.finish();
   return look;
 }
 
-std::optional<std::vector<ToolShape>> told_shapes(const StockJob& job, const StockWishes& wishes,
-                                                  const FeedLook& look) {
+std::optional<std::vector<ToolShape>> shapes_or_message(const StockJob& job, const StockWishes& wishes,
+                                                        const FeedLook& look) {
   auto shapes = shapes_of(job, wishes, look);
   if (shapes) return std::move(*shapes);
   Diagnostics findings;
@@ -65,7 +65,7 @@ std::optional<std::vector<ToolShape>> told_shapes(const StockJob& job, const Sto
   return std::nullopt;
 }
 
-std::optional<HeightField> told_field(const StockWishes& wishes, const FeedLook& look) {
+std::optional<HeightField> field_or_message(const StockWishes& wishes, const FeedLook& look) {
   auto field = stock_field(wishes, look);
   if (field) return std::move(*field);
   const std::string& words = field.error().message;

@@ -17,11 +17,12 @@ Result<StockWishes, std::string> stock_wishes(const StockArguments& arguments);
 // Reads a file of tools into the wishes. A tool of an option keeps its shape. False, with a message: the file is wrong.
 bool add_tool_shapes(const std::string& path, StockWishes& wishes);
 
-// look_at_feeds() that shows the findings as they come.
+// survey_feeds() that shows the findings as they come.
 FeedLook shown_feeds(const StockJob& job, const StockWishes& wishes, Diagnostics& findings);
 // Nothing, with a message: a tool has no shape.
-std::optional<std::vector<ToolShape>> told_shapes(const StockJob& job, const StockWishes& wishes, const FeedLook& look);
+std::optional<std::vector<ToolShape>> shapes_or_message(const StockJob& job, const StockWishes& wishes,
+                                                        const FeedLook& look);
 // Nothing, with a message: there is no such stock.
-std::optional<HeightField> told_field(const StockWishes& wishes, const FeedLook& look);
+std::optional<HeightField> field_or_message(const StockWishes& wishes, const FeedLook& look);
 
 }  // namespace passo

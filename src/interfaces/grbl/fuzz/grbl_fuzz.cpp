@@ -33,27 +33,27 @@ class Bench {
     if (byte == '\n' || byte == '\r') ++line_ends_;
     const char c = static_cast<char>(byte);
     grbl_.receive({&c, 1});
-    turn(Seconds(0));
+    poll(Seconds(0));
   }
   void pass(Seconds time) {
     for (const Seconds end = session_.now() + time; session_.now() < end && session_.now() < longest_play;) {
-      turn(one_turn);
+      poll(one_turn);
     }
   }
   void come_to_rest() {
     greeted_ = false;
     take(0x18);
     const Seconds end = session_.now() + longest_reset;
-    while (!greeted_ && session_.now() < end) turn(one_turn);
+    while (!greeted_ && session_.now() < end) poll(one_turn);
     require(greeted_, "a reset does not greet");
     // Start lines may move the machine again.
     pass(Seconds(1));
   }
 
  private:
-  void turn(Seconds most) {
-    session_.turn(most);
-    grbl_.turn(session_.take_changes());
+  void poll(Seconds most) {
+    session_.poll(most);
+    grbl_.poll(session_.take_changes());
     for (const std::string& text : grbl_.take_replies()) look(text);
     require(answers_ <= line_ends_, "more answers than lines");
   }

@@ -20,7 +20,7 @@ Heard hear(std::string_view bytes) {
   for (const char c : bytes) {
     input.receive(std::string_view(&c, 1), [&](std::uint8_t byte) { heard.commands.push_back(byte); });
   }
-  while (const auto line = input.take_line()) heard.lines.push_back(line->text + (line->too_long ? "..." : ""));
+  while (const auto line = input.pop_line()) heard.lines.push_back(line->text + (line->too_long ? "..." : ""));
   return heard;
 }
 
@@ -72,8 +72,8 @@ TEST(GrblInput, room_is_told_truly_and_no_byte_is_dropped) {
   std::size_t lines = 1;
   for (; input.wants_more(); ++lines) input.receive("G1X10\n", ignore);
   EXPECT_EQ(input.free(), 0U);
-  for (; lines > 0; --lines) EXPECT_EQ(input.take_line()->text, "G1X10");
-  EXPECT_FALSE(input.take_line());
+  for (; lines > 0; --lines) EXPECT_EQ(input.pop_line()->text, "G1X10");
+  EXPECT_FALSE(input.pop_line());
   EXPECT_EQ(input.free(), GrblInput::told_size);
 }
 

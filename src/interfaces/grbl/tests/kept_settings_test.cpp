@@ -57,7 +57,7 @@ TEST(KeptSettings, change_one_line_each_and_keep_its_comment) {
     const auto after = kept.with(one.number, one.value, reason);
     ASSERT_TRUE(after) << one.number << reason;
     EXPECT_EQ(changed_lines(text, *after), one.lines);
-    kept.take(*after);
+    kept.set_text(*after);
     EXPECT_EQ(value_of(kept, one.number), one.shown);
   }
 }

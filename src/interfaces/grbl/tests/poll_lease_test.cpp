@@ -6,8 +6,8 @@ namespace passo {
 namespace {
 
 void ask(PollLease& lease, double at) {
-  lease.note_byte(Seconds(at));
-  lease.note_question(Seconds(at));
+  lease.on_byte(Seconds(at));
+  lease.on_question(Seconds(at));
 }
 
 TEST(PollLease, is_over_when_a_sender_that_asked_is_silent_for_its_pace_and_a_quarter_second) {
@@ -15,7 +15,7 @@ TEST(PollLease, is_over_when_a_sender_that_asked_is_silent_for_its_pace_and_a_qu
   for (const double at : {10.0, 10.2, 10.4}) ask(lease, at);
   EXPECT_FALSE(lease.is_over(Seconds(10.8)));
   EXPECT_TRUE(lease.is_over(Seconds(10.9)));
-  lease.note_byte(Seconds(10.8));
+  lease.on_byte(Seconds(10.8));
   EXPECT_FALSE(lease.is_over(Seconds(10.9))) << "any byte shows that the sender lives";
   lease.end();
   EXPECT_FALSE(lease.is_over(Seconds(100)));

@@ -79,7 +79,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   passo::Caller caller(passo::server().port(), {reinterpret_cast<const char*>(data), size});
   for (int i = 0; i < passo::turns; ++i) {
-    passo::server().turn();
+    passo::server().poll();
     passo::server().publish("news");
     caller.look();
   }

@@ -93,7 +93,7 @@ class WebServerTest : public testing::Test {
   bool turn_until(Condition condition, std::initializer_list<Caller*> callers) {
     for (int i = 0; i < 200'000 && !condition(); ++i) {
       for (Caller* const one : callers) one->look();
-      server->turn();
+      server->poll();
       if (i > 1000) usleep(100);
     }
     return condition();
@@ -178,11 +178,11 @@ TEST_F(WebServerTest, takes_few_large_bodies_at_once) {
     callers.push_back(std::make_unique<Caller>(server->port()));
     callers.back()->send(upload);
     ASSERT_TRUE(turn_until([&] { return callers.back()->has_sent(); }, {callers.back().get()}));
-    for (int turns = 0; turns < 50; ++turns) server->turn();
+    for (int turns = 0; turns < 50; ++turns) server->poll();
   }
   EXPECT_EQ(status_of(answer_to(upload)), "HTTP/1.1 503 Service Unavailable");
   callers[0].reset();  // gives up
-  for (int turns = 0; turns < 50; ++turns) server->turn();
+  for (int turns = 0; turns < 50; ++turns) server->poll();
   callers[1]->send(std::string(900'000, 'x'));
   ASSERT_TRUE(turn_until([&] { return echo.answered == 1; }, {callers[1].get()}));
   EXPECT_EQ(echo.last.path, "/upload");
@@ -225,7 +225,7 @@ TEST_F(WebServerTest, lets_a_slow_watcher_skip_messages) {
   for (int i = 0; i < 400; ++i) {
     server->publish(std::to_string(i) + std::string(65'000, 'x'));
     for (int turns = 0; turns < 20; ++turns) {
-      server->turn();
+      server->poll();
       quick->look();
     }
     usleep(1000);
@@ -249,7 +249,7 @@ TEST_F(WebServerTest, sends_a_watcher_away_that_asks_and_does_not_read_or_says_t
   for (int i = 0; i < 200'000; ++i) greedy->send(frame("question"));
   for (int i = 0; i < 200'000 && server->watchers() > 0; ++i) {
     greedy->look(false);
-    server->turn();
+    server->poll();
   }
   EXPECT_EQ(server->watchers(), 0U);
   const auto wordy = watcher();
@@ -276,7 +276,7 @@ TEST_F(WebServerTest, tells_its_owner_what_to_sleep_for) {
   const auto is_done = [&] { return uploads.closed && downloads.closed && !one->heard.empty(); };
   for (int i = 0; i < 200'000 && !is_done(); ++i) {
     for (Caller* const each : {&uploads, &downloads, one.get()}) each->look();
-    if (is_ready()) server->turn();
+    if (is_ready()) server->poll();
     if (i > 1000) usleep(100);
   }
   EXPECT_TRUE(is_done());
@@ -290,7 +290,7 @@ TEST_F(WebServerTest, outlives_clients_that_go_amid_everything) {
     Caller caller(server->port());
     caller.send(get("/large"));
     caller.look();
-    for (int turns = 0; turns < i; ++turns) server->turn(1);
+    for (int turns = 0; turns < i; ++turns) server->poll(1);
   }
   EXPECT_EQ(status_of(answer_to(get("/"))), "HTTP/1.1 200 OK");
   EXPECT_TRUE(turn_until([&] { return server->connections() == 0; }, {}));
@@ -328,7 +328,7 @@ TEST_F(WebServerTest, outlives_random_bytes) {
     caller.send(bytes);
     for (int turns = 0; turns < 20; ++turns) {
       caller.look();
-      server->turn();
+      server->poll();
     }
   }
   EXPECT_EQ(status_of(answer_to(get("/"))), "HTTP/1.1 200 OK");
@@ -365,7 +365,7 @@ TEST_F(WebServerTest, does_not_wake_its_owner_for_a_newcomer_it_cannot_let_in) {
   rlimit none = before;
   none.rlim_cur = static_cast<rlim_t>(taken.back()) + 1;
   setrlimit(RLIMIT_NOFILE, &none);
-  server->turn();
+  server->poll();
   std::vector<pollfd> all;
   server->add_to(all);
   const int ready = poll(all.data(), all.size(), 0);
@@ -405,7 +405,7 @@ TEST_F(FewConnections, stay_with_who_is_sending_while_others_have_not_asked) {
   Caller sends(server->port());
   sends.send("POST /upload HTTP/1.1\r\nHost: localhost\r\nContent-Length: 9\r\nConnection: close\r\n\r\nhalf");
   ASSERT_TRUE(turn_until([&] { return sends.has_sent() && server->connections() == 1; }, {&sends}));
-  server->turn();
+  server->poll();
   for (int i = 0; i < 10; ++i) {
     std::vector<std::unique_ptr<Caller>> slow;
     for (int k = 0; k < 5; ++k) {
@@ -429,7 +429,7 @@ TEST_F(FewConnections, go_to_who_comes_however_slow_the_others_are) {
                                  : "POST /upload HTTP/1.1\r\nHost: localhost\r\nContent-Length: 9\r\n\r\nhalf");
     for (int k = 0; k < 20; ++k) {
       slow.back()->look(false);
-      server->turn();
+      server->poll();
     }
     EXPECT_EQ(status_of(answer_to(get("/"))), "HTTP/1.1 200 OK") << i;
   }

@@ -210,7 +210,7 @@ TEST(CutterCompensation, radius_and_orientation_come_from_the_tool_table_and_the
     for (const char* const text : {expected.start, "G0 Z10", "M0"}) {
       Block block;
       ASSERT_TRUE(parser.parse(text, ++line, block, diagnostics));
-      reporter.look_at(block, file);
+      reporter.set_block(block, file);
       executor.execute(block);
     }
     EXPECT_TRUE(diagnostics.all().empty()) << render(diagnostics, false);

@@ -79,7 +79,7 @@ TEST(Probing, goes_on_from_where_the_machine_rests_with_what_it_found) {
   outcome.contact[Axis::x] = 6;
   outcome.rest[Axis::x] = 6.25;
   AnswerBook answers;
-  answers.note(outcome);
+  answers.record(outcome);
   const Interpreted result = interpret_text(
       "G21 G10 L2 P1 X1 F100\nG38.2 X10\n(debug,#5061 #5070 #5420)\nG91 G0 X1\nM2\n", InterpreterOptions(), answers);
   EXPECT_THAT(result.calls(), HasSubstr("MESSAGE(\"5.000000 1.000000 5.250000\")\n"));
@@ -100,7 +100,7 @@ TEST(Probing, that_failed_ends_the_program_at_its_line) {
   }
   EXPECT_FALSE(interpret_text("G21 F100\nG38.3 X10\nG0 X11\nM2\n", options, answers).diagnostics.any_error());
   outcome.refused = true;
-  answers.note(outcome);
+  answers.record(outcome);
   for (const char* any : {"G38.2", "G38.3", "G38.4", "G38.5"}) {
     const Interpreted refused = interpret_text("G21 F100\n" + std::string(any) + " X10\nM2\n", options, answers);
     ASSERT_EQ(refused.diagnostics.errors(), 1U);

@@ -49,7 +49,7 @@ TEST_F(PlannerHoldsTest, tell_the_planner_again_what_remains) {
 }
 
 TEST_F(PlannerHoldsTest, note_reasons_at_rest_without_a_word_to_the_planner) {
-  holds.note(HoldReason::program_stop);
+  holds.set(HoldReason::program_stop);
   EXPECT_TRUE(holds.any_of(lasting_holds));
   EXPECT_FALSE(comes_to_rest());
 }

@@ -44,14 +44,14 @@ TEST(PulledItems, lose_the_first_ones_when_they_are_sent) {
 TEST(PulledItems, know_how_the_path_goes_on) {
   PulledItems items;
   EXPECT_TRUE(items.goes_on());
-  items.note_hold();
+  items.record_hold();
   EXPECT_FALSE(items.goes_on());
   EXPECT_TRUE(items.take_hold());
   EXPECT_FALSE(items.take_hold());
-  items.note_action({.kind = Action::Kind::await_line});
+  items.record_action({.kind = Action::Kind::await_line});
   EXPECT_FALSE(items.goes_on());
   EXPECT_EQ(items.take_action().kind, Action::Kind::await_line);
-  items.note_end();
+  items.record_end();
   EXPECT_TRUE(items.ends());
   items.clear();
   EXPECT_TRUE(items.goes_on());

@@ -29,7 +29,7 @@ TEST(RefillPace, expects_slower_answers_after_a_late_one_and_forgets_them_slowly
   pace.attend(Attention::probes, Seconds(0.004));
   const Seconds before = pace.horizon();
   EXPECT_FALSE(pace.take_question());
-  pace.note_question();
+  pace.on_question();
   EXPECT_TRUE(pace.take_question());
   EXPECT_FALSE(pace.judge(Seconds(0.03))) << "more than twice the time expected";
   EXPECT_GT(pace.horizon(), before);
@@ -47,7 +47,7 @@ TEST(RefillPace, after_a_thread_grows_refill_by_refill) {
   EXPECT_LT(following, options.horizon);
   pace.attend(Attention::none, Seconds(0.004));
   EXPECT_EQ(pace.horizon(), following);
-  for (int i = 0; i < 10; ++i) pace.note_refill();
+  for (int i = 0; i < 10; ++i) pace.record_refill();
   EXPECT_EQ(pace.horizon(), options.horizon);
 }
 

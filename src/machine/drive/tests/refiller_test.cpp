@@ -168,27 +168,27 @@ class RefillerTest : public testing::TestWithParam<double> {
   };
 
   template <class Each>
-  static Feed::Turn play(Street& street, const Each& each) {
+  static Feed::Progress play(Street& street, const Each& each) {
     for (int turn = 0; turn < 1'000'000; ++turn) {
       each(turn);
-      const Feed::Turn told = street.refiller.advance();
-      if (told == Feed::Turn::waits) {
+      const Feed::Progress told = street.refiller.advance();
+      if (told == Feed::Progress::waits) {
         street.board.go_on();
-      } else if (told != Feed::Turn::goes_on) {
+      } else if (told != Feed::Progress::goes_on) {
         return told;
       }
     }
     ADD_FAILURE() << "it never ends";
-    return Feed::Turn::ended;
+    return Feed::Progress::ended;
   }
-  static Feed::Turn play(Street& street) {
+  static Feed::Progress play(Street& street) {
     return play(street, [](int) {});
   }
 };
 
 TEST_P(RefillerTest, keeps_a_board_with_many_places_going_without_a_rest) {
   Street street({line(0, 30, 80), line(30, 60, 40)}, 240);
-  EXPECT_EQ(play(street), Feed::Turn::ended);
+  EXPECT_EQ(play(street), Feed::Progress::ended);
   EXPECT_FALSE(street.board.error());
   EXPECT_EQ(street.board.steps(), 6000);
   EXPECT_EQ(street.ledger().recoveries(), 0);
@@ -200,7 +200,7 @@ TEST_P(RefillerTest, takes_up_again_where_the_tail_came_to_rest) {
   Street street({line(0, 30, 80), line(30, 60, 40)}, 240);
   // Deaf for 200 turns, three times.
   const auto each = [&](int turn) { street.board.deaf = turn % 400 > 100 && turn % 400 < 300 && turn < 1200; };
-  EXPECT_EQ(play(street, each), Feed::Turn::ended);
+  EXPECT_EQ(play(street, each), Feed::Progress::ended);
   EXPECT_FALSE(street.board.error());
   EXPECT_EQ(street.board.steps(), 6000);
   EXPECT_EQ(street.board.reversals(), 0);
@@ -211,7 +211,7 @@ TEST_P(RefillerTest, never_sends_more_than_a_board_with_few_places_holds) {
   for (const std::size_t places : {16U, 24U, 31U}) {
     SCOPED_TRACE(places);
     Street street({line(0, 30, 80), line(30, 60, 40)}, places);
-    EXPECT_EQ(play(street), Feed::Turn::ended);
+    EXPECT_EQ(play(street), Feed::Progress::ended);
     EXPECT_FALSE(street.board.error());
     EXPECT_EQ(street.board.steps(), 6000);
     EXPECT_LE(street.board.most_held(), places);
@@ -227,7 +227,7 @@ TEST_P(RefillerTest, goes_slower_where_tails_are_long) {
     circles.emplace_back(circle);
   }
   Street street(circles, 14);
-  EXPECT_EQ(play(street), Feed::Turn::ended);
+  EXPECT_EQ(play(street), Feed::Progress::ended);
   EXPECT_FALSE(street.board.error());
   EXPECT_EQ(street.board.steps(), 0);
   EXPECT_GT(street.ledger().slowdowns(), 0);
@@ -248,7 +248,7 @@ TEST_P(RefillerTest, goes_slower_where_tails_are_long_and_an_axis_mostly_turns) 
     lines.emplace_back(turn);
   }
   Street street(lines, 14, Axis::a);
-  EXPECT_EQ(play(street), Feed::Turn::ended);
+  EXPECT_EQ(play(street), Feed::Progress::ended);
   EXPECT_FALSE(street.board.error());
   EXPECT_EQ(street.board.steps(), 30'000);
   EXPECT_GT(street.ledger().slowdowns(), 0);
@@ -256,7 +256,7 @@ TEST_P(RefillerTest, goes_slower_where_tails_are_long_and_an_axis_mostly_turns) 
 
 TEST_P(RefillerTest, sends_a_dwell_of_hours_to_a_board_with_few_places) {
   Street street({line(0, 10, 80), Action{.kind = Action::Kind::dwell, .dwell = Seconds(7200)}, line(10, 20, 80)}, 16);
-  EXPECT_EQ(play(street), Feed::Turn::ended);
+  EXPECT_EQ(play(street), Feed::Progress::ended);
   EXPECT_FALSE(street.board.error());
   EXPECT_EQ(street.board.steps(), 2000);
   EXPECT_NEAR(street.board.ticks() / 1e6, 7205, 5);
@@ -264,7 +264,7 @@ TEST_P(RefillerTest, sends_a_dwell_of_hours_to_a_board_with_few_places) {
 
 TEST_P(RefillerTest, says_so_where_a_board_has_too_few_places_at_any_speed) {
   Street street({line(0, 10, 80)}, 2);
-  EXPECT_EQ(play(street), Feed::Turn::ended);
+  EXPECT_EQ(play(street), Feed::Progress::ended);
   EXPECT_EQ(street.board.error(), LinkError::too_few_places);
 }
 
@@ -273,12 +273,12 @@ TEST_P(RefillerTest, rests_in_a_hold_and_goes_on) {
   const auto hold = [&](int turn) {
     if (turn == 40) street.planner.hold();
   };
-  ASSERT_EQ(play(street, hold), Feed::Turn::rests_in_hold);
+  ASSERT_EQ(play(street, hold), Feed::Progress::rests_in_hold);
   EXPECT_FALSE(street.board.busy());
   EXPECT_GT(street.board.steps(), 100);
   EXPECT_LT(street.board.steps(), 5900);
   street.planner.resume();
-  EXPECT_EQ(play(street), Feed::Turn::ended);
+  EXPECT_EQ(play(street), Feed::Progress::ended);
   EXPECT_EQ(street.board.steps(), 6000);
   EXPECT_EQ(street.ledger().recoveries(), 0);
 }

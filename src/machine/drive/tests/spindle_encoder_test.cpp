@@ -12,14 +12,14 @@ constexpr Hertz clock_rate{1e6};
 
 // A shaft that turns evenly, as a board would tell of it.
 struct Shaft {
-  double turns_a_second = 10;
+  double turns_per_second = 10;
   int counts = 1000;
   std::uint32_t first_count = 0;
   std::uint32_t first_tick = 0;
   double index_off = 0;  // counts, by which the index is told wrong
 
   SpindleCount at(double seconds) const {
-    const double turns = turns_a_second * seconds;
+    const double turns = turns_per_second * seconds;
     const double last = turns < 0 ? std::ceil(turns) : std::floor(turns);
     const auto plus = [this](double way) { return first_count + static_cast<std::uint32_t>(std::llround(way)); };
     return {.count = plus(std::floor(turns * counts)),
@@ -46,7 +46,7 @@ TEST(SpindleEncoder, puts_counts_and_ticks_together_where_they_wrap) {
 }
 
 TEST(SpindleEncoder, counts_either_way_round) {
-  const SpindleEncoder encoder = read_for({.turns_a_second = -10, .first_count = 100}, 1.05);
+  const SpindleEncoder encoder = read_for({.turns_per_second = -10, .first_count = 100}, 1.05);
   EXPECT_NEAR(encoder.now().turns, -10.5, 0.5);
   EXPECT_NEAR(*encoder.index(), -10, 0.0011);
   EXPECT_FALSE(encoder.is_wrong());

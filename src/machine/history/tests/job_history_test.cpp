@@ -40,9 +40,9 @@ TEST_F(JobHistoryTest, keeps_where_a_job_has_waited) {
     history->add("a.ngc", "linuxcnc", "M2\n", 10);
     history->add("b.ngc", "linuxcnc", "M2\n", 10);
     history->begin(1, 20);
-    EXPECT_TRUE(history->note_wait(1, tool));
-    EXPECT_TRUE(history->note_wait(1, stop));
-    for (int i = 0; i < 40; ++i) history->note_wait(2, stop);
+    EXPECT_TRUE(history->record_wait(1, tool));
+    EXPECT_TRUE(history->record_wait(1, stop));
+    for (int i = 0; i < 40; ++i) history->record_wait(2, stop);
     history->end(1, HistoryState::done, "", 30);
   }
   const auto history = open();
@@ -55,7 +55,7 @@ TEST_F(JobHistoryTest, keeps_the_sentence_beside_the_words) {
     const auto history = open();
     history->add_running("a.ngc", "linuxcnc", "M2\n", 10);
     EXPECT_TRUE(history->end(1, HistoryState::failed, "stopped", 20, R"({"code":"job.stopped"})"));
-    EXPECT_TRUE(history->note_alarm("lost", 21, R"({"code":"link.no-answer"})"));
+    EXPECT_TRUE(history->record_alarm("lost", 21, R"({"code":"link.no-answer"})"));
     history->add_running("b.ngc", "linuxcnc", "M2\n", 30);  // and the server is killed
   }
   const auto history = open();
@@ -71,7 +71,7 @@ TEST_F(JobHistoryTest, gives_each_of_many_jobs_its_own_waits) {
   for (std::uint32_t job = 1; job <= 20; ++job) {
     history->add_running("part.ngc", "linuxcnc", "M0\n", job);
     for (std::uint32_t line = 0; line < job % 4; ++line) {
-      EXPECT_TRUE(history->note_wait(job, {.at = 1.0 * job, .code = "M0", .line = 10 * job + line, .words = ""}));
+      EXPECT_TRUE(history->record_wait(job, {.at = 1.0 * job, .code = "M0", .line = 10 * job + line, .words = ""}));
     }
     EXPECT_TRUE(history->end(job, HistoryState::done, "", job));
   }
@@ -94,7 +94,7 @@ TEST_F(JobHistoryTest, keeps_what_waits_and_what_has_ended) {
     EXPECT_TRUE(history->begin(1, 20));
     EXPECT_TRUE(history->end(1, HistoryState::done, "", 30));
     EXPECT_TRUE(history->remove(3));
-    EXPECT_TRUE(history->note_alarm("the board was lost", 31));
+    EXPECT_TRUE(history->record_alarm("the board was lost", 31));
   }
   const auto history = open();
   const auto queue = history->queue();
@@ -249,7 +249,7 @@ TEST_F(JobHistoryTest, writes_what_has_happened_when_the_disk_has_room_again) {
     EXPECT_FALSE(history->begin(*second, 2));
     EXPECT_FALSE(history->remove(*second));
     EXPECT_FALSE(history->end(*first, HistoryState::failed, "why", 3));
-    EXPECT_FALSE(history->note_alarm("lost", 3));
+    EXPECT_FALSE(history->record_alarm("lost", 3));
     EXPECT_FALSE(history->keep());
     EXPECT_TRUE(history->is_behind());
     ASSERT_EQ(history->ended(1).size(), 1U) << "it is shown meanwhile";

@@ -33,10 +33,10 @@ TEST_F(JournalFiles, keep_what_a_writer_writes) {
   head.numbers.greeting = 7;
   head.numbers.session = 99;
   writer.begin(head);
-  writer.note(BoardRest{.executed = 20, .place = {.item = 4, .s = Mm(2)}});
+  writer.record(BoardRest{.executed = 20, .place = {.item = 4, .s = Mm(2)}});
   ProbeOutcome touched;
   touched.touched = true;
-  writer.note(touched);
+  writer.record(touched);
   EXPECT_FALSE(writer.failed());
   const FoundJournal found = JournalFile(path_).find();
   ASSERT_EQ(found.kind, Kind::whole);

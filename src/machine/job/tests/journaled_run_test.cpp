@@ -69,10 +69,10 @@ class TakenUpJobs : public testing::Test, public JobKeeper {
   TakenUpJobs() {
     JournalWriter writer(store_);
     writer.begin(some_head());
-    writer.note(BoardRest{.executed = 20, .place = {.item = 4, .s = Mm(2)}});
+    writer.record(BoardRest{.executed = 20, .place = {.item = 4, .s = Mm(2)}});
   }
   std::optional<BrokenOff> take(bool outlives_host = true) {
-    return take_up(*this, run_, status_, {.session = 123, .number = 9}, outlives_host);
+    return resume_job(*this, run_, status_, {.session = 123, .number = 9}, outlives_host);
   }
   JournalStore& store() override { return store_; }
   std::string read() override { return store_.bytes; }

@@ -40,7 +40,7 @@ class Journals : public testing::Test {
     return read.value_or(Journal());
   }
   void note(ItemNumber executed, std::uint64_t item, double s = 0) {
-    writer_.note({.executed = executed, .place = {.item = item, .s = Mm(s)}});
+    writer_.record({.executed = executed, .place = {.item = item, .s = Mm(s)}});
   }
 
   test::MemoryStore store_;
@@ -54,11 +54,11 @@ TEST_F(Journals, give_back_what_was_written_to_the_last_bit) {
 }
 
 TEST_F(Journals, give_back_what_probe_moves_have_found_before_the_session_and_in_it) {
-  writer_.note(touched_at(-1.0 / 7));
+  writer_.record(touched_at(-1.0 / 7));
   note(201, 41);
   ProbeOutcome refused;
   refused.refused = true;
-  writer_.note(refused);
+  writer_.record(refused);
   const std::vector<ProbeOutcome> all = {touched_at(0.1), touched_at(-1.0 / 7), refused};
   EXPECT_EQ(journal().head().probes, all);
   EXPECT_EQ(journal().place_of(status(300, 201)), (PathPlace{.item = 41}));
@@ -67,9 +67,9 @@ TEST_F(Journals, give_back_what_probe_moves_have_found_before_the_session_and_in
 // What is torn is the last outcome, behind which nothing has moved.
 TEST_F(Journals, know_only_outcomes_that_are_whole) {
   const std::size_t first = store_.bytes.size();
-  writer_.note(touched_at(2));
+  writer_.record(touched_at(2));
   const std::size_t second = store_.bytes.size();
-  writer_.note(touched_at(3));
+  writer_.record(touched_at(3));
   const std::string whole = store_.bytes;
   for (std::size_t size = first; size <= whole.size(); ++size) {
     const auto torn = Journal::read(whole.substr(0, size));
@@ -96,9 +96,9 @@ TEST_F(Journals, know_the_rests_of_their_session_and_no_others) {
 
 TEST_F(Journals, know_what_is_surely_executed) {
   EXPECT_EQ(journal().done(), some_head().place);
-  writer_.note({.executed = 230, .place = {.item = 44, .s = Mm(1)}, .done = {.item = 41, .s = Mm(0.25)}});
+  writer_.record({.executed = 230, .place = {.item = 44, .s = Mm(1)}, .done = {.item = 41, .s = Mm(0.25)}});
   EXPECT_EQ(journal().done(), some_head().place) << "a refill later";
-  writer_.note({.executed = 260, .place = {.item = 46, .s = Mm(0)}, .done = {.item = 43, .s = Mm(0)}});
+  writer_.record({.executed = 260, .place = {.item = 46, .s = Mm(0)}, .done = {.item = 43, .s = Mm(0)}});
   EXPECT_EQ(journal().done(), (PathPlace{.item = 41, .s = Mm(0.25)}));
   EXPECT_EQ(journal().farthest(), (PathPlace{.item = 46, .s = Mm(0)}));
 }

@@ -118,7 +118,7 @@ class Resumptions : public testing::Test {
     head.numbers.greeting = 7;
     head.numbers.session = 99;
     writer.begin(head);
-    writer.note({.executed = 20, .place = {.item = 4, .s = Mm(2)}});
+    writer.record({.executed = 20, .place = {.item = 4, .s = Mm(2)}});
     status_.positions[0] = 1300;
     status_.positions[1] = -250;
   }

@@ -49,7 +49,7 @@ TEST(SentSegments, tell_the_pulses_of_the_player_to_the_tick) {
       }
     });
   }
-  const PulseWindow all = sent.look(Seconds(0), whole_time, whole_time, played.size());
+  const PulseWindow all = sent.window(Seconds(0), whole_time, whole_time, played.size());
   ASSERT_EQ(all.pulses.size(), played.size());
   for (std::size_t i = 0; i < played.size(); ++i) {
     ASSERT_NEAR(all.pulses[i].time.value(), played[i].time.value(), 1e-9) << i;
@@ -58,7 +58,7 @@ TEST(SentSegments, tell_the_pulses_of_the_player_to_the_tick) {
   }
   // A window amid them has the same pulses, and its counts are what came before.
   const std::size_t first = played.size() / 3;
-  const PulseWindow some = sent.look(all.pulses[first].time, all.pulses[2 * first].time, whole_time, 100);
+  const PulseWindow some = sent.window(all.pulses[first].time, all.pulses[2 * first].time, whole_time, 100);
   ASSERT_EQ(some.pulses.size(), 100U);
   EXPECT_EQ(some.pulses.front().time, all.pulses[first].time);
   EXPECT_EQ(some.end, some.pulses.back().time);
@@ -77,17 +77,17 @@ TEST(SentSegments, know_no_pulse_later_than_now_and_none_that_was_replaced) {
   steps.flips = 1;
   SentSegments sent;
   sent.add(1, steps, Seconds(0));
-  EXPECT_TRUE(sent.look(Seconds(0), whole_time, whole_time, 9999).pulses.empty());  // it keeps none
+  EXPECT_TRUE(sent.window(Seconds(0), whole_time, whole_time, 9999).pulses.empty());  // it keeps none
   sent.keep(rate);
   sent.begin(1);
   sent.add(1, steps, Seconds(5));
   sent.add(2, steps, Seconds(5));
-  EXPECT_EQ(sent.look(Seconds(0), whole_time, Seconds(5.0505), 9999).pulses.size(), 50U);
-  EXPECT_EQ(sent.look(Seconds(0), whole_time, whole_time, 9999).pulses.size(), 200U);
+  EXPECT_EQ(sent.window(Seconds(0), whole_time, Seconds(5.0505), 9999).pulses.size(), 50U);
+  EXPECT_EQ(sent.window(Seconds(0), whole_time, whole_time, 9999).pulses.size(), 200U);
   sent.drop_behind(1);
   sent.add(2, tenth, Seconds(5.01));
   sent.add(3, steps, Seconds(7));  // after a rest
-  const PulseWindow window = sent.look(Seconds(0), whole_time, whole_time, 9999);
+  const PulseWindow window = sent.window(Seconds(0), whole_time, whole_time, 9999);
   ASSERT_EQ(window.pulses.size(), 200U);
   EXPECT_NEAR(window.oldest.value(), 5, 1e-6);
   EXPECT_NEAR(window.pulses[99].time.value(), 5.1, 1e-6);
@@ -101,11 +101,11 @@ TEST(SentSegments, end_where_the_probe_has_stopped_the_board) {
   sent.begin(1);
   for (std::uint16_t number = 1; number <= 3; ++number) sent.add(number, tenth, Seconds(0));
   sent.stop(Seconds(0.1505));
-  EXPECT_EQ(sent.look(Seconds(0), whole_time, whole_time, 9999).pulses.size(), 150U);
+  EXPECT_EQ(sent.window(Seconds(0), whole_time, whole_time, 9999).pulses.size(), 150U);
   const std::int32_t told[max_motors] = {148};
   sent.stand_at(told);
   sent.add(4, tenth, Seconds(1));
-  const PulseWindow window = sent.look(Seconds(1), whole_time, whole_time, 9999);
+  const PulseWindow window = sent.window(Seconds(1), whole_time, whole_time, 9999);
   EXPECT_EQ(window.pulses.size(), 100U);
   EXPECT_EQ(window.counts[0], 148);
 }
@@ -116,10 +116,10 @@ TEST(SentSegments, keep_the_last_ones) {
   sent.keep(rate);
   sent.begin(1);
   for (std::size_t i = 0; i < 2 * SentSegments::most; ++i) sent.add(static_cast<std::uint16_t>(i), one, Seconds(0));
-  const PulseWindow window = sent.look(Seconds(0), whole_time, whole_time, 99'999);
+  const PulseWindow window = sent.window(Seconds(0), whole_time, whole_time, 99'999);
   EXPECT_EQ(window.pulses.size(), SentSegments::most);
   EXPECT_EQ(window.counts[0], static_cast<std::int32_t>(SentSegments::most));
-  EXPECT_TRUE(sent.look(Seconds(1), whole_time, whole_time, 0).pulses.empty()) << "nobody wants one";
+  EXPECT_TRUE(sent.window(Seconds(1), whole_time, whole_time, 0).pulses.empty()) << "nobody wants one";
 }
 
 }  // namespace

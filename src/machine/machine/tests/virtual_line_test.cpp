@@ -13,7 +13,7 @@ constexpr LineOptions slow{.baud = 10'000, .latency = Seconds(0.002)};  // a mil
 
 class VirtualLineTest : public testing::Test {
  protected:
-  void say_hello() {
+  void send_hello() {
     std::uint8_t frame[largest_frame];
     const std::uint8_t size = encode(Hello{.motors = 1}, std::uint8_t{0}, frame);
     sent_ = size;
@@ -35,7 +35,7 @@ class VirtualLineTest : public testing::Test {
 };
 
 TEST_F(VirtualLineTest, takes_a_bytes_time_for_each_byte_and_its_latency_both_ways) {
-  say_hello();
+  send_hello();
   ASSERT_TRUE(line_.run(Seconds(1)));
   const double there = 0.001 * static_cast<double>(sent_) + 0.002;
   const double elapsed = line_.elapsed().value();
@@ -45,7 +45,7 @@ TEST_F(VirtualLineTest, takes_a_bytes_time_for_each_byte_and_its_latency_both_wa
 }
 
 TEST_F(VirtualLineTest, lets_the_time_pass_that_it_is_given_and_no_more) {
-  say_hello();
+  send_hello();
   EXPECT_FALSE(line_.run(Seconds(0.005))) << "the question is still under way";
   EXPECT_NEAR(line_.elapsed().value(), 0.005, 1e-7);
   EXPECT_EQ(hear(), 0U);
@@ -53,11 +53,11 @@ TEST_F(VirtualLineTest, lets_the_time_pass_that_it_is_given_and_no_more) {
 
 TEST_F(VirtualLineTest, swallows_what_is_sent_while_it_is_cut_and_what_is_on_the_way_when_that_begins) {
   line_.cut(Seconds(0.004), Seconds(0.1));
-  say_hello();  // arrives after more than 4 ms
+  send_hello();  // arrives after more than 4 ms
   EXPECT_FALSE(line_.run(Seconds(0.05)));
-  say_hello();
+  send_hello();
   EXPECT_FALSE(line_.run(Seconds(0.1)));
-  say_hello();
+  send_hello();
   EXPECT_TRUE(line_.run(Seconds(0.1))) << "it is whole again";
   EXPECT_GT(hear(), 0U);
 }
@@ -70,14 +70,14 @@ TEST_F(VirtualLineTest, puts_what_trouble_makes_of_the_bytes_in_their_place) {
     if (board && to_board == 1) bytes.back() ^= 1;
     return bytes;
   });
-  say_hello();
+  send_hello();
   static_cast<void>(line_.run(Seconds(0.1)));
   Decoder decoder;
   for (const std::uint8_t byte : line_.replies()) {
     if (decoder.feed(byte) != Decoded::frame) continue;
     EXPECT_NE(decoder.frame().type, MessageType::hello_reply);
   }
-  say_hello();
+  send_hello();
   ASSERT_TRUE(line_.run(Seconds(0.1)));
   EXPECT_GT(hear(), 0U);
   EXPECT_EQ(to_board, 2);

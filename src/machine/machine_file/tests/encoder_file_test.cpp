@@ -33,14 +33,14 @@ TEST(EncoderFile, only_measures_unless_told_otherwise) {
 }
 
 TEST(EncoderFile, tells_what_is_wrong) {
-  const auto words_of = [](const std::string& lines) {
+  const auto describe = [](const std::string& lines) {
     Diagnostics diagnostics;
     EXPECT_FALSE(with_encoder(lines, diagnostics));
     return render(diagnostics, false);
   };
-  EXPECT_THAT(words_of("closed_loop = true\n"), testing::HasSubstr("[axis.X.encoder] lacks counts_per_turn"));
-  EXPECT_THAT(words_of("counts_per_turn = 2\n"), testing::HasSubstr("[machine.out-of-range]"));
-  EXPECT_THAT(words_of("counts_per_turn = 400\nmost_following_error_deg = 1\n"),
+  EXPECT_THAT(describe("closed_loop = true\n"), testing::HasSubstr("[axis.X.encoder] lacks counts_per_turn"));
+  EXPECT_THAT(describe("counts_per_turn = 2\n"), testing::HasSubstr("[machine.out-of-range]"));
+  EXPECT_THAT(describe("counts_per_turn = 400\nmost_following_error_deg = 1\n"),
               testing::HasSubstr("perhaps most_following_error_mm"));
 }
 

@@ -108,7 +108,7 @@ TEST(LivePlace, tells_the_speed_between_two_answers) {
 
 TEST(LivePlace, is_asked_for_after_the_last_question_or_answer) {
   LivePlace place;
-  place.note_asked(Seconds(1));
+  place.on_asked(Seconds(1));
   EXPECT_FALSE(place.is_due(Seconds(1.01), {}, Seconds(0.02)));
   EXPECT_TRUE(place.is_due(Seconds(1.03), {}, Seconds(0.02)));
   EXPECT_FALSE(place.is_due(Seconds(1.03), Seconds(1.02), Seconds(0.02)));

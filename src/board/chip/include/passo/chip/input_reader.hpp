@@ -17,7 +17,7 @@ class InputReader {
 
   // `raw` has bits of BoardInput, set where the switch is on. `tick` means that some milliseconds have passed since the
   // last tick. `by_people`: those that are debounced. Returns the inputs that have gone on.
-  uint16_t look(uint16_t raw, bool tick, uint16_t by_people = pressed_by_people) {
+  uint16_t update(uint16_t raw, bool tick, uint16_t by_people = pressed_by_people) {
     const uint16_t before = inputs_;
     const uint16_t buttons = raw & by_people;
     if (buttons != candidate_) {

@@ -33,7 +33,7 @@ class EmulatedUart {
   std::uint64_t longest_unwatched() const { return longest_unwatched_; }
 
  private:
-  void note_look();
+  void record_poll();
   static std::uint64_t on_line_in(avr_t* avr, std::uint64_t when, void* self);
   static std::uint64_t on_line_out(avr_t* avr, std::uint64_t when, void* self);
 

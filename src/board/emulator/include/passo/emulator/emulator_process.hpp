@@ -44,7 +44,7 @@ class EmulatorProcess {
     double to = 0;
     std::uint32_t pulses_per_turn = 0;  // 0: there is none, or the emulator works out the spindle by itself
   };
-  void turn_encoder(const EncoderWay& way) { encoder_ = way; }
+  void set_encoder(const EncoderWay& way) { encoder_ = way; }
   // Runs until `cycle`. False if the emulator has died; then error() tells it. run(1, {}) shows whether it has started.
   bool run(std::uint64_t cycle, const Stops& stops);
   // Puts bytes on the board's other line at once (Pico: the UART, though its line is USB).

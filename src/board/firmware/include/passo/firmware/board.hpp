@@ -51,7 +51,7 @@ class Board : private ItemPlayer<Hardware, queue_capacity, SegmentPlayer, most_m
   }
   void receive_other(uint8_t byte) {
     const Decoded decoded = decoder_.feed_other(byte);
-    if (decoded == Decoded::frame) take(decoder_.frame());
+    if (decoded == Decoded::frame) handle(decoder_.frame());
     if (decoded == Decoded::refused) complain(WireError::bad_frame);
   }
   // Whether the host has not been told of some items that were executed or replaced; owed() is about how many.
@@ -68,9 +68,9 @@ class Board : private ItemPlayer<Hardware, queue_capacity, SegmentPlayer, most_m
     inputs_ = inputs;
     if (motors_ == 0) return;
     // The watched input is reported separately: it may go off while another goes on. Of several, those that changed.
-    if ((captured & watched()) != 0) tell_captured(captured & watched());
+    if ((captured & watched()) != 0) send_captured(captured & watched());
     captured &= static_cast<uint16_t>(~watched());
-    if (captured != 0) tell_captured(captured);
+    if (captured != 0) send_captured(captured);
   }
   // Bits of BoardInput: watched() is the one that is captured, stopping() those that stop the motors when they go on.
   uint16_t watched() const { return watch_.input(); }
@@ -92,7 +92,7 @@ class Board : private ItemPlayer<Hardware, queue_capacity, SegmentPlayer, most_m
   void count_silence() {
     silence_.count();
     if (manual_ != Manual::off || !idle() || !list_.empty()) return;
-    if (switch_off(hardware_, silence_.late())) silence_.note_off();
+    if (switch_off(hardware_, silence_.late())) silence_.set_off();
     if (trusted_ && lets_go(hardware_, silence_)) trusted_ = false;
   }
 
@@ -130,17 +130,17 @@ class Board : private ItemPlayer<Hardware, queue_capacity, SegmentPlayer, most_m
   enum class Manual : uint8_t { off, on, over };
 
   // A function of its own, so that a byte inside a frame need not save all the registers that a whole frame needs.
-  [[gnu::noinline]] void take(const WireFrame& frame) {
+  [[gnu::noinline]] void handle(const WireFrame& frame) {
     // Whoever only asks, with other motors in mind, is not the host.
     if (frame.type != MessageType::ask || frame.payload[1] == motors_) silence_.end();
     switch (frame.type) {
       case MessageType::hello: return greet(frame);
       case MessageType::session: return name_session(frame);
-      case MessageType::pin_setup: return take_setup(frame);
+      case MessageType::pin_setup: return handle_setup(frame);
       case MessageType::ask: return answer(frame);
       case MessageType::segment:
       case MessageType::outputs:
-      case MessageType::replace: return take_in_order(frame);
+      case MessageType::replace: return accept_in_order(frame);
       default: return complain(WireError::unexpected);
     }
   }
@@ -154,16 +154,16 @@ class Board : private ItemPlayer<Hardware, queue_capacity, SegmentPlayer, most_m
     settle();
   }
 
-  [[gnu::noinline]] void take_setup(const WireFrame& frame) {
+  [[gnu::noinline]] void handle_setup(const WireFrame& frame) {
     if (!idle()) return complain(WireError::unexpected);
     PinSetup setup;
     decode(frame, setup);
     is_set_up_ = true;
-    take_on(setup);
+    apply_setup(setup);
     send(setup);
   }
   // Leaves of the setup what the board can do.
-  [[gnu::noinline]] void take_on(PinSetup& setup) {
+  [[gnu::noinline]] void apply_setup(PinSetup& setup) {
     setup = set_up(hardware_, setup);
     const uint16_t ticks = setup.timing.event_ticks;
     if (ticks != 0) identity_.shortest_interval = uint32_t{static_cast<uint16_t>(ticks - 1)} << 16;
@@ -182,7 +182,7 @@ class Board : private ItemPlayer<Hardware, queue_capacity, SegmentPlayer, most_m
     }
     if (!is_set_up_) {
       PinSetup usual;
-      take_on(usual);
+      apply_setup(usual);
     }
     is_set_up_ = false;
     // A host that dislikes the answer will not go on. Until the two agree there are no segments.
@@ -229,7 +229,7 @@ class Board : private ItemPlayer<Hardware, queue_capacity, SegmentPlayer, most_m
     }
     breathe();
     const bool known = motors_ != 0 && manual_ == Manual::off;
-    if (ask.question == Question::spindle && known && has_encoder(hardware_)) return tell_spindle(frame.sequence);
+    if (ask.question == Question::spindle && known && has_encoder(hardware_)) return send_spindle(frame.sequence);
     const bool kept = ask.question == Question::kept;
     const MessageType answer = ask.question == Question::about ? MessageType::about
                                : kept                          ? MessageType::captured
@@ -238,9 +238,9 @@ class Board : private ItemPlayer<Hardware, queue_capacity, SegmentPlayer, most_m
     const uint8_t motors = kept ? motors_ : ask.motors;
     if (!has_room(motors)) return;
     if (answer == MessageType::about) return send(identity_.about);
-    if (kept) return tell_kept();
+    if (kept) return send_kept();
     if (ask.question == Question::watch) begin_watch(ask.limit);
-    tell_status(ask.motors, frame.sequence);
+    send_status(ask.motors, frame.sequence);
   }
 
   // The watch changes only at rest: motion on its way was made for the old one.
@@ -254,7 +254,7 @@ class Board : private ItemPlayer<Hardware, queue_capacity, SegmentPlayer, most_m
     if constexpr (requires { hardware_.watch(); }) hardware_.watch();
   }
 
-  [[gnu::noinline]] void tell_status(uint8_t motors, uint8_t question) {
+  [[gnu::noinline]] void send_status(uint8_t motors, uint8_t question) {
     keep_up(hardware_);
     unsigned state = watch_.state();
     if (player_.slipped()) {
@@ -286,7 +286,7 @@ class Board : private ItemPlayer<Hardware, queue_capacity, SegmentPlayer, most_m
   }
 
   // The motion's place at the tick of the count: hardly any time passes between the two.
-  [[gnu::noinline]] void tell_spindle(uint8_t question) {
+  [[gnu::noinline]] void send_spindle(uint8_t question) {
     if constexpr (requires { hardware_.spindle(); }) {
       if (!has_room()) return;
       breathe();
@@ -294,7 +294,7 @@ class Board : private ItemPlayer<Hardware, queue_capacity, SegmentPlayer, most_m
     }
   }
 
-  [[gnu::noinline]] void tell_captured(uint16_t captured) {
+  [[gnu::noinline]] void send_captured(uint16_t captured) {
     if ((captured & inputs_) == 0) captured |= captured_released;
     CapturedFor<most_motors> message{.input = captured, .item = static_cast<uint8_t>(executed_ + 1), .event = played()};
     const bool keeps = watch_.keeps(captured);
@@ -307,7 +307,7 @@ class Board : private ItemPlayer<Hardware, queue_capacity, SegmentPlayer, most_m
     send_for_motors(message, motors_);
   }
 
-  [[gnu::noinline]] void tell_kept() {
+  [[gnu::noinline]] void send_kept() {
     CapturedFor<most_motors> message{.input = watch_.kept_input()};
     for (uint8_t motor = 0; motor < motors_; ++motor) {
       breathe();
@@ -316,7 +316,7 @@ class Board : private ItemPlayer<Hardware, queue_capacity, SegmentPlayer, most_m
     send_for_motors(message, motors_);
   }
 
-  void take_in_order(const WireFrame& frame) {
+  void accept_in_order(const WireFrame& frame) {
     if (manual_ != Manual::off) return complain(WireError::manual);
     const uint8_t missing = static_cast<uint8_t>(frame.sequence - expected_);
     // A number more than half round ahead is an old one: a repeated frame, from a host that missed the answer to the

@@ -91,7 +91,7 @@ template <class Hardware>
   if constexpr (requires { hardware.release(); }) {
     if (!silence.is_over(hardware.drivers_rest())) return false;
     hardware.release();
-    silence.note_let_go();
+    silence.set_released();
     return true;
   }
   return false;

@@ -1,7 +1,7 @@
 // Follower: the first control board's program, without its hardware. Step and direction come in on lines, and windings
 // are switched. A keypad moves the machine by hand. docs/follower.md describes it for the operator.
 //
-// One loop calls turn() as fast as it can. Each turn samples the clock lines once. A line that was low in the last
+// One loop calls poll() as fast as it can. Each turn samples the clock lines once. A line that was low in the last
 // sample and is high in this one makes a step, in the direction read with the last sample. So a direction must stand
 // before its clock edge, and the longest time between two samples decides the highest rate. Therefore all work that can
 // wait (relay, keys, indicators) is done only in turns without a step, in pieces: one piece a millisecond.
@@ -50,7 +50,7 @@ class Follower {
     if constexpr (Hardware::has_keypad) hardware_.draw_column(0);
   }
 
-  void turn() {
+  void poll() {
     const uint8_t before = lines_;
     lines_ = hardware_.lines();
     const uint8_t risen = static_cast<uint8_t>(lines_ & ~before & 7);
@@ -94,17 +94,17 @@ class Follower {
       scan_.add(piece, hardware_.rows());
       hardware_.draw_column(piece_ < keypad_columns ? piece_ : uint8_t{0});
     } else if (piece == keypad_columns) {
-      look_at_keys();
+      poll_keys();
     } else {
       piece_ = 0;
-      look_at_button();
+      poll_button();
       show_mode();
     }
   }
 
-  void look_at_keys() {
+  void poll_keys() {
     const Key held = key_.value();
-    key_.look(scan_.take());
+    key_.update(scan_.take());
     if (key_.value() != held) {
       press(key_.value());
     } else if (manual_ && key_.steady() && --wait_ == 0) {
@@ -112,9 +112,9 @@ class Follower {
     }
   }
 
-  void look_at_button() {
+  void poll_button() {
     const uint8_t pushed = button_.value();
-    button_.look(hardware_.tool_button() ? 1 : 0);
+    button_.update(hardware_.tool_button() ? 1 : 0);
     if (manual_ && button_.value() > pushed) set_relay(!relay_);
   }
 

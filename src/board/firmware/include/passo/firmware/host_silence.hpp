@@ -34,10 +34,10 @@ class HostSilence {
   // A host has said hello.
   void begin() { off_ = let_go_ = false; }
   // Outputs were switched off, and no host has sent outputs since.
-  void note_off() { off_ = true; }
+  void set_off() { off_ = true; }
   void forget_off() { off_ = false; }
   // The drivers were switched off, and no host has said hello since.
-  void note_let_go() { let_go_ = true; }
+  void set_released() { let_go_ = true; }
   // Both, as bits of a status's inputs.
   uint16_t bits() const {
     return static_cast<uint16_t>((off_ ? outputs_timed_out : 0) | (let_go_ ? drivers_timed_out : 0));

@@ -39,7 +39,7 @@ class Settled {
  public:
   constexpr explicit Settled(uint8_t value) : value_(value), seen_(value) {}
 
-  void look(uint8_t now) {
+  void update(uint8_t now) {
     if (now != seen_) {
       seen_ = now;
       left_ = looks;

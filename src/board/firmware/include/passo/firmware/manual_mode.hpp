@@ -43,7 +43,7 @@ class ManualMode {
     board_.breathe();
     column_ = column_ + 1 < keypad_columns ? static_cast<uint8_t>(column_ + 1) : uint8_t{0};
     Hardware::draw_column(column_);
-    if (column_ == 0) look();
+    if (column_ == 0) poll();
   }
 
   // Call as often as possible: adds what is played next.
@@ -68,17 +68,17 @@ class ManualMode {
   static constexpr uint8_t pieces_ahead = 3;
   static constexpr uint16_t stopping = input_emergency_stop | 0xff * input_limit;
 
-  [[gnu::noinline]] void look() {
+  [[gnu::noinline]] void poll() {
     board_.breathe();
     const Key held = key_.value();
-    key_.look(scan_.take());
+    key_.update(scan_.take());
     if (key_.value() != held) press(key_.value());
     board_.breathe();
     if (!key_.steady()) runs_ = waits_ = false;
     if (waits_ && board_.rests()) start();
     if (left_ != 0 && key_.steady() && --left_ == 0) runs_ = true;
     board_.breathe();
-    look_at_button();
+    poll_button();
     board_.breathe();
     Hardware::indicators(!board_.manual(), board_.manual());
   }
@@ -118,9 +118,9 @@ class ManualMode {
     board_.jog(segment);
   }
 
-  void look_at_button() {
+  void poll_button() {
     const uint8_t pushed = button_.value();
-    button_.look(Hardware::tool_button() ? 1 : 0);
+    button_.update(Hardware::tool_button() ? 1 : 0);
     if (board_.manual() && board_.rests() && button_.value() > pushed) set_tool(!tool_);
   }
   void set_tool(bool on) {

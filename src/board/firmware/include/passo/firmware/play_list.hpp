@@ -79,7 +79,7 @@ class PlayList {
     --size_;
     front_ = slots_[slot].next;
     if (front_ == none) last_ = none;
-    give_back(slot, slot, 1);
+    release_slots(slot, slot, 1);
   }
 
   // Where to write the next item, except for its `next`. Only while free() > 0.
@@ -107,7 +107,7 @@ class PlayList {
   // Drops what was gathered and no longer waits for the rest.
   void drop_replacement() {
     if (staged_.front != none) {
-      give_back(staged_.front, staged_.last, static_cast<uint8_t>(staged_.count - staged_.missing));
+      release_slots(staged_.front, staged_.last, static_cast<uint8_t>(staged_.count - staged_.missing));
     }
     staged_ = {};
   }
@@ -135,7 +135,7 @@ class PlayList {
     const uint8_t kept = slot == none ? uint8_t{0} : place;
     uint8_t& end = slot == none ? front_ : slots_[slot].next;
     if (end != none) {
-      give_back(end, last_, static_cast<uint8_t>(size_ - kept));
+      release_slots(end, last_, static_cast<uint8_t>(size_ - kept));
     } else {
       from_rest = static_cast<uint8_t>(slots_[staged_.front].number);
     }
@@ -164,7 +164,7 @@ class PlayList {
     last = slot;
   }
   // Frees a chain of `count` slots.
-  void give_back(uint8_t first, uint8_t last, uint8_t count) {
+  void release_slots(uint8_t first, uint8_t last, uint8_t count) {
     slots_[last].next = unused_;
     unused_ = first;
     free_ = static_cast<uint8_t>(free_ + count);

@@ -13,7 +13,7 @@ namespace passo {
 class BoardMirror {
  public:
   // The last status, and when it was heard. True: the board has played events since the status before.
-  bool note(const BoardStatus& status, Seconds now);
+  bool update(const BoardStatus& status, Seconds now);
   const std::optional<BoardStatus>& status() const { return status_; }
   Seconds status_time() const { return status_time_; }
   void forget_status() { status_.reset(); }
@@ -21,36 +21,36 @@ class BoardMirror {
   std::int32_t* counts() { return status_ ? static_cast<std::int32_t*>(status_->positions) : nullptr; }
 
   // The board's answer to `about`.
-  void note(const About& about) { about_ = about; }
+  void update(const About& about) { about_ = about; }
   const std::optional<About>& about() const { return about_; }
   void forget_about() { about_.reset(); }
 
   // The last item that is done, and the room that the board had then.
-  void note_items(ItemNumber executed, int free);
-  void note_room(int free) { free_ = free; }
+  void update_items(ItemNumber executed, int free);
+  void set_room(int free) { free_ = free; }
   ItemNumber executed() const { return executed_; }
   int free() const { return free_; }
   // True: the board has all frames, holds nothing and rests.
-  void note_rest(bool rests) { rests_ = rests; }
+  void record_rest(bool rests) { rests_ = rests; }
   bool rests() const { return rests_; }
 
   // Inputs are bits of BoardInput. `ignored`: the input that captures instead of being a switch. True: one was switched
   // on.
-  bool note_inputs(const BoardStatus& status, std::uint16_t ignored);
-  bool note_pressed(std::uint16_t inputs);
+  bool update_inputs(const BoardStatus& status, std::uint16_t ignored);
+  bool record_pressed(std::uint16_t inputs);
   void set_inputs(std::uint16_t inputs) { inputs_ = inputs; }
   std::uint16_t inputs() const { return inputs_; }
   std::uint16_t take_pressed() { return std::exchange(pressed_, std::uint16_t{0}); }
 
   // The motors were stopped at once, by these inputs; without them, by those that are on.
-  void note_stop(std::uint16_t inputs);
-  void note_stop();
+  void record_stop(std::uint16_t inputs);
+  void record_stop();
   std::uint16_t stopped_by() const { return stopped_by_; }
   // The motors have stood still amid motion.
-  void note_standstill(const BoardStatus& status) { standstill_ = status; }
+  void on_standstill(const BoardStatus& status) { standstill_ = status; }
   const std::optional<BoardStatus>& standstill() const { return standstill_; }
   // The board switches its outputs off when the host is silent, until the host sends outputs.
-  void note_timeout(const BoardStatus& status, ItemNumber sent);
+  void on_timeout(const BoardStatus& status, ItemNumber sent);
   void end_timeout() { outputs_timed_out_ = false; }
   bool outputs_timed_out() const { return outputs_timed_out_; }
 

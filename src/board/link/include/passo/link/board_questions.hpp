@@ -38,9 +38,9 @@ class BoardQuestions {
   void begin_rehearsal(Seconds now) { rehearsed_ = now; }
 
   // A frame was sent: answers from before it do not count.
-  void note_sent(Seconds now);
+  void record_sent(Seconds now);
   // The board has answered after all frames. False: that was known.
-  bool note_answered(Seconds now);
+  bool on_answered(Seconds now);
   // What went before is over.
   void forget_sent() { answered_ = true; }
   bool answered() const { return answered_; }
@@ -48,7 +48,7 @@ class BoardQuestions {
   Seconds answer_time() const { return answer_time_; }
 
   // The newest answer about the spindle.
-  void note_turned(const Turned& turned) { turned_ = turned; }
+  void record_turned(const Turned& turned) { turned_ = turned; }
   std::optional<Turned> take_turned() { return std::exchange(turned_, std::nullopt); }
 
   // No question is open. Numbers and the answer's time stay.

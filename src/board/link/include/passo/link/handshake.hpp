@@ -44,23 +44,23 @@ class Handshake {
   std::uint8_t positions() const { return before_hello() ? std::uint8_t{max_motors} : motors(); }
 
   // When the setup, the hello or the number was said last.
-  void note_said(Seconds now) { said_ = now; }
+  void record_hello(Seconds now) { said_ = now; }
   Seconds said() const { return said_; }
 
   // The board's answer to the setup. Error: the board cannot do all of it, or cannot make the times.
-  std::optional<LinkError> note(const PinSetup& setup);
+  std::optional<LinkError> handle(const PinSetup& setup);
   // True: the board has the setup that was asked for, or none was.
   bool is_set_up() const;
   const PinSetup& set_up() const { return set_up_; }
   PinSetup undone_setup() const;
 
   // The board's answer to the hello.
-  void note(const HelloReply& reply);
+  void handle(const HelloReply& reply);
   const std::optional<HelloReply>& reply() const { return reply_; }
   // Goes on if the answer to the hello has come. Error: the board does not suit.
   std::optional<LinkError> go_on();
   // Goes on if the board knows the session's number.
-  void note(const BoardStatus& status);
+  void handle(const BoardStatus& status);
 
  private:
   Greeting wanted_;

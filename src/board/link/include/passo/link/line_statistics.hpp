@@ -10,14 +10,14 @@ namespace passo {
 
 class LineStatistics {
  public:
-  void note_sent(std::size_t bytes) {
+  void record_sent(std::size_t bytes) {
     ++frames_;
     bytes_ += bytes;
   }
-  void note_repeated(int frames) { repeated_ += static_cast<std::uint64_t>(frames); }
+  void record_repeated(int frames) { repeated_ += static_cast<std::uint64_t>(frames); }
   // A burst: frames sent until the board has taken all. The board's pace follows from long bursts.
   void begin_burst(Seconds now) { burst_began_ = now; }
-  void note_in_burst() { ++burst_; }
+  void record_in_burst() { ++burst_; }
   void end_burst(Seconds now);
   // Another board: its pace is unknown.
   void forget_pace();

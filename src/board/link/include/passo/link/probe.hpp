@@ -45,8 +45,8 @@ class ProbeWatch {
   const ProbeReport& report() const { return report_; }
 
   // Takes note of a status, or of a change that the board tells by itself.
-  News note(const BoardStatus& status);
-  News note(const Captured& captured);
+  News handle(const BoardStatus& status);
+  News handle(const Captured& captured);
   // Takes the board's answer to what it has kept.
   void recall(const Captured& kept, std::uint8_t motors);
 

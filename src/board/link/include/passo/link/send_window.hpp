@@ -53,7 +53,7 @@ class SendWindow {
   // Puts frames on the wire as long as at most `most_bytes` are under way. True: none waits.
   [[nodiscard]] bool fill(std::size_t most_bytes);
   // The board has all frames up to the one with this low byte. False: that is old, or of no frame that was sent.
-  [[nodiscard]] bool note_taken(std::uint8_t sequence);
+  [[nodiscard]] bool on_accepted(std::uint8_t sequence);
   // Puts the first of the frames that the board does not have on the wire again, in order.
   void repeat(std::size_t most_bytes);
   // The answer to this question tells whether the repeated frames have arrived. Until go_on(), no frame is put on the

@@ -55,7 +55,7 @@ class SentSegments {
 
   // Pulses from `from` to `to`, at most `most_pulses` of them, and none later than now. The window's `end` says how far
   // they go.
-  PulseWindow look(Seconds from, Seconds to, Seconds now, std::size_t most_pulses) const;
+  PulseWindow window(Seconds from, Seconds to, Seconds now, std::size_t most_pulses) const;
 
  private:
   // Where a segment begins.

@@ -25,13 +25,13 @@ class SilenceWatch {
   // Silence counts from now on.
   void begin(Seconds now) { progressed_ = heard_ = quiet_since_ = now; }
   // A byte came; a whole frame came; the board answered, took or executed something.
-  void note_byte(Seconds now) { quiet_since_ = now; }
-  void note_frame(Seconds now) { heard_ = now; }
-  void note_progress(Seconds now) { progressed_ = now; }
+  void on_byte(Seconds now) { quiet_since_ = now; }
+  void on_frame(Seconds now) { heard_ = now; }
+  void on_progress(Seconds now) { progressed_ = now; }
   // The board was asked again. The next answer may take as long as the one before.
-  void note_asked_again(Seconds now) { quiet_since_ = now; }
+  void on_asked_again(Seconds now) { quiet_since_ = now; }
   // The board took something, or the host asked or sent.
-  void note_traffic(Seconds now) { moved_on_ = now; }
+  void on_traffic(Seconds now) { moved_on_ = now; }
 
   // How long to wait until the board is to be asked again.
   Seconds until_question(Seconds now) const;

@@ -43,7 +43,7 @@ class BoardServer {
   // Takes those who call, and gives the board what was said. The board's answers go to whoever asked. Does not wait.
   void attend(BoardPort& board);
   // Tells the host what the board says by itself. Without a host nobody is told.
-  void tell_host(std::span<const std::uint8_t> bytes);
+  void send_to_host(std::span<const std::uint8_t> bytes);
   // True: somebody was connected, and nobody is.
   bool all_have_left() const { return anybody_came_ && clients_.empty(); }
 
@@ -60,9 +60,9 @@ class BoardServer {
   };
 
   BoardServer(int listening, unsigned port) : listening_(listening), port_(port) {}
-  void take_callers();
+  void accept_clients();
   void hear(Client& client, BoardPort& board);
-  void take(Client& client, const WireFrame& frame, BoardPort& board);
+  void handle(Client& client, const WireFrame& frame, BoardPort& board);
   bool may_drive(const Client& client);
   static void tell(Client& client, std::span<const std::uint8_t> bytes);
   void part_with_the_gone();

@@ -2,7 +2,7 @@
 // or a serial port. One sender at a time.
 //
 // A serial port does not tell whether anybody is there. A sender has come when it says something. Whoever has said
-// nothing for `serial_silence` counts as gone as soon as another sender wants the machine: see gives_way(). A port
+// nothing for `serial_silence` counts as gone as soon as another sender wants the machine: see yields(). A port
 // whose device goes away is opened again when it is back.
 //
 // A caller whose first line is that of another protocol, such as a browser's, is no sender (CallerCheck). A connection
@@ -58,12 +58,12 @@ class SenderLine {
     std::string bytes;
   };
   // What has happened since the last call.
-  News look(bool reads);
+  News poll(bool reads);
   // Sends whole lines, in one write where the other side takes it.
   void send(std::string_view text);
   bool is_connected() const { return connected_; }
   // The sender may have gone without a sign.
-  bool gives_way() const { return kind_ == Kind::serial && Clock::now() - heard_ > serial_silence; }
+  bool yields() const { return kind_ == Kind::serial && Clock::now() - heard_ > serial_silence; }
   // Takes the sender for gone.
   void part() { connected_ = false; }
 
@@ -73,7 +73,7 @@ class SenderLine {
 
   SenderLine() = default;
   void hear_serial(News& news, bool reads);
-  void take_caller(News& news);
+  void accept_client(News& news);
   void read_bytes(News& news);
   void send_unsent();
   void close_sender();

@@ -20,7 +20,7 @@ class Announcement {
   void add(const uint8_t* frame, uint8_t size) {
     for (uint8_t i = 0; i < size; ++i) static_cast<void>(reader_.feed(frame[i]));
     sums_.add(reader_.frame(), motors_);
-    words_ += ItemSums::words_of(static_cast<uint8_t>(reader_.frame().type), motors_);
+    words_ += ItemSums::describe(static_cast<uint8_t>(reader_.frame().type), motors_);
     ++replace_.count;
   }
   Replace replace() const {

@@ -55,7 +55,7 @@ struct ItemSums {
     return {.first = static_cast<uint16_t>(0U - first), .second = static_cast<uint16_t>(words * first - second)};
   }
   // The number of words of an item.
-  static constexpr unsigned words_of(uint8_t type, uint8_t motors) { return (payload_size(type, motors) + 2U) / 2; }
+  static constexpr unsigned describe(uint8_t type, uint8_t motors) { return (payload_size(type, motors) + 2U) / 2; }
   static constexpr unsigned words_of_announcement = 3;
 };
 

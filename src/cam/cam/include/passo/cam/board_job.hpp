@@ -56,7 +56,7 @@ BoardJob read_board_job(const std::vector<std::string>& paths, Diagnostics& diag
 
 // What the user says of a file, by its name or its short one: this kind counts, and no guess. Returns why not; empty:
 // done.
-std::string tell_kind(BoardJob& job, std::string_view name, std::string_view words);
+std::string set_kind(BoardJob& job, std::string_view name, std::string_view words);
 
 // An error if what is used of the job is of several boards: two of KiCad, or one and files of layers beside it.
 void refuse_two_boards(const BoardJob& job, Diagnostics& diagnostics);

@@ -21,6 +21,6 @@ struct MapFigures {
 MapFigures figures_of(const HeightMap& map);
 // The figures in words, and the map seen from above: a row of the grid a line, the farthest row first. '.' is low, '@'
 // high.
-std::string words_of(const HeightMap& map);
+std::string describe(const HeightMap& map);
 
 }  // namespace passo

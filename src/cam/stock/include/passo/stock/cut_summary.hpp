@@ -78,7 +78,7 @@ class CutSummary {
   void judge(const Stretch& stretch, const ToolShape& tool);
   void add_to_stretch(const MoveCut& cut);
   void find_troubles(const MoveCut& cut);
-  void note(CutTrouble::Kind kind, const MoveCut& cut, double depth, const Vector3& place);
+  void record(CutTrouble::Kind kind, const MoveCut& cut, double depth, const Vector3& place);
 
   // The trouble of this kind that the move before had, if any: which of `troubles_`.
   struct Going {

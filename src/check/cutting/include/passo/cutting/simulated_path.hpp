@@ -43,7 +43,7 @@ class SimulatedPath {
     Point tool;
   };
 
-  void note_zeros(const PathItem& item);
+  void record_zeros(const PathItem& item);
   Point zero_of(const Segment& segment);
 
   Diagnostics& diagnostics_;

@@ -63,8 +63,8 @@ struct FeedLook {
   std::map<std::int32_t, std::size_t> places() const;
 };
 // `after_move`, if any, is called after each move, and may show the findings.
-FeedLook look_at_feeds(const StockJob& job, const StockWishes& wishes, Diagnostics& findings,
-                       const std::function<void()>& after_move = {});
+FeedLook survey_feeds(const StockJob& job, const StockWishes& wishes, Diagnostics& findings,
+                      const std::function<void()>& after_move = {});
 
 // A tool of which nobody says what shape it has, with the line of its first feed.
 struct ShapelessTool {

@@ -178,13 +178,13 @@ class MarginSurvey {
   void find_leader(const Look& from, const Look& to);
   MarginSpot spot_at(std::size_t motor, const Moment& moment) const;
   void add_jump(std::size_t motor, const Moment& moment, MarginSpot& spot) const;
-  void mind_lack(std::size_t motor, const MarginSpot& spot);
+  void update_lack(std::size_t motor, const MarginSpot& spot);
   bool is_lack(std::size_t motor, MarginSpot& spot) const;
   void judge(std::size_t motor, MarginSpot spot, const TrialFinding& finding);
-  void note(std::size_t motor, const MarginSpot& spot);
+  void record(std::size_t motor, const MarginSpot& spot);
   std::optional<MmPerSecond2> safe_acceleration(const SurveyedMotor& own, const MarginSpot& spot) const;
   void find_safe_speed(MarginSpot& spot);
-  static void tell_lack(MarginSpot& spot);
+  static void show_lack(MarginSpot& spot);
   void end_line();
   void keep(const MarginSpot& spot);
   void rest(Seconds time);

@@ -109,6 +109,6 @@ class SpeedSurvey {
 };
 
 // "the programmed feed", "the velocity of X".
-std::string words_of(const SpeedBound& bound);
+std::string describe(const SpeedBound& bound);
 
 }  // namespace passo

@@ -46,7 +46,7 @@ struct Diagnostic {
 
   static constexpr std::size_t most_lines = 1000;  // beyond that, lines are not noted
   // The same was found in this line, too.
-  void note_line(std::uint32_t line);
+  void add_line(std::uint32_t line);
 };
 
 // Collects diagnostics up to a limit of errors. Errors above the limit are counted, not kept. The same finding at the
@@ -63,7 +63,7 @@ class Diagnostics {
   void add_certain(Diagnostic diagnostic);
   // True: a warning of this code and file is kept already, and gets the line as one more. A program may earn a warning
   // a million times: it is kept where it was earned first, and nobody puts words together for the others.
-  bool note_again(std::string_view code, std::string_view file, std::uint32_t line);
+  bool count_repeated(std::string_view code, std::string_view file, std::uint32_t line);
   // Gives the rule of a diagnostic that comes without one. The stage that knows the rules sets it.
   using RuleOf = std::string (*)(const Diagnostic& diagnostic);
   void look_up_rules_with(RuleOf rule_of) { rule_of_ = rule_of; }

@@ -56,9 +56,9 @@ class Chords final : public Source<Chord> {
     if (u_ >= piece_end_ && !begin_piece()) return false;
     chord.from = u_;
     if (curve_.is_even()) {
-      take_equal(chord);
+      next_equal(chord);
     } else {
-      take_longest(chord);
+      next_longest(chord);
     }
     u_ = chord.to;
     chord.end = curve_.at(u_);
@@ -76,7 +76,7 @@ class Chords final : public Source<Chord> {
     return true;
   }
 
-  void take_equal(Chord& chord) {
+  void next_equal(Chord& chord) {
     ++taken_;
     const double share = static_cast<double>(taken_) / static_cast<double>(count_);
     chord.to = taken_ == count_ ? piece_end_ : piece_start_ + (piece_end_ - piece_start_) * share;
@@ -100,7 +100,7 @@ class Chords final : public Source<Chord> {
     return enough;
   }
 
-  void take_longest(Chord& chord) {
+  void next_longest(Chord& chord) {
     const double rest = piece_end_ - u_;
     find_longest(rest);
     double to = good_ < rest ? u_ + good_ : piece_end_;

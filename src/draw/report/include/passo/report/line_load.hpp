@@ -11,7 +11,7 @@ namespace passo {
 class LineLoad {
  public:
   // `sent` counts the bytes sent up to `now`. Call this often, at least once a second.
-  void look(Seconds now, std::uint64_t sent) {
+  void update(Seconds now, std::uint64_t sent) {
     if (now - since_ < Seconds(1)) return;
     const double rate = static_cast<double>(sent - before_) / (now - since_).value();
     busiest_ = std::max(busiest_, static_cast<std::uint64_t>(rate));

@@ -44,7 +44,7 @@ class Maker {
   // False: an order runs, or none can begin.
   virtual bool begin(const MakeOrder& order) = 0;
   // How it goes. Call often: it is cheap while nothing changes.
-  virtual const MakeResult& look() = 0;
+  virtual const MakeResult& result() = 0;
   // Of the last order that is done. Programs count from 0.
   virtual std::string program(std::size_t number) const = 0;
   // The whole picture, or that of one of several programs.

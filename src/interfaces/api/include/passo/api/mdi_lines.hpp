@@ -39,15 +39,15 @@ class MdiLines {
     std::vector<std::string> words;  // what a line with $ asks for
     Sentence sentence = {};          // the message with its code; without a code: a finding in the line
   };
-  Answer take(std::string_view line);
+  Answer execute(std::string_view line);
 
-  void heed(const MachineChange& change);
+  void on_change(const MachineChange& change);
   // Ends the stream where nothing is left to do. True: the lines have changed offsets or tools, and the machine rests.
-  bool turn();
+  bool poll();
   // The modes of a program's start.
   void begin_anew();
   // The work's zeros are others now. The modes stay.
-  void take_offsets();
+  void apply_offsets();
 
   // The lines run, or have left something on.
   bool streams() const { return ticket_.has_value(); }
@@ -60,8 +60,8 @@ class MdiLines {
   const ToolTable& tools() const { return program_->tools(); }
 
  private:
-  Answer take_code(std::string_view line);
-  Answer take_command(const std::string& text);
+  Answer execute_code(std::string_view line);
+  Answer execute_command(const std::string& text);
   Answer ask(Request wanted);
   void make_program();
 

@@ -30,13 +30,13 @@ class MotionOwner {
   bool is_client(std::string_view key) const { return kind_ == Kind::client && !key.empty() && key == key_; }
 
   // A sender is there and asks. False: a client owns the machine.
-  bool take_for_sender() {
+  bool claim_for_sender() {
     if (kind_ == Kind::nobody) set(Kind::sender, "sender", "");
     return is_sender();
   }
   // `key` proves later that a request is the owner's.
-  void take_for_client(std::string name, std::string key) { set(Kind::client, std::move(name), std::move(key)); }
-  void give_back() { set(Kind::nobody, "", ""); }
+  void claim_for_client(std::string name, std::string key) { set(Kind::client, std::move(name), std::move(key)); }
+  void release() { set(Kind::nobody, "", ""); }
   // Grows with each change of the owner.
   std::uint64_t changes() const { return changes_; }
 

@@ -59,7 +59,7 @@ class MotionTimer {
   virtual ~MotionTimer() = default;
   virtual void begin(MotionTiming wanted) = 0;
   // What was found of the last order, once.
-  virtual std::optional<MotionTimes> take() = 0;
+  virtual std::optional<MotionTimes> take_times() = 0;
 };
 
 }  // namespace passo

@@ -74,7 +74,7 @@ class ProgramStore {
   void check(std::uint64_t id, const MachineDescription& machine, const Point& start);
   bool checks() const { return checker_ != nullptr; }
   // Checks a bounded piece.
-  void turn();
+  void poll();
   InterpreterOptions options_of(const StoredProgram& program) const;
   InterpreterOptions options_of(Dialect dialect) const;
   // Whether lines that begin with / are left out. The check of before does not count any more.

@@ -39,7 +39,7 @@ class ProgramUploads {
   const std::map<std::uint64_t, ProgramUpload>& all() const { return uploads_; }
   enum class Taken : std::uint8_t { more, whole, gap, too_long };
   // `from`: where the piece begins. A piece that begins elsewhere than where the last one ended changes nothing.
-  Taken take(std::uint64_t id, std::size_t from, std::string_view piece, Seconds now);
+  Taken append(std::uint64_t id, std::size_t from, std::string_view piece, Seconds now);
   // The upload leaves. Call it for one that exists.
   ProgramUpload remove(std::uint64_t id);
 

@@ -39,7 +39,7 @@ class Studies {
   // False: none can begin.
   virtual bool begin(const StudyOrder& order) = 0;
   // How it goes. Call often: it is cheap while nothing changes.
-  virtual const StudyResult& look() = 0;
+  virtual const StudyResult& result() = 0;
   // Of `motors`: CSV, a line `line,load` for each line of the program that moves. Empty: there is none.
   virtual std::string loads() const = 0;
   // Of `tune`: torque over speed, SVG. Empty: there is none.

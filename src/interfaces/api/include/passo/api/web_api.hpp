@@ -44,20 +44,20 @@ class WebApi final : public WebHandler {
   void gone(std::uint64_t client) override;
 
   // Heeds what has happened. `changes`: the session's, since the last call. Call after each turn of the session.
-  void heed(const std::vector<MachineChange>& changes);
+  void on_change(const std::vector<MachineChange>& changes);
   // Does a bounded piece of what was asked: about a millisecond of a check, or the disk's time while the machine rests.
   // Call once in each round of the loop.
-  void turn();
-  // True: turn() has more to do at once.
+  void poll();
+  // True: poll() has more to do at once.
   bool is_checking() const;
   // The status, as GET /api/v1/status gives it.
   std::string status_text() const;
-  // The offsets and tools of the programs. take_offsets() takes those that a sender has changed.
+  // The offsets and tools of the programs. apply_offsets() takes those that a sender has changed.
   const SavedParameters& parameters() const;
   const ToolTable& tools() const;
-  void take_offsets(const SavedParameters& parameters);
+  void apply_offsets(const SavedParameters& parameters);
   // A sender's offsets could not be kept, for this reason. Empty: they are.
-  void note_unkept_offsets(std::string why);
+  void set_offsets_trouble(std::string why);
   // Where the motors of the job that was broken off were last, as far as that is sure. Empty: there is none.
   std::optional<Point> broken_off_at();
   // What web servers count, for the metrics.

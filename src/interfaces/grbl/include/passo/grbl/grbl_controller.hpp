@@ -4,7 +4,7 @@
 //   sender  <- replies(): whole lines                <- status and changes
 //
 // Place on the street: beside the street, above the session. The controller knows no sockets and has no clock. Its
-// owner gives it the sender's bytes, turns the session, calls turn() after it, and sends the replies.
+// owner gives it the sender's bytes, turns the session, calls poll() after it, and sends the replies.
 //
 // Invariants: each line is answered by one `ok` or one `error:n`, in the order of the lines. An `ok` means that the
 // line was taken into the queue; after a probe move or homing, that it is done. A byte is never dropped, but by a
@@ -73,9 +73,9 @@ class GrblController {
     store_.remember(std::move(memory), std::move(write));
   }
   // Offsets of the work systems, and the homes of G28 and G30, are shared with others: `share` gets those that a sender
-  // has changed, once the machine rests. take_offsets() takes theirs; call while nothing moves for the senders.
+  // has changed, once the machine rests. apply_offsets() takes theirs; call while nothing moves for the senders.
   void share_offsets(std::function<void(const SavedParameters&)> share) { share_offsets_ = std::move(share); }
-  void take_offsets(const SavedParameters& parameters);
+  void apply_offsets(const SavedParameters& parameters);
 
   // A sender has come: it is greeted, and what an earlier one has left unread is dropped. Nothing moves: whoever has
   // come may be no sender. To the first one that says something the controller has just started: its start lines run,
@@ -91,7 +91,7 @@ class GrblController {
   bool wants_more() const { return input_.wants_more(); }
   // Takes lines as far as they can be taken now, and tells what has happened. `changes`: the session's, since the last
   // call. Call after each turn of the session.
-  void turn(const std::vector<MachineChange>& changes);
+  void poll(const std::vector<MachineChange>& changes);
   // What to send, each in one write.
   std::vector<std::string> take_replies();
 
@@ -115,21 +115,21 @@ class GrblController {
   void change_spindle(int by);
 
   // Lines.
-  void take_lines();
-  void take(const GrblInput::Line& line);
+  void handle_lines();
+  void handle(const GrblInput::Line& line);
   bool may_take_line() const;
-  void take_code(const std::string& text);
-  void take_command(const std::string& text);
-  void take_jog(const std::string& text);
-  void take_setting(const std::string& text);
+  void handle_code(const std::string& text);
+  void handle_command(const std::string& text);
+  void handle_jog(const std::string& text);
+  void handle_setting(const std::string& text);
   void keep_setting(int number, double value);
-  void take_build(const std::string& text);
+  void handle_build_info(const std::string& text);
   bool keep_memory(const GrblMemory& memory);
   void start_up();
   void run_startup();
   bool is_door_open() const;
   void share_changed_offsets();
-  void take_startup_line(const std::string& text);
+  void handle_startup_line(const std::string& text);
   void restore(const std::string& text);
   void toggle_check();
   void unlock();
@@ -142,10 +142,10 @@ class GrblController {
   void end_stream();
 
   // What has happened.
-  void heed(const MachineChange& change);
+  void on_change(const MachineChange& change);
   void end_probe();
-  void tell_end();
-  void tell_wait();
+  void report_end();
+  void report_wait();
   void begin_homing();
   void end_reset();
   void raise_alarm_of_board();

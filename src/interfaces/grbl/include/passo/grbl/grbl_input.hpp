@@ -37,7 +37,7 @@ class GrblInput {
   // Takes bytes as they came. Each real-time command goes to `act` at its place among the bytes.
   void receive(std::string_view bytes, const std::function<void(std::uint8_t)>& act);
   // Takes the next whole line, if there is one.
-  std::optional<Line> take_line();
+  std::optional<Line> pop_line();
   bool has_line() const { return ends_ > 0; }
   // Jogs among the lines that wait, also in a line that has only begun, are not to move.
   void cancel_jogs();

@@ -20,7 +20,7 @@ class KeptSettings {
   // The text with the setting changed. Empty: the file has no such setting, or no sound machine has that value;
   // `reason` then tells why, as a sentence without a full stop.
   std::optional<std::string> with(int number, double value, std::string& reason) const;
-  void take(std::string text) { text_ = std::move(text); }
+  void set_text(std::string text) { text_ = std::move(text); }
   // As the text describes it.
   MachineDescription machine() const;
 

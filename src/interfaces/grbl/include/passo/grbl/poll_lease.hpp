@@ -12,8 +12,8 @@ namespace passo {
 class PollLease {
  public:
   // The sender has sent something, or a question for the status.
-  void note_byte(Seconds now) { heard_at_ = now; }
-  void note_question(Seconds now);
+  void on_byte(Seconds now) { heard_at_ = now; }
+  void on_question(Seconds now);
   // Another sender.
   void end() { pace_.reset(); }
   // True: the sender was asking, and no longer does. A sender that asks more slowly than once a second does not ask.

@@ -62,7 +62,7 @@ class GrblProgram {
     std::optional<OperatorWait> stop = {};
   };
 
-  void take(const PathItem& item);
+  void add(const PathItem& item);
   bool reaches(const PathItem& item);
   void write(const PathItem& item);
 

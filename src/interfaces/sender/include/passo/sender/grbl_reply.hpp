@@ -41,6 +41,6 @@ std::optional<Point> read_grbl_place(std::string_view text, std::string_view axe
 // Empty: the text is no number.
 std::optional<double> read_grbl_number(std::string_view text);
 // Takes what comes before the next `mark`, and the mark.
-std::string_view take_grbl_part(std::string_view& text, char mark);
+std::string_view next_grbl_field(std::string_view& text, char mark);
 
 }  // namespace passo

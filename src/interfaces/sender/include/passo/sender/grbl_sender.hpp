@@ -106,7 +106,7 @@ class GrblSender {
   void act(char byte) { urgent_ += byte; }
   bool greets() const { return stage_ < Stage::ready; }
   void enter(Stage stage);
-  void turn(Seconds now);
+  void poll(Seconds now);
   void greet();
   void watch();
   void brake();
@@ -121,9 +121,9 @@ class GrblSender {
   void end_with(GrblFault fault);
   GrblFault fault_between_lines(std::string code, std::string message) const;
   GrblFault fault_of_greeting() const;
-  void mind_silence();
-  void mind_lost_bytes();
-  void mind_standstill();
+  void check_silence();
+  void check_lost_bytes();
+  void check_standstill();
   void ask_for_status();
   Seconds silence_of_oldest() const { return unanswered_.empty() ? Seconds(0) : unanswered_.front().silence; }
   std::uint32_t first_held_line() const;

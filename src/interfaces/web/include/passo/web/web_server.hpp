@@ -3,7 +3,7 @@
 // Place: beside the street, at the door for programs and browsers. It knows nothing of machines: a WebHandler answers.
 // Boost.Beast is behind this header and nowhere else.
 //
-// Nothing here waits, and there is no thread: turn() does a bounded number of steps that are ready. So the handler is
+// Nothing here waits, and there is no thread: poll() does a bounded number of steps that are ready. So the handler is
 // called by the owner's thread alone. What a client does not read or send in time costs that client its connection:
 // connections, bodies, messages and times are bounded (WebLimits). A watcher of the stream that reads slowly skips
 // messages, and gets the newest one when it has read the last.
@@ -95,7 +95,7 @@ class WebServer {
   // Adds what the server waits for, so that the owner of the loop may sleep until there is something to do.
   void add_to(std::vector<pollfd>& all) const;
   // Does what is ready, but no more than `steps` steps.
-  void turn(int steps = 256);
+  void poll(int steps = 256);
   // Gives all clients of the stream a new message, each at most as often as it asked (?hz=1 to 60, else 10).
   void publish(std::string message);
 

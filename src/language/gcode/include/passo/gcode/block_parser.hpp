@@ -17,7 +17,7 @@ class BlockParser {
   BlockParser(std::string file, SymbolTable& symbols) : file_(std::move(file)), symbols_(symbols) {}
 
   // From now on N may stand anywhere in a line, as in grbl. In RS274/NGC it comes first.
-  void take_line_numbers_anywhere() { line_numbers_anywhere_ = true; }
+  void accept_line_numbers_anywhere() { line_numbers_anywhere_ = true; }
 
   // Returns false when the line is wrong. `diagnostics` then tells what is wrong, and the block must not be used.
   [[nodiscard]] bool parse(std::string_view text, std::uint32_t line, Block& block, Diagnostics& diagnostics) const;

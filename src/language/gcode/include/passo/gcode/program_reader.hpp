@@ -29,7 +29,7 @@ class ProgramReader {
   static Result<ProgramReader, Diagnostic> open(const std::string& path);
   // A program in memory, for tests and for manual data input. `name` stands for the file in diagnostics.
   static ProgramReader from_text(std::string name, std::string text);
-  // A program whose lines come one by one, with give_line(). A line that was read is forgotten, so nothing goes back.
+  // A program whose lines come one by one, with push_line(). A line that was read is forgotten, so nothing goes back.
   static ProgramReader from_lines(std::string name);
 
   ProgramReader(ProgramReader&&) noexcept;
@@ -42,7 +42,7 @@ class ProgramReader {
   [[nodiscard]] bool next_line(std::string_view& text, std::uint32_t& line, Diagnostics& diagnostics);
 
   // Only for from_lines(), when all lines before were read: next_line() then gives this line. `text` has no line end.
-  void give_line(std::string_view text);
+  void push_line(std::string_view text);
 
   // Another reader of the same program, at its start. Standard input too can be read as often as wanted.
   ProgramReader again() const;

@@ -54,7 +54,7 @@ class FrameBlocks {
   // The block that was executed last.
   const FrameBlock& last() const;
   // The blocks with one of the codes above that were executed since the last call, in order.
-  std::vector<FrameBlock> take();
+  std::vector<FrameBlock> take_executed();
 
  private:
   class Watcher;

@@ -55,8 +55,8 @@ struct InterpreterOptions {
   int spindles = 1;          // 1 to 8
   double orient_offset = 0;  // degrees that M19 adds
   bool user_codes = false;   // M100 to M199 are allowed
-  // True: the program's lines come one by one, with give_line(). next() then returns false where no line is left, and
-  // goes on after the next give_line().
+  // True: the program's lines come one by one, with push_line(). next() then returns false where no line is left, and
+  // goes on after the next push_line().
   bool open_ended = false;
   // Letters of axes beside X, Y and Z, as "AC". The dialect of grbl takes these too.
   std::string more_grbl_axes;
@@ -73,13 +73,13 @@ class Interpreter final : public Source<Operation> {
   [[nodiscard]] bool next(Operation& operation) override;
 
   // Only for an open-ended program, whose reader is ProgramReader::from_lines(). Call when next() has returned false.
-  void give_line(std::string_view text);
+  void push_line(std::string_view text);
   // True: the program has ended, with M2, M30 or an error that ends programs. The interpreter takes no more lines.
   bool ended() const;
   // Notes modes, offsets, parameters and the place, which are those of the lines so far; and goes back to them, as if
   // the lines since had not come. Call when next() has returned false.
   void keep();
-  void take_back();
+  void roll_back();
   // A program that has ended goes on, with its modes.
   void reopen();
   // The motion code in force, as tenths: 0 for G0, 382 for G38.2.

@@ -40,8 +40,8 @@ class AnswerBook final : public MachineAnswers {
   const ProbeOutcome* probe() const override { return answers_.probes ? &probe_ : nullptr; }
   const Point* tap_rest() const override { return answers_.taps ? &tap_rest_ : nullptr; }
 
-  void note(const ProbeOutcome& outcome) { probe_ = outcome; }
-  void note_tap_rest(const Point& rest) { tap_rest_ = rest; }
+  void record(const ProbeOutcome& outcome) { probe_ = outcome; }
+  void record_tap_rest(const Point& rest) { tap_rest_ = rest; }
 
  private:
   Answers answers_;

@@ -95,13 +95,13 @@ class HomingPath final : public Activity {
   bool is_pair() const { return axis_->second.has_value(); }
   void begin_turn();
   void seek_together();
-  void look_at(std::size_t which);
+  void begin_look(std::size_t which);
   void begin_axis(const AxisDescription& axis);
   void begin(HomingStage stage, double target);
   void begin_alone(Alone alone, double way);
   void move_alone(double way);
   void judge();
-  void note_way(const Point& before);
+  void record_way(const Point& before);
   void judge_together();
   void judge_look();
   void judge_alone();
@@ -112,7 +112,7 @@ class HomingPath final : public Activity {
   void judge_approach();
   void judge_retreat();
   void retreat(HomingStage stage, double target);
-  void turn_watch();
+  void reverse_watch();
   void end_axis();
   void fail(MachineFault fault) { fault_ = fault; }
 

@@ -29,7 +29,7 @@ class HomingRepeats {
 
   // Adds a homing. `stood`: where the machine stood before, as it was counted from the homing before. Empty: that was
   // not known, so this homing counts as the first.
-  void note(const std::vector<HomedAxis>& homed, const std::optional<Point>& stood);
+  void record(const std::vector<HomedAxis>& homed, const std::optional<Point>& stood);
   // One for each axis that all homings have found.
   std::vector<AxisRepeats> axes() const;
 
@@ -49,6 +49,6 @@ class HomingRepeats {
 };
 
 // A line for an axis, without its end.
-std::string words_of(const AxisRepeats& repeats);
+std::string describe(const AxisRepeats& repeats);
 
 }  // namespace passo

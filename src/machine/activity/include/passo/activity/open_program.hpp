@@ -51,12 +51,12 @@ class OpenProgram final : public Source<PathItem> {
 
   // Takes a line without its end, at the time `now`. Returns what is wrong with the line, if anything is. Call only
   // while room().
-  [[nodiscard]] std::optional<Diagnostic> take(std::string_view line, Seconds now);
+  [[nodiscard]] std::optional<Diagnostic> add_line(std::string_view line, Seconds now);
   // The same for a jog: axis words and F, with G20, G21, G53, G90 or G91. The modes in force stay as they were.
-  [[nodiscard]] std::optional<Diagnostic> take_jog(std::string_view words, Seconds now);
-  // The same as take(), but nothing of the line is played: the program is only checked.
+  [[nodiscard]] std::optional<Diagnostic> add_jog(std::string_view words, Seconds now);
+  // The same as add_line(), but nothing of the line is played: the program is only checked.
   [[nodiscard]] std::optional<Diagnostic> check(std::string_view line);
-  // What take() would say. Nothing changes.
+  // What add_line() would say. Nothing changes.
   [[nodiscard]] std::optional<Diagnostic> judge(std::string_view line);
 
   bool room() const;
@@ -89,7 +89,7 @@ class OpenProgram final : public Source<PathItem> {
   // Drops what is queued, and goes on from `place`, with modes and offsets. The outputs are off.
   void go_on_at(const Point& place);
   // The same, with the work systems' offsets and the homes of G28 and G30 from `parameters`.
-  void take_offsets(const SavedParameters& parameters, const Point& place);
+  void apply_offsets(const SavedParameters& parameters, const Point& place);
 
   ModesInForce modes() const { return interpreter_->modes(); }
   SavedParameters parameters() const { return interpreter_->saved_parameters(); }
@@ -104,10 +104,10 @@ class OpenProgram final : public Source<PathItem> {
   void begin_after_end();
   void forget_queue();
   std::optional<Diagnostic> read(std::string_view line);
-  std::optional<Diagnostic> give(std::string_view line, Seconds now, bool jogs);
+  std::optional<Diagnostic> queue_line(std::string_view line, Seconds now, bool jogs);
   void push(const PathItem& item);
   bool pull_answer(PathItem& item);
-  void take_back(std::size_t kept);
+  void roll_back(std::size_t kept);
 
   InterpreterOptions options_;
   MotionLimits limits_;

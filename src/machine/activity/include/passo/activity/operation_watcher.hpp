@@ -33,7 +33,7 @@ class OperationWatcher {
 
   // True: a warning of this kind is kept already, and the operation's line is noted with it.
   bool is_noted(const Operation& operation, std::string_view code) const {
-    return diagnostics_.note_again(code, operation.file.empty() ? file_ : operation.file, operation.source.line);
+    return diagnostics_.count_repeated(code, operation.file.empty() ? file_ : operation.file, operation.source.line);
   }
   void warn(const Operation& operation, std::string_view code, std::string_view message,
             std::string_view expected) const {

@@ -58,7 +58,7 @@ class ProgramChecker {
   const Frame& frame() const { return builder_.frame(); }
 
  private:
-  bool take_item();
+  bool pull_item();
   void finish();
 
   Diagnostics& diagnostics_;

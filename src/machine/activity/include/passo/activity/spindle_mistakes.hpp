@@ -25,7 +25,7 @@ class SpindleMistakes : OperationWatcher {
  private:
   void turn(const Operation& operation, SpindleDirection direction);
   void set_speed(const Operation& operation, double speed);
-  void note_speed_up(const Operation& operation);
+  void check_speed_up(const Operation& operation);
   void feed(const Operation& operation);
 
   bool may_be_early_;  // the spindle has a speed, and the machine file does not say how long it runs up

@@ -23,7 +23,7 @@ class DirectFeed final : public Feed {
   // All stages outlive the feed.
   DirectFeed(const Stages& stages, const Options& options);
 
-  Turn advance() override;
+  Progress advance() override;
   bool plans() const override { return waiting_.empty() && !action_ && !ended_; }
   Action take_action() override { return *std::exchange(action_, std::nullopt); }
   void watch(const MotionItem& motion) override;
@@ -35,7 +35,7 @@ class DirectFeed final : public Feed {
   Seconds ahead_of(const Turned& /*turned*/, Seconds /*time*/) override { return ahead(); }
   std::optional<Seconds> began() const override { return {}; }
   bool is_remote() const override { return false; }
-  void note_rest(Seconds time) override { rested_ += time; }
+  void record_rest(Seconds time) override { rested_ += time; }
   void brake() override {}
   bool plays_tail() const override { return false; }
   std::optional<Point> drop() override;

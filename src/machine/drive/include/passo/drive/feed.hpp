@@ -50,7 +50,7 @@ class RefillLedger;
 
 class Feed {
  public:
-  enum class Turn : std::uint8_t {
+  enum class Progress : std::uint8_t {
     goes_on,        // something was sent, or there is more to do at once
     waits,          // the feed needs news of the board first
     rests_in_hold,  // the planner holds, and the board has executed all motion given
@@ -64,7 +64,7 @@ class Feed {
   Feed(const Feed&) = delete;
   Feed& operator=(const Feed&) = delete;
 
-  virtual Turn advance() = 0;
+  virtual Progress advance() = 0;
   // True: advance() may plan more motion. False: advance() only waits for the motion already given.
   virtual bool plans() const = 0;
   virtual Action take_action() = 0;
@@ -88,7 +88,7 @@ class Feed {
   // True: what is sent takes time to reach the board, and may come too late.
   virtual bool is_remote() const = 0;
   // Time has passed without motion.
-  virtual void note_rest(Seconds time) = 0;
+  virtual void record_rest(Seconds time) = 0;
 
   // Brakes as soon as possible, after the motion that the board will play in any case.
   virtual void brake() = 0;

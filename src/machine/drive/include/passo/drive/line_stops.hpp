@@ -26,7 +26,7 @@ class LineStops final : public Source<PathItem> {
 
  private:
   bool ends_before(const PathItem& item) const;
-  void note(const PathItem& item);
+  void record(const PathItem& item);
 
   RewindablePath& path_;
   std::uint64_t rewinds_ = 0;

@@ -8,7 +8,7 @@
 // pause, ProbeMove tells what the probe finds, SpindleTracker keeps motion in step with the spindle.
 //
 // No function of a drive waits. advance() does what can be done now. When advance() returns `waits`, the owner lets the
-// board go on with turn() or wait(). See docs/decisions/0017 and 0065.
+// board go on with poll() or wait(). See docs/decisions/0017 and 0065.
 #pragma once
 
 #include <cstdint>
@@ -40,7 +40,7 @@ class MotionDrive {
     held,     // at rest on the path; holds() tells why
     ended,    // the path is done or stopped, or the link has an error
   };
-  enum class Turn : std::uint8_t { goes_on, waits, ended };
+  enum class Progress : std::uint8_t { goes_on, waits, ended };
 
   // `path`, `board` and `answers` outlive the drive. The board has been greeted, and no other drive uses it meanwhile.
   // The drive writes what the machine finds on the way into `answers`.
@@ -49,10 +49,10 @@ class MotionDrive {
   ~MotionDrive();
 
   // Does what can be done without waiting.
-  Turn advance();
+  Progress advance();
   // Calls advance() and, where the drive waits, wait(). False when the drive has ended. In a hold, virtual time passes
   // for as long as `most`; with an endless `most`, no time passes.
-  bool turn(Seconds most = Seconds(std::numeric_limits<double>::infinity()));
+  bool poll(Seconds most = Seconds(std::numeric_limits<double>::infinity()));
   // Lets the board go on until there is news, but no longer than `most`.
   void wait(Seconds most);
 
@@ -135,24 +135,24 @@ class MotionDrive {
   void pass_on_outputs();
   void watch_tap(const PlannedMove& move);
   bool follow();
-  Turn take(Feed::Turn turn);
+  Progress handle(Feed::Progress turn);
   void act(const Action& action);
   void begin_probe(const Action& action);
   void end_probe(const Action& action);
   void await_index(const Action& action);
-  void turn_tap(const Action& action);
+  void reverse_tap(const Action& action);
   void wait_for_operator(const Action& action);
   void await_line();
-  void look_at_probe();
+  void check_probe();
   Attention attention() const;
   void change_feed();
   void come_to_rest();
   void rest_at_line();
   void rest_in_hold();
   void lose_thread();
-  void tell_outputs();
+  void send_outputs();
   void switch_off_and_end(std::optional<LinkError> error);
-  Turn end();
+  Progress end();
   Seconds due() const;
 
   BoardSession& board_;

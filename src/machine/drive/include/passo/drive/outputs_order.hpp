@@ -15,17 +15,17 @@ BoardOutputs board_outputs(const OutputState& state, double spindle_factor = 1);
 class OutputsOrder {
  public:
   // Takes the outputs that the program orders by an action. The board hears of the order in any case.
-  void take_over(const Action& action) {
+  void apply(const Action& action) {
     ordered_ = action.outputs;
     if (mist_ && mist_->ordered != ordered_.mist) mist_.reset();
     if (flood_ && flood_->ordered != ordered_.flood) flood_.reset();
-    heeds_override_ = action.heeds.spindle_override;
+    override_enabled_ = action.heeds.spindle_override;
     told_.reset();
   }
   void order(const OutputState& outputs) { ordered_ = outputs; }
   // Whether the program heeds the override from here on (M48, M49, M51).
-  void heed_override(bool heeds) { heeds_override_ = heeds; }
-  bool heeds_override() const { return heeds_override_; }
+  void enable_override(bool heeds) { override_enabled_ = heeds; }
+  bool override_enabled() const { return override_enabled_; }
   // The operator's factor, 0 to 2.
   void set_override(double factor) { override_ = factor; }
   const OutputState& ordered() const { return ordered_; }
@@ -64,10 +64,10 @@ class OutputsOrder {
     bool on = false;
     bool ordered = false;  // by the program at that time
   };
-  BoardOutputs for_board() const { return board_outputs(in_force(), heeds_override_ ? override_ : 1); }
+  BoardOutputs for_board() const { return board_outputs(in_force(), override_enabled_ ? override_ : 1); }
 
   OutputState ordered_;
-  bool heeds_override_ = true;
+  bool override_enabled_ = true;
   double override_ = 1;
   std::optional<Switched> mist_;
   std::optional<Switched> flood_;

@@ -19,7 +19,7 @@ class PlannerHolds {
   // The planner brakes for the reason, or goes on.
   void change(HoldReason reason, bool holds);
   // The reason alone: at rest the planner is not asked.
-  void note(HoldReason reason, bool holds = true) { reasons_.set(reason, holds); }
+  void set(HoldReason reason, bool holds = true) { reasons_.set(reason, holds); }
   // At rest: these reasons have done what they were for.
   void end(std::initializer_list<HoldReason> ended);
 
@@ -28,8 +28,8 @@ class PlannerHolds {
   void set_adaptive_feed(double factor);
 
  private:
-  void tell_planner();
-  void note_feed();
+  void update_planner();
+  void update_feed_hold();
 
   Planner& planner_;
   HoldReasons reasons_;

@@ -15,7 +15,7 @@ class PlayedItems {
   void watch(std::function<void(const LinkItem&)> watcher) { watcher_ = std::move(watcher); }
 
   // Sent as motion; or as a part of the tail that ends with that item, which is played only if no refill comes.
-  void note_sent(ItemNumber number, const LinkItem& item, std::optional<ItemNumber> end_of_tail) {
+  void record_sent(ItemNumber number, const LinkItem& item, std::optional<ItemNumber> end_of_tail) {
     if (watcher_) sent_.push_back({.number = number, .item = item, .end_of_tail = end_of_tail});
   }
   // Outputs that were sent by themselves, and are switched.

@@ -20,7 +20,7 @@ class PlayedMotion {
   // Without a watcher nothing is kept.
   bool is_watched() const { return watcher_ != nullptr; }
 
-  void note_given(const MotionItem& motion) {
+  void record_given(const MotionItem& motion) {
     if (is_watched()) given_.push_back(motion);
   }
   // How many were given since the beginning, without those that were forgotten.

@@ -44,7 +44,7 @@ class ProbeMove {
   // The same, once for each watch.
   [[nodiscard]] bool is_new_contact() { return contact() && !std::exchange(contact_seen_, true); }
   // Motion in the move ends there, if not at the move's end.
-  void note_end(const Point& end) { end_ = end; }
+  void record_end(const Point& end) { end_ = end; }
   // After the move, at rest: recall() asks what the board has kept, unless the move was refused. When the board has
   // answered, find() works out the outcome. `planned_end`: of the move.
   void recall();

@@ -36,9 +36,9 @@ class PulledItems {
   void drop_first(std::size_t items);
 
   bool goes_on() const { return !holds_ && !ended_ && !action_; }
-  void note_hold() { holds_ = true; }
-  void note_end() { ended_ = true; }
-  void note_action(const Action& action) { action_ = action; }
+  void record_hold() { holds_ = true; }
+  void record_end() { ended_ = true; }
+  void record_action(const Action& action) { action_ = action; }
   bool ends() const { return ended_; }
   const std::optional<Action>& action() const { return action_; }
   Action take_action() { return *std::exchange(action_, std::nullopt); }

@@ -54,27 +54,27 @@ class RefillLedger {
   Seconds longest_ahead() const { return longest_ahead_; }
 
   // The planner has given this motion.
-  void note_given(const MotionItem& motion, Seconds time);
+  void record_given(const MotionItem& motion, Seconds time);
   const PlayedMotion& motion_played() const { return motion_played_; }
   // Before a refill is sent, or outputs alone: from then on, the board comes to rest there.
-  void tell_rest(ItemNumber executed, const PathPlace& place) const;
-  void note_motion(const LinkItem& item, ItemNumber number, Seconds time);
-  void note_refill(Refill refill);  // after its motion
+  void report_rest(ItemNumber executed, const PathPlace& place) const;
+  void record_motion(const LinkItem& item, ItemNumber number, Seconds time);
+  void record_refill(Refill refill);  // after its motion
   // A refill waits for an answer now.
-  void note_question();
+  void on_question();
   // Outputs that were sent alone are switched.
   void show(const BoardOutputs& outputs) const { played_.show(outputs); }
 
   // The board has told that it has executed so much. `done`: the board is known to be at least there.
-  void note_executed(ItemNumber executed);
+  void on_executed(ItemNumber executed);
   // The refill that the board plays: it has begun no other. Null: none.
   const Refill* under_way() const { return under_way_.empty() ? nullptr : &under_way_.front(); }
   // The board has executed the refill under way, with its tail or without. Returns the rest that it came to.
   RestOnPath end_refill(bool on_tail);
-  void note_recovery() { ++counts_.recoveries; }
-  void note_slowdowns(int slowdowns) { counts_.slowdowns = slowdowns; }
+  void on_recovery() { ++counts_.recoveries; }
+  void set_slowdowns(int slowdowns) { counts_.slowdowns = slowdowns; }
   // The board rests, and all that was sent is executed.
-  void note_rest();
+  void record_rest();
   // The board rests. All that was sent after the rest never will be executed.
   void forget_unexecuted();
 

@@ -30,10 +30,10 @@ class RefillPace {
   Seconds horizon() const;
   Seconds refill_at() const;
   Seconds longest_move() const { return longest_move_; }
-  void note_refill();
+  void record_refill();
 
   // A question was put behind a refill.
-  void note_question() { asked_ = true; }
+  void on_question() { asked_ = true; }
   // True: its answer is not judged yet.
   [[nodiscard]] bool take_question() { return std::exchange(asked_, false); }
   // False: the answer took too long, and tells of a time too long ago. Slower answers are expected from now on.

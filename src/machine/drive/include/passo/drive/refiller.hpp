@@ -38,7 +38,7 @@ class Refiller final : public Feed {
   Refiller(const Stages& stages, const StepOptions& steps, const TailOptions& options, bool waits_for_operator = false);
 
   // Sends a refill, or tells what the refiller waits for.
-  Turn advance() override;
+  Progress advance() override;
   bool plans() const override { return true; }
   Action take_action() override;
   void watch(const MotionItem& motion) override;
@@ -53,7 +53,7 @@ class Refiller final : public Feed {
   Seconds ahead_of(const Turned& turned, Seconds time) override { return ledger_.ahead_of(turned, time); }
   std::optional<Seconds> began() const override { return ledger_.began(); }
   bool is_remote() const override { return true; }
-  void note_rest(Seconds /*time*/) override {}
+  void record_rest(Seconds /*time*/) override {}
 
   // From here on no refill replaces the tail that the board has. The board plays that tail, and the path is taken up
   // again where the tail ends.
@@ -70,14 +70,14 @@ class Refiller final : public Feed {
   RefillLedger* ledger() override { return &ledger_; }
 
  private:
-  Turn turn_at_rest();
+  Progress advance_at_rest();
   void commit();
   bool counts_items() const;
   bool may_plan();
   Seconds known_ahead() const;
   bool waits_for_answer();
-  void note_executed();
-  void take_up();
+  void on_executed();
+  void rewind();
   void pull();
   void add(const LinkItem& item);
   bool begin_more_slowly();

@@ -22,13 +22,13 @@ class SpeedForTails {
     double of_axis = 0;  // of the axis that moves the most, mm/s or degrees/s
   };
   // The planner has given that motion.
-  void note_given(const PlannedMove& move);
+  void record_given(const PlannedMove& move);
   // At its end.
   const Speed& speed() const { return speed_; }
   // So much motion was pulled since.
-  void note_motion(Seconds time) { limited_for_ += time; }
+  void record_motion(Seconds time) { limited_for_ += time; }
   // Behind what was pulled last a tail would have so many items.
-  void note_tail(std::size_t items);
+  void record_tail(std::size_t items);
   // From rest, where none of the motion fits that was pulled. `highest` has the highest speeds of that motion. False:
   // the motion is as slow as can be already.
   [[nodiscard]] bool begin_more_slowly(const Speed& highest);

@@ -40,7 +40,7 @@ class SpindleEncoder {
   bool is_right() const { return known_good_ && doubts_ == 0; }
 
  private:
-  void note_turns(double turns, double speed);
+  void record_turns(double turns, double speed);
 
   int counts_per_turn_;
   Hertz clock_;

@@ -29,11 +29,11 @@ class SpindleFollower {
   // The next locked move begins when the spindle has turned to `index`, in turns.
   void begin(double index);
   // From now on the moves go back the way they came, and the spindle turns back.
-  void turn_round() { direction_ = -1; }
+  void reverse() { direction_ = -1; }
   // The spindle's speed, by the last readings. Negative: the count goes down.
-  double turns_a_second() const;
+  double turns_per_second() const;
   // True: by the readings, the spindle stands or turns back at `committed` after the last reading.
-  bool turns_back(Seconds committed) const;
+  bool is_reversing(Seconds committed) const;
   // A move was committed.
   void watch(const PlannedMove& move);
   // A new reading.
@@ -60,7 +60,7 @@ class SpindleFollower {
     double speed = 0;  // turns a second; negative: back
   };
   Course course(Seconds later) const;
-  double speed() const { return std::abs(turns_a_second()); }
+  double speed() const { return std::abs(turns_per_second()); }
   double wanted_ratio(Seconds committed) const;
   double lag_of(const PlannedMove& move) const;
 

@@ -44,16 +44,16 @@ class SpindleTracker {
   // Begins, at rest, to wait for the spindle to reach this speed and for its index to come by.
   void begin_await(double revolutions_per_minute);
   // True: the motion is to begin now, or the tracker has given up. False: call again when the board has answered, or at
-  // looks_at().
+  // next_poll().
   [[nodiscard]] bool await_index();
-  Seconds looks_at() const { return looks_at_; }
+  Seconds next_poll() const { return looks_at_; }
 
   // A tap is on its way down, and the spindle was told to reverse. turned_back() tells, once, that the spindle has
   // reversed.
   void expect_turn() { turn_expected_ = true; }
   bool expects_turn() const { return turn_expected_; }
   [[nodiscard]] bool turned_back() { return std::exchange(turned_back_, false); }
-  void turn_round();
+  void reverse();
 
   // Why the tracker cannot follow the spindle. Empty: no trouble.
   const std::optional<LinkError>& trouble() const { return trouble_; }
@@ -62,12 +62,12 @@ class SpindleTracker {
   enum class AwaitStep : std::uint8_t { measure, measured_alone, measured_loaded, ask, answered };
 
   void begin_following();
-  void note(const Turned& turned);
-  void look_for_index();
+  void update(const Turned& turned);
+  void find_index();
   Seconds time_to_index(Seconds answer);
-  void mind_start();
-  void mind_place(Seconds ahead);
-  bool mind_encoder(Seconds longest);
+  void check_start();
+  void check_lag(Seconds ahead);
+  bool check_encoder(Seconds longest);
 
   Stages stages_;
   SpindleEncoder encoder_;

@@ -86,10 +86,10 @@ class JobHistory {
   // done is forgotten.
   bool begin(std::int64_t id, double now);
   bool end(std::int64_t id, HistoryState state, std::string_view why, double now, std::string_view why_sentence = {});
-  bool note_wait(std::int64_t id, const HistoryWait& wait);
+  bool record_wait(std::int64_t id, const HistoryWait& wait);
   // Takes a job that waits out of the queue. False: it does not wait.
   bool remove(std::int64_t id);
-  bool note_alarm(std::string_view words, double now, std::string_view sentence = {});
+  bool record_alarm(std::string_view words, double now, std::string_view sentence = {});
 
   // In the order of the queue.
   std::vector<HistoryJob> queue() const;

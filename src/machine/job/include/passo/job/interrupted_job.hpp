@@ -26,8 +26,8 @@ BrokenOff broken_off(const Journal& journal, const BoardStatus& status, const Gr
 // Call before the board is greeted: looks in the journal for a job that was broken off, and writes there that the board
 // hears this greeting next. run.is_written() is false if that cannot be written. `outlives_host`: the board is not a
 // part of the program that has begun the job; else its place is lost. Nothing: there is no journal.
-std::optional<BrokenOff> take_up(JobKeeper& keeper, JournaledRun& run, const BoardStatus& status,
-                                 const Greeting& greeting, bool outlives_host = true);
+std::optional<BrokenOff> resume_job(JobKeeper& keeper, JournaledRun& run, const BoardStatus& status,
+                                    const Greeting& greeting, bool outlives_host = true);
 
 // A job that was broken off, and why it cannot go on amid its path, if it cannot.
 struct InterruptedJob {

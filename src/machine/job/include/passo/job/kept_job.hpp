@@ -36,9 +36,9 @@ class KeptJob {
 
   // Says what was found before the board was greeted. Goes through the program up to the place.
   void find(const BrokenOff& found);
-  // The same for a board that was lost and is greeted again. look() finds the place later.
+  // The same for a board that was lost and is greeted again. poll() finds the place later.
   void hear(const BoardStatus& status, const Greeting& greeting);
-  void look();
+  void poll();
   // Null: no job was broken off. Its reason is as of now: the machine may have been moved since.
   const InterruptedJob* interrupted();
   // The job's program, and where it began.
@@ -76,7 +76,7 @@ class KeptJob {
  private:
   bool write(const JournalHead& head, std::optional<JobEntry> entry);
   void refuse(std::string_view code, std::string_view why, SentenceArguments arguments = {});
-  void mind_place();
+  void check_place();
   void compare_switches();
   void find_way_back(const std::string& text);
   bool is_of(std::uint64_t path);

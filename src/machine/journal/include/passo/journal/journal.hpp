@@ -75,8 +75,8 @@ class JournalWriter {
   // The store outlives the writer.
   explicit JournalWriter(JournalStore& store) : store_(store) {}
   void begin(const JournalHead& head);
-  void note(const BoardRest& rest);
-  void note(const ProbeOutcome& outcome);
+  void record(const BoardRest& rest);
+  void record(const ProbeOutcome& outcome);
   // True: something could not be written, so the journal cannot be relied on.
   bool failed() const { return failed_; }
 

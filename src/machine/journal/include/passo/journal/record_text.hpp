@@ -36,17 +36,17 @@ class RecordWords {
     const std::string_view word = next();
     T value = 0;
     const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), value, base);
-    take(end == word.data() + word.size() && error == std::errc());
+    require(end == word.data() + word.size() && error == std::errc());
     return value;
   }
   double real() {
     const std::string_view word = next();
     double value = 0;
     const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), value);
-    take(end == word.data() + word.size() && error == std::errc() && std::isfinite(value));
+    require(end == word.data() + word.size() && error == std::errc() && std::isfinite(value));
     return value;
   }
-  void expect(std::string_view word) { take(next() == word); }
+  void expect(std::string_view word) { require(next() == word); }
   // Reads to the end of the line, after one blank.
   std::string name();
   bool good() const { return good_; }
@@ -54,7 +54,7 @@ class RecordWords {
 
  private:
   std::string_view next();
-  void take(bool good) { good_ = good_ && good; }
+  void require(bool good) { good_ = good_ && good; }
 
   std::string_view text_;
   bool good_ = true;

@@ -127,9 +127,9 @@ class VirtualMachine final : public BoardPort {
 
   // Lets the board count its host's silence up to now.
   void count_silence();
-  void look_at_plant();
-  void look_at_inputs();
-  void heed(unsigned inputs);
+  void update_inputs();
+  void check_inputs();
+  void on_inputs(unsigned inputs);
 
   IdealPlant own_plant_;
   Hardware hardware_;

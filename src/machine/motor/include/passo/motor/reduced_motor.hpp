@@ -111,8 +111,8 @@ class ReducedMotor {
   void move(const Block& block);
   double torque_at(double ahead) const;
   double other_torque_at(double ahead) const;
-  void look_for_rest(double before);
-  void look_at_currents();
+  void check_rest(double before);
+  void check_currents();
 
   // Of the motor and its drive.
   double teeth_;

@@ -126,8 +126,8 @@ class RunningMotor {
   double measured_torque() const;
   double next_current(double current, double share, double emf, const StepSize& size) const;
   void turn(double electrical);
-  void look_for_slip(double allowed);
-  void look_for_rest(const StepSize& size);
+  void check_slip(double allowed);
+  void check_rest(const StepSize& size);
 
   // Of the motor and its drive.
   double teeth_;

@@ -44,7 +44,7 @@ class EncoderDrive {
   bool closes_loop() const { return model_.closes_loop; }
 
  private:
-  void look(BoundedMotor& rotor);
+  void update(BoundedMotor& rotor);
   void recover(BoundedMotor& rotor);
   void set_field(BoundedMotor& rotor, std::int64_t place);
   double counted(const BoundedMotor& rotor) const;

@@ -101,18 +101,18 @@ class RotorPlant final : public FittedPlant {
   Seconds pass_to(Seconds time);
   bool turn_freely(std::size_t motor, Seconds passed, int way);
   void turn(std::size_t motor, Seconds passed, std::int64_t steps);
-  void give(std::size_t motor, Seconds passed, std::int64_t steps);
-  void mind_disturbances(Seconds time);
+  void apply_steps(std::size_t motor, Seconds passed, std::int64_t steps);
+  void update_disturbances(Seconds time);
   void turn_with_encoder(std::size_t motor, Seconds passed, std::int64_t steps);
-  void take_places();
-  void look_at_places();
-  void look_at(std::size_t motor, int stepped);
-  void look_at_margin(Fitted& one) const;
-  void look_at_loss(std::size_t motor);
+  void update_positions();
+  void update_places();
+  void update_lag(std::size_t motor, int stepped);
+  void update_margin(Fitted& one) const;
+  void record_loss(std::size_t motor);
 
   Integration integration_;
   std::array<Fitted, max_motors> motors_;
-  MotorSteps untaken_{};  // that motors without physics have got since take_places()
+  MotorSteps untaken_{};  // that motors without physics have got since update_positions()
   std::vector<StepLoss> losses_;
   std::optional<FollowingFault> following_fault_;
   std::vector<Disturbance> disturbances_;

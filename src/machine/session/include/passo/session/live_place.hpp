@@ -32,7 +32,7 @@ class LivePlace {
   bool is_due(Seconds now, std::optional<Seconds> answered, Seconds between) const {
     return now - std::max(asked_, answered.value_or(asked_)) >= between;
   }
-  void note_asked(Seconds now) { asked_ = now; }
+  void on_asked(Seconds now) { asked_ = now; }
 
  private:
   Point at_;

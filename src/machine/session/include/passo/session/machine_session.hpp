@@ -2,9 +2,9 @@
 //
 // Requests go in; a status and an ordered list of changes come out. The session owns the board's session, the work that
 // the machine is busy with, and the position with its trust. A session waits for nothing, and has no thread and no
-// clock. Its owner calls turn() again and again, in the board's virtual time or in real time.
+// clock. Its owner calls poll() again and again, in the board's virtual time or in real time.
 //
-//   owner:  session.request(…);  while (…) { session.turn(Seconds(0.02));  session.status();  session.take_changes(); }
+//   owner:  session.request(…);  while (…) { session.poll(Seconds(0.02));  session.status();  session.take_changes(); }
 //
 // Invariants: the state changes only as the table in machine_state.hpp says. A position whose trust is not `unknown` is
 // as true as the board's counts. Each request is answered exactly once.
@@ -46,19 +46,19 @@ struct SessionOptions {
 class MachineSession {
  public:
   // `machine` and `port` outlive the session. The session sends nothing to the board before greet() or the first
-  // turn().
+  // poll().
   MachineSession(const MachineDescription& machine, BoardPort& port, const SessionOptions& options = {});
   ~MachineSession();
   MachineSession(const MachineSession&) = delete;
   MachineSession& operator=(const MachineSession&) = delete;
 
-  // The board's session, for questions to the board before the first turn(). These questions change nothing on the
+  // The board's session, for questions to the board before the first poll(). These questions change nothing on the
   // board.
   BoardSession& board() { return board_; }
   const BoardSession& board() const { return board_; }
-  // Says where the machine stands, before greet() or the first turn(), if that depends on the board's status.
+  // Says where the machine stands, before greet() or the first poll(), if that depends on the board's status.
   void start_at(const KnownPosition& position) { place_.start_at(position); }
-  // Greets the board before the first turn(), if the greeting depends on the board's status. Otherwise the greeting
+  // Greets the board before the first poll(), if the greeting depends on the board's status. Otherwise the greeting
   // comes from SessionOptions.
   void greet(const Greeting& greeting);
   // Gives the board another session number, between two programs.
@@ -72,7 +72,7 @@ class MachineSession {
   [[nodiscard]] Result<Ticket, Refusal> request(Request wanted);
   // Does one bounded step. Where the session can only wait for the board, time passes until there is news, but no
   // longer than `most`. `most` may be endless only while something moves.
-  void turn(Seconds most);
+  void poll(Seconds most);
 
   MachineStatus status() const;
   std::vector<MachineChange> take_changes();
@@ -110,25 +110,25 @@ class MachineSession {
 
   // One function for each request.
   using Answer = Result<Ticket, Refusal>;
-  Answer take(request::Start& start);
-  Answer take(request::Stream& stream);
-  Answer take(request::DropLines& drop);
-  Answer take(request::Jog& jog);
-  Answer take(request::RenewLease& renew);
-  Answer take(request::Home& home);
-  Answer take(request::Probe& probe);
-  Answer take(request::Check& check);
-  Answer take(request::Hold& hold);
-  Answer take(request::Resume& resume);
-  Answer take(request::Stop& stop);
-  Answer take(request::Override& change);
-  Answer take(request::SwitchOutputs& wanted);
-  Answer take(request::ChooseStops& chosen);
-  Answer take(request::OperatorDone& done);
-  Answer take(request::SetPosition& set);
-  Answer take(request::ResetMachine& reset);
-  Answer take(request::Sleep& sleep);
-  Answer take(request::Wake& wake);
+  Answer handle(request::Start& start);
+  Answer handle(request::Stream& stream);
+  Answer handle(request::DropLines& drop);
+  Answer handle(request::Jog& jog);
+  Answer handle(request::RenewLease& renew);
+  Answer handle(request::Home& home);
+  Answer handle(request::Probe& probe);
+  Answer handle(request::Check& check);
+  Answer handle(request::Hold& hold);
+  Answer handle(request::Resume& resume);
+  Answer handle(request::Stop& stop);
+  Answer handle(request::Override& change);
+  Answer handle(request::SwitchOutputs& wanted);
+  Answer handle(request::ChooseStops& chosen);
+  Answer handle(request::OperatorDone& done);
+  Answer handle(request::SetPosition& set);
+  Answer handle(request::ResetMachine& reset);
+  Answer handle(request::Sleep& sleep);
+  Answer handle(request::Wake& wake);
   std::optional<Refusal> refuse(MachineEvent event) const;
   Refusal why_not() const;
   Refusal refusal_in_alarm() const;
@@ -149,30 +149,30 @@ class MachineSession {
   const KnownPosition& position() const { return place_.position(); }
   const BoardStatus* watched_status() const;
 
-  void turn_work(Seconds most);
-  void turn_check();
+  void poll_work(Seconds most);
+  void poll_check();
   void finish_work();
   void end_work();
   std::pair<Outcome, std::optional<ActivityFault>> judge_work() const;
-  void note_place();
-  bool mind_lines(Seconds most);
+  void record_place();
+  bool poll_lines(Seconds most);
   void go_on_after_drop();
-  void mind_lease();
-  void mind_holds();
-  void mind_door();
+  void check_lease();
+  void update_holds();
+  void update_door();
   void end_overrides();
   void put_overrides_on(MotionDrive& drive) const;
-  void note_tails();
-  void note_standstill();
-  void mind_board();
+  void report_tails();
+  void on_standstill();
+  void check_board();
   Sentence sentence_of(LinkError error) const;
-  void look_at_panel();
-  void look_at_place();
+  void poll_panel();
+  void poll_place();
   Sentence sentence_of_stop() const;
   bool watches_counts() const { return options_.over_a_line || options_.tells_place; }
 
   void move_to(MachineEvent event);
-  void note(MachineChange change);
+  void publish(MachineChange change);
   void answer(Ticket ticket, Outcome outcome, std::optional<ActivityFault> fault = {});
   void answer_holds(Outcome outcome);
 

@@ -51,11 +51,11 @@ class BacklashTaker final : public Source<PathItem> {
   bool has_backlash(Axis axis) const { return options_.backlash[axis] > 0; }
   bool pull(PathItem& item);
   void begin(const Segment& segment);
-  bool give_piece(PathItem& item);
+  bool emit_piece(PathItem& item);
   bool follow_to_next_turn();
   void take_up(const Point& at, AxisSet turned, PathItem& item);
-  bool give_start(PathItem& item);
-  bool give_end(PathItem& item);
+  bool emit_start(PathItem& item);
+  bool emit_end(PathItem& item);
 
   Source<PathItem>& path_;
   BacklashOptions options_;

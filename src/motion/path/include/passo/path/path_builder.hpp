@@ -106,27 +106,27 @@ class PathBuilder final : public Source<PathItem>, private PathMemory {
   // Notes what the operations so far have set, and goes back to that, as if those since had not come. Call when next()
   // has returned false.
   void keep() { kept_ = *this; }
-  void take_back() { static_cast<PathMemory&>(*this) = kept_; }
+  void roll_back() { static_cast<PathMemory&>(*this) = kept_; }
 
  private:
   bool next_operation();
-  bool take_tap(const operation::RigidTap& tap, PathItem& item);
-  bool take_tap_step(PathItem& item);
+  bool begin_tap(const operation::RigidTap& tap, PathItem& item);
+  bool next_tap_step(PathItem& item);
   void expand(const operation::RigidTap& tap);
   Mm room_to_turn(const Curve& way) const;
   void switch_off();
   // True: the function wrote an item.
-  bool take(const Operation& operation, PathItem& item);
-  bool take_line(const Point& work_end, bool rapid, PathItem& item);
-  bool take_probe(const operation::StraightProbe& probe, PathItem& item);
-  bool take_probe_step(PathItem& item);
-  bool take_arc(const operation::ArcFeed& arc, PathItem& item);
-  bool take_tilted_arc(const operation::ArcFeed& arc, PathItem& item);
-  bool take_chord(PathItem& item);
-  bool take_spline(const operation::NurbsFeed& curve, PathItem& item);
-  bool take_spline_piece(PathItem& item);
+  bool add(const Operation& operation, PathItem& item);
+  bool add_line(const Point& work_end, bool rapid, PathItem& item);
+  bool add_probe(const operation::StraightProbe& probe, PathItem& item);
+  bool next_probe_step(PathItem& item);
+  bool add_arc(const operation::ArcFeed& arc, PathItem& item);
+  bool add_tilted_arc(const operation::ArcFeed& arc, PathItem& item);
+  bool next_chord(PathItem& item);
+  bool begin_spline(const operation::NurbsFeed& curve, PathItem& item);
+  bool next_spline_piece(PathItem& item);
   void be_piece(bool last, Segment& segment) const;
-  bool take_curve(const Curve& curve, bool rapid, PathItem& item);
+  bool add_curve(const Curve& curve, bool rapid, PathItem& item);
 
   Point machine_end(const Point& work_end) const;
   MmPerSecond feed_along(const Curve& curve);
