@@ -70,14 +70,14 @@ describe('a job that was interrupted', () => {
     const card = page.getByRole('region', { name: 'Interrupted' });
     await card.waitFor();
     expect(await card.innerText()).toContain('part.ngc');
-    expect(await card.innerText()).toContain('exactly where the machine stands');
+    expect(await card.innerText()).toContain('exactly at the current position');
     await expect.poll(() => page.locator('.act.go').getAttribute('title')).toContain('interrupted');
     // Other pages lead to it.
     await page.goto(`${second.address}#/files`);
     await page.getByText('Job part.ngc was interrupted.').waitFor();
     await click(page, 'Show');
     await click(page, 'Resume here');
-    await page.getByRole('dialog').getByText('The spindle starts where the tool stands.').waitFor();
+    await page.getByRole('dialog').getByText('The spindle starts with the tool where it is now').waitFor();
     await agree(page, 'Resume here');
     const resumed = await endOf(second);
     await card.waitFor({ state: 'detached' });
@@ -113,7 +113,7 @@ describe('a job that was interrupted', () => {
     await card.getByRole('button', { name: 'Home', exact: true }).click();
     await agree(page, 'Home');
     await second.until((status) => status.trust === 'homed' && status.state === 'Idle');
-    await card.getByText('The way back, step by step').waitFor();
+    await card.getByText('Return to the toolpath, step by step').waitFor();
     await expect.poll(() => card.locator('li').count()).toBeGreaterThan(2);
     await card.getByRole('button', { name: 'Return to the toolpath' }).click();
     await page.getByRole('dialog').locator('li').nth(2).waitFor();
@@ -141,10 +141,10 @@ describe('a start amid a program', () => {
     await page.locator('.text-line', { hasText: 'G1 X20' }).click();
     await page.locator('.picked-line:visible').getByRole('button', { name: /Start at line 4/ }).click();
     const question = page.getByRole('dialog');
-    await question.getByText('that line is done 3 times').waitFor();
+    await question.getByText('that line runs 3 times').waitFor();
     expect(await question.getByRole('button', { name: 'Start' }).getAttribute('aria-disabled')).toBe('true');
-    await question.getByRole('textbox', { name: /^Which time/ }).fill('3');
-    await question.getByRole('textbox', { name: /^After the line/ }).fill('0.5');
+    await question.getByRole('textbox', { name: /^Pass/ }).fill('3');
+    await question.getByRole('textbox', { name: /^Distance from the start of the line/ }).fill('0.5');
     await page.keyboard.press('Tab');
     await question.locator('li').first().waitFor();
     // Half an inch after X0.

@@ -19,7 +19,7 @@ describe('a drill file', () => {
     await expect.poll(() => picture.evaluate((one) => (one as HTMLImageElement).naturalWidth)).toBeGreaterThan(0);
     const before = await picture.getAttribute('src');
     await page.getByRole('textbox', { name: 'Depth', exact: true }).fill('-3.25');
-    await page.getByRole('checkbox', { name: 'Plain moves, no canned cycles' }).check();
+    await page.getByRole('checkbox', { name: 'No canned cycles' }).check();
     await expect.poll(() => picture.getAttribute('src')).not.toBe(before);
     const text = async (): Promise<string> => {
       const { programs } = await daemon.get<{ programs: { id: number }[] }>('/programs');

@@ -55,14 +55,14 @@ describe('the machine file', () => {
     await click(page, 'Save the file');
     await page.getByRole('dialog').getByText('16 → 8').waitFor();
     await agree(page, 'Save the file');
-    await page.getByText('It counts when passo serve starts again.').waitFor();
+    await page.getByText('Restart passo serve to apply it.').waitFor();
     expect(readFileSync(machine, 'utf8')).toContain('microsteps = 8              # as the switches');
     // Somebody else changes the file: it is not overwritten.
     await enter(page, 'X Microsteps', '4');
     writeFileSync(machine, `${readFileSync(machine, 'utf8')}# by hand\n`);
     await click(page, 'Save the file');
     await agree(page, 'Save the file');
-    await page.getByText('somebody has changed the machine file meanwhile').first().waitFor();
+    await page.getByText('another client changed the machine file').first().waitFor();
     await click(page, 'Reload');
     await expect.poll(() => scale.innerText()).toContain('320');
     expect(readFileSync(machine, 'utf8')).toContain('# by hand');
@@ -112,24 +112,24 @@ describe('usual values of the work', () => {
 });
 
 describe('inputs and outputs', () => {
-  it('are live, and outputs are switched in the set-up mode only', async () => {
+  it('are live, and outputs are switched in the output test mode only', async () => {
     const { page, context, errors } = await visit(browser, daemon, 'pins');
     const flood = page.getByRole('region', { name: 'Manual outputs' }).getByRole('button', { name: /^Flood/ });
-    expect(await flood.getAttribute('title')).toContain('Only in set-up mode');
+    expect(await flood.getAttribute('title')).toContain('Only in output test mode');
     if ((await daemon.status()).owner.kind === 'client') {
       await click(page, 'Take control');
       await agree(page, 'Take control');
     }
-    await page.getByRole('button', { name: /^Set-up mode/ }).click();
-    await agree(page, 'Set-up mode');
-    await page.getByRole('button', { name: 'End set-up mode' }).waitFor();
+    await page.getByRole('button', { name: /^Output test mode/ }).click();
+    await agree(page, 'Output test mode');
+    await page.getByRole('button', { name: 'End output test mode' }).waitFor();
     await flood.click();
     await daemon.until((status) => status.outputs.flood);
     await expect.poll(() => page.getByTestId('pin-flood').innerText()).toBe('on');
     await page.getByRole('button', { name: 'Spindle clockwise', exact: true }).click();
     await agree(page, 'Start the spindle');
     await daemon.until((status) => status.outputs.spindle === 'clockwise' && status.outputs.flood);
-    await page.getByRole('button', { name: 'End set-up mode' }).click();
+    await page.getByRole('button', { name: 'End output test mode' }).click();
     await daemon.until((status) => status.state === 'Idle' && !status.outputs.flood && status.outputs.spindle === 'off');
     await expect.poll(() => page.getByTestId('pin-flood').innerText()).toBe('off');
     expect(errors).toEqual([]);
@@ -175,7 +175,7 @@ describe('a gamepad', () => {
     });
     const press = (pressed: boolean): Promise<void> =>
       page.evaluate((to) => void ((window as unknown as { pad: { buttons: { pressed: boolean }[] } }).pad.buttons[15]!.pressed = to), pressed);
-    // Elsewhere than on the page "Set up" it does nothing.
+    // Elsewhere than on the page "Setup" it does nothing.
     await press(true);
     await page.goto(`${daemon.address}#/jog`);
     await page.getByText('Gamepad Pad').waitFor();
@@ -209,9 +209,9 @@ describe('the scene', () => {
     await page.goto(`${daemon.address}#/run`);
     const tells = page.getByRole('combobox', { name: 'Colour of the toolpath' });
     const legend = page.locator('.scene-legend');
-    await tells.selectOption({ label: 'Colour: speed' });
+    await tells.selectOption({ label: 'Colour by speed' });
     await expect.poll(() => legend.innerText()).toMatch(/^60\s+1200\s+mm\/min$/);
-    await tells.selectOption({ label: 'Colour: depth' });
+    await tells.selectOption({ label: 'Colour by depth' });
     await expect.poll(() => legend.innerText()).toMatch(/^Z -4\.00\s+Z 0\.00\s+mm$/);
     await page.getByRole('button', { name: 'Section', exact: true }).click();
     await expect.poll(() => page.locator('.scene-section').innerText()).toContain('Z -2.00 mm');

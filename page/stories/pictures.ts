@@ -67,7 +67,7 @@ async function board(browser: import('playwright-core').Browser, daemon: Daemon)
 async function pulses(page: import('playwright-core').Page, daemon: Daemon): Promise<void> {
   await page.goto(`${daemon.address}#/pins`);
   const strip = page.getByRole('region', { name: 'Single pulses' });
-  await strip.getByText('after the pulse before').waitFor({ timeout: patience });
+  await strip.getByText('after the previous pulse').waitFor({ timeout: patience });
   await strip.getByRole('button', { name: 'Zoom in' }).click();
   await sleep(1500);
   await strip.screenshot({ path: join(folder, 'page-pulses.png'), timeout: patience });

@@ -112,8 +112,8 @@ describe('a program on its way', () => {
     await click(first.page, 'Hold');
     const held = await daemon.until((status) => status.state === 'Hold' && status.rests);
     await first.page.getByText('Held').waitFor();
-    await click(first.page, 'Feed more');
-    await click(first.page, 'Feed more');
+    await click(first.page, 'Increase: Feed');
+    await click(first.page, 'Increase: Feed');
     await daemon.until((status) => Math.abs(status.overrides.feed - 1.2) < 1e-6);
     // The page is closed: the machine goes on holding, and another page finds it so.
     await first.context.close();
@@ -122,7 +122,7 @@ describe('a program on its way', () => {
     for (const [axis, place] of Object.entries((await daemon.status()).place)) expect(place).toBeCloseTo(held.place[axis] ?? NaN, 1.5);
     await second.page.locator('.owner').waitFor();
     await takeOver(second.page);
-    for (let presses = 0; presses < 8; ++presses) await click(second.page, 'Feed more');
+    for (let presses = 0; presses < 8; ++presses) await click(second.page, 'Increase: Feed');
     await click(second.page, 'Resume');
     await daemon.until((status) => status.state === 'Run');
     await daemon.until((status) => status.job?.state === 'done');
@@ -139,10 +139,10 @@ describe('a program on its way', () => {
     const from = (await daemon.status()).place.x ?? NaN;
     await click(one.page, 'Jog X+');
     await other.page.locator('.owner').waitFor();
-    expect(await other.page.locator('.owner').innerText()).toContain('Chromium on Linux has the motion');
+    expect(await other.page.locator('.owner').innerText()).toContain('Chromium on Linux is in control');
     const pad = other.page.getByRole('button', { name: 'Jog X+', exact: true });
     expect(await pad.getAttribute('aria-disabled')).toBe('true');
-    expect(await pad.getAttribute('title')).toContain('Somebody else');
+    expect(await pad.getAttribute('title')).toContain('Another client');
     const before = (await daemon.until((status) => status.state === 'Idle' && Math.abs((status.place.x ?? NaN) - from - 1) < 0.01)).place;
     await pad.click({ force: true });
     await sleep(300);
@@ -229,7 +229,7 @@ describe('a program line by line', () => {
     await startProgram(page);
     for (const way of [5, 10]) {
       await daemon.until((status) => status.rests && status.holds.includes('line-end') && Math.abs((status.place.x ?? 0) - at - way) < 0.01);
-      await page.getByText('A line has ended.').waitFor();
+      await page.getByText('Line finished').waitFor();
       await click(page, 'Resume');
     }
     await page.getByText('Waiting for the operator').waitFor();
@@ -247,7 +247,7 @@ describe('a program line by line', () => {
 describe('a program that waits for a person', () => {
   it('is told by its own words, and leads to the jog, the zeros and the probe, and on', async () => {
     const waits = { for: 'M6', line: 12, tool: 5, message: 'Turn the plate over\n6 mm drill', free: true };
-    for (const [language, line, done, jog] of [['en', 'M6, line 12, tool 5', 'Done', 'Set up'], ['fr', 'M6, ligne 12, outil 5', 'Fait', 'Réglage']] as const) {
+    for (const [language, line, done, jog] of [['en', 'M6, line 12, tool 5', 'Done', 'Setup'], ['fr', 'M6, ligne 12, outil 5', 'Fait', 'Réglage']] as const) {
       // What the daemon tells of a machine at M6.
       const before = (page: Page): Promise<void> =>
         page.routeWebSocket(/\/stream/, (socket) => {

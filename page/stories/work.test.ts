@@ -62,7 +62,7 @@ describe('the probe', () => {
     expect(await question.innerText()).toContain('The map is for part.ngc.');
     await agree(page, 'Probe');
     await page.getByTestId('height-map').waitFor({ timeout: patience * 2 });
-    expect(await page.getByTestId('height-map').innerText()).toContain('3 × 2 places');
+    expect(await page.getByTestId('height-map').innerText()).toContain('3 × 2 points');
     await daemon.until((status) => status.state === 'Idle', patience);
     await page.getByRole('button', { name: 'Apply the height map' }).click();
     await expect.poll(async () => (await daemon.get<{ programs: unknown[] }>('/programs')).programs.length, { timeout: patience }).toBeGreaterThan(3);
@@ -106,7 +106,7 @@ describe('limits for the motors', () => {
     await page.getByTestId('scale-X').waitFor();
     await page.getByRole('button', { name: 'Calculate the limits' }).click();
     await page.getByTestId('tuned').waitFor({ timeout: patience * 3 });
-    const curves = page.getByRole('img', { name: /^Torque over speed/ });
+    const curves = page.getByRole('img', { name: /^Torque curve of each motor/ });
     await expect.poll(() => curves.evaluate((one) => (one as HTMLImageElement).naturalWidth), { timeout: patience }).toBeGreaterThan(0);
     const speed = page.getByRole('textbox', { name: 'X Maximum speed' });
     const was = await speed.inputValue();

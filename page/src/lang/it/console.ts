@@ -10,6 +10,6 @@ export const console: Same<typeof en> = {
   'console.log': 'Registro',
   'console.empty': 'Ancora nulla.',
   'console.nothing': 'Nessuna voce del registro contiene queste parole.',
-  'console.modes': 'Modi attivi',
-  'console.help': 'I modi restano attivi da una riga all’altra, finché non si esegue un programma o non si ripristina la macchina. $G, $#, $$, $H e $X funzionano come in Grbl; !\u00a0mette in pausa, ~\u00a0riprende. Freccia su richiama le righe precedenti.',
+  'console.modes': 'Codici modali attivi',
+  'console.help': 'I codici modali restano attivi da una riga all’altra, finché non si esegue un programma o un reset della macchina. $G, $#, $$, $H e $X funzionano come in Grbl; !\u00a0mette in pausa, ~\u00a0riprende. Freccia su richiama le righe precedenti.',
 };

@@ -4,7 +4,7 @@ import type { Same } from '../same';
 
 export const console: Same<typeof en> = {
   'console.title': '控制台',
-  'console.type': '一行 G 代码',
+  'console.type': '输入一行 G 代码',
   'console.send': '发送',
   'console.search': '搜索日志',
   'console.log': '日志',
