@@ -85,10 +85,10 @@ std::string words_of_timing(const StepTiming& given, const StepTiming& needed, d
   };
   if (given.pulse < needed.pulse) return too_short("step pulses", "step_pulse_us", given.pulse, needed.pulse);
   if (given.set_up < needed.set_up) {
-    return too_short("a set-up time of directions", "direction_setup_us", given.set_up, needed.set_up);
+    return too_short("a direction set-up time", "direction_setup_us", given.set_up, needed.set_up);
   }
   if (given.hold < needed.hold) {
-    return too_short("a hold time of directions", "direction_hold_us", given.hold, needed.hold);
+    return too_short("a direction hold time", "direction_hold_us", given.hold, needed.hold);
   }
   const std::string rate = std::to_string(static_cast<long>(clock / given.event_ticks));
   return "at most " + rate + " events a second with step pulses of " + number(needed.pulse / sixteenths) +

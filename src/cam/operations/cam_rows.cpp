@@ -69,7 +69,7 @@ CamOption input_row(std::string& input, const char* help) {
 
 CamOption scale_row(std::optional<double>& scale) {
   return {"scale", &scale, CamKind::number,
-          "DXF: scale factor; the results are in the unit of --input, or else of --units", experts_of_one_job};
+          "DXF: scale factor; scaled values are in the unit of --input (default: that of --units)", experts_of_one_job};
 }
 
 CamOption zero_row(std::string& zero, const char* help) {

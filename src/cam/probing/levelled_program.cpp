@@ -97,14 +97,14 @@ LevelledMove Leveller::move_to(const Operation& operation, const Point& end, boo
   if (!rapid && !move.levelled && !std::exchange(told_height_, true)) {
     report(operation, Severity::warning, "level.height",
            "the height map is not applied to this feed move, because the program has not set a work Z yet",
-           "a move to a Z in work coordinates before");
+           "first a move to a Z in work coordinates");
   }
   const bool is_assumed = !move.from_anywhere && (!said_.has(Axis::x) || !said_.has(Axis::y));
   if (move.levelled && is_assumed && !std::exchange(told_place_, true)) {
     report(
         operation, Severity::warning, "level.place",
         fmt::format("the program has not set work X and Y yet; X{:.3f} Y{:.3f} is assumed", end[Axis::x], end[Axis::y]),
-        "a move to X and Y in work coordinates before");
+        "first a move to X and Y in work coordinates");
   }
   move.is_new_place = !said_.has_all(move.absolute);
   said_.note_move(move.absolute, names_height);
@@ -125,7 +125,7 @@ void Leveller::handle_arc(const Operation& operation, const operation::ArcFeed& 
   if (move.levelled) check_lead(operation, arc.end);
   if (move.from_above && std::abs(arc.turns) > 1) {
     refuse(operation, "level.height", "a helix of several turns starts at a height that the program has not set",
-           "a move to a Z before");
+           "first a move to a Z");
   }
   move.is_arc = true;
   move.center_x = arc.first_center.value();

@@ -45,7 +45,7 @@ bool CutterCodes::check() {
     return fail("gcode.too-much-held", {1, 1}, "too many blocks between two moves with cutter compensation (G41, G42)",
                 fmt::format("at most {} operations before the next move", OperationQueue::most_held));
   }
-  constexpr const char* cure = "G40 in a block before";
+  constexpr const char* cure = "G40 in an earlier block";
   constexpr const char* with = "with cutter compensation on (G41, G42)";
   for (const Forbidden& group : forbidden) {
     const CodeEntry* const entry = words_.code(group.group);
@@ -82,7 +82,7 @@ bool CutterCodes::start(CodeNumber number) {
                 "G17, or G18 on a lathe");
   }
   if (state_.modal[cutter_compensation] != code(40)) {
-    return fail("gcode.cutter-compensation", span, "cutter compensation is already on", "G40 in a block before");
+    return fail("gcode.cutter-compensation", span, "cutter compensation is already on", "G40 in an earlier block");
   }
   CutterSetup setup;
   setup.plane = state_.modal.plane();

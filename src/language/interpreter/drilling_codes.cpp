@@ -66,7 +66,7 @@ bool DrillingCodes::check(CodeNumber number, Point& hole) {
     if (!words_.has(letter)) continue;
     return fail("gcode.cycle-axis", words_.span(letter),
                 fmt::format("{} does not move {}{}", name, letter, uvw ? " in a plane of U V W" : ""),
-                fmt::format("{}; {} in a block before", uvw ? "U, V and W" : "X, Y and Z", letter));
+                fmt::format("{}; {} in an earlier block", uvw ? "U, V and W" : "X, Y and Z", letter));
   }
   return end_point(hole) && check_feed() && check_spindle(number);
 }

@@ -55,7 +55,7 @@ bool ModeCodes::set_feed_rate() {
     reporter_.warning("gcode.feed-before-units", words_.span('F'),
                       fmt::format("F is read in {}/min, because {} in the same block takes effect after it",
                                   state_.modal.inches() ? "inches" : "millimetres", spelling(*new_units)),
-                      fmt::format("{} in a block before", spelling(*new_units)));
+                      fmt::format("{} in an earlier block", spelling(*new_units)));
   }
   state_.feed = units * state_.length_unit();
   block_.missing_feed_told = false;

@@ -193,8 +193,8 @@ bool MotionCodes::fits_other_distance(PlanePoint from, PlanePoint to, const ArcT
   fail("gcode.arc-radii-differ", motion_span(),
        fmt::format("the arc's start and end are not equally far from its centre, which is {} here",
                    absolute ? "a position (G90.1)" : "a distance from the start (G91.1)"),
-       absolute ? "G91.1 before the arc: as distances from the start, the words fit"
-                : "G90.1 before the arc: as the position of the centre, the words fit");
+       absolute ? "G91.1 before the arc: the words fit if they are distances from the start"
+                : "G90.1 before the arc: the words fit if they are the position of the centre");
   return true;
 }
 

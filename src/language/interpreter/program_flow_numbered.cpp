@@ -84,7 +84,7 @@ bool ProgramFlow::restart_main(const SubprogramJump& jump) {
   if (!bounds_.count_main_pass() || reporter_.errors() > 0) return false;
   if (!bounds_.count_restart()) {
     reporter_.error("gcode.endless-loop", jump.span,
-                    fmt::format("the program began again {}, and the machine did nothing",
+                    fmt::format("the program restarted {} without any machine action",
                                 counted(bounds_.limits().idle_passes, "time")),
                     "a program that moves, or M2 in place of M99");
     finish(End::error);

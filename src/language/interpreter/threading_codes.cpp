@@ -71,7 +71,7 @@ bool ThreadingCodes::check() {
   for (const char letter : {'A', 'B', 'C'}) {
     if (!words_.has(letter)) continue;
     return fail("gcode.cycle-axis", words_.span(letter), fmt::format("G76 does not move {}", letter),
-                fmt::format("{} in a block before", letter));
+                fmt::format("{} in an earlier block", letter));
   }
   if (state_.spindles[0].direction != SpindleDirection::off) return true;
   return fail("gcode.spindle-off", motion_span(), "G76 while the spindle does not turn",

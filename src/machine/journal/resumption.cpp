@@ -31,7 +31,7 @@ std::string_view message_of(ResumeRefusal refusal) {
       return "the board was reset since: where the machine stands is not certain any more";
     case ResumeRefusal::other_session: return "another program was run on the board since";
     case ResumeRefusal::not_trusted:
-      return "the board has stopped its motors at once, and where they are is not certain";
+      return "the board stopped its motors instantly; steps may be lost, so the position is unreliable";
     case ResumeRefusal::drivers_off:
       return "the board has switched the drivers off after a time without a host (drivers_off_after_s), and the axes "
              "may have moved";

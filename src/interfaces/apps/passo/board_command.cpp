@@ -134,7 +134,7 @@ int board_info(const BoardInfoArguments& arguments) {
   fmt::print("  firmware      {}, protocol {}\n", version_of(*about), int{protocol_version});
   fmt::print("  events        at most {} per second\n", about->highest_event_rate);
   if (about->step_pulse > 0) fmt::print("  step pulse    {:.2f} us\n", about->step_pulse / 16.0);
-  if (about->baud > 0) fmt::print("  line          {} baud at most\n", about->baud);
+  if (about->baud > 0) fmt::print("  link          at most {} baud\n", about->baud);
   fmt::print("  state         {}\n", state_of(*status));
   fmt::print("  last reset    {}\n", reset_of(*status));
   fmt::print("  switches on   {}\n", switches.empty() ? "none" : switches);

@@ -68,7 +68,7 @@ void add_serve_options(CLI::App& command, ServeArguments& arguments) {
   command.add_option("--grbl-serial", arguments.grbl_serial,
                      "DEVICE[@BAUD]: serial port for senders (default: 115200 baud)");
   command.add_flag("--anybody-may-drive", arguments.anybody_may_drive,
-                   "allow a HOST for senders that other computers can reach; the Grbl protocol has no password");
+                   "allow --grbl-tcp on an address that other computers can reach; the Grbl protocol has no password");
   command.add_option("--mqtt", arguments.mqtt,
                      "HOST[:PORT] of an MQTT broker to publish the status to; it cannot move the machine");
   command.add_option("--mqtt-topic", arguments.mqtt_topic, "prefix of the MQTT topics")->capture_default_str();
