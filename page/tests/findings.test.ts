@@ -31,11 +31,11 @@ describe('a finding', () => {
     language.value = 'fr';
     const all = [
       'X20 5 is read as X205', '#101 was never set, and is 0', 'this move comes after the end of the program, and is never made',
-      'G28 takes the axis words of the block; G0 only stays in force', 'G28 in a block without G0', "the spindle is still on where '%' ends the program",
+      'G28 uses the axis words of the block; G0 only stays in force', 'G28 in a block without G0', "the spindle is still on where '%' ends the program",
       'a rapid goes down to Z-5 before the program has given X or Y', 'no feed goes below Z0: the lowest is Z2',
-      'this arc goes round nearly a full circle, and ends 0.01 mm before its start', "WHILE is a word of Fanuc's macros", "GOTO is a word of Fanuc's macros",
+      'this arc is nearly a full circle, and ends 0.01 mm before its start', "WHILE is a word of Fanuc's macros", "GOTO is a word of Fanuc's macros",
       'o1 while [...] on one line, and o1 endwhile where END stands', "':' where a word should start",
-      "O for ':', as in O0491; on some controls ':' begins the number of a program", 'there is no G68', 'G10 L2 with R, which turns a work system',
+      "O for ':', as in O0491; on some controls ':' begins the number of a program", 'there is no G68', 'G10 L2 with R, which rotates a work system',
       'this is a program for a 3D printer, not G-code', "the arc's start and end are not equally far from its centre, which is a distance from the start (G91.1) here",
       "I and J, or the plane's code before; grbl ignores the word: --dialect grbl",
     ];
@@ -50,7 +50,7 @@ describe('a finding', () => {
       'Z arriverebbe a -12.000 (pezzo -2.000), 2.000 mm sotto la fine della corsa a -10.000',
     );
     language.value = 'fr';
-    expect(findingIn('the program gives up: the bores are 69.1 mm apart; they should be 70.0000 mm apart')).toBe(
+    expect(findingIn('the program aborts: the bores are 69.1 mm apart; they should be 70.0000 mm apart')).toBe(
       'le programme abandonne : les trous sont à 69.1 mm l’un de l’autre au lieu de 70.0000 mm',
     );
     expect(findingIn('no feed rate is set')).toBe('aucune avance n’est donnée');

@@ -121,7 +121,7 @@ TEST_F(HomeCommand, tells_what_is_wrong_by_a_stable_code) {
   // X stands far behind the place where its switch closes.
   const Outcome closed = passo("home --json" + near_machine("direction = 'low'\nswitch_at_mm = 3\n"));
   EXPECT_EQ(closed.code, 1);
-  EXPECT_THAT(closed.err, HasSubstr("homing X: its switch is still closed behind the pull-off [home.still-closed]"));
+  EXPECT_THAT(closed.err, HasSubstr("homing X: its switch is still triggered after the pull-off [home.still-closed]"));
   const nlohmann::json all = nlohmann::json::parse(closed.out, nullptr, false);
   EXPECT_EQ(all["homed"], false);
   EXPECT_EQ(all["error"]["code"], "home.still-closed");

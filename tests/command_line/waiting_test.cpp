@@ -54,7 +54,7 @@ TEST_F(Waiting, without_a_terminal_a_program_on_a_board_ends_at_its_stop_and_can
       "run --json " + write("p.ngc", stops) + on_router + "--board " + serve("18000000") + " --journal " + path("j");
   const Outcome waits = passo(command + from_here);
   EXPECT_EQ(waits.code, 1) << waits.err;
-  EXPECT_THAT(waits.err, HasSubstr("waits at line 2: program stop (M0), and there is no terminal to ask on"));
+  EXPECT_THAT(waits.err, HasSubstr("waits at line 2: program stop (M0), but there is no terminal to ask the operator"));
   EXPECT_THAT(waits.err, HasSubstr("[run.waits]"));
   EXPECT_THAT(waits.err, HasSubstr("the machine is stopped at X2.000"));
   // What was not done yet is met again.

@@ -29,7 +29,7 @@ TEST_F(Warnings, a_feed_without_length_is_no_feed) {
       << "nor in another frame";
   const Outcome outcome =
       check("G21 G90\nG0 Z5\nG1 F600\nM3 S10000\nG0 X10\nG1 Z-1\nG0 Z5\nT2 M6\nG0 X20\nG1 Z-3\nM2\n");
-  EXPECT_TRUE(contains(outcome.err, "p.ngc:10:1: warning: the tool is fed while the spindle stands")) << outcome.err;
+  EXPECT_TRUE(contains(outcome.err, "p.ngc:10:1: warning: a feed move while the spindle is stopped")) << outcome.err;
 }
 
 TEST_F(Warnings, name_their_other_lines) {
@@ -138,7 +138,7 @@ TEST_F(Warnings, an_arc_with_the_centre_meant_the_other_way_names_the_code) {
 TEST_F(Warnings, g0_beside_g28_is_accepted) {
   const Outcome outcome = check("G21 G90\nG0 X5 Y5\nG0 G91 G28 X0\nG90\nX7\nM2\n");
   EXPECT_EQ(outcome.code, 0) << outcome.err;
-  EXPECT_TRUE(contains(outcome.err, "p.ngc:3:1: warning: G28 takes the axis words of the block")) << outcome.err;
+  EXPECT_TRUE(contains(outcome.err, "p.ngc:3:1: warning: G28 uses the axis words of the block")) << outcome.err;
   const Outcome apart = passo("canon " + write("a.ngc", "G21 G90\nG0 X5 Y5\nG91 G28 X0\nG90\nX7\nM2\n"));
   const Outcome beside = passo("canon " + write("b.ngc", "G21 G90\nG0 X5 Y5\nG0 G91 G28 X0\nG90\nX7\nM2\n"));
   EXPECT_EQ(apart.out, beside.out);
@@ -172,7 +172,7 @@ TEST_F(Warnings, the_programs_of_the_collection) {
     const char* part;
     bool is_there;
   } expected[] = {{"spindle-false-alarm.ngc", "warning", false},
-                  {"spindle-masked.ngc", "ngc:10:1: warning: the tool is fed while the spindle stands", true},
+                  {"spindle-masked.ngc", "ngc:10:1: warning: a feed move while the spindle is stopped", true},
                   {"ff2.ngc", "rapid-plunge", false},
                   {"blank-in-number.ngc", "20 5 is read as 205", true},
                   {"unset-number.ngc", "#2 was never set", true},

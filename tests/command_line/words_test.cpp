@@ -200,7 +200,7 @@ TEST_F(Words, a_program_without_units_is_warned_of_at_its_first_move) {
 TEST_F(Words, a_spindle_that_stands_while_the_tool_is_fed_is_warned_of) {
   const Outcome off = check("G21\nF600\nG1 X10\nX20\nM2\n");
   EXPECT_EQ(off.code, 0);
-  EXPECT_TRUE(contains(off.err, "p.ngc:3:1: warning: the tool is fed while the spindle stands")) << off.err;
+  EXPECT_TRUE(contains(off.err, "p.ngc:3:1: warning: a feed move while the spindle is stopped")) << off.err;
   EXPECT_TRUE(contains(check("G21 M3 S1000\nF600\nM5\nG2 X10 I5\nM2\n").err, "p.ngc:4:"));
   EXPECT_FALSE(contains(check("G21 M3 S1000\nF600\nG1 X10\nM2\n").err, "spindle"));
   EXPECT_FALSE(contains(check("G21\nG0 X10\nF60 G38.2 Z-5\nM2\n").err, "spindle")) << "rapids and probes";

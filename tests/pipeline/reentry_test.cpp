@@ -318,11 +318,11 @@ TEST(FromLine, leads_up_over_and_down) {
   const double top = machine.axes[2].travel_high;
   EXPECT_EQ(steps,
             fmt::format("up to Z{:.3f}, at rapid speed\n"
-                        "spindle on, clockwise at 900 turns a minute, and a wait of {:g} s\n"
+                        "spindle on, clockwise at 900 rpm, and a wait of {:g} s\n"
                         "over to X20.000 Y5.000, at rapid speed\n"
                         "coolant on: mist\n{}"
                         "down to Z-2.000, at 600 mm/min\n"
-                        "the program goes on at line 7\n",
+                        "the program continues at line 7\n",
                         top, machine.silence.spindle_wait.value(), top > 4 ? "down to Z4.000, at rapid speed\n" : ""));
   EXPECT_EQ(std::get<Segment>(way->lead_in.back()).curve.end(), at->point);
 }

@@ -108,7 +108,7 @@ void DrillPlanner::drop_doubles() {
   }
   cuts_ = std::move(kept);
   if (doubles == 0) return;
-  plan_.notes.push_back(fmt::format("{} on others; of holes at one place the narrowest is made",
+  plan_.notes.push_back(fmt::format("{} on others; at each point only the narrowest is made",
                                     doubles == 1 ? "a hole lies" : fmt::format("{} holes lie", doubles)));
 }
 

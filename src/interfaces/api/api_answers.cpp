@@ -30,7 +30,7 @@ WebAnswer error_answer(unsigned status, std::string_view code, std::string_view 
 
 WebAnswer refusal_answer(unsigned status) {
   switch (status) {
-    case 400: return error_answer(status, "http.bad-request", "this is no request that HTTP knows");
+    case 400: return error_answer(status, "http.bad-request", "not a valid HTTP request");
     case 401: return error_answer(status, "http.token", "a token is needed: the header Authorization: Bearer …");
     case 403: return error_answer(status, "http.foreign-page", "the name in Host or Origin is not this server's");
     case 404: return error_answer(status, "http.not-found", "there is nothing at this path");
@@ -77,7 +77,7 @@ WebAnswer job_begins() {
 }
 
 WebAnswer no_history() {
-  return error_answer(404, "data.none", "passo serve keeps nothing: start it with --data DIR");
+  return error_answer(404, "data.none", "passo serve stores nothing: start it with --data DIR");
 }
 
 WebAnswer no_maker() {

@@ -73,7 +73,7 @@ Result<Json, WebAnswer> read_body(BodyKind kind, const WebRequest& request, std:
   if (!said) said = Json::parse(request.body, nullptr, false);
   const bool is_empty = said->is_object() && said->empty();
   if (kind == BodyKind::none && !is_empty) return Failure{bad_body("this request has no body")};
-  if (!said->is_object()) return Failure{bad_body("the body is no JSON object")};
+  if (!said->is_object()) return Failure{bad_body("the body is not a JSON object")};
   return std::move(*said);
 }
 

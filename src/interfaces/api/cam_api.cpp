@@ -177,7 +177,7 @@ WebAnswer CamApi::clear_files(const ApiCall&) {
 
 WebAnswer CamApi::begin(const ApiCall& call) {
   const Json& said = call.body;
-  if (!said.is_object()) return bad_body("the body is no JSON object");
+  if (!said.is_object()) return bad_body("the body is not a JSON object");
   for (const auto& [name, value] : said.items()) {
     if (name != "job" && name != "files" && name != "options" && name != "profile")
       return bad_body("there is no \"" + name.substr(0, 40) + "\"");
@@ -190,7 +190,7 @@ WebAnswer CamApi::begin(const ApiCall& call) {
   if (!find_cam_operation(order->job)->parts.empty() && file.read) order->machine = file.read().value_or("");
   if (!maker.begin(*order)) {
     if (maker.result().state == MakeResult::State::running)
-      return error_answer(409, "make.busy", "another program is being made");
+      return error_answer(409, "make.busy", "another program is being generated");
     return error_answer(507, "make.no-room", "there is no room for what is to be made: make room on the disk");
   }
   made_.clear();

@@ -111,7 +111,7 @@ std::optional<WebAnswer> JobRunner::refuse_begin() const {
 WebAnswer JobRunner::begin(const StoredProgram& program, const Wanted& wanted) {
   if (auto refused = refuse_begin()) return std::move(*refused);
   if (interrupted() != nullptr) {
-    return error_answer(409, "jobs.interrupted", "a job was broken off: resume it or drop it first");
+    return error_answer(409, "jobs.interrupted", "a job was interrupted: resume it or discard it first");
   }
   // A job that cannot be noted does not begin.
   JobHistory* const history = shared_.options.history;
@@ -164,7 +164,7 @@ WebAnswer JobRunner::resume(bool by_a_way_back) {
 
 bool JobRunner::call_off() {
   if (!is_checking() || shared_.session.busy()) return false;
-  end_job(JobState::stopped, Sentence{.code = "job.called-off", .text = "it was called off before it began"});
+  end_job(JobState::stopped, Sentence{.code = "job.called-off", .text = "canceled before it started"});
   return true;
 }
 
@@ -185,8 +185,7 @@ void JobRunner::begin_checked_job() {
 void JobRunner::name_job() {
   const StoredProgram& program = *shared_.programs.find(job_.program);
   if (shared_.owner.changes() != begins_.owner) {
-    return end_job(JobState::stopped,
-                   Sentence{.code = "job.owner-changed", .text = "the ownership of motion was passed on"});
+    return end_job(JobState::stopped, Sentence{.code = "job.owner-changed", .text = "another client took control"});
   }
   if (program.state != UploadState::good) {
     return end_job(JobState::failed,
@@ -323,7 +322,7 @@ void JobRunner::on_end(const MachineChange& change) {
 Sentence JobRunner::sentence_of_stop() const {
   if (!stopped_by_) return {.code = "job.stopped", .text = "it was stopped"};
   if (stopped_by_->empty()) {
-    return {.code = "job.stopped-by-stranger", .text = "stopped by somebody who does not own the motion"};
+    return {.code = "job.stopped-by-stranger", .text = "stopped by a client that is not in control"};
   }
   return {.code = "job.stopped-by", .arguments = {{"name", *stopped_by_}}, .text = "stopped by " + *stopped_by_};
 }
@@ -396,7 +395,7 @@ WebAnswer JobRunner::parked_refusal() const {
   return error_answer(409, "jobs.waits",
                       Sentence{.code = "jobs.waits",
                                .arguments = {{"name", name}, {"line", std::to_string(line)}},
-                               .text = fmt::format("{} waits at line {}: go on with it or stop it first", name, line)});
+                               .text = fmt::format("{} waits at line {}: continue or stop it first", name, line)});
 }
 
 void JobRunner::leave() {

@@ -17,7 +17,7 @@ std::optional<Axis> axis_of(const std::string& name, const MachineDescription& m
 }  // namespace
 
 JsonMembers::JsonMembers(nlohmann::ordered_json object) : object_(std::move(object)) {
-  if (!object_.is_object()) reason_ = "the body is no JSON object";
+  if (!object_.is_object()) reason_ = "the body is not a JSON object";
 }
 
 std::optional<double> JsonMembers::number(const std::string& key) {

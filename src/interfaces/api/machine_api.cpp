@@ -141,7 +141,7 @@ WebAnswer MachineApi::set_work_zero(const ApiCall& call) {
   if (jobs_.interrupted() != nullptr) {
     return error_answer(409, "jobs.interrupted",
                         Sentence{.code = "jobs.interrupted.zero",
-                                 .text = "a job was broken off, and needs its zero: resume it or drop it first"});
+                                 .text = "a job was interrupted, and needs its zero: resume it or discard it first"});
   }
   const Frame frame = shared_.programs.work_frame();
   const Point& at = status.position.place;
@@ -164,7 +164,7 @@ WebAnswer MachineApi::run_line(const ApiCall& call) {
   if (moves) jobs_.step_aside();
   if (jobs_.is_checking()) return job_begins();
   if (moves && jobs_.interrupted() != nullptr) {
-    return error_answer(409, "jobs.interrupted", "a job was broken off: resume it or drop it first");
+    return error_answer(409, "jobs.interrupted", "a job was interrupted: resume it or discard it first");
   }
   MdiLines::Answer answer = mdi_.execute(*line);
   if (!answer.code.empty()) {
@@ -256,11 +256,11 @@ std::string MachineApi::metrics_text() const {
     text += fmt::format("passo_state{{state=\"{}\"}} {}\n", row.name, row.state == status.state ? 1 : 0);
   }
   add("board_seconds_total", "counter", "Time on the board's side.", status.time.value());
-  add("homed", "gauge", "1: the place is known by switches.", status.position.trust == Trust::homed ? 1 : 0);
+  add("homed", "gauge", "1: the position is homed.", status.position.trust == Trust::homed ? 1 : 0);
   add("job_progress", "gauge", "Of the job that runs, 0 to 1.", status.progress.value_or(0));
   add("jobs_ended_total", "counter", "Jobs that have ended, in whatever way.", jobs_.jobs_ended());
   add("alarms_total", "counter", "Times the machine stopped at once or the board was lost.", alarms_);
-  add("late_refills_total", "counter", "Rests because motion reached the board too late.", late_);
+  add("late_refills_total", "counter", "Stops because motion reached the board too late.", late_);
   if (server_ == nullptr) return text;
   add("http_connections", "gauge", "Open connections.", server_->connections());
   add("http_watchers", "gauge", "Clients of the stream.", server_->watchers());

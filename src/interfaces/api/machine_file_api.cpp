@@ -145,7 +145,7 @@ WebAnswer MachineFileApi::write(const ApiCall& call) {
                         "there is no machine file to write: start passo serve with --machine");
   }
   if (stamp_of(*before) != said["stamp"].get<std::string>()) {
-    return error_answer(409, "machine-file.changed", "somebody has changed the machine file meanwhile: load it again");
+    return error_answer(409, "machine-file.changed", "the machine file was changed in the meantime: load it again");
   }
   const std::string text = said["text"].get<std::string>();
   Diagnostics findings;
@@ -154,7 +154,7 @@ WebAnswer MachineFileApi::write(const ApiCall& call) {
     return error_answer(409, "machine-file.unsound",
                         Sentence{.code = "machine-file.unsound",
                                  .arguments = {{"finding", why}},
-                                 .text = fmt::format("this is no sound machine: {}", why)});
+                                 .text = fmt::format("invalid machine file: {}", why)});
   }
   if (const std::string why = file.write(*before, text); !why.empty()) {
     return error_answer(507, "machine-file.unwritten",

@@ -67,7 +67,7 @@ WebAnswer OwnerApi::renew(const ApiCall&) {
 
 WebAnswer OwnerApi::release(const ApiCall& call) {
   if (!shared_.owner.is_client(call.request.key)) {
-    return error_answer(403, "owner.not-you", "somebody else owns the motion");
+    return error_answer(403, "owner.not-you", "another client is in control");
   }
   shared_.owner.release();
   return json_answer(200, as_json(shared_.owner));

@@ -40,8 +40,8 @@ Result<Reentry, Sentence> ParkedJob::way_behind_stop(const MachineDescription& m
   const bool any_changed = !changed.empty() || tools != programs.tools();
   if (any_changed && stop->sets_own_zero) {
     return refused("waits.own-zero",
-                   "the program has set a zero or a tool itself before, which hides what was set now: stop it, and "
-                   "begin from a line");
+                   "the program itself has set a zero or a tool before this stop, which overrides yours: stop it, and "
+                   "start at a line");
   }
   if (!changed.empty() && std::ranges::find(changed, int{stop->system}) == changed.end()) {
     return refused(

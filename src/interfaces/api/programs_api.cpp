@@ -98,7 +98,7 @@ WebAnswer ProgramsApi::set_block_delete(const ApiCall& call) {
   if (!leaves_out) members.fail("on", "true or false");
   if (!members.end()) return bad_body(members.reason());
   if (*leaves_out && program->dialect == Dialect::grbl)
-    return bad_body("grbl knows no block delete: it runs such lines");
+    return bad_body("the Grbl dialect has no block delete: such lines are executed");
   if (jobs_.runs(*program)) return error_answer(409, "programs.in-use", "the program runs");
   shared_.programs.set_block_delete(program->id, *leaves_out);
   return json_answer(200, as_json(*program, false));

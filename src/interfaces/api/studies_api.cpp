@@ -55,7 +55,7 @@ WebAnswer StudiesApi::picture(const ApiCall&) {
 
 WebAnswer StudiesApi::begin(const ApiCall& call) {
   const Json& said = call.body;
-  if (!said.is_object()) return bad_body("the body is no JSON object");
+  if (!said.is_object()) return bad_body("the body is not a JSON object");
   for (const auto& [name, value] : said.items()) {
     if (name != "study" && name != "program" && name != "machine" && name != "margin") {
       return bad_body("there is no \"" + name.substr(0, 40) + "\"");

@@ -21,9 +21,9 @@ constexpr std::size_t small_body = std::size_t{1} << 16;
 constexpr std::size_t longest_map = std::size_t{1} << 22;
 
 WebAnswer not_the_owner() {
-  return error_answer(403, "owner.not-you",
-                      "only the owner of motion may do this: take ownership by POST /api/v1/owner, and send its key in "
-                      "X-Passo-Key");
+  return error_answer(
+      403, "owner.not-you",
+      "only the client in control may do this: take control with POST /api/v1/owner, and send its key in X-Passo-Key");
 }
 
 // Why this server has nothing at such a path. Empty: it has all that is needed.

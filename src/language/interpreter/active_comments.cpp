@@ -45,7 +45,7 @@ bool ActiveComments::obey(const BlockComment& comment) {
     case Kind::log_close: emit_ahead(Log{Log::Kind::close, {}}); return true;
     case Kind::abort:
       block_.ended = block_.gave_up = true;
-      return fail("gcode.abort", comment.span, fmt::format("the program gives up:{}", filled()));
+      return fail("gcode.abort", comment.span, fmt::format("the program aborts:{}", filled()));
     case Kind::probe_open:
     case Kind::probe_close:  // as rs274 shows them: whole
       emit(operation::Comment{reporter_.block().text.substr(comment.span.column, comment.span.length - 2)});

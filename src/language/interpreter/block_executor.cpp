@@ -358,7 +358,7 @@ bool BlockExecutor::resolve_motion() {
 // `G0 G91 G28 Z0`, as Fanuc's programs have it: the axis words are G28's, and G0 stays in force.
 bool BlockExecutor::go_home_beside_g0(const CodeEntry& taker) {
   reporter_.warning("gcode.g0-with-home", words_.span(motion),
-                    fmt::format("{} takes the axis words of the block; G0 only stays in force", spelling(taker)),
+                    fmt::format("{} uses the axis words of the block; G0 only stays in force", spelling(taker)),
                     fmt::format("{} in a block without G0", spelling(taker)));
   state_.modal.set(motion, code(0));
   block_.motion = nullptr;

@@ -177,7 +177,7 @@ const char* meaning_of(BlockComment::Kind kind) {
     case Kind::log_open:
     case Kind::log_append: return "opens the log file";
     case Kind::log_close: return "closes the log file";
-    case Kind::abort: return "the program gives up";
+    case Kind::abort: return "the program aborts";
     case Kind::probe_open: return "opens the file for probe results";
     case Kind::probe_close: return "closes the file for probe results";
     default: return "a comment";

@@ -61,12 +61,12 @@ void ProbeCodes::apply_outcome() {
   if (outcome.refused) {
     block_.ended = true;
     fail("gcode.probe-before", motion_span(),
-         fmt::format("{} begins with the probe {} already", name, is_toward(number) ? "touched" : "free"),
+         fmt::format("{} begins with the probe {} already", name, is_toward(number) ? "triggered" : "open"),
          is_toward(number) ? "a move first, away from the surface that it touches" : "the probe touched before");
   } else if (!outcome.touched && must_touch(number)) {
     block_.ended = true;
     fail("gcode.probe-untouched", motion_span(),
-         fmt::format("{} came to its end, and the probe is still {}", name, is_toward(number) ? "free" : "touched"),
+         fmt::format("{} finished, and the probe is still {}", name, is_toward(number) ? "open" : "triggered"),
          "a longer move, or G38.3 or G38.5, which continue, and a test of #5070");
   }
 }

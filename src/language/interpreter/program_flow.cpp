@@ -336,8 +336,7 @@ bool ProgramFlow::may_go_round(const Open& loop) {
   (void)lines_.read();
   reporter_.error(
       "gcode.endless-loop", lines_.block().control ? lines_.block().control->span : Span{1, 1},
-      idles ? fmt::format("the loop went round {}, and the machine did nothing",
-                          counted(bounds_.limits().idle_passes, "time"))
+      idles ? fmt::format("the loop ran {} without any motion", counted(bounds_.limits().idle_passes, "time"))
             : fmt::format("the loop reached {} passes, calls and operations", bounds_.limits().repeated_steps),
       idles ? "a loop that ends, or that moves" : "a loop that ends, or a higher --step-limit");
   finish(End::error);

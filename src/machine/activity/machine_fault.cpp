@@ -9,19 +9,17 @@ namespace {
 using enum MachineFault;
 
 constexpr MachineFaultRow rows[] = {
-    {switch_not_met, "home.not-met", "its switch was not met", GrblAlarm::homing_no_switch},
-    {switch_still_closed, "home.still-closed", "its switch is still closed behind the pull-off",
+    {switch_not_met, "home.not-met", "its switch was not triggered", GrblAlarm::homing_no_switch},
+    {switch_still_closed, "home.still-closed", "its switch is still triggered after the pull-off",
      GrblAlarm::homing_no_release},
     {switch_unsteady, "home.unsteady", "its switch opens and closes again and again", GrblAlarm::homing_no_release},
-    {probe_before, "probe.before", "the probe was as it should become before the move began", GrblAlarm::probe_before},
-    {probe_untouched, "probe.untouched", "the probe move came to its end without a contact",
-     GrblAlarm::probe_untouched},
-    {probe_guard, "probe.guard", "the probe was touched in a move that is no probe move"},
-    {program_wrong, "program.wrong", "the program cannot go on"},
+    {probe_before, "probe.before", "the probe was already in its final state before the move", GrblAlarm::probe_before},
+    {probe_untouched, "probe.untouched", "the probe move finished without contact", GrblAlarm::probe_untouched},
+    {probe_guard, "probe.guard", "the probe was triggered outside a probe move"},
+    {program_wrong, "program.wrong", "the program cannot continue"},
     {program_waits, "run.waits",
-     "{program} waits at {wait}, and there is no terminal to ask on: run it on one, or with --yes when all is "
-     "prepared, "
-     "together with --resume to go on from here [run.waits]"},
+     "{program} waits at {wait}, but there is no terminal to ask the operator: run it in a terminal, or add --yes when "
+     "everything is prepared, with --resume to continue from here [run.waits]"},
     {board_stopped, "board.stopped", "{trouble}", GrblAlarm::hard_limit},
     {board_drivers_off, "board.drivers-off", "{trouble}", GrblAlarm::hard_limit},
     {board_slipped, "board.slipped", "{trouble}", GrblAlarm::hard_limit},

@@ -75,8 +75,8 @@ void SpindleMistakes::finish() {
   if (laser_) {
     const std::string_view what = !any_backwards_ ? "S changes" : !any_changes_ ? "M4 is on" : "S changes, or M4 is on";
     laser_->message = fmt::format(
-        "{} in {}, as in a program for a laser; there is no laser mode: the beam would stay on in rapids and at "
-        "rest, and the motion rests at each change of S",
+        "{} in {}, as in a laser program; Passo has no laser mode: the beam would stay on in rapids and at stops, and "
+        "motion stops at each change of S",
         what, counted(places_, "feed"));
     diagnostics_.add_certain(*std::exchange(laser_, std::nullopt));
   } else if (early_) {

@@ -112,14 +112,14 @@ void UsualMistakes::turn_spindle(const Operation& operation, SpindleDirection di
   left_on_ = warning(operation, "path.spindle-left-on", "the spindle is still on where '%' ends the program",
                      "M5, and M2 or M30, before '%'");
   if (speed_ > 0) return;
-  turned_at_zero_ = warning(operation, "path.spindle-at-zero", "the spindle is switched on at S0, so it stands",
+  turned_at_zero_ = warning(operation, "path.spindle-at-zero", "the spindle is switched on at S0, so it does not turn",
                             "S above 0 before the next feed move");
 }
 
 void UsualMistakes::move(const Operation& operation) {
   if (std::exchange(knows_units_, true)) return;
   diagnostics_.add_certain(warning(operation, "path.no-units",
-                                   "the program moves before it says its units; lengths are taken as millimetres",
+                                   "the program moves before it sets its units; millimetres are assumed",
                                    "G21 (millimetres) or G20 (inches) before the first move, or --inches"));
 }
 
@@ -129,7 +129,7 @@ void UsualMistakes::feed(const Operation& operation) {
   if (turned_at_zero_) {
     diagnostics_.add_certain(*std::exchange(turned_at_zero_, std::nullopt));
   } else if (spindle_ == SpindleDirection::off && !probes_) {
-    warn(operation, "path.spindle-off-in-feed", "the tool is fed while the spindle stands",
+    warn(operation, "path.spindle-off-in-feed", "a feed move while the spindle is stopped",
          "S and M3 before the move; a machine file without tool.max_rpm has no spindle");
   }
 }
@@ -140,7 +140,7 @@ void UsualMistakes::arc(const Operation& operation, const operation::ArcFeed& ar
   const double gap = std::hypot(arc.end[axes.first] - from[axes.first], arc.end[axes.second] - from[axes.second]);
   diagnostics_.add_certain(
       warning(operation, "path.nearly-circle",
-              fmt::format("this arc goes round nearly a full circle, and ends {:.2g} mm before its start", gap),
+              fmt::format("this arc is nearly a full circle, and ends {:.2g} mm before its start", gap),
               "the start as the end for a full circle; the other direction (G2, G3) or G1 for a short way"));
 }
 

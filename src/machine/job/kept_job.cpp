@@ -96,8 +96,7 @@ Result<Reentry, Sentence> KeptJob::reentry() {
     return Failure{interrupted_->why};
   }
   if (position.trust == Trust::unknown) {
-    return Failure{
-        Sentence{.code = "reentry.place-unknown", .text = "where the machine stands is not known: home it first"}};
+    return Failure{Sentence{.code = "reentry.place-unknown", .text = "the machine position is unknown: home it first"}};
   }
   if (!interrupted_->shift.empty()) return Failure{Sentence{.code = "reentry.shifted", .text = interrupted_->shift}};
   auto way = plan_reentry(machine_, *interrupted_->back_at, position.place);

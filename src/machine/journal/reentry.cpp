@@ -149,7 +149,7 @@ class LeadIn {
     if (at_.line == 0) {
       say("way.end", "the program ends", {});
     } else {
-      say("way.goes-on", "the program goes on at line {line}", {{"line", std::to_string(at_.line)}});
+      say("way.goes-on", "the program continues at line {line}", {{"line", std::to_string(at_.line)}});
     }
     // A lead-in is never empty: the spindle is switched on in it.
     if (way_.lead_in.empty()) act(Action::Kind::outputs, at_.outputs, Seconds(0));
@@ -204,8 +204,8 @@ class LeadIn {
     spindle.mist = spindle.flood = false;
     const bool is_clockwise = spindle.spindle == SpindleDirection::clockwise;
     say(is_clockwise ? "way.spindle.clockwise" : "way.spindle.counterclockwise",
-        is_clockwise ? "spindle on, clockwise at {speed} turns a minute, and a wait of {wait} s"
-                     : "spindle on, counterclockwise at {speed} turns a minute, and a wait of {wait} s",
+        is_clockwise ? "spindle on, clockwise at {speed} rpm, and a wait of {wait} s"
+                     : "spindle on, counterclockwise at {speed} rpm, and a wait of {wait} s",
         {{"speed", fmt::format("{:.0f}", spindle.revolutions_per_minute)},
          {"wait", fmt::format("{:g}", wait.value())}});
     act(Action::Kind::outputs, spindle, Seconds(0));
@@ -240,13 +240,13 @@ std::string_view code_of(ReentryRefusal refusal) {
 std::string_view message_of(ReentryRefusal refusal) {
   switch (refusal) {
     case ReentryRefusal::no_motion: return "nothing moves from that line on";
-    case ReentryRefusal::done_often: return "that line is done more than once, in a loop or a subprogram";
-    case ReentryRefusal::no_pass: return "that line is not done so often";
+    case ReentryRefusal::done_often: return "that line runs more than once, in a loop or a subprogram";
+    case ReentryRefusal::no_pass: return "that line has fewer passes";
     case ReentryRefusal::beyond_end: return "the path ends before that distance after the line";
     case ReentryRefusal::other_file:
       return "a subprogram in another file has a line of that number too: name another line";
     case ReentryRefusal::after_probe: return "the way to that line depends on what a probe move finds: begin before it";
-    case ReentryRefusal::path_changed: return "the program does not mean any more what it meant";
+    case ReentryRefusal::path_changed: return "the program has a different meaning now";
     case ReentryRefusal::in_thread: return "that place is in a thread, which begins only at its own beginning";
     case ReentryRefusal::backlash:
       return "this machine takes up backlash, and a way back onto a path does not do that yet";
@@ -258,7 +258,7 @@ std::string_view message_of(ReentryRefusal refusal) {
 std::string message_of(const LineProblem& problem) {
   switch (problem.refusal) {
     case ReentryRefusal::done_often:
-      return fmt::format("that line is done {} times, in a loop or a subprogram: choose one of these passes",
+      return fmt::format("that line runs {} times, in a loop or a subprogram: choose one of these passes",
                          problem.times);
     case ReentryRefusal::no_pass: return fmt::format("the number of passes of that line is {}", problem.times);
     default: return std::string(message_of(problem.refusal));

@@ -38,10 +38,10 @@ std::string_view message_of(ResumeRefusal refusal) {
     case ResumeRefusal::session_ended:
       return "the machine was moved by the board's keypad since, or another program began to talk to the board";
     case ResumeRefusal::rest_unknown: return "the journal does not know where the board has come to rest";
-    case ResumeRefusal::path_changed: return "the program does not mean any more what it meant";
+    case ResumeRefusal::path_changed: return "the program has a different meaning now";
     case ResumeRefusal::counts_differ: return "the board's step counts are not those of the place where the job ended";
     case ResumeRefusal::in_thread:
-      return "the machine stands in a thread, which cannot go on there: move the tool out of it, and start anew";
+      return "the machine is in a thread, which cannot continue: move the tool out of it, and start again";
   }
   return "the job cannot continue";
 }

@@ -405,7 +405,7 @@ void MachineReader::check_velocity(const TableReader& reader, const AxisKeys& ke
   const double steps = axis.highest_step_rate().value();
   if (steps <= event_rate_->value() * (1 + 1e-9)) return;
   reader.error("machine.too-fast", keys.velocity.name,
-               fmt::format("axis {} needs {:.0f} steps a second for {:g} {}/s, and the board makes {:g} events",
+               fmt::format("axis {} needs {:.0f} steps/s for {:g} {}/s, and the board makes {:g} events",
                            letter_of(axis.axis), steps, axis.velocity.value(), keys.unit, event_rate_->value()),
                fmt::format("{} = {:g} or less, fewer microsteps, or a faster board", keys.velocity.name,
                            event_rate_->value() / axis.steps_per_unit));

@@ -102,7 +102,7 @@ std::optional<PlaceRecord> read_place_record(std::string_view text) {
 
 std::string_view message_of(PlaceDoubt doubt) {
   switch (doubt) {
-    case PlaceDoubt::no_record: return "it was never homed, and nobody has said where it stands";
+    case PlaceDoubt::no_record: return "it was never homed, and its position was never confirmed";
     case PlaceDoubt::other_machine: return "the machine file is another, or was changed";
     case PlaceDoubt::board_reset: return "its board was reset or switched off";
     case PlaceDoubt::other_session: return "another program was run on its board";

@@ -27,7 +27,7 @@ constexpr RefusalRow all_refusals[] = {
     {board_lost, RefusalCode::alarm, "machine.alarm.board-lost", "the board was lost: reset the machine first"},
     {asleep, RefusalCode::asleep, "machine.asleep", "the machine sleeps: wake it first"},
     {door_open, RefusalCode::door_open, "machine.door-open", "the door is open"},
-    {nothing_going_on, RefusalCode::nothing_runs, "machine.nothing-runs", "nothing is going on"},
+    {nothing_going_on, RefusalCode::nothing_runs, "machine.nothing-runs", "nothing is running"},
     {nothing_moves, RefusalCode::nothing_runs, "machine.nothing-runs.motion", "nothing moves"},
     {no_lines_queued, RefusalCode::nothing_runs, "machine.nothing-runs.lines", "no lines are queued"},
     {no_jog, RefusalCode::nothing_runs, "machine.nothing-runs.jog", "no jog is going on"},
@@ -56,9 +56,9 @@ constexpr RefusalRow all_refusals[] = {
     {switch_closed_there, RefusalCode::limit_closed, "machine.limit-closed.there",
      "the limit switch of {axis} is closed at that end: move the other way"},
     {unknown_so_home, RefusalCode::place_unknown, "run.place-unknown",
-     "where the machine stands is not known: home it first"},
+     "the machine position is unknown: home it first"},
     {unknown_so_jog, RefusalCode::place_unknown, "run.place-unknown.no-homing",
-     "where the machine stands is not known: jog it to a known place, and confirm it"},
+     "the machine position is unknown: jog to a known position, and confirm it"},
 };
 
 // A reason finds its row by its number.

@@ -53,7 +53,7 @@ TEST(JsonMembers, tell_the_first_that_is_wrong) {
   JsonMembers list(Json::array());
   EXPECT_EQ(list.number("speed"), std::nullopt);
   EXPECT_FALSE(list.end());
-  EXPECT_EQ(list.reason(), "the body is no JSON object");
+  EXPECT_EQ(list.reason(), "the body is not a JSON object");
 }
 
 Operation said(auto what, std::uint32_t line) {

@@ -292,7 +292,7 @@ int BoardMaker::make(CamDrillArguments drill, CamIsolateArguments isolate, CamOu
     if (has_pins) {
       words.emplace_back(
           arguments_.probe_holes
-              ? "Two of the holes, next to the board, are for the probe."
+              ? "Two of the holes are next to the board: the probe measures them after the board is flipped."
               : "Two of the holes are for pins: drill them deeper, into the table, without moving the blank.");
     }
     BoardStep step{.kind = "drill", .title = "Drill", .words = std::move(words)};

@@ -64,7 +64,7 @@ std::string stop_words(OpenedMachine& opened, const MachineDescription& machine,
   if (cause.remedy.empty()) {
     cause = {.what = "a limit switch or the emergency stop closed, and is open again", .remedy = "look at its wiring"};
   }
-  return fmt::format("{}{}: the motors stopped at once near {}, and steps may be lost. To go on, {}, {} [{}]{}",
+  return fmt::format("{}{}: the motors stopped at once near {}, and steps may be lost. To continue, {}, {} [{}]{}",
                      cause.what, line_words(line, program), place_words(machine, place), cause.remedy,
                      remedy_for_place(machine, program), following ? "run.following-error" : "board.stopped", closed);
 }

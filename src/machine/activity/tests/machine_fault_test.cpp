@@ -26,7 +26,7 @@ TEST(MachineFaults, fill_their_arguments_into_the_sentence) {
   const std::string waits =
       ActivityFault{MachineFault::program_waits, {{"program", "a{wait}.ngc"}, {"wait", "M0"}}}.message();
   EXPECT_TRUE(waits.starts_with("a{wait}.ngc waits at M0, and there is no terminal")) << waits;
-  EXPECT_EQ(ActivityFault{MachineFault::switch_not_met}.message(), "its switch was not met");
+  EXPECT_EQ(ActivityFault{MachineFault::switch_not_met}.message(), "its switch was not triggered");
 }
 
 TEST(MachineFaults, of_homing_and_probing_have_a_number_of_grbl) {

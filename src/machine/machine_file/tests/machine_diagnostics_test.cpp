@@ -181,7 +181,7 @@ const Mistake mistakes[] = {
      "= 501\n",
      "machine.too-fast",
      {17, 21, 3},
-     "axis X needs 50100 steps a second for 501 mm/s",
+     "axis X needs 50100 steps/s for 501 mm/s",
      "max_velocity_mm_s = 500 or less"},
     {"starting_faster_than_the_axis",
      "= 25\n",
