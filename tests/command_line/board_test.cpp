@@ -112,7 +112,7 @@ TEST_F(Boards, that_are_too_slow_or_make_too_short_pulses_are_refused_in_words) 
     const Outcome pulse = passo(command + with("step_pulse_us = 1.0", key) + " --board sim:uno");
     if (passo::test::lacks_an_emulator(pulse)) GTEST_SKIP() << pulse.err;
     EXPECT_EQ(pulse.code, 1);
-    EXPECT_NE(pulse.err.find(" events a second with step pulses of 2.5 us and directions set 0.6875 us before a step"),
+    EXPECT_NE(pulse.err.find(" events/s with step pulses of 2.5 us and directions set 0.6875 us before a step"),
               std::string::npos)
         << pulse.err;
     EXPECT_NE(pulse.err.find("[board.event-rate]"), std::string::npos) << pulse.err;
@@ -226,7 +226,7 @@ TEST_F(Boards, that_stand_still_amid_motion_are_told_of) {
   EXPECT_EQ(json["board"]["stood_still_line"], 2) << run.out;
   const Outcome slow = passo("run --from-here --board sim:uno " + write("q.ngc", "G21 F600 G1 X0.5\nM2\n") +
                              " -m " PASSO_SOURCE_DIR "/examples/machines/uno.toml");
-  EXPECT_EQ(slow.err.find("stood still"), std::string::npos) << slow.err;
+  EXPECT_EQ(slow.err.find("stopped during motion"), std::string::npos) << slow.err;
 }
 
 // A rapid of one axis at the Uno's highest rate: hundreds of standstills at first.

@@ -42,7 +42,7 @@ TEST_F(CamRelief, starts_the_spindle_unless_told_otherwise) {
   EXPECT_EQ(relief(small).code, 0);
   EXPECT_THAT(read(path("s.ngc")), HasSubstr("\nM3 S12000\n"));
   const Outcome checked = passo("check " + path("s.ngc") + on_router);
-  EXPECT_THAT(checked.out + checked.err, Not(HasSubstr("spindle stands")));
+  EXPECT_THAT(checked.out + checked.err, Not(HasSubstr("spindle is stopped")));
   EXPECT_EQ(relief(small + " --spindle 0").code, 0);
   EXPECT_THAT(read(path("s.ngc")), Not(HasSubstr("M3")));
 }

@@ -57,7 +57,7 @@ TEST_F(HomeCommand, repeats_itself_and_tells_how_well_the_places_agree) {
   const Outcome words = passo("home --repeat 3" + near_machine());
   EXPECT_EQ(words.code, 0) << words.err;
   EXPECT_THAT(words.out, HasSubstr("homed 3 times:\n"
-                                   "X: the mean place is 0.0 um from the first, the spread 0.0 um (0 steps)\n"));
+                                   "X: the mean position is 0.0 um from the first, the spread 0.0 um (0 steps)\n"));
   const Outcome json = passo("home --repeat 3 --json" + near_machine());
   const nlohmann::json all = nlohmann::json::parse(json.out, nullptr, false);
   EXPECT_EQ(all["repeats"][2]["axis"], "Z");

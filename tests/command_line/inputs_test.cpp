@@ -130,8 +130,8 @@ TEST_F(Inputs, are_not_blamed_for_drivers_that_were_switched_off_by_time) {
   usleep(900'000);
   const Outcome later = run(machine, address);
   EXPECT_EQ(later.code, 1);
-  EXPECT_THAT(later.err, HasSubstr("has switched the drivers off after a time without a host (drivers_off_after_s)"));
-  EXPECT_THAT(later.err, Not(HasSubstr("stopped at once")));
+  EXPECT_THAT(later.err, HasSubstr("disabled the drivers after a time without a host (drivers_off_after_s)"));
+  EXPECT_THAT(later.err, Not(HasSubstr("stopped instantly")));
 }
 
 }  // namespace

@@ -52,7 +52,7 @@ class PlaceOfAMachine : public passo::test::ServedBoard {
 TEST_F(PlaceOfAMachine, is_asked_for_where_nobody_knows_it) {
   const Outcome unknown = run("G21 G90 G0 X3");
   EXPECT_EQ(unknown.code, 1);
-  EXPECT_THAT(unknown.err, HasSubstr("where the machine stands is not known: it was never homed"));
+  EXPECT_THAT(unknown.err, HasSubstr("the machine position is unknown: it was never homed"));
   EXPECT_THAT(unknown.err, HasSubstr("--home"));
   EXPECT_THAT(unknown.err, HasSubstr("--from-here"));
   EXPECT_THAT(unknown.err, HasSubstr("--resume"));
@@ -135,12 +135,12 @@ TEST_F(PlaceOfAMachine, at_a_closed_limit_switch_is_no_start) {
   EXPECT_EQ(closed_at, -3);
   const Outcome unknown = run("G21 G90 G0 X1");
   EXPECT_EQ(unknown.code, 1);
-  EXPECT_THAT(unknown.err, HasSubstr("its motors were stopped at once"));
+  EXPECT_THAT(unknown.err, HasSubstr("its motors were stopped instantly"));
   EXPECT_THAT(unknown.err, Not(HasSubstr("was left unfinished")));
   for (int i = 0; i < 2; ++i) {
     const Outcome again = run("G21 G90 G0 X-1", "--from-here");
     EXPECT_EQ(again.code, 1);
-    EXPECT_THAT(again.err, HasSubstr("the limit switch of X is closed: jog away from it, or home the machine, first "
+    EXPECT_THAT(again.err, HasSubstr("the limit switch of X is closed: jog off it, or home the machine, first "
                                      "[machine.limit-closed]"));
     EXPECT_THAT(again.err, Not(HasSubstr("was left unfinished")));
     const Outcome toward = passo("jog X-1 -F 3000" + on_board());

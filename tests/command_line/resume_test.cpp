@@ -204,7 +204,7 @@ TEST_F(Resumed, not_when_the_board_was_used_or_started_anew) {
   ASSERT_EQ(between.code, 0) << between.err;
   expect_refused("resume.other-session", "another program");
   board_ = serve("18000000");
-  expect_refused("resume.board-reset", "where the machine stands is not certain");
+  expect_refused("resume.board-reset", "the machine position is no longer certain");
 }
 
 TEST_F(Resumed, not_by_a_journal_that_was_torn) {
@@ -302,7 +302,8 @@ TEST_F(Resumed, or_from_a_line_whose_steps_are_shown_first) {
   const Outcome outcome = passo(from_line + "5");
   ASSERT_EQ(outcome.code, 0) << outcome.err;
   // The corner before the line is rounded, and the line begins amid the corner.
-  for (const char* step : {"1. up to Z", "2. spindle on, clockwise at 1000", "3. over to X8.98", "goes on at line 5"}) {
+  for (const char* step :
+       {"1. up to Z", "2. spindle on, clockwise at 1000", "3. over to X8.98", "continues at line 5"}) {
     EXPECT_NE(outcome.err.find(step), std::string::npos) << step << outcome.err;
   }
   for (const char* axis : {"X", "Y", "Z"}) {

@@ -42,12 +42,6 @@ const HomeMade home_made[] = {
     {{"a virtual machine", "the virtual machine", "a virtual board", "the virtual probe"}, "simulated machine"},
 };
 
-// The page finds these sentences by their text; they change together with it.
-bool is_translated_by_text(const fs::path& file) {
-  static const std::set<std::string> modules = {"session", "job", "journal", "activity", "api", "link"};
-  return modules.contains(module_of(file));
-}
-
 // What is between quotes, and has several words. Pieces of one text are joined.
 std::vector<std::string> quoted_texts(const std::string& source) {
   std::vector<std::string> texts;
@@ -127,7 +121,7 @@ TEST(StandardTerms, are_those_of_help_and_messages) {
   std::size_t checked = 0;
   for (const fs::path& file : files_below("src", {".cpp", ".hpp"})) {
     const bool is_of_users = !is_test(file) && file.string().find("/fuzz/") == std::string::npos;
-    if (!is_of_users || is_translated_by_text(file) || file.string().starts_with("src/board/chip/")) continue;
+    if (!is_of_users || file.string().starts_with("src/board/chip/")) continue;
     for (const std::string& text : quoted_texts(text_of(file))) {
       EXPECT_EQ(home_made_in(text), "") << file << ": " << text;
       ++checked;

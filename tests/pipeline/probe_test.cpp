@@ -248,7 +248,7 @@ TEST(ProbingCheck, takes_a_probe_as_touched_at_its_end_and_doubts_what_follows_f
   ASSERT_EQ(doubted.all().size(), 1U);
   EXPECT_EQ(doubted.all()[0].code, "travel.exceeded");
   EXPECT_EQ(doubted.all()[0].severity, Severity::warning);
-  EXPECT_NE(doubted.all()[0].message.find("if the probe is touched at the end of its move"), std::string::npos);
+  EXPECT_NE(doubted.all()[0].message.find("if the probe is triggered at the end of its move"), std::string::npos);
 }
 
 TEST(ProbingCheck, still_refuses_what_is_written_wrong_and_what_is_wrong_before_the_probe) {

@@ -170,7 +170,8 @@ TEST_F(Reentered, not_if_the_machine_was_moved_while_it_had_no_power) {
   home(server);
   const auto refused = server.post("/interrupted/reenter")["error"];
   EXPECT_EQ(refused["code"], "reentry.shifted") << refused;
-  EXPECT_NE(refused["message"].get<std::string>().find("by its switch, X was at"), std::string::npos) << refused;
+  EXPECT_NE(refused["message"].get<std::string>().find("according to its switch, X was at"), std::string::npos)
+      << refused;
 }
 
 // Power is cut at random moments, also on the way back; the server dies with it or lives on.

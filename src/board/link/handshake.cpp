@@ -91,10 +91,10 @@ std::string words_of_timing(const StepTiming& given, const StepTiming& needed, d
     return too_short("a direction hold time", "direction_hold_us", given.hold, needed.hold);
   }
   const std::string rate = std::to_string(static_cast<long>(clock / given.event_ticks));
-  return "at most " + rate + " events a second with step pulses of " + number(needed.pulse / sixteenths) +
+  return "at most " + rate + " events/s with step pulses of " + number(needed.pulse / sixteenths) +
          " us and directions set " + number(needed.set_up / sixteenths) +
-         " us before a step, and max_event_rate_hz of the machine file asks for more: lower max_event_rate_hz to " +
-         rate + " or less [board.event-rate]";
+         " us before a step, and max_event_rate_hz of the machine file is higher: lower max_event_rate_hz to " + rate +
+         " or less [board.event-rate]";
 }
 
 std::string words_of_setup(const PinSetup& setup) {

@@ -37,7 +37,7 @@ WebAnswer refusal_answer(unsigned status) {
     case 405: return error_answer(status, "http.method", "this path has other methods");
     case 413: return error_answer(status, "http.too-large", "the body is too long");
     case 431: return error_answer(status, "http.too-large", "the header is too long");
-    case 503: return error_answer(status, "http.busy", "other clients or large uploads take all the room: try again");
+    case 503: return error_answer(status, "http.busy", "other clients or large uploads use all resources: try again");
     default: return error_answer(status, "http.error", "the request failed");
   }
 }
@@ -73,7 +73,7 @@ WebAnswer not_idle(MachineState state) {
 
 WebAnswer job_begins() {
   return error_answer(409, "machine.busy",
-                      Sentence{.code = "machine.busy.job-begins", .text = "a job is about to begin"});
+                      Sentence{.code = "machine.busy.job-begins", .text = "a job is about to start"});
 }
 
 WebAnswer no_history() {
@@ -81,7 +81,7 @@ WebAnswer no_history() {
 }
 
 WebAnswer no_maker() {
-  return error_answer(404, "make.none", "this server makes no programs");
+  return error_answer(404, "make.none", "this server generates no programs");
 }
 
 WebAnswer no_place() {
@@ -94,7 +94,7 @@ WebAnswer no_room() {
 }
 
 WebAnswer no_studies() {
-  return error_answer(404, "study.none", "this server makes no studies");
+  return error_answer(404, "study.none", "this server runs no studies");
 }
 
 WebAnswer unwritten(std::string_view what, std::string_view finer, std::string why) {

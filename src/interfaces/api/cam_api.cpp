@@ -164,7 +164,7 @@ WebAnswer CamApi::keep_file(const ApiCall& call) {
   if (name->empty() || name->front() == '-') return bad_body("the file has no name");
   if (!shared_.options.maker->keep(*name, call.request.body)) {
     return error_answer(507, "make.no-room",
-                        "there is no room for this file: clear the others first, or make room on the disk");
+                        "there is no room for this file: remove other files first, or free disk space");
   }
   return state_answer();
 }
@@ -191,7 +191,7 @@ WebAnswer CamApi::begin(const ApiCall& call) {
   if (!maker.begin(*order)) {
     if (maker.result().state == MakeResult::State::running)
       return error_answer(409, "make.busy", "another program is being generated");
-    return error_answer(507, "make.no-room", "there is no room for what is to be made: make room on the disk");
+    return error_answer(507, "make.no-room", "there is no room for the generated files: free disk space");
   }
   made_.clear();
   making_ = order->job + "/" + (order->files.empty() ? std::string() : order->files.front());

@@ -29,7 +29,7 @@ Sentence first_error(const Diagnostics& findings, Sentence otherwise) {
 }
 
 Sentence sentence_of_end() {
-  return {.code = "job.server-ends", .text = "passo serve was told to end"};
+  return {.code = "job.server-ends", .text = "passo serve was shut down"};
 }
 
 HistoryState history_state_of(JobState state) {
@@ -200,7 +200,7 @@ void JobRunner::name_job() {
   }
   if (!kept_) return start_job();
   if (shared_.session.state() != MachineState::idle) {
-    return end_job(JobState::failed, Sentence{.code = "job.not-idle", .text = "the machine is not idle any more"});
+    return end_job(JobState::failed, Sentence{.code = "job.not-idle", .text = "the machine is no longer idle"});
   }
   const Point stands = shared_.session.status().position.place;
   const bool begun = begins_.reenters ? kept_->reenter(program.path)

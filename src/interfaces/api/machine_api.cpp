@@ -149,7 +149,7 @@ WebAnswer MachineApi::set_work_zero(const ApiCall& call) {
   const Point place = members.place("place", shared_.machine, frame.work_from_machine(at));
   if (!members.end()) return bad_body(members.reason());
   const auto is_far = [](double value) { return std::abs(value) > farthest_zero; };
-  if (std::ranges::any_of(place.values, is_far)) return bad_body("the place is too far away");
+  if (std::ranges::any_of(place.values, is_far)) return bad_body("the position is too far away");
   if (!shared_.offsets.set_work_zero(at - (frame.machine_from_work(place) - frame.work_offset()))) {
     return unwritten("the zero of the work", "zero", shared_.offsets.trouble());
   }
@@ -257,9 +257,9 @@ std::string MachineApi::metrics_text() const {
   }
   add("board_seconds_total", "counter", "Time on the board's side.", status.time.value());
   add("homed", "gauge", "1: the position is homed.", status.position.trust == Trust::homed ? 1 : 0);
-  add("job_progress", "gauge", "Of the job that runs, 0 to 1.", status.progress.value_or(0));
-  add("jobs_ended_total", "counter", "Jobs that have ended, in whatever way.", jobs_.jobs_ended());
-  add("alarms_total", "counter", "Times the machine stopped at once or the board was lost.", alarms_);
+  add("job_progress", "gauge", "Progress of the running job, 0 to 1.", status.progress.value_or(0));
+  add("jobs_ended_total", "counter", "Jobs that have ended, successfully or not.", jobs_.jobs_ended());
+  add("alarms_total", "counter", "Times the motors were stopped instantly or the board was lost.", alarms_);
   add("late_refills_total", "counter", "Stops because motion reached the board too late.", late_);
   if (server_ == nullptr) return text;
   add("http_connections", "gauge", "Open connections.", server_->connections());

@@ -81,9 +81,9 @@ Json unset_json(std::string text, std::string message) {
 // Reading a machine file may take some milliseconds: nothing waits for them while nothing moves.
 std::optional<WebAnswer> MachineFileApi::refuse_while_moving() const {
   if (!shared_.session.busy() && !jobs_.is_checking()) return {};
-  return error_answer(
-      409, "machine.busy",
-      Sentence{.code = "machine.busy.machine-file", .text = "the machine moves: the machine file can wait"});
+  return error_answer(409, "machine.busy",
+                      Sentence{.code = "machine.busy.machine-file",
+                               .text = "the machine is moving: the machine file can be changed when it stops"});
 }
 
 WebAnswer MachineFileApi::get(const ApiCall&) {

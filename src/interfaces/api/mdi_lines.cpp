@@ -158,10 +158,10 @@ MdiLines::Answer MdiLines::execute_command(const std::string& text) {
   const auto unsupported = [](const char* finer, const char* words) {
     return refused("mdi.unsupported", {.code = std::string("mdi.unsupported.") + finer, .text = words});
   };
-  if (text.starts_with("$J=")) return unsupported("jog", "the console cannot jog: use the tab Setup");
-  if (text == "$C") return unsupported("check", "the console has no check mode: open the program in Files");
+  if (text.starts_with("$J=")) return unsupported("jog", "the console cannot jog: use the Setup tab");
+  if (text == "$C") return unsupported("check", "the console has no check mode: open the program in the Files tab");
   if (text.size() > 1 && text[1] >= '0' && text[1] <= '9') {
-    return unsupported("setting", "settings are kept in the machine file: change them on the tab Machine");
+    return unsupported("setting", "settings are in the machine file: change them in the Machine tab");
   }
   const std::string word = text.substr(0, 20);
   return refused("mdi.unsupported",

@@ -28,12 +28,12 @@ std::optional<NameFault> fault_of(std::string_view name) {
   if (name.size() > longest_name) return NameFault{"length", "it is longer than 200 bytes"};
   if (name.front() == '.') return NameFault{"dot", "it begins with a dot"};
   if (name.find('/') != std::string_view::npos || name.find('\\') != std::string_view::npos) {
-    return NameFault{"slash", "it has a / or a \\"};
+    return NameFault{"slash", "it contains / or \\"};
   }
   while (!name.empty()) {
     const CodePoint first = first_code_point(name);
     if (first.length == 0) return NameFault{"encoding", "it is not UTF-8"};
-    if (is_control(first.value)) return NameFault{"control", "it has control characters"};
+    if (is_control(first.value)) return NameFault{"control", "it contains control characters"};
     name.remove_prefix(first.length);
   }
   return {};
@@ -47,10 +47,10 @@ Result<std::string, WebAnswer> name_from(std::string_view query, std::string_vie
   const auto refused = [](const NameFault& fault) {
     return Failure{error_answer(400, "http.bad-name",
                                 Sentence{.code = fmt::format("http.bad-name.{}", fault.finer),
-                                         .text = fmt::format("this name cannot be kept: {}", fault.why)})};
+                                         .text = fmt::format("invalid name: {}", fault.why)})};
   };
   auto name = percent_decoded(written);
-  if (!name) return refused({"percent", "a % in it is not followed by two hexadecimal digits; %25 stands for %"});
+  if (!name) return refused({"percent", "a % in it is not followed by two hexadecimal digits; write % as %25"});
   if (const auto fault = fault_of(*name)) return refused(*fault);
   return std::move(*name);
 }

@@ -45,7 +45,7 @@ WebAnswer OwnerApi::claim(const ApiCall& call) {
         409, "owner.moves",
         Sentence{.code = "owner.moves",
                  .arguments = {{"name", owner.name()}},
-                 .text = fmt::format("the machine moves for {}: hold it first, or wait", owner.name())});
+                 .text = fmt::format("the machine is moving for {}: hold it first, or wait", owner.name())});
   }
   heard_ = session.now();
   streams_.clear();

@@ -44,11 +44,10 @@ Result<Reentry, Sentence> ParkedJob::way_behind_stop(const MachineDescription& m
                    "start at a line");
   }
   if (!changed.empty() && std::ranges::find(changed, int{stop->system}) == changed.end()) {
-    return refused(
-        "waits.other-zero",
-        fmt::format("the program works with {}, and another zero was set: set that one, or set the other back",
-                    name_of_system(stop->system)),
-        {{"system", std::string(name_of_system(stop->system))}});
+    return refused("waits.other-zero",
+                   fmt::format("the program uses {}, but another zero was set: set that one, or restore the other",
+                               name_of_system(stop->system)),
+                   {{"system", std::string(name_of_system(stop->system))}});
   }
   auto way = plan_reentry(machine, stop->at, stands);
   if (!way) return refused_for(way.error());

@@ -204,7 +204,7 @@ WebAnswer ProgramsApi::receive_piece(const ApiCall& call) {
                           fmt::format("the next piece begins at byte {}, not {}", upload->text.size(), *from));
     case ProgramUploads::Taken::too_long:
       return error_answer(409, "uploads.too-long",
-                          fmt::format("{} bytes were announced, and more have come", upload->bytes));
+                          fmt::format("{} bytes were announced, but more were received", upload->bytes));
     case ProgramUploads::Taken::whole: break;
   }
   ProgramUpload whole = uploads_.remove(call.id);

@@ -94,7 +94,7 @@ WebAnswer StudiesApi::begin(const ApiCall& call) {
     // Where nobody has given a table, no tool is missing.
     if (!shared_.programs.tools().name.empty()) order.tools = tool_table_text(shared_.programs.tools());
   }
-  if (!shared_.options.studies->begin(order)) return error_answer(409, "study.busy", "no study can begin now");
+  if (!shared_.options.studies->begin(order)) return error_answer(409, "study.busy", "no study can start now");
   study_ = study.get<std::string>();
   studied_ = id;
   return state_answer(202);

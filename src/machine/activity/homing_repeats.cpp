@@ -58,7 +58,7 @@ std::vector<AxisRepeats> HomingRepeats::axes() const {
 std::string describe(const AxisRepeats& repeats) {
   // No minus sign before a zero.
   const auto rounded = [](double value) { return std::round(value * 10) / 10 + 0.0; };
-  return fmt::format("{}: the mean place is {:.1f} {unit} from the first, the spread {:.1f} {unit} ({})",
+  return fmt::format("{}: the mean position is {:.1f} {unit} from the first, the spread {:.1f} {unit} ({})",
                      letter_of(repeats.axis), rounded(repeats.mean), rounded(repeats.spread),
                      counted(repeats.spread_steps, "step"), fmt::arg("unit", is_rotary(repeats.axis) ? "mdeg" : "um"));
 }

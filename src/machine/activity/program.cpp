@@ -26,7 +26,7 @@ void report_end(Diagnostics& diagnostics, const std::string& file, const PathIte
                    .file = file,
                    .place = {.line = line, .column = 0, .length = 1},
                    .message = "the check ends here, ten million moves after a probe move",
-                   .expected = "a loop that also ends where the probe is touched at the end of its move",
+                   .expected = "a loop that also ends if the probe is triggered at the end of its move",
                    .text = {}});
 }
 
@@ -69,7 +69,7 @@ bool ProgramChecker::pull_item() {
   if (check_.probes) ++after_a_probe_;
   if (!check_.probes && is_probe(item_)) {
     check_.probes = true;
-    diagnostics_.doubt_errors("if the probe is touched at the end of its move");
+    diagnostics_.doubt_errors("if the probe is triggered at the end of its move");
   }
   return true;
 }

@@ -26,9 +26,9 @@ constexpr const char* table_of_waits = R"(
     tool INTEGER NOT NULL, words TEXT NOT NULL, PRIMARY KEY (job, number)) WITHOUT ROWID;)";
 // Younger, too. Older programs write no sentence beside their words.
 constexpr const char* column_of_sentence = "ALTER TABLE {} ADD COLUMN sentence TEXT NOT NULL DEFAULT ''";
-constexpr std::string_view killed = "passo serve was killed, or its computer lost its power";
+constexpr std::string_view killed = "passo serve was killed, or the computer lost power";
 constexpr std::string_view killed_sentence =
-    R"({"code":"job.killed","arguments":{},"text":"passo serve was killed, or its computer lost its power"})";
+    R"({"code":"job.killed","arguments":{},"text":"passo serve was killed, or the computer lost power"})";
 constexpr std::int64_t no_tool = -1;
 
 constexpr std::int64_t number_of(HistoryState state) {
@@ -115,7 +115,7 @@ Result<std::unique_ptr<JobHistory>, std::string> JobHistory::open(const std::str
     Statement of(database, "PRAGMA user_version");
     if (of.step()) known = of.number();
   }
-  if (known > version) return failed(fmt::format("it is of version {}, and this program knows {}", known, version));
+  if (known > version) return failed(fmt::format("its version is {}, but this program supports {}", known, version));
   if (known == 0 && !history->run(fmt::format("BEGIN;{}COMMIT;", tables).c_str())) return failed(reason());
   if (!history->run(table_of_waits)) return failed(reason());
   for (const char* const table : {"jobs", "alarms"}) {

@@ -23,9 +23,9 @@ std::int64_t number_of(std::string_view name) {
 
 std::string describe(JobChange change, const JournalHead& then) {
   switch (change) {
-    case JobChange::version: return "the job was begun by version " + then.made_by;
+    case JobChange::version: return "the job was started by version " + then.made_by;
     case JobChange::program: return "the history has another program under the job's number";
-    case JobChange::machine: return "the machine file is another, or was changed since";
+    case JobChange::machine: return "the machine file is different, or has changed since";
   }
   return "";
 }
@@ -121,7 +121,7 @@ void KeptJob::check_place() {
   if (!is_sure || session_.state() != MachineState::idle || !status) return;
   interrupted_->why = {};
   if (stands_at(interrupted_->journal.head, *interrupted_->point, *status, machine_)) return;
-  refuse(code_of(ResumeRefusal::counts_differ), "the machine was moved since: move it back to the place of the job");
+  refuse(code_of(ResumeRefusal::counts_differ), "the machine was moved since: move it back to where the job stopped");
 }
 
 const InterruptedJob* KeptJob::interrupted() {

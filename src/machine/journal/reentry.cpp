@@ -244,12 +244,13 @@ std::string_view message_of(ReentryRefusal refusal) {
     case ReentryRefusal::no_pass: return "that line has fewer passes";
     case ReentryRefusal::beyond_end: return "the path ends before that distance after the line";
     case ReentryRefusal::other_file:
-      return "a subprogram in another file has a line of that number too: name another line";
-    case ReentryRefusal::after_probe: return "the way to that line depends on what a probe move finds: begin before it";
+      return "a subprogram in another file also has a line with that number: choose another line";
+    case ReentryRefusal::after_probe:
+      return "the path to that line depends on the result of a probe move: start before it";
     case ReentryRefusal::path_changed: return "the program has a different meaning now";
-    case ReentryRefusal::in_thread: return "that place is in a thread, which begins only at its own beginning";
+    case ReentryRefusal::in_thread: return "that position is in a thread, which can start only at its beginning";
     case ReentryRefusal::backlash:
-      return "this machine takes up backlash, and a way back onto a path does not do that yet";
+      return "this machine compensates backlash, and the return to a path does not support that yet";
     case ReentryRefusal::bad_program: return "the program has errors";
   }
   return "there is no way back onto the path";

@@ -27,19 +27,18 @@ std::string_view code_of(ResumeRefusal refusal) {
 
 std::string_view message_of(ResumeRefusal refusal) {
   switch (refusal) {
-    case ResumeRefusal::board_reset:
-      return "the board was reset since: where the machine stands is not certain any more";
-    case ResumeRefusal::other_session: return "another program was run on the board since";
+    case ResumeRefusal::board_reset: return "the board was reset since: the machine position is no longer certain";
+    case ResumeRefusal::other_session: return "another program has run on the board since";
     case ResumeRefusal::not_trusted:
       return "the board stopped its motors instantly; steps may be lost, so the position is unreliable";
     case ResumeRefusal::drivers_off:
-      return "the board has switched the drivers off after a time without a host (drivers_off_after_s), and the axes "
-             "may have moved";
+      return "the board disabled the drivers after a time without a host (drivers_off_after_s), and the axes may have "
+             "moved";
     case ResumeRefusal::session_ended:
-      return "the machine was moved by the board's keypad since, or another program began to talk to the board";
-    case ResumeRefusal::rest_unknown: return "the journal does not know where the board has come to rest";
+      return "the machine was moved with the board's keypad since, or another program connected to the board";
+    case ResumeRefusal::rest_unknown: return "the journal does not contain the position where the board stopped";
     case ResumeRefusal::path_changed: return "the program has a different meaning now";
-    case ResumeRefusal::counts_differ: return "the board's step counts are not those of the place where the job ended";
+    case ResumeRefusal::counts_differ: return "the board's step counts differ from those at which the job stopped";
     case ResumeRefusal::in_thread:
       return "the machine is in a thread, which cannot continue: move the tool out of it, and start again";
   }

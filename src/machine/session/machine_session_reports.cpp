@@ -46,7 +46,7 @@ Sentence MachineSession::sentence_of(LinkError error) const {
   }
   if (error == LinkError::cannot_time) {
     add(".makes", "timing", words_of_timing(board_.timing(), board_.wanted_timing(), machine_.board.clock.value()),
-        ": it makes {timing}");
+        ": it provides {timing}");
   }
   const std::uint32_t line =
       error == LinkError::stood_still && work_ ? work_->standstill_line.value_or(0) : std::uint32_t{0};
@@ -64,7 +64,7 @@ Sentence MachineSession::sentence_of_stop() const {
   const StopCause cause = stop_cause(inputs, machine_);
   return {.code = code + finer_code_of(cause.kind),
           .arguments = cause.arguments,
-          .text = cause.what + ": where the motors are is not certain"};
+          .text = cause.what + ": the motor positions are unreliable"};
 }
 
 Refusal MachineSession::refusal_in_alarm() const {

@@ -103,17 +103,17 @@ std::optional<PlaceRecord> read_place_record(std::string_view text) {
 std::string_view message_of(PlaceDoubt doubt) {
   switch (doubt) {
     case PlaceDoubt::no_record: return "it was never homed, and its position was never confirmed";
-    case PlaceDoubt::other_machine: return "the machine file is another, or was changed";
+    case PlaceDoubt::other_machine: return "the machine file is different, or was changed";
     case PlaceDoubt::board_reset: return "its board was reset or switched off";
     case PlaceDoubt::other_session: return "another program was run on its board";
     case PlaceDoubt::session_ended:
-      return "it was moved by the board's keypad, or another program has begun to talk to the board";
+      return "it was moved with the board's keypad, or another program connected to the board";
     case PlaceDoubt::drivers_off:
-      return "its board has switched the drivers off after a time without a host (drivers_off_after_s), and the axes "
-             "may have moved";
-    case PlaceDoubt::stopped_at_once: return "its motors were stopped at once and may have lost steps";
+      return "its board disabled the drivers after a time without a host (drivers_off_after_s), and the axes may have "
+             "moved";
+    case PlaceDoubt::stopped_at_once: return "its motors were stopped instantly and may have lost steps";
   }
-  return "its place is in doubt";
+  return "its position is uncertain";
 }
 
 std::optional<Point> counted_place(const std::optional<PlaceRecord>& record, const MachineDescription& machine,

@@ -43,7 +43,7 @@ StopCause stop_cause(std::uint16_t inputs, const MachineDescription& machine) {
     return {.what = "the emergency stop was pressed", .remedy = "release it", .kind = StopCause::Kind::emergency_stop};
   }
   if (const std::string axes = alarmed_axes(inputs, machine); !axes.empty()) {
-    return {.what = "the drive of " + axes + " has given its alarm",
+    return {.what = "the drive of " + axes + " reported an alarm",
             .remedy = "clear the drive's alarm",
             .kind = StopCause::Kind::drive_alarm,
             .arguments = {{"axes", axes}}};
@@ -51,7 +51,7 @@ StopCause stop_cause(std::uint16_t inputs, const MachineDescription& machine) {
   for (unsigned input = 0; input < max_motors; ++input) {
     if ((inputs & (unsigned{input_limit} << input)) != 0) return closed_limit_cause(input, machine);
   }
-  return {.what = "the board has stopped its motors at once", .remedy = ""};
+  return {.what = "the board stopped its motors instantly", .remedy = ""};
 }
 
 }  // namespace passo

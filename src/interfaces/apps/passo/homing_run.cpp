@@ -74,7 +74,7 @@ std::string describe(const HomingReport& report) {
 }
 
 std::string words_without_homing(const std::string& machine_file) {
-  return machine_file + ": no axis has a switch to be homed by, a table [axis.X.home] [home.no-switch]";
+  return machine_file + ": no axis has a homing switch (table [axis.X.home]) [home.no-switch]";
 }
 
 HomingReport home_machine(OpenedMachine& machine, bool shows) {

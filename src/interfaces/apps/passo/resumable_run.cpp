@@ -40,7 +40,7 @@ int refuse(JobChange change, const JobIdentity& now, const JournalHead& then) {
     case JobChange::machine: return refuse_changed(change, now.machine, then.machine);
     case JobChange::version: break;
   }
-  return refuse(code_of(change), "the job was begun by version " + then.made_by);
+  return refuse(code_of(change), "the job was started by version " + then.made_by);
 }
 
 }  // namespace

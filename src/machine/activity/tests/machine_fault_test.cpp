@@ -25,7 +25,7 @@ TEST(MachineFaults, fill_their_arguments_into_the_sentence) {
   EXPECT_EQ(lost.message(), "the board does not answer");
   const std::string waits =
       ActivityFault{MachineFault::program_waits, {{"program", "a{wait}.ngc"}, {"wait", "M0"}}}.message();
-  EXPECT_TRUE(waits.starts_with("a{wait}.ngc waits at M0, and there is no terminal")) << waits;
+  EXPECT_TRUE(waits.starts_with("a{wait}.ngc waits at M0, but there is no terminal")) << waits;
   EXPECT_EQ(ActivityFault{MachineFault::switch_not_met}.message(), "its switch was not triggered");
 }
 
