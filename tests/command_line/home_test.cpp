@@ -103,7 +103,7 @@ TEST_F(HomeCommand, homes_two_axes_at_once_where_the_board_can_watch_both_switch
   EXPECT_NEAR(nlohmann::json::parse(uno.out, nullptr, false)["position_mm"]["Y"], -4.7, 1.0 / 640);
   const Outcome mega = passo("home --json --board sim:mega" + near_machine(x_switch, at_once));
   EXPECT_EQ(mega.code, 1);
-  EXPECT_THAT(mega.err, HasSubstr("cannot watch these limit switches at once"));
+  EXPECT_THAT(mega.err, HasSubstr("cannot watch these limit switches at the same time"));
   const Outcome pico = passo("home --json --board sim:pico" + near_machine(x_switch, at_once));
   if (lacks_an_emulator(pico)) GTEST_SKIP() << pico.err;
   EXPECT_EQ(pico.code, 0) << pico.err;

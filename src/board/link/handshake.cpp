@@ -81,7 +81,7 @@ std::string words_of_timing(const StepTiming& given, const StepTiming& needed, d
   };
   const auto too_short = [&](const char* what, const char* key, std::uint8_t gives, std::uint8_t needs) {
     return std::string(what) + " of at most " + number(gives / sixteenths) + " us, and " + key + " = " +
-           number(needs / sixteenths) + " of the machine file asks for more [board.step-pulse]";
+           number(needs / sixteenths) + " of the machine file is longer [board.step-pulse]";
   };
   if (given.pulse < needed.pulse) return too_short("step pulses", "step_pulse_us", given.pulse, needed.pulse);
   if (given.set_up < needed.set_up) {

@@ -36,10 +36,12 @@ std::string_view message_of(LinkError error) {
     case LinkError::wrong_version:
       return "the board uses another protocol version: firmware and passo must have the same version";
     case LinkError::too_few_motors: return "the board has fewer motors than the machine";
-    case LinkError::cannot_set_up: return "the board cannot do what [inputs] and [outputs] of the machine file say";
+    case LinkError::cannot_set_up:
+      return "the board does not support what [inputs] and [outputs] of the machine file require";
     case LinkError::cannot_time: return "the board's step timing does not meet the drivers' requirements";
     case LinkError::cannot_watch:
-      return "the board cannot watch these limit switches at once: their pins are on several ports (docs/boards.md)";
+      return "the board cannot watch these limit switches at the same time: their pins are on several ports "
+             "(docs/boards.md)";
     case LinkError::refused: return "the board refused what was sent to it";
     case LinkError::was_reset: return "the board was reset, so the motor positions are unknown";
     case LinkError::stopped:
@@ -52,8 +54,8 @@ std::string_view message_of(LinkError error) {
     case LinkError::too_few_places: return "the board's queue is too small for a stop ramp";
     case LinkError::manual: return "the board is in manual mode (keypad): press * there, and start again";
     case LinkError::no_encoder:
-      return "the program follows the spindle, and the board has no encoder: it needs other firmware, or [spindle] of "
-             "the machine file is not this machine's";
+      return "the program follows the spindle, but the board has no encoder: use other firmware, or correct [spindle] "
+             "in the machine file";
     case LinkError::spindle_stands:
       return "the spindle does not turn, or its encoder does not count: nothing can follow it";
     case LinkError::encoder_wrong:

@@ -164,7 +164,7 @@ WebAnswer JobRunner::resume(bool by_a_way_back) {
 
 bool JobRunner::call_off() {
   if (!is_checking() || shared_.session.busy()) return false;
-  end_job(JobState::stopped, Sentence{.code = "job.called-off", .text = "canceled before it started"});
+  end_job(JobState::stopped, Sentence{.code = "job.called-off", .text = "cancelled before it started"});
   return true;
 }
 

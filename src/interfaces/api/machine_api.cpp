@@ -255,7 +255,7 @@ std::string MachineApi::metrics_text() const {
   for (const StateRow& row : state_rows) {
     text += fmt::format("passo_state{{state=\"{}\"}} {}\n", row.name, row.state == status.state ? 1 : 0);
   }
-  add("board_seconds_total", "counter", "Time on the board's side.", status.time.value());
+  add("board_seconds_total", "counter", "Time on the board's clock.", status.time.value());
   add("homed", "gauge", "1: the position is homed.", status.position.trust == Trust::homed ? 1 : 0);
   add("job_progress", "gauge", "Progress of the running job, 0 to 1.", status.progress.value_or(0));
   add("jobs_ended_total", "counter", "Jobs that have ended, successfully or not.", jobs_.jobs_ended());

@@ -99,7 +99,7 @@ WebAnswer ProgramsApi::set_block_delete(const ApiCall& call) {
   if (!members.end()) return bad_body(members.reason());
   if (*leaves_out && program->dialect == Dialect::grbl)
     return bad_body("the Grbl dialect has no block delete: such lines are executed");
-  if (jobs_.runs(*program)) return error_answer(409, "programs.in-use", "the program runs");
+  if (jobs_.runs(*program)) return error_answer(409, "programs.in-use", "the program is running");
   shared_.programs.set_block_delete(program->id, *leaves_out);
   return json_answer(200, as_json(*program, false));
 }

@@ -61,8 +61,9 @@ void ProbeCodes::apply_outcome() {
   if (outcome.refused) {
     block_.ended = true;
     fail("gcode.probe-before", motion_span(),
-         fmt::format("{} begins with the probe {} already", name, is_toward(number) ? "triggered" : "open"),
-         is_toward(number) ? "a move first, away from the surface that it touches" : "the probe touched before");
+         fmt::format("{} begins with the probe already {}", name, is_toward(number) ? "triggered" : "open"),
+         is_toward(number) ? "a move first, away from the surface that it touches"
+                           : "the probe triggered before the move");
   } else if (!outcome.touched && must_touch(number)) {
     block_.ended = true;
     fail("gcode.probe-untouched", motion_span(),

@@ -12,7 +12,7 @@ constexpr MachineFaultRow rows[] = {
     {switch_not_met, "home.not-met", "its switch was not triggered", GrblAlarm::homing_no_switch},
     {switch_still_closed, "home.still-closed", "its switch is still triggered after the pull-off",
      GrblAlarm::homing_no_release},
-    {switch_unsteady, "home.unsteady", "its switch opens and closes again and again", GrblAlarm::homing_no_release},
+    {switch_unsteady, "home.unsteady", "its switch opens and closes repeatedly", GrblAlarm::homing_no_release},
     {probe_before, "probe.before", "the probe was already in its final state before the move", GrblAlarm::probe_before},
     {probe_untouched, "probe.untouched", "the probe move finished without contact", GrblAlarm::probe_untouched},
     {probe_guard, "probe.guard", "the probe was triggered outside a probe move"},

@@ -253,7 +253,7 @@ std::string_view message_of(ReentryRefusal refusal) {
       return "this machine compensates backlash, and the return to a path does not support that yet";
     case ReentryRefusal::bad_program: return "the program has errors";
   }
-  return "there is no way back onto the path";
+  return "the return to the path is not possible";
 }
 
 std::string message_of(const LineProblem& problem) {

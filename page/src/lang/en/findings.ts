@@ -165,6 +165,6 @@ export const findings = {
   // What a probing cycle gives up with
   'name-came-to-its-end-and-the-probe-is-still': '{name} finished, and the probe is still |open',
   'name-came-to-its-end-and-the-probe-is-still-2': '{name} finished, and the probe is still |triggered',
-  'name-begins-with-the-probe-touched-already': '{name} begins with the probe |triggered| already',
+  'name-begins-with-the-probe-touched-already': '{name} begins with the probe already |triggered',
   'the-bores-are-apart-mm-apart-they-should-be': 'the bores are {apart} mm apart; they should be {way} mm apart',
 } as const;

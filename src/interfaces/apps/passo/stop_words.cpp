@@ -22,7 +22,7 @@ Point counted_place(OpenedMachine& opened, const MachineDescription& machine,
   return kinematics_of(machine).axes(motors);
 }
 
-// An axis whose drive reported an alarm. Only of motors with physics; empty: none has.
+// An axis whose drive has given its alarm. Only of motors with physics; empty: none has.
 std::optional<StopCause> following_error(OpenedMachine& opened, const MachineDescription& machine) {
   const RotorPlant* const rotors = opened.rotors();
   if (rotors == nullptr || !rotors->following_fault()) return std::nullopt;
