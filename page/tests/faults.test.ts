@@ -38,7 +38,7 @@ describe('the words of a code', () => {
       const hasHead = [head, `${head}.`, `${head}.{}`].some((one) => texts.has(one)) || texts.has(head.split('.')[0] ?? '');
       return texts.has(fault) || (hasHead && (texts.has(tail) || texts.has(`.${tail}`)));
     };
-    const all = [...sources('machine/history')].join('');
+    const all = [...sources('machine/job')].join('');
     expect(Object.keys(faults.en).filter((fault) => !isSent(fault) && !all.includes(`"code":"${fault}"`))).toEqual([]);
   });
 
