@@ -315,7 +315,7 @@ TEST(FromLine, leads_up_over_and_down) {
   const auto way = plan_reentry(machine, *at, {{{1, 2, -10}}});
   ASSERT_TRUE(way);
   std::string steps;
-  for (const std::string& step : way->steps) steps += step + "\n";
+  for (const Sentence& step : way->steps) steps += step.text + "\n";
   const double top = machine.axes[2].travel_high;
   EXPECT_EQ(steps,
             fmt::format("up to Z{:.3f}, at rapid speed\n"
