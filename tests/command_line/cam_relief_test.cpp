@@ -27,7 +27,7 @@ TEST_F(CamRelief, three_cutters_carve_a_picture_and_a_machine_can_run_it) {
   EXPECT_EQ(made.code, 0) << made.err;
   EXPECT_EQ(made.err, "");
   EXPECT_THAT(made.out, HasSubstr("240 x 240 pixels, 16 bit grey, luminance\n20 x 20 mm, "));
-  EXPECT_THAT(made.out, HasSubstr("rest finishing: ball nose, 0.8 mm; rows "));
+  EXPECT_THAT(made.out, HasSubstr("rest finishing: ball nose, 0.8 mm; stepover "));
   const std::string program = read(path("f.ngc"));
   EXPECT_THAT(program, HasSubstr("(from flower.png: 240 x 240 pixels, 16 bit grey, luminance)"));
   EXPECT_THAT(program, HasSubstr("(MSG, tool 3: ball nose, 0.8 mm)\nT3 M6\n"));
