@@ -94,7 +94,7 @@ TEST_F(Boards, thread_with_an_encoder_on_their_pins_or_say_that_they_have_none) 
   EXPECT_EQ(nlohmann::json::parse(outcome.out)["steps"], nlohmann::json::parse(passo(command).out)["steps"]);
   const Outcome refused = passo(command + " --board sim:uno");
   EXPECT_EQ(refused.code, 1);
-  EXPECT_NE(refused.err.find("has no encoder"), std::string::npos) << refused.err;
+  EXPECT_NE(refused.err.find("has no spindle encoder"), std::string::npos) << refused.err;
 }
 
 // What the machine file asks of a board, and the board cannot do, is refused before anything moves.

@@ -80,7 +80,7 @@ TEST_F(CamMill, a_gap_too_narrow_is_told) {
   const Outcome made = cam("isolate " + copper() + " --v 30,0.15 --depth -0.1 --json -o " + path("f.ngc"));
   EXPECT_EQ(made.code, 0) << made.err;
   EXPECT_THAT(made.err, HasSubstr("at X6.0750 Y"));
-  EXPECT_THAT(made.err, HasSubstr("they are 0.15 mm apart"));
+  EXPECT_THAT(made.err, HasSubstr("which are 0.15 mm apart"));
   EXPECT_THAT(made.out, HasSubstr("\"joined\": 2"));
   EXPECT_THAT(made.out, HasSubstr("\"lost_mm2\": 0.0"));
 }
@@ -176,7 +176,7 @@ TEST_F(CamMill, what_a_file_is_can_be_said_and_the_steps_are_told_as_json) {
     EXPECT_EQ(file["drill_file"], file["name"] == "board-PTH.drl") << file;
   }
   EXPECT_THAT(read(path("job/1-drill.ngc")), Not(HasSubstr("0.8")));
-  EXPECT_THAT(read(path("job/board.html")), HasSubstr("bottom copper (told by you)"));
+  EXPECT_THAT(read(path("job/board.html")), HasSubstr("bottom copper (given with --as)"));
   EXPECT_THAT(read(path("job/board.svg")), HasSubstr("<svg"));
   const std::string board = "board " + path("") + " -o " + path("job");
   EXPECT_THAT(cam(board + " --as odd.gbr").err, HasSubstr("expected FILE=LAYER"));

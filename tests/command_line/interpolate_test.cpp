@@ -116,7 +116,7 @@ TEST_F(Interpolate, what_is_wrong_is_said_and_exits_with_2) {
     return outcome.err;
   };
   EXPECT_THAT(wrong("--method lean --to 10,x"), HasSubstr("found 'x'"));
-  EXPECT_THAT(wrong("--method wu --to 10,4"), HasSubstr("none of master-slave, lean, dda"));
+  EXPECT_THAT(wrong("--method wu --to 10,4"), HasSubstr("not one of master-slave, lean, dda"));
   EXPECT_THAT(wrong("--to 10,4"), HasSubstr("--method NAME, or --compare"));
   EXPECT_THAT(wrong("--method slope-blocks --to 1,2,3"), HasSubstr("two axes"));
   EXPECT_THAT(wrong("--method lean --from 10,0 --to 0,10 --center 0,0"), HasSubstr("for lines"));

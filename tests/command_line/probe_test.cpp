@@ -67,7 +67,7 @@ TEST_F(Probe, that_finds_nothing_ends_the_run_with_1_and_leaves_no_file) {
   const Outcome outcome = run_text("G21 G90 F600\nG38.2 Z-3\nM2\n", "--touch Z:-5 --report " + path("r.json"));
   EXPECT_EQ(outcome.code, 1);
   EXPECT_THAT(outcome.err, HasSubstr("p.ngc:2:1: error: G38.2 finished"));
-  EXPECT_THAT(outcome.err, HasSubstr("rests at X0.000 Y0.000 Z-3.000"));
+  EXPECT_THAT(outcome.err, HasSubstr("stopped at X0.000 Y0.000 Z-3.000"));
   EXPECT_TRUE(files().empty());
 }
 

@@ -494,7 +494,7 @@ TEST(GrblSettings, are_written_into_the_machine_file_and_shown) {
     return true;
   });
   run.send("$110=4800\n");
-  EXPECT_TRUE(run.reply().starts_with("[MSG:Kept"));
+  EXPECT_TRUE(run.reply().starts_with("[MSG:Saved in the machine file"));
   EXPECT_EQ(run.reply(), "ok");
   EXPECT_NE(text.find("max_velocity_mm_s = 80 "), std::string::npos);
   run.send("$$\n");
@@ -506,7 +506,7 @@ TEST(GrblSettings, are_written_into_the_machine_file_and_shown) {
   EXPECT_TRUE(run.reply().starts_with("[MSG:The machine file cannot"));
   EXPECT_EQ(run.reply(), "error:3");
   run.send("$110=0\n$32=1\n");
-  EXPECT_TRUE(run.reply().starts_with("[MSG:No sound"));
+  EXPECT_TRUE(run.reply().starts_with("[MSG:This value would"));
   EXPECT_EQ(run.reply(), "error:3");
   EXPECT_TRUE(run.reply().starts_with("[MSG:The machine file has no"));
   EXPECT_EQ(run.reply(), "error:3");

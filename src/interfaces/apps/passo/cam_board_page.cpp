@@ -39,7 +39,8 @@ std::string step_html(const BoardStep& step, std::size_t number) {
 }  // namespace
 
 std::string words_for(const BoardPageFile& file) {
-  return fmt::format("{}: {} (from {})", file.name, file.layer, file.told_by == "you" ? "you" : "its " + file.told_by);
+  return fmt::format("{}: {} ({})", file.name, file.layer,
+                     file.told_by == "you" ? "given with --as" : "from its " + file.told_by);
 }
 
 std::string to_json(const BoardPage& page) {
