@@ -114,7 +114,7 @@ TEST_F(HomeCommand, refuses_a_board_without_a_pin_that_is_inverted) {
   const Outcome outcome = passo("home --board sim:uno" + near_machine(x_switch, "[inputs]\ndoor = 'high'\n"));
   if (lacks_an_emulator(outcome)) GTEST_SKIP() << outcome.err;
   EXPECT_EQ(outcome.code, 1);
-  EXPECT_THAT(outcome.err, HasSubstr("[inputs] and [outputs] of the machine file say: it has no door"));
+  EXPECT_THAT(outcome.err, HasSubstr("[inputs] and [outputs] of the machine file require: it has no door"));
 }
 
 TEST_F(HomeCommand, tells_what_is_wrong_by_a_stable_code) {
