@@ -30,8 +30,8 @@ ends() {  # PART: it ends now
 build() {  # PRESET [TARGET...]
   cmake --build "build/$1" --parallel "$(nproc)" ${2:+--target "${@:2}"}
 }
-run_tests() {  # PRESET [OPTION...]; one more at a time than there are processors, since some tests wait
-  ctest --test-dir "build/$1" --parallel $(($(nproc) + 1)) --output-on-failure --no-tests=error "${@:2}"
+run_tests() {  # PRESET [OPTION...]; two more at a time than there are processors, since many tests wait
+  ctest --test-dir "build/$1" --parallel $(($(nproc) + 2)) --output-on-failure --no-tests=error "${@:2}"
 }
 
 scripts/install.sh
