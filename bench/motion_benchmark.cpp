@@ -28,7 +28,7 @@ class Moves final : public Source<Operation> {
   Moves(std::size_t count, double size) : count_(count), size_(size) {}
   [[nodiscard]] bool next(Operation& operation) override {
     if (at_ == 0) {
-      operation.what = operation::SetFeedRate{100};
+      operation.what = operation::SetFeedRate{operation::FeedPerSecond{.linear = MmPerSecond(100)}};
     } else {
       operation.what = operation::StraightFeed{place(at_, size_)};
     }
@@ -46,7 +46,7 @@ class Arcs final : public Source<Operation> {
   explicit Arcs(std::size_t count) : count_(count) {}
   [[nodiscard]] bool next(Operation& operation) override {
     if (at_ == 0) {
-      operation.what = operation::SetFeedRate{100};
+      operation.what = operation::SetFeedRate{operation::FeedPerSecond{.linear = MmPerSecond(100)}};
     } else {  // half circles of 1 mm, out and back
       Point end;
       end[Axis::x] = at_ % 2 == 1 ? 2 : 0;
