@@ -38,7 +38,7 @@ async function startFrom(page: import('playwright-core').Page, daemon: Daemon): 
   await page.getByRole('dialog').getByRole('button', { name: 'Start' }).click();
   // The program begins with a tool change.
   await daemon.until((status) => status.state === 'Tool', 60_000);
-  await page.getByRole('button', { name: 'Done', exact: true }).click();
+  await page.getByRole('region', { name: 'Waiting for the operator' }).getByRole('button', { name: 'Done' }).click();
   await daemon.until((status) => status.state === 'Run' && status.progress !== null && status.progress > 0.25, 60_000);
 }
 
