@@ -92,7 +92,8 @@ TEST_F(CamRelief, a_height_map_is_carved_too) {
   }
   const Outcome made = relief(write("map.csv", map) + " --cutter ball:6 --way spiral --pitch 1 -o " + path("m.ngc"));
   EXPECT_EQ(made.code, 0) << made.err;
-  EXPECT_THAT(made.out, HasSubstr("12 triangles, seen from above\n30 x 20 mm, 3 mm deep; 31 x 21 grid points, 1 mm apart\n"));
+  EXPECT_THAT(made.out,
+              HasSubstr("12 triangles, seen from above\n30 x 20 mm, 3 mm deep; 31 x 21 grid points, 1 mm apart\n"));
 }
 
 TEST_F(CamRelief, what_is_wrong_is_told_and_nothing_is_written) {

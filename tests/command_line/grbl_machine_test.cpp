@@ -63,7 +63,9 @@ TEST_F(GrblMachine, cannot_do_all_and_says_so) {
                                         "; [ $? = 2 ] && " PASSO_PROGRAM " jog X1 -m " PASSO_SOURCE_DIR
                                         "/examples/machines/router.toml --board $L");
   EXPECT_EQ(outcome.code, 1);
-  EXPECT_THAT(outcome.err, HasSubstr("p.ngc:2:1: error: a machine with Grbl cannot do this: Passo cannot read the result of its probe"));
+  EXPECT_THAT(
+      outcome.err,
+      HasSubstr("p.ngc:2:1: error: a machine with Grbl cannot do this: Passo cannot read the result of its probe"));
   EXPECT_THAT(outcome.err, HasSubstr("--resume and --journal"));
   EXPECT_THAT(outcome.err, HasSubstr("[board.grbl]"));
 }
