@@ -107,7 +107,7 @@ programs=("$@")
 [[ ${1-} != --* ]] || programs=()
 ((${#programs[@]} > 0)) || programs=("$work"/circles-F*.ngc "$work/rapids.ngc" examples/pocket.ngc examples/engrave.ngc examples/drill-board.ngc)
 table() {
-  echo "| program | board | without a line, s | over the line, s | ratio | rests for want of more | sent |"
+  echo "| program | board | without a link, s | over the link, s | ratio | stops | sent |"
   echo "|---|---|---:|---:|---:|---|---:|"
   for board in Uno Mega Uno-jerk Mega-jerk; do
     for program in "${programs[@]}"; do row "$program" "$board"; done
@@ -115,7 +115,7 @@ table() {
   (($# > 0)) || for board in Uno Mega; do row "$work/moves-3d.ngc" "$board-fast"; done
 }
 pico_table() {
-  echo "| program | board | without a line, s | over the line, s | ratio | rests for want of more | sent |"
+  echo "| program | board | without a link, s | over the link, s | ratio | stops | sent |"
   echo "|---|---|---:|---:|---:|---|---:|"
   local name
   for name in "$work"/{circles-F6000,rapids,moves-3d,chords-spiral,chords-relief}.ngc examples/{pocket,engrave,drill-board}.ngc; do
@@ -124,7 +124,7 @@ pico_table() {
   for name in "$work"/{circles-F6000,rapids,moves-3d,chords-spiral}.ngc examples/engrave.ngc; do row "$name" Pico-jerk; done
 }
 chip_table() {
-  echo "| program | chip | without a line, s | over the line, s | ratio | rests for want of more | sent |"
+  echo "| program | chip | without a link, s | over the link, s | ratio | stops | sent |"
   echo "|---|---|---:|---:|---:|---|---:|"
   local board chip name
   for board in Uno Mega Uno-jerk Mega-jerk; do

@@ -25,7 +25,7 @@ sed 's/^max_acceleration_mm_s2 = .*/&\nmax_jerk_mm_s3 = 25_000/' "$machine" >"$n
 
 # $1 a folder, $2 a machine file. A motion beyond its limits (exit code 1) is a row like any other.
 table() {
-  echo "| program | time, s | time / bound | in the tube | velocity × | acceleration × | jerk × | in steps × | jump, mm/s | deviation × | line, kB/s | at most | good |"
+  echo "| program | time, s | time / bound | in the tube | velocity × | acceleration × | jerk × | in steps × | jump, mm/s | deviation × | link, kB/s | at most | good |"
   echo "|---|---:|---:|---:|---:|---:|---:|---:|---:|---:|---:|---:|---|"
   local program json line
   sed 's/^max_event_rate_hz = .*/max_event_rate_hz = 100_000/' "$2" >"$new/slow_board.toml"
@@ -50,7 +50,7 @@ table() {
 # Moves of X from rest to rest against the closed form, with 500 mm/s² and 25,000 mm/s³. Only long moves reach the
 # limit of acceleration: those longer than 2 a³/j².
 rest_table() {
-  echo "| way, mm | time, ms | closed form, ms | ratio |"
+  echo "| distance, mm | time, ms | closed form, ms | ratio |"
   echo "|---:|---:|---:|---:|"
   local way
   for way in 1 0.1 0.01; do

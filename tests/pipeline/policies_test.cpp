@@ -56,11 +56,11 @@ class Happening {
     const std::int64_t rest = steps.last;
     const bool is_on_at_rest = steps.is_on;
     pass(4);
-    motion = rest != steps.last ? "goes on" : steps.interval > 4 * cruises_ ? "brakes on the path" : "stops at once";
+    motion = rest != steps.last ? "continues" : steps.interval > 4 * cruises_ ? "brakes on the path" : "stops at once";
     outputs = steps.is_on                                                  ? "stay on"
               : is_on_at_rest                                              ? "off after 2 s"
               : steps.off > rest || motion == std::string("stops at once") ? "off"
-                                                                           : "off amid motion";
+                                                                           : "off during motion";
     if (server == nullptr) return;
     state = name_of(server->session().state());
     job = server->job_state();
@@ -110,7 +110,7 @@ TEST(Policies, a_hold_keeps_the_outputs) {
   Happening job;
   job.server->post("/hold");
   job.look();
-  expect_on_page(job.row("hold: the page, `POST /hold`, `!`, the button of the panel", "resume: `POST /resume`, `~`"));
+  expect_on_page(job.row("hold: web interface, `POST /hold`, `!`, feed hold button", "resume: `POST /resume`, `~`"));
   job.server->post("/resume");
   job.expect_done();
 }
@@ -119,7 +119,7 @@ TEST(Policies, an_open_door_is_a_hold_until_it_is_closed_and_somebody_resumes) {
   Happening job;
   job.bench.board->set_switch(input_door, true);
   job.look();
-  expect_on_page(job.row("the switch of the door opens", "close it, then resume"));
+  expect_on_page(job.row("the door switch opens", "close it, then resume"));
   EXPECT_EQ(job.server->post("/resume")["error"]["code"], "machine.door-open");
   job.bench.board->set_switch(input_door, false);
   job.pass(1);
@@ -131,7 +131,7 @@ TEST(Policies, a_door_command_switches_off_at_rest) {
   Happening job;
   ASSERT_TRUE(job.server->session().request(request::Hold{.for_door = true}));
   job.look();
-  expect_on_page(job.row("the door command of a sender (0x84)", "resume: spindle on, its wait, coolant on"));
+  expect_on_page(job.row("a sender's door command (0x84)", "resume: spindle on, spindle wait, coolant on"));
   job.server->post("/resume");
   job.pass(0.5);
   EXPECT_TRUE(job.steps.is_on);
@@ -150,8 +150,7 @@ TEST(Policies, a_line_that_has_ended_in_single_block_keeps_the_outputs) {
   Happening job;
   job.server->post("/stops", R"({"single_block": true})");
   job.look();
-  expect_on_page(
-      job.row("single block: a line of the program has ended", "resume: `POST /resume`, the button of the panel"));
+  expect_on_page(job.row("single block: a line of the program is done", "resume: `POST /resume`, cycle start button"));
   job.server->post("/stops", R"({"single_block": false})");
   job.server->post("/resume");
   job.expect_done();
@@ -161,14 +160,15 @@ TEST(Policies, a_stop_and_the_end_switch_off) {
   Happening stopped;
   stopped.server->post("/stop");
   stopped.look();
-  expect_on_page(stopped.row("stop: the page, `POST /stop`, Ctrl-X", "not at all; the place stays known"));
+  expect_on_page(stopped.row("stop: web interface, `POST /stop`, Ctrl-X", "not at all; the position stays known"));
   EXPECT_NE(stopped.server->session().status().position.trust, Trust::unknown);
   Happening ended("G21 G90 F3000 M3 S1000 M8\nG4 P.1\nG1 X30\nM2\n");
   ended.look();
   expect_on_page(ended.row("the program ends: M2, M30", "-"));
   Happening failed("G21 G90 F3000 M3 S1000 M8\nG4 P.1\nG1 X30\nG38.2 X20\nX0\nM2\n");
   failed.look();
-  expect_on_page(failed.row("the program fails: a probe move meets nothing", "not at all; the place stays known"));
+  expect_on_page(
+      failed.row("the program fails: a probe move finds no contact", "not at all; the position stays known"));
 }
 
 TEST(Policies, an_emergency_stop_and_a_limit_stop_at_once) {
@@ -190,7 +190,7 @@ TEST(Policies, an_emergency_stop_and_a_limit_stop_at_once) {
 TEST(Policies, a_client_that_goes_ends_its_jog_and_not_its_job) {
   Happening job;
   job.look();
-  expect_on_page(job.row("the client goes that began the job", "-"));
+  expect_on_page(job.row("the client that started the job disconnects", "-"));
   job.expect_done();
   job.server->post("/jog", R"({"direction": {"x": 1}, "speed": 3000})");
   EXPECT_EQ(job.server->status, 200U);
@@ -211,7 +211,7 @@ TEST(Policies, a_sender_that_goes_leaves_a_held_program) {
   const Json status = run.get("/status");
   EXPECT_EQ(status["state"], "Hold");
   EXPECT_EQ(status["outputs"]["spindle"], "clockwise");
-  expect_on_page("| the sender closes its line | brakes on the path | stay on | Hold | - | the next sender's `~` |\n");
+  expect_on_page("| the sender disconnects | brakes on the path | stay on | Hold | - | the next sender's `~` |\n");
   run.run.grbl().connect();
   run.run.send("~");
   ASSERT_TRUE(run.turn_until([&] { return run.get("/status")["place"]["x"] == 0.0; }));

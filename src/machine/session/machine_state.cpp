@@ -35,7 +35,7 @@ const char* yes_or_no(bool value) {
 }
 
 std::string rows() {
-  std::string text = "| state | something is going on | motors may turn | outputs |\n|---|---|---|---|\n";
+  std::string text = "| state | busy | motors may turn | outputs |\n|---|---|---|---|\n";
   for (const StateRow& row : state_rows) {
     text += fmt::format("| {} | {} | {} | {} |\n", row.name, yes_or_no(row.has_activity), yes_or_no(row.may_move),
                         row.program_has_outputs ? "as the program says" : "off");
@@ -55,9 +55,10 @@ std::string cells() {
 
 std::string state_page() {
   return "# The states of a machine\n\n"
-         "`MachineSession` goes by one table, `transitions` in `session/machine_state.hpp`. This page is made from the "
-         "table, and a\n"
-         "test holds the two together: `PASSO_UPDATE_GOLDEN=1` makes the page anew.\n\n" +
+         "`MachineSession` follows one table, `transitions` in `session/machine_state.hpp`. This page is generated "
+         "from "
+         "the table. A\n"
+         "test compares them; with `PASSO_UPDATE_GOLDEN=1` it writes the page again.\n\n" +
          drawing() + "\n## What is true in each state\n\n" + rows() + "\n## Each transition\n\n" + cells();
 }
 
