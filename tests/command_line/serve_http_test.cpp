@@ -312,7 +312,7 @@ TEST_F(ServeHttp, changes_the_machine_file_and_keeps_its_comments) {
   const auto good = draft({{"axis.X.microsteps", 8}, {"axis.X.max_velocity_mm_s", 90}});
   ASSERT_TRUE(good["good"].get<bool>()) << good["findings"];
   EXPECT_EQ(good["axes"][0]["steps_per_unit"], 320);
-  EXPECT_THAT(good["text"].get<std::string>(), HasSubstr("microsteps = 8              # as the switches"));
+  EXPECT_THAT(good["text"].get<std::string>(), HasSubstr("microsteps = 8              # as set on"));
   // A look changes nothing, and writing needs the ownership and the file as it was.
   EXPECT_EQ(read(file), told["text"].get<std::string>());
   const std::string body = nlohmann::json({{"text", good["text"]}, {"stamp", told["stamp"]}}).dump();

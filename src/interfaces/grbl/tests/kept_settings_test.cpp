@@ -48,9 +48,9 @@ TEST(KeptSettings, change_one_line_each_and_keep_its_comment) {
     const char* shown;
     const char* lines;
   };
-  for (const Case& one : {Case{100, 800, "800.000", "screw_pitch_mm = 4          # 640 microsteps a millimetre\n"},
-                          Case{110, 4800, "4800.000", "max_velocity_mm_s = 80      # 1200 turns a minute\n"},
-                          Case{121, 550, "550.000", "max_acceleration_mm_s2 = 550  # carries the gantry\n"},
+  for (const Case& one : {Case{100, 800, "800.000", "screw_pitch_mm = 4          # 640 microsteps/mm\n"},
+                          Case{110, 4800, "4800.000", "max_velocity_mm_s = 80      # 1200 rpm\n"},
+                          Case{121, 550, "550.000", "max_acceleration_mm_s2 = 550  # this axis moves the gantry\n"},
                           Case{11, 0.05, "0.050", "path_tolerance_mm = 0.05\n"}}) {
     KeptSettings kept(text);
     std::string reason;
