@@ -11,7 +11,7 @@
 
 namespace passo {
 
-// The picture has no columns where `fault` tells why it is not read.
+// If the picture cannot be read, it has no columns, and `fault` has the reason.
 LevelPicture read_tiff(std::string_view bytes, PixelLevel level, std::string& fault);
 
 }  // namespace passo
