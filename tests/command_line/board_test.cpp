@@ -219,7 +219,7 @@ TEST_F(Boards, that_stand_still_amid_motion_are_told_of) {
   const Outcome run = passo("run --json --from-here --board sim:mega " + files);
   if (passo::test::lacks_an_emulator(run)) GTEST_SKIP() << run.err;
   EXPECT_EQ(run.code, 1) << run.err;
-  EXPECT_NE(run.err.find("it stopped during motion in line 2"), std::string::npos) << run.err;
+  EXPECT_NE(run.err.find("it stalled during motion in line 2"), std::string::npos) << run.err;
   EXPECT_NE(run.err.find("[board.slipped]"), std::string::npos) << run.err;
   const auto json = nlohmann::json::parse(run.out);
   EXPECT_EQ(json["board"]["stood_still"], true) << run.out;

@@ -101,7 +101,7 @@ TEST_F(Held, stops_at_the_limit_of_the_following_error_and_tells_line_and_place)
         run_held(std::string("[axis.X.encoder]\ncounts_per_turn = 4000\nmost_following_error_mm = 0.25\n") + loop);
     EXPECT_EQ(outcome.code, 1);
     EXPECT_THAT(outcome.err, HasSubstr("axis X was 0.25"));
-    EXPECT_THAT(outcome.err, HasSubstr("from its commanded place (0.25 are allowed) in line 3 of "));
+    EXPECT_THAT(outcome.err, HasSubstr("from its commanded position (0.25 are allowed) in line 3 of "));
     EXPECT_THAT(outcome.err, HasSubstr("near X"));
     EXPECT_THAT(outcome.err, HasSubstr("[run.following-error]"));
   }

@@ -175,7 +175,7 @@ TEST_F(PlaceOfAMachine, at_a_closed_limit_switch_is_not_the_end) {
   EXPECT_EQ(passo("jog X+1 -F 3000" + on_board()).code, 0);
   const Outcome jogged = passo("jog X-2 -F 3000" + on_board());
   EXPECT_EQ(jogged.code, 1);
-  EXPECT_THAT(jogged.err, HasSubstr("the limit switch of X closed: the motors stopped at once near X"));
+  EXPECT_THAT(jogged.err, HasSubstr("the limit switch of X closed: the motors stopped instantly near X"));
   EXPECT_THAT(jogged.err, HasSubstr("jog off it (passo jog X+2), home the machine (passo home) [board.stopped]"));
   EXPECT_EQ(passo("home" + on_board()).code, 0);
   EXPECT_EQ(run("G21 G90 G0 X1").code, 0);

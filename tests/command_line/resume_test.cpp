@@ -187,7 +187,7 @@ TEST_F(Resumed, not_when_what_it_is_of_was_changed) {
   leave_unfinished();
   const std::string machine = machine_;
   machine_ = write("m.toml", read(machine) + "\n");
-  expect_refused("resume.machine-changed", "the unfinished job is of " + machine);
+  expect_refused("resume.machine-changed", "the unfinished job uses " + machine);
   machine_ = machine;
   write("p.ngc", text + "(more)\n");
   expect_refused("resume.program-changed", "p.ngc was changed since the job started");

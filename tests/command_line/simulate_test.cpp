@@ -52,7 +52,7 @@ TEST_F(Simulate, a_rapid_through_the_stock_is_told_with_its_line_and_fails) {
   const Outcome done = simulate(slots("") + " --tool flat:6");
   EXPECT_EQ(done.code, 1);
   EXPECT_THAT(done.err, HasSubstr("slots.ngc:6"));
-  EXPECT_THAT(done.err, HasSubstr("the rapid goes 2.000 mm deep through the stock with T1"));
+  EXPECT_THAT(done.err, HasSubstr("the rapid of T1 goes through the stock, 2.000 mm deep"));
   EXPECT_THAT(done.err, HasSubstr("[simulate.rapid]"));
 }
 

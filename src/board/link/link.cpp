@@ -42,7 +42,7 @@ std::string_view message_of(LinkError error) {
     case LinkError::cannot_watch:
       return "the board cannot watch these limit switches at the same time: their pins are on several ports "
              "(docs/boards.md)";
-    case LinkError::refused: return "the board refused what was sent to it";
+    case LinkError::refused: return "the board rejected a message";
     case LinkError::was_reset: return "the board was reset, so the motor positions are unknown";
     case LinkError::stopped:
       return "the board stopped its motors instantly; steps may be lost, so the position is unreliable";
@@ -57,7 +57,7 @@ std::string_view message_of(LinkError error) {
       return "the program follows the spindle, but the board has no encoder: use other firmware, or correct [spindle] "
              "in the machine file";
     case LinkError::spindle_stands:
-      return "the spindle does not turn, or its encoder does not count: nothing can follow it";
+      return "the spindle does not turn, or its encoder does not count, so no thread can follow it";
     case LinkError::encoder_wrong:
       return "the spindle's encoder does not count encoder_counts_per_turn from index to index, or there is no index";
     case LinkError::thread_lost:

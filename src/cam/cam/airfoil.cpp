@@ -121,7 +121,7 @@ Drawing AirfoilReader::read(Mm chord) {
       points_.begin(), points_.end(), [](const AirfoilPoint& a, const AirfoilPoint& b) { return a.x < b.x; });
   const double width = most->x - least->x;
   if (!(width > 1e-6)) {
-    refuse({}, "", "all points of the airfoil have the same X", "X from nose to tail");
+    refuse({}, "", "all points of the airfoil have the same X", "X from the leading to the trailing edge");
     return builder_.take();
   }
   DrawnPath path{.is_closed = true, .layer = builder_.layer("")};

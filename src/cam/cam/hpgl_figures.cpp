@@ -40,7 +40,7 @@ void HpglPlotter::go_along(const Numbers& n) {
   if (n.empty() && !is_down_) pen_.end_path();
   for (std::size_t i = 0; i + 1 < n.size() && !pen_.is_full(); i += 2) go(target(n[i], n[i + 1], is_relative_));
   if (n.size() % 2 != 0) {
-    refuse(words_.place() - 1, "hpgl.numbers", "these places have " + counted(n.size(), "number"),
+    refuse(words_.place() - 1, "hpgl.numbers", "these positions have " + counted(n.size(), "number"),
            "X and Y for each point");
   }
 }

@@ -155,7 +155,7 @@ void Letterer::write(std::string_view words, double base_line) {
 
 void Letterer::draw(std::uint32_t glyph, double x, double y, double middle) {
   if (FT_Load_Glyph(face_.get(), glyph, FT_LOAD_NO_SCALE | FT_LOAD_NO_BITMAP) != 0) {
-    refuse("engrave.no-font", fmt::format("letter {} of this font is damaged", glyph), "another font");
+    refuse("engrave.no-font", fmt::format("glyph {} of this font is damaged", glyph), "another font");
     return;
   }
   if (face_->glyph->format != FT_GLYPH_FORMAT_OUTLINE) return;

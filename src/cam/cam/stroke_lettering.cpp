@@ -137,7 +137,7 @@ LetterSpot LetterLine::placed(double x, double y, double middle) const {
 }
 
 void refuse_letter(const std::string& font, std::string_view character, Diagnostics& diagnostics) {
-  diagnostics.add(of_file("engrave.no-letter", font, fmt::format("the font has no letter for '{}'", character),
+  diagnostics.add(of_file("engrave.no-letter", font, fmt::format("the font has no glyph for '{}'", character),
                           "another --font, or another text"));
 }
 

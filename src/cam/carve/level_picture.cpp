@@ -82,7 +82,7 @@ void read_rows(PngReading& reading) {
   if (columns > most_pixels_a_side || rows > most_pixels_a_side || std::size_t{columns} * rows > most_pixels) {
     png_error(png, "it has more than 64 million pixels, or more than 65,535 per side");
   }
-  if (columns < 2 || rows < 2) png_error(png, "it has less than two rows or columns");
+  if (columns < 2 || rows < 2) png_error(png, "it has fewer than two rows or columns");
   const bool is_interlaced = png_get_interlace_type(png, info) != PNG_INTERLACE_NONE;
   png_set_expand(png);  // palettes become colours, 1 to 4 bits become 8, a transparent colour becomes alpha
   png_set_expand_16(png);

@@ -94,7 +94,7 @@ HeightGrid relief_of(const Surface& body, const ReliefShape& shape, const std::s
   const Sides sides = sides_of(shape, across, up, Mm(across));
   const Mm depth = shape.depth.value_or(Mm(high * (sides.x.value() / across)));
   if (depth > deepest_relief) {
-    return refuse(fmt::format("the body is {:.6g} mm high", depth.value()),
+    return refuse(fmt::format("the model is {:.6g} mm high", depth.value()),
                   "at most 250 mm; check the unit and --depth");
   }
   const Mm pitch = shape.pitch.value_or(std::max(sides.x, sides.y) / 1000);

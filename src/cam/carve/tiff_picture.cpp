@@ -86,7 +86,7 @@ bool TiffReading::read_size() {
   const std::uint64_t columns = file_.number(TiffField::width, 0);
   const std::uint64_t rows = file_.number(TiffField::length, 0);
   if (columns == 0 || rows == 0) return refuse("it has no size");
-  if (columns < 2 || rows < 2) return refuse("it has less than two rows or columns");
+  if (columns < 2 || rows < 2) return refuse("it has fewer than two rows or columns");
   if (columns > most_pixels_a_side || rows > most_pixels_a_side || columns * rows > most_pixels) {
     return refuse("it has more than 64 million pixels, or more than 65,535 per side");
   }
@@ -123,7 +123,7 @@ bool TiffReading::read_samples() {
   layout_.photometric = static_cast<Photometric>(photometric);
   const bool is_colour = layout_.photometric == Photometric::colour;
   const unsigned colours = is_colour ? 3 : 1;
-  if (layout_.samples < colours) return refuse("its pixels have fewer than three colours");
+  if (layout_.samples < colours) return refuse("its pixels have fewer than three colour samples");
   if (layout_.is_measured() && layout_.photometric != Photometric::black_is_zero) {
     return refuse("signed or floating-point samples are only supported in greyscale");
   }

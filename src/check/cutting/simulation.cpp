@@ -17,14 +17,15 @@ struct TroubleWords {
 TroubleWords describe(CutTrouble::Kind kind) {
   switch (kind) {
     case CutTrouble::Kind::rapid:
-      return {"simulate.rapid", "the rapid goes {1} deep through the stock with T{0}", "a path above the stock, or G1"};
+      return {"simulate.rapid", "the rapid of T{0} goes through the stock, {1} deep", "a path above the stock, or G1"};
     case CutTrouble::Kind::flutes:
       return {"simulate.flutes", "T{0} cuts {1} deeper than the length of its flutes",
               "a longer tool, or several passes at smaller depths"};
     case CutTrouble::Kind::holder:
-      return {"simulate.holder", "the holder of T{0} is {1} deep in the stock", "a tool with a longer stick-out"};
+      return {"simulate.holder", "the holder of T{0} collides with the stock, {1} deep",
+              "a tool with a longer stick-out"};
     case CutTrouble::Kind::clamp:
-      return {"simulate.clamp", "T{0} is {1} deep in a clamp", "a path around or above the clamp"};
+      return {"simulate.clamp", "T{0} collides with a clamp, {1} deep", "a path around or above the clamp"};
     case CutTrouble::Kind::below: break;
   }
   return {"simulate.below", "T{0} cuts {1} below the stock, into the table or spoilboard", "", Severity::warning};

@@ -33,8 +33,8 @@ WebAnswer refusal_answer(unsigned status) {
     case 400: return error_answer(status, "http.bad-request", "not a valid HTTP request");
     case 401: return error_answer(status, "http.token", "a token is needed: the header Authorization: Bearer …");
     case 403: return error_answer(status, "http.foreign-page", "the name in Host or Origin is not this server's");
-    case 404: return error_answer(status, "http.not-found", "there is nothing at this path");
-    case 405: return error_answer(status, "http.method", "this path has other methods");
+    case 404: return error_answer(status, "http.not-found", "this path does not exist");
+    case 405: return error_answer(status, "http.method", "this path does not have this method");
     case 413: return error_answer(status, "http.too-large", "the body is too long");
     case 431: return error_answer(status, "http.too-large", "the header is too long");
     case 503: return error_answer(status, "http.busy", "other clients or large uploads use all resources: try again");

@@ -63,7 +63,7 @@ std::optional<ProbingCycle> cycle_from(const Json& body, std::uint64_t& program,
     for (const ProbingField& one : probing_fields()) field = one.name == key && one.is_of(*kind) ? &one : field;
     if (field == nullptr || !value.is_number()) {
       reason = fmt::format("{}: {}", key.substr(0, 40),
-                           field == nullptr ? "this cycle does not know it" : "expected a number");
+                           field == nullptr ? "this cycle has no such option" : "expected a number");
       return {};
     }
     field->value(cycle) = value.get<double>();

@@ -170,7 +170,7 @@ WebAnswer ProgramsApi::begin_upload(const ApiCall& call) {
   const auto dialect = dialect_from(call.request.query);
   if (!dialect) return dialect.error();
   if (!bytes || *bytes == 0) {
-    return bad_body("bytes: expected how long the program is, 1 or more");
+    return bad_body("bytes: expected the length of the program in bytes, 1 or more");
   }
   if (*bytes > ProgramStore::longest_program) return refusal_answer(413);
   auto name = name_from(call.request.query, "program");
@@ -196,7 +196,7 @@ WebAnswer ProgramsApi::receive_piece(const ApiCall& call) {
   const ProgramUpload* const upload = uploads_.find(call.id);
   if (upload == nullptr) return no_upload();
   const auto from = bytes_from(call.query("from"));
-  if (!from) return bad_body("from: expected the byte where this piece begins");
+  if (!from) return bad_body("from: expected the offset of this piece in bytes");
   switch (uploads_.append(call.id, *from, call.request.body, shared_.session.now())) {
     case ProgramUploads::Taken::more: return json_answer(200, upload_json(*upload));
     case ProgramUploads::Taken::gap:

@@ -106,7 +106,7 @@ export const findings = {
   'the-loop-went-round-times-times-and-the': 'the loop ran {times} |times| without any motion',
   'tool-tool-is-not-in-the-tool-table': 'tool {tool} is not in the tool table',
   'the-offset-of-tool-tool-is-taken-as-zero-no': 'the offset of tool {tool} is |taken as zero|: no tool table was given',
-  'the-tool-cuts-and-no-spindle-speed-is-known': 'the tool cuts, and no spindle speed is known: the force of such cuts is left out',
+  'the-tool-cuts-and-no-spindle-speed-is-known': 'the tool cuts while the spindle speed is unknown; the force of such cuts is not included',
   // What other controls and other programs write
   'name-is-a-word-of-fanuc-s-macros': '{name} is a word of Fanuc’s macros',
   'o1-while-on-one-line-and-o1-endwhile-where': 'o1 while [...] on one line, and o1 endwhile where END stands',

@@ -139,7 +139,7 @@ TEST(Hpgl, escapes_of_plotters_and_printers_are_skipped) {
 
 TEST(Hpgl, what_is_wrong_is_told_with_its_place) {
   EXPECT_THAT(plotted("IN;\nPU0,0;PD40;").words,
-              testing::HasSubstr("plot.plt:2:11: error: these places have 1 number"));
+              testing::HasSubstr("plot.plt:2:11: error: these positions have 1 number"));
   EXPECT_THAT(plotted("IN;PU0,0;PD4#0;").words, testing::HasSubstr("plot.plt:1:13: error: this is not a number of PD"));
   EXPECT_THAT(plotted("IN;LBnever").words, testing::HasSubstr("[hpgl.label]"));
   EXPECT_THAT(plotted("IN;SC0,0,0,0;").words, testing::HasSubstr("[hpgl.numbers]"));

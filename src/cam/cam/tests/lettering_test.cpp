@@ -85,7 +85,7 @@ TEST(Lettering, stands_on_a_circle_outside_and_inside) {
 }
 
 TEST(Lettering, what_is_wrong_is_told) {
-  EXPECT_THAT(lettered({.text = "A\u4e2d"}).words, testing::HasSubstr("the font has no letter for '\u4e2d'"));
+  EXPECT_THAT(lettered({.text = "A\u4e2d"}).words, testing::HasSubstr("the font has no glyph for '\u4e2d'"));
   EXPECT_THAT(lettered({.text = "A"}, "no font").words, testing::HasSubstr("[engrave.no-font]"));
   EXPECT_THAT(lettered({.text = "A"}, font_bytes().substr(0, 3000)).words, testing::HasSubstr("engrave.no-"));
   EXPECT_THAT(lettered({.text = "A", .height = Mm(1e9)}).words, testing::HasSubstr("[drawing.too-far]"));

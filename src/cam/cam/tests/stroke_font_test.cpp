@@ -84,7 +84,7 @@ TEST(StrokeLettering, letters_stand_on_a_line_that_may_be_turned) {
             "0,0 0,800 \n400,0 400,800 \n0,400 400,400 \n600,0 600,800 \n1000,0 1000,800 \n600,400 1000,400 \n");
   EXPECT_EQ(lettered_words({.text = "H", .height = Mm(8), .turn_degrees = 90}),
             "0,0 -800,0 \n0,400 -800,400 \n-400,0 -400,400 \n");
-  EXPECT_THAT(lettered_words({.text = "Hx"}), testing::HasSubstr("the font has no letter for 'x'"));
+  EXPECT_THAT(lettered_words({.text = "Hx"}), testing::HasSubstr("the font has no glyph for 'x'"));
 }
 
 // The angle of the middle of each letter of "HHH" on the circle, degrees.

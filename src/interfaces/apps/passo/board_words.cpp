@@ -63,7 +63,7 @@ std::string state_of(const BoardStatus& status) {
   if ((status.state & board_trusted) == 0) state += ", its position is unreliable";
   if ((status.inputs & outputs_timed_out) != 0) state += ", its outputs are off because its host was silent";
   if ((status.state & board_homes) != 0) state += ", an axis is being homed";
-  if ((status.state & board_slipped) != 0) state += ", and stopped during motion because its events came too late";
+  if ((status.state & board_slipped) != 0) state += ", and stalled during motion because its events came too late";
   return state;
 }
 

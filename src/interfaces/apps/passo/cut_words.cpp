@@ -12,7 +12,7 @@ void add_findings(const CutOutcome& cut, Diagnostics& findings) {
                 .code = "check.no-spindle-speed",
                 .file = cut.simulation.program,
                 .place = {.line = cut.silent_line, .column = 0, .length = 1},
-                .message = "the tool cuts, and no spindle speed is known: the force of such cuts is left out",
+                .message = "the tool cuts while the spindle speed is unknown; the force of such cuts is not included",
                 .expected = "S and M3 in the program, or --spindle-speed",
                 .text = {}});
 }

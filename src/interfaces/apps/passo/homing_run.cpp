@@ -14,10 +14,10 @@ namespace {
 const char* name_of(HomingStage stage) {
   switch (stage) {
     case HomingStage::seek: return "seeks its switch";
-    case HomingStage::look: return "looks at its switch";
+    case HomingStage::look: return "checks its switch";
     case HomingStage::square: return "is squared";
     case HomingStage::back_off: return "backs off";
-    case HomingStage::latch: return "comes back slowly";
+    case HomingStage::latch: return "approaches its switch again slowly";
     case HomingStage::pull_off: return "pulls off";
   }
   return "";

@@ -71,7 +71,7 @@ void LowProcess::end() {
 
 std::string words_of_end(int status) {
   if (WIFSIGNALED(status) && (WTERMSIG(status) == SIGXCPU || WTERMSIG(status) == SIGKILL)) {
-    return "it took too long and was ended";
+    return "it exceeded its time limit and was stopped";
   }
   return "it failed";
 }

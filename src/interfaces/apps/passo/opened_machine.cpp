@@ -276,7 +276,7 @@ std::optional<std::string> OpenedMachine::compare() {
   for (std::size_t motor = 0; motor < description_.axes.size(); ++motor) {
     const auto steps = std::llround(truth.positions[motor]);
     if (steps == planned.motors[motor].position) continue;
-    return fmt::format("motor {} is really {} from machine zero, but {} were planned", motor + 1,
+    return fmt::format("motor {} has really moved to {} from machine zero, but {} were planned", motor + 1,
                        counted(steps, "step"), planned.motors[motor].position);
   }
   return {};

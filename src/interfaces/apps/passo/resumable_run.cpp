@@ -31,7 +31,7 @@ std::string describe(const ResumePoint& point, const MachineDescription& machine
 // Refuses a file that is not the journal's, or that was changed since.
 int refuse_changed(JobChange change, const FileStamp& now, const FileStamp& then) {
   if (now.name == then.name) return refuse(code_of(change), now.name + " was changed since the job started");
-  return refuse(code_of(change), fmt::format("the unfinished job is of {}", then.name.empty() ? "-" : then.name));
+  return refuse(code_of(change), fmt::format("the unfinished job uses {}", then.name.empty() ? "-" : then.name));
 }
 
 int refuse(JobChange change, const JobIdentity& now, const JournalHead& then) {

@@ -97,8 +97,10 @@ void stop(MachineSession& session) {
 void tell_tails(const MachineSession& session) {
   const int rests = session.ledger()->recoveries();
   if (rests == 0) return;
-  fmt::print(stderr, "passo: motion reached the board too late, {}: it stopped on the path, and continued from there\n",
-             rests == 1 ? "once" : fmt::format("{} times", rests));
+  fmt::print(
+      stderr,
+      "passo: motion reached the board too late, {}: the machine stopped on the path, and continued from there\n",
+      rests == 1 ? "once" : fmt::format("{} times", rests));
 }
 
 // A board that cannot make its events in time lets the motors stand still amid motion, without braking. The time up to

@@ -33,10 +33,10 @@ std::optional<StopCause> following_error(OpenedMachine& opened, const MachineDes
   }
   const AxisDescription& axis = machine.axes[index];
   return StopCause{
-      .what = fmt::format("axis {} was {:.3g} {} from its commanded place ({:g} are allowed)", letter_of(axis.axis),
+      .what = fmt::format("axis {} was {:.3g} {} from its commanded position ({:g} are allowed)", letter_of(axis.axis),
                           std::abs(fault.error) / kinematics_of(machine).steps_per_unit(axis.axis),
                           is_rotary(axis.axis) ? "degrees" : "mm", axis.encoder->most_error),
-      .remedy = "find out what holds the axis"};
+      .remedy = "find out what blocks the axis"};
 }
 
 std::string line_words(std::uint32_t line, const std::string& program) {
@@ -45,8 +45,9 @@ std::string line_words(std::uint32_t line, const std::string& program) {
 
 std::string remedy_for_place(const MachineDescription& machine, const std::string& program) {
   const bool homes = !machine.homing.empty();
-  return fmt::format("{}{}", homes ? "home the machine (passo home)" : "put the machine where --from-here is true",
-                     program.empty() ? "" : ", and run the program from its beginning");
+  return fmt::format("{}{}",
+                     homes ? "home the machine (passo home)" : "jog the machine to machine zero and use --from-here",
+                     program.empty() ? "" : ", and restart the program from its beginning");
 }
 
 }  // namespace
@@ -62,9 +63,9 @@ std::string stop_words(OpenedMachine& opened, const MachineDescription& machine,
   const std::optional<StopCause> following = following_error(opened, machine);
   StopCause cause = following.value_or(stop_cause(stopped_by != 0 ? stopped_by : status->inputs, machine));
   if (cause.remedy.empty()) {
-    cause = {.what = "a limit switch or the emergency stop closed, and is open again", .remedy = "look at its wiring"};
+    cause = {.what = "a limit switch or the emergency stop closed, and is open again", .remedy = "check its wiring"};
   }
-  return fmt::format("{}{}: the motors stopped at once near {}, and steps may be lost. To continue, {}, {} [{}]{}",
+  return fmt::format("{}{}: the motors stopped instantly near {}, and steps may be lost. To continue, {}, {} [{}]{}",
                      cause.what, line_words(line, program), place_words(machine, place), cause.remedy,
                      remedy_for_place(machine, program), following ? "run.following-error" : "board.stopped", closed);
 }
@@ -72,8 +73,8 @@ std::string stop_words(OpenedMachine& opened, const MachineDescription& machine,
 std::string slip_words(OpenedMachine& opened, const MachineDescription& machine, const std::string& program,
                        std::uint32_t line) {
   return fmt::format(
-      "it stopped during motion{}: it could not make its events in time, and steps may be lost. It "
-      "was near {}. To continue, lower max_event_rate_hz of the machine file, {} [board.slipped]",
+      "it stalled during motion{}, because it could not make its events in time; steps may be lost. The machine was "
+      "near {}. To continue, lower max_event_rate_hz in the machine file, {} [board.slipped]",
       line_words(line, program),
       place_words(machine, counted_place(opened, machine, opened.session().board().standstill())),
       remedy_for_place(machine, program));
