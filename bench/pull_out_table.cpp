@@ -48,7 +48,7 @@ std::vector<Case> cases() {
   const double rms = std::numbers::sqrt2;
   return {
       {"23HS30-2804S",
-       "48 V, 2.69 A rms, 2000 steps/turn",
+       "48 V, 2.69 A rms, 2000 steps/rev",
        small,
        2.69 * rms,
        48,
@@ -64,7 +64,7 @@ std::vector<Case> cases() {
         {1200, 0.40},
         {1500, 0.18}}},
       {"23HS30-2804S",
-       "36 V, 2.69 A rms, 2000 steps/turn",
+       "36 V, 2.69 A rms, 2000 steps/rev",
        small,
        2.69 * rms,
        36,
@@ -80,7 +80,7 @@ std::vector<Case> cases() {
        true,
        {{60, 2.50}, {150, 2.31}, {300, 2.07}, {360, 1.97}, {420, 1.84}}},
       {"23HE45-4204S",
-       "36 V, 4.1 A (peak), 2000 steps/turn",
+       "36 V, 4.1 A (peak), 2000 steps/rev",
        long_body,
        4.1,
        36,
@@ -88,7 +88,7 @@ std::vector<Case> cases() {
        true,
        {{300, 2.40}, {390, 2.01}, {510, 1.63}, {600, 1.30}}},
       {"23HE45-4204S",
-       "36 V, 4.1 A (rms), 2000 steps/turn",
+       "36 V, 4.1 A (rms), 2000 steps/rev",
        long_body,
        4.1 * rms,
        36,
@@ -96,7 +96,7 @@ std::vector<Case> cases() {
        true,
        {{300, 2.40}, {390, 2.01}, {510, 1.63}, {600, 1.30}}},
       {"34HE46-6004D",
-       "48 V, 6 A rms, 2000 steps/turn",
+       "48 V, 6 A rms, 2000 steps/rev",
        large,
        6 * rms,
        48,
@@ -104,7 +104,7 @@ std::vector<Case> cases() {
        false,
        {{300, 3.60}, {450, 2.53}, {510, 2.24}, {600, 1.85}, {900, 1.15}}},
       {"34HE46-6004D",
-       "60 V, 6 A rms, 2000 steps/turn",
+       "60 V, 6 A rms, 2000 steps/rev",
        large,
        6 * rms,
        60,
@@ -141,7 +141,7 @@ void print(const Case& one) {
                    .excitation = *Excitation::named(one.excitation)};
   setup.damping = damping_of(setup.motor);
   const auto curve = TorqueCurve::from_motor(setup.motor, setup.drive);
-  fmt::print("**{}**, {}\n\n| turns/min | full steps/s | published, N\u00B7m | formula | | trial | |\n", one.name,
+  fmt::print("**{}**, {}\n\n| rpm | full steps/s | published, N\u00B7m | formula | | trial | |\n", one.name,
              one.conditions);
   fmt::print("|---|---|---|---|---|---|---|\n");
   Errors formula;

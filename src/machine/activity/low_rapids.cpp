@@ -100,7 +100,7 @@ void LowRapids::rapid(const Operation& operation, const ToolTrack& track, bool k
   if (sideways && top_ && z <= *top_ + nothing && !is_noted(operation, "path.low-rapid")) {
     diagnostics_.add_certain(
         warning(operation, "path.low-rapid",
-                fmt::format("a sideways rapid at Z{:.6g}, and the program has cut at Z{:.6g}", z, *top_),
+                fmt::format("a sideways rapid at Z{:.6g}, although the program has cut at Z{:.6g}", z, *top_),
                 "Z above the work before a sideways rapid, or a feed (G1)"));
   }
   const bool down = knew_z && z < from[Axis::z] - nothing;

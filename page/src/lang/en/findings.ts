@@ -22,7 +22,7 @@ export const findings = {
   's-above-0-before-the-next-feed-move': 'S above 0 before the next feed move',
   'the-program-asks-for-asked-rpm-and-the': 'the program asks for {asked} rpm, and the spindle turns at {most} at most, which is used',
   's-up-to-most': 'S up to {most}',
-  'a-rapid-goes-sideways-at-zz-and-the-program': 'a sideways rapid at Z{z}, and the program has cut at Z{cut}',
+  'a-rapid-goes-sideways-at-zz-and-the-program': 'a sideways rapid at Z{z}, although the program has cut at Z{cut}',
   'z-above-the-work-before-a-rapid-goes': 'Z above the work before a sideways rapid, or a feed (G1)',
   'a-rapid-goes-down-to-zz-deeper-than-all': 'a rapid goes down to Z{z}, deeper than all feeds before it (Z{deepest})',
   'a-feed-g1-where-there-may-be-material': 'a feed (G1) where there may be material',

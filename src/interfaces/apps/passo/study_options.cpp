@@ -209,7 +209,7 @@ Examples:
   passo ramp --print-table 256 --format c --clock 250000 --steps-per-rev 400 --accel 50 -o ramp_table.h
   passo ramp --limit --table-size 256 --steps-per-rev 100 --max-rate 280      the acceleration that this rate needs
   passo ramp --limit --table-size 256 --steps-per-rev 100 --accel 20          the rate that this acceleration reaches
-  passo ramp --limit --max-rate 280 --picture limits.svg                      both, for all motors and two tables)");
+  passo ramp --limit --max-rate 280 --picture limits.svg                      picture of both limits, for all motors)");
 }
 
 void add_motor_options(CLI::App& command, MotorArguments& arguments) {
