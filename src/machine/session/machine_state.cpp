@@ -56,8 +56,7 @@ std::string cells() {
 std::string state_page() {
   return "# The states of a machine\n\n"
          "`MachineSession` follows one table, `transitions` in `session/machine_state.hpp`. This page is generated "
-         "from "
-         "the table. A\n"
+         "from the table. A\n"
          "test compares them; with `PASSO_UPDATE_GOLDEN=1` it writes the page again.\n\n" +
          drawing() + "\n## What is true in each state\n\n" + rows() + "\n## Each transition\n\n" + cells();
 }
