@@ -37,9 +37,17 @@ endif()
 
 find_program(PASSO_CCACHE ccache)
 if(PASSO_CCACHE AND NOT CMAKE_CXX_COMPILER_LAUNCHER)
-  # Precompiled headers are kept too; for g++ that takes an option more.
-  set(CMAKE_CXX_COMPILER_LAUNCHER "${CMAKE_COMMAND}" -E env CCACHE_SLOPPINESS=pch_defines,time_macros "${PASSO_CCACHE}")
+  # Precompiled headers are kept too; for g++ that takes an option more. The cache reads the compiler's own list of
+  # headers, so that a source that it does not know is not preprocessed first.
+  set(CMAKE_CXX_COMPILER_LAUNCHER "${CMAKE_COMMAND}" -E env CCACHE_SLOPPINESS=pch_defines,time_macros CCACHE_DEPEND=1
+    "${PASSO_CCACHE}")
   if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
     target_compile_options(passo_compiler INTERFACE -fpch-preprocess)
   endif()
+endif()
+
+# lld, which is here for WebAssembly, links three times as fast as ld.
+find_program(PASSO_LLD NAMES ld.lld ld.lld-14)
+if(PASSO_LLD)
+  add_link_options(-fuse-ld=lld)
 endif()

@@ -27,7 +27,9 @@ target_compile_options(passo_together INTERFACE -Wno-shadow $<$<CXX_COMPILER_ID:
 
 # What waits for people, files and lines: a third less time to compile, and it runs hardly longer.
 set(PASSO_LESS_OPTIMISED $<$<CONFIG:Release>:-O1>)
+set(PASSO_LESS_OPTIMISED_MODULES job judge machine_file operations probing session surface_file verdict)
 # Tests: those that calculate have their oracles optimised a little; all others are not optimised at all.
+set(PASSO_MODULES_WITH_LONG_TESTS geometry interpolate motor path stepgen trajectory)
 set(PASSO_TEST_OPTIMISATION_ON $<$<CONFIG:Release>:-O1>)
 set(PASSO_TEST_OPTIMISATION_OFF $<$<CONFIG:Release>:-O0>)
 
@@ -51,7 +53,7 @@ function(passo_module module)
     add_library(passo_${module} STATIC ${ARG_SOURCES} ${ARG_APART})
     target_include_directories(passo_${module} PUBLIC include)
     target_link_libraries(passo_${module} PUBLIC ${layers} PRIVATE ${ARG_LIBRARIES} passo_compiler)
-    if(PASSO_FOLDER_${module} MATCHES "/src/(interfaces|draw)/")
+    if(PASSO_FOLDER_${module} MATCHES "/src/(interfaces|draw)/" OR module IN_LIST PASSO_LESS_OPTIMISED_MODULES)
       target_compile_options(passo_${module} PRIVATE ${PASSO_LESS_OPTIMISED})
     endif()
     if(PASSO_TOGETHER)
@@ -71,7 +73,7 @@ function(passo_module module)
 
   if(ARG_TESTS AND PASSO_BUILD_TESTS AND (NOT PASSO_SANITIZE OR module IN_LIST PASSO_SANITIZED_MODULES))
     set(calculates "")
-    if(PASSO_FOLDER_${module} MATCHES "/src/(core|board|study|motion|machine)/")
+    if(module IN_LIST PASSO_MODULES_WITH_LONG_TESTS)
       set(calculates CALCULATES)
     endif()
     passo_test(${module}_tests ${calculates} SOURCES ${ARG_TESTS} APART ${ARG_TESTS_APART} LIBRARIES passo_${module})
