@@ -10,9 +10,8 @@
 //
 // The following moves are not levelled:
 // - rapids whose ends are both at least `clear` above the highest point of the map, where no obstacle is possible;
-// - drilling, unless `holes` is set: if the tool moves straight down and straight up again, the depths stay as
-//   programmed, relative to the height of the surface at the top of the hole, because the tool moves sideways only
-//   there;
+// - drilling, unless `holes` is set: where the tool moves straight down and straight up again, Z below the top of the
+//   hole stays as programmed; above the hole, where the tool moves sideways, it follows the surface;
 // - moves in machine coordinates: G53, G28 and G30 are written as such. Moves after them, or at the start, that do not
 //   specify Z do not get a Z. A feed move there causes a warning "level.height".
 //

@@ -17,13 +17,7 @@ namespace passo {
 using BodyTriangle = std::array<Vector3, 3>;
 
 struct FoamDifference {
-  enum class Cell : std::uint8_t {
-    even,
-    left,
-    gouge,
-    beside
-  };  // beside: neither foam of the part nor inside the
-      // model
+  enum class Cell : std::uint8_t { even, left, gouge, beside };  // beside: neither foam of the part nor model
   FieldDifference sides = {};
   std::vector<Cell> of = {};  // for each cell: slice by slice, row by row
 };
