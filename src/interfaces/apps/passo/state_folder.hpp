@@ -1,4 +1,4 @@
-// Where this computer keeps what it remembers of boards.
+// The folder in which this computer stores the state of boards.
 #pragma once
 
 #include <string>
