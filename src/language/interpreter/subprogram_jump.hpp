@@ -1,4 +1,4 @@
-// SubprogramJump: M98, M99 or a macro call. BlockExecutor reads its words from the block, and ProgramFlow makes the
+// SubprogramJump: M98, M99 or a macro call. BlockExecutor reads its words from the block, and ProgramFlow executes the
 // jump.
 #pragma once
 
@@ -17,8 +17,8 @@ struct SubprogramJump {
     leave,        // M99
     call,         // M98
     macro,        // G65
-    modal_macro,  // a block that moves, while G66 is active
-    find_macro,   // G66: whether there is such a program
+    modal_macro,  // a block with motion, while G66 is active
+    find_macro,   // G66: checks whether the program exists
   };
   Kind kind = Kind::leave;
   bool good = true;  // false: the target is unknown

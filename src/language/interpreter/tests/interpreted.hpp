@@ -1,4 +1,4 @@
-// A program from text to canonical calls, for tests.
+// Interprets a program from text to canonical calls, for tests.
 #pragma once
 
 #include <cstdlib>
@@ -19,8 +19,8 @@ struct Interpreted {
   Diagnostics diagnostics{1000};
 
   std::string rendered() const { return render(diagnostics, false); }
-  // The calls alone, one a line: without the counter, the N column, the six calls that start every program, and
-  // ON_RESET.
+  // Returns only the calls, one per line: without the counter, the N column, the six calls that start every program,
+  // and ON_RESET.
   std::string calls() const;
   template <class What>
   std::vector<What> all() const {

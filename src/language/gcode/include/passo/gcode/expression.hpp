@@ -19,7 +19,7 @@ class ParameterValues {
   // Both return false if there is no such parameter.
   virtual bool numbered(std::int64_t number, double& value) const = 0;
   virtual bool named(Symbol name, double& value) const = 0;
-  // False: the parameter is 0 because it was never set.
+  // Returns false if the parameter is 0 because it was never set.
   virtual bool was_set(std::int64_t /*number*/) const { return true; }
 };
 
