@@ -167,7 +167,7 @@ class TubeProgram {
     if (!(b_ > 0)) return outside;
     const std::array<double, 4> most = rooms();
     double sum = weight * b_;
-    double product = 1;  // of slacks: one logarithm for many
+    double product = 1;  // product of slacks: one logarithm for many
     const auto take = [&](double slack) {
       if (!(slack > 0)) {
         sum = outside;

@@ -71,7 +71,7 @@ inline const MachineDescription& fuzzed_machine() {
   return machine;
 }
 
-// A session on a virtual machine at machine zero.
+// A session with a virtual machine at machine zero.
 class FuzzedSession {
  public:
   explicit FuzzedSession(Trust trust)

@@ -64,7 +64,7 @@ struct Acts {
   void print() const { std::printf("%d holds, %d rests, %d overrides\n", holds, rests, overrides); }
 };
 
-// Disturbs one run.
+// Disturbs a run at random.
 struct Meddling {
   Random& random;
   Acts& acts;

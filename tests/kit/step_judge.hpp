@@ -64,7 +64,7 @@ class StepJudge {
     }
     return most + 2.5 * longest_rise;
   }
-  // Of any motor, in seconds. 0: none.
+  // Returns the time of the last step of any motor, in seconds. 0: none.
   double last_step_before(double time) const {
     const double tick = time * machine_.board.clock.value();
     double last = 0;

@@ -32,7 +32,7 @@ struct PlayedStep {
 };
 
 struct Playback {
-  std::vector<std::vector<PlayedStep>> steps;  // of each motor
+  std::vector<std::vector<PlayedStep>> steps;  // the steps of each motor
   std::vector<std::int64_t> counts;
   std::vector<std::int64_t> event_ticks;
   std::int64_t end_tick = 0;
@@ -227,7 +227,7 @@ inline std::int64_t signed_increment(const BoardSegment& segment, unsigned m) {
   return flip ? raw - 65536 : 0;
 }
 
-// In 1/65536 tick.
+// Returns the intervals in 1/65536 tick.
 inline std::vector<std::int64_t> intervals_of(const BoardSegment& segment) {
   std::vector<std::int64_t> intervals;
   for_each_part(segment, [&](const PartTimes& part, unsigned events, unsigned /*before*/) {

@@ -10,7 +10,7 @@ namespace passo {
 
 class CutTrack {
  public:
-  // The last point leads back to the first.
+  // The track is closed: the last point leads back to the first.
   explicit CutTrack(const std::vector<PathPoint>& points);
 
   double length() const { return length_; }

@@ -62,7 +62,7 @@ struct DxfDocument {
   std::vector<DxfLayer> layers;
   std::vector<DxfBlock> blocks;
   std::vector<DxfEntity> entities;
-  std::vector<DxfNumber> numbers;               // of all entities
+  std::vector<DxfNumber> numbers;               // the numbers of all entities
   std::map<std::string, std::size_t> left_out;  // names of unsupported entities and how often each occurs
 
   std::span<const DxfNumber> numbers_of(const DxfEntity& entity) const {

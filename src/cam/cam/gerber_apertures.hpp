@@ -27,7 +27,7 @@ class GerberApertures {
   struct Definition {
     std::uint32_t code = 0;
     std::string_view shape;
-    std::vector<double> values;  // in the file's unit
+    std::vector<double> values;  // arguments, in the file's unit
     std::size_t values_begin = 0;
   };
   bool read_definition(Definition& definition);

@@ -45,7 +45,7 @@ struct CarvedCut {
   bool counterclockwise = false;  // G3; seen from the positive end of the axis outside the plane
   CarvedPlace from = {};
   CarvedPlace to = {};
-  CarvedPlace centre = {};  // of an arc; the coordinate outside its plane is ignored
+  CarvedPlace centre = {};  // centre of an arc; the coordinate outside its plane is ignored
 };
 
 // The radius of an arc at its start, and its sweep angle, above 0 and at most a full circle.
@@ -119,7 +119,7 @@ class MoveWriter {
   bool knows_xy_ = false;
   char motion_ = 0;
   CarvedCut::Kind plane_ = CarvedCut::Kind::arc_xy;
-  std::int64_t feed_ = 0;  // in carved units per minute
+  std::int64_t feed_ = 0;  // last feed, in carved units per minute
 };
 
 }  // namespace passo

@@ -31,7 +31,7 @@ class PathColours {
  private:
   PathColour by_;
   SpeedColours speeds_;
-  double top_;     // of the feed moves, relative to the base
+  double top_;     // top of the feed moves, relative to the base
   double height_;  // 0: all feed moves are at the same height
 };
 

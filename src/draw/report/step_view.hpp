@@ -14,7 +14,7 @@
 
 namespace passo {
 
-// The fonts and colours of all pictures of pulses.
+// The fonts and colours shared by all pictures of pulses.
 namespace step_look {
 inline const Font title_font{.size = 24, .colour = {0.13, 0.14, 0.17}, .bold = true};
 inline const Font heading_font{.size = 17, .colour = {0.13, 0.14, 0.17}, .bold = true};

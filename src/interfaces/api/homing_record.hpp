@@ -23,7 +23,7 @@ class HomingRecord {
  private:
   const MachineSession& session_;
   HomingRepeats repeats_;
-  std::vector<HomedAxis> homed_;  // by the last homing
+  std::vector<HomedAxis> homed_;  // the axes homed by the last homing
   std::optional<Point> from_;     // position at the start of the homing, if it was known
   bool homes_ = false;            // homing is in progress
 };

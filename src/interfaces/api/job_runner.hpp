@@ -95,7 +95,7 @@ class JobRunner {
   struct Beginning {
     std::uint64_t owner = 0;             // MotionOwner::changes() when the job was requested
     bool resumes = false;                // the interrupted job is resumed
-    bool reenters = false;               // by a reentry move to its path
+    bool reenters = false;               // it is resumed by a reentry move to its path
     std::optional<LinePlace> from = {};  // start position in the program; empty: its beginning
     std::optional<Reentry> way = {};     // the reentry move
     std::uint64_t map_for = 0;           // as in Wanted

@@ -28,9 +28,9 @@ class ProgramTimes {
   // The program whose duration is or was computed last, and the result, if it is known.
   std::uint64_t timed_ = 0;
   std::uint64_t timed_path_ = 0;
-  MotionFactors timed_factors_;  // of the current order
+  MotionFactors timed_factors_;  // the motion factors of the current order
   bool is_timing_ = false;
-  std::optional<MotionTimes> times_;  // of that program
+  std::optional<MotionTimes> times_;  // the result for that program
   MotionFactors times_factors_;       // the factors with which they were planned
 };
 

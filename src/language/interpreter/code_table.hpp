@@ -71,7 +71,7 @@ struct GroupRow {
   std::string_view name;             // name of its codes, for messages
   CodeNumber at_start = 0;           // the code that is active when a program starts; 0: the group is not a mode
   std::string_view sets = {};        // what its codes set, for `explain`
-  Told told = Told::always;          // for a mode without other effects
+  Told told = Told::always;          // when the mode is included, if it has no other effects
   bool ahead_of_held_moves = false;  // emitted before the moves held back by cutter compensation
 };
 // Returns the groups, modes first, in the order in which `explain` shows them.
@@ -140,7 +140,7 @@ struct CodeEntry {
 std::span<const CodeEntry> code_entries();
 // Null if there is no such code.
 const CodeEntry* find_code(char letter, CodeNumber number);
-// "G59.1"
+// Returns the code as written, e.g. "G59.1".
 std::string spelling(char letter, CodeNumber number);
 inline std::string spelling(const CodeEntry& entry) {
   return spelling(entry.letter, entry.number);

@@ -38,7 +38,7 @@ class LatheMoves {
 
 class LatheRoughing {
  public:
-  // G71 and G72; G71.1 and G72.1; G71.2 and G72.2.
+  // The codes: G71 and G72; G71.1 and G72.1; G71.2 and G72.2.
   enum class Extent : std::uint8_t { everything, no_pockets, only_pockets };
   LatheRoughing(LatheContour contour, Extent extent, double depth_of_cut, double lift);
 

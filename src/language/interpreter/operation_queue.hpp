@@ -48,7 +48,7 @@ class OperationQueue {
  private:
   struct Texts {
     std::string line;
-    std::string payload;  // of a comment or similar operation
+    std::string payload;  // text of a comment or similar operation
     AxisWords axis_words;
   };
   Operation& at(std::size_t i) { return operations_[i & (capacity - 1)]; }
@@ -57,7 +57,7 @@ class OperationQueue {
   void push_held(const Operation& operation);
 
   std::array<Operation, capacity> operations_{};
-  std::vector<Texts> texts_;  // of the slots; allocated at the first hold
+  std::vector<Texts> texts_;  // texts of the slots; allocated at the first hold
   std::size_t taken_ = 0;     // slot numbers increase without end; a mask gives the index
   std::size_t ready_ = 0;
   std::size_t pushed_ = 0;

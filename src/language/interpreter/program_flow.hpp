@@ -38,7 +38,7 @@ class ProgramFlow final : public CallStack {
   struct Options {
     ProgramLines::Options lines;
     ProgramBounds::Limits bounds;
-    bool numbered_programs = true;  // false: [RS274NGC]DISABLE_FANUC_STYLE_SUB
+    bool numbered_programs = true;  // false if [RS274NGC]DISABLE_FANUC_STYLE_SUB is set
   };
   enum class End : std::uint8_t { none, file, percent, error };
 
@@ -48,7 +48,7 @@ class ProgramFlow final : public CallStack {
   // Returns the next block to execute. Null: the program ends, or an O-word left a subroutine (take_left_sub), or the
   // contour of call_for_contour() ends.
   const Block* next();
-  // Only with `open_ended`, when next() has returned null.
+  // Adds a line. Only with `open_ended`, when next() has returned null.
   void push_line(std::string_view text) { lines_.push_line(text); }
   // Returns whether the next line is not available yet.
   bool waits_for_line() const { return lines_.open_ended() && end_ == End::none; }
@@ -140,7 +140,7 @@ class ProgramFlow final : public CallStack {
 
   const Block* finish(End end);
 
-  // O-words.
+  // Execution of O-words.
   void obey(const Control& control);
   void begin_sub(Symbol label, const Control& control);
   void call(Symbol label, const Control& control);

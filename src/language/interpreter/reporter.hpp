@@ -40,7 +40,7 @@ class Reporter {
 
   void error(std::string_view code, Span span, std::string message, std::string expected = {});
   void warning(std::string_view code, Span span, std::string message, std::string expected = {});
-  // Report about a line other than the block's own.
+  // Reports an error in a line other than the block's own.
   void error_at(std::string_view code, std::uint32_t line, std::string_view text, Span span, std::string message,
                 std::string expected);
   void warning_at(std::string_view code, std::uint32_t line, std::string_view text, Span span, std::string message,

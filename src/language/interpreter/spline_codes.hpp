@@ -27,7 +27,7 @@ class SplineCodes : private CodeFamily {
   bool nurbs_is_open() const { return nurbs_.open; }
   // Reports a code that would move the tool or the frame, or that ends the program. The curve is then abandoned.
   void check_nurbs_is_closed();
-  // Called at the end of the program.
+  // Must be called at the end of the program.
   void report_open_nurbs();
 
  private:

@@ -30,7 +30,7 @@ class SubprogramCodes : private CodeFamily {
   bool moves() const;
 
   std::optional<SubprogramJump> jump_;
-  std::optional<SubprogramJump> modal_macro_;  // of G66
+  std::optional<SubprogramJump> modal_macro_;  // the modal macro of G66
 };
 
 }  // namespace passo

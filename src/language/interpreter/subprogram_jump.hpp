@@ -25,7 +25,7 @@ struct SubprogramJump {
   std::int32_t program = 0;
   std::int32_t passes = 1;
   Span span;
-  std::array<double, sub_parameters> arguments{};  // of a macro: its #1 … #30
+  std::array<double, sub_parameters> arguments{};  // arguments of a macro: its #1 … #30
 
   bool is_macro() const { return kind != Kind::leave && kind != Kind::call; }
   std::string_view code() const {

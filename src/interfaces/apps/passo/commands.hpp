@@ -48,7 +48,7 @@ struct RunArguments {
   std::vector<std::string> pictures;      // .svg or .png
   std::string colour_by = "speed";        // colouring of feed moves in pictures: speed, depth or tool
   std::string view = "auto";              // the flat view of pictures: auto, top, front, side or lathe
-  bool no_rapids = false;                 // in pictures
+  bool no_rapids = false;                 // omits the rapids in pictures
   std::vector<std::string> traces;        // .vcd or .csv
   std::string log;                        // output file of (LOG,…); empty: none
   std::string report;                     // a name that ends in .json; with any other name, a text report
@@ -98,7 +98,7 @@ struct CheckArguments {
   ProgramArguments program;
   std::string machine;
   bool motion = false;    // plans the path, too, and measures the motion
-  std::string picture;    // of the motion; empty: none
+  std::string picture;    // picture of the motion; empty: none
   std::string colour_by;  // "margin": the picture shows the path, coloured by the torque margin; empty: the motion
   std::string report;     // .html; empty: none
   std::string loads;      // .csv: torque utilisation of each line; empty: none
@@ -245,7 +245,7 @@ struct MotorArguments {
   double detent = 0;                        // N·m
   double damping = 0.002;                   // fraction of the rotor's critical damping
   double trial_rate = 500;                  // full steps/s
-  int trial_steps = 200;                    // of the driver, before a stop without a ramp
+  int trial_steps = 200;                    // driver steps before a stop without a ramp
   double trial_after = 0.1;                 // s after the last step
   std::optional<double> max_rate;           // full steps/s, end of tables and pictures
   int rows = 101;
@@ -261,11 +261,11 @@ struct LoopArguments {
   std::optional<double> to;         // rad/s, or degrees
   std::string rule = "pi";          // p, pi or pid, by Ziegler and Nichols
   std::vector<double> gains;        // kp, ki, kd, instead of the rule
-  std::vector<double> speed_gains;  // of the inner speed loop of position control; empty: PI by the rule
+  std::vector<double> speed_gains;  // gains of the inner speed loop of position control; empty: PI by the rule
   bool compare = false;             // compares all rules
   double time = 0.1;                // s
   double period_us = 100;
-  double smoothing_us = 500;  // of the speed computed from the encoder
+  double smoothing_us = 500;  // smoothing of the speed computed from the encoder
   int counts = 4000;          // encoder counts per revolution
   std::string load;           // NM@S; empty: none
   std::string picture;        // .svg or .png

@@ -35,7 +35,7 @@ class MotorWatch {
   Seconds begins_;
   PlannedLines lines_;
   Seconds looked_{-1};
-  std::vector<Motor> motors_;  // in the board's order: the second motors of axes follow all the first ones
+  std::vector<Motor> motors_;  // the motors in the board's order: the second motors of axes follow all the first ones
   std::vector<std::uint32_t> lines_of_losses_;
   std::uint32_t fault_line_ = 0;  // line where the following error exceeded its limit
 };

@@ -24,7 +24,7 @@
 namespace passo {
 
 struct MachineWish {
-  std::string board = "virtual";               // in the format of parse_board_address()
+  std::string board = "virtual";               // a board address, in the format of parse_board_address()
   bool over_a_line = false;                    // the virtual machine is at the end of a virtual serial link
   std::optional<CableCut> cut = {};            // the link is cut; only with over_a_line
   std::vector<Touchable> touchables = {};      // objects that the probe of a virtual or emulated board can touch

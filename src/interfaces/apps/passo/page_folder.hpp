@@ -12,7 +12,7 @@ namespace passo {
 class PageFolder {
  public:
   explicit PageFolder(std::string folder) : folder_(std::move(folder)) {}
-  // "/" is index.html. Empty: there is no such file.
+  // Returns the file at a path; "/" is index.html. Empty: there is no such file.
   std::optional<WebAnswer> answer(const WebRequest& request) const;
 
  private:

@@ -14,7 +14,7 @@ namespace passo {
 
 struct PulseTable {
   bool beats = false;           // judge, feed, compute, check for the end
-  std::optional<Seconds> time;  // of the whole move; empty: no durations
+  std::optional<Seconds> time;  // duration of the whole move; empty: no durations
   SpeedRule rule = SpeedRule::roots;
 };
 

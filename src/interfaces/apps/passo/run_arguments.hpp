@@ -5,7 +5,7 @@
 
 namespace passo {
 
-// An emulated board ends with the run, so its journal would be useless.
+// Returns whether the run keeps a journal. An emulated board ends with the run, so its journal would be useless.
 bool keeps_journal(const RunArguments& arguments);
 // Returns whether the name of each picture and trace has a valid extension, which determines the format. If not, shows
 // a message.

@@ -27,7 +27,7 @@ struct SimulateArguments {
   // For a hot wire instead of tools.
   std::string wire;                   // its kerf, "1.2" or "1.6@100,1@200"; empty: no hot wire
   std::string span;                   // distance between the towers; required if U V move
-  std::optional<std::size_t> slices;  // of the foam; nothing: as many as its taper requires
+  std::optional<std::size_t> slices;  // number of foam slices; nothing: as many as the taper requires
   bool json = false;
 };
 int simulate(const SimulateArguments& arguments);

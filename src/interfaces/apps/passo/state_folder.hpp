@@ -5,7 +5,7 @@
 
 namespace passo {
 
-// XDG_STATE_HOME/passo or ~/.local/state/passo. Empty: neither is known.
+// Returns XDG_STATE_HOME/passo or ~/.local/state/passo. Empty: neither is known.
 std::string state_folder();
 
 }  // namespace passo

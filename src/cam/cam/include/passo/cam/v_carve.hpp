@@ -32,7 +32,7 @@ struct VCarveOptions {
   Nanometres deepest{};          // maximum depth below `start`, negative; 0: limited by the cutter's width
   Nanometres step{};             // depth per layer, above 0; 0: a single layer
   Nanometres start{};            // depth of the outlines below the surface, 0 or negative; the walls continue above
-  Nanometres tolerance{2'000};   // of curves, in depth and in XY
+  Nanometres tolerance{2'000};   // tolerance of curves, in depth and in XY
   std::string words = {};        // tool name for the operator
   DrawnPoint park = {};
 };

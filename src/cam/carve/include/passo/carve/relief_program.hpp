@@ -63,7 +63,7 @@ struct ReliefProgramOptions {
   std::optional<ReliefRoughing> roughing = {};
   std::optional<ReliefRest> rest = {};
   Mm scallop{0.02};                           // scallop height between two rows on a flat area, if no stepover is given
-  Mm tolerance{0.01};                         // of lines, upward only
+  Mm tolerance{0.01};                         // tolerance of lines, upward only
   Mm clearance{5};                            // clearance height
   bool ramps = true;                          // enter the stock along a ramp; otherwise straight down
   Radians ramp{0.0873};                       // ramp angle

@@ -17,8 +17,8 @@ namespace passo {
 inline constexpr std::size_t most_fine_nodes = 20'000'000;
 
 struct ReliefShape {
-  std::optional<Mm> width = {};   // in X; if `length` is empty, it keeps the aspect ratio
-  std::optional<Mm> length = {};  // in Y
+  std::optional<Mm> width = {};   // size in X; if `length` is empty, the aspect ratio is kept
+  std::optional<Mm> length = {};  // size in Y
   std::optional<Mm> depth = {};   // depth of black; for a model its height. Empty: 3 mm, or the model's own height
   double gamma = 1;               // height = level^gamma
   bool invert = false;            // black is the top

@@ -17,12 +17,12 @@ struct CamDrillArguments {
   std::vector<std::string> files;   // DXF or Excellon
   std::string output;               // empty: standard output
   std::string picture;              // .svg or .png; empty: none
-  std::string units = "mm";         // of the program, and of lengths without a unit: mm, cm or inch
-  std::optional<double> scale;      // of the numbers in DXF files
+  std::string units = "mm";         // unit of the program, and of lengths without a unit: mm, cm or inch
+  std::optional<double> scale;      // scale factor for the numbers in DXF files
   std::string input;                // unit of the numbers in the files; empty: as the files state; with --scale as
                                     // `units`
   std::string zeros;                // suppressed zeros in drill files: leading or trailing; empty: as the files state
-  std::vector<std::string> layers;  // of DXF files; empty: all layers that are on
+  std::vector<std::string> layers;  // layers of DXF files; empty: all layers that are on
   std::string zero = "file";        // position of X0 Y0: file, lower-left or X,Y
   std::string mirror;               // x or y; empty: the board is not flipped
   std::string mirror_at;            // position of the mirror line; empty: X0 or Y0
@@ -51,11 +51,11 @@ struct CamMillArguments {
   std::string output;               // empty: standard output
   std::string picture;              // .svg or .png; empty: none
   bool json = false;                // prints a summary as JSON on standard output
-  std::string units = "mm";         // of the program, and of lengths without a unit: mm, cm or inch
-  std::optional<double> scale;      // of the numbers in DXF files
+  std::string units = "mm";         // unit of the program, and of lengths without a unit: mm, cm or inch
+  std::optional<double> scale;      // scale factor for the numbers in DXF files
   std::string input;                // unit of the numbers in the files; empty: as the files state; with --scale as
                                     // `units`
-  std::vector<std::string> layers;  // of DXF files; empty: all layers that are on
+  std::vector<std::string> layers;  // layers of DXF files; empty: all layers that are on
   std::string zero = "file";        // position of X0 Y0: file, lower-left or X,Y
   std::string mirror;               // x or y; empty: the board is not flipped
   std::string mirror_at;            // position of the mirror line; empty: X0 or Y0
@@ -137,7 +137,7 @@ struct CamEngraveArguments : CamMillArguments {
   std::string clear;  // diameter of an end mill for wide areas; empty: none
   std::string clear_step = "1mm";
   std::string inlay;                // pocket or plug; empty: neither
-  std::string inlay_depth = "4mm";  // of the pocket
+  std::string inlay_depth = "4mm";  // depth of the pocket
   std::string glue_gap = "0.5mm";   // below the plug
   std::string saw_gap = "1mm";      // between the two surfaces
   std::string margin = "5mm";       // around the plug
@@ -153,7 +153,7 @@ struct CamWireArguments : CamMillArguments {
   std::string span;
   std::string width;
   std::string block_at;  // empty: centred
-  std::string chord;     // of airfoils: one value, or LEFT,RIGHT
+  std::string chord;     // chord length of airfoils: one value, or LEFT,RIGHT
   std::string right_at = "0,0";
   double right_turn = 0;  // degrees
   std::string block;      // X,Y,X,Y; empty: not drawn

@@ -58,7 +58,7 @@ struct ProbingCycle {
   double second_x = 50;  // programmed position of the second bore
   double second_y = 0;
   double fit = 0.3;    // tolerance of the distance between the bores
-  double columns = 5;  // for a map
+  double columns = 5;  // number of grid columns, for a map
   double rows = 5;
   MeasuredTool tool = {};
 };

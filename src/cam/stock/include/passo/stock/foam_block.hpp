@@ -17,7 +17,7 @@ namespace passo {
 
 class FoamBlock {
  public:
-  static constexpr std::size_t most_cells = 100'000'000;  // in all slices
+  static constexpr std::size_t most_cells = 100'000'000;  // maximum number of cells in all slices
 
   // The cells cover the faces starting at their lower left corner; the last column and row may extend over the edge.
   // `slices`: at least 2; the first and the last are the faces.

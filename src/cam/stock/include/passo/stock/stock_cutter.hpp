@@ -46,7 +46,7 @@ struct MoveCut {
   double way = 0;        // length along the path
   double way_level = 0;  // length of the path in X and Y
   double volume = 0;
-  double area = 0;    // of the cells in which it removed material, seen from above
+  double area = 0;    // area of the cells in which it removed material, seen from above
   double depth = 0;   // maximum depth of cut
   Vector3 place{};    // position of the maximum: the centre of the cell, at the height before the cut
   double below = 0;   // depth of the tip below the stock's bottom, where it cut

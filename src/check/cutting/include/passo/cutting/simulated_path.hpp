@@ -53,7 +53,7 @@ class SimulatedPath {
   PathBuilder builder_;
   Tap<PathItem> watched_;
   std::unique_ptr<PathSmoother> smoother_;  // null without a machine
-  std::deque<Zeros> zeros_;                 // of the segments that are still in the smoother, each once
+  std::deque<Zeros> zeros_;                 // the zeros of the segments that are still in the smoother, each once
   std::optional<Point> first_zero_;
   std::int32_t tool_ = 0;
   double revolutions_per_minute_ = 0;

@@ -19,7 +19,7 @@ struct Simulation {
   HeightField field;
   double volume_before = 0;           // mm³
   std::vector<std::int32_t> numbers;  // tool numbers, as in the program
-  std::vector<ToolShape> tools = {};  // in the same order
+  std::vector<ToolShape> tools = {};  // in the order of `numbers`
   CutSummary summary;
   std::optional<FieldDifference> difference = {};
 };

@@ -45,7 +45,7 @@ enum class TuningBound : std::uint8_t {
 // Torques at one speed of the axis, at the motor's shaft.
 struct TuningPoint {
   MmPerSecond speed{0};
-  NewtonMetres pull_out = {};  // of the weakest motor
+  NewtonMetres pull_out = {};  // pull-out torque of the weakest motor
   NewtonMetres steady = {};    // the same, if the motor has time to oscillate
   NewtonMetres usable = {};
   NewtonMetres needed = {};  // to accelerate as proposed; above the proposed velocity, to keep the speed

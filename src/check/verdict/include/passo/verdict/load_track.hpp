@@ -28,7 +28,7 @@ class LoadTrack {
   void add(Seconds duration, Mm way, double load, std::uint32_t line);
 
   const std::vector<Stretch>& stretches() const { return stretches_; }
-  Seconds length() const { return length_; }  // of an interval
+  Seconds length() const { return length_; }  // the length of an interval
 
  private:
   void make_room();

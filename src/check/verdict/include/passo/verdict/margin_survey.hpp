@@ -118,7 +118,7 @@ struct AxisMargin {
 
 struct MarginVerdict {
   Verdict verdict = Verdict::safe;
-  std::vector<AxisMargin> axes;   // of the surveyed motors
+  std::vector<AxisMargin> axes;   // one per surveyed motor
   std::vector<MarginSpot> worst;  // the worst first; one per line and axis
 };
 
@@ -131,7 +131,7 @@ class MarginSurvey {
   // slips.
   static constexpr double safe_swing = 1.6;
 
-  // Without a grid each motor steps at its own exact times.
+  // Without a grid, each motor steps at its own exact times.
   explicit MarginSurvey(std::vector<SurveyedMotor> motors, const StepGrid& grid = {}, double reserve = usual_reserve);
 
   // Sets the cutting force on the tool in the following feed moves, in N for each mm/s along the path. 0: no cut. The
@@ -144,7 +144,7 @@ class MarginSurvey {
   MarginVerdict verdict();
 
  private:
-  struct State {              // of one motor
+  struct State {              // the state of one motor
     double torque = 0;        // needed at the last evaluated moment
     double acceleration = 0;  // axis acceleration at that moment
     // The moment with the greatest load in the last tenth of a second: an oscillation that begins there may lose steps
@@ -198,9 +198,9 @@ class MarginSurvey {
   std::vector<ToleranceTrial> trials_;
   StepGrid grid_;
   Leader leader_;
-  double share_;  // of the low end that may be used
+  double share_;  // usable fraction of the low end
   std::vector<State> states_;
-  std::vector<Look> looks_;  // of the current phase
+  std::vector<Look> looks_;  // the points of the current phase
   std::vector<MarginSpot> worst_;
   std::uint32_t line_ = 0;
   Seconds now_{0};

@@ -25,7 +25,7 @@ namespace passo {
 struct SpeedBound {
   enum class Kind : std::uint8_t {
     feed,          // the programmed feed
-    velocity,      // of the axis
+    velocity,      // velocity limit of the axis
     acceleration,  // the constant limit, mainly along the path
     bending,       // the same limit, mainly for the centripetal acceleration
     torque,        // the acceleration that the motor's torque allows at this speed
@@ -85,7 +85,7 @@ class SpeedSurvey {
   static constexpr std::size_t kinds = 7;
   struct Reached {
     Seconds time{0};
-    Seconds lost{0};  // in the current part
+    Seconds lost{0};  // time lost in the current part
     std::uint32_t first_line = 0;
     double limit = 0;
   };

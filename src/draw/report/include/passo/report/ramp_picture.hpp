@@ -36,7 +36,7 @@ struct RampScene {
   std::vector<RampTrace> traces = {};  // at most three
   std::vector<RampPoint> ideal = {};   // the intended rate
   std::string ideal_name = {};
-  std::vector<RampPoint> acceleration = {};  // of the first trace; empty: the picture shows errors
+  std::vector<RampPoint> acceleration = {};  // acceleration of the first trace; empty: the picture shows errors
   double tick = 1;                           // s
 };
 

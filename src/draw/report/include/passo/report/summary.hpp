@@ -30,7 +30,7 @@ struct AxisSummary {
   std::optional<Range> cutting_extents = {};  // machine coordinates, feed moves only
   MmPerSecond peak_speed{0};
   MmPerSecond2 peak_acceleration{0};
-  // Counted by the board:
+  // Counted by the board, in steps:
   Steps net_steps;
   Steps total_steps;
   double position = 0;  // machine coordinates at the end, from the counted steps
@@ -113,7 +113,7 @@ struct PhysicsSummary {
   struct Motor {
     Axis axis = Axis::x;
     std::int64_t lost_steps = 0;  // driver steps; positive: the axis position is too low
-    double lost = 0;              // the same in millimetres or degrees
+    double lost = 0;              // lost steps in millimetres or degrees
     double following_error = 0;   // maximum distance of the axis from its commanded position
     double least_margin = 1;      // minimum fraction of the motor's pull-out torque that remained
     std::uint32_t line = 0;       // program line at that moment; 0: none

@@ -35,7 +35,7 @@ struct ApiOptions {
   // Writes the journal of a job, in addition to the history; must outlive the API. Null: an interrupted job cannot be
   // resumed.
   JobKeeper* keeper = nullptr;
-  FileStamp machine_file = {};            // as it was when read
+  FileStamp machine_file = {};            // fingerprint of the file when it was read
   MachineFileAccess machine_access = {};  // for the editor
   // The initial offsets and tools of the programs, and a function that saves them after a change; it returns the reason
   // for a failure, or an empty text.

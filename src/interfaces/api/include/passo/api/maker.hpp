@@ -26,7 +26,7 @@ struct MakeResult {
   enum class State : std::uint8_t { none, running, done, failed };
   State state = State::none;
   std::string job;
-  std::vector<std::string> names = {};  // of the programs, in the order in which they are to be run
+  std::vector<std::string> names = {};  // names of the programs, in the order in which they are to be run
   std::string words = {};               // messages, including the reason for a failure
   std::string picture_type = {};        // "image/svg+xml"; empty: no picture
   std::string report = {};              // for a board: the files read, and the steps, as JSON; also after a failure

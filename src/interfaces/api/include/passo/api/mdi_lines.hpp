@@ -72,9 +72,9 @@ class MdiLines {
   ProgramStore& programs_;
   std::shared_ptr<OpenProgram> program_;
   std::shared_ptr<OpenProgram> streamed_;  // the session may still use it
-  std::optional<Ticket> ticket_;           // of the stream
+  std::optional<Ticket> ticket_;           // the session's ticket of the stream
   bool stops_ = false;                     // the end of the stream was requested
-  bool ended_ = false;                     // by M2 or M30
+  bool ended_ = false;                     // the program was ended by M2 or M30
   bool changed_ = false;                   // a line was accepted, and its effect has not been queried yet
   std::optional<ProbeOutcome> probe_;
   std::string trouble_;

@@ -105,7 +105,7 @@ class ProgramPath {
 
   std::vector<Chunk> chunks_;
   std::vector<UsedTool> tools_;
-  std::int32_t tool_ = 0;     // in the spindle; 0: unknown
+  std::int32_t tool_ = 0;     // number of the tool in the spindle; 0: unknown
   std::vector<Fresh> fresh_;  // points of the incomplete chunk
   std::size_t points_ = 0;
   Range all_;

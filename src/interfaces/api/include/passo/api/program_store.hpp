@@ -41,11 +41,11 @@ struct StoredProgram {
   std::uint64_t checks = 0;  // number of checks started
   Point checked_from = {};   // machine position at the last check
   ProgramCheck check;
-  std::optional<Seconds> planned_time;  // of its motion, including ramps, at overrides of 100 %
+  std::optional<Seconds> planned_time;  // duration of its motion, including ramps, at overrides of 100 %
   std::uint64_t path = 0;               // fingerprint of its path, after a successful check
   Diagnostics findings;
   ProgramPath path_points;                 // from the last check; for viewers
-  std::optional<HeightMap> height_map{};   // of the surface to which it is to be levelled
+  std::optional<HeightMap> height_map{};   // height map of the surface to which the program is to be levelled
   std::vector<std::size_t> line_starts{};  // offsets in the text, one for each fixed number of lines
 
   // Returns `count` lines of the text, beginning with line `from` (the first is 1); fewer at the end.
@@ -105,7 +105,7 @@ class ProgramStore {
   ToolTable tools_;
   std::uint64_t checked_ = 0;  // the program being checked
   std::unique_ptr<ProgramChecker> checker_;
-  PathFingerprint path_;  // of the program being checked
+  PathFingerprint path_;  // path fingerprint of the program being checked
 };
 
 }  // namespace passo

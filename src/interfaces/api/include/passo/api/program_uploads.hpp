@@ -47,7 +47,7 @@ class ProgramUploads {
   void drop_silent(Seconds now);
 
   std::map<std::uint64_t, ProgramUpload> uploads_;
-  std::size_t bytes_ = 0;  // reserved
+  std::size_t bytes_ = 0;  // total of the reserved bytes
   std::uint64_t last_id_ = 0;
 };
 

@@ -99,7 +99,7 @@ class GrblController {
   std::vector<std::string> take_replies();
 
  private:
-  // Real-time commands.
+  // Handlers of real-time commands.
   void act(std::uint8_t byte);
   void act_as_watcher(std::uint8_t byte);
   void report_status();
@@ -115,7 +115,7 @@ class GrblController {
   void change_rapids(int to);
   void change_spindle(int by);
 
-  // Lines.
+  // Handlers of lines.
   void handle_lines();
   void handle(const GrblInput::Line& line);
   bool may_take_line() const;

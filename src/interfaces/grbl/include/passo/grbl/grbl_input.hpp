@@ -29,7 +29,7 @@ class GrblInput {
 
   struct Line {
     std::string text;        // without blanks and comments, in upper case
-    std::string message;     // of its last comment (MSG,…), as written
+    std::string message;     // text of the last comment (MSG,…), as written
     bool too_long = false;   // the end is missing
     bool cancelled = false;  // followed by a jog cancel: has no effect if it is a jog
   };

@@ -47,15 +47,15 @@ inline constexpr std::size_t grbl_planner_blocks = 15;
 
 std::string places_text(const Point& place, const GrblUnits& units);
 std::string status_text(const GrblStatus& status, const GrblUnits& units, unsigned mask);
-// $G
+// Returns the response to $G.
 std::string modes_text(const ModesInForce& modes, const GrblUnits& units);
-// $#
+// Returns the response to $#.
 std::string offsets_text(const SavedParameters& parameters, const ModesInForce& modes,
                          const std::optional<ProbeOutcome>& probe, const GrblUnits& units);
 std::string probe_text(const std::optional<ProbeOutcome>& probe, const GrblUnits& units);
 // $I, with the build info stored for this machine
 std::string build_text(std::string_view words);
-// $
+// Returns the response to $.
 std::string help_text();
 
 }  // namespace passo

@@ -13,7 +13,7 @@ namespace passo {
 
 class KeptSettings {
  public:
-  // `text`: of the machine file, which parse_machine() has accepted.
+  // `text`: the contents of the machine file, which parse_machine() must have accepted.
   explicit KeptSettings(std::string text) : text_(std::move(text)) {}
 
   const std::string& text() const { return text_; }

@@ -140,7 +140,7 @@ class GrblSender {
   std::string locked_by_;  // the alarm reported during the handshake
   std::string urgent_;
   LineWindow window_;
-  bool is_held_ = false;  // by hold()
+  bool is_held_ = false;  // held by hold()
   GrblMachine machine_;
   HeardReports reports_;
   std::optional<GrblFault> fault_;

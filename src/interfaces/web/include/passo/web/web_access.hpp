@@ -18,7 +18,7 @@ struct WebCaller {
   std::string_view host = {};
   std::string_view origin = {};
   std::string_view authorization = {};
-  std::string_view query = {};  // of the target, without "?"
+  std::string_view query = {};  // query of the target, without "?"
 };
 
 struct WebAccess {

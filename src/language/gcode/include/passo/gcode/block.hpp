@@ -105,7 +105,7 @@ struct BlockComment {
     probe_close
   };
   Kind kind = Kind::plain;
-  std::string_view text;  // as written, without the delimiters and without a keyword such as "MSG,"
+  std::string_view text;  // text of the comment as written, without the delimiters and without a keyword such as "MSG,"
   Span span;
 };
 
@@ -139,7 +139,7 @@ struct Control {
 };
 
 struct Block {
-  std::uint32_t line = 0;                       // in its file, from 1
+  std::uint32_t line = 0;                       // line number in its file, from 1
   std::string_view text;                        // the line without its line end
   bool block_delete = false;                    // starts with '/'
   bool percent = false;                         // a line with only '%'

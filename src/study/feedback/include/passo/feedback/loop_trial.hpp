@@ -23,7 +23,7 @@ struct LoopSetup {
   MotorSetup motor;
   int counts_per_turn = 4000;
   Seconds period{0.0001};
-  Seconds smoothing{0.0005};  // of the measured speed
+  Seconds smoothing{0.0005};  // smoothing of the measured speed
   Controlled controlled = Controlled::speed;
   PidGains gains = {};            // N·m per rad/s; for a position loop: rad/s per radian
   PidGains speed_gains = {};      // for the inner loop of a position loop

@@ -22,7 +22,7 @@ class ExactRamp {
  public:
   using Interval = uint32_t;
 
-  // K_b², in ticks².
+  // `first_squared`: K_b², in ticks².
   explicit constexpr ExactRamp(uint64_t first_squared)
       : first_squared_(first_squared),
         interval_(rounded_root(first_squared)),

@@ -58,8 +58,8 @@ struct Line {
 // Two axes in the first octant. `along` steps the longer axis only; `both` is the diagonal.
 template <class Length>
 struct Octant {
-  Length length;  // of the longer axis
-  Length height;  // of the shorter one
+  Length length;  // steps of the longer axis
+  Length height;  // steps of the shorter axis
   Pulse along;
   Pulse both;
 

@@ -30,7 +30,7 @@ struct CurveMeasures {
   std::int64_t pulses = 0;
   std::int64_t together = 0;  // number of pulses in which two or more axes step
   std::int64_t idle = 0;
-  Mm largest_deviation{0};  // after pulses that moved the tool
+  Mm largest_deviation{0};  // maximum after pulses that moved the tool
   Mm mean_deviation{0};
 };
 

@@ -57,7 +57,7 @@ Status<std::string> follow(const Method& method, const StepMove& move,
 Result<Measures, std::string> measure(const Method& method, const StepMove& move,
                                       const std::function<void(double)>& watch = nullptr);
 
-// The time after each pulse under one rule, 0 … 1 over the move.
+// The time after each pulse under one rule, from 0 to 1 over the whole move.
 class SpeedClock {
  public:
   // `pulses` and `way` are those of the whole move; `way` is the sum of way_of() over its pulses.
