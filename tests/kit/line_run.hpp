@@ -17,7 +17,7 @@ namespace passo::test {
 struct Outcome {
   StepLog::Steps steps;
   std::vector<int> outputs;
-  std::uint64_t frames = 0;  // in both directions
+  std::uint64_t frames = 0;  // number of frames in both directions
   int recoveries = 0;
 };
 

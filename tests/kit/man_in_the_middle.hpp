@@ -48,13 +48,13 @@ class ManInTheMiddle {
     if (to_board) ++faults_to_board;
     return spoil(late, bytes);
   }
-  int faults = 0;  // in both directions
+  int faults = 0;  // number of faults in both directions
   int faults_to_board = 0;
 
  private:
   struct Late {
     Bytes bytes;
-    unsigned frames = 0;  // until they arrive
+    unsigned frames = 0;  // number of frames until they arrive
   };
 
   std::size_t below(std::size_t end) { return std::uniform_int_distribution<std::size_t>(0, end - 1)(random_); }
@@ -93,7 +93,7 @@ class ManInTheMiddle {
   Mischief mischief_;
   std::array<unsigned, 2> every_;
   std::mt19937_64 random_;
-  std::array<Late, 2> late_;  // one for each direction
+  std::array<Late, 2> late_;  // delayed frames, one entry for each direction
 };
 
 }  // namespace passo::test

@@ -26,12 +26,12 @@ class StrictGrbl {
   std::string offsets = "[G54:0.000,0.000,0.000]\r\n[G92:0.000,0.000,0.000]\r\n[TLO:0.000]\r\n";
   std::string modes = "G0 G54 G17 G21 G90 G94 M5 M9 T0 F0 S0";
   std::function<std::string()> own_report = {};  // generates reports in another format
-  double spindle_time = 0;                       // s, for M3
-  bool has_switches = true;                      // limit switches for $H
+  double spindle_time = 0;                       // duration of M3, s
+  bool has_switches = true;                      // whether there are limit switches for $H
   bool homes_for_ever = false;
-  double block_time = 0.05;  // s, per motion
-  std::string refused = {};  // this line gets error:20
-  std::string trips = {};    // a limit switch closes at this line
+  double block_time = 0.05;  // duration of each motion, s
+  std::string refused = {};  // a line that gets error:20
+  std::string trips = {};    // a line at which a limit switch closes
   bool loses_next_line_end = false;
 
   std::size_t most_waiting() const { return most_waiting_; }

@@ -14,8 +14,8 @@ namespace passo {
 
 struct DxfGroup {
   int code = 0;
-  std::string_view text;   // if the code has a text value
-  double number = 0;       // if the code has a numeric value
+  std::string_view text;   // value of a code with text
+  double number = 0;       // value of a code with a number
   std::uint32_t line = 0;  // line of the value; 0 in a binary file
   bool is(int wanted_code, std::string_view wanted) const { return code == wanted_code && text == wanted; }
 };

@@ -31,10 +31,10 @@ class ExcellonNumbers {
   struct Evidence {
     bool says_unit = false;
     bool says_zeros = false;
-    bool has_digits = false;      // some coordinate has no decimal point
+    bool has_digits = false;      // true if some coordinate has no decimal point
     bool starts_with_0 = false;   // such a coordinate begins with 0, so leading zeros are kept
     bool ends_with_0 = false;     // such a coordinate ends with 0, so trailing zeros are kept
-    double largest_tool = 0;      // diameter in the file's unit
+    double largest_tool = 0;      // maximum tool diameter, in the file's unit
     std::size_t most_digits = 0;  // maximum number of digits in a coordinate
   };
   Evidence scan_evidence(std::string_view text);

@@ -15,7 +15,7 @@ namespace passo {
 struct GerberMacro {
   struct Statement {
     std::string words;
-    GerberCommand place;  // without its text
+    GerberCommand place;  // source of the macro, without its text
   };
   std::string name;
   std::vector<Statement> statements;

@@ -19,7 +19,7 @@ class GerberOldCodes {
   // Maps a coordinate of the file to the image: swaps the axes (AS), then mirrors (MI), scales (SF) and offsets (OF).
   DrawnPoint placed(Nanometres x, Nanometres y) const;
   int quarter_turns() const { return quarter_turns_; }  // IR: rotation of the whole image, counterclockwise
-  bool is_negative() const { return is_negative_; }     // IP
+  bool is_negative() const { return is_negative_; }     // IP: the image is negative
 
  private:
   bool read_axes(double& a, double& b);

@@ -21,7 +21,7 @@ struct PlotterAperture {
   bool is_round = false;
   double diameter = 0;                 // nm, if the aperture is round
   Region shape = {};                   // about the origin
-  std::unique_ptr<GerberImage> block;  // instead of a shape
+  std::unique_ptr<GerberImage> block;  // used instead of a shape
 };
 
 // The parameters of a stroke that define the centre of its arc.
@@ -77,7 +77,7 @@ class GerberPlotter {
  private:
   struct Frame {
     GerberImage image;
-    bool is_block = false;    // an aperture block
+    bool is_block = false;    // whether this is an aperture block
     std::uint32_t code = 0;   // aperture number of a block
     std::int64_t across = 1;  // columns of a repeat
     std::int64_t up = 1;
@@ -112,7 +112,7 @@ class GerberPlotter {
   DrawnPoint at_;
   bool in_region_ = false;
   std::vector<DrawnPoint> way_;  // the current stroke or contour as chords
-  DrawnPath path_;               // the same stroke with its arcs
+  DrawnPath path_;               // the same stroke, including its arcs
   Tool tool_;
   bool tool_is_new_ = true;
   std::size_t points_ = 0;

@@ -16,8 +16,8 @@ namespace passo {
 
 struct GerberCommand {
   std::string_view words;      // without '*', '%' and line ends; valid until the next command
-  bool is_extended = false;    // enclosed in '%'
-  bool is_last = true;         // the last command between two '%'
+  bool is_extended = false;    // whether the command is enclosed in '%'
+  bool is_last = true;         // whether this is the last command between two '%'
   std::size_t begin = 0;       // byte offset in the file
   std::uint32_t line = 1;      // first line of the command
   std::size_t line_begin = 0;  // byte offset of that line in the file

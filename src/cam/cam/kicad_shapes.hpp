@@ -26,7 +26,7 @@ KicadFrame kicad_frame(KicadText& text, KicadItem item, const KicadFrame& around
 std::vector<PathPoint> kicad_points(KicadText& text, KicadItem pts);
 
 struct KicadGraphic {
-  DrawnPath path = {};  // with its width
+  DrawnPath path = {};  // the path, including its width
   bool is_filled = false;
 };
 // Reads a line, arc, circle, rectangle, polygon or curve: gr_line, fp_line, segment and so on. Empty if it is none of
@@ -40,11 +40,11 @@ std::size_t kicad_stroke_points(const DrawnPath& path);
 
 // A pad on one layer, relative to its hole, not yet rotated.
 struct KicadPad {
-  std::vector<DrawnRing> rings = {};          // may overlap
-  std::vector<KicadGraphic> primitives = {};  // for a custom shape
+  std::vector<DrawnRing> rings = {};          // the pad's outline; the rings may overlap
+  std::vector<KicadGraphic> primitives = {};  // primitives of a custom shape
   Nanometres across = {};
   Nanometres up = {};
-  bool is_round = false;  // a circle or an oval
+  bool is_round = false;  // whether it is a circle or an oval
 };
 // Returns the shape of the pad on `layer`.
 KicadPad kicad_pad(KicadText& text, KicadItem pad, std::string_view layer);

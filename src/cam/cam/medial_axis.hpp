@@ -18,7 +18,7 @@ struct MedialPoint {
 // A piece of the axis between two nodes. Between two of its points the axis is straight and the clearance changes
 // linearly, both within the tolerance.
 struct MedialPiece {
-  std::uint32_t from = 0;  // node index
+  std::uint32_t from = 0;  // index of the node at each end
   std::uint32_t to = 0;
   std::vector<MedialPoint> points = {};  // from one end to the other, at least two
 };

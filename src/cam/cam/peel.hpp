@@ -16,7 +16,7 @@
 namespace passo {
 
 struct PeelOptions {
-  Nanometres cutter{3'000'000};  // diameter
+  Nanometres cutter{3'000'000};  // cutter diameter
   double most_degrees = 60;      // maximum engagement
   bool climb = true;
 };

@@ -31,8 +31,8 @@ class ProgramText {
 
   // Names and changes the tool, if there are several, and starts the spindle.
   struct ToolChange {
-    std::size_t number = 1;  // from 1
-    bool is_only = false;    // there are no other tools
+    std::size_t number = 1;  // tool number, from 1
+    bool is_only = false;    // whether this is the only tool
     std::string words = {};  // tool name for the operator
     std::optional<std::uint32_t> spindle = {};
     DrawnPoint park = {};

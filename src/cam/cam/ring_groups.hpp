@@ -18,7 +18,7 @@ class IndexGroups {
   void join(std::size_t a, std::size_t b);
 
  private:
-  std::vector<std::size_t> up_;  // parents, as a forest
+  std::vector<std::size_t> up_;  // the parent of each index, as a forest
 };
 
 // Returns the groups of connected boxes as indices in ascending order, sorted by their first index. Boxes of different

@@ -13,9 +13,9 @@
 namespace passo {
 
 struct SvgElement {
-  std::string name = {};  // without the namespace prefix
+  std::string name = {};  // element name without the namespace prefix
   std::vector<std::pair<std::string, std::string>> attributes = {};
-  std::vector<std::uint32_t> children = {};  // element indices
+  std::vector<std::uint32_t> children = {};  // indices of the child elements
   std::uint32_t line = 0;
 
   // Returns the value of an attribute; empty if it is missing.

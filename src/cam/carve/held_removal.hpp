@@ -50,7 +50,7 @@ class HeldRemoval {
   HeldFeed feed_;
   double radius_ = 1;
   std::deque<Piece> pieces_;
-  std::uint32_t first_number_ = 0;  // number of the first of them
+  std::uint32_t first_number_ = 0;  // number of the first one of the waiting pieces
   std::size_t told_ = 0;
   std::size_t judged_ = 0;
   double most_ = 0;

@@ -92,7 +92,7 @@ class LevelLines {
   double pitch_y_;
   float height_ = 0;
   static constexpr std::size_t block = 64;  // cells
-  std::size_t blocks_ = 0;                  // number in a row of cells
+  std::size_t blocks_ = 0;                  // number of blocks in a row of cells
   std::vector<float> lowest_;
   std::vector<float> highest_;
   std::vector<bool> seen_;  // edges whose crossing belongs to a traced line

@@ -13,7 +13,7 @@ inline constexpr CamFor experts = CamFor::experts;
 inline const CamTraits experts_only{.matters_to = experts};
 inline const CamTraits of_one_job{.is_of_job = true};
 inline const CamTraits experts_of_one_job{.matters_to = experts, .is_of_job = true};
-inline const CamTraits are_needed{.is_required = true};  // for drawings
+inline const CamTraits are_needed{.is_required = true};  // for the files of drawings
 
 std::vector<CamOption> all_of(std::initializer_list<std::vector<CamOption>> parts);
 

@@ -28,7 +28,7 @@ struct Tile {
 
 // The effect of one sweep on one tile.
 struct TileCut {
-  double drop = 0;  // sum over all cells, mm
+  double drop = 0;  // removed height, summed over all cells, mm
   std::uint32_t cells = 0;
   float deepest = 0;
   std::uint32_t column = 0;  // cell of the field

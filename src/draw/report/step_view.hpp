@@ -83,7 +83,7 @@ void draw_pulses(Canvas& canvas, const StepView& view, const std::vector<Shown>&
 struct StepKey {
   std::string text;
   Colour colour;
-  bool line = false;  // otherwise a dot
+  bool line = false;  // drawn as a line; otherwise as a dot
 };
 // Returns the legend entries of every picture of pulses.
 std::vector<StepKey> step_keys();

@@ -98,14 +98,14 @@ class JobRunner {
     bool reenters = false;               // it is resumed by a reentry move to its path
     std::optional<LinePlace> from = {};  // start position in the program; empty: its beginning
     std::optional<Reentry> way = {};     // the reentry move
-    std::uint64_t map_for = 0;           // as in Wanted
+    std::uint64_t map_for = 0;           // the program that gets the height map, as in Wanted
   };
   Beginning begins_;
   bool named_ = false;                // the job's journal has been started
   std::optional<Ticket> ticket_;      // the session's ticket of the job
   Point start_;                       // start of the job's path
   std::vector<ProbeOutcome> probes_;  // probe results of the job
-  Diagnostics findings_;              // found during the run
+  Diagnostics findings_;              // findings of the run
   JobLog log_;
   std::optional<ParkedJob> parked_;
   bool goes_on_ = false;                   // the parked job is about to restart after its stop

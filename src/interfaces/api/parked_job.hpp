@@ -18,10 +18,10 @@ namespace passo {
 struct ParkedJob {
   ApiJob job;
   OperatorWait wait;
-  SavedParameters parameters;  // at the start of the job
+  SavedParameters parameters;  // parameters at the start of the job
   ToolTable tools;
-  Point start;                       // start of its path
-  std::vector<ProbeOutcome> probes;  // its probe results
+  Point start;                       // start position of the job's path
+  std::vector<ProbeOutcome> probes;  // probe results of the job
 
   // Returns the reentry from the current machine position to the point after the stop.
   Result<Reentry, Sentence> way_behind_stop(const MachineDescription& machine, const ProgramStore& programs,

@@ -26,7 +26,7 @@ class StudiesApi {
 
   const ApiShared& shared_;
   std::string study_;          // the last one ordered
-  std::uint64_t studied_ = 0;  // its program; 0: none
+  std::uint64_t studied_ = 0;  // the program of that study; 0: none
 };
 
 }  // namespace passo

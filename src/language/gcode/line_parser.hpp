@@ -111,9 +111,9 @@ class LineParser {
   SymbolTable& symbols_;
   LineFault& fault_;
   const bool line_numbers_anywhere_;
-  std::size_t nesting_ = 0;         // nesting depth of values
+  std::size_t nesting_ = 0;         // current nesting depth of values
   std::size_t operands_ = 0;        // current operand stack size of the evaluation
-  std::string_view last_operator_;  // as written
+  std::string_view last_operator_;  // the last operator, as written
 };
 
 }  // namespace passo

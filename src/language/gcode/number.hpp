@@ -9,7 +9,7 @@ namespace passo {
 enum class NumberStatus : std::uint8_t {
   good,
   no_digits,
-  too_large,  // not a finite double
+  too_large,  // the number is not a finite double
   too_long,   // more than `longest_number` digits
 };
 
@@ -20,7 +20,7 @@ struct NumberReading {
   double value = 0;
   const char* end = nullptr;  // after the last digit or the decimal point
   NumberStatus status = NumberStatus::good;
-  bool spaced = false;  // there are blanks between its digits
+  bool spaced = false;  // whether there are blanks between its digits
 };
 
 // Reads the longest number that starts at `at`, correctly rounded. Takes a few nanoseconds for up to 15 digits.

@@ -21,7 +21,7 @@ class ActiveComments : private CodeFamily {
   bool obey(const BlockComment& comment);
 
   SymbolTable& symbols_;
-  std::string text_;  // with the parameters filled in
+  std::string text_;  // text of the comment with the parameters filled in
 };
 
 }  // namespace passo

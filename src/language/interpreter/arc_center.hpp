@@ -28,7 +28,7 @@ struct ArcTolerance {
 inline constexpr double square_root_of_two = 1.41421356237309504880;
 inline constexpr ArcTolerance arc_tolerance_mm{0.00127, 0.02 * square_root_of_two};
 inline constexpr ArcTolerance arc_tolerance_inch{0.00127, 25.4 * 0.002 * square_root_of_two};  // in millimetres
-inline constexpr ArcTolerance arc_tolerance_grbl{5e-7, 0.005};  // R with grbl's single precision
+inline constexpr ArcTolerance arc_tolerance_grbl{5e-7, 0.005};  // R has grbl's single precision
 
 enum class ArcFault : std::uint8_t { none, zero_radius, radii_differ, radius_too_small, ends_at_start };
 

@@ -142,7 +142,7 @@ class BlockExecutor : private CodeFamily {
   CycleCodes* cycle_ = nullptr;           // the active cycle
   std::vector<ModalSnapshot> snapshots_;  // by call depth
   std::vector<double> assigned_;
-  bool missing_feed_was_told_ = false;  // at keep()
+  bool missing_feed_was_told_ = false;  // its value at keep()
   bool has_settings_ = false;
 };
 

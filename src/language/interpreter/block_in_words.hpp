@@ -18,7 +18,7 @@ struct WordValue {
   std::string word;  // as written
   char letter = 0;   // letter of a word; 0: something else, described by `meaning`
   double value = 0;
-  bool known = false;  // it has a value
+  bool known = false;  // whether it has a value
   std::string meaning;
 };
 std::vector<WordValue> word_values(const Block& block, const Parameters& parameters, const SymbolTable& symbols);

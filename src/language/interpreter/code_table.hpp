@@ -71,7 +71,7 @@ struct GroupRow {
   std::string_view name;             // name of its codes, for messages
   CodeNumber at_start = 0;           // the code that is active when a program starts; 0: the group is not a mode
   std::string_view sets = {};        // what its codes set, for `explain`
-  Told told = Told::always;          // when the mode is included, if it has no other effects
+  Told told = Told::always;          // when the canonical calls include the mode, if it has no other effects
   bool ahead_of_held_moves = false;  // emitted before the moves held back by cutter compensation
 };
 // Returns the groups, modes first, in the order in which `explain` shows them.

@@ -81,7 +81,7 @@ class CutterCompensation {
     bool inside = false;      // the tool is inside the arc
     PlanePoint start_normal;  // from the contour to the tool centre
     PlanePoint end_normal;
-    PlanePoint direction;  // for a line only
+    PlanePoint direction;  // direction of a line; unused for an arc
     PlanePoint center;
     double radius = 0;
     std::int32_t turns = 0;

@@ -49,7 +49,7 @@ class DrillingCodes final : public CycleCodes {
   void plan_way(DrillingPlan& plan) const;
 
   KeptWords kept_;
-  KeptWords before_;  // at keep()
+  KeptWords before_;  // the words saved by keep()
   std::optional<DrillingCycle> cycle_;
 };
 

@@ -27,13 +27,13 @@ struct DrillingPlan {
   Point hole;           // the first hole; its height is ignored
   std::int32_t holes = 1;
   std::optional<Point> way = {};       // from hole to hole; empty: all holes are at the same position
-  std::optional<PolarWay> polar = {};  // replaces `way`
+  std::optional<PolarWay> polar = {};  // used instead of `way`
   double initial_height = 0;           // tool height before the first of consecutive cycles
   bool returns_to_initial = false;     // G98: between holes, the tool retracts to the initial height, not only to
                                        // `retract`
   double retract = 0;                  // R: the height at which the feed begins
   double bottom = 0;
-  double top = 0;                        // top of a back bore
+  double top = 0;                        // height of the top of a back bore
   Point aside = {};                      // G87: lateral offset of the tool, in the plane
   double dwell = 0;                      // P, seconds
   double peck = 0;                       // Q

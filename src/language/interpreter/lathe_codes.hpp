@@ -43,7 +43,7 @@ class LatheCodes final : public CycleCodes {
   // The data of a cycle while its contour is read.
   struct Contour {
     bool open = true;
-    bool good = true;  // no line so far was invalid
+    bool good = true;  // whether all lines so far were valid
     std::uint64_t errors_before = 0;
     CodeNumber code = 0;
     BlockWords words;  // words of the cycle's block

@@ -27,7 +27,7 @@ struct LatheSegment {
   Shape shape = Shape::line;
   LathePoint start;
   LathePoint end;
-  LathePoint center{};     // for an arc only
+  LathePoint center{};     // centre of an arc; unused for a line
   double size = 0;         // radius of a fillet; a chamfer connects the ends of such a fillet
   std::uint32_t line = 0;  // line of the program
 

@@ -118,7 +118,7 @@ class ProgramFlow final : public CallStack {
     ReaderPosition at;                // its line
     ReaderPosition after;             // the line after it
     std::uint64_t errors_before = 0;  // number of errors found before it was entered
-    std::uint64_t passes_left = 0;    // for a repeat only
+    std::uint64_t passes_left = 0;    // remaining passes of a repeat
   };
   struct Frame {
     File* caller = nullptr;  // the file to return to
@@ -129,7 +129,7 @@ class ProgramFlow final : public CallStack {
     std::uint64_t errors_before = 0;
     std::uint64_t passes_left = 1;                                     // L of M98, G65, G66
     bool modal_macro = false;                                          // called by G66
-    std::optional<std::array<double, sub_parameters>> arguments = {};  // for a macro only
+    std::optional<std::array<double, sub_parameters>> arguments = {};  // arguments of a macro
   };
 
   // A numbered program that has ended and is to run again.

@@ -32,7 +32,7 @@ class ProgramLines {
  public:
   struct Options {
     bool block_delete = false;
-    std::vector<std::string> sub_folders;  // after the program's own
+    std::vector<std::string> sub_folders;  // searched after the program's own folder
     Dialect dialect = Dialect::linuxcnc;
     bool open_ended = false;        // the lines arrive one by one, with push_line()
     LetterSet more_grbl_axes = {};  // axes that the Grbl dialect accepts in addition to X, Y and Z

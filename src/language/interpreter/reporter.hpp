@@ -48,7 +48,7 @@ class Reporter {
   // Reports an expression that has no value.
   void error(const EvaluationError& error);
   void warn_of(const UnsetParameter& unset);
-  void warn_of_blank(Span number);  // between the digits of a number
+  void warn_of_blank(Span number);  // Warns about a blank between the digits of a number.
 
   // Reports errors found while the line was read.
   void pass_on(Diagnostics& faults);

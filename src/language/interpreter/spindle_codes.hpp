@@ -13,7 +13,7 @@ class SpindleCodes : private CodeFamily {
   bool set_speed();
   bool turn(CodeNumber code);
   bool orient();
-  void stop();  // all spindles
+  void stop();  // Stops all spindles.
 };
 
 }  // namespace passo

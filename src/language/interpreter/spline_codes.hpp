@@ -48,7 +48,7 @@ class SplineCodes : private CodeFamily {
     static constexpr std::size_t most_points = 4096;
     std::vector<operation::ControlPoint> points = {};
     std::int32_t order = 0;
-    std::uint32_t line = 0;  // the first line of the NURBS
+    std::uint32_t line = 0;  // first line of the NURBS
     bool wrong = false;      // true: a block of the NURBS was invalid, which was reported
     bool open = false;
   };

@@ -82,7 +82,7 @@ class JerkRamp {
   void climb(const JerkState& from, double lead, const JerkLimits& limits);
 
   JerkPhases head_;
-  JerkPhases tail_;  // reversed
+  JerkPhases tail_;  // the deceleration, stored in reverse
   double crest_ = 0;
   double way_ = 0;
   double duration_ = 0;

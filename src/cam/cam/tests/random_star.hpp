@@ -14,7 +14,7 @@ struct StarShape {
   int corners = 5;
   double nearest = 5;  // mm
   double farthest = 25;
-  double bulge = 0;  // maximum
+  double bulge = 0;  // maximum bulge of an edge
 };
 
 inline std::vector<PathPoint> random_star(const StarShape& shape, std::mt19937_64& random) {

@@ -13,7 +13,7 @@
 namespace passo::test {
 
 struct OracleCutter {
-  const char* text;  // for parse_cutter()
+  const char* text;  // cutter description for parse_cutter()
   double radius;
   // Height of the shape above the tip, for distances up to the radius.
   double (*height)(double distance);

@@ -15,7 +15,7 @@ struct CamArguments {
   CamOutlineArguments outline;
   CamBoardArguments board;
   std::string machine;    // the machine whose saved options are used; empty: none
-  bool remember = false;  // saves the given options
+  bool remember = false;  // whether to save the given options
 };
 
 // The commands of `passo cam`.

@@ -12,7 +12,7 @@ namespace passo {
 // The lines of a command's files, in program coordinates.
 struct PartDrawing {
   EdgeLoops loops;
-  DrawnPoint least;  // corners of the bounding box
+  DrawnPoint least;  // lower left and upper right corner of the bounding box
   DrawnPoint most;
 };
 

@@ -23,7 +23,7 @@ enum ExitCode : int {
 
 struct ProgramArguments {
   std::string program;                    // "-": standard input
-  bool block_delete = false;              // skip lines that start with '/'
+  bool block_delete = false;              // skips lines that start with '/'
   bool inches = false;                    // lengths are inches until the program says G20 or G21
   bool user_codes = false;                // M100 to M199 are allowed
   std::uint64_t loop_limit = 1'000'000;   // maximum number of passes of a loop, and of calls, in which the machine does
@@ -53,7 +53,7 @@ struct RunArguments {
   std::string log;                        // output file of (LOG,…); empty: none
   std::string report;                     // a name that ends in .json; with any other name, a text report
   std::uint64_t passes = 1;               // number of runs of a main program that ends with M99
-  std::vector<std::string> holds;         // SECONDS or SECONDS:SECONDS
+  std::vector<std::string> holds;         // holds: SECONDS, or SECONDS:SECONDS with a duration
   std::vector<std::string> overrides;     // PERCENT@SECONDS
   std::vector<std::string> touches;       // ranges LOW:HIGH of axes: "X10:60,Z:-2"
   std::string cable_cut;                  // SECONDS:SECONDS; empty: none
@@ -176,7 +176,7 @@ struct BoardServeArguments {
   std::optional<double> clock;     // ticks/s; empty: from the machine file, or 16 MHz
   unsigned port = 7070;
   std::string machine;  // a machine file: the board is that machine's, at machine zero; empty: no switches
-  bool once = false;    // ends when all clients have disconnected
+  bool once = false;    // whether it ends when all clients have disconnected
 };
 int board_serve(const BoardServeArguments& arguments);
 
@@ -206,7 +206,7 @@ struct InterpolateArguments {
   std::string from;    // empty: zero
   std::string center;  // the centre of an arc; empty: a line
   bool clockwise = false;
-  bool half_loaded = false;  // for DDA
+  bool half_loaded = false;  // half-full accumulators, for DDA
   int register_bits = 0;     // for DDA; 0: the minimum number of bits for the move
   std::string end;           // for point comparison: coordinates, projection or total
   bool compare = false;
@@ -243,10 +243,10 @@ struct MotorArguments {
   std::string trial;                        // torque, step, stop or resonance; empty: no trial
   std::string excitation = "microsteps:8";  // in the format of Excitation::named()
   double detent = 0;                        // N·m
-  double damping = 0.002;                   // fraction of the rotor's critical damping
+  double damping = 0.002;                   // damping as a fraction of the rotor's critical damping
   double trial_rate = 500;                  // full steps/s
   int trial_steps = 200;                    // driver steps before a stop without a ramp
-  double trial_after = 0.1;                 // s after the last step
+  double trial_after = 0.1;                 // duration of the trial after the last step, s
   std::optional<double> max_rate;           // full steps/s, end of tables and pictures
   int rows = 101;
   std::vector<std::string> pictures;  // .svg or .png
@@ -267,7 +267,7 @@ struct LoopArguments {
   double period_us = 100;
   double smoothing_us = 500;  // smoothing of the speed computed from the encoder
   int counts = 4000;          // encoder counts per revolution
-  std::string load;           // NM@S; empty: none
+  std::string load;           // load step, NM@S; empty: none
   std::string picture;        // .svg or .png
   std::string output;         // CSV; empty: standard output
   bool json = false;
@@ -301,7 +301,7 @@ struct WindingsArguments {
   std::string drive;                // a name of Excitation::named()
   int full_steps = 200;             // full steps per revolution of the motors
   InterpolateArguments line;        // a line or an arc at constant speed; empty `to`: a ramp
-  RampArguments ramp;               // a move of one motor
+  RampArguments ramp;               // arguments of a move of one motor
   std::vector<std::string> traces;  // .vcd or .csv
   std::string picture;              // .svg or .png
 };

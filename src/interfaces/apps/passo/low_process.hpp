@@ -17,7 +17,7 @@ namespace passo {
 
 class LowProcess {
  public:
-  static constexpr unsigned most_time = 120;                            // s of processor time
+  static constexpr unsigned most_time = 120;                            // maximum processor time, s
   static constexpr std::uint64_t most_memory = std::uint64_t{3} << 30;  // bytes
   static constexpr std::uint64_t longest_file = std::uint64_t{512} << 20;
   static constexpr std::size_t longest_words = 8000;  // maximum length of its messages

@@ -71,7 +71,7 @@ class MidRunChanges {
   Seconds begun_{0};
   bool holds_now_ = false;            // a hold was requested and has not ended yet
   std::optional<Seconds> pause_;      // the duration of that hold
-  std::optional<Seconds> resume_at_;  // when the machine is to resume
+  std::optional<Seconds> resume_at_;  // time at which the machine is to resume
   std::vector<HoldSummary> holds_;
 };
 

@@ -29,7 +29,7 @@ struct MachineWish {
   std::optional<CableCut> cut = {};            // the link is cut; only with over_a_line
   std::vector<Touchable> touchables = {};      // objects that the probe of a virtual or emulated board can touch
   bool physics = false;                        // simulates the physics of the motors of a virtual or emulated machine
-  std::vector<Disturbance> disturbances = {};  // only with physics
+  std::vector<Disturbance> disturbances = {};  // disturbances of motors; only with physics
   bool tells_place = false;                    // see SessionOptions
   bool needs_place = false;                    // see SessionOptions
   bool may_move = false;                       // another host may have left the board in motion

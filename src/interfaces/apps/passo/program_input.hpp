@@ -52,7 +52,7 @@ class FindingsDisplay {
 
   const Diagnostics& findings_;
   std::size_t shown_ = 0;
-  std::size_t shown_text_ = 0;  // characters
+  std::size_t shown_text_ = 0;  // number of characters shown
 };
 
 // Reports on standard error why the command ends. Returns the given exit code.

@@ -26,7 +26,7 @@ class ServedTimer final : public MotionTimer {
   void run();
 
   const MachineDescription machine_;
-  std::atomic<std::uint64_t> orders_{0};  // computations for older orders are abandoned
+  std::atomic<std::uint64_t> orders_{0};  // number of the current order; computations for older orders are abandoned
   std::atomic<bool> ends_{false};
   std::mutex mutex_;  // guards the following members
   std::condition_variable news_;

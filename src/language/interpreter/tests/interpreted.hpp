@@ -14,7 +14,7 @@ namespace passo {
 
 struct Interpreted {
   std::string canon;                  // the canonical calls, in the format of `rs274 -g`
-  std::vector<Operation> operations;  // without borrowed text
+  std::vector<Operation> operations;  // the operations, without borrowed text
   std::vector<std::vector<operation::ControlPoint>> splines;
   Diagnostics diagnostics{1000};
 

@@ -40,7 +40,7 @@ struct BoardFile {
   std::string name;  // displayed name: "job.zip: gerbers/board-F_Cu.gbr"
   BoardFileKind kind = {};
   std::optional<GerberLayer> layer = {};
-  std::optional<Drawing> drills = {};  // if it is a drill file
+  std::optional<Drawing> drills = {};  // its holes, if it is a drill file
   std::string board = {};              // the KiCad board to which this layer belongs; empty: the file is a single layer
 };
 

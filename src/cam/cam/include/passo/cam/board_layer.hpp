@@ -31,7 +31,7 @@ Region face_of(const Drawing& drawing);
 
 struct BoardEdge {
   EdgeLoops loops = {};
-  Region board = {};  // inside the loops
+  Region board = {};  // the board inside the loops
 };
 
 // Returns the board inside an edge layer: the inside of its stroke centre lines, or the area that it fills. Reports the

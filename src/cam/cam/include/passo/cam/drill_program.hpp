@@ -23,13 +23,13 @@ struct DrillProgramOptions {
   std::vector<std::string> files = {};  // names of the drawing files
   ProgramUnits units = ProgramUnits::mm;
   Nanometres clearance{2'000'000};            // clearance height above the board
-  Nanometres depth{-2'000'000};               // below the board's surface, negative
+  Nanometres depth{-2'000'000};               // depth of the holes below the board's surface, negative
   std::optional<Nanometres> peck = {};        // depth of one peck; empty: no pecking
   Nanometres mill_step{500'000};              // depth per pass of a milled circle or slot
   Nanometres feed{100'000'000};               // plunge feed for holes, nm/min
   Nanometres mill_feed{150'000'000};          // feed along circles and slots, nm/min
   std::optional<std::uint32_t> spindle = {};  // rpm; empty: no spindle commands
-  DrawnPoint park = {};                       // as in DrillOptions
+  DrawnPoint park = {};                       // park position, as in DrillOptions
   bool canned = true;                         // use G81 and G83; otherwise plain moves
 };
 

@@ -28,7 +28,7 @@
 namespace passo {
 
 struct IsolationCutter {
-  Nanometres width = {};  // at the board's surface
+  Nanometres width = {};  // milled width at the board's surface
   std::string words = {};
 };
 
@@ -43,7 +43,7 @@ struct IsolationOptions {
   bool clear = false;                         // removes all unwanted copper from the board
   bool voronoi = false;                       // toolpaths midway between the islands; not with `clear`
   bool climb = true;                          // climb milling, for a clockwise spindle; otherwise conventional
-  Region board = {};                          // empty: the surroundings of the copper
+  Region board = {};                          // the board's outline; empty: the surroundings of the copper
   Nanometres depth{-50'000};
   Nanometres tolerance{4'000};  // margin added to half the cutter width
   DrawnPoint park = {};

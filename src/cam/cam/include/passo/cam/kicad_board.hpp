@@ -21,13 +21,13 @@ namespace passo {
 
 struct KicadLayer {
   std::string name;        // "F.Cu", independent of the user's layer names
-  GerberLayer layer = {};  // its notes are in strokes.notes
+  GerberLayer layer = {};  // the layer; its notes are in strokes.notes
 };
 
 struct KicadBoard {
-  std::vector<KicadLayer> copper = {};  // from top to bottom
+  std::vector<KicadLayer> copper = {};  // the copper layers from top to bottom
   GerberLayer edge = {};                // Edge.Cuts, as strokes
-  Drawing drills = {};                  // layer 0: plated, layer 1: non-plated
+  Drawing drills = {};                  // drilled holes; layer 0: plated, layer 1: non-plated
 };
 
 // Reports errors in `diagnostics`.

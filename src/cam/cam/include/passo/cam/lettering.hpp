@@ -33,11 +33,11 @@ struct LetterArc {
 };
 
 struct Lettering {
-  std::string text = {};    // UTF-8
+  std::string text = {};    // the text in UTF-8
   Mm height{10};            // capital letter height
   double line_space = 1.6;  // line spacing between baselines, in letter heights
   LetterAlign align = LetterAlign::left;
-  Mm around{0};                       // radius; 0: a straight line
+  Mm around{0};                       // radius of the baseline; 0: a straight line
   std::optional<LetterArc> arc = {};  // the range on that circle; empty: the natural length of the text
   double turn_degrees = 0;            // rotation of the whole text about the origin, counterclockwise
   Mm tolerance{0.005};

@@ -16,7 +16,7 @@ struct MillPoint {
   Nanometres z = {};
 };
 
-using MillRun = std::vector<MillPoint>;  // two points or more
+using MillRun = std::vector<MillPoint>;  // at least two points
 
 struct MillTool {
   Nanometres width = {};           // milled width at the surface of the board; for varying depth, the tip width

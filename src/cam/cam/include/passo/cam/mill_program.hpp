@@ -20,7 +20,7 @@ struct MillProgramOptions {
   std::string name = {};                  // program name, for the first comment
   std::string command = {};               // "passo cam isolate"
   std::vector<std::string> files = {};    // names of the drawing files
-  std::vector<std::string> remarks = {};  // one comment each
+  std::vector<std::string> remarks = {};  // comments at the head of the program
   ProgramUnits units = ProgramUnits::mm;
   Nanometres clearance{2'000'000};            // clearance height above the board
   Nanometres feed{200'000'000};               // cutting feed, nm/min

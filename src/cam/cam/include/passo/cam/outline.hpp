@@ -21,14 +21,14 @@
 namespace passo {
 
 struct OutlineOptions {
-  Nanometres cutter{2'000'000};  // diameter
+  Nanometres cutter{2'000'000};  // cutter diameter
   std::string words = {};        // tool name for the operator
-  Nanometres depth{-1'800'000};  // below the board's surface, negative
+  Nanometres depth{-1'800'000};  // final depth below the board's surface, negative
   Nanometres step{500'000};      // maximum depth per pass
-  std::uint32_t tabs = 0;        // number around each board
+  std::uint32_t tabs = 0;        // number of tabs around each board
   std::vector<DrawnPoint> tab_places = {};
-  Nanometres tab_width{2'000'000};  // width of the remaining material
-  Nanometres tab_height{600'000};   // above the full depth
+  Nanometres tab_width{2'000'000};  // width of the material that remains
+  Nanometres tab_height{600'000};   // height of the tabs above the full depth
   double ramp_degrees = 0;          // ramp angle of the descent along the toolpath; 0: straight down
   Nanometres lead{};                // radius of the lead-in arc; 0: none
   bool dog_bones = false;           // overcuts inner corners so that a sharp corner fits in

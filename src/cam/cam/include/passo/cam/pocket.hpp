@@ -23,9 +23,9 @@
 namespace passo {
 
 struct PocketOptions {
-  Nanometres cutter{3'000'000};  // diameter
+  Nanometres cutter{3'000'000};  // cutter diameter
   std::string words = {};        // tool name for the operator
-  Nanometres depth{-3'000'000};  // below the surface, negative
+  Nanometres depth{-3'000'000};  // final depth below the surface, negative
   Nanometres step{1'000'000};    // maximum depth per layer
   double step_over = 0.4;        // stepover as a fraction of the cutter diameter; above 0, at most 1
   double ramp_degrees = 5;       // ramp angle of the descent along the toolpath; 0: straight down

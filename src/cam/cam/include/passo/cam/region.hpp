@@ -67,7 +67,7 @@ double area_mm2(const DrawnRing& ring);  // negative if the ring is clockwise
 
 // Returns the bounding box. Empty for an empty region.
 std::optional<DrawnBox> bounds(const Region& region);
-DrawnBox box_of(const DrawnRing& ring);  // the ring must have a point
+DrawnBox box_of(const DrawnRing& ring);  // Requires a ring of at least one point.
 DrawnRing rectangle(const DrawnBox& box);
 
 // Returns whether the region contains the point. Points on the boundary are inside.

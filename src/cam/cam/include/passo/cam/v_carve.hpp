@@ -39,7 +39,7 @@ struct VCarveOptions {
 
 struct VCarvePlan {
   MillPlan mill = {};
-  Nanometres deepest = {};  // negative
+  Nanometres deepest = {};  // the maximum depth reached, negative
   std::size_t layers = 1;
   Region floor = {};  // the remaining area that is too wide for the cutter, at the depth `floor_z`
   Nanometres floor_z = {};

@@ -17,10 +17,10 @@ namespace passo {
 struct WireProgramOptions {
   std::string name = {};                  // program name, for the first comment
   std::vector<std::string> files = {};    // names of the drawing files
-  std::vector<std::string> remarks = {};  // one comment each
+  std::vector<std::string> remarks = {};  // comments at the head of the program
   ProgramUnits units = ProgramUnits::mm;
   bool has_four_axes = true;
-  double feed = 200;                       // mm/min, with two axes
+  double feed = 200;                       // feed with two axes, mm/min
   std::optional<std::uint32_t> heat = {};  // S word for the wire current; empty: no heating commands
 };
 

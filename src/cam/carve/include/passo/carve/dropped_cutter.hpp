@@ -91,7 +91,7 @@ class DroppedCutter {
   CutterTable table_;
   float floor_;
   bool goes_on_;
-  std::size_t blocks_ = 0;   // number in a row of the grid
+  std::size_t blocks_ = 0;   // number of blocks in a row of the grid
   std::vector<float> tops_;  // the maximum height of each 32 columns of each row
 };
 

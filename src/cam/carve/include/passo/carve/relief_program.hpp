@@ -98,7 +98,7 @@ struct CarvedSurface {
 
 struct ReliefReport {
   std::vector<ReliefPart> parts = {};
-  CarvedSurface carved = {};  // if requested
+  CarvedSurface carved = {};  // the carved surface, if requested
 };
 
 using ReliefSink = std::function<void(std::string_view)>;

@@ -21,7 +21,7 @@ struct ReliefShape {
   std::optional<Mm> length = {};  // size in Y
   std::optional<Mm> depth = {};   // depth of black; for a model its height. Empty: 3 mm, or the model's own height
   double gamma = 1;               // height = level^gamma
-  bool invert = false;            // black is the top
+  bool invert = false;            // black is at the top
   bool mirror = false;            // swaps left and right, as for a stamp
   Mm margin{0};                   // width of a flat border
   bool margin_at_top = false;     // the border stays at the top; otherwise it is cut down to the depth

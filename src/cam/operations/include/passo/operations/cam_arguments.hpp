@@ -41,7 +41,7 @@ struct CamDrillArguments {
   std::string park = "0,0";
   std::uint32_t spindle = 12000;            // rpm; 0: no spindle commands
   std::uint64_t route_steps = 200'000'000;  // maximum number of steps of shorten_route()
-  bool plain = false;                       // no canned cycles
+  bool plain = false;                       // uses no canned cycles
 };
 std::vector<CamOption> cam_options_of(CamDrillArguments& arguments);
 
@@ -76,13 +76,13 @@ struct CamIsolateArguments : CamMillArguments {
   std::string edge;  // file with the board's edge; empty: none
   std::string join = "0.1mm";
   std::string tools;  // comma-separated cutter widths
-  std::string v;      // ANGLE,TIP of a V-bit
+  std::string v;      // V-bit, given as ANGLE,TIP
   std::string depth = "-0.05mm";
   std::uint32_t passes = 1;
   std::string width;    // isolation width; empty: given by the number of passes
   double overlap = 50;  // percent
   bool clear = false;
-  bool voronoi = false;  // toolpaths midway between the islands
+  bool voronoi = false;  // mills midway between the islands
   std::string tolerance = "0.004mm";
 };
 std::vector<CamOption> cam_options_of(CamIsolateArguments& arguments);
@@ -93,7 +93,7 @@ struct CamOutlineArguments : CamMillArguments {
   std::string step = "0.5mm";
   std::string join = "0.1mm";
   std::uint32_t tabs = 0;
-  std::vector<std::string> tab_places;  // one X,Y each
+  std::vector<std::string> tab_places;  // positions of tabs, X,Y each
   std::string tab_width = "2mm";
   std::string tab_height = "0.6mm";
   double ramp = 0;   // degrees
@@ -112,8 +112,8 @@ struct CamPocketArguments : CamMillArguments {
   std::string depth = "-3mm";
   std::string step = "1mm";
   std::string join = "0.1mm";
-  double step_over = 40;  // percent of the cutter diameter
-  double engagement = 0;  // degrees; 0: loops
+  double step_over = 40;  // stepover, percent of the cutter diameter
+  double engagement = 0;  // maximum engagement, degrees; 0: loops
   double ramp = 5;        // degrees
 };
 std::vector<CamOption> cam_options_of(CamPocketArguments& arguments);
@@ -138,9 +138,9 @@ struct CamEngraveArguments : CamMillArguments {
   std::string clear_step = "1mm";
   std::string inlay;                // pocket or plug; empty: neither
   std::string inlay_depth = "4mm";  // depth of the pocket
-  std::string glue_gap = "0.5mm";   // below the plug
-  std::string saw_gap = "1mm";      // between the two surfaces
-  std::string margin = "5mm";       // around the plug
+  std::string glue_gap = "0.5mm";   // glue gap below the plug
+  std::string saw_gap = "1mm";      // gap for the saw cut between the two surfaces
+  std::string margin = "5mm";       // margin around the plug
   std::string join = "0.1mm";
 };
 std::vector<CamOption> cam_options_of(CamEngraveArguments& arguments);
@@ -211,7 +211,7 @@ struct CamReliefArguments {
   double ramp_angle = 5;       // degrees
   std::string feed = "1000mm";
   std::string plunge = "300mm";
-  std::optional<double> removal;   // mm³/min; empty: constant feed
+  std::optional<double> removal;   // target removal rate, mm³/min; empty: constant feed
   std::string feed_most;           // maximum feed; empty: as `feed`
   std::string rough;               // a cutter; empty: no roughing
   std::string rough_way = "rows";  // or offsets

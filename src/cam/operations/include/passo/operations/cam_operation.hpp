@@ -16,7 +16,7 @@ struct CamOperation {
   const char* purpose;                      // one line of the help
   const char* accepts;                      // extensions of its input files: ".svg,.dxf"
   const char* examples;                     // examples at the end of the help
-  std::vector<CamOption> (*options)();      // with their default values
+  std::vector<CamOption> (*options)();      // returns the options with their default values
   const char* instead_of_files = "";        // the option that replaces the files
   std::span<const char* const> parts = {};  // operations whose options a profile may contain
   const char* picture_ending = ".svg";

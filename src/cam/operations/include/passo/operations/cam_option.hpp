@@ -20,19 +20,19 @@ enum class CamKind : std::uint8_t {
   file,     // a file name, or one of `choices`
   text,     // free text, e.g. a cutter or letters
   length,   // one length, or several separated by commas
-  feed,     // a length per minute
-  number,   // without a unit
-  degrees,  // a number, like the following kinds
+  feed,     // a length per minute, e.g. a feed rate
+  number,   // a number without a unit
+  degrees,  // an angle; a number like the following kinds
   percent,
   turns,    // rpm
-  removal,  // mm³/min
+  removal,  // a removal rate, mm³/min
 };
 
 // The users to whom an option is shown.
 enum class CamFor : std::uint8_t {
   everyone,
   experts,       // rarely needed: the web interface shows it under "More options"
-  programs,      // hidden in the web interface
+  programs,      // intended for programs; hidden in the web interface
   command_line,  // not accepted by the API either: local files, and console output
 };
 
@@ -54,12 +54,12 @@ struct CamTraits {
   bool is_of_job = false;        // specific to one drawing or job: not saved for a machine
   bool is_of_machine = false;    // the machine file may set another default
   std::string_view letter = {};  // short form: "o" stands for -o
-  bool is_required = false;      // for drawings
-  int most_files = 0;            // for drawings; 0: any number
+  bool is_required = false;      // for kind `drawings`: at least one file is required
+  int most_files = 0;            // for kind `drawings`: maximum number of files; 0: any number
 };
 
 struct CamOption {
-  std::string_view name;  // without "--"
+  std::string_view name;  // name of the option, without "--"
   CamValue value;
   CamKind kind;
   std::string_view help;

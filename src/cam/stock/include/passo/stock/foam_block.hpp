@@ -73,7 +73,7 @@ class FoamBlock {
 struct FoamPieces {
   static constexpr std::uint32_t none = 0xFFFFFFFF;
   struct Piece {
-    std::uint64_t cells = 0;  // weighted by their slices
+    std::uint64_t cells = 0;  // number of cells, weighted by their slices
     bool at_side = false;     // touches the block's edge in X or Y
   };
   std::vector<Piece> pieces = {};      // the largest first

@@ -57,7 +57,7 @@ struct CutMaterial {
 struct CutOutcome {
   CutLoads loads;
   Simulation simulation;
-  LargestOf force;  // N, at the programmed feed rates
+  LargestOf force;  // cutting force, N, at the programmed feed rates
   // The first line that cuts without a spindle speed, so that its force is not included; 0: there is none.
   std::uint32_t silent_line = 0;
 };

@@ -41,14 +41,14 @@ class LineLoads {
   std::string text() const;
 
  private:
-  std::vector<float> loads_;  // negative: the line does not move
+  std::vector<float> loads_;  // load of each line; negative: the line does not move
 };
 
 // Optional receivers of the motion and its load. Null: none.
 struct JudgeWatchers {
   PathRecorder* path = nullptr;
   LoadTrack* track = nullptr;
-  CutLoads* loads = nullptr;  // from cutting the same program
+  CutLoads* loads = nullptr;  // cutting loads of the same program
   LineLoads* lines = nullptr;
 };
 

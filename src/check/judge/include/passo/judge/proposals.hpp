@@ -25,14 +25,14 @@ struct WorkZeros {
   struct Zero {
     int system = 1;  // 1: G54
     Axis axis = Axis::x;
-    double zero = 0;  // machine coordinates, mm or degrees
+    double zero = 0;  // position of the zero in machine coordinates, mm or degrees
   };
   std::vector<Zero> zeros;  // sorted by work coordinate system, each in the order of the machine's axes
 };
 // No work zero helps: the program needs more of this axis than its travel.
 struct AxisTooShort {
   Axis axis = Axis::x;
-  double needed = 0;  // mm or degrees
+  double needed = 0;  // travel needed, mm or degrees
   double travel = 0;
 };
 // With these tools in the tool table, with a length and a diameter of 0, the program has no error.

@@ -36,9 +36,9 @@ struct TuningWish {
 // The limit that determined the velocity.
 enum class TuningBound : std::uint8_t {
   time,    // a higher velocity reduces the acceleration and saves no time
-  torque,  // no torque is left above
+  torque,  // above it no torque is left
   board,   // the board's step rate
-  wish,    // TuningWish::fastest
+  wish,    // the upper limit TuningWish::fastest
   swing,   // the motor may lose steps through resonance above
 };
 

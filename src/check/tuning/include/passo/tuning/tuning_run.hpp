@@ -13,7 +13,7 @@
 namespace passo {
 
 struct TunedMachine {
-  MachineDescription machine;  // including the proposals
+  MachineDescription machine;  // the machine, including the proposals
   std::vector<AxisTuning> axes;
   Verdict verdict = Verdict::safe;
   std::string program;  // the test program

@@ -55,11 +55,11 @@ struct SurveyedMotor {
   Axis axis = Axis::x;
   MotorSetup setup;  // including the weight, towards the low end
   double tolerance = 0;
-  RadiansPerSecond fastest = {};  // shaft speed
+  RadiansPerSecond fastest = {};  // maximum shaft speed
   TorqueBand band;
-  Load load = {};      // including the motor's own damping
-  double inertia = 0;  // kg·m², rotor and load
-  double weight = 0;   // N·m, pulls towards the low end
+  Load load = {};      // the load, including the motor's own damping
+  double inertia = 0;  // inertia of rotor and load, kg·m²
+  double weight = 0;   // torque of the weight, N·m, towards the low end
   double radians_per_unit = 0;
 };
 
@@ -89,15 +89,15 @@ struct Lack {
 struct MarginSpot {
   Axis axis = Axis::x;
   std::uint32_t line = 0;
-  Seconds time{0};  // motion time
+  Seconds time{0};  // time within the motion
   Verdict verdict = Verdict::safe;
   Want want = Want::torque;
   bool rapid = false;
   NewtonMetres needed = {};     // including the overshoot after a step change, unless `want` is torque
-  NewtonMetres of_motion = {};  // without the overshoot
+  NewtonMetres of_motion = {};  // torque without the overshoot
   NewtonMetres of_cut = {};     // the part of it due to the cutting force
   TorqueRange there = {};       // pull-out torque at that speed
-  Hertz rate{0};                // full steps a second
+  Hertz rate{0};                // full steps per second
   MmPerSecond speed{0};         // axis speed
   MmPerSecond path_speed{0};
   MmPerSecond2 acceleration{0};  // axis acceleration
@@ -105,7 +105,7 @@ struct MarginSpot {
   // The remedy: the safe limit. Empty: no value of it is sufficient.
   std::optional<MmPerSecond2> safe_acceleration = {};
   std::optional<MmPerSecond> safe_path_speed = {};
-  std::optional<Lack> lack = {};  // if the torque itself is insufficient
+  std::optional<Lack> lack = {};  // set if the torque itself is insufficient
 
   // Returns the fraction of the minimum torque that is needed. Above 1: more than the guaranteed torque.
   double load() const;
@@ -145,7 +145,7 @@ class MarginSurvey {
 
  private:
   struct State {              // the state of one motor
-    double torque = 0;        // needed at the last evaluated moment
+    double torque = 0;        // torque needed at the last evaluated moment
     double acceleration = 0;  // axis acceleration at that moment
     // The moment with the greatest load in the last tenth of a second: an oscillation that begins there may lose steps
     // later.

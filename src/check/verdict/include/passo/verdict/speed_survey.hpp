@@ -33,7 +33,7 @@ struct SpeedBound {
     passage,  // no limit is reached: a transition between two limits
   };
   Kind kind = Kind::passage;
-  Axis axis = Axis::x;  // for a limit of an axis
+  Axis axis = Axis::x;  // the axis, if it is a limit of an axis
   friend bool operator==(const SpeedBound&, const SpeedBound&) = default;
 };
 

@@ -40,7 +40,7 @@ struct AxisPiece {
   Seconds duration{0};
   double from = 0;  // mm or degrees
   double to = 0;
-  double speed_from = 0;  // per second, signed
+  double speed_from = 0;  // speed per second, signed
   double speed_to = 0;
   double load = 0;               // torque utilisation of the piece
   NewtonMetres resistance = {};  // torque of the cutting force, against the motion in either direction
@@ -83,7 +83,7 @@ class ToleranceTrial {
   Seconds played() const { return Seconds(played_); }
 
  private:
-  static constexpr unsigned usual = 0b011000;  // bits of `out_`
+  static constexpr unsigned usual = 0b011000;  // the motors in `out_` that count as nominal
   static constexpr std::size_t loads = 12;
   static constexpr std::size_t speeds = 32;
   struct Path;

@@ -17,7 +17,7 @@ struct MillScene {
   const Region& face;                  // the copper, or the board
   std::string face_name = {};          // "Copper"
   const Region& warned;                // remaining material that should have been milled
-  std::vector<DrawnPoint> marks = {};  // each marked by a ring
+  std::vector<DrawnPoint> marks = {};  // points to be marked by a ring
   std::string mark_name = {};          // "Tab", "Gap"
   DrawnPoint park = {};                // where the rapids begin and end
   std::string warned_name = {};        // "Not reached"; empty: omitted from the legend

@@ -14,7 +14,7 @@ struct MotorScene {
   TorqueCurve curve;
   Load load = {};
   double margin = 1;  // fraction of the torque available for acceleration
-  Hertz end;          // minimum end of the rate axis
+  Hertz end;          // minimum value of the end of the rate axis
 };
 
 // `options.program` is the title, `options.machine` the line below it. Draws into `file`; the caller commits it.

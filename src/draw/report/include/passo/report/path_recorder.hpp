@@ -31,7 +31,7 @@ class PathRecorder {
     float speed = 0;  // mm/s, of the piece that ends here
     Kind kind = Kind::jump;
     std::uint8_t tool = 0;  // index into tools()
-    std::uint8_t load = 0;  // percent; the value of load_of_next()
+    std::uint8_t load = 0;  // utilisation in percent; the value of load_of_next()
   };
   static constexpr double most_load = 2.5;
 

@@ -17,7 +17,7 @@ struct RampSample {
   double begin = 0;
   double end = 0;
   double ticks = 0;
-  double error = 0;   // ticks, relative to the exact interval
+  double error = 0;   // deviation from the exact interval, ticks
   bool back = false;  // a step towards the start; its rate is drawn as negative
 };
 

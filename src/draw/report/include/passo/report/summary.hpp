@@ -52,7 +52,7 @@ struct ToolSummary {
   Mm cutting_distance{0};
   double cutting_turn = 0;              // degrees, of the moves of A, B or C only
   std::optional<Range> feed = {};       // mm/s, as programmed: minimum and maximum
-  std::optional<Range> turn_feed = {};  // degrees/s, of the rotary moves
+  std::optional<Range> turn_feed = {};  // degrees/s, for the rotary moves
   std::optional<double> depth = {};     // mm, minimum Z of the feed moves in work coordinates
 };
 
@@ -85,7 +85,7 @@ struct HoldSummary {
   Seconds asked{0};
   Seconds reaction{0};                  // from `asked` until the machine slowed down: the duration of the committed
                                         // motion
-  Seconds rest{0};                      // when the machine had stopped
+  Seconds rest{0};                      // time at which the machine had stopped
   std::vector<double> place = {};       // position of each axis, machine coordinates, from the counted steps
   std::optional<Seconds> resumed = {};  // empty: the run ended with the hold
 };
@@ -102,7 +102,7 @@ struct ProbeSummary {
 
 // A stop at the end of a stop ramp, because no more motion had arrived from the host. Times are the board's.
 struct TailSummary {
-  Seconds rest{0};                 // when the machine had stopped
+  Seconds rest{0};                 // time at which the machine had stopped
   std::vector<double> place = {};  // position, as in HoldSummary
   Seconds resumed{0};
 };
@@ -145,7 +145,7 @@ struct RunSummary {
   double cutting_turn = 0;
   double rapid_turn = 0;
   // Counted as programmed, before corners are rounded and lines are joined.
-  std::uint64_t moves = 0;  // including rapids and arcs
+  std::uint64_t moves = 0;  // number of moves, including rapids and arcs
   std::uint64_t rapids = 0;
   std::uint64_t arcs = 0;
   std::uint64_t dwells = 0;

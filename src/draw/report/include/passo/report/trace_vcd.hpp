@@ -36,7 +36,7 @@ class TraceVcd final : public Trace {
     std::uint64_t units(std::uint64_t ticks) const;
     std::uint64_t ticks_a_second;
     std::uint64_t units_a_tick = 0;  // units per tick; 0: a tick is not a whole number of picoseconds
-    std::uint64_t picoseconds = 1;   // per unit
+    std::uint64_t picoseconds = 1;   // picoseconds per unit
   };
 
   void put_header(const TraceOptions& options);

@@ -18,7 +18,7 @@
 
 namespace passo {
 
-inline constexpr unsigned winding_outputs = 4;  // per motor: F1 to F4
+inline constexpr unsigned winding_outputs = 4;  // outputs of each motor: F1 to F4
 
 struct WindingMotors {
   Excitation excitation;

@@ -12,7 +12,7 @@ namespace passo {
 
 struct WireScene {
   const WirePlan& plan;
-  std::optional<DrawnBox> block = {};  // one of its faces
+  std::optional<DrawnBox> block = {};  // one face of the block
   bool has_four_axes = true;
 };
 

@@ -16,7 +16,7 @@ namespace passo {
 
 // Access to the machine file on disk.
 struct MachineFileAccess {
-  std::string name;  // display name
+  std::string name;  // name of the file for display
   std::function<std::optional<std::string>()> read = {};
   // Writes `after`, if the file still contains `before`. Returns the reason for a failure; empty on success. Null: the
   // machine is not from a file.

@@ -35,7 +35,7 @@ struct ApiRoute {
   std::string_view method;
   std::string_view path;       // below api_root, with {id} for a number
   std::string_view operation;  // operationId in openapi.json
-  bool moves;                  // only for the client in control
+  bool moves;                  // whether only the client in control may send it
   BodyKind body;
   ApiHandler handler;
   Needs needs = Needs::nothing;

@@ -52,7 +52,7 @@ class ProgramPath {
   std::size_t points() const { return points_; }
   std::size_t chunks() const { return chunks_.size(); }
   const Range& all() const { return all_; }    // machine coordinates
-  const Range& cuts() const { return cuts_; }  // feed moves only, machine coordinates
+  const Range& cuts() const { return cuts_; }  // range of the feed moves only, machine coordinates
   // The range of programmed speeds of the feed moves. Empty: there is none.
   struct Speeds {
     MmPerSecond low{1e300};

@@ -44,7 +44,7 @@ struct StoredProgram {
   std::optional<Seconds> planned_time;  // duration of its motion, including ramps, at overrides of 100 %
   std::uint64_t path = 0;               // fingerprint of its path, after a successful check
   Diagnostics findings;
-  ProgramPath path_points;                 // from the last check; for viewers
+  ProgramPath path_points;                 // path of the last check, for viewers
   std::optional<HeightMap> height_map{};   // height map of the surface to which the program is to be levelled
   std::vector<std::size_t> line_starts{};  // offsets in the text, one for each fixed number of lines
 

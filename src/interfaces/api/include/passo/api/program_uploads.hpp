@@ -22,7 +22,7 @@ struct ProgramUpload {
   std::string name;
   Dialect dialect = Dialect::linuxcnc;
   std::size_t bytes = 0;  // total size
-  std::string text;       // received so far
+  std::string text;       // the data received so far
   Seconds heard{0};       // time of the last chunk
 };
 

@@ -17,11 +17,11 @@ struct StudyOrder {
     tune,    // as `passo tune`: limits for the machine's motors, with their curves
   };
   Kind kind = Kind::motors;
-  std::string machine;  // contents of a machine file
+  std::string machine;  // contents of the machine file
   // For a program:
-  std::string program;     // its text
+  std::string program;     // contents of the program
   std::string dialect;     // "linuxcnc" or "grbl"
-  std::string parameters;  // contents of a parameter file: offsets
+  std::string parameters;  // contents of the parameter file, with the offsets
   std::string tools;       // contents of a tool table; empty: none
   double margin = 0.3;     // for `tune`: fraction of the torque that stays unused
 };
@@ -30,7 +30,7 @@ struct StudyResult {
   enum class State : std::uint8_t { none, running, done, failed };
   State state = State::none;
   std::string words = {};   // messages, including the reason for a failure
-  std::string report = {};  // JSON, as printed by the command
+  std::string report = {};  // report in JSON, as printed by the command
 };
 
 class Studies {

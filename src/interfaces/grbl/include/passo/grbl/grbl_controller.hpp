@@ -179,7 +179,7 @@ class GrblController {
   LineStream stream_;
   bool is_here_ = true;  // the sender is connected
   std::optional<ProbeOutcome> probe_;
-  bool alarm_ = false;   // locked, until $X or $H
+  bool alarm_ = false;   // whether the controller is locked, until $X or $H
   bool checks_ = false;  // check mode, $C
   bool drives_ = true;   // senders are in control
   bool resets_ = false;  // the machine is stopping for a reset

@@ -18,8 +18,8 @@ struct GrblMemory {
   static constexpr std::size_t longest = 79;
 
   GrblChoices choices;
-  std::string build;                   // $I=
-  std::array<std::string, 2> startup;  // $N0=, $N1=
+  std::string build;                   // the build info, set by $I=
+  std::array<std::string, 2> startup;  // the start-up lines, set by $N0= and $N1=
   friend bool operator==(const GrblMemory&, const GrblMemory&) = default;
 };
 

@@ -17,7 +17,7 @@ struct GrblSetting {
 // The settings that a sender may change for itself; they are not in a machine file.
 struct GrblChoices {
   unsigned status_mask = 3;  // $10: bit 0 machine positions, otherwise work positions; bit 1 the buffer state
-  bool inches = false;       // $13: report in inches
+  bool inches = false;       // $13: reports are in inches
   friend bool operator==(const GrblChoices&, const GrblChoices&) = default;
 };
 

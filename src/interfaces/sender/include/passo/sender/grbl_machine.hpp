@@ -17,7 +17,7 @@ struct GrblMachine {
   std::string axes = "XYZABCUVW";             // axis letters of the numbers in its reports
   std::size_t blocks = 15;                    // size of its planner queue
   std::size_t bytes = 128;                    // size of its receive buffer
-  std::map<int, double> settings = {};        // $0 …
+  std::map<int, double> settings = {};        // the settings $0 … and their values
   std::map<std::string, Point> offsets = {};  // mm: G54 … G59, G92, TLO
   std::string system = "G54";                 // the active one
 

@@ -16,8 +16,8 @@ struct GrblReport {
   std::string state;                        // "Idle", "Run", "Hold", "Alarm" …
   int detail = -1;                          // for Hold and Door: 0 means stopped; for Alarm: its number
   std::optional<Point> machine_place = {};  // as reported: mm, or inches with $13=1
-  std::optional<Point> work_place = {};     // as reported
-  std::optional<Point> work_offset = {};    // as reported
+  std::optional<Point> work_place = {};     // work position, as reported
+  std::optional<Point> work_offset = {};    // work offset, as reported
   std::optional<std::size_t> blocks_free = {};
   std::optional<std::size_t> bytes_free = {};
   std::string pins = {};  // letters of the triggered inputs

@@ -129,18 +129,18 @@ class GrblSender {
   Seconds now_{0};
   Seconds begun_{0};
   Seconds stage_since_{0};
-  Seconds heard_{0};     // last received byte
-  Seconds asked_{-1};    // last status query
-  Seconds answered_{0};  // last acknowledged line
+  Seconds heard_{0};     // time of the last received byte
+  Seconds asked_{-1};    // time of the last status query
+  Seconds answered_{0};  // time of the last acknowledged line
   Seconds idle_since_{0};
   Seconds progress_{0};  // last acknowledgement, or last report with a change of state or position
   Seconds told_{0};      // last line that is not a report
-  std::string came_;     // an incomplete line
+  std::string came_;     // the incomplete line received so far
   std::string last_line_heard_;
   std::string locked_by_;  // the alarm reported during the handshake
   std::string urgent_;
   LineWindow window_;
-  bool is_held_ = false;  // held by hold()
+  bool is_held_ = false;  // the machine was held by hold()
   GrblMachine machine_;
   HeardReports reports_;
   std::optional<GrblFault> fault_;

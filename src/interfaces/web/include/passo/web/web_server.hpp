@@ -72,13 +72,13 @@ struct WebLimits {
   std::size_t connections = 700;
   std::size_t watchers = 600;                     // maximum number of stream clients; the other connections are
                                                   // reserved for requests
-  std::size_t large_bodies = 4;                   // simultaneously
+  std::size_t large_bodies = 4;                   // maximum number of large bodies at the same time
   std::size_t small_body = std::size_t{1} << 16;  // bytes; a longer body is a large body
-  std::size_t message = std::size_t{1} << 14;     // bytes, from a stream client
+  std::size_t message = std::size_t{1} << 14;     // maximum message length of a stream client, bytes
   std::chrono::seconds header_within{10};
   std::chrono::seconds body_within{120};
   std::chrono::seconds answer_read_within{30};
-  std::chrono::seconds stream_dead_after{10};  // without a response to a ping
+  std::chrono::seconds stream_dead_after{10};  // time without a response to a ping
 };
 
 class WebServer {

@@ -29,14 +29,14 @@ struct LoopSetup {
   PidGains speed_gains = {};      // for the inner loop of a position loop
   double to = 0;                  // rad/s or radians
   RadiansPerSecond fastest{200};  // maximum set speed of a position loop's inner loop
-  NewtonMetres load = {};         // against the motion, starting at `load_at`
+  NewtonMetres load = {};         // load torque against the motion, starting at `load_at`
   Seconds load_at{0};
 };
 
 struct LoopMoment {
   Seconds time{0};
   double wanted = 0;
-  double counted = 0;  // measured by the encoder
+  double counted = 0;  // value measured by the encoder
   double is = 0;       // actual value
   RadiansPerSecond speed = {};
   NewtonMetres asked = {};  // torque demanded from the motor

@@ -18,8 +18,8 @@ namespace passo {
 
 struct PidGains {
   double kp = 0;
-  double ki = 0;  // per second
-  double kd = 0;  // seconds
+  double ki = 0;  // integral gain, per second
+  double kd = 0;  // derivative gain, seconds
 };
 
 struct UltimateCycle {

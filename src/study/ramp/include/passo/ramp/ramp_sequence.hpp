@@ -59,7 +59,7 @@ class RampSequence {
   RampSequence(std::unique_ptr<Walk> walk, const RampRequest& request);
 
   std::unique_ptr<Walk> walk_;
-  std::int64_t left_ = 0;        // for acceleration only
+  std::int64_t left_ = 0;        // remaining steps, for acceleration only
   std::int64_t to_stop_ = 0;     // steps until the stop command; 0: none follows
   std::int64_t to_reverse_ = 0;  // steps until the return command
   bool whole_move_ = false;

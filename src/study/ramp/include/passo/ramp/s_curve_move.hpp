@@ -24,7 +24,7 @@
 namespace passo {
 
 struct SCurveLimits {
-  RampSetup setup;  // including the acceleration limit
+  RampSetup setup;  // setup, including the acceleration limit
   RadiansPerSecond3 jerk;
   Hertz rate{0};   // maximum rate, steps/s
   Hertz start{0};  // pull-in rate of the start/stop region; 0: none

@@ -21,7 +21,7 @@ namespace passo {
 struct CurvePulse {
   std::int64_t chord = 0;  // from 1; chords shorter than a step are not counted
   Pulse pulse;
-  StepPlace place = {};  // position after the pulse
+  StepPlace place = {};  // tool position after the pulse
   Mm deviation{0};       // distance from the curve
 };
 
@@ -66,7 +66,7 @@ class CurvePulses {
   std::unique_ptr<PulseSource> line_;
   std::vector<Vector3> near_;  // points of the curve along the current chord, and a little beyond its ends
   CurveMeasures measures_;
-  double deviations_ = 0;  // sum, mm
+  double deviations_ = 0;  // sum of all deviations, mm
   std::optional<std::string> error_;
 };
 

@@ -34,7 +34,7 @@ struct Measures {
   std::int64_t pulses = 0;
   std::int64_t together = 0;     // number of pulses in which two or more axes step
   std::int64_t idle = 0;         // number of pulses in which no axis steps
-  double largest_deviation = 0;  // maximum, steps
+  double largest_deviation = 0;  // maximum deviation, steps
   double mean_deviation = 0;
   std::array<Evenness, speed_rules> evenness;  // indexed by SpeedRule
 };

@@ -30,7 +30,7 @@ enum class EndJudging : std::uint8_t { coordinates, projection, total };
 
 struct Method {
   MethodName name = MethodName::lean;
-  bool half_loaded = false;                        // DDA
+  bool half_loaded = false;                        // half-full accumulators, for DDA
   std::optional<std::uint8_t> register_bits = {};  // DDA of lines; empty: left-normalised, the minimum number of bits
   EndJudging end_judging = EndJudging::total;      // point comparison of lines; the pulses are the same for all
 };
