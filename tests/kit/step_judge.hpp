@@ -23,7 +23,7 @@ namespace passo::test {
 // a small excess, because whole steps disturb it less.
 class StepJudge {
  public:
-  // The board played its queue after the link was lost, and then stopped.
+  // A stop ramp: the board played its queue after the link was lost, and then stopped.
   struct Tail {
     double from = 0;  // in seconds, like all times
     double to = 0;

@@ -1,5 +1,5 @@
 // for_each_row: processes independent rows in several threads. The assignment of rows to threads is random; the result
-// is not.
+// does not depend on it.
 #pragma once
 
 #include <atomic>

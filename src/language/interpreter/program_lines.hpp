@@ -59,8 +59,8 @@ class ProgramLines {
     bool seen_all = false;
     bool seen_percent = false;           // the search for subroutines has passed the opening '%'
     std::set<std::uint32_t> unreadable;  // lines that are not G-code and were reported
-    // The position of the if of a label, in each subroutine: by the symbol of the subroutine (0: outside) and that of
-    // the label.
+    // The position of the `if` of each label in each subroutine. The key is the symbol of the subroutine (0: none) and
+    // that of the label.
     std::map<std::pair<std::uint32_t, std::uint32_t>, ReaderPosition> ifs;
   };
 

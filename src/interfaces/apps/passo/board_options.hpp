@@ -8,7 +8,7 @@
 
 namespace passo {
 
-// Adds the examples to its help. The options belong to its subcommands.
+// Adds the examples to the help of `passo board`. Its options belong to the subcommands.
 std::function<int()> add_board_help(CLI::App& board);
 std::span<const Command> board_commands();
 

@@ -1,8 +1,8 @@
 // A table of commands: the name of each, its description in the help, and how its options are added. main.cpp has the
 // table of `passo`; `cam`, `board` and `follower` have separate tables.
 //
-// Invariant: only the command named in the command line adds its options. Otherwise a start would take half as long
-// again.
+// Invariant: only the command named in the command line adds its options, because adding all options would make a start
+// 50 % slower.
 #pragma once
 
 #include <functional>

@@ -416,8 +416,8 @@ class RandomProgram {
   int subs_ = 0;
   bool facing_ = false;
   bool is_metric_ = true;
-  bool has_do_ = false;  // whether loops with the condition at the end, otherwise those with the condition at the
-                         // start, may contain a break
+  bool has_do_ = false;  // true: loops with the condition at the end may contain a break; false: loops with the
+                         // condition at the start
 };
 
 }  // namespace passo::test

@@ -2,8 +2,8 @@
 // right face of the block.
 //
 // The wire begins outside both profiles, moves to the point of maximum X, goes around the profile once, and leaves
-// along the way in. The wire is straight, so both ends move in synchronism: profiles with equal numbers of corners are
-// matched corner by corner, others at the points of maximum and minimum X; in between, points are matched at equal
+// along its entry path. The wire is straight, so both ends move in synchronism: profiles with equal numbers of corners
+// are matched corner by corner, others at the points of maximum and minimum X; in between, points are matched at equal
 // fractions of the length.
 //
 // The slower end moves at the feed; the other end is faster, at most `most_feed`. A slower wire melts more foam, so

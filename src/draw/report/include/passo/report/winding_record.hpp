@@ -1,8 +1,10 @@
 // WindingRecord: windings, phase currents and rotors over time, in three formats. A record is started with the motors'
 // names, receives each pulse, and is finished.
 //
-//   CSV   a row per pulse: the time, then for each motor its position, F1 to F4, the currents of A and B, the rotor's
-//   degrees VCD   the same as waveforms for GTKWave: x_F1 … x_F4, x_place, and the real numbers x_A, x_B, x_deg
+//   CSV      a row per pulse: the time, then for each motor its position, F1 to F4, the currents of A and B, the angle
+//            of the rotor in degrees
+//   VCD      the same as waveforms for GTKWave: x_F1 … x_F4, x_place, and the real numbers x_A, x_B, x_deg
+//   picture  draw_windings()
 //
 // The rotor is ideal: it follows the direction of the field, like an unloaded rotor at standstill.
 #pragma once

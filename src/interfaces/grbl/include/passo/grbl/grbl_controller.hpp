@@ -80,9 +80,9 @@ class GrblController {
   void share_offsets(std::function<void(const SavedParameters&)> share) { share_offsets_ = std::move(share); }
   void apply_offsets(const SavedParameters& parameters);
 
-  // Handles the connection of a sender: greets it, and drops output that an earlier one has left unread. Nothing moves,
-  // because the client may not be a sender. For the first client that sends something, the controller has just started:
-  // its start-up lines run, unless it is locked.
+  // Handles the connection of a sender: greets it, and drops output that an earlier one has left unread. Nothing moves
+  // yet, because the client may not be a sender. The start-up lines run when a client sends something for the first
+  // time, unless the controller is locked.
   void connect();
   // Handles the disconnection of the sender: ends a jog, and holds a program until it is resumed or reset.
   void disconnect();

@@ -1,4 +1,4 @@
-// Pid: the usual controller of machines, executed once per control period:
+// Pid: a PID controller, executed once per control period:
 //
 //   out = kp·e + ki·∫e dt − kd·d(measured)/dt        e = wanted − measured, |out| ≤ limit
 //

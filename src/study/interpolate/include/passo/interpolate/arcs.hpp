@@ -3,11 +3,10 @@
 // its end point.
 //
 //   PointComparisonArc   one axis per pulse: on or outside the circle towards the centre, inside away from it. Error:
-//   one
-//                        step at most.
-//   MidpointArc          diagonals allowed (Bresenham's circle): one axis always steps, the other depends on the side
-//   of
-//                        the circle on which the midpoint between its two positions lies. Error: half a step at most.
+//                        one step at most.
+//   MidpointArc          diagonals allowed (Bresenham's circle): one axis always steps, the other depends on the
+//                        side of the circle on which the midpoint between its two positions lies. Error: half a step
+//                        at most.
 //   DdaArc               the integrator of each axis adds the other's distance: dx = −y·dt, dy = x·dt. Pulses in which
 //                        nothing moves are part of the method. Error: docs/interpolation/arcs.md.
 //

@@ -2,10 +2,10 @@
 // time.
 //
 //   rate
-//    cruise   ____________          The ramp's index n rises while the rate is below the target rate and there is room
-//            /            \         to brake. The index falls when the remaining steps are just enough to brake. The
-//            intervals
-//   start  _|              |_       of braking are those of the start, mirrored.
+//    cruise   ____________        The ramp's index n rises while the rate is below the target rate and there is room
+//            /            \       to brake. The index falls when the remaining steps are just enough to brake. The
+//           /              \      intervals of braking are those of the start, mirrored.
+//   start  |                |
 //
 // A single comparison decides. At `height` indices above the ramp's first one, the motor needs height + 1 intervals to
 // stop, and height < left always holds. Trapezoid, triangle, constant rate, stop and reversal all follow from this

@@ -1,10 +1,9 @@
 // SCurveMove: whole moves of one motor with a jerk limit. A move can be stopped or given a new target at any time.
 //
-//   rate            ________________        Up to seven phases of constant jerk: + 0 − to the cruising rate, cruise,
-//                 /                  \      − 0 + to the stop. One planner finds the path to a stop from any rate and
-//               /                      \    acceleration. It plans the whole move, a stop, and the move to another
-//               target;
-//   start     _|                        |_  only the state at the start differs.
+//   rate            ________________      Up to seven phases of constant jerk: + 0 − to the cruising rate, cruise,
+//                 /                \     − 0 + to the stop. One planner finds the path to a stop from any rate and
+//                /                  \    acceleration. It plans the whole move, a stop, and the move to another
+//   start      _|                    |_  target; only the state at the start differs.
 //
 // The time of each step is computed from the position polynomial, solved for a whole number of steps. It is solved from
 // the start of the plan or from its end, whichever is at standstill. Ticks are rounded from times since the motor last
