@@ -24,7 +24,7 @@ WebAnswer refusal_answer(unsigned status);
 WebAnswer bad_body(std::string_view message);
 // Returns the error response for a request refused by the session.
 WebAnswer refused_answer(const Refusal& refusal);
-// Includes the number of the current change, by which a client can recognise statuses older than its request.
+// Includes the current version of the status, by which a client recognises statuses older than its request.
 WebAnswer ticket_answer(const MachineSession& session, Ticket ticket);
 
 Sentence sentence_of_busy(MachineState state);

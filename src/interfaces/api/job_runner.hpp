@@ -1,7 +1,7 @@
 // JobRunner: the running job, from its check to its end, and the parked job that waits for the operator.
 //
-//   begin() -> check -> the board hears of the job (with a journal) -> the session runs it -> end
-//                                                                   -> step_aside() -> go_on() -> check …
+//   begin() -> check -> the board gets a session number (with a journal) -> the session runs it -> end
+//                                                                        -> step_aside() -> go_on() -> check …
 //
 // Position in the pipeline: moves the machine by programs, for JobsApi and MachineApi. Private to api/. Only one job
 // runs at a time. An interrupted or waiting job is not lost: see KeptJob and ParkedJob.

@@ -44,7 +44,7 @@ class CodeFamily {
 
   // Positions. end_point: the end position given by the block's axis words, in work coordinates.
   double axis_word(Axis axis) const { return words_[letter_of(axis)] * state_.units_of(axis) * diameter_factor(axis); }
-  // Returns a half for X words if they are diameters (G7).
+  // Returns 0.5 for X words if they are diameters (G7), otherwise 1.
   double diameter_factor(Axis axis) const;
   // Without G51, returns the programmed value bit for bit.
   double scaled_place(Axis axis, double value) const {

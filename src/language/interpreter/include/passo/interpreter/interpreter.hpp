@@ -35,7 +35,7 @@ struct InterpreterOptions {
   Point start;                          // machine position at the start
   // The units of lengths in parameters (#5161 to #5390, #5401 to #5410) and in `parameters`.
   LengthUnits machine_units = LengthUnits::mm;
-  ToolTable tools;                       // without a name: there is no tool table
+  ToolTable tools;                       // a table without a name: none was given
   SavedParameters parameters;            // the parameters saved after the last run
   std::vector<std::string> sub_folders;  // folders to search for subroutine files, after the program's own folder
   // Answers #<_ini[section]name>. Null: there are no settings.
