@@ -18,7 +18,7 @@ class ExcellonNumbers {
   // Examines the whole text for what its header does not state. Appends each guess to `notes`.
   ExcellonNumbers(std::string_view text, const ExcellonOptions& options, std::vector<std::string>& notes);
 
-  // Reads a unit command, e.g. "METRIC,LZ,000.000" or "INCH,TZ". Returns false if the line is no such command.
+  // Reads a unit command, e.g. "METRIC,LZ,000.000" or "INCH,TZ". Returns false if the line is not a unit command.
   bool read_units(std::string_view line);
   void use_inches(bool inches) { inch_ = known_.inch.value_or(inches); }
 

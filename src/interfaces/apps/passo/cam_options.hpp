@@ -25,7 +25,7 @@ std::span<const Command> cam_commands();
 // members named by the rows.
 void add_options(CLI::App& command, std::span<const CamOption> options);
 
-// Adds the options for saved options of a machine, which supply the values that are not given.
+// Adds --machine and --remember, with which options are saved for a machine and supply the values that are not given.
 void add_remember_options(CLI::App& command, CamArguments& arguments);
 // Returns an exit code.
 int use_remembered(const CLI::App& command, CamArguments& arguments);

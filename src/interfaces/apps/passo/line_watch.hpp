@@ -19,7 +19,8 @@ class LineWatch {
   // Otherwise it is written at the beginning and every ten seconds. `say` receives text including its newlines.
   LineWatch(bool rewrites, std::function<void(const std::string&)> say) : rewrites_(rewrites), say_(std::move(say)) {}
 
-  // `silence`: for how long a response has been overdue. `patience`: when the run ends. `ended`: it has ended.
+  // `silence`: for how long a response has been overdue. `patience`: the silence after which the run ends. `ended`: the
+  // run has ended.
   void update(Seconds silence, Seconds patience, bool ended = false);
   void update(const BoardSession& board) { update(board.silent_for(), board.patience(), board.error().has_value()); }
 

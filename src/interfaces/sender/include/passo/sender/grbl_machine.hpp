@@ -19,7 +19,7 @@ struct GrblMachine {
   std::size_t bytes = 128;                    // size of its receive buffer
   std::map<int, double> settings = {};        // the settings $0 … and their values
   std::map<std::string, Point> offsets = {};  // mm: G54 … G59, G92, TLO
-  std::string system = "G54";                 // the active one
+  std::string system = "G54";                 // the active work coordinate system
 
   // Processes a response line: [VER:…], [OPT:…], [AXS:…], [FIRMWARE:…], [GC:…], [G54:…], $n=…. Ignores other lines.
   void hear(std::string_view line);
