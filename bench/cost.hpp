@@ -1,4 +1,4 @@
-// The cost of a part of the benchmark, or of another program.
+// Measures the cost of a part of the benchmark, or of another program.
 #pragma once
 
 #include <chrono>
@@ -13,7 +13,7 @@
 
 namespace passo {
 
-// The CPU time of this process (RUSAGE_SELF), or of its ended child processes (RUSAGE_CHILDREN).
+// Returns the CPU time of this process (RUSAGE_SELF), or of its terminated child processes (RUSAGE_CHILDREN).
 inline double cpu_seconds(int who) {
   rusage usage{};
   getrusage(who, &usage);
@@ -25,10 +25,11 @@ inline double cpu_seconds(int who) {
 
 struct Cost {
   double seconds = 0;    // wall time
-  double mebibytes = 0;  // the highest use of memory
+  double mebibytes = 0;  // peak memory
 };
 
-// Runs a command and discards its output. Its memory counts from this process's present memory, which should be small.
+// Runs a command and discards its output. Its memory includes the current memory of this process, which should be
+// small.
 inline Cost cost_of(const std::vector<std::string>& command) {
   const auto start = std::chrono::steady_clock::now();
   std::fflush(stdout);

@@ -1,4 +1,4 @@
-// GeneratedProgram: a program that a benchmark writes into the temporary folder; and a dense relief in it.
+// GeneratedProgram: a program that a benchmark writes into the temporary folder; also writes a dense relief.
 #pragma once
 
 #include <cmath>
@@ -10,7 +10,7 @@
 
 namespace passo {
 
-// Removed at the end.
+// The file is removed in the destructor.
 class GeneratedProgram {
  public:
   explicit GeneratedProgram(const std::string& name)
@@ -38,7 +38,7 @@ class GeneratedProgram {
   std::ofstream file_;
 };
 
-// Writes a surface of hills and furrows, in rows of a thousand moves of 0.2 mm, there and back.
+// Writes a surface of hills and furrows, in rows of a thousand moves of 0.2 mm, back and forth.
 inline void write_relief(GeneratedProgram& program, int moves) {
   constexpr int a_row = 1000;
   const int rows = moves / a_row;

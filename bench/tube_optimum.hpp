@@ -1,17 +1,18 @@
-// The fastest motion inside a tube of two axes, as a convex program over samples of time.
+// The fastest motion inside a tolerance tube of two axes, as a convex program over samples of time.
 //
-// The motion is p[0] to p[n] at equal steps of time h, from rest to rest. Each sample belongs to a leg of the path and
-// is at most the tolerance beside it; the last sample of a leg is that near to the corner, which the motion may not cut
-// off. The limits of velocity, acceleration and jerk are those of the first, second and third differences of each axis:
+// The motion is p[0] to p[n] at equal time steps h, from stop to stop. Each sample belongs to a leg of the path and
+// deviates from it by at most the tolerance; the last sample of a leg is that close to the corner, which the motion
+// must not cut off. The limits of velocity, acceleration and jerk apply to the first, second and third differences of
+// each axis:
 //
 //     |p[k+1] - p[k]| <= v h,   |p[k+1] - 2 p[k] + p[k-1]| <= a h²,   |p[k+2] - 3 p[k+1] + 3 p[k] - p[k-1]| <= j h³
 //
-// At both ends the motion is at rest: 2 |p[1] - p[0]| <= a h², 6 |p[1] - p[0]| <= j h³, and p[-1] = p[0]. The unknown
-// beside the samples is b, the power of h in the highest limit: in b, the limits are straight or concave, so that the
-// set is convex. The least b gives the least time n h. Newton's method finds it along the central path of the
-// logarithmic barrier; its matrix is a band beside the column of b. The tube is taken a little too wide at the legs'
-// ends (an octagon about the circle), so the result is a lower bound but for the steps of time, and for how many
-// samples each leg has: find_optimum() tries that.
+// At both ends the motion is stopped: 2 |p[1] - p[0]| <= a h², 6 |p[1] - p[0]| <= j h³, and p[-1] = p[0]. In addition
+// to the samples, the unknown is b, the power of h in the highest limit: in b, the limits are linear or concave, so the
+// set is convex. The minimum b gives the minimum time n h. Newton's method finds it along the central path of the
+// logarithmic barrier; its matrix is a band matrix plus the column of b. The tube is slightly too wide at the ends of
+// the legs (an octagon about the circle), so the result is a lower bound except for the discretisation of time and the
+// number of samples of each leg, which find_optimum() varies.
 #pragma once
 
 #include <algorithm>
@@ -39,7 +40,7 @@ struct TubeLimits {
 
 class TubeProgram {
  public:
-  // `samples`: how many each leg has.
+  // `samples`: number of samples of each leg.
   TubeProgram(const std::vector<Place>& corners, const std::vector<int>& samples, const TubeLimits& limits)
       : limits_(limits) {
     for (std::size_t leg = 0; leg + 1 < corners.size(); ++leg) {
@@ -54,10 +55,10 @@ class TubeProgram {
     begin_inside();
   }
 
-  // The least time, in seconds.
+  // Returns the minimum time, in seconds.
   double solve() {
     const double constraints = static_cast<double>(20 * legs_.size());
-    // On the central path, b is above the least by at most constraints / weight.
+    // On the central path, b exceeds the minimum by at most constraints / weight.
     for (double weight = constraints; constraints > 1e-5 * weight * b_; weight *= 6) {
       for (int i = 0; i < 100 && newton_step(weight * 6) > 1e-2; ++i) {
       }
@@ -68,13 +69,13 @@ class TubeProgram {
   const std::vector<double>& samples() const { return z_; }
 
  private:
-  static constexpr std::size_t band = 7;  // a constraint touches four samples of two axes
-  // The element `left` places before the diagonal.
+  static constexpr std::size_t band = 7;  // a constraint involves four samples of two axes
+  // Returns the element `left` columns before the diagonal.
   double& element(std::size_t row, std::size_t left) { return matrix_[row * (band + 1) + left]; }
   double element(std::size_t row, std::size_t left) const { return matrix_[row * (band + 1) + left]; }
 
-  // A constraint: the sum of the factors times the variables, plus `constant` plus the room for the derivative of this
-  // order, is positive.
+  // A constraint: the sum of the factors times the variables, plus `constant`, plus the limit for the derivative of
+  // this order, is positive.
   struct Term {
     std::size_t variable;
     double factor;
@@ -135,7 +136,7 @@ class TubeProgram {
     }
   }
 
-  // The limit of the derivative of this order, times as many steps of time.
+  // Returns the limit of the derivative of this order, multiplied by the time step to the power of the order.
   double room(int order) const { return limit(order) * std::pow(step(), order); }
   double highest_order() const { return limits_.jerk > 0 ? 3 : 2; }
   double step() const { return first_step_ * std::pow(b_, 1 / highest_order()); }  // in seconds
@@ -159,13 +160,14 @@ class TubeProgram {
     return sum;
   }
 
-  // What Newton's method makes least: weight b - the sum of the logarithms of all slacks. Infinite outside.
+  // Returns the function that Newton's method minimises: weight b - the sum of the logarithms of all slacks. Infinite
+  // outside.
   double merit(double weight) const {
     constexpr double outside = std::numeric_limits<double>::infinity();
     if (!(b_ > 0)) return outside;
     const std::array<double, 4> most = rooms();
     double sum = weight * b_;
-    double product = 1;  // of slacks: one logarithm for many
+    double product = 1;  // product of slacks: one logarithm for many
     const auto take = [&](double slack) {
       if (!(slack > 0)) {
         sum = outside;
@@ -182,7 +184,7 @@ class TubeProgram {
     return sum - std::log(product);
   }
 
-  // One step. Returns half the square of Newton's decrement.
+  // Computes one step. Returns half the square of Newton's decrement.
   double newton_step(double weight) {
     const std::size_t n = z_.size();
     matrix_.assign(n * (band + 1), 0);
@@ -227,7 +229,7 @@ class TubeProgram {
     return decrement;
   }
 
-  // Goes as far along the step as the merit falls by a share of what was promised.
+  // Moves along the step as far as the merit decreases by a fraction of the predicted decrease.
   void take(const std::vector<double>& step, double step_b, double decrement, double weight) {
     constexpr double promised = 0.1;
     const std::vector<double> z = z_;
@@ -242,7 +244,7 @@ class TubeProgram {
     b_ = b;
   }
 
-  // A variable that does not move.
+  // Fixes a variable.
   void hold(std::size_t i) {
     for (std::size_t below = i; below < std::min(i + band + 1, z_.size()); ++below) element(below, below - i) = 0;
     for (std::size_t left = 1; left <= band; ++left) element(i, left) = 0;
@@ -251,7 +253,7 @@ class TubeProgram {
     column_[i] = 0;
   }
 
-  // Cholesky's factors of the band, in place: element(i, d) is the element d places before the diagonal.
+  // Computes the Cholesky factors of the band in place: element(i, d) is d columns before the diagonal.
   void factor() {
     for (std::size_t i = 0; i < z_.size(); ++i) {
       for (std::size_t d = std::min(band, i) + 1; d-- > 0;) {
@@ -279,15 +281,15 @@ class TubeProgram {
   std::vector<Place> corners_;
   std::vector<double> z_;  // x and y of each sample
   std::vector<std::size_t> legs_;
-  double first_step_ = 0;  // in seconds, where b is 1
+  double first_step_ = 0;  // in seconds, for b = 1
   double b_ = 1;
   std::vector<double> matrix_;
   std::vector<double> column_;
   std::vector<double> gradient_;
 };
 
-// The least time through the corners, where the inner legs are alike and so are the two outer ones. How many samples
-// the outer legs have is found with few samples first.
+// Returns the minimum time through the corners, where the inner legs are equal and so are the two outer ones. The
+// number of samples of the outer legs is first determined with few samples.
 inline double find_optimum(const std::vector<Place>& corners, const TubeLimits& limits, int samples) {
   const std::size_t legs = corners.size() - 1;
   const auto time_with = [&](int inner, int outer) {
@@ -301,7 +303,7 @@ inline double find_optimum(const std::vector<Place>& corners, const TubeLimits& 
   const int few = samples / coarse;
   int outer = few;
   double best = time_with(few, outer);
-  for (const int turn : {1, -1}) {  // the time falls and then rises
+  for (const int turn : {1, -1}) {  // the time decreases and then increases
     for (double time = time_with(few, outer + turn); time < best; time = time_with(few, outer + turn)) {
       best = time;
       outer += turn;

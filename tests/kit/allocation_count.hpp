@@ -10,7 +10,7 @@ namespace passo::test {
 inline std::size_t allocations = 0;
 }  // namespace passo::test
 
-// Not inlined, because g++ warns of new and free in one function.
+// Not inlined, because g++ warns about new and free in one function.
 [[gnu::noinline]] void* operator new(std::size_t size) {
   ++passo::test::allocations;
   if (void* const memory = std::malloc(size == 0 ? 1 : size)) return memory;

@@ -1,6 +1,6 @@
-// Runs `passo` as a user starts it. Tests can look at its output, its files and its exit code.
+// Runs `passo` as a user starts it. Tests can examine its output, its files and its exit code.
 //
-// A test program that includes this file defines PASSO_PROGRAM.
+// A test program that includes this file must define PASSO_PROGRAM.
 #pragma once
 
 #include <cstdlib>
@@ -33,7 +33,8 @@ struct Outcome {
   std::string err;
 };
 
-// `sim:` boards are refused where the compiler for the chip, which makes the images, or an emulator is not installed.
+// Returns whether a `sim:` board was refused because the chip's compiler, which builds the images, or an emulator is
+// not installed.
 inline bool lacks_an_emulator(const Outcome& outcome) {
 #ifndef PASSO_MAKES_FIRMWARE
   if (outcome.err.find("is not there") != std::string::npos) return true;
@@ -49,7 +50,7 @@ inline std::string read(const fs::path& path) {
   return text.str();
 }
 
-// Each test has a directory of its own, which is removed after the test. What a command remembers is there too.
+// Each test has a separate directory, which is removed after the test and also contains the command's persistent state.
 class CommandLine : public testing::Test {
  protected:
   CommandLine() {
@@ -68,7 +69,7 @@ class CommandLine : public testing::Test {
     const int status = std::system(command.c_str());
     return {.code = WIFEXITED(status) ? WEXITSTATUS(status) : -1, .out = read(path("out")), .err = read(path("err"))};
   }
-  // The files in the directory, without the G-code program, the machine file and the captured output.
+  // Returns the files in the directory, except the G-code program, the machine file and the captured output.
   std::vector<std::string> files() const {
     std::vector<std::string> names;
     for (const auto& entry : fs::directory_iterator(dir_)) {

@@ -1,5 +1,5 @@
-// Drawn machines: random machines and programs, harsh and mild, with motors that are drawn from their tolerances; and
-// for each the verdict of a MarginSurvey beside what full physics does.
+// Drawn machines: random machines and programs, harsh and mild, with motors drawn at random from their tolerances; for
+// each, the verdict of a MarginSurvey and the result of the full physics.
 #pragma once
 
 #include <algorithm>
@@ -32,7 +32,7 @@ class Draw {
  public:
   explicit Draw(std::uint64_t seed) : random_(seed) {}
   double between(double low, double high) { return std::uniform_real_distribution<double>(low, high)(random_); }
-  // Evenly in the logarithm.
+  // Uniformly distributed in the logarithm.
   double about(double low, double high) { return low * std::pow(high / low, between(0, 1)); }
   bool one_of(int count) { return between(0, count) < 1; }
   template <std::size_t n>
@@ -44,13 +44,13 @@ class Draw {
   std::mt19937_64 random_;
 };
 
-// A motor from small to large, in the proportions of data sheets, its drive and its load; with the acceleration that
-// takes a part of the torque, from far too little to far too much.
+// Returns a motor from small to large, in the proportions of data sheets, with its driver and its load; and an
+// acceleration that requires a fraction of the torque, from far too little to far too much.
 inline std::string axis_text(char letter, Draw& draw) {
   const double size = draw.about(0.2, 3);  // N·m
   const double current = draw.between(1, 4);
   constexpr double teeth = 50;
-  // In motors of the shelf the current's own flux is about the magnet's, and L/R a few milliseconds.
+  // In typical motors the flux of the current is about that of the magnet, and L/R is a few milliseconds.
   const double magnet_flux = size / (std::numbers::sqrt2 * current) / teeth;
   const double inductance = draw.between(0.8, 1.5) * magnet_flux / current;
   const double resistance = inductance / draw.between(1.5e-3, 4e-3);
@@ -64,12 +64,12 @@ inline std::string axis_text(char letter, Draw& draw) {
                          .regulation = resistive ? Regulation::resistive : Regulation::chopper};
   const auto curve = TorqueCurve::from_motor(motor, drive);
   const double hold = curve->pull_out({0}).value;
-  // The fastest speed leaves from most to a fifth of the torque.
+  // The maximum speed leaves between most and a fifth of the torque.
   const double left = draw.between(0.2, 0.95) * hold;
   double shaft = 1;
   while (curve->pull_out({shaft}).value > left && shaft < 150) shaft *= 1.02;
   const double pitch = draw.choice(std::array{2.0, 4.0, 5.0, 10.0});
-  const double way = pitch / (2 * std::numbers::pi);  // mm a radian
+  const double way = pitch / (2 * std::numbers::pi);  // mm per radian
   const double inertia = motor.rotor.inertia.value * draw.between(0.2, 3);
   const double friction = draw.between(0.02, 0.2) * hold;
   const double acceleration =
@@ -149,7 +149,7 @@ inline JudgedRun play_and_judge(const MachineDescription& machine, const std::st
   return outcome;
 }
 
-// What a seed draws, played and judged.
+// Draws a run from a seed, plays it and evaluates it.
 inline JudgedRun judged_run(std::uint64_t seed) {
   Draw draw(seed);
   Diagnostics diagnostics;

@@ -1,5 +1,5 @@
-// A program, a homing or a jog on a drive of its own, without a machine session. For tests of all stages from the text
-// to the board. What a session adds is tested in session/ and by the soak.
+// A program, a homing or a jog on a separate drive, without a machine session. For tests of all stages from the text to
+// the board. The session's own functions are tested in session/ and by the soak test.
 #pragma once
 
 #include <memory>
@@ -21,7 +21,7 @@
 
 namespace passo::test {
 
-// Over a virtual line, a board that lives answers at once. Over a real line, a board may still be in its boot loader.
+// On a virtual link, a working board responds immediately. On a real link, a board may still be in its boot loader.
 inline constexpr LineCare virtual_line_care{.answer_within = Seconds(0.05)};
 inline constexpr LineCare real_line_care{.answer_within = Seconds(0.1), .patience = Seconds(60)};
 
@@ -31,7 +31,7 @@ inline StepOptions steps_from(const MachineDescription& machine, const Point& st
   return options;
 }
 
-// Lets this much time pass while the drive waits: in a hold, or while outputs are switched on. Ends early if the drive
+// Advances the time while the drive waits: in a hold, or while outputs are switched on. Returns early if the drive
 // ends.
 inline void let_pass(MotionDrive& drive, Seconds time) {
   for (const Seconds end = drive.now() + time; end - drive.now() > hardly_any && drive.poll(end - drive.now());) {
@@ -39,20 +39,20 @@ inline void let_pass(MotionDrive& drive, Seconds time) {
 }
 
 struct DriveOn {
-  std::optional<LineOptions> line = {};  // a line to the virtual machine; empty: no line
-  BoardPort* board = nullptr;            // drives this board; the virtual machine then repeats what the board has done
+  std::optional<LineOptions> line = {};  // a link to the virtual machine; empty: no link
+  BoardPort* board = nullptr;            // drives this board; the virtual machine then mirrors the board
   std::uint16_t session = 1;
   std::uint8_t greeting = 0;
   std::optional<ResumePoint> resume_at = {};
-  std::optional<Point> stands = {};             // where the machine stands then; empty: at that point
-  std::vector<ProbeOutcome> known_probes = {};  // what the probe moves before that point have found
+  std::optional<Point> stands = {};             // the machine position at that time; empty: at that point
+  std::vector<ProbeOutcome> known_probes = {};  // results of the probe moves before that point
   Plant* plant = nullptr;  // behind the virtual machine if that is the board; null: the plant of the machine file
   bool answers_probes = true;
   bool waits_for_operator = false;
   Commitment live = endless_commitment;
 };
 
-// The board of a drive. The board has been greeted.
+// The board of a drive, after the handshake.
 class DrivenBoard {
  public:
   DrivenBoard(const MachineDescription& machine, const Point& start, const DriveOn& on)
@@ -83,7 +83,7 @@ class DrivenBoard {
   BoardSession& session() { return *session_; }
   const BoardSession& session() const { return *session_; }
   bool is_remote() const { return remote_; }
-  // Lets the virtual machine do what the real board has done.
+  // Makes the virtual machine mirror the real board.
   void follow(MotionDrive& drive) {
     if (!shadow_ || drive.ledger() == nullptr) return;
     drive.ledger()->watch_executed([this](const LinkItem& item) { send(*shadow_, item); });
@@ -108,7 +108,7 @@ class DrivenProgram {
       : on_(on),
         start_(on.resume_at ? on.stands.value_or(on.resume_at->point) : options.start),
         board_(machine, start_, on),
-        // A tap cannot turn round with the spindle over a line, or with limits of jerk.
+        // A tap cannot reverse with the spindle over a link, or with jerk limits.
         answers_({.probes = on.answers_probes,
                   .taps = !board_.is_remote() && machine.spindle.counts_per_turn > 0 && !has_jerk_limit(machine)}),
         program_(std::move(reader), machine, options, answers_, diagnostics, Seconds(0), on.known_probes),
@@ -119,20 +119,20 @@ class DrivenProgram {
     board_.follow(drive_);
   }
 
-  // Lets the drive go on a little. False at the end of the program.
+  // Advances the drive a little. Returns false at the end of the program.
   [[nodiscard]] bool advance() {
     const bool goes_on = drive_.poll();
     if (!goes_on || drive_.state() == MotionDrive::State::held) board_.catch_up();
     return goes_on;
   }
-  // Switches on the outputs that are on at the place where the job is resumed.
+  // Switches on the outputs that are on at the resume point of the job.
   void resume() {
     if (on_.resume_at && drive_.ledger() != nullptr) {
       drive_.switch_on(on_.resume_at->outputs, on_.resume_at->spindle_wait);
     }
   }
   const std::optional<std::string>& unsuited() const { return unsuited_; }
-  // The way back to the point where the job is resumed.
+  // Returns the reentry move to the resume point of the job.
   std::vector<PathItem> lead_in() const {
     return on_.resume_at ? way_back_of_probe(*on_.resume_at, start_) : std::vector<PathItem>();
   }
@@ -206,7 +206,7 @@ class DrivenHoming {
   MotionDrive drive_;
 };
 
-// A jog without a lease. It goes on to its end, or until somebody stops it.
+// A jog without a keep-alive timeout. It continues until its end, or until it is stopped.
 class DrivenJog {
  public:
   DrivenJog(const MachineDescription& machine, const Point& start, const JogWay& way, const DriveOn& on = {})
@@ -222,7 +222,7 @@ class DrivenJog {
 
   [[nodiscard]] bool advance() { return drive_.poll(); }
   const Point& target() const { return path_.target(); }
-  // The end of the committed motion.
+  // Returns the end of the committed motion.
   const Point& place() const { return place_; }
   MotionDrive& drive() { return drive_; }
   VirtualMachine& machine() { return board_.machine(); }

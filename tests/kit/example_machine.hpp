@@ -1,4 +1,4 @@
-// The machines of examples/, for tests of all stages together. A test program that includes this file defines
+// The machines of examples/, for tests of all stages together. A test program that includes this file must define
 // PASSO_SOURCE_DIR.
 #pragma once
 
@@ -17,7 +17,7 @@ inline MachineDescription example_machine(const std::string& name) {
   return machine.value_or(MachineDescription());
 }
 
-// Adds limits of jerk, so that reaching full acceleration takes 20 ms.
+// Adds jerk limits with which full acceleration is reached in 20 ms.
 inline MachineDescription with_jerk_limits(MachineDescription machine) {
   for (AxisDescription& axis : machine.axes) axis.jerk = MmPerSecond3(axis.acceleration.value() / 0.02);
   return machine;

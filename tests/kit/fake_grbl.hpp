@@ -1,4 +1,4 @@
-// FakeGrbl: a StrictGrbl that a command finds on a port of this computer, in real time.
+// FakeGrbl: runs a StrictGrbl in real time on a TCP port of this computer, for commands under test.
 #pragma once
 
 #include <array>
@@ -20,7 +20,7 @@ namespace passo::test {
 
 class FakeGrbl {
  public:
-  // `each` is called at each turn, in the machine's thread.
+  // `each` is called in each iteration, in the machine's thread.
   explicit FakeGrbl(StrictGrbl machine, std::function<void(StrictGrbl&)> each = {})
       : machine_(std::move(machine)), each_(std::move(each)), listener_(socket(AF_INET, SOCK_STREAM, 0)) {
     sockaddr_in address{};
@@ -54,7 +54,7 @@ class FakeGrbl {
     while (!ends_) {
       if (!wait_for_input(listener_)) continue;
       const int line = accept(listener_, nullptr, nullptr);
-      machine_.restart();  // as an Arduino does whose line is opened
+      machine_.restart();  // like an Arduino when its serial port is opened
       talk(line);
       close(line);
     }

@@ -1,4 +1,4 @@
-// FolderTest: a test with a folder of its own, which is removed at the end.
+// FolderTest: a test with a separate folder, which is removed at the end.
 #pragma once
 
 #include <cstdlib>

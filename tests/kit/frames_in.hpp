@@ -1,5 +1,5 @@
-// Finds whole frames among any bytes, by looking at each place separately. The code follows the text of docs/wire.md
-// and does not use the Decoder.
+// Finds complete frames in arbitrary bytes by examining each position separately. The code follows the text of
+// docs/wire.md and does not use the Decoder.
 #pragma once
 
 #include <cstddef>
@@ -10,7 +10,7 @@
 
 namespace passo::test {
 
-// The CRC of the bytes: the remainder of the division, computed bit by bit.
+// Returns the CRC of the bytes: the remainder of the division, computed bit by bit.
 inline unsigned frame_crc(std::span<const std::uint8_t> bytes) {
   unsigned remainder = 0xffff;
   for (const std::uint8_t byte : bytes) {
@@ -23,7 +23,7 @@ inline unsigned frame_crc(std::span<const std::uint8_t> bytes) {
   return remainder;
 }
 
-// Whether a frame begins with the first of these bytes.
+// Returns whether a frame begins at the first of these bytes.
 inline bool begins_with_frame(std::span<const std::uint8_t> bytes, std::uint8_t motors) {
   if (bytes.size() < frame_overhead || bytes[0] != sync_byte) return false;
   const std::size_t payload = payload_size(bytes[2], motors);

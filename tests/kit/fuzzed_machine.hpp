@@ -1,5 +1,5 @@
-// The machine of the fuzzers that play a whole session: small and of few steps, so that much happens in little time.
-// Free of GoogleTest: libFuzzer has none.
+// The machine of the fuzzers that run a whole session: small, with few steps, so that much happens in little time. Does
+// not use GoogleTest, which libFuzzer does not provide.
 #pragma once
 
 #include <cstdio>
@@ -53,7 +53,7 @@ latch_mm_s = 5
 pull_off_mm = 2
 )toml";
 
-// What a fuzzer finds, libFuzzer notices by this.
+// Reports a failure so that libFuzzer detects it.
 inline void require(bool condition, const char* what) {
   if (condition) return;
   std::fprintf(stderr, "%s\n", what);
@@ -71,7 +71,7 @@ inline const MachineDescription& fuzzed_machine() {
   return machine;
 }
 
-// A session on a virtual machine at machine zero.
+// A session with a virtual machine at machine zero.
 class FuzzedSession {
  public:
   explicit FuzzedSession(Trust trust)

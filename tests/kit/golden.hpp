@@ -1,4 +1,4 @@
-// A golden file holds the expected text, byte for byte. Only PASSO_UPDATE_GOLDEN rewrites golden files.
+// A golden file contains the expected text, byte for byte. Golden files are rewritten only with PASSO_UPDATE_GOLDEN.
 #pragma once
 
 #include <cstdlib>

@@ -1,7 +1,7 @@
-// The number of trials that tests make.
+// The number of trials of tests.
 //
 // PASSO_IN_FULL=N in the environment runs the tests that take minutes, with one in N of their trials. 1 means all
-// trials. cmake/PassoModule.cmake defines PASSO_ONE_IN: all other tests make one in so many of their trials.
+// trials. cmake/PassoModule.cmake defines PASSO_ONE_IN: all other tests run one in PASSO_ONE_IN of their trials.
 #pragma once
 
 #include <algorithm>
@@ -12,7 +12,7 @@
 
 namespace passo::test {
 
-// PASSO_IN_FULL. 0: the tests that take minutes do not run.
+// Returns PASSO_IN_FULL. 0: tests that take minutes are skipped.
 inline std::uint64_t in_full() {
   const char* const text = std::getenv("PASSO_IN_FULL");
   return text != nullptr ? std::strtoull(text, nullptr, 10) : 0;

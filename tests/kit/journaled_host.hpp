@@ -1,5 +1,5 @@
-// A host that may die at any moment. It keeps a journal like `passo run` over a line. The next life of the host goes on
-// from that journal like `passo run --resume`.
+// A host that may be killed at any moment. It writes a journal like `passo run` over a serial link. The next instance
+// of the host continues from that journal like `passo run --resume`.
 #pragma once
 
 #include <cstdint>
@@ -17,12 +17,12 @@
 
 namespace passo::test {
 
-// How a host ends: it dies before, amid or after sending a frame; or it brakes on the path and leaves.
+// How a host ends: it is killed before, during or after sending a frame; or it brakes along the path and disconnects.
 enum class HostEnd : std::uint8_t { before_frame, amid_frame, behind_frame, stopped };
 struct HostDied {};
 constexpr std::uint64_t never = UINT64_MAX;
 
-// The line as a host sees it until the host dies. A moment is each time when the host sends a frame or hears something.
+// The link as the host uses it until it is killed. A moment is each time when the host sends a frame or receives data.
 class MortalPort final : public BoardPort {
  public:
   MortalPort(BoardPort& line, std::uint64_t dies_at, HostEnd end) : line_(line), dies_at_(dies_at), end_(end) {}
@@ -58,7 +58,7 @@ class JournaledHost {
   JournaledHost(const MachineDescription& machine, std::string program)
       : machine_(machine), program_(std::move(program)) {}
 
-  // Returns whether the program reached its end. `moments` is set to the number of moments that the host lived through.
+  // Returns whether the program reached its end. `moments` is set to the number of moments before the end of the host.
   bool live(BoardPort& line, std::uint64_t ends_at, HostEnd end, std::uint64_t& moments) {
     MortalPort port(line, ends_at, end);
     bool done = false;
@@ -71,8 +71,8 @@ class JournaledHost {
     return done;
   }
   MemoryStore store;
-  std::vector<ProbeOutcome> found;  // by all probe moves up to now
-  bool may_fail = false;            // the line is so bad that the job may give up with a message
+  std::vector<ProbeOutcome> found;  // results of all probe moves so far
+  bool may_fail = false;            // the link is so bad that the job may fail with a message
 
  private:
   void work(MortalPort& port, bool& done) {

@@ -1,4 +1,4 @@
-// A picture's levels as a PNG, 16 bit grey.
+// Encodes a picture's levels as a PNG, 16-bit greyscale.
 #pragma once
 
 #include <string>
@@ -9,7 +9,7 @@
 
 namespace passo::test {
 
-// Empty: it could not be made.
+// Empty on failure.
 inline std::string png_of_levels(const LevelPicture& picture) {
   png_image image{};
   image.version = PNG_IMAGE_VERSION;

@@ -1,5 +1,6 @@
-// LimitWatch: watches a machine's steps and checks that the axes stay within their velocity and acceleration. It takes
-// constant memory, for runs of any length. StepLog checks the same for a run whose steps are all kept in memory.
+// LimitWatch: monitors a machine's steps and checks that the axes stay within their velocity and acceleration limits.
+// It takes constant memory, for runs of any length. StepLog makes the same checks for a run whose steps are all kept in
+// memory.
 #pragma once
 
 #include <array>
@@ -15,7 +16,7 @@
 
 namespace passo::test {
 
-// Compares places at equal distances of time. A bounded acceleration bounds the second difference of three places.
+// Compares positions at equal time intervals. An acceleration limit bounds the second difference of three positions.
 class LimitWatch final : public MachineObserver {
  public:
   explicit LimitWatch(const MachineDescription& machine)
@@ -31,11 +32,12 @@ class LimitWatch final : public MachineObserver {
   }
   // Checks up to `now`. No motor has stepped since the last call of on_steps().
   void look_until(Ticks now) {
-    // After such a long rest all places are the same, so they need not be compared one by one.
+    // After such a long standstill all positions are equal, so they need not be compared one by one.
     if (now.count - next_ > 4 * samples * sample_ticks_) forget(Ticks{now.count - 2 * sample_ticks_});
     for (; next_ < now.count; next_ += sample_ticks_) sample();
   }
-  // Call it when the motors were stopped at once. Places before that are not compared with places after it.
+  // Must be called when the motors were stopped instantly. Positions before that are not compared with positions after
+  // it.
   void forget(Ticks now) {
     for (auto& places : places_) places.fill(0);
     for (unsigned m = 0; m < motors; ++m) places_[m].fill(place_[m]);
@@ -46,12 +48,12 @@ class LimitWatch final : public MachineObserver {
   const std::optional<std::string>& violation() const { return violation_; }
 
  private:
-  static constexpr double apart = 0.008;  // seconds between two places that are compared
+  static constexpr double apart = 0.008;  // seconds between two compared positions
   static constexpr int samples_apart = 8;
   static constexpr unsigned samples = 2 * samples_apart + 1;
   static constexpr unsigned motors = 5;
-  // In steps. Steps are whole, which makes 2. In the tail of a board with few places an event may be off by a whole
-  // interval, which makes 4.
+  // In steps. Whole steps cause 2. In the stop ramp of a board with a small queue an event may be off by a whole
+  // interval, which causes 4.
   static constexpr double slack = 6;
 
   void sample() {

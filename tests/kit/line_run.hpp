@@ -1,4 +1,4 @@
-// Runs a program with the board at the other end of a line. A test may spoil what goes over the line.
+// Runs a program with the board at the other end of a link. A test may disturb the data on the link.
 #pragma once
 
 #include <functional>
@@ -17,18 +17,19 @@ namespace passo::test {
 struct Outcome {
   StepLog::Steps steps;
   std::vector<int> outputs;
-  std::uint64_t frames = 0;  // in both directions
+  std::uint64_t frames = 0;  // number of frames in both directions
   int recoveries = 0;
 };
 
-// Gets each frame with its number. Returns the bytes that pass.
+// Receives each frame with its number. Returns the bytes that are delivered.
 using Trouble = std::function<Bytes(DrivenProgram& job, std::uint64_t number, bool to_board, Bytes bytes)>;
 
 inline Outcome run(const MachineDescription& machine, const std::string& program, bool with_line,
                    const Trouble& trouble = nullptr) {
   Diagnostics diagnostics;
   const auto line = with_line ? std::optional(LineOptions{}) : std::nullopt;
-  // Trouble begins with the first frame after the greeting, because a job that does not find its board never begins.
+  // Disturbances begin with the first frame after the handshake, because a job that does not find its board never
+  // begins.
   DrivenProgram job(ProgramReader::from_text("t", program), machine, InterpreterOptions(), diagnostics, {.line = line});
   StepLog log;
   job.machine().add_observer(log);

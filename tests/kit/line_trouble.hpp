@@ -1,4 +1,4 @@
-// RandomTrouble: spoils data like a bad line.
+// RandomTrouble: disturbs data like a bad link.
 #pragma once
 
 #include <array>
@@ -14,7 +14,7 @@ namespace passo::test {
 
 using Bytes = std::vector<std::uint8_t>;
 
-// Loses, doubles and flips bytes. Loses and swaps frames.
+// Loses, duplicates and flips bytes. Loses and swaps frames.
 class RandomTrouble {
  public:
   explicit RandomTrouble(std::uint64_t seed) : random_(seed), rate_(between(0.0001, 0.001)) {}
@@ -55,11 +55,11 @@ class RandomTrouble {
 
   std::mt19937_64 random_;
   double rate_;
-  std::array<Bytes, 2> late_;  // frames that are to be swapped with the next frame; one for each direction
+  std::array<Bytes, 2> late_;  // frames to be swapped with the next frame; one for each direction
 };
 
-// The frame with a changed payload and the right CRC for it. Nothing if the frame is neither an item nor a replace.
-// `which` chooses the bit of the payload that changes.
+// Returns the frame with a changed payload and the matching CRC. Nothing if the frame is neither an item nor a queue
+// update. `which` selects the bit of the payload that changes.
 inline std::optional<Bytes> forged(const Bytes& bytes, std::uint8_t which) {
   constexpr std::uint8_t motors = 3;
   Decoder decoder;

@@ -1,4 +1,4 @@
-// ListSource: a stage's input from a list, for tests and benchmarks.
+// ListSource: feeds a stage from a list, for tests and benchmarks.
 #pragma once
 
 #include <cstddef>

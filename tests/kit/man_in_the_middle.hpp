@@ -1,4 +1,4 @@
-// ManInTheMiddle: sits on the line between a host and a board, and makes one kind of fault, in both directions.
+// ManInTheMiddle: disturbs the data between a host and a board with one kind of fault, in both directions.
 #pragma once
 
 #include <algorithm>
@@ -13,12 +13,12 @@
 namespace passo::test {
 
 enum class Mischief : std::uint8_t {
-  cut,      // a frame ends amid, or does not come at all
-  flip,     // one bit is another
-  doubled,  // a frame comes twice
-  swap,     // a frame comes after the next one
-  delay,    // a frame and all after it come some frames later, in one piece
-  garbage,  // bytes that nobody has sent, in front of a frame or in it
+  cut,      // a frame is truncated or lost
+  flip,     // one bit is flipped
+  doubled,  // a frame is duplicated
+  swap,     // a frame arrives after the next one
+  delay,    // a frame and all later ones are delayed by some frames, and then arrive in one piece
+  garbage,  // inserts random bytes before or within a frame
 };
 inline constexpr std::array every_mischief = {Mischief::cut,  Mischief::flip,  Mischief::doubled,
                                               Mischief::swap, Mischief::delay, Mischief::garbage};
@@ -30,8 +30,8 @@ constexpr std::string_view name_of(Mischief mischief) {
 
 class ManInTheMiddle {
  public:
-  // Of the frames to the board one in `to_board` gets a fault, of the pieces that come from it one in `to_host`. Off a
-  // chip come bytes one by one, so there a piece is less than a frame.
+  // One in `to_board` frames to the board has a fault, and one in `to_host` pieces from the board. A chip sends byte by
+  // byte, so there a piece is less than a frame.
   ManInTheMiddle(Mischief mischief, std::uint64_t seed, unsigned to_board = 25, unsigned to_host = 25)
       : mischief_(mischief), every_{to_board, to_host}, random_(seed) {}
 
@@ -48,13 +48,13 @@ class ManInTheMiddle {
     if (to_board) ++faults_to_board;
     return spoil(late, bytes);
   }
-  int faults = 0;  // in both directions
+  int faults = 0;  // number of faults in both directions
   int faults_to_board = 0;
 
  private:
   struct Late {
     Bytes bytes;
-    unsigned frames = 0;  // until they come
+    unsigned frames = 0;  // number of frames until they arrive
   };
 
   std::size_t below(std::size_t end) { return std::uniform_int_distribution<std::size_t>(0, end - 1)(random_); }
@@ -93,7 +93,7 @@ class ManInTheMiddle {
   Mischief mischief_;
   std::array<unsigned, 2> every_;
   std::mt19937_64 random_;
-  std::array<Late, 2> late_;  // one for each direction
+  std::array<Late, 2> late_;  // delayed frames, one entry for each direction
 };
 
 }  // namespace passo::test

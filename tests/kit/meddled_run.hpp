@@ -18,7 +18,7 @@
 
 namespace passo::test {
 
-// Watches a job, leaves out what the proof does not know, and checks each hold.
+// Observes a job, omits what the proof does not support, and checks each hold.
 class Watch {
  public:
   Watch(DrivenProgram& job, const MachineDescription& machine) : prover_(proof_options(machine)) {
@@ -41,7 +41,7 @@ class Watch {
   const Point& place() const { return place_; }
 
  private:
-  // At the end of a path the motors may stop at their start-stop velocities.
+  // At the end of a path the motors may stop from their start-stop velocities.
   static bool comes_to_rest(const PlannedMove& move, const MachineDescription& machine) {
     if (move.ends_at_rest()) return true;
     if (move.to < move.segment.curve.length()) return false;
@@ -56,7 +56,7 @@ class Watch {
   bool rests_ = true;
 };
 
-// What was done in all runs together.
+// The number of disturbances in all runs together.
 struct Acts {
   int holds = 0;
   int rests = 0;
@@ -64,14 +64,14 @@ struct Acts {
   void print() const { std::printf("%d holds, %d rests, %d overrides\n", holds, rests, overrides); }
 };
 
-// Disturbs one run.
+// Disturbs a run at random.
 struct Meddling {
   Random& random;
   Acts& acts;
   double highest_override = 1;
-  int chances = 10'000;  // after these the run is left alone, because a slow program would rest at every millimetre
+  int chances = 10'000;  // after these the run is left alone, because a slow program would stop at every millimetre
 
-  // Does one thing to the run, or nothing.
+  // Disturbs the run in one way, or not at all.
   void act(MotionDrive& drive) {
     if (chances > 0 && --chances == 0) drive.set_feed_override(1);
     switch (drive.state()) {
@@ -82,7 +82,7 @@ struct Meddling {
         }
         break;
       case MotionDrive::State::holding:
-        // Seldom, because coming to rest takes many turns.
+        // Rarely, because stopping takes many iterations.
         if (random.chance(0.008)) drive.resume();
         break;
       case MotionDrive::State::held:
@@ -108,7 +108,7 @@ struct RunOptions {
 struct Ending {
   std::vector<MotorCounts> motors;
   MotionProof proof;
-  Point place;  // the place where the program ends
+  Point place;  // the end position of the program
 };
 
 inline Ending run(const std::string& program, const MachineDescription& machine, const RunOptions& options = {}) {

@@ -1,4 +1,4 @@
-// MemoryStore: keeps a journal in memory. A test can tell it to fail.
+// MemoryStore: keeps a journal in memory. A test can make it fail.
 #pragma once
 
 #include <string>

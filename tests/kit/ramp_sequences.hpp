@@ -1,5 +1,5 @@
 // The ramps of ../shared/golden/ramp.csv. They were computed from the definitions with 50 digits, by code that shares
-// nothing with Passo. Tests that read them are skipped where the file is missing.
+// nothing with Passo. Tests that read them are skipped if the file is missing.
 #pragma once
 
 #include <cstdint>
@@ -19,11 +19,11 @@ struct RampSequence {
   double acceleration = 0;
   std::vector<double> recursive;
   std::vector<double> exact;
-  std::vector<std::uint32_t> table;  // empty if the method does not apply
+  std::vector<std::uint32_t> table;  // empty if the method is not applicable
   std::vector<double> ends;
 };
 
-// Empty if the file is missing.
+// Returns an empty list if the file is missing.
 inline std::vector<RampSequence> ramp_sequences() {
   std::ifstream file(PASSO_SOURCE_DIR "/../shared/golden/ramp.csv");
   std::string line;

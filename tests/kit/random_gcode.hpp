@@ -1,6 +1,6 @@
 // Random programs as text, and random machines, for tests of all stages together. Each program is short and has no
-// error. It has what real programs have: lines, arcs, helices, curves, very short lines, many close points, cycles,
-// modes, units, feeds.
+// error. It has the elements of real programs: lines, arcs, helices, curves, very short lines, many close points,
+// cycles, modes, units, feeds.
 #pragma once
 
 #include <algorithm>
@@ -22,8 +22,8 @@
 
 namespace passo::test {
 
-// A motor whose torque falls from some speed on. At rest the motor gives at least the axis's acceleration, at full
-// speed only a part of it.
+// Returns a motor whose torque decreases above some speed. At standstill the motor provides at least the axis's
+// acceleration, at full speed only a part of it.
 inline AxisMotor random_motor(Random& random, const AxisDescription& axis) {
   const Rotor rotor{.inertia = {1e-5}};
   const double at_rest = axis.acceleration.value() * random.between(1, 1.5);
@@ -39,8 +39,8 @@ inline AxisMotor random_motor(Random& random, const AxisDescription& axis) {
   return {.curve = *curve, .share = 1, .radians_per_unit = 1};
 }
 
-// A machine with two to five axes, sluggish or nimble. Some machines have limits of jerk, and some have the torque of
-// motors.
+// Returns a machine with two to five axes, sluggish or nimble. Some machines have jerk limits, and some have torque
+// curves.
 inline MachineDescription random_machine(Random& random) {
   static constexpr std::array order = {Axis::x, Axis::y, Axis::z, Axis::a, Axis::c};
   MachineDescription machine;
@@ -72,8 +72,9 @@ inline MachineDescription random_machine(Random& random) {
   return machine;
 }
 
-// Gives a third of the machines limits of jerk on some of their axes, takes them from the others, and gives a third a
-// rotary axis where they have none. `number` is that of the job; what else is drawn for it stays the same.
+// Gives a third of the machines jerk limits on some of their axes, removes them from the others, and gives a third of
+// the machines a rotary axis if they have none. `number` is that of the job; the other random choices for it do not
+// change.
 inline void mix_limits(std::uint64_t number, MachineDescription& machine) {
   Random random = Random::of(number ^ 0x6d6978);
   const double rise = std::exp(random.between(-6, -2));
@@ -92,7 +93,7 @@ inline void mix_limits(std::uint64_t number, MachineDescription& machine) {
   machine.axes.push_back(axis);
 }
 
-// Gives most axes a velocity at which they start and stop. One machine of five keeps its limits of jerk.
+// Gives most axes a start-stop velocity. One machine in five keeps its jerk limits.
 inline void give_starts(std::uint64_t number, MachineDescription& machine) {
   Random random = Random::of(number ^ 0x737461);
   for (AxisDescription& axis : machine.axes) {
@@ -101,8 +102,8 @@ inline void give_starts(std::uint64_t number, MachineDescription& machine) {
   }
 }
 
-// Gives any of the axes limits of jerk, the torque of a motor and backlash, each axis by its own chance, and half of
-// the machines a rotary axis where they have none.
+// Gives any of the axes jerk limits, a torque curve and backlash, each independently, and gives half of the machines a
+// rotary axis if they have none.
 inline void mix_everything(std::uint64_t number, MachineDescription& machine) {
   Random random = Random::of(number ^ 0x616c6c);
   const bool turns = std::ranges::any_of(machine.axes, [](const auto& axis) { return is_rotary(axis.axis); });
@@ -123,7 +124,7 @@ inline void mix_everything(std::uint64_t number, MachineDescription& machine) {
 
 class RandomGcode {
  public:
-  // `turning`: a rotary axis moves by so many degrees where another axis would move by a millimetre.
+  // `turning`: degrees that a rotary axis moves where another axis would move by a millimetre.
   RandomGcode(Random& random, const MachineDescription& machine, double turning = 1)
       : random_(random), machine_(machine), turning_(turning) {}
 
@@ -187,7 +188,7 @@ class RandomGcode {
     for (int i = 0; i < lines; ++i) line(random_.chance(0.2) ? "G0" : "G1");
   }
 
-  // Arcs, full turns, helices and spirals.
+  // Appends arcs, full circles, helices and spirals.
   void arc() {
     const double radius = size_ * std::exp(random_.between(-2, 0.5));
     const double from = random_.between(-std::numbers::pi, std::numbers::pi);
@@ -212,7 +213,7 @@ class RandomGcode {
     place_[Axis::y] += way();
     say("G5 I{:.4f} J{:.4f} P{:.4f} Q{:.4f} X{:.4f} Y{:.4f}", i, j, p, q, place_[Axis::x], place_[Axis::y]);
   }
-  // Chords like those that CAM programs write.
+  // Appends chords like those of CAM programs.
   void chords() {
     const int count = static_cast<int>(random_.between(3, 60));
     const double step = std::exp(random_.between(-5, -1));
@@ -273,7 +274,7 @@ struct RandomJob {
   explicit RandomJob(Random& random) : machine(random_machine(random)), program(RandomGcode(random, machine).draw()) {}
   RandomJob(Random& random, MachineDescription on, double turning = 1)
       : machine(std::move(on)), program(RandomGcode(random, machine, turning).draw()) {}
-  // With limits of jerk on some axes only, and more rotary axes.
+  // With jerk limits on some axes only, and more rotary axes.
   static RandomJob mixed(std::uint64_t number, Random& random) {
     MachineDescription machine = random_machine(random);
     mix_limits(number, machine);
@@ -285,7 +286,7 @@ struct RandomJob {
     give_starts(number, machine);
     return {random, std::move(machine)};
   }
-  // With limits of jerk, torque curves and backlash on any axes; and some lines mostly turn.
+  // With jerk limits, torque curves and backlash on any axes; some lines are mostly rotary.
   static RandomJob of_all_mixtures(std::uint64_t number, Random& random) {
     MachineDescription machine = random_machine(random);
     mix_everything(number, machine);
@@ -305,9 +306,9 @@ struct RandomJob {
   std::string program;
 };
 
-// Calls `try_one` for PASSO_RUNS numbers from PASSO_SEED on, each time with the number's job and generator. Ends at the
-// first failure. Without PASSO_RUNS there are `runs_otherwise` numbers, or fewer as PASSO_ONE_IN says. Each job depends
-// only on its number.
+// Calls `try_one` for PASSO_RUNS numbers, beginning with PASSO_SEED, each time with the number's job and generator.
+// Ends at the first failure. Without PASSO_RUNS there are `runs_otherwise` numbers, divided by PASSO_ONE_IN. Each job
+// depends only on its number.
 template <class Try>
 void for_each_job(int runs_otherwise, const Try& try_one, Machines machines = Machines::as_drawn) {
   const std::uint64_t first = number_of("PASSO_SEED", 1);

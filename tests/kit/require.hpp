@@ -1,4 +1,4 @@
-// require(): states what must be true for every input of a fuzzer. If it is not true, require() ends the program, so
+// require(): checks an invariant for every input of a fuzzer. If it does not hold, require() terminates the program, so
 // that the fuzzer keeps the input.
 #pragma once
 

@@ -1,5 +1,5 @@
-// The seed of a random test. Without PASSO_SEED the seed is always the same, so that a run can be repeated and CI does
-// not depend on luck. Longer runs set PASSO_SEED from outside. The seed is always printed.
+// The seed of a random test. Without PASSO_SEED the seed is always the same, so that a run is repeatable and CI does
+// not depend on chance. Longer runs set PASSO_SEED. The seed is always printed.
 #pragma once
 
 #include <cstdint>
@@ -8,7 +8,7 @@
 
 namespace passo::test {
 
-// A number that is set from outside, as PASSO_RUNS, or else another one.
+// Returns a number from the environment, e.g. PASSO_RUNS, or `otherwise`.
 inline std::uint64_t number_of(const char* name, std::uint64_t otherwise) {
   const char* const text = std::getenv(name);
   return text != nullptr ? std::strtoull(text, nullptr, 10) : otherwise;

@@ -1,4 +1,4 @@
-// Starts `passo board serve`, a simulated board in the network, for each test that needs one.
+// Starts `passo board serve`, a simulated board on the network, for each test that needs one.
 #pragma once
 
 #include <csignal>
@@ -14,11 +14,11 @@ class ServedBoard : public CommandLine {
  protected:
   ~ServedBoard() override { end_server(); }
 
-  // Where the machine stands on a board that was just started: a run wants to be told.
+  // The option for a run on a board that was just started, whose machine position is unknown.
   static constexpr const char* from_here = " --from-here ";
 
-  // Starts a board in place of the last one and returns its address. Without a clock it has the machine's, and
-  // without a machine three motors.
+  // Starts a board instead of the last one and returns its address. Without a clock it has the machine's, and without a
+  // machine three motors.
   std::string serve(const std::string& clock = "16000000", const std::string& machine = "") {
     end_server();
     const std::string said = path("said");
@@ -45,7 +45,7 @@ class ServedBoard : public CommandLine {
     return "it did not start";
   }
 
-  // Returns the server's exit code, or the signal that killed it below 0.
+  // Returns the server's exit code, or the negative number of the signal that killed it.
   int end_server(int signal = SIGTERM) {
     if (server_ <= 0) return 0;
     int status = 0;

@@ -1,4 +1,4 @@
-// Starts `passo serve --http`, and speaks to it over a socket.
+// Starts `passo serve --http`, and communicates with it over a socket.
 #pragma once
 
 #include <algorithm>
@@ -49,7 +49,7 @@ class ServedHttp : public ServedBoard {
     return WIFEXITED(status) ? WEXITSTATUS(status) : -WTERMSIG(status);
   }
 
-  // A socket that is connected to the daemon, or -1. `door`: what the daemon writes before the port.
+  // Returns a socket connected to the daemon, or -1. `door`: the text that the daemon prints before the port number.
   int connected(const std::string& door = "http://127.0.0.1:") const {
     const int line = socket(AF_INET, SOCK_STREAM, 0);
     sockaddr_in address{};
@@ -60,7 +60,7 @@ class ServedHttp : public ServedBoard {
     close(line);
     return -1;
   }
-  // The whole answer: header and body.
+  // Returns the whole response: headers and body.
   std::string ask(const std::string& method, const std::string& path, const std::string& body = "",
                   const std::string& headers = "") const {
     const int line = connected();
@@ -84,7 +84,7 @@ class ServedHttp : public ServedBoard {
     return nlohmann::json::parse(answer.substr(std::min(answer.find("\r\n\r\n"), answer.size())), nullptr, false);
   }
   pid_t pid() const { return server_; }
-  // The header of an owner of the motion.
+  // Takes control, and returns the header that proves it.
   std::string new_key() const { return "X-Passo-Key: " + json("POST", "/owner", "{}").value("key", "") + "\r\n"; }
   template <class Condition>
   bool until(Condition condition) {

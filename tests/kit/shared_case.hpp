@@ -1,4 +1,4 @@
-// Runs a script of ../shared/cases/serve: what a user did, with the program under test.
+// Runs a script of ../shared/cases/serve, which reproduces what a user did, with the program under test.
 #pragma once
 
 #include <cstdlib>
@@ -10,8 +10,8 @@
 
 namespace passo::test {
 
-// What the script printed, also kept in the file `out`. Nothing where the script or one of its tools is missing.
-// The scripts listen on fixed ports, so only one of them runs at a time on this computer.
+// Returns the output of the script, which is also written to the file `out`. Nothing if the script or one of its tools
+// is missing. The scripts listen on fixed ports, so only one of them runs at a time on this computer.
 inline std::optional<std::string> run_shared_case(const std::string& script, const std::string& tools,
                                                   const std::string& out) {
   const std::string cases = PASSO_SOURCE_DIR "/../shared/cases/serve";

@@ -1,5 +1,5 @@
-// Motion for tests, like that of a smoother and a planner with jerk: a chain of cubics with a continuous second
-// derivative, and phases of constant jerk along the chain. Both are cut into moves.
+// Motion for tests, similar to that of a smoother and a planner with jerk limits: a chain of cubics with a continuous
+// second derivative, and phases of constant jerk along the chain. Both are divided into moves.
 #pragma once
 
 #include <algorithm>
@@ -12,15 +12,15 @@
 
 namespace passo::test {
 
-// The natural cubic spline through `points`. Its parameter is the length of the chords.
+// Returns the natural cubic spline through `points`, parametrised by the chord length.
 inline std::vector<Curve> spline_through(const std::vector<Point>& points) {
   const std::size_t n = points.size();
   std::vector<double> length;
   for (std::size_t i = 0; i + 1 < n; ++i) length.push_back(Curve::line(points[i], points[i + 1]).length().value());
   std::vector<Point> tangents(n);
   for (std::size_t axis = 0; axis < axis_count; ++axis) {
-    // The equation for each point is below·m[i-1] + middle·m[i] + above·m[i+1] = right. Elimination goes from the start
-    // to the end, substitution goes back.
+    // The equation for each point is below·m[i-1] + middle·m[i] + above·m[i+1] = right. Elimination goes from start to
+    // end, substitution back.
     std::vector<double> factor(n);
     std::vector<double> rest(n);
     for (std::size_t i = 0; i < n; ++i) {
@@ -45,11 +45,11 @@ inline std::vector<Curve> spline_through(const std::vector<Point>& points) {
   return curves;
 }
 
-// Consecutive phases, beginning at rest. The start of each phase counts from the start of the first phase.
+// A sequence of phases, beginning at standstill. The start of each phase is relative to the start of the first phase.
 class PhaseChain {
  public:
-  // Changes from the present speed to `speed` in `duration`. At the start and at the end, the acceleration changes for
-  // `share` of the duration. With 0, the acceleration is constant. With 1/2, there is jerk all the time.
+  // Changes from the current speed to `speed` in `duration`. At the start and at the end, the acceleration changes for
+  // a fraction `share` of the duration. With 0, the acceleration is constant. With 1/2, there is jerk all the time.
   void change_speed(double speed, double duration, double share) {
     const double acceleration = (speed - speed_) / (duration * (1 - share));
     const double ramp = share * duration;
@@ -60,7 +60,7 @@ class PhaseChain {
   }
   void cruise(double duration) { add(duration, 0, 0); }
 
-  // The same motion, scaled to `length` and a top speed of `speed`.
+  // Returns the same motion, scaled to `length` and a maximum speed of `speed`.
   std::vector<Phase> over(double length, double speed) const {
     const double way = length / length_;
     const double time = way * top_ / speed;
@@ -94,7 +94,7 @@ class PhaseChain {
   double top_ = 0;
 };
 
-// Cuts the phases at each of the places `cuts`, which are in ascending order.
+// Divides the phases at each of the positions `cuts`, which are in ascending order.
 inline std::vector<Phase> cut_at(const std::vector<double>& cuts, const std::vector<Phase>& phases) {
   constexpr double nothing = 1e-9;  // mm
   std::vector<Phase> pieces;
@@ -123,12 +123,12 @@ inline std::vector<Phase> cut_at(const std::vector<double>& cuts, const std::vec
   return pieces;
 }
 
-// Moves for the phases along all curves. Each move is on one curve, covers at most the length `part` of it, and has at
-// most as many phases as a move can hold.
+// Returns moves for the phases along all curves. Each move is on one curve, covers at most the length `part` of it, and
+// has at most as many phases as a move can contain.
 inline std::vector<MotionItem> moves_along(const std::vector<Curve>& curves, const std::vector<Phase>& phases,
                                            double part) {
   std::vector<double> cuts;
-  std::vector<double> starts;  // where each curve starts
+  std::vector<double> starts;  // start position of each curve
   double end = 0;
   for (const Curve& curve : curves) {
     starts.push_back(end);
@@ -140,7 +140,7 @@ inline std::vector<MotionItem> moves_along(const std::vector<Curve>& curves, con
 
   std::vector<MotionItem> items;
   std::size_t curve = 0;
-  double part_end = 0;  // where the present move ends
+  double part_end = 0;  // end position of the current move
   for (const Phase& phase : cut_at(cuts, phases)) {
     const double middle = phase.position_at(phase.duration / 2).value();
     auto* move = items.empty() ? nullptr : &std::get<PlannedMove>(items.back());

@@ -1,5 +1,6 @@
-// SoakWorld: a virtual machine at the end of a line, and the plant behind the machine. Troubles happen to all three:
-// the line is cut or spoils bytes; somebody opens the door, presses buttons, closes limit switches or resets the board.
+// SoakWorld: a virtual machine at the end of a link, and the plant behind the machine. All three are disturbed: the
+// link is cut or corrupts bytes; the door is opened, buttons are pressed, limit switches are closed, or the board is
+// reset.
 #pragma once
 
 #include <algorithm>
@@ -42,8 +43,8 @@ class SoakWorld {
 
   Seconds now() const { return machine.elapsed(); }
   Truth truth() { return plant_.truth_at(now()); }
-  // Ends troubles that are over, and begins a new one from time to time. Returns the words of the new trouble, or null.
-  // With `homes`, nobody presses limit switches, because that would give the machine a wrong place.
+  // Ends disturbances that are over, and begins a new one from time to time. Returns the description of the new one, or
+  // null. With `homes`, limit switches are not pressed, because that would give the machine a wrong position.
   const char* act(bool homes) {
     for (std::size_t i = 0; i < due_.size();) {
       if (due_[i].at > now()) {
@@ -58,7 +59,7 @@ class SoakWorld {
     next_ = now() + wait();
     return trouble(homes);
   }
-  // Somebody turns the axes back by hand that are beyond their travel. Call it at rest.
+  // Simulates an operator who turns axes beyond their travel back by hand. Must be called at standstill.
   void turn_back() {
     MotorSteps steps{};
     for (std::size_t m = 0; m < description_.axes.size(); ++m) {
@@ -68,22 +69,22 @@ class SoakWorld {
       steps[m] = std::llround(std::clamp(place, axis.travel_low, axis.travel_high) * scale);
     }
     plant_.stand_at(steps);
-    machine.set_switch(0, false);  // makes the machine look at the plant
+    machine.set_switch(0, false);  // makes the machine evaluate the plant
   }
-  // Whether a limit switch is pressed by hand. Then homing may find a wrong place.
+  // Returns whether a limit switch is pressed by hand, so that homing may find a wrong position.
   bool fools() const { return fools_; }
 
   LimitWatch limits;
   VirtualMachine machine;
   VirtualLine line;
   std::uint64_t cuts = 0;
-  std::uint64_t spoiled = 0;  // bytes and frames
+  std::uint64_t spoiled = 0;  // number of corrupted bytes and frames
   std::uint64_t presses = 0;
   std::uint64_t doors = 0;
   std::uint64_t emergency_stops = 0;
   std::uint64_t limit_presses = 0;
   std::uint64_t resets = 0;
-  std::uint64_t stops = 0;  // how often the board stopped at once
+  std::uint64_t stops = 0;  // number of instant stops of the board
 
  private:
   struct Due {
@@ -91,7 +92,7 @@ class SoakWorld {
     std::function<void()> happen;
   };
 
-  // A plate under the whole table, for the probe to touch.
+  // Returns a plate under the whole table for the probe to touch.
   static TouchBox plate() {
     TouchBox box;
     box.ranges[Axis::z].high = -25;

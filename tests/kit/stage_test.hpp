@@ -1,5 +1,5 @@
-// Helpers for tests of a stage: feed the stage from a list, compare its text with a golden file (golden.hpp), draw
-// seeded random numbers.
+// Functions for tests of a stage: feeding the stage from a list, comparing its text with a golden file (golden.hpp),
+// and seeded random numbers.
 #pragma once
 
 #include <cstdint>
@@ -27,7 +27,7 @@ std::vector<T> drain(Source<T>& source) {
 class Random {
  public:
   explicit Random(std::uint64_t more = 0) : seed_(test::seed() + more), engine_(seed_) {}
-  // A generator for one trial of many; prints nothing.
+  // Returns a generator for one trial of many; prints nothing.
   static Random of(std::uint64_t seed) { return Random(std::mt19937_64(seed), seed); }
 
   std::uint64_t seed() const { return seed_; }

@@ -1,5 +1,5 @@
-// StepJudge: judges a run by its steps alone, against the limits in the machine's description. It shares no code with
-// what plans the motion and makes the steps.
+// StepJudge: checks a run by its steps only, against the limits in the machine's description. It shares no code with
+// the motion planning and step generation.
 #pragma once
 
 #include <algorithm>
@@ -18,14 +18,14 @@
 
 namespace passo::test {
 
-// Looks at the places of the motors at even distances of time. The mean acceleration over a window cannot exceed the
-// limit of the acceleration, nor can the mean jerk exceed that of the jerk. A short window shows a short jump, and a
-// long one a small excess, because whole steps disturb it less.
+// Compares the motor positions at equal time intervals. The mean acceleration over a window cannot exceed the
+// acceleration limit, nor can the mean jerk exceed the jerk limit. A short window reveals a short jump, and a long one
+// a small excess, because whole steps disturb it less.
 class StepJudge {
  public:
-  // The board played what it held for a lost line, and then rested.
+  // A stop ramp: the board played its queue after the link was lost, and then stopped.
   struct Tail {
-    double from = 0;  // in seconds, as all times
+    double from = 0;  // in seconds, like all times
     double to = 0;
   };
   StepJudge(const MachineDescription& machine, const StepLog::Steps& steps, std::vector<Tail> tails = {})
@@ -41,7 +41,7 @@ class StepJudge {
     }
   }
 
-  // The first motor that exceeds a limit, and where. Nothing where all limits are kept.
+  // Returns the first motor that exceeds a limit, and where. Nothing if all limits are kept.
   std::optional<std::string> fault() const {
     for (unsigned m = 0; m < machine_.axes.size(); ++m) {
       for (const int samples : {4, 8, 16, 32}) {
@@ -51,8 +51,8 @@ class StepJudge {
     return {};
   }
 
-  // How long it takes at most to come to rest from these speeds of the axes, as if each axis were alone: to brake; and
-  // for each axis that makes a step between these times, to turn its acceleration round and to let it go.
+  // Returns the maximum time to stop from these speeds of the axes, with each axis considered separately: the braking
+  // time; and for each axis that makes a step between these times, the time to reverse and release its acceleration.
   double braking(const std::vector<double>& speeds, double from, double rested) const {
     double most = 0;
     double longest_rise = 0;
@@ -64,7 +64,7 @@ class StepJudge {
     }
     return most + 2.5 * longest_rise;
   }
-  // Of any motor, in seconds. 0: none.
+  // Returns the time of the last step of any motor, in seconds. 0: none.
   double last_step_before(double time) const {
     const double tick = time * machine_.board.clock.value();
     double last = 0;
@@ -79,11 +79,11 @@ class StepJudge {
 
  private:
   static constexpr double apart = 0.00125;  // seconds
-  // In steps. Whole steps make less than 2 in an acceleration and 4 in a jerk. Events of another motor, at most one
-  // step off each, make as much again.
+  // In steps. Whole steps cause less than 2 in an acceleration and 4 in a jerk. Events of another motor, at most one
+  // step off each, cause the same again.
   static constexpr double slack = 4;
   static constexpr double slack_of_jerk = 8;
-  // The tails of a small board have no limits of jerk (decision 0108).
+  // Stop ramps of a board with a small queue have no jerk limits (decision 0108).
   bool is_in_small_tail(double from, double to) const {
     if (machine_.board.held_items >= 200) return false;
     return std::ranges::any_of(tails_, [&](const Tail& tail) { return from < tail.to && tail.from < to; });
@@ -126,7 +126,7 @@ class StepJudge {
       const double most = axis.acceleration.value() * window * window * steps * tolerated + slack;
       if (bend > most) return told("bend", bend, most);
       if (axis.follows_torque()) {
-        // The torque is the greatest where the motor was slowest. It was hardly slower than on the mean of both halves.
+        // The torque is highest where the motor was slowest, which was hardly slower than the mean of both halves.
         const double mean = (newest - second) * (second - third) > 0 ? std::min(way, std::abs(second - third)) - 2 : 0;
         const double slowest = std::max(mean / window / steps - axis.acceleration.value() * window, 0.0);
         const double left = axis.acceleration_at(MmPerSecond(slowest)).value() * window * window * steps * tolerated;

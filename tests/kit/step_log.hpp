@@ -1,5 +1,5 @@
-// StepLog: every step of a run. The functions below check a run over a troubled line: the machine must go the same way
-// as without trouble, and stay within its limits.
+// StepLog: every step of a run. The functions below check a run over a disturbed link: the machine must follow the same
+// path as without disturbances, and stay within its limits.
 #pragma once
 
 #include <array>
@@ -14,7 +14,7 @@
 
 namespace passo::test {
 
-// Every step of a run, as the machine made it.
+// Every step of a run, as executed by the machine.
 class StepLog final : public MachineObserver {
  public:
   void on_steps(Ticks time, std::uint8_t stepped, std::uint8_t directions) override {
@@ -34,19 +34,19 @@ class StepLog final : public MachineObserver {
   struct Step {
     std::int64_t tick = 0;
     bool down = false;
-    std::array<std::int64_t, motors> place{};  // of all motors after the step
+    std::array<std::int64_t, motors> place{};  // positions of all motors after the step
   };
   std::array<std::int64_t, motors> place{};
   using Steps = std::array<std::vector<Step>, motors>;
   Steps steps;
 };
 
-// Expects the same steps in the same order as in `reference`, the run without trouble. At each step the other motors
-// must be at the same places as in the reference, within a few steps. A motor that turns back just where a step is due
-// may make the step and undo it within an event or two, or leave it out. So one run may have at most `most_touches`
+// Expects the same steps in the same order as in `reference`, the undisturbed run. At each step the other motors must
+// be at the same positions as in the reference, within a few steps. A motor that reverses exactly where a step is due
+// may make the step and undo it within an event or two, or omit it. Therefore one run may have at most `most_touches`
 // such pairs of steps that the other run lacks.
 inline void expect_same_way(const StepLog::Steps& run, const StepLog::Steps& reference, int most_touches = 0) {
-  constexpr std::int64_t beside = 3;  // steps by which another motor may be elsewhere, as where both come to rest
+  constexpr std::int64_t beside = 3;  // tolerance for the other motors, in steps, e.g. where both stop
   int touches = 0;
   const auto is_touch = [](const std::vector<StepLog::Step>& steps, std::size_t i) {
     return i + 1 < steps.size() && steps[i].down != steps[i + 1].down;
@@ -76,7 +76,7 @@ inline void expect_same_way(const StepLog::Steps& run, const StepLog::Steps& ref
   }
 }
 
-// The place of a motor at a time. The time may only grow from call to call.
+// The position of a motor at a time, which must not decrease from call to call.
 class PlaceAt {
  public:
   PlaceAt(const std::vector<StepLog::Step>& steps, unsigned motor) : steps_(steps), motor_(motor) {}
@@ -91,8 +91,8 @@ class PlaceAt {
   std::size_t next_ = 0;
 };
 
-// Compares places at equal distances of time. A bounded acceleration bounds the second difference of three places. A
-// bounded jerk bounds the third difference of four places.
+// Compares positions at equal time intervals. An acceleration limit bounds the second difference of three positions, a
+// jerk limit the third difference of four positions.
 template <std::size_t count>
 void expect_small_differences(const std::vector<StepLog::Step>& steps, unsigned motor,
                               const std::array<int, count>& factors, double window, double most) {
@@ -108,30 +108,30 @@ void expect_small_differences(const std::vector<StepLog::Step>& steps, unsigned 
   }
 }
 
-// `slack`, in steps, allows for two errors. Steps are whole, which makes less than 2. Events are not exact, which makes
-// 4 times the share of an interval by which an event may be off: at most 4, in a tail (decision 0031). A slack below
-// the sum has been enough in most cases. In tails of boards with fewer than 100 places a step may come an event late,
-// too (decision 0129), which makes 4 more.
+// `slack`, in steps, allows for two errors. Whole steps cause less than 2. Inexact events cause 4 times the fraction of
+// an interval by which an event may be off: at most 4, in a stop ramp (decision 0031). A slack below the sum has been
+// sufficient in most cases. In stop ramps of boards with a queue of fewer than 100 items a step may be an event late,
+// too (decision 0129), which causes 4 more.
 inline void expect_within_limits(const MachineDescription& machine, const StepLog::Steps& run, double slack = 4) {
   constexpr double apart = 0.008;  // seconds
-  // The time between two places for the jerk. With a shorter time, a jump of the acceleration by its limit shows
-  // better, but whole steps disturb more. A longer time does the opposite.
+  // The time between two positions for the jerk. A shorter time makes a jump of the acceleration by its limit more
+  // visible, but increases the disturbance by whole steps. A longer time does the opposite.
   constexpr double apart_of_four = 0.009;
   const double clock = machine.board.clock.value();
   if (machine.board.held_items < 100) slack += 4;
   for (unsigned m = 0; m < machine.axes.size(); ++m) {
     const AxisDescription& axis = machine.axes[m];
     const double steps = std::fabs(axis.steps_per_unit);
-    // Twice the start-stop velocity: one jump may follow another within the time, of which each is no larger.
+    // Twice the start-stop velocity: within the interval one jump may follow another, each at most that large.
     const double bend = (axis.acceleration.value() * apart + 2 * axis.start_stop.value()) * steps * apart;
     expect_small_differences<3>(run[m], m, {1, -2, 1}, clock * apart, bend * 1.02 + slack);
-    // What a small board holds ends without limits of jerk (decision 0108).
+    // The stop ramp of a small board has no jerk limits (decision 0108).
     const bool has_gentle_tails = machine.board.held_items >= 200;
     if (axis.jerk.value() == 0 || !has_gentle_tails) continue;
     const double jolt = axis.jerk.value() * steps * apart_of_four * apart_of_four * apart_of_four;
-    // Whole steps make 4 of this slack. The factors add up to 8. An event is off by at most a quarter of its interval,
-    // which makes 2. A tail over a line does not wait for its exact end (Exactness::ends_in_time), so motion may begin
-    // while less than half a step of the tail would be left: 2.
+    // Whole steps account for 4 of this slack: the factors add up to 8. An event is off by at most a quarter of its
+    // interval, which causes 2. A stop ramp over a link does not wait for its exact end (Exactness::ends_in_time), so
+    // motion may begin when less than half a step of the stop ramp is left: 2.
     expect_small_differences<4>(run[m], m, {-1, 3, -3, 1}, clock * apart_of_four, jolt * 1.02 + 8);
   }
 }

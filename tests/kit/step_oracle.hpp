@@ -1,6 +1,5 @@
-// The exact steps, computed from the phases by bisection in long double. And the steps that a list of board segments
-// plays, computed from the definition in board_segment.hpp. This code shares nothing with the step generator or the
-// player.
+// Computes the exact steps from the phases by bisection in long double, and the steps that a list of board segments
+// plays from the definition in board_segment.hpp. This code shares nothing with the step generator or the player.
 #pragma once
 
 #include <algorithm>
@@ -27,13 +26,13 @@ struct ExactStep {
 struct PlayedStep {
   std::int64_t tick = 0;
   int direction = 0;
-  bool of_master = false;     // a step of the motor that sets the events of its segment
-  bool held_back = false;     // the step's event, or the event before, came as early as the board allows
+  bool of_master = false;     // a step of the motor that defines the events of its segment
+  bool held_back = false;     // the step's event, or the previous event, was as early as the board allows
   std::int64_t interval = 0;  // ticks; the longer of the intervals before and after the step's event
 };
 
 struct Playback {
-  std::vector<std::vector<PlayedStep>> steps;  // of each motor
+  std::vector<std::vector<PlayedStep>> steps;  // the steps of each motor
   std::vector<std::int64_t> counts;
   std::vector<std::int64_t> event_ticks;
   std::int64_t end_tick = 0;
@@ -42,7 +41,7 @@ struct Playback {
   std::int64_t shortest_interval = INT64_MAX;  // ticks
 };
 
-// place = start + first s + second s² + third s³.
+// Position = start + first s + second s² + third s³.
 struct Cubic {
   long double first, second, third;
 };
@@ -75,7 +74,7 @@ inline long double exact_coordinate(Axis axis, const Curve& curve, long double s
   return start + (curve.end()[axis] - start) * s / length;
 }
 
-// A motor's step count is this place, rounded down.
+// Returns the exact position of a motor; its step count is this value rounded down.
 inline long double exact_place(const MotorRow& motor, const Curve& curve, long double s) {
   long double steps = 0.5L;
   for (const auto& [axis, factor] : motor.steps.shares()) steps += factor * exact_coordinate(axis, curve, s);
@@ -90,7 +89,7 @@ inline long double bisect(auto&& below, long double low, long double high) {
   return (low + high) / 2;
 }
 
-// Seconds from the start of the move until the path reaches s.
+// Returns the seconds from the start of the move until the path reaches s.
 inline long double exact_time(const PlannedMove& move, long double s) {
   long double time = 0;
   for (std::size_t i = 0; i < move.phase_count; ++i) {
@@ -109,7 +108,7 @@ inline long double exact_time(const PlannedMove& move, long double s) {
   return time;
 }
 
-// The places where a motor turns back that turns for an axis of an arc's plane. Between two samples, the slope changes
+// Returns the positions at which a motor of an axis in the arc's plane reverses. Between two samples, the slope changes
 // its sign at most once.
 inline std::vector<long double> turns_on_arc(const MotorRow& motor, const Curve& curve) {
   const Curve::ArcData& arc = curve.arc_data();
@@ -139,7 +138,8 @@ inline std::vector<long double> turns_on_arc(const MotorRow& motor, const Curve&
   return turns;
 }
 
-// The places where the slope of a cubic changes its sign, by bisection on either side of the slope's own turning point.
+// Returns the positions where the slope of a cubic changes its sign, by bisection on both sides of the slope's own
+// extremum.
 inline std::vector<long double> turns_on_cubic(const MotorRow& motor, const Curve& curve) {
   const auto [first, second, third] = cubic_of(motor, curve);
   const auto slope = [&, a = first, b = second, c = third](long double s) { return a + s * (2 * b + s * 3 * c); };
@@ -154,7 +154,7 @@ inline std::vector<long double> turns_on_cubic(const MotorRow& motor, const Curv
   return turns;
 }
 
-// Values of s between which the motor does not turn back. They cover the part of the curve that the move covers.
+// Returns values of s between which the motor does not reverse. They cover the part of the curve that the move covers.
 inline std::vector<long double> monotone_pieces(const MotorRow& motor, const PlannedMove& move) {
   const Curve& curve = move.segment.curve;
   const Curve::ArcData& arc = curve.arc_data();
@@ -182,7 +182,7 @@ inline std::vector<ExactStep> exact_steps(const std::vector<MotionItem>& items, 
   const MotorRow& motor = options.kinematics.rows()[m];
   const long double ticks = options.clock.tick_rate.value();
   long double start = 0;              // seconds
-  std::optional<std::int64_t> count;  // the motor's step count so far
+  std::optional<std::int64_t> count;  // the motor's current step count
   for (const MotionItem& item : items) {
     if (const auto* action = std::get_if<Action>(&item)) {
       start += action->dwell.value();
@@ -195,7 +195,7 @@ inline std::vector<ExactStep> exact_steps(const std::vector<MotionItem>& items, 
     for (std::size_t i = 0; i + 1 < pieces.size(); ++i) {
       const bool rises = exact_place(motor, curve, pieces[i + 1]) > exact_place(motor, curve, pieces[i]);
       const std::int64_t last = whole_place(exact_place(motor, curve, pieces[i + 1]));
-      // The count goes on from move to move, so that a line on which two moves meet is crossed only once.
+      // The count is carried over from move to move, so that a grid line on which two moves meet is crossed only once.
       for (; rises ? *count < last : *count > last; *count += rises ? 1 : -1) {
         const auto line = static_cast<long double>(rises ? *count + 1 : *count);
         const long double s = bisect([&](long double at) { return (exact_place(motor, curve, at) < line) == rises; },
@@ -208,7 +208,7 @@ inline std::vector<ExactStep> exact_steps(const std::vector<MotionItem>& items, 
   return steps;
 }
 
-// Whether the board may leave out two steps: the path crosses a line and comes back before the next event.
+// Returns whether the board may omit two steps: the path crosses a grid line and returns before the next event.
 inline bool may_be_left_out(const ExactStep& there, const ExactStep& back,
                             const std::vector<std::int64_t>& event_ticks) {
   const auto event_after = [&](const ExactStep& step) {
@@ -218,7 +218,7 @@ inline bool may_be_left_out(const ExactStep& there, const ExactStep& back,
   return there.direction != back.direction && event_after(back) - event_after(there) <= 1;
 }
 
-// The signed increment, as in the table of board_segment.hpp.
+// Returns the signed increment, as in the table of board_segment.hpp.
 inline std::int64_t signed_increment(const BoardSegment& segment, unsigned m) {
   const bool flip = (segment.flips >> m & 1U) != 0;
   const bool down = (segment.directions >> m & 1U) != 0;
@@ -227,7 +227,7 @@ inline std::int64_t signed_increment(const BoardSegment& segment, unsigned m) {
   return flip ? raw - 65536 : 0;
 }
 
-// In 1/65536 tick.
+// Returns the intervals in 1/65536 tick.
 inline std::vector<std::int64_t> intervals_of(const BoardSegment& segment) {
   std::vector<std::int64_t> intervals;
   for_each_part(segment, [&](const PartTimes& part, unsigned events, unsigned /*before*/) {
@@ -236,7 +236,7 @@ inline std::vector<std::int64_t> intervals_of(const BoardSegment& segment) {
   return intervals;
 }
 
-// Roots and bends resolved, as the board plays them.
+// Returns the items with roots and bends resolved, as the board plays them.
 inline std::vector<BoardItem> plain(const std::vector<BoardItem>& items) {
   std::vector<BoardItem> parts;
   for (const BoardItem& item : items) {
@@ -260,8 +260,8 @@ inline Playback play(const std::vector<BoardItem>& items, const StepOptions& opt
     std::size_t index;
   };
   std::vector<Pending> pending;  // steps whose next interval is not known yet
-  // Events without any motion only fill a time that is too long for one interval, so the interval goes on through them.
-  // At an action the machine rests, and the interval ends.
+  // Events without any motion only fill a time that is too long for one interval, so the interval includes them. At an
+  // action the machine is stopped, and the interval ends.
   std::int64_t last_motion = 0;  // ticks
   const auto end_interval = [&](std::int64_t tick) {
     for (const Pending& p : pending) {
@@ -280,8 +280,8 @@ inline Playback play(const std::vector<BoardItem>& items, const StepOptions& opt
       continue;
     }
     ++result.segments;
-    // The master moves by a power of two, and more than any other motor. If two motors move alike, this code cannot
-    // tell which one is the master.
+    // The master moves by a power of two, and more than any other motor. If two motors move equally, this code cannot
+    // determine which one is the master.
     std::int64_t most = 0;
     unsigned alike = 0;
     for (unsigned m = 0; m < options.kinematics.motor_count(); ++m) {

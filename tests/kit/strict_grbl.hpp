@@ -1,5 +1,5 @@
-// StrictGrbl: a machine that speaks Grbl 1.1 as its sources have it, in virtual time, with a buffer that loses what is
-// too much. It knows the lines that GrblCode writes, and refuses all others.
+// StrictGrbl: a Grbl 1.1 machine modelled on grbl's sources, in virtual time, with a receive buffer that loses bytes on
+// overflow. It accepts the lines that GrblCode writes, and refuses all others.
 #pragma once
 
 #include <algorithm>
@@ -21,17 +21,17 @@ class StrictGrbl {
 
   std::string greeting = "Grbl 1.1h ['$' for help]";
   std::string options = "V,15,128";
-  std::string more_of_itself = {};  // after the options, whole lines
+  std::string more_of_itself = {};  // whole lines sent after the options
   std::string settings = "$10=1\r\n$13=0\r\n$22=0\r\n";
   std::string offsets = "[G54:0.000,0.000,0.000]\r\n[G92:0.000,0.000,0.000]\r\n[TLO:0.000]\r\n";
   std::string modes = "G0 G54 G17 G21 G90 G94 M5 M9 T0 F0 S0";
-  std::function<std::string()> own_report = {};  // another form of its reports
-  double spindle_time = 0;                       // s, of M3
-  bool has_switches = true;                      // for $H
+  std::function<std::string()> own_report = {};  // generates reports in another format
+  double spindle_time = 0;                       // duration of M3, s
+  bool has_switches = true;                      // whether there are limit switches for $H
   bool homes_for_ever = false;
-  double block_time = 0.05;  // s, of each motion
-  std::string refused = {};  // this line gets error:20
-  std::string trips = {};    // at this line a limit switch closes
+  double block_time = 0.05;  // duration of each motion, s
+  std::string refused = {};  // a line that gets error:20
+  std::string trips = {};    // a line at which a limit switch closes
   bool loses_next_line_end = false;
 
   std::size_t most_waiting() const { return most_waiting_; }
@@ -63,7 +63,7 @@ class StrictGrbl {
     }
   }
 
-  // Plays some time.
+  // Advances the time.
   void run(double seconds) {
     read_lines();
     now_ += seconds;
@@ -126,7 +126,7 @@ class StrictGrbl {
       if (end == std::string::npos) return;
       const std::string line = waiting_.substr(0, end);
       const bool waits = line.starts_with("G4") || line.starts_with('M');
-      if (waits && !planner_.empty()) return;  // what changes no motion waits until all motion is done
+      if (waits && !planner_.empty()) return;  // a line without motion waits until all motion is complete
       waiting_.erase(0, end + 1);
       take(line);
     }

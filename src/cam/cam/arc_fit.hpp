@@ -1,9 +1,10 @@
-// with_arcs: finds the arcs again that offsets have made chords of. Private to cam/.
+// with_arcs: recovers arcs from the chords that offsetting produced. Private to cam/.
 //
-// A row of three chords or more becomes an arc where all its points lie on one circle, and the row turns one way by at
-// most a half circle. Each chord must be near to the circle. Where the row turns the way in which an offset rounds
-// corners, chords may also be as far from the circle as those of the offset, if they are of one length (the first and
-// the last of an offset's chords may be shorter, or half as long again). So a side of a polygon stays straight.
+// A sequence of three or more chords becomes an arc if all its points lie on one circle and it turns in one direction
+// by at most a half circle. Each chord must be close to the circle. In the direction in which an offset rounds corners,
+// a chord may also deviate from the circle as much as an offset's chords do, provided that the chords have equal length
+// (the first and last chord may be shorter, or up to half as long again). The sides of a polygon therefore stay
+// straight.
 #pragma once
 
 #include <vector>
@@ -13,13 +14,13 @@
 namespace passo {
 
 struct ArcFit {
-  double off_circle_nm = 300;    // how far a point may be from the circle
-  double near_chord_nm = 1'000;  // how far the arc may be from any chord
-  double even_chord_nm = 0;      // and from the chords of an offset
-  int rounded_turn = 0;          // the way in which the offset rounds corners: 1 left, -1 right
+  double off_circle_nm = 300;    // maximum distance of a point from the circle
+  double near_chord_nm = 1'000;  // maximum distance of the arc from any chord
+  double even_chord_nm = 0;      // maximum distance of the arc from the chords of an offset
+  int rounded_turn = 0;          // direction in which the offset rounds corners: 1 left, -1 right
 };
 
-// The last point of the answer is the last of the points.
+// Returns the points joined by lines and arcs. The last point stays the same.
 std::vector<PathPoint> with_arcs(const std::vector<DrawnPoint>& points, const ArcFit& fit);
 
 }  // namespace passo

@@ -1,4 +1,4 @@
-// find_gaps: islands of copper that are near to each other. Private to cam/.
+// find_gaps: finds islands of copper that are close to each other. Private to cam/.
 #pragma once
 
 #include <vector>
@@ -7,12 +7,13 @@
 
 namespace passo {
 
-// One gap for each two islands that are nearer to each other than `narrowest` and in the same one of `groups`, from
-// narrow to wide.
+// Returns one gap for each pair of islands that are closer than `narrowest` and lie in the same region of `groups`; the
+// narrowest gap first.
 std::vector<CopperGap> find_gaps(const std::vector<Region>& islands, const std::vector<Region>& groups,
                                  Nanometres narrowest);
 
-// Those pieces of the ground that touch two islands or more. `reach`: how far a piece may be from what it touches.
+// Returns the pieces of `ground` that touch two or more islands. `reach`: the maximum distance at which a piece counts
+// as touching.
 Region between_islands(const Region& ground, const std::vector<Region>& islands, Nanometres reach);
 
 }  // namespace passo

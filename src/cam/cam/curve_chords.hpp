@@ -1,4 +1,4 @@
-// for_chords: the ends of chords on a Bézier curve. Private to cam/.
+// for_chords: divides a Bézier curve into chords. Private to cam/.
 #pragma once
 
 #include <cmath>
@@ -7,9 +7,10 @@
 
 namespace passo {
 
-// `p`: the curve's three or four points, with x and y. `scale`: millimetres of a 1. Calls emit(x, y) for the end of
-// each chord, at last the curve's own end, until it answers false. Chords are of equal parameter: a stretch of a curve
-// is as far from its chord as its second differences say. False: there would be more than a million.
+// Calls emit(x, y) for the end point of each chord, the last of which is the end of the curve, until emit returns
+// false. `p`: the three or four control points of the curve. `scale`: millimetres per curve unit. The chords have equal
+// parameter steps, chosen from the curve's second differences so that the tolerance holds. Returns false if more than a
+// million chords would be needed.
 template <class Point, class Emit>
 bool for_chords(std::span<const Point> p, double scale, double tolerance_mm, const Emit& emit) {
   const std::size_t degree = p.size() - 1;

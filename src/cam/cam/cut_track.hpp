@@ -1,4 +1,4 @@
-// CutTrack: a closed way of the cutter by its length, and the runs that go down along it. Private to cam/.
+// CutTrack: a closed toolpath parametrised by its length, with runs that ramp down along it. Private to cam/.
 #pragma once
 
 #include <utility>
@@ -10,23 +10,24 @@ namespace passo {
 
 class CutTrack {
  public:
-  // The last point leads back to the first.
+  // The track is closed: the last point leads back to the first.
   explicit CutTrack(const std::vector<PathPoint>& points);
 
   double length() const { return length_; }
   DrawnPoint at(double along) const;
-  // The direction there, in radians.
+  // Returns the direction of travel at this length, in radians.
   double direction(double along) const;
-  // Where along the track the place nearest to `point` is, and how far away.
+  // Returns the length along the track at the point nearest to `point`, and the distance to that point.
   std::pair<double, double> nearest(DrawnPoint point) const;
-  // The straight pieces, from where to where.
+  // Returns the start and end of each straight piece.
   std::vector<std::pair<double, double>> straights() const;
 
-  // In these stretches the cutter never goes below `top`. Stretches may go beyond the end, and on from the start.
+  // Keeps the cutter at or above `top` in these stretches. A stretch may extend beyond the end of the track; it then
+  // continues at the start.
   void keep_above(Nanometres top, std::vector<std::pair<double, double>> stretches);
 
-  // Adds the way from one place to the other, which may go around several times, while the height changes evenly. The
-  // run ends at `from`, or is empty.
+  // Appends the toolpath between the two lengths, which may go around several times; the height changes linearly. The
+  // run must end at `from` or be empty.
   void append(MillRun& run, double from, double to, Nanometres from_z, Nanometres to_z) const;
 
  private:

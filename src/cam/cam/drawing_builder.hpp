@@ -1,7 +1,7 @@
 // DrawingBuilder: adds holes and paths to a drawing within its limits. Private to cam/.
 //
-// A coordinate too far from zero, or too many points, are an error, which the builder reports once. Everything that is
-// added afterwards is dropped.
+// A coordinate too far from zero and too many points are errors; the builder reports the first one and then drops
+// everything that is added.
 #pragma once
 
 #include <optional>
@@ -20,17 +20,17 @@ class DrawingBuilder {
     drawing_.file = file;
   }
 
-  // The layer's index; a new name makes a new layer.
+  // Returns the index of the layer of this name; creates the layer if necessary.
   std::uint32_t layer(std::string_view name);
   void add_hole(const DrawnHole& hole);
-  // A path of fewer than two points is dropped.
+  // Adds a path. Drops a path of fewer than two points.
   void add_path(DrawnPath path);
   void note(std::string words) { drawing_.notes.push_back(std::move(words)); }
 
-  // Empty, and reported: farther from zero than a drawing may be.
+  // Converts a length. Reports an error and returns nothing if the length exceeds the limit of a drawing.
   std::optional<Nanometres> length(Mm value, const SourcePlace& place, std::string_view text);
   std::optional<DrawnPoint> point(Mm x, Mm y, const SourcePlace& place, std::string_view text);
-  // Counts points before they are made. False, and reported: too many.
+  // Reserves points before they are created. Reports an error and returns false if the limit would be exceeded.
   bool has_room_for(std::size_t points, const SourcePlace& place, std::string_view text);
 
   bool is_full() const { return is_full_; }

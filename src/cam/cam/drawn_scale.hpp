@@ -1,4 +1,4 @@
-// words_on_scale: whether a drawing of holes seems to be in another unit than it is read in. Private to cam/.
+// words_on_scale: detects drill drawings that were probably read in the wrong unit. Private to cam/.
 #pragma once
 
 #include <string>
@@ -7,8 +7,8 @@
 
 namespace passo {
 
-// What seems wrong with the drawing's scale, and what to try; empty: nothing. Looks at the diameters of the holes, and
-// where they have none, whether neighbours are multiples of ten or a tenth of the usual 2.54 mm apart.
+// Returns what seems wrong with the scale of the drawing and what to try; empty if nothing does. Examines the hole
+// diameters or, if the holes have none, whether their spacing is ten times or a tenth of the usual 2.54 mm pitch.
 std::string words_on_scale(const Drawing& drawing);
 
 }  // namespace passo

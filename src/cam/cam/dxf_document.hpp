@@ -1,5 +1,4 @@
-// DxfDocument: a DXF file's layers, blocks and entities as they are written, before blocks are expanded. Private to
-// cam/.
+// DxfDocument: the layers, blocks and entities of a DXF file as written, before blocks are expanded. Private to cam/.
 #pragma once
 
 #include <cstdint>
@@ -38,9 +37,9 @@ struct DxfEntity {
   DxfKind kind = DxfKind::other;
   bool is_in_paper = false;
   std::uint32_t layer = 0;  // index into DxfDocument::layers
-  std::uint32_t block = 0;  // of an INSERT: index into DxfDocument::blocks
-  std::uint32_t line = 0;   // where it begins; 0 in a binary file
-  std::size_t first = 0;    // its numbers in DxfDocument::numbers
+  std::uint32_t block = 0;  // for an INSERT: index into DxfDocument::blocks
+  std::uint32_t line = 0;   // first line of the entity; 0 in a binary file
+  std::size_t first = 0;    // index of its first number in DxfDocument::numbers
   std::size_t count = 0;
 };
 
@@ -59,21 +58,21 @@ struct DxfBlock {
 
 struct DxfDocument {
   std::optional<int> insert_units;  // $INSUNITS
-  bool has_end = false;             // EOF
+  bool has_end = false;             // whether EOF was read
   std::vector<DxfLayer> layers;
   std::vector<DxfBlock> blocks;
   std::vector<DxfEntity> entities;
-  std::vector<DxfNumber> numbers;               // of all entities
-  std::map<std::string, std::size_t> left_out;  // names of entities that are not read, and how many there are
+  std::vector<DxfNumber> numbers;               // the numbers of all entities
+  std::map<std::string, std::size_t> left_out;  // names of unsupported entities and how often each occurs
 
   std::span<const DxfNumber> numbers_of(const DxfEntity& entity) const {
     return std::span(numbers).subspan(entity.first, entity.count);
   }
-  // The first number of this code.
+  // Returns the first number with this group code, or `otherwise`.
   double number(const DxfEntity& entity, int code, double otherwise) const;
 };
 
-// Errors are in `diagnostics`; the document then holds what was read so far.
+// Reports errors in `diagnostics`; the document then contains what was read before the error.
 DxfDocument read_dxf_document(const std::string& name, std::string_view text, Diagnostics& diagnostics);
 
 }  // namespace passo

@@ -1,5 +1,5 @@
-// DxfGroups: the groups of a DXF file one after the other: a code, which says what the value means, and the value.
-// Private to cam/.
+// DxfGroups: reads the groups of a DXF file one by one. A group is a code, which determines the meaning of the value,
+// and the value. Private to cam/.
 #pragma once
 
 #include <cstdint>
@@ -14,9 +14,9 @@ namespace passo {
 
 struct DxfGroup {
   int code = 0;
-  std::string_view text;   // of codes that are text
-  double number = 0;       // of codes that are numbers
-  std::uint32_t line = 0;  // of the value; 0 in a binary file
+  std::string_view text;   // value of a code with text
+  double number = 0;       // value of a code with a number
+  std::uint32_t line = 0;  // line of the value; 0 in a binary file
   bool is(int wanted_code, std::string_view wanted) const { return code == wanted_code && text == wanted; }
 };
 
@@ -24,10 +24,10 @@ class DxfGroups {
  public:
   DxfGroups(const std::string& file, std::string_view text, Diagnostics& diagnostics);
 
-  // False at the end, and after an error, which is then in the diagnostics.
+  // Reads the next group. Returns false at the end, and after an error, which is reported in the diagnostics.
   [[nodiscard]] bool next(DxfGroup& group);
   bool has_failed() const { return has_failed_; }
-  // Reports an error at a group of this file; `where` is its line, or in a binary file any number.
+  // Reports an error at a group of this file. `line` is the group's line; in a binary file any number.
   void refuse(std::uint32_t line, std::string code, std::string message, std::string expected);
 
  private:
@@ -42,9 +42,9 @@ class DxfGroups {
   TextLines lines_;
   Diagnostics& diagnostics_;
   bool is_binary_ = false;
-  bool has_short_codes_ = false;  // binary files of R12: a byte a code
+  bool has_short_codes_ = false;  // binary files of R12: codes of one byte
   bool has_failed_ = false;
-  std::size_t at_ = 0;  // in a binary file
+  std::size_t at_ = 0;  // offset in a binary file
   std::string_view line_;
 };
 

@@ -1,6 +1,6 @@
-// EdgeGrid: the edges of rings by place, to find those near a point or a line. Private to cam/.
+// EdgeGrid: a spatial index of the edges of rings, to find those near a point or a line. Private to cam/.
 //
-// A grid of square cells, each with the edges that pass through it or beside it.
+// The index is a grid of square cells; each lists the edges that pass through or next to it.
 #pragma once
 
 #include <cstdint>
@@ -16,25 +16,26 @@ class EdgeGrid {
   struct Edge {
     DrawnPoint from;
     DrawnPoint to;
-    std::uint32_t owner;  // what add() was told
+    std::uint32_t owner;  // the value passed to add()
   };
   struct Near {
     std::uint32_t edge = 0;
     double distance_nm = 0;
-    DrawnPoint at = {};  // the place on the edge
+    DrawnPoint at = {};  // the nearest point on the edge
   };
 
-  // `cell`: the side of a cell, about the distances that are asked for. Grids of more than 16 million cells have wider
-  // ones.
+  // `cell`: the side of a cell, about the typical search distance. A grid that would exceed 16 million cells gets
+  // larger cells.
   EdgeGrid(const DrawnBox& box, Nanometres cell);
 
   void add(const DrawnRing& ring, std::uint32_t owner);
-  // Call it once, after the last add().
+  // Must be called once, after the last add().
   void finish();
 
   const Edge& edge(std::uint32_t index) const { return edges_[index]; }
 
-  // Calls `visit(edge index)` for all edges within `reach` of the box of the points, some of them more than once.
+  // Calls `visit(edge index)` for all edges within `reach` of the bounding box of a and b; may visit an edge more than
+  // once.
   template <class Visit>
   void for_near(DrawnPoint a, DrawnPoint b, double reach, const Visit& visit) const {
     const Cells cells =
@@ -47,9 +48,9 @@ class EdgeGrid {
     }
   }
 
-  // The nearest edge within `reach`.
+  // Returns the nearest edge within `reach`.
   std::optional<Near> nearest(DrawnPoint point, double reach) const;
-  // Whether the line from a to b meets an edge.
+  // Returns whether the line from a to b crosses an edge.
   bool is_crossed(DrawnPoint a, DrawnPoint b) const;
 
   static Near to_edge(DrawnPoint point, const Edge& edge);
@@ -70,8 +71,8 @@ class EdgeGrid {
   std::int64_t columns_;
   std::int64_t rows_;
   std::vector<Edge> edges_;
-  std::vector<std::uint32_t> starts_;   // of each cell, in entries_
-  std::vector<std::uint32_t> entries_;  // edges
+  std::vector<std::uint32_t> starts_;   // for each cell: index of its first entry
+  std::vector<std::uint32_t> entries_;  // edge indices
 };
 
 }  // namespace passo

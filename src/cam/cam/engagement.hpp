@@ -1,8 +1,9 @@
-// find_engagement: how much of its edge a cutter has in the stock, along its way in one layer. Private to cam/.
+// find_engagement: determines the radial engagement of a cutter along its toolpath in one layer. Private to cam/.
 //
-// The engagement is the angle of the cutter's circle that lies in stock: 180 degrees in a slot, 60 where a quarter of
-// the diameter is cut from a straight side. It is found from the way alone: stock is what no earlier place of the
-// cutter has covered. So it proves a plan, whatever the plan was made by.
+// The engagement is the angle of the cutter's circumference that is in the stock: 180 degrees in a slot, 60 if a
+// quarter of the diameter is cut from a straight side. It is computed from the toolpath alone: stock is everything that
+// no earlier cutter position has covered. The result therefore verifies a plan independently of the algorithm that
+// produced the plan.
 #pragma once
 
 #include <vector>
@@ -16,7 +17,8 @@ struct Engagement {
   DrawnPoint at = {};
 };
 
-// `entry`: what was cut before, which does not count. `runs`: in their order; between two of them the cutter is lifted.
+// `entry`: the toolpath that was cut before and is not evaluated. `runs`: in cutting order; the cutter is lifted
+// between them.
 Engagement find_engagement(const std::vector<MillRun>& entry, const std::vector<MillRun>& runs, Nanometres cutter);
 
 }  // namespace passo

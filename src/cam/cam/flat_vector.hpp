@@ -1,4 +1,4 @@
-// FlatVector: a way in the plane, in nanometres. Private to cam/.
+// FlatVector: a vector in the plane, in nanometres. Private to cam/.
 #pragma once
 
 #include <cmath>

@@ -1,4 +1,4 @@
-// GerberApertures: reads the definitions of apertures (AD) and macros (AM) of a Gerber file. Private to cam/.
+// GerberApertures: reads the aperture definitions (AD) and aperture macros (AM) of a Gerber file. Private to cam/.
 #pragma once
 
 #include <map>
@@ -17,9 +17,9 @@ class GerberApertures {
   GerberApertures(GerberLayer& layer, GerberFindings& findings, const GerberNumbers& numbers, GerberPlotter& plotter)
       : layer_(layer), findings_(findings), numbers_(numbers), plotter_(plotter) {}
 
-  // "ADD10C,0.5X0.2". `function` is the attribute that apertures get now.
+  // Reads a definition such as "ADD10C,0.5X0.2". `function`: the current aperture attribute.
   void define(const std::string& function);
-  // "AMNAME": its statements follow, each a command.
+  // Begins a macro definition, "AMNAME"; its statements follow, one per command.
   void begin_macro();
   void add_statement();
 
@@ -27,7 +27,7 @@ class GerberApertures {
   struct Definition {
     std::uint32_t code = 0;
     std::string_view shape;
-    std::vector<double> values;  // in the file's unit
+    std::vector<double> values;  // arguments, in the file's unit
     std::size_t values_begin = 0;
   };
   bool read_definition(Definition& definition);
@@ -41,7 +41,7 @@ class GerberApertures {
   const GerberNumbers& numbers_;
   GerberPlotter& plotter_;
   std::map<std::string, GerberMacro, std::less<>> macros_;
-  GerberMacro* macro_ = nullptr;  // that is being read
+  GerberMacro* macro_ = nullptr;  // the macro being defined
 };
 
 }  // namespace passo

@@ -1,4 +1,5 @@
-// GerberAttributes: what a Gerber file says of itself, its apertures and its objects (TF, TA, TO, TD). Private to cam/.
+// GerberAttributes: reads the attributes of a Gerber file, its apertures and its objects (TF, TA, TO, TD). Private to
+// cam/.
 #pragma once
 
 #include <cstdint>
@@ -14,9 +15,10 @@ class GerberAttributes {
  public:
   explicit GerberAttributes(GerberLayer& layer) : layer_(layer) {}
 
-  // "TF.FileFunction,Copper,L1,Top". Attributes that say nothing about copper are left alone.
+  // Reads an attribute such as "TF.FileFunction,Copper,L1,Top". Ignores attributes that are not about copper.
   void read(std::string_view words);
-  // "G04 #@! TF.FileFunction,Copper,L1,Top": the same for readers that know no attributes.
+  // Reads an attribute in a comment, "G04 #@! TF.FileFunction,Copper,L1,Top", as written for readers without attribute
+  // support.
   void read_comment(std::string_view words);
 
   const std::string& aperture_function() const { return aperture_function_; }

@@ -1,4 +1,4 @@
-// GerberFindings: what is wrong in the command that is being read, and notes. Private to cam/.
+// GerberFindings: collects the errors of the command being read, and notes. Private to cam/.
 #pragma once
 
 #include <algorithm>
@@ -18,9 +18,9 @@ class GerberFindings {
   GerberFindings(const std::string& file, const GerberText& text, Diagnostics& diagnostics)
       : file_(file), text_(text), diagnostics_(diagnostics) {}
 
-  GerberCommand command;  // that is being read
+  GerberCommand command;  // the command being read
 
-  // Always false. `at` and `length` are in the command's words; length 0: up to their end.
+  // Reports an error; always returns false. `at` and `length` locate it in the command's text; length 0: up to the end.
   bool refuse(std::size_t at, std::size_t length, const char* code, std::string message, std::string expected) {
     return refuse_in(command, at, length == 0 ? command.words.size() - std::min(at, command.words.size()) : length,
                      code, std::move(message), std::move(expected));
@@ -35,7 +35,7 @@ class GerberFindings {
                       .text = std::string(text_.line_of(of, at))});
     return false;
   }
-  // The same words are noted once.
+  // Adds a note, unless the same note exists already.
   void note(std::string words) {
     if (std::find(notes_.begin(), notes_.end(), words) == notes_.end()) notes_.push_back(std::move(words));
   }

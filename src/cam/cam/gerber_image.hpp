@@ -1,5 +1,5 @@
-// GerberImage: what a Gerber file has drawn, in the order of drawing: dark objects add, clear objects take away. An
-// aperture block and a step-and-repeat block are images too. Private to cam/.
+// GerberImage: the objects of a Gerber file in drawing order: dark objects add, clear objects remove. An aperture block
+// and a step-and-repeat block are images, too. Private to cam/.
 #pragma once
 
 #include <cstddef>
@@ -13,7 +13,7 @@
 
 namespace passo {
 
-// How an aperture is placed: mirrored, then turned, then scaled, then moved.
+// The placement of an aperture: mirrored first, then rotated, scaled and translated.
 struct GerberPlacement {
   DrawnPoint at = {};
   bool mirrors_x = false;  // X becomes -X
@@ -23,7 +23,7 @@ struct GerberPlacement {
 
   bool only_moves() const { return !mirrors_x && !mirrors_y && radians == 0 && scale == 1; }
   DrawnPoint placed(DrawnPoint point) const;
-  DrawnRing placed(const DrawnRing& ring) const;  // counterclockwise stays counterclockwise
+  DrawnRing placed(const DrawnRing& ring) const;  // counterclockwise rings stay counterclockwise
   Region placed(const Region& region) const;
 };
 
@@ -36,15 +36,15 @@ struct GerberImage {
   std::vector<Run> runs;
   std::vector<GerberPad> pads;
   std::vector<DrawnPath> strokes;
-  std::size_t points = 0;  // of all, with some for each object's own memory
+  std::size_t points = 0;  // total number of points, plus an allowance for each object's own memory
 
   void add(Region object, bool is_dark);
-  // What add(image, ...) needs room for.
+  // The number of points for which add(image, ...) needs room.
   std::size_t points_of_copy() const { return points + 4; }
   void add(const GerberImage& image, const GerberPlacement& placement, bool is_dark);
 };
 
-// What is dark in the end. Empty: the budget does not allow it.
+// Returns the resulting dark region. Empty if the budget does not suffice.
 std::optional<Region> composed(GerberImage image, RegionBudget& budget);
 
 }  // namespace passo

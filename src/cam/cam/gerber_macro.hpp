@@ -1,4 +1,4 @@
-// GerberMacro: an aperture of a Gerber file that is composed of primitives (AM). Private to cam/.
+// GerberMacro: an aperture of a Gerber file composed of primitives (AM). Private to cam/.
 #pragma once
 
 #include <cstddef>
@@ -15,28 +15,29 @@ namespace passo {
 struct GerberMacro {
   struct Statement {
     std::string words;
-    GerberCommand place;  // without its words
+    GerberCommand place;  // source of the macro, without its text
   };
   std::string name;
   std::vector<Statement> statements;
 };
 
-// What is wrong in a statement, and where.
+// An error in a statement, and its position.
 struct GerberMacroFault {
   const GerberMacro::Statement* statement = nullptr;
-  std::size_t at = 0;  // in its words
+  std::size_t at = 0;  // position in the statement's text
   std::string message;
   std::string expected;
 };
 
 struct GerberMacroLimits {
   double nm_per_unit = 1e6;
-  // Asked before points are made: whether so many more are still allowed.
+  // Called before points are created: returns whether this many more points are allowed.
   std::function<bool(std::size_t points)> has_room_for;
   std::function<bool(const std::vector<DrawnRing>& rings)> can_unite;
 };
 
-// The macro's shape about zero, with the arguments as $1, $2 ... Stops at the first fault, which is then in `faults`.
+// Returns the shape of the macro about the origin, with the arguments as $1, $2 ... Stops at the first error and
+// appends it to `faults`.
 Region shape_of(const GerberMacro& macro, const std::vector<double>& arguments, const GerberMacroLimits& limits,
                 std::vector<GerberMacroFault>& faults);
 

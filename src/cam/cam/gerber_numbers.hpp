@@ -1,4 +1,5 @@
-// GerberNumbers: what the digits of a Gerber file mean: their unit, and where the decimal point is. Private to cam/.
+// GerberNumbers: interprets the digits of a Gerber file: their unit and the position of the decimal point. Private to
+// cam/.
 #pragma once
 
 #include <cstddef>
@@ -10,7 +11,7 @@
 
 namespace passo {
 
-// FS, the format of coordinates: "LAX24Y24".
+// The coordinate format from FS: "LAX24Y24".
 struct GerberFormat {
   LeftOutZeros left_out = LeftOutZeros::leading;
   bool is_incremental = false;
@@ -20,10 +21,10 @@ struct GerberFormat {
   std::size_t decimals_y = 4;
 };
 
-// What stands behind FS. Empty: it is no format.
+// Reads the text after FS. Empty if it is not a valid format.
 std::optional<GerberFormat> read_gerber_format(std::string_view words);
 
-// A decimal number. Empty: it is none.
+// Reads a decimal number. Empty if it is not one.
 std::optional<double> read_gerber_decimal(std::string_view text);
 
 class GerberNumbers {
@@ -31,15 +32,15 @@ class GerberNumbers {
   GerberFormat format;
   bool is_inch = true;
 
-  // Sign and digits; a decimal point is read too, though the format has none. Empty: no number, or farther than
-  // farthest_drawn.
+  // Reads a coordinate: sign and digits; also accepts a decimal point, although the format has none. Empty if it is not
+  // a number, or exceeds farthest_drawn.
   std::optional<Nanometres> x(std::string_view text) const {
     return coordinate(text, format.whole_x, format.decimals_x);
   }
   std::optional<Nanometres> y(std::string_view text) const {
     return coordinate(text, format.whole_y, format.decimals_y);
   }
-  // A decimal number of units, as a diameter. Empty as above.
+  // Reads a decimal number of units, such as a diameter. Empty in the same cases.
   std::optional<Nanometres> length(std::string_view text) const;
 
   double nm_per_unit() const { return is_inch ? 25.4e6 : 1e6; }

@@ -1,4 +1,4 @@
-// GerberOldCodes: codes that move, scale, mirror or turn the whole image, which new files do not have. Private to cam/.
+// GerberOldCodes: handles deprecated codes that translate, scale, mirror or rotate the whole image. Private to cam/.
 #pragma once
 
 #include <string_view>
@@ -13,13 +13,13 @@ class GerberOldCodes {
  public:
   GerberOldCodes(GerberFindings& findings, const GerberNumbers& numbers) : findings_(findings), numbers_(numbers) {}
 
-  // False: the command being read is none of these.
+  // Returns false if the current command is none of these.
   bool read();
 
-  // Where a coordinate of the file is in the image: axes exchanged (AS), mirrored (MI), scaled (SF), moved (OF).
+  // Maps a coordinate of the file to the image: swaps the axes (AS), then mirrors (MI), scales (SF) and offsets (OF).
   DrawnPoint placed(Nanometres x, Nanometres y) const;
-  int quarter_turns() const { return quarter_turns_; }  // IR, of the whole image, counterclockwise
-  bool is_negative() const { return is_negative_; }     // IP
+  int quarter_turns() const { return quarter_turns_; }  // IR: rotation of the whole image, counterclockwise
+  bool is_negative() const { return is_negative_; }     // IP: the image is negative
 
  private:
   bool read_axes(double& a, double& b);

@@ -1,5 +1,5 @@
-// GerberPlotter: draws what the commands of a Gerber file tell: flashes, strokes and contours, with the aperture,
-// polarity and mode of the moment, into an image or into a block. Private to cam/.
+// GerberPlotter: executes the drawing commands of a Gerber file. It draws flashes, strokes and contours with the
+// current aperture, polarity and mode into an image or into a block. Private to cam/.
 #pragma once
 
 #include <cstdint>
@@ -17,14 +17,14 @@ enum class Interpolation : std::uint8_t { linear, clockwise, counterclockwise };
 enum class Quadrants : std::uint8_t { unknown, single, multi };
 
 struct PlotterAperture {
-  std::size_t index = 0;  // of GerberLayer::apertures
+  std::size_t index = 0;  // index into GerberLayer::apertures
   bool is_round = false;
-  double diameter = 0;                 // if it is round, nm
-  Region shape = {};                   // about zero
-  std::unique_ptr<GerberImage> block;  // instead of a shape
+  double diameter = 0;                 // nm, if the aperture is round
+  Region shape = {};                   // about the origin
+  std::unique_ptr<GerberImage> block;  // used instead of a shape
 };
 
-// What a stroke says about its arc's centre.
+// The parameters of a stroke that define the centre of its arc.
 struct ArcWords {
   Offset ij = {};
   bool has_any = false;
@@ -40,7 +40,7 @@ class GerberPlotter {
     frames_.emplace_back();
   }
 
-  // Modes. `modal` is the aperture's transformation.
+  // Set the current modes. `modal`: the transformation of apertures.
   void set_dark(bool is_dark);
   void set_modal(const GerberPlacement& modal);
   const GerberPlacement& modal() const { return modal_; }
@@ -64,26 +64,26 @@ class GerberPlotter {
   void begin_repeat(std::int64_t across, std::int64_t up, DrawnPoint step);
   void end_repeat();
 
-  // Counts points before they are made. False, and reported once: too many.
+  // Reserves points before they are created. Returns false, and reports it once, if the limit would be exceeded.
   bool has_room_for(std::size_t points);
   bool is_full() const { return is_full_; }
-  // The same for rings that are to be united.
+  // Does the same for rings to be united.
   bool can_unite(const std::vector<DrawnRing>& rings);
   RegionBudget& budget() { return budget_; }
 
-  // All that was drawn. Blocks that are still open are closed, and noted.
+  // Returns everything drawn. Closes blocks that are still open, and adds a note.
   GerberImage finish();
 
  private:
   struct Frame {
     GerberImage image;
-    bool is_block = false;    // an aperture block
-    std::uint32_t code = 0;   // of a block
-    std::int64_t across = 1;  // of a repeat
+    bool is_block = false;    // whether this is an aperture block
+    std::uint32_t code = 0;   // aperture number of a block
+    std::int64_t across = 1;  // columns of a repeat
     std::int64_t up = 1;
     DrawnPoint step = {};
   };
-  // The aperture as it is drawn now.
+  // The current aperture, transformed.
   struct Tool {
     bool is_round = false;
     double diameter = 0;
@@ -99,20 +99,20 @@ class GerberPlotter {
   void draw_way(std::size_t first, std::size_t last);
   void add_to_path(const GerberArc* arc, DrawnPoint to);
   bool find_arc(DrawnPoint to, const ArcWords& words, GerberArc& arc);
-  Frame* push_frame();  // null, and reported: there are too many
+  Frame* push_frame();  // null, and reported, if there are too many
   void pop_frame();
 
   GerberLayer& layer_;
   GerberFindings& findings_;
   std::vector<Frame> frames_;
   std::map<std::uint32_t, PlotterAperture> apertures_;
-  std::uint32_t code_ = 0;  // of the selected aperture; 0: none
+  std::uint32_t code_ = 0;  // number of the selected aperture; 0: none
   bool is_dark_ = true;
   GerberPlacement modal_;
   DrawnPoint at_;
   bool in_region_ = false;
-  std::vector<DrawnPoint> way_;  // the stroke or contour that is being drawn, as chords
-  DrawnPath path_;               // the same stroke with its arcs
+  std::vector<DrawnPoint> way_;  // the current stroke or contour as chords
+  DrawnPath path_;               // the same stroke, including its arcs
   Tool tool_;
   bool tool_is_new_ = true;
   std::size_t points_ = 0;
@@ -121,7 +121,7 @@ class GerberPlotter {
   RegionBudget budget_;
 };
 
-// Adds where an aperture's shape goes to what a user is told of it.
+// Adds the extent of an aperture's shape to the data shown to the user.
 void measure(const Region& shape, GerberAperture& aperture);
 
 }  // namespace passo

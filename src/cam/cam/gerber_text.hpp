@@ -1,8 +1,8 @@
-// GerberText: the commands of a Gerber file one after the other, with their places. Private to cam/.
+// GerberText: reads the commands of a Gerber file one by one, with their positions. Private to cam/.
 //
-// A plain command ends with '*'. Extended commands stand between two '%', and each of them ends with '*' too. Line ends
-// and other control characters are no part of a command, wherever they are. The text is not copied, unless a command
-// goes over several lines.
+// A plain command ends with '*'. Extended commands are enclosed in a pair of '%', and each of them ends with '*', too.
+// Line ends and other control characters are ignored everywhere. The text is not copied unless a command spans several
+// lines.
 #pragma once
 
 #include <cstddef>
@@ -16,11 +16,11 @@ namespace passo {
 
 struct GerberCommand {
   std::string_view words;      // without '*', '%' and line ends; valid until the next command
-  bool is_extended = false;    // it stands between two '%'
-  bool is_last = true;         // of those between two '%'
-  std::size_t begin = 0;       // byte of the file
-  std::uint32_t line = 1;      // where it begins
-  std::size_t line_begin = 0;  // byte of the file
+  bool is_extended = false;    // whether the command is enclosed in '%'
+  bool is_last = true;         // whether this is the last command between two '%'
+  std::size_t begin = 0;       // byte offset in the file
+  std::uint32_t line = 1;      // first line of the command
+  std::size_t line_begin = 0;  // byte offset of that line in the file
 };
 
 class GerberText {
@@ -29,9 +29,9 @@ class GerberText {
 
   [[nodiscard]] bool next(GerberCommand& command);
 
-  // The place of words.substr(at, length).
+  // Returns the position of words.substr(at, length).
   SourcePlace place(const GerberCommand& command, std::size_t at, std::size_t length) const;
-  // The line of that place, for the caret. Empty: it is too long to be shown.
+  // Returns the source line at that position, for the caret. Empty if the line is too long to be shown.
   std::string_view line_of(const GerberCommand& command, std::size_t at) const;
 
  private:
@@ -50,7 +50,7 @@ class GerberText {
   std::uint32_t line_ = 1;
   std::size_t line_begin_ = 0;
   bool in_extended_ = false;
-  std::string joined_;  // a command that goes over several lines
+  std::string joined_;  // a command that spans several lines
 };
 
 }  // namespace passo

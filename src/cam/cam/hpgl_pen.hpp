@@ -1,6 +1,6 @@
-// HpglPen: what the pen of a plotter draws, as paths and circles of a drawing. Private to cam/.
+// HpglPen: converts the pen movements of a plotter to paths and circles of a drawing. Private to cam/.
 //
-// Places are in plotter units of 0.025 mm. Lines, also those of arcs, are dashed where dashes are set.
+// Coordinates are in plotter units of 0.025 mm. If a dash pattern is set, lines and arcs are dashed.
 #pragma once
 
 #include <cstdint>
@@ -23,25 +23,25 @@ class HpglPen {
  public:
   HpglPen(const std::string& file, const HpglOptions& options, Diagnostics& diagnostics);
 
-  // 0: no pen; then nothing is drawn.
+  // Selects a pen. With 0, no pen, nothing is drawn.
   void select_pen(std::uint32_t number);
-  // How the sheet is turned, counterclockwise about 0, in quarters.
+  // Rotates the sheet about the origin, counterclockwise, by this number of quarter turns.
   void rotate_sheet(int quarters);
-  // Lengths of lines and gaps in turn; empty: solid.
+  // Sets alternating lengths of dashes and gaps; empty: solid.
   void set_dashes(std::vector<double> lengths);
-  // Of the file: where the command stands that draws.
+  // Sets the line of the file with the current command.
   void set_line(std::uint32_t line) { line_ = line; }
 
   void move_to(HpglSpot to);
   void line_to(HpglSpot to);
-  // Around the centre; the sweep, in radians, is above 0 counterclockwise.
+  // Draws an arc about the centre; the sweep is in radians, positive counterclockwise.
   void arc(HpglSpot centre, double sweep);
-  // About the place where the pen is, which stays there.
+  // Draws a circle about the current pen position, which does not change.
   void circle(double radius);
   void end_path();
 
   HpglSpot at() const { return at_; }
-  double tolerance() const { return tolerance_; }  // of chords
+  double tolerance() const { return tolerance_; }  // chord tolerance
   bool has_drawn() const { return has_drawn_; }
   bool is_full() const { return builder_.is_full(); }
   DrawingBuilder& builder() { return builder_; }
@@ -60,8 +60,8 @@ class HpglPen {
   HpglSpot at_;
   DrawnPath path_;
   std::vector<double> dashes_;
-  std::size_t dash_ = 0;  // which one the pen is in; even: it draws
-  double dash_used_ = 0;  // so much of it
+  std::size_t dash_ = 0;  // index of the current dash or gap; even: dash
+  double dash_used_ = 0;  // used length of the current dash or gap
   std::uint32_t layer_ = 0;
   std::uint32_t line_ = 0;
   bool has_pen_ = true;

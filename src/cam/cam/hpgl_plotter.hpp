@@ -1,4 +1,4 @@
-// HpglPlotter: carries out the commands of a plot. Private to cam/.
+// HpglPlotter: executes the commands of a plot. Private to cam/.
 #pragma once
 
 #include <array>
@@ -32,7 +32,7 @@ class HpglPlotter {
   struct Order {
     const char* name;
     void (HpglPlotter::*carry_out)(const Numbers& numbers);
-    std::size_t least = 0;  // numbers that it needs
+    std::size_t least = 0;  // minimum number of parameters
   };
   static const std::span<const Order> orders;
   static constexpr std::array<double, 4> usual_corners = {603, 521, 10603, 7721};  // P1 and P2 of the HP 7475A, A4
@@ -46,7 +46,7 @@ class HpglPlotter {
   void find_scaling();
   HpglSpot user(double x, double y) const { return {user_.x(x, y), user_.y(x, y)}; }
   HpglSpot user_way(double x, double y) const { return {user_.xx * x, user_.yy * y}; }
-  // From the pen's place, or from zero.
+  // Returns the target, relative to the pen position or to the origin.
   HpglSpot target(double x, double y, bool is_relative) const;
   void go(HpglSpot to);
   void go_along(const Numbers& numbers);
@@ -111,9 +111,9 @@ class HpglPlotter {
   std::string_view buffered_;
   std::array<double, 2> ticks_ = {0.005, 0.005};
   std::vector<std::vector<HpglSpot>> polygon_;
-  bool is_polygon_ = false;  // corners are collected
+  bool is_polygon_ = false;  // polygon mode: corners are collected
   std::map<std::string, std::size_t> left_out_;
-  std::size_t counted_to_ = 0;  // of the text, for lines
+  std::size_t counted_to_ = 0;  // offset up to which lines have been counted
   std::uint32_t line_ = 1;
 };
 

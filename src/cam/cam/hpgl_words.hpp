@@ -1,7 +1,7 @@
-// HpglWords: the commands of a plot one after the other, with their numbers. Private to cam/.
+// HpglWords: reads the commands of a plot one by one, with their parameters. Private to cam/.
 //
-// A command is two letters, in either case. Its numbers are parted by commas or blanks; it ends with ';' or where the
-// next one begins. Escapes for the plotter's line and for printers are skipped.
+// A command is two letters in either case. Its parameters are separated by commas or blanks; it ends with ';' or at the
+// next command. Escape sequences for the plotter's serial port and for printers are skipped.
 #pragma once
 
 #include <array>
@@ -13,7 +13,7 @@ namespace passo {
 
 struct HpglCommand {
   std::array<char, 2> letters = {};
-  std::size_t place = 0;  // in the text
+  std::size_t place = 0;  // offset in the text
 
   bool is(std::string_view name) const { return letters[0] == name[0] && letters[1] == name[1]; }
   std::string_view name() const { return {letters.data(), 2}; }
@@ -23,17 +23,17 @@ class HpglWords {
  public:
   explicit HpglWords(std::string_view text) : text_(text) {}
 
-  // Nothing: the text ends, or what stands at place() is no command.
+  // Reads a command. Nothing at the end of the text, and if there is no command at place().
   std::optional<HpglCommand> command();
-  // The numbers of the command. Nothing: what stands at place() is no number.
+  // Reads the parameters of the command. Nothing if there is no number at place().
   std::optional<std::vector<double>> numbers();
-  // The text up to this character, which is taken, too.
+  // Reads the text up to this character, and skips the character.
   std::string_view until(char end);
-  // The one character after a command, if it does not end there.
+  // Reads the single character after a command, if the command does not end there.
   std::optional<char> character();
-  void back() { --at_; }  // the character that was taken last
+  void back() { --at_; }  // unreads the last character
   void skip_to_end_of_command();
-  // In quotation marks, or up to the end of the command.
+  // Skips a comment in quotation marks, or up to the end of the command.
   void skip_comment();
 
   bool at_end() const { return at_ >= text_.size(); }

@@ -1,6 +1,6 @@
-// The shapes of a KiCad board: what its lines, arcs and pads are as paths and rings. Private to cam/.
+// The shapes of a KiCad board: converts its lines, arcs and pads to paths and rings. Private to cam/.
 //
-// Y is up here: it changes its sign when it is read. Angles are degrees, counterclockwise.
+// Y points up: its sign is inverted on reading. Angles are degrees, counterclockwise.
 #pragma once
 
 #include <optional>
@@ -11,7 +11,7 @@
 
 namespace passo {
 
-// Where a footprint or a pad is.
+// The position and angle of a footprint or a pad.
 struct KicadFrame {
   DrawnPoint at = {};
   double degrees = 0;
@@ -20,41 +20,41 @@ struct KicadFrame {
 };
 
 DrawnPoint kicad_point(KicadText& text, KicadItem list);
-// (at X Y ANGLE), in a frame whose angle is not in ANGLE.
+// Reads (at X Y ANGLE) relative to `around`. ANGLE is absolute in KiCad files: it includes the angle of `around`.
 KicadFrame kicad_frame(KicadText& text, KicadItem item, const KicadFrame& around);
-// The points of (pts ...), which may have arcs among them.
+// Returns the points of (pts ...), which may include arcs.
 std::vector<PathPoint> kicad_points(KicadText& text, KicadItem pts);
 
 struct KicadGraphic {
-  DrawnPath path = {};  // with its width
+  DrawnPath path = {};  // the path, including its width
   bool is_filled = false;
 };
-// A line, arc, circle, rectangle, polygon or curve: gr_line, fp_line, segment and so on. Empty: it is none of these.
-// `fills`: a polygon that does not say whether it is filled, is.
+// Reads a line, arc, circle, rectangle, polygon or curve: gr_line, fp_line, segment and so on. Empty if it is none of
+// these. `fills`: whether a polygon is filled if the file does not specify it.
 std::optional<KicadGraphic> kicad_graphic(KicadText& text, KicadItem item, const KicadFrame& frame, bool fills);
 
-// What a path of this width covers, ring by ring. The rings overlap.
+// Returns the area that a path of this width covers, as overlapping rings.
 std::vector<DrawnRing> kicad_stroke(const DrawnPath& path);
-// How many points they have, about.
+// Returns the approximate number of points of these rings.
 std::size_t kicad_stroke_points(const DrawnPath& path);
 
-// A pad on one layer, about its hole, not yet turned.
+// A pad on one layer, relative to its hole, not yet rotated.
 struct KicadPad {
-  std::vector<DrawnRing> rings = {};          // overlap
-  std::vector<KicadGraphic> primitives = {};  // of a pad of its own shape
+  std::vector<DrawnRing> rings = {};          // the pad's outline; the rings may overlap
+  std::vector<KicadGraphic> primitives = {};  // primitives of a custom shape
   Nanometres across = {};
   Nanometres up = {};
-  bool is_round = false;  // a circle or an oval
+  bool is_round = false;  // whether it is a circle or an oval
 };
-// `layer`: of which the shape is asked.
+// Returns the shape of the pad on `layer`.
 KicadPad kicad_pad(KicadText& text, KicadItem pad, std::string_view layer);
-// The list of a pad's or a via's padstack that says what it is on this layer. Empty: the layer has nothing of its own.
+// Returns the entry of a pad's or via's padstack for this layer. Empty if the layer has no entry of its own.
 KicadItem kicad_layer_of_padstack(KicadItem item, std::string_view layer);
 
 struct KicadDrill {
   Nanometres across = {};  // 0: no hole
   Nanometres up = {};
-  DrawnPoint offset = {};  // of the pad's shape from the hole
+  DrawnPoint offset = {};  // offset of the pad's shape from the hole
 };
 KicadDrill kicad_drill(KicadText& text, KicadItem pad);
 

@@ -1,10 +1,11 @@
-// KicadText: the text of a KiCad board, one item after the other. Private to cam/.
+// KicadText: reads the text of a KiCad board item by item. Private to cam/.
 //
 // The file is a list of lists: (kicad_pcb (version 20211014) (segment (start 1 2) (end 3 4) (width 0.2))). A list
-// begins with its name; words and lists follow. An item is a list in the outermost one. Only one item is held at a
-// time, so memory is that of the text and of its largest item.
+// begins with its name; words and lists follow. An item is a direct child of the outermost list. Only one item is held
+// at a time, so the memory is that of the text and of its largest item.
 //
-// Lists nest 64 deep, and an item has at most 4 million words and lists. Other texts are refused, with line and column.
+// Lists may be nested 64 deep, and an item may contain 4 million words and lists. Texts that exceed this are refused,
+// with line and column.
 #pragma once
 
 #include <cstdint>
@@ -19,14 +20,14 @@ namespace passo {
 
 // A word or a list.
 struct KicadNode {
-  std::string_view word = {};  // of a list its name; of a text what is between its quotes
-  std::uint32_t first = 0;     // what follows the name; 0: nothing
-  std::uint32_t next = 0;      // what follows in the list around this; 0: nothing
-  std::uint32_t offset = 0;    // of the file
+  std::string_view word = {};  // the name of a list; the text between the quotes of a string
+  std::uint32_t first = 0;     // the first child after the name; 0: none
+  std::uint32_t next = 0;      // the next sibling; 0: none
+  std::uint32_t offset = 0;    // offset in the file
   bool is_list = false;
 };
 
-// A word or a list in the nodes of a text. Empty: there is none. It is good until the next item is read.
+// A word or a list in the nodes of a text; may be empty. It is valid until the next item is read.
 class KicadItem {
  public:
   KicadItem() = default;
@@ -39,14 +40,14 @@ class KicadItem {
   KicadItem first() const { return at(node().first); }
   KicadItem next() const { return at(node().next); }
 
-  // The first list of this name in this list.
+  // Returns the first child list of this name.
   KicadItem find(std::string_view name) const {
     for (KicadItem item = first(); item; item = item.next()) {
       if (item.is(name)) return item;
     }
     return {};
   }
-  // The word at this place among the list's words, from 0. Empty: there are fewer.
+  // Returns the word with this index among the list's words, from 0. Empty if there are fewer.
   KicadItem word(std::size_t place) const {
     for (KicadItem item = first(); item; item = item.next()) {
       if (!item.node().is_list && place-- == 0) return item;
@@ -57,7 +58,7 @@ class KicadItem {
     const KicadItem found = word(place);
     return found ? found.name() : std::string_view();
   }
-  // Whether the word, or a list of this name, is in the list.
+  // Returns whether the list contains this word or a list of this name.
   bool has(std::string_view word) const {
     for (KicadItem item = first(); item; item = item.next()) {
       if (item.name() == word) return true;
@@ -77,15 +78,15 @@ class KicadText {
   KicadText(const std::string& file, std::string_view text, Diagnostics& diagnostics)
       : file_(file), text_(text), diagnostics_(diagnostics) {}
 
-  // The outermost list's name is read. False, and reported: the text does not begin with this name.
+  // Reads the name of the outermost list. Reports an error and returns false if it is a different name.
   bool begins_with(std::string_view name);
-  // The next item. Empty: there is none, or an error is reported.
+  // Returns the next item. Empty at the end and after a reported error.
   KicadItem next();
 
-  // The number at this place among the list's words, in nanometres. 0, and reported: there is none, or it is farther
-  // from zero than a drawing may be.
+  // Returns the number with this index among the list's words, in nanometres. Reports an error and returns 0 if it is
+  // missing or exceeds the limit of a drawing.
   Nanometres length(KicadItem list, std::size_t place);
-  // Degrees and shares.
+  // Does the same for degrees and ratios.
   double number(KicadItem list, std::size_t place);
   std::uint32_t line_of(KicadItem item);
   void refuse(KicadItem item, std::string code, std::string message, std::string expected) {
@@ -102,10 +103,10 @@ class KicadText {
   const std::string& file_;
   std::string_view text_;
   Diagnostics& diagnostics_;
-  std::vector<KicadNode> nodes_;  // of the item; the first is none
+  std::vector<KicadNode> nodes_;  // nodes of the item; the first is a null node
   std::size_t at_ = 0;
-  std::size_t counted_ = 0;  // up to here,
-  std::uint32_t lines_ = 1;  // this many lines begin
+  std::size_t counted_ = 0;  // offset up to which lines are counted,
+  std::uint32_t lines_ = 1;  // and the number of lines up to there
   bool is_over_ = false;
 };
 

@@ -1,4 +1,4 @@
-// LetterLine: where the letters of a line of text stand: on a line, a circle or an arc. Private to cam/.
+// LetterLine: positions the letters of a line of text on a straight line, a circle or an arc. Private to cam/.
 #pragma once
 
 #include <string>
@@ -19,14 +19,14 @@ struct LetterSpot {
 class LetterLine {
  public:
   LetterLine() = default;
-  // `length`: of the line, mm. `letters`: of which it has so many.
+  // `length`: length of the line, mm. `letters`: number of its letters.
   LetterLine(const Lettering& lettering, double length, std::size_t letters);
 
-  // The line is longer than its arc.
+  // Whether the line is longer than its arc.
   bool is_too_long() const { return is_too_long_; }
-  double begin() const { return begin_; }  // of the first letter
-  double space() const { return space_; }  // more after each letter
-  // Where a place of the line lies, whose letter has its middle there. A letter is turned, not bent.
+  double begin() const { return begin_; }  // start of the first letter
+  double space() const { return space_; }  // extra space after each letter
+  // Maps a point of the line to the drawing; `middle` is the centre of its letter. Letters are rotated, not bent.
   LetterSpot placed(double x, double y, double middle) const;
 
  private:
@@ -51,7 +51,7 @@ void for_letter_lines(const Lettering& lettering, const Write& write) {
 void refuse_letter(const std::string& font, std::string_view character, Diagnostics& diagnostics);
 void refuse_long_line(const std::string& font, std::string_view words, Diagnostics& diagnostics);
 
-// letter() with a font of single lines.
+// Implements letter() for a single-line font.
 Drawing letter_strokes(const Lettering& lettering, const std::string& name, const StrokeFont& font,
                        Diagnostics& diagnostics);
 

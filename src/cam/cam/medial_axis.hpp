@@ -1,4 +1,4 @@
-// medial_axis: the places in a region that are equally far from two or more of its edges. Private to cam/.
+// medial_axis: computes the points in a region that are equally far from two or more of its edges. Private to cam/.
 #pragma once
 
 #include <cstdint>
@@ -12,15 +12,15 @@ namespace passo {
 struct MedialPoint {
   double x = 0;  // nm
   double y = 0;
-  double clearance = 0;  // how far the nearest edge is
+  double clearance = 0;  // distance of the nearest edge
 };
 
-// A piece of the axis from one node to another. Between two points it is straight, and so is the clearance, within the
-// tolerance.
+// A piece of the axis between two nodes. Between two of its points the axis is straight and the clearance changes
+// linearly, both within the tolerance.
 struct MedialPiece {
-  std::uint32_t from = 0;  // nodes
+  std::uint32_t from = 0;  // index of the node at each end
   std::uint32_t to = 0;
-  std::vector<MedialPoint> points = {};  // from end to end, two or more
+  std::vector<MedialPoint> points = {};  // from one end to the other, at least two
 };
 
 struct MedialAxis {
@@ -29,15 +29,15 @@ struct MedialAxis {
 };
 
 struct MedialOptions {
-  double least_turn = 0;  // radians; pieces between two edges that meet at a smaller turn are left out
+  double least_turn = 0;  // radians; omits pieces between two edges that meet at a smaller turn
   double tolerance_nm = 1'000;
-  // Of each ring of the region; pieces between edges of one owner, and between an edge and nobody's, are left out.
-  // Empty: all pieces count.
+  // The owner of each ring of the region. Pieces between edges of the same owner, and between an edge and one without
+  // an owner, are omitted. Empty: all pieces are kept.
   std::vector<std::uint32_t> owners = {};
 };
 inline constexpr std::uint32_t nobody = 0xffffffff;
 
-// Nothing: the region is wider than 4 m.
+// Returns nothing if the region is wider than 4 m.
 std::optional<MedialAxis> medial_axis(const Region& region, const MedialOptions& options);
 
 }  // namespace passo

@@ -1,5 +1,5 @@
-// order_ways: loops and open ways become runs of the cutter: in which order, from where, and where it need not lift.
-// Private to cam/.
+// order_ways: turns loops and open paths into runs of the cutter: determines their order, their start points, and where
+// the cutter need not lift. Private to cam/.
 #pragma once
 
 #include <cstdint>
@@ -13,8 +13,8 @@
 
 namespace passo {
 
-// Of a cutter at depth. A closed way may begin at any of its points; the last point leads back to the first. An open
-// way begins at its first, or if it may be turned, at its first or its last.
+// A path of the cutter at depth. A closed path may begin at any of its points; the last point leads back to the first.
+// An open path begins at its first point or, if it may be reversed, at either end.
 struct CutterWay {
   DrawnRing points = {};
   bool is_closed = true;
@@ -26,7 +26,7 @@ struct WayOrder {
   Nanometres z = {};
   std::uint64_t route_steps = 0;
   ArcFit arcs = {};
-  // Whether the cutter may go straight from one place to the other in the ground.
+  // Returns whether the cutter may go straight from one point to the other at depth.
   std::function<bool(DrawnPoint, DrawnPoint)> may_link = {};
 };
 

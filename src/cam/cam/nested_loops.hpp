@@ -1,4 +1,4 @@
-// Loops by how deep they lie in one another. Private to cam/.
+// Loops with their nesting depth. Private to cam/.
 #pragma once
 
 #include <cstddef>
@@ -10,19 +10,20 @@
 namespace passo {
 
 struct NestedLoop {
-  Region inside = {};      // what it fills
-  std::size_t around = 0;  // how many loops lie around it
+  Region inside = {};      // the area inside the loop
+  std::size_t around = 0;  // number of loops around it
 };
 
 std::vector<NestedLoop> nest(const std::vector<std::vector<PathPoint>>& loops, Nanometres tolerance);
 
-// What the loops of this depth fill.
+// Returns the area inside the loops of this depth.
 Region filled_at(const std::vector<NestedLoop>& loops, std::size_t around);
 std::size_t deepest_of(const std::vector<NestedLoop>& loops);
-// Inside the outermost loops; a loop in a loop is an opening, a loop in an opening is filled again.
+// Returns the area inside the outermost loops; a loop within a loop is an opening, a loop within an opening is filled
+// again.
 Region filled_in_turn(const std::vector<NestedLoop>& loops);
 
-// Of a region what is wider than twice `least` somewhere, and a little of its corners less.
+// Returns the parts of a region that are somewhere wider than twice `least`, with slightly cut corners.
 Region notable_part(const Region& region, Nanometres least);
 
 }  // namespace passo

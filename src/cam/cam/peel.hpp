@@ -1,11 +1,10 @@
-// peel: the way of a cutter that clears a region without ever having more than a given angle of its edge in the stock.
-// Private to cam/.
+// peel: clears a region with a limited radial engagement of the cutter. Private to cam/.
 //
-// The region is that of the cutter's middle. It is the union of the discs about the points of its medial axis that just
-// fit into it. The cutter goes down in the middle of the largest one along a helix, and widens the hole in a spiral to
-// that disc. From there discs go along all branches of the axis. Each next one is the farthest whose rim the cutter can
-// follow within the angle when the ground of the disc before is free; other discs before only make it less. What of a
-// rim lies in earlier discs is not followed. At last the cutter goes along the walls.
+// The region is that of the cutter centre. It is the union of the largest discs about the points of its medial axis.
+// The cutter descends along a helix in the centre of the largest disc, and widens the hole to that disc in a spiral.
+// From there discs are cleared along all branches of the axis. Each next disc is the farthest whose rim the cutter can
+// follow within the engagement limit when the previous disc is clear; earlier discs can only reduce the engagement.
+// Parts of a rim that lie in earlier discs are skipped. Finally, the cutter follows the walls.
 #pragma once
 
 #include <cstddef>
@@ -17,8 +16,8 @@
 namespace passo {
 
 struct PeelOptions {
-  Nanometres cutter{3'000'000};  // diameter
-  double most_degrees = 60;      // of engagement
+  Nanometres cutter{3'000'000};  // cutter diameter
+  double most_degrees = 60;      // maximum engagement
   bool climb = true;
 };
 
@@ -30,21 +29,21 @@ struct PeelLap {
 };
 
 struct PeelWay {
-  MillRun entry = {};              // the lowest lap of the helix, a full turn
-  std::vector<MillRun> runs = {};  // all at Z0; the first goes on where the entry ends
-  std::vector<PeelLap> laps = {};  // along the walls
-  std::size_t discs = 0;           // whose rims are followed
+  MillRun entry = {};              // the last turn of the helix, a full circle
+  std::vector<MillRun> runs = {};  // all at Z0; the first one continues at the end of the entry
+  std::vector<PeelLap> laps = {};  // laps along the walls
+  std::size_t discs = 0;           // number of discs whose rims are followed
   bool is_whole = false;
 };
 
-// Half of the width of the narrowest ground of the cutter's middle that is peeled. In narrower ground the cutter would
-// be in a slot.
+// Returns half the width of the narrowest area of the cutter centre that is cleared. In narrower areas the cutter would
+// cut a slot.
 inline Nanometres least_peeled(Nanometres cutter) {
   return {(cutter.count + 19) / 20};
 }
 
-// `ground`: one part, at least twice `least_peeled` wide everywhere. Not whole: the way would be longer than
-// `longest_peel` radii of the cutter, or the ground is wider than 4 m.
+// Clears `ground`: one part, everywhere at least twice `least_peeled` wide. The result is incomplete if the toolpath
+// would exceed `longest_peel` cutter radii or if the area is wider than 4 m.
 inline constexpr double longest_peel = 500'000;
 PeelWay peel(const Region& ground, const PeelOptions& options);
 

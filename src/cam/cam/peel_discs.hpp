@@ -1,4 +1,4 @@
-// PeelDiscs: the discs of a peeled region, to find those near a place. Private to cam/.
+// PeelDiscs: a spatial index of the discs of a cleared region. Private to cam/.
 #pragma once
 
 #include <cmath>
@@ -26,7 +26,7 @@ class PeelDiscs {
     all_.push_back(disc);
   }
 
-  // Calls visit(disc) for all discs that come within `reach` of the place, and some more.
+  // Calls visit(disc) for all discs within `reach` of the point, and possibly for some others.
   template <class Visit>
   void for_near(double x, double y, double reach, const Visit& visit) const {
     for (const auto& entry_of_class : classes_) {
@@ -58,7 +58,7 @@ class PeelDiscs {
   }
 
  private:
-  // Discs whose radius is at most the side of a cell.
+  // Discs with a radius of at most one cell.
   struct Class {
     double side = 0;
     std::map<std::int64_t, std::vector<std::size_t>> cells = {};

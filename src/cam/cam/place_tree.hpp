@@ -1,6 +1,6 @@
-// PlaceTree: finds the places nearest to a place, and can forget places. A k-d tree. Private to cam/.
+// PlaceTree: a k-d tree that finds the nearest points, and supports removal. Private to cam/.
 //
-// A search takes about log n steps, wherever the places lie.
+// A search takes about log n steps, whatever the distribution of the points.
 #pragma once
 
 #include <algorithm>
@@ -24,7 +24,7 @@ class PlaceTree {
     is_there_.assign(points.size(), true);
   }
 
-  // The `count` places nearest to the place of this index, itself excluded, nearest first.
+  // Finds the `count` points nearest to the point of this index, excluding itself, nearest first.
   void nearest(std::uint32_t index, std::size_t count, std::vector<std::uint32_t>& found) {
     best_.clear();
     wanted_ = count;
@@ -46,7 +46,7 @@ class PlaceTree {
     }
   }
 
-  // The nearest place that is left, or an index beyond all.
+  // Returns the index of the nearest remaining point; an index beyond the last if none remains.
   std::uint32_t nearest_left(DrawnPoint point) {
     best_.clear();
     wanted_ = 1;
@@ -85,7 +85,7 @@ class PlaceTree {
     std::nth_element(at(low), at(middle), at(high), [&](std::uint32_t a, std::uint32_t b) {
       return std::pair(coordinate(a, is_y), a) < std::pair(coordinate(b, is_y), b);
     });
-    split_[node] = coordinate(order_[middle], is_y);  // now: the upper half is put into another order
+    split_[node] = coordinate(order_[middle], is_y);  // set now, because the upper half is reordered below
     build(2 * node, low, middle);
     build(2 * node + 1, middle, high);
   }
@@ -119,14 +119,14 @@ class PlaceTree {
   }
 
   const std::vector<DrawnPoint>& points_;
-  std::vector<std::uint32_t> order_;  // places; the lower half of a node's range is at most as far as its split
-  std::vector<std::uint32_t> where_;  // of each place in order_
-  std::vector<std::size_t> alive_;    // of each node: places that are left
+  std::vector<std::uint32_t> order_;  // point indices; the lower half of a node's range is at most its split value
+  std::vector<std::uint32_t> where_;  // position of each point in order_
+  std::vector<std::size_t> alive_;    // number of remaining points of each node
   std::vector<bool> is_y_;
-  std::vector<double> split_;  // of each node: the least coordinate of its upper half
+  std::vector<double> split_;  // minimum coordinate of each node's upper half
   std::vector<bool> is_there_;
   std::size_t wanted_ = 0;
-  std::vector<std::pair<double, std::uint32_t>> best_;  // square of the distance, place; nearest first
+  std::vector<std::pair<double, std::uint32_t>> best_;  // squared distance and point index; nearest first
 };
 
 }  // namespace passo

@@ -1,4 +1,4 @@
-// ProgramText: G-code as text, line by line, with lengths in the program's units. Private to cam/.
+// ProgramText: writes G-code line by line, with lengths in the program's units. Private to cam/.
 #pragma once
 
 #include <cstdint>
@@ -25,25 +25,26 @@ class ProgramText {
     fmt::format_to(std::back_inserter(text_), words, std::forward<T>(values)...);
     text_ += '\n';
   }
-  // Plane, units, and no compensation or cycle of an earlier program; for centimetres a comment.
+  // Sets the plane and the units, and cancels compensation and cycles of an earlier program; for centimetres adds a
+  // comment.
   void begin_modes();
 
-  // The tool is named and changed, where there are several, and the spindle turns.
+  // Names and changes the tool, if there are several, and starts the spindle.
   struct ToolChange {
-    std::size_t number = 1;  // from 1
-    bool is_only = false;    // there is no other tool
-    std::string words = {};  // for the operator
+    std::size_t number = 1;  // tool number, from 1
+    bool is_only = false;    // whether this is the only tool
+    std::string words = {};  // tool name for the operator
     std::optional<std::uint32_t> spindle = {};
     DrawnPoint park = {};
     Nanometres clearance = {};
   };
   void begin_tool(const ToolChange& change);
-  // The last tool goes to the park place.
+  // Moves the last tool to the park position and ends the program.
   void end(bool has_spindle, DrawnPoint park);
 
-  // A length in the program's units, without zeros at its end.
+  // Formats a length in the program's units, without trailing zeros.
   std::string number(Nanometres length) const;
-  // "X1.5 Y2".
+  // Formats a position: "X1.5 Y2".
   std::string place(DrawnPoint at) const { return "X" + number(at.x) + " Y" + number(at.y); }
   const char* unit_name() const {
     return units_ == ProgramUnits::mm ? "mm" : units_ == ProgramUnits::cm ? "cm" : "inch";
@@ -55,7 +56,7 @@ class ProgramText {
   std::string text_;
 };
 
-// Text that may stand in a comment of G-code.
+// Makes a text safe for use in a G-code comment.
 std::string in_comment(std::string_view text);
 
 }  // namespace passo

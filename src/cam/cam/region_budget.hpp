@@ -1,5 +1,5 @@
-// RegionBudget: how much uniting rings may still cost. A hostile file crosses its lines so often that no computer could
-// unite them; the budget knows before it is tried. Private to cam/.
+// RegionBudget: limits the cost of uniting rings. A malicious file can cross its lines so often that uniting them would
+// take forever; the budget estimates the cost beforehand. Private to cam/.
 #pragma once
 
 #include <cstddef>
@@ -11,12 +11,12 @@ namespace passo {
 
 class RegionBudget {
  public:
-  // `share`: of what a layer may cost.
+  // `share`: fraction of the maximum cost of a layer.
   explicit RegionBudget(double share = 1)
       : crossings_(part_of(4e6, share)), comparisons_(part_of(4e8, share)), passed_(part_of(1e9, share)) {}
 
-  // Whether these rings can be united; then what that costs is spent. Costs are crossings of edges, and how many edges
-  // a sweep over all corners passes.
+  // Returns whether the budget suffices to unite these rings, and if so, deducts the cost. Costs are the crossings of
+  // edges, and the number of edges that a sweep over all corners passes.
   bool affords(const std::vector<const DrawnRing*>& rings);
   bool affords(const std::vector<Region>& regions);
   bool affords(const std::vector<DrawnRing>& rings);

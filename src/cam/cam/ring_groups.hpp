@@ -1,6 +1,6 @@
-// groups_apart: which rings cannot meet, so that each group can be combined or grown on its own. The time of a sweep
-// over a group is its corners times the edges beside them: many small sweeps are faster than one, and need less memory.
-// Private to cam/.
+// groups_apart: finds groups of rings that cannot touch each other, so that each group can be combined or offset
+// separately. A sweep over a group takes time proportional to its corners times the edges beside them: many small
+// sweeps are faster than one large sweep, and need less memory. Private to cam/.
 #pragma once
 
 #include <cstddef>
@@ -10,7 +10,7 @@
 
 namespace passo {
 
-// Which indices hang together. A group is named after its least index.
+// Disjoint sets of indices. The representative of a group is its smallest index.
 class IndexGroups {
  public:
   explicit IndexGroups(std::size_t count);
@@ -18,15 +18,15 @@ class IndexGroups {
   void join(std::size_t a, std::size_t b);
 
  private:
-  std::vector<std::size_t> up_;  // a forest
+  std::vector<std::size_t> up_;  // the parent of each index, as a forest
 };
 
-// The indices of boxes that hang together, in rising order; groups in the order of their first. Boxes of two groups are
-// more than `reach` apart. Boxes so many that telling them apart takes long are one group.
+// Returns the groups of connected boxes as indices in ascending order, sorted by their first index. Boxes of different
+// groups are more than `reach` apart. If there are too many boxes to separate them quickly, all of them form one group.
 std::vector<std::vector<std::size_t>> groups_apart(const std::vector<DrawnBox>& boxes, Nanometres reach);
 
-// The same of rings, which do not cross each other, by their edges: a ring around others is apart from them
-// if its edges are. Takes longer.
+// Does the same for non-crossing rings, by their edges: a ring around others is separate if its edges are far enough
+// away. Slower.
 std::vector<std::vector<std::size_t>> groups_of_edges_apart(const Region& region, Nanometres reach);
 
 }  // namespace passo

@@ -1,4 +1,4 @@
-// walk_strokes: lines that meet at nodes become runs of the cutter, each line cut once. Private to cam/.
+// walk_strokes: converts lines that meet at nodes to runs of the cutter; cuts each line once. Private to cam/.
 #pragma once
 
 #include <cstddef>
@@ -12,11 +12,12 @@ namespace passo {
 struct CutterStroke {
   std::size_t from = 0;
   std::size_t to = 0;
-  MillRun points = {};  // two or more
+  MillRun points = {};  // at least two
 };
 
-// Of what hangs together the runs follow each other; the way between is shortened from the park place and back to it.
-// At a node the cutter goes on as straight as it can. `nodes`: more than every node's number.
+// Returns the runs; those of connected strokes follow each other. The rapids between them are shortened, from the park
+// position and back. At a node the cutter continues as straight as possible. `nodes`: number of nodes; all node indices
+// are smaller.
 std::vector<MillRun> walk_strokes(std::vector<CutterStroke> strokes, std::size_t nodes, DrawnPoint park);
 
 }  // namespace passo

@@ -1,4 +1,5 @@
-// The data of an SVG path as rows of lines, arcs and Bézier curves in the path's own coordinates. Private to cam/.
+// Reads the data of an SVG path as sequences of lines, arcs and Bézier curves in the path's own coordinates. Private to
+// cam/.
 #pragma once
 
 #include <cstddef>
@@ -15,7 +16,7 @@ struct SvgSpot {
   double y = 0;
 };
 
-// An arc of an ellipse: the places centre + major cos a + minor sin a, for a from `start` on by `sweep`.
+// An elliptical arc: the points centre + major cos a + minor sin a, with a from `start` to `start` + `sweep`.
 struct SvgArc {
   SvgSpot centre = {};
   SvgSpot major = {};
@@ -26,7 +27,8 @@ struct SvgArc {
   SvgSpot at(double angle) const;
 };
 
-// A piece of a path from the end of the one before. A line has no control points, a quadratic curve one, a cubic two.
+// A piece of a path, starting at the end of the previous one. A line has no control points, a quadratic curve one, a
+// cubic curve two.
 struct SvgPiece {
   SvgSpot end = {};
   std::vector<SvgSpot> control = {};
@@ -40,11 +42,12 @@ struct SvgSubpath {
 };
 
 struct SvgPathFlaw {
-  std::size_t place = 0;  // in the data
+  std::size_t place = 0;  // offset in the data
   std::string expected = {};
 };
 
-// The rows of a path's data, or where the data is wrong. `most`: pieces; more are a flaw.
+// Reads the subpaths of a path; returns the position of the first error, if any. `most`: maximum number of pieces; more
+// are an error.
 std::optional<SvgPathFlaw> read_svg_path(std::string_view data, std::size_t most, std::vector<SvgSubpath>& subpaths);
 
 }  // namespace passo

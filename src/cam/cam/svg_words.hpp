@@ -1,4 +1,4 @@
-// SvgWords: the numbers in the attributes of SVG. Private to cam/.
+// SvgWords: reads the numbers in SVG attributes. Private to cam/.
 #pragma once
 
 #include <cctype>
@@ -15,7 +15,7 @@ class SvgWords {
  public:
   explicit SvgWords(std::string_view text) : text_(text), rest_(text) {}
 
-  // Where the next word begins, for messages.
+  // Returns the offset of the next word, for messages.
   std::size_t place() const { return text_.size() - rest_.size(); }
   bool at_end() {
     skip();
@@ -43,14 +43,14 @@ class SvgWords {
     rest_ = text.substr(static_cast<std::size_t>(end - text.data()));
     return value;
   }
-  // The flags of an arc need nothing between them.
+  // Reads a flag of an arc; flags need no separator.
   std::optional<bool> flag() {
     const char c = peek();
     if (c != '0' && c != '1') return std::nullopt;
     drop();
     return c == '1';
   }
-  // The letters that come next.
+  // Reads the letters that follow.
   std::string_view name() {
     skip();
     std::size_t size = 0;
@@ -70,10 +70,10 @@ class SvgWords {
   std::string_view rest_;
 };
 
-// "translate(10,20) rotate(45)". Nothing: it is no list of transforms.
+// Reads a transform list such as "translate(10,20) rotate(45)". Nothing if it is invalid.
 std::optional<DxfTransform> svg_transform(std::string_view text);
 
-// A length in pixels. `whole`: what 100 % is.
+// Reads a length and converts it to pixels. `whole`: the length of 100 %.
 std::optional<double> svg_length(std::string_view text, double whole);
 
 }  // namespace passo

@@ -1,6 +1,6 @@
-// TextLines: the lines of a text one after the other, with their numbers. Private to cam/.
+// TextLines: reads the lines of a text one by one, with their numbers. Private to cam/.
 //
-// A line ends with LF, CR LF or CR. The end is no part of the line.
+// A line ends with LF, CR LF or CR, which is not part of the line.
 #pragma once
 
 #include <cstdint>
@@ -23,7 +23,7 @@ class TextLines {
     ++number_;
     return true;
   }
-  // Of the line that next() gave last, from 1.
+  // Returns the number of the line that next() returned last, from 1.
   std::uint32_t number() const { return number_; }
 
  private:

@@ -1,4 +1,5 @@
-// Matched rows: two profiles as rows of as many places, which a straight wire reaches together. Private to cam/.
+// Matched rows: two profiles as equally long lists of points that a straight wire reaches simultaneously. Private to
+// cam/.
 #pragma once
 
 #include <cstddef>
@@ -13,10 +14,11 @@ namespace passo {
 struct MatchedRows {
   std::vector<FlatVector> left = {};  // nm
   std::vector<FlatVector> right = {};
-  std::vector<std::size_t> marks = {};  // indices where sections begin and end; the first is 0
+  std::vector<std::size_t> marks = {};  // indices of the section boundaries; the first is 0
 };
 
-// Closed profiles begin and end at their place of greatest X, and go counterclockwise. Empty: one of them has no way.
+// Matches two profiles. Closed profiles begin and end at their point of maximum X, and are counterclockwise. Empty if
+// one of them has zero length.
 MatchedRows match_rows(const WireProfile& left, const WireProfile& right, Nanometres tolerance);
 
 }  // namespace passo

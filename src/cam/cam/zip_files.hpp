@@ -1,4 +1,4 @@
-// read_zip: the files in a zip archive. Private to cam/.
+// read_zip: extracts the files from a zip archive. Private to cam/.
 #pragma once
 
 #include <string>
@@ -15,11 +15,11 @@ struct NamedBytes {
 };
 
 inline constexpr std::size_t most_board_files = 1000;
-inline constexpr std::size_t most_board_bytes = std::size_t{256} * 1024 * 1024;  // of all files, unpacked
+inline constexpr std::size_t most_board_bytes = std::size_t{256} * 1024 * 1024;  // maximum total size, unpacked
 
 bool looks_like_zip(std::string_view bytes);
 
-// An archive that is broken, encrypted or too large is an error, "board.…".
+// Reports an error "board.…" if the archive is corrupt, encrypted or too large.
 std::vector<NamedBytes> read_zip(const std::string& path, Diagnostics& diagnostics);
 
 }  // namespace passo

@@ -1,8 +1,9 @@
-// HeldRemoval: feeds by engagement: what a cutter takes off a minute is held. Private to carve/.
+// HeldRemoval: adapts the feed to the engagement, so that the material removal rate stays constant. Private to carve/.
 //
-// Each move in work is cut out of the stock in pieces of half the cutter's radius, before it is written. What a piece
-// takes off tells the feed at which it takes off what is asked. Very short pieces are measured together, so that a cell
-// of the stock more or less does not count. Pieces of a move with one feed are written as one.
+// Each cutting move is first cut out of the stock model in pieces of half the cutter's radius, and then written. The
+// volume that a piece removes determines the feed that gives the target removal rate. Very short pieces are measured
+// together, so that a single cell of the stock has no influence. Consecutive pieces of a move with equal feed are
+// written as one.
 #pragma once
 
 #include <cstdint>
@@ -14,8 +15,8 @@
 namespace passo {
 
 struct HeldFeed {
-  double mm3_a_minute = 0;  // 0: nothing is held
-  double slowest = 0.1;     // shares of the usual feed
+  double mm3_a_minute = 0;  // target removal rate, mm³/min; 0: constant feed
+  double slowest = 0.1;     // minimum, as a fraction of the usual feed
   double fastest = 1;
 };
 
@@ -23,13 +24,13 @@ class HeldRemoval {
  public:
   explicit HeldRemoval(MoveWriter& writer) : writer_(writer) {}
 
-  // `stock` outlives this; told() is its watcher.
+  // `stock` must outlive this object, and its watcher must call told().
   void set_stock(StockInWork* stock) { stock_ = stock; }
   void set(const HeldFeed& feed, Mm radius);
   void add(const CarvedCut& cut);
   void told(std::uint32_t number, double mm3);
   void settle();
-  // The most that a piece takes off a minute, at its feed, since the last call.
+  // Returns the maximum removal rate of a piece, at its feed, since the last call.
   double take_most();
 
  private:
@@ -37,8 +38,8 @@ class HeldRemoval {
     CarvedCut cut;
     double way = 0;
     double mm3 = 0;
-    double share = 1;        // of the usual feed
-    bool ends_move = false;  // a piece of another move follows
+    double share = 1;        // fraction of the usual feed
+    bool ends_move = false;  // the next piece belongs to another move
   };
 
   void judge(std::size_t first, std::size_t end, double way, double mm3);
@@ -49,7 +50,7 @@ class HeldRemoval {
   HeldFeed feed_;
   double radius_ = 1;
   std::deque<Piece> pieces_;
-  std::uint32_t first_number_ = 0;  // of the first of them
+  std::uint32_t first_number_ = 0;  // number of the first one of the waiting pieces
   std::size_t told_ = 0;
   std::size_t judged_ = 0;
   double most_ = 0;

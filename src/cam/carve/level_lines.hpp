@@ -1,8 +1,8 @@
-// LevelLines: the lines on which a map of heights has a given height, as a contour map has them. Private to carve/.
+// LevelLines: extracts the contour lines of a height map at a given height. Private to carve/.
 //
-// Between four nodes the map is the bilinear patch through them. Its lines of equal height are hyperbolas. Each becomes
-// one chord, or two tangents where the chord would lie above the height: so no point of a line lies higher than
-// `slack` above it.
+// Between four nodes the map is the bilinear patch through them. Its contour lines are hyperbolas. Each becomes one
+// chord, or two tangents if the chord would lie above the height, so that no point of a line is more than `slack` above
+// it.
 //
 // Sources: W. E. Lorensen, H. E. Cline, Marching cubes (1987), in the plane; G. M. Nielson, B. Hamann, The asymptotic
 // decider (1991), for cells with four crossings.
@@ -24,25 +24,25 @@ struct FlatPlace {
   double y = 0;
 };
 
-// What is higher lies to the right of the way.
+// A contour line. The higher side is on its right.
 struct LevelLine {
   std::vector<FlatPlace> points = {};
-  bool is_closed = false;  // the last point is the first one; else both ends lie on the map's edge
+  bool is_closed = false;  // the last point equals the first; otherwise both ends lie on the edge of the map
 };
 
 // The map as a surface in mm.
 class TipSurface {
  public:
-  // `map` outlives this.
+  // `map` must outlive this object.
   TipSurface(const TipMap& map, Mm pitch_x, Mm pitch_y)
       : map_(map), pitch_x_(pitch_x.value()), pitch_y_(pitch_y.value()) {}
 
   const TipMap& map() const { return map_; }
   double pitch_x() const { return pitch_x_; }
   double pitch_y() const { return pitch_y_; }
-  // Places beside the map have the height of its edge.
+  // Returns the height. Outside the map it is the height of the nearest edge.
   double at(const FlatPlace& place) const;
-  // The greatest height of a straight way.
+  // Returns the maximum height along a straight line.
   double highest(const FlatPlace& from, const FlatPlace& to) const;
 
  private:
@@ -63,7 +63,7 @@ class LevelLines {
  public:
   static constexpr double slack = 1e-5;  // mm
 
-  // `map` outlives this, and stays as it is.
+  // `map` must outlive this object, and must not change.
   LevelLines(const TipMap& map, Mm pitch_x, Mm pitch_y);
 
   // Calls act(line) for each line, always in the same order.
@@ -71,9 +71,9 @@ class LevelLines {
 
  private:
   struct Place {
-    std::size_t column = 0;  // of a cell
+    std::size_t column = 0;  // column of a cell
     std::size_t row = 0;
-    int edge = 0;  // 0: low, 1: right, 2: high, 3: left
+    int edge = 0;  // 0: bottom, 1: right, 2: top, 3: left
   };
   using Corners = std::array<float, 4>;  // counterclockwise from the lower left
 
@@ -92,10 +92,10 @@ class LevelLines {
   double pitch_y_;
   float height_ = 0;
   static constexpr std::size_t block = 64;  // cells
-  std::size_t blocks_ = 0;                  // in a row of cells
+  std::size_t blocks_ = 0;                  // number of blocks in a row of cells
   std::vector<float> lowest_;
   std::vector<float> highest_;
-  std::vector<bool> seen_;  // edges whose crossing is on a line
+  std::vector<bool> seen_;  // edges whose crossing belongs to a traced line
 };
 
 }  // namespace passo

@@ -1,9 +1,9 @@
-// fit_level_path: few lines and arcs along a way at one height, free of gouges. Private to carve/.
+// fit_level_path: approximates a toolpath at constant height by few lines and arcs, free of gouges. Private to carve/.
 //
-// The points of the way lie on the edge of what is free: a chord from one to the other would cut a convex wall. So the
-// way is moved by half of the tolerance to the free side first, which is the left one. Lines and arcs then stay within
-// half of the tolerance of its points. Whether they are free of gouges is looked up in the map of the tip's heights
-// for each of them, as it stands in the program; where one is not, however short, the tool goes over it.
+// The points of the toolpath lie on the boundary of the free area, where a chord between two points would cut a convex
+// wall. Therefore the toolpath is first moved by half of the tolerance to the free side, which is the left one. Lines
+// and arcs then stay within half of the tolerance of its points. Each line and arc, as rounded for the program, is
+// checked against the map of gouge-free tip heights; if even the shortest one gouges, the tool is lifted over it.
 #pragma once
 
 #include <vector>
@@ -17,12 +17,12 @@ namespace passo {
 struct LevelPathFit {
   double tolerance = 0.01;  // mm
   bool has_arcs = true;
-  // Whether the points lie on the edge of what is free, and must be moved.
+  // Whether the points lie on the boundary of the free area, so that they must be moved.
   bool is_on_edge = true;
   bool looks_for_gouges = true;
 };
 
-// Cuts that follow each other. Where the way is closed, the last one ends where the first one begins.
+// Consecutive cuts. If the toolpath is closed, the last one ends where the first one begins.
 struct LevelPath {
   std::vector<CarvedCut> cuts = {};
   bool is_closed = false;
@@ -30,21 +30,21 @@ struct LevelPath {
   double length() const;  // mm
 };
 
-// `height`: of the way. `surface`: the tip's heights that are free of gouges.
+// `height`: of the toolpath. `surface`: the gouge-free tip heights.
 LevelPath fit_level_path(const LevelLine& line, double height, const TipSurface& surface, const NodeLattice& lattice,
                          const LevelPathFit& fit);
 
-// Lines along a way that follows the surface where that is higher than `least`: nowhere below it, and at most
-// `fit.tolerance` above what half a cell around each place asks for.
+// Fits lines along a toolpath that follows the surface wherever the surface is higher than `least`: nowhere below the
+// surface, and at most `fit.tolerance` above the surface's maximum within half a cell of each point.
 LevelPath fit_following_path(const LevelLine& line, double least, const TipSurface& surface, const NodeLattice& lattice,
                              const LevelPathFit& fit);
 
-// The parts of a line all of whose points are wanted, but for gaps up to `gap` mm long. Parts shorter than `least` mm
-// are left out, closed lines apart. A line that is wanted all around stays closed.
+// Returns the parts of a line whose points are all wanted, bridging gaps of up to `gap` mm. Drops open parts shorter
+// than `least` mm. A line that is wanted all around stays closed.
 std::vector<LevelLine> parts_of(const LevelLine& line, const std::function<bool(const FlatPlace&)>& wants, double gap,
                                 double least);
 
-// The closed line from its point that is nearest to a place.
+// Rotates the points of a closed line so that it begins at the one nearest to `place`.
 void begin_near(LevelLine& line, const FlatPlace& place);
 
 inline double distance_between(const FlatPlace& a, const FlatPlace& b) {

@@ -1,4 +1,5 @@
-// MoveWriter: the lines of a carving program, as short as G-code allows, handed on in pieces. Counts what they cost.
+// MoveWriter: writes the moves of a carving program as compact G-code, passes the text on in pieces, and counts its
+// cost.
 #pragma once
 
 #include <cstdint>
@@ -13,7 +14,7 @@
 
 namespace passo {
 
-// A place in the program, in its smallest unit: 0.1 um.
+// A position in the program, in its smallest unit: 0.1 um.
 struct CarvedPlace {
   std::int64_t x = 0;
   std::int64_t y = 0;
@@ -21,42 +22,42 @@ struct CarvedPlace {
 
   friend bool operator==(const CarvedPlace&, const CarvedPlace&) = default;
 };
-inline constexpr double carved_units = 1e4;  // a millimetre
+inline constexpr double carved_units = 1e4;  // per millimetre
 
 struct CarvingFeeds {
-  Mm along{1000};  // a minute
-  Mm down{300};    // the most that the tip goes down, a minute
+  Mm along{1000};  // mm/min
+  Mm down{300};    // maximum downward speed of the tip, mm/min
 };
 
-// What a tool's part of the program is.
+// The cost of one tool's part of the program.
 struct CarvingCost {
-  std::uint64_t moves = 0;  // in work
-  std::uint64_t arcs = 0;   // of these
+  std::uint64_t moves = 0;  // cutting moves
+  std::uint64_t arcs = 0;   // arcs among them
   double cut_mm = 0;
   double rapid_mm = 0;
   double feed_minutes = 0;
 };
 
-// A move in work: a line, or an arc in one of the three planes. The axis that is not in the plane moves in proportion.
+// A cutting move: a line, or an arc in one of the three planes. The axis outside the plane moves in proportion.
 struct CarvedCut {
   enum class Kind : std::uint8_t { line, arc_xy, arc_zx, arc_yz };
   Kind kind = Kind::line;
-  bool counterclockwise = false;  // G3; seen from the end of the axis that is not in the plane
+  bool counterclockwise = false;  // G3; seen from the positive end of the axis outside the plane
   CarvedPlace from = {};
   CarvedPlace to = {};
-  CarvedPlace centre = {};  // of an arc; what is not in its plane does not count
+  CarvedPlace centre = {};  // centre of an arc; the coordinate outside its plane is ignored
 };
 
-// The radius of an arc at its start, and the angle that it turns, above 0 and at most a full turn.
+// The radius of an arc at its start, and its sweep angle, above 0 and at most a full circle.
 struct CarvedSweep {
   double radius = 0;  // mm
   double angle = 0;   // radians
 };
 CarvedSweep sweep_of(const CarvedCut& arc);
 double length_of(const CarvedCut& cut);  // mm
-// `share`: of the way, 0 to 1.
+// Returns the position at a fraction of the move, 0 to 1.
 CarvedPlace place_on(const CarvedCut& cut, double share);
-// How steeply the tip goes down where it does so most, as a share of its way: 0 to 1.
+// Returns the steepest descent of the tip along the move, as a fraction of the distance: 0 to 1.
 double steepest_down(const CarvedCut& cut);
 
 class MoveWriter {
@@ -71,32 +72,33 @@ class MoveWriter {
   }
   void set_feeds(const CarvingFeeds& feeds) { feeds_ = feeds; }
   const CarvingFeeds& feeds() const { return feeds_; }
-  // Who takes the moves in work in place of the writer, and hands them on to write() in their order. Before anything
-  // else is written, `settle` must have handed on all. Empty: nobody.
+  // Receives the cutting moves instead of the writer, and passes them to write() in order. Before anything else is
+  // written, `settle` must have passed on all of them. Empty: no receiver.
   struct Taker {
     std::function<void(const CarvedCut&)> take = {};
     std::function<void()> settle = {};
   };
   void set_taker(Taker taker) { taker_ = std::move(taker); }
-  // From here on, nothing is known of the tool's place but its height.
+  // Begins with an unknown tool position, of which only the height is known.
   void begin_at(std::int64_t z);
   void rapid_to(std::int64_t x, std::int64_t y);
   void rapid_up_down(std::int64_t z);
   void cut_to(const CarvedPlace& to);
-  // The arc begins where the tool is.
+  // Adds an arc that begins at the tool's position.
   void arc_to(CarvedCut arc);
   const CarvedPlace& place() const { return at_; }
-  // The feed at which the tip goes down slowly enough, in carved units a minute. `share`: of the usual feed.
+  // Returns the feed at which the tip's descent keeps its speed limit, in carved units per minute. `share`: fraction of
+  // the usual feed.
   std::int64_t feed_of(const CarvedCut& cut, double share = 1) const;
-  // The same in mm a minute, where that share of the way goes down.
+  // The same in mm/min, for a move whose descent is the fraction `down` of its length.
   double feed_down(double down, double share = 1) const;
-  // Writes a move that begins where the one before ends.
+  // Writes a move that begins at the end of the previous one.
   void write(const CarvedCut& cut, std::int64_t feed);
-  // The plane of arcs is XY again (G17), as at the program's start.
+  // Selects the XY plane again (G17), as at the start of the program.
   void restore_plane();
-  // What was counted since the last call.
+  // Returns the cost since the last call.
   CarvingCost take_cost() { return std::exchange(cost_, {}); }
-  // Hands on what was written.
+  // Passes on the written text.
   void flush();
 
  private:
@@ -117,7 +119,7 @@ class MoveWriter {
   bool knows_xy_ = false;
   char motion_ = 0;
   CarvedCut::Kind plane_ = CarvedCut::Kind::arc_xy;
-  std::int64_t feed_ = 0;  // in carved units a minute
+  std::int64_t feed_ = 0;  // last feed, in carved units per minute
 };
 
 }  // namespace passo

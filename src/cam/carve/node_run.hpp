@@ -1,7 +1,7 @@
-// NodeRun: a straight run of nodes with the tip's height at each, and how it becomes few lines.
+// NodeRun: a straight run of nodes with the tip height at each, and its approximation by few lines.
 //
-// The tip's heights are the least that are free of gouges, at the nodes and on the straight lines between. So a line
-// that is nowhere below them at the nodes it passes is free of gouges too.
+// The tip heights are the lowest gouge-free ones, at the nodes and on the straight lines between them. Therefore a line
+// that is nowhere below them at the nodes it passes is gouge-free, too.
 #pragma once
 
 #include <algorithm>
@@ -13,13 +13,13 @@
 
 namespace passo {
 
-// Where nodes are in the program.
+// Maps nodes to positions in the program.
 struct NodeLattice {
-  double x0 = 0;  // mm, of node (0, 0)
+  double x0 = 0;  // mm, position of node (0, 0)
   double y0 = 0;
   double pitch_x = 0;
   double pitch_y = 0;
-  bool turned = false;  // nodes along X and Y of the program are rows and columns here
+  bool turned = false;  // X and Y of the program are the rows and columns here
 
   CarvedPlace at(std::ptrdiff_t column, std::ptrdiff_t row, std::int64_t z) const {
     const std::ptrdiff_t i = turned ? row : column;
@@ -29,23 +29,23 @@ struct NodeLattice {
   }
 };
 
-// Upwards, but for what a grid's height may be rounded by: 1/65536 mm.
+// Rounds a height upwards, with an allowance of 1/65536 mm for the rounding of the grid's heights.
 inline std::int64_t carved_height(double z) {
   constexpr double slack = 0.25;
   return static_cast<std::int64_t>(std::ceil(z * carved_units - slack));
 }
 
 struct NodeRun {
-  std::ptrdiff_t column = 0;  // of the first node
+  std::ptrdiff_t column = 0;  // column of the first node
   std::ptrdiff_t row = 0;
-  int step_x = 1;  // from node to node: -1, 0 or 1
+  int step_x = 1;  // step between nodes: -1, 0 or 1
   int step_y = 0;
   std::vector<float> heights = {};
 
   std::ptrdiff_t column_at(std::size_t i) const { return column + step_x * static_cast<std::ptrdiff_t>(i); }
   std::ptrdiff_t row_at(std::size_t i) const { return row + step_y * static_cast<std::ptrdiff_t>(i); }
 
-  // The same run from its other end.
+  // Returns the same run in reverse order.
   NodeRun backwards() const {
     const std::size_t last = heights.size() - 1;
     NodeRun other{.column = column_at(last), .row = row_at(last), .step_x = -step_x, .step_y = -step_y};
@@ -54,10 +54,10 @@ struct NodeRun {
   }
 };
 
-// The straight line from the node `begin`, at the height `from`, that is nowhere below `heights` and at most
-// `tolerance` above: it reaches as far as one can, and ends as low as it can. Calls emit(index, height in carved units)
-// for its end. Source: the cone of slopes of Williams, "An efficient algorithm for the piecewise linear approximation
-// of planar curves", 1978.
+// Fits a straight line from the node `begin`, at the height `from`, that is nowhere below `heights` and at most
+// `tolerance` above. The line is as long as possible, and ends as low as possible. Calls emit(index, height in carved
+// units) for its end. Source: the cone of slopes of Williams, "An efficient algorithm for the piecewise linear
+// approximation of planar curves", 1978.
 template <class Emit>
 void fit_line(const std::vector<float>& heights, std::size_t begin, double from, double tolerance, const Emit& emit) {
   double low = heights[begin + 1] - from;
@@ -67,7 +67,7 @@ void fit_line(const std::vector<float>& heights, std::size_t begin, double from,
     const auto steps = static_cast<double>(i - begin);
     const double need = heights[i] - from;
     if (need > high * steps || need + tolerance < low * steps) break;
-    // At most one of the two bounds is usually drawn closer: no division then.
+    // Usually at most one of the two bounds becomes tighter; otherwise no division is needed.
     if (need > low * steps) low = need / steps;
     if (need + tolerance < high * steps) high = (need + tolerance) / steps;
     end = i;
@@ -75,7 +75,7 @@ void fit_line(const std::vector<float>& heights, std::size_t begin, double from,
   emit(end, carved_height(from + low * static_cast<double>(end - begin)));
 }
 
-// Covers `heights` with such lines; the first begins at `from`, at the first node.
+// Covers `heights` with such lines; the first one begins at the first node, at the height `from`.
 template <class Emit>
 void fit_lines(const std::vector<float>& heights, double from, double tolerance, const Emit& emit) {
   for (std::size_t begin = 0; begin + 1 < heights.size();) {
@@ -87,7 +87,7 @@ void fit_lines(const std::vector<float>& heights, double from, double tolerance,
   }
 }
 
-// Cuts along the run. The tool is at its first node, at its height there or above.
+// Cuts along the run. The tool must be at the run's first node, at its height or above.
 inline void cut_run(MoveWriter& writer, const NodeLattice& lattice, const NodeRun& run, double tolerance) {
   const double from = static_cast<double>(writer.place().z) / carved_units;
   fit_lines(run.heights, from, tolerance,

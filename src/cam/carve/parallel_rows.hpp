@@ -1,5 +1,5 @@
-// for_each_row: work on rows that do not depend on one another, by several threads. Which thread takes which row is
-// chance; what a row becomes is not.
+// for_each_row: processes independent rows in several threads. The assignment of rows to threads is random; the result
+// does not depend on it.
 #pragma once
 
 #include <atomic>
@@ -9,7 +9,7 @@
 
 namespace passo {
 
-// Calls act(row, thread) for each row. `threads`: 1 or more.
+// Calls act(row, thread) for each row. `threads`: at least 1.
 template <class Act>
 void for_each_row(std::size_t rows, unsigned threads, const Act& act) {
   std::atomic<std::size_t> next{0};

@@ -1,4 +1,4 @@
-// What of a pixel is its level, from samples of 16 bits. Private to carve/.
+// Computes the level of a pixel from 16-bit samples. Private to carve/.
 #pragma once
 
 #include <cstdint>
@@ -9,7 +9,7 @@ inline std::uint64_t luminance_of(std::uint64_t red, std::uint64_t green, std::u
   return (2126 * red + 7152 * green + 722 * blue + 5000) / 10000;
 }
 
-// What is transparent counts as black, in proportion.
+// Darkens a luminance in proportion to its transparency.
 inline std::uint16_t faded(std::uint64_t luminance, std::uint64_t alpha) {
   return static_cast<std::uint16_t>((luminance * alpha + 32767) / 65535);
 }

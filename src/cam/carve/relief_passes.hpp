@@ -1,4 +1,5 @@
-// What the parts of a relief's program share: the writer, the lattice, and how a cutter gets to its work.
+// The common basis of the passes of a relief program: the writer, the lattice, and the approach of a cutter to its
+// work.
 #pragma once
 
 #include <cstddef>
@@ -18,21 +19,21 @@
 
 namespace passo {
 
-// Where the tip was, at nodes; elsewhere it was not. For the view of what is carved.
+// Records the tip positions at nodes, for the view of the carved surface.
 class TipRecord {
  public:
   TipRecord(const HeightGrid& surface, std::size_t margin_x, std::size_t margin_y);
 
   void add(const NodeLattice& lattice, const NodeRun& run);
-  // Ways between nodes count at the nearest node, at which the tip is no lower than it may be there.
+  // Adds a toolpath between nodes at the nearest nodes, where the tip is no lower than it may be there.
   void add(const std::vector<CarvedCut>& way, const NodeLattice& lattice, const TipSurface& surface);
-  // Lowers `carved` to what the cutter has left.
+  // Lowers `carved` to the surface that the cutter has left.
   void carve(const Cutter& cutter, unsigned threads, CarvedSurface& carved) const;
 
  private:
   std::ptrdiff_t margin_x_;
   std::ptrdiff_t margin_y_;
-  HeightGrid depths_;  // of the tips below zero
+  HeightGrid depths_;  // tip depths below zero
 };
 
 class ReliefPass {
@@ -44,27 +45,28 @@ class ReliefPass {
 
   void set_lattice(const NodeLattice& lattice) { lattice_ = lattice; }
   void set_record(TipRecord* record) { record_ = record; }
-  // The stock that the writer's moves cut, for what asks for it. None: nobody knows it.
+  // The stock that the writer's moves cut. Null: the stock is not tracked.
   void set_stock(StockInWork* stock) { stock_ = stock; }
   StockInWork* stock() const { return stock_; }
 
-  // Lifts the tool, goes to the run's first node, and enters the stock there. From `free_above` upwards there is no
+  // Lifts the tool, moves to the run's first node, and enters the stock there. At `free_above` and higher there is no
   // stock.
   void go_to_work(const NodeRun& run, double free_above);
-  // Cuts along the run, whose first node the tool is at.
+  // Cuts along the run. The tool must be at its first node.
   void cut(const NodeRun& run);
   void lift();
 
-  // Where the tool is, in mm from node (0, 0).
+  // Returns the tool's position, in mm from node (0, 0).
   FlatPlace flat_place() const { return flat(writer_.place()); }
 
-  // How the tool may get to a way.
+  // How the tool may approach a toolpath.
   struct WayEntry {
-    double near = 0;        // mm; a way that begins so near is gone to without lifting, where nothing stands between
-    bool sideways = false;  // at its depth, into the stock beside: what stands there is as wide as a row at most
-    bool is_for_stock = false;  // where no stock stands above the way, it is left out
+    double near = 0;        // mm; a toolpath that begins within this distance is approached without lifting if nothing
+                            // is in between
+    bool sideways = false;  // enters at full depth from the side; the stock there is at most one stepover wide
+    bool is_for_stock = false;  // skips a toolpath above which there is no stock
   };
-  // Gets to a way of lines and arcs, goes down along it, and cuts along all of it. Needs the stock.
+  // Approaches a toolpath of lines and arcs, descends along it, and cuts all of it. Requires the stock.
   void cut_way(const LevelPath& path, const TipSurface& surface, const WayEntry& entry);
 
  private:
@@ -79,13 +81,13 @@ class ReliefPass {
   NodeLattice lattice_;
   TipRecord* record_ = nullptr;
   StockInWork* stock_ = nullptr;
-  bool is_at_work_ = false;  // this cutter, at a known place
+  bool is_at_work_ = false;  // this cutter is cutting, at a known position
 };
 
-// Rows of runs at one depth, in the order in which one can follow the other without lifting.
+// Rows of runs at one depth, in an order in which one can follow the other without lifting.
 //
-// wants(column, row): the cutter has work there. height(column, row): the tip's height there, free of gouges.
-// free_above(column, row): no stock stands above, where the cutter has work.
+// wants(column, row): whether the cutter has work there. height(column, row): the gouge-free tip height there.
+// free_above(column, row): the height above which there is no stock at that node.
 class AreaSweep {
  public:
   struct Area {
@@ -94,7 +96,7 @@ class AreaSweep {
     std::ptrdiff_t first_row = 0;
     std::ptrdiff_t end_row = 0;
     std::ptrdiff_t step = 1;  // between rows of work
-    std::ptrdiff_t gap = 0;   // runs that are no farther apart become one
+    std::ptrdiff_t gap = 0;   // joins runs at most this far apart
   };
   using Wants = std::function<bool(std::ptrdiff_t column, std::ptrdiff_t row)>;
   using Height = std::function<float(std::ptrdiff_t column, std::ptrdiff_t row)>;
@@ -126,42 +128,43 @@ class AreaSweep {
   Wants wants_;
   Height height_;
   Height free_above_;
-  std::vector<std::vector<Stretch>> stretches_;  // of each row of work
+  std::vector<std::vector<Stretch>> stretches_;  // for each row of work
   std::size_t done_ = 0;
   std::size_t all_ = 0;
 };
 
-// How many nodes a distance takes, at least one.
+// Returns the number of nodes in a distance, at least one.
 std::ptrdiff_t nodes_of(Mm distance, Mm pitch);
-// The greatest whole number of nodes within a step, at least one.
+// Returns the greatest whole number of nodes within a step, at least one.
 std::ptrdiff_t step_nodes(Mm step, Mm pitch);
-// The distance between rows that a tool is to keep.
+// Returns the stepover of a tool.
 Mm step_of(const ReliefTool& tool, const ReliefProgramOptions& options, bool is_roughing);
 
-// How far the cutters' middles go beyond the surface. The roughing cutter goes so far that the finishing cutter finds
-// no stock beside the surface that nobody has roughed.
+// Return how far the cutter centres travel beyond the surface. The roughing cutter goes so far that the finishing
+// cutter meets no unroughed stock beside the surface.
 Mm finishing_overrun(const ReliefProgramOptions& options);
 Mm roughing_overrun(const ReliefProgramOptions& options);
 Mm rest_overrun(const ReliefProgramOptions& options);
 
-// The tip's heights on the surface and `overrun` around it. The tip goes nowhere below `floor`.
+// Returns the tip heights on the surface and on a margin of `overrun` around it. `floor`: the minimum height of the
+// tip.
 TipMap tips_of(const HeightGrid& surface, const Cutter& cutter, float floor, Mm overrun,
                const ReliefProgramOptions& options);
-// Of roughing: that of the cutter with the stock that it leaves, no higher than the stock's top.
+// Returns the tip heights of the roughing cutter, including the stock to leave, limited to the top of the stock.
 TipMap roughing_tips(const HeightGrid& surface, const ReliefProgramOptions& options);
 AreaSweep::Area area_of(const TipMap& map, std::ptrdiff_t step, std::ptrdiff_t gap);
 
 void rough_out(ReliefPass& pass, const HeightGrid& surface, const NodeLattice& lattice,
                const std::function<void(double)>& progress);
-// The same by offsets of each level's outline.
+// Does the same by offsets of each level's outline.
 void rough_by_offsets(ReliefPass& pass, const HeightGrid& surface, const NodeLattice& lattice,
                       const std::function<void(double)>& progress);
-// `way` is rows or columns; for columns the surface is turned.
+// Finishes in rows or columns, as `way` says; for columns the surface must be transposed.
 void finish_rows(ReliefPass& pass, const HeightGrid& surface, const NodeLattice& lattice,
                  const std::function<void(double)>& progress);
 void finish_spiral(ReliefPass& pass, const HeightGrid& surface, const NodeLattice& lattice,
                    const std::function<void(double)>& progress);
-// Constant heights on what is steep, rows on the rest.
+// Finishes steep areas at constant heights, the remaining area in rows.
 void finish_contours(ReliefPass& pass, const HeightGrid& surface, const NodeLattice& lattice,
                      const std::function<void(double)>& progress);
 void finish_rest(ReliefPass& pass, const HeightGrid& surface, const NodeLattice& lattice,

@@ -1,7 +1,7 @@
-// StockInWork: the stock as the program has cut it so far, for what must know what still stands. Private to carve/.
+// StockInWork: the stock as cut by the program so far, for code that needs the remaining material. Private to carve/.
 //
-// It lies under the whole way of the cutters, beside the surface too, and its top is Z 0. Cells are some tenths of the
-// smallest cutter's radius; questions about it are answered for the worst that a cell may hide.
+// It covers the whole range of the cutters, including the area beside the surface; its top is Z 0. Cells are some
+// tenths of the smallest cutter's radius; queries return the worst case within a cell.
 #pragma once
 
 #include <cstdint>
@@ -19,21 +19,21 @@ namespace passo {
 
 class StockInWork {
  public:
-  // What a move took off, in the order of the moves; some later than the call of cut().
+  // Receives the volume removed by each move, in order; possibly after the call of cut().
   using Watcher = std::function<void(std::uint32_t number, double mm3)>;
 
-  // `beyond`: how far the cutters' middles go beyond the surface, at most.
+  // `beyond`: maximum distance of the cutter centres beyond the surface.
   StockInWork(const HeightGrid& surface, const ReliefProgramOptions& options, Mm beyond, Watcher watcher = {});
 
-  // The cutter that cuts from here on, one of the options'.
+  // Selects the cutter for the following moves; it must be one of the options' cutters.
   void use(const Cutter& cutter);
   void cut(const CarvedCut& cut, std::uint32_t number = 0);
-  // All moves are cut, and told.
+  // Cuts and reports all pending moves.
   void settle();
 
-  // The least height of the tip at which the cutter touches no stock, at a place and up to `around` mm from it.
+  // Returns the lowest tip height at which the cutter touches no stock, within `around` mm of a position.
   double free_height(const FlatPlace& place, double around);
-  // The same all along a way.
+  // Returns the same for a whole toolpath.
   double free_height(const std::vector<CarvedCut>& way);
 
  private:
@@ -46,7 +46,8 @@ class StockInWork {
   std::vector<Cutter> shapes_;
   std::size_t tool_ = 0;
   bool is_settled_ = true;
-  // The cutter's height above its tip for each cell around its own, a quarter; and what it was measured for.
+  // A quadrant with the cutter's height above its tip for each cell around its own; and the parameters for which it was
+  // computed.
   std::vector<float> heights_;
   std::ptrdiff_t reach_ = 0;
   double measured_around_ = -1;

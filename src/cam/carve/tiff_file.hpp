@@ -1,7 +1,7 @@
 // TiffFile: the fields of the first picture in a TIFF file, and the bytes of its blocks. Private to carve/.
 //
-// A block is a strip of whole rows, or a tile. Read are classic TIFF and BigTIFF, of both byte orders; blocks without
-// compression, and those of PackBits, LZW and Deflate. libtiff is not used: as Debian builds it, it loads a library
+// A block is a strip of whole rows, or a tile. Supports classic TIFF and BigTIFF in both byte orders; blocks without
+// compression or compressed by PackBits, LZW or Deflate. libtiff is not used: as Debian builds it, it loads a library
 // that is under the GPL.
 //
 // Source: TIFF, Revision 6.0, Adobe, 1992; TIFF Technical Note 3 (predictor of floating-point numbers), 2005.
@@ -38,31 +38,31 @@ enum class TiffField : std::uint16_t {
   tile_sizes = 325,
   extra_samples = 338,
   number_kind = 339,
-  no_data = 42113,  // of GDAL: the number, as text, that stands where nothing was measured
+  no_data = 42113,  // GDAL tag: the number, as text, that marks missing data
 };
 
 class TiffFile {
  public:
   static bool is_one(std::string_view bytes);
 
-  // `bytes` outlive this. Where the file is broken, fault() tells.
+  // `bytes` must outlive this object. fault() describes the error if the file is corrupt.
   explicit TiffFile(std::string_view bytes);
   const std::string& fault() const { return fault_; }
 
   bool is_big_endian() const { return big_; }
-  // All numbers of a field; empty: it is not there, or broken.
+  // Returns all numbers of a field; empty if the field is missing or corrupt.
   std::vector<std::uint64_t> numbers(TiffField field) const;
   std::uint64_t number(TiffField field, std::uint64_t otherwise) const;
   std::string text(TiffField field) const;
 
-  // The bytes of the file from a place on; what lies beyond its end is left out.
+  // Returns the bytes of the file from an offset; truncated at the end of the file.
   std::string_view bytes_at(std::uint64_t offset, std::uint64_t size) const;
 
  private:
   struct Entry {
     std::uint16_t type = 0;
     std::uint64_t count = 0;
-    std::uint64_t offset = 0;  // of its values in the file
+    std::uint64_t offset = 0;  // offset of its values in the file
   };
   std::uint64_t whole(std::uint64_t offset, std::size_t size) const;
 
@@ -72,10 +72,10 @@ class TiffFile {
   std::string fault_;
 };
 
-// The name of a kind of compression that is not read; empty: it is.
+// Returns the name of an unsupported compression method; empty if it is supported.
 std::string unread_compression(std::uint64_t compression);
 
-// The bytes of a block, `size` of them. Empty: the data are broken or end too early. Memory grows with what is there.
+// Decompresses a block to `size` bytes. Empty if the data is corrupt or too short. Memory grows with the actual data.
 std::optional<std::string> unpacked(std::string_view block, std::uint64_t compression, std::size_t size);
 
 }  // namespace passo

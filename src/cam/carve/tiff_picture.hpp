@@ -1,7 +1,7 @@
-// read_tiff: the levels of a TIFF picture. Private to carve/.
+// read_tiff: reads the levels of a TIFF picture. Private to carve/.
 //
-// Grey, palette and colour, with or without alpha, in strips or tiles, of 1, 2, 4, 8, 16 or 32 bits. Numbers with a
-// sign and floating-point numbers are measured heights: the least becomes black, the greatest white.
+// Supports greyscale, palette and colour, with or without alpha, in strips or tiles, with 1, 2, 4, 8, 16 or 32 bits.
+// Signed and floating-point numbers are measured heights: the minimum becomes black, the maximum white.
 #pragma once
 
 #include <string>
@@ -11,7 +11,7 @@
 
 namespace passo {
 
-// If the picture cannot be read, it has no columns, and `fault` has the reason.
+// On failure, returns a picture without columns and sets `fault` to the reason.
 LevelPicture read_tiff(std::string_view bytes, PixelLevel level, std::string& fault);
 
 }  // namespace passo

@@ -1,4 +1,4 @@
-// Rows that several operations have. Private to operations/.
+// Option rows shared by several operations. Private to operations/.
 #pragma once
 
 #include <initializer_list>
@@ -13,18 +13,18 @@ inline constexpr CamFor experts = CamFor::experts;
 inline const CamTraits experts_only{.matters_to = experts};
 inline const CamTraits of_one_job{.is_of_job = true};
 inline const CamTraits experts_of_one_job{.matters_to = experts, .is_of_job = true};
-inline const CamTraits are_needed{.is_required = true};  // of drawings
+inline const CamTraits are_needed{.is_required = true};  // for the files of drawings
 
 std::vector<CamOption> all_of(std::initializer_list<std::vector<CamOption>> parts);
 
-// What all milling of drawings has. `layer`: for whom --layer matters.
+// The options of every operation that mills drawings. `layer`: the users to whom --layer is shown.
 std::vector<CamOption> mill_rows(CamMillArguments& arguments, CamFor layer = experts);
-// How the cutter goes around an edge: depths, tabs, ramps, leads.
+// The options for cutting along an edge: depths, tabs, ramps, lead-ins.
 std::vector<CamOption> edge_rows(CamOutlineArguments& arguments);
 
-// Of the program, and of lengths without a unit.
+// The unit of the program, and of lengths given without a unit.
 CamOption units_row(std::string& units);
-// Of the numbers in the files.
+// The unit of the numbers in the files.
 CamOption input_row(std::string& input, const char* help);
 CamOption scale_row(std::optional<double>& scale);
 CamOption zero_row(std::string& zero, const char* help);

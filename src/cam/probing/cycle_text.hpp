@@ -1,4 +1,4 @@
-// cycle_text: the G-code of a probing cycle whose values are good. Private to probing/.
+// cycle_text: the G-code of a validated probing cycle. Private to probing/.
 #pragma once
 
 #include <optional>
@@ -9,20 +9,20 @@
 
 namespace passo {
 
-// The way of a touch along X or Y.
+// The direction of a touch along X or Y.
 struct TouchWay {
   char axis = 'X';
   int sign = 1;
 };
-// "x+" and the like. Nothing: no such way.
+// Parses "x+", "x-", "y+" or "y-". Nothing if it is not a direction.
 std::optional<TouchWay> way_of(std::string_view side);
 
-// The ways in which the two sides at a corner are touched.
+// The directions in which the two sides of a corner are touched.
 struct CornerWays {
   int x = 1;
   int y = 1;
 };
-// "front-left" and the like.
+// Parses "front-left" and the other corners.
 std::optional<CornerWays> corner_of(std::string_view side);
 
 std::string cycle_text(const ProbingCycle& cycle);

@@ -1,5 +1,5 @@
-// LevelledWriter: writes moves at the height of the surface. Moves straight up and down, and what is between them, wait
-// until it is known whether they are a hole, whose depth stays. Private to probing/.
+// LevelledWriter: writes moves with the height map applied. It holds back vertical moves, and everything between them,
+// until it can decide whether they are a hole, which keeps its depth. Private to probing/.
 #pragma once
 
 #include <functional>
@@ -18,17 +18,17 @@ namespace passo {
 
 inline constexpr double full_turn = 2 * std::numbers::pi;
 
-// A move as the program means it, in work coordinates.
+// A move as programmed, in work coordinates.
 struct LevelledMove {
   Point from;
   Point to;
-  AxisSet named = {};         // axes that the program names
-  AxisSet absolute = {};      // of these, those that it names by a place
-  bool is_new_place = false;  // the work coordinates of one of them were not known before
+  AxisSet named = {};         // axes that the program specifies
+  AxisSet absolute = {};      // those of them that are specified by an absolute position
+  bool is_new_place = false;  // the work coordinate of one of them was unknown before
   bool rapid = false;
   bool levelled = true;
-  bool from_anywhere = false;  // nobody knows where it begins in X or Y
-  bool from_above = false;     // nobody knows where it begins in Z
+  bool from_anywhere = false;  // the start position in X or Y is unknown
+  bool from_above = false;     // the start position in Z is unknown
   bool is_arc = false;         // about a centre in X and Y
   double center_x = 0;
   double center_y = 0;
@@ -38,45 +38,45 @@ struct LevelledMove {
   bool is_upright() const;
 };
 
-// After a change of the frame places differ by what their conversion has rounded.
+// Returns whether two coordinates are equal except for rounding, which a change of the frame introduces.
 bool is_same_place(double a, double b);
 bool is_same_place(const Point& a, const Point& b);
 
 class LevelledWriter {
  public:
-  // Everything outlives the writer. `start`: Z where the levelled program begins.
+  // The references must outlive the writer. `start`: Z at the start of the levelled program.
   LevelledWriter(const HeightMap& map, const LevelOptions& wish, double start,
                  const std::function<void(std::string_view)>& write)
       : map_(map), highest_(map.highest()), wish_(wish), code_(write), height_(start) {}
 
   void add(const LevelledMove& move) { add({.line = {}, .move = move, .is_move = true}); }
   void add_line(std::string line) { add({.line = std::move(line), .move = {}}); }
-  // What waits is written. `rises`: a machine's retract ends the run.
+  // Writes the pending moves. `rises`: the sequence ends with a retract in machine coordinates.
   void end_run(bool rises = false);
-  // What is written between the moves, after end_run().
+  // The output for code between the moves, after end_run().
   PlainCode& code() { return code_; }
 
-  // Z where the levelled program is, and how much higher that is than where the program is.
+  // Z of the levelled program, and its difference from the Z of the original program.
   double height() const { return height_; }
   double higher_than(const Point& place) const { return height_ - place[Axis::z]; }
   void set_height(double height) { height_ = height; }
   void rise(double way) { height_ += way; }
-  // `place` of the program, which stands there in the frame in force.
+  // Sets the current position of the original program, in the current frame.
   void stand_at(const Point& place) { code_.stand_at(at_height(place)); }
   Point at_height(Point place) const {
     place[Axis::z] = height_;
     return place;
   }
 
-  // The highest place of the surface.
+  // Returns the maximum height of the surface.
   double highest() const { return highest_; }
-  // A move on the surface was added.
+  // Whether a move on the surface was added.
   bool any_levelled() const { return any_levelled_; }
   LevelCount& count() { return count_; }
   const LevelCount& count() const { return count_; }
 
  private:
-  // What comes between moves: a line as it is. Or a move.
+  // A move, or a line between moves, which is copied.
   struct Item {
     std::string line;
     LevelledMove move;

@@ -1,4 +1,4 @@
-// Leveller: follows the operations of a program, and writes it as it is on a surface. Private to probing/.
+// Leveller: processes the operations of a program and writes them with the height map applied. Private to probing/.
 #pragma once
 
 #include <cstdint>
@@ -25,26 +25,26 @@ class Leveller {
   Leveller(Interpreter& interpreter, const InterpreterOptions& options, const std::string& file, const HeightMap& map,
            const LevelOptions& wish, Diagnostics& diagnostics, const std::function<void(std::string_view)>& write);
 
-  // False: the program ends here.
+  // Returns false at the end of the program.
   bool handle(const Operation& operation);
   void finish();
   const LevelCount& count() const { return writer_.count(); }
 
  private:
-  // A cycle that stays a cycle, see keeps_cycle().
+  // A drilling cycle that is kept as a cycle, see keeps_cycle().
   struct KeptCycle {
-    std::uint64_t block = 0;                     // of the words
-    std::vector<std::pair<char, double>> words;  // Z, R, P and Q, which stay from line to line; mm
+    std::uint64_t block = 0;                     // block that contains the words
+    std::vector<std::pair<char, double>> words;  // Z, R, P and Q, which stay the same from line to line; mm
     bool is_kept = false;
-    bool is_open = false;  // the line is not written yet
-    FrameBlock line;       // that is open
+    bool is_open = false;  // the line is not yet written
+    FrameBlock line;       // the block being written
     LevelHeight began_at = LevelHeight::of_machine;
   };
-  // What was written of the frame.
+  // The frame commands written so far.
   struct WrittenFrame {
     int system = 0;  // 0: none
     std::uint64_t g92_block = 0;
-    bool has_tool_offset = false;  // the program has set one
+    bool has_tool_offset = false;  // the program has set a tool length offset
   };
 
   void handle_move(const Operation& operation);
@@ -57,7 +57,7 @@ class Leveller {
   double feed_of(const Point& end) const;
   void check_lead(const Operation& operation, const Point& end);
 
-  // Frames, and places of the machine.
+  // Processes frame changes and moves in machine coordinates.
   void read_block(const FrameBlock& block);
   void read_system(const FrameBlock& block);
   void read_tool_entry(const FrameBlock& block);
@@ -85,13 +85,13 @@ class Leveller {
   Diagnostics& diagnostics_;
   const std::string& file_;
   LevelledWriter writer_;
-  const double machine_unit_;  // mm, of the parameters
+  const double machine_unit_;  // mm, unit of the parameters
   const bool has_tools_;
   Frame frame_;
   bool is_reset_ = false;
   WrittenFrame written_;
-  std::uint64_t homing_ = 0;  // the block whose way home has begun
-  Point place_;               // where the program is, work coordinates
+  std::uint64_t homing_ = 0;  // the block whose homing move has begun
+  Point place_;               // position of the original program, work coordinates
   SaidPlace said_;
   operation::FeedPerSecond feed_;
   operation::SetPathMode path_mode_;

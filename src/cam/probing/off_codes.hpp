@@ -1,5 +1,5 @@
-// OffCodes: leaves out the M5 and M9 of what is off already. The end of a program switches off what the program has
-// switched off, and M9 stands for two operations. At the start nobody knows what is on. Private to probing/.
+// OffCodes: omits M5 and M9 if the spindle or coolant is already off. The end of a program switches off what the
+// program has already switched off, and M9 is two operations. The state at the start is unknown. Private to probing/.
 #pragma once
 
 #include <string_view>
@@ -9,7 +9,7 @@ namespace passo {
 
 class OffCodes {
  public:
-  // Call with each line that is written. True: the line switches off what is off.
+  // Must be called with each line to be written. Returns true if the line only switches off what is already off.
   bool is_off_already(std::string_view line) {
     if (line == "M5") return std::exchange(spindle_is_off_, true);
     if (line == "M9") return std::exchange(coolant_is_off_, true);

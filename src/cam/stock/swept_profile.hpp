@@ -1,16 +1,18 @@
-// SweptProfile: where a tool that goes straight down a slope has its lowest underside above a place. Private to stock/.
+// SweptProfile: finds where the underside of a tool moving straight down a slope is lowest above a point. Private to
+// stock/.
 //
-// The way runs along u and goes down by `slope` for each millimetre (slope >= 0); v is across. The tip is at s. Above
-// the place (u, v) the underside is at z(s) + h(d), d² = (u - s)² + v². h is convex and rises, so the sum is convex in
-// s and has one lowest place: reach(v) is how far beyond u the tip then is. The lowest place within a segment is that
-// one, or the end of the segment next to it. So no cell needs a search, and all of it is arithmetic on lanes.
+// The path runs along u and descends by `slope` per millimetre (slope >= 0); v is the coordinate across it. With the
+// tip at s, the underside above the point (u, v) is at z(s) + h(d), d² = (u - s)² + v². h is convex and increasing, so
+// the sum is convex in s and has a single minimum: reach(v) is the tip's distance beyond u at that minimum. Within a
+// segment the minimum is at that position or at the nearest end of the segment. So no cell needs a search, and the
+// computation is plain arithmetic on vector lanes.
 //
-// With w = s - u, the lowest place is where h'(d) w / d = slope:
+// With w = s - u, the minimum is where h'(d) w / d = slope:
 //   ball of radius r:      w = sqrt(r² - v²) slope / sqrt(1 + slope²), the slanted cylinder
 //   cone that rises by m:  w = |v| slope / sqrt(m² - slope²); where slope >= m, as far as the tool's rim reaches
 //   flat tip of radius r:  w = sqrt(r² - v²), its edge
 //   round corner (a ring): an equation of fourth degree; Newton from above, which a convex function cannot overshoot
-// Any w gives a height that the tool does reach: an error of w only leaves material, by its square.
+// Any w gives a height that the tool actually reaches: an error of w only leaves material, proportional to its square.
 #pragma once
 
 #include <algorithm>
@@ -26,7 +28,7 @@ inline float above_zero(float value) {
 
 struct FlatProfile {
   float radius2;
-  float edge;  // 1 on a slope, 0 on the level
+  float edge;  // 1 on a slope, 0 if level
 
   FlatProfile(float radius, float slope) : radius2(radius * radius), edge(slope > 0 ? 1.0F : 0.0F) {}
   float reach(float v2) const { return edge * std::sqrt(above_zero(radius2 - v2)); }
@@ -44,7 +46,7 @@ struct BallProfile {
   float height(float d2) const { return radius - std::sqrt(above_zero(radius2 - d2)); }
 };
 
-// How far a cone that rises by `steepness` leans, for each |v|.
+// Returns the ratio of w to |v| for a cone that rises by `steepness`.
 inline float cone_lean(float steepness, float slope) {
   constexpr float to_the_rim = 1e6F;
   return slope < steepness ? std::min(to_the_rim, slope / std::sqrt(steepness * steepness - slope * slope))
@@ -58,7 +60,7 @@ struct ConeProfile {
   float steepness;
   float lean;
   float edge;
-  float least;  // 1: always to the rim
+  float least;  // 1: always at the rim
 
   ConeProfile(float tip_radius, float rim, float rise, float slope)
       : tip(tip_radius),
@@ -114,14 +116,14 @@ struct TaperedProfile {
 };
 
 struct RingProfile {
-  // Flatter slopes are solved as if they were this steep: so a solution exists, and floats can tell the numbers apart.
+  // The minimum slope; flatter ones are solved with this slope, so that a solution exists and floats can resolve it.
   static constexpr float flattest = 0.001F;
-  // So the lowest height is right to 0.3 um for each mm of the rim's radius.
+  // The lowest height is then accurate to 0.3 um per mm of the rim's radius.
   static constexpr int steps = 2;
 
   float corner;
   float corner2;
-  float inner;  // the ring's radius: from the axis to the middle of the corner
+  float inner;  // radius of the ring: from the axis to the centre of the corner
   float slope2;
   float steep;  // sqrt(1 + slope²)
   float flat;   // inner * steep
@@ -142,8 +144,9 @@ struct RingProfile {
         above(1 / pull),
         edge(slope > 0 ? 1.0F : 0.0F) {}
 
-  // The contact is at the angle t from the way. With sin t = steep q / sqrt(1 + q²), |v| = flat q / sqrt(1 + q²) + pull
-  // q, which bends one way only. Halley's steps from a guess that is nowhere too large.
+  // The contact is at the angle t from the direction of travel. With sin t = steep q / sqrt(1 + q²), |v| = flat q /
+  // sqrt(1 + q²) + pull q, which is concave in q. Uses Halley's method, starting from a value that is nowhere too
+  // large.
   float reach(float v2) const {
     const float v = std::sqrt(v2);
     float q = std::max(v * below, (v - flat) * above);
@@ -165,8 +168,7 @@ struct RingProfile {
   }
 };
 
-// Calls `use` with the profile of the cutter. `slope`: how far the way goes down for each millimetre of its length in X
-// Y.
+// Calls `use` with the profile of the cutter. `slope`: descent per millimetre of the path in X Y.
 template <class Use>
 void with_profile(const Cutter& cutter, float slope, Use&& use) {
   const auto number = [](Mm length) { return static_cast<float>(length.value()); };

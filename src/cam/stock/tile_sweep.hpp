@@ -1,4 +1,4 @@
-// TileSweep: one straight sweep of a tool over one tile of a field. Private to stock/.
+// TileSweep: a single straight sweep of a tool over one tile of a field. Private to stock/.
 #pragma once
 
 #include <cstddef>
@@ -10,14 +10,14 @@
 
 namespace passo {
 
-// A straight way of a tool's tip, its ends ordered by height.
+// A straight path of a tool's tip, its ends ordered by height.
 struct Sweep {
   Vector3 high;
   Vector3 low;
 };
 Sweep sweep_between(const Vector3& a, const Vector3& b);
 
-inline constexpr std::size_t tile_size = 64;  // cells along each side
+inline constexpr std::size_t tile_size = 64;  // cells on each side
 
 struct Tile {
   std::size_t column = 0;
@@ -26,19 +26,19 @@ struct Tile {
   std::size_t rows = 0;
 };
 
-// What one sweep did in one tile.
+// The effect of one sweep on one tile.
 struct TileCut {
-  double drop = 0;  // the sum over all cells, mm
+  double drop = 0;  // removed height, summed over all cells, mm
   std::uint32_t cells = 0;
   float deepest = 0;
-  std::uint32_t column = 0;  // where, of the field
+  std::uint32_t column = 0;  // cell of the field
   std::uint32_t row = 0;
-  float before = 0;  // the height there before, from the stock's top
+  float before = 0;  // height before the cut, relative to the stock's top
 };
 
-// Cuts the field. `rim`: the radius within which the tool takes material, its own or a little less.
+// Cuts the field. `rim`: the radius within which the tool removes material: its own radius or slightly less.
 TileCut cut_tile(HeightField& field, const Tile& tile, const Sweep& sweep, const Cutter& cutter, double rim);
-// How deep the tool would be in the field; the field stays as it is.
+// Returns how deep the tool would be in the field; does not change the field.
 TileCut probe_tile(const HeightField& field, const Tile& tile, const Sweep& sweep, const Cutter& cutter, double rim);
 
 }  // namespace passo

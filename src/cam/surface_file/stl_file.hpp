@@ -1,8 +1,8 @@
-// read_stl: the triangles of a body in an STL file, text or binary. Private to surface_file/.
+// read_stl: reads the triangles of an STL model, text or binary. Private to surface_file/.
 //
-// A binary file has 80 bytes of any content, the number of triangles, and 50 bytes each. A text file has words: solid,
-// then for each triangle facet, normal, outer, loop, three times vertex with three numbers, endloop, endfacet. The
-// normals are not used.
+// A binary file has a header of 80 bytes, the number of triangles, and 50 bytes per triangle. A text file has keywords:
+// solid, then for each triangle facet, normal, outer, loop, three times vertex with three numbers, endloop, endfacet.
+// The normals are not used.
 //
 // Source: 3D Systems, StereoLithography Interface Specification, 1989.
 #pragma once
@@ -18,8 +18,8 @@ namespace passo {
 
 bool looks_like_stl(std::string_view bytes);
 
-// Empty with an error "surface.stl", of text with its line and column. At most most_triangles; none lies farther than
-// farthest_surface.
+// Returns an empty list and reports "surface.stl" on failure, with line and column for a text file. Limits:
+// most_triangles and farthest_surface.
 std::vector<SurfaceTriangle> read_stl(const std::string& name, std::string_view bytes, Diagnostics& diagnostics);
 
 }  // namespace passo

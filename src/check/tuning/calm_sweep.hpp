@@ -1,15 +1,16 @@
-// CalmSweep: up to which rate a motor runs without swinging by itself. Private to tuning/.
+// CalmSweep: determines the rate up to which a motor runs without self-excited oscillation. Private to tuning/.
 //
-// Mid-band instability and resonance begin at rates that no formula gives to a few per cent, and need time to grow. So
-// the motor is swept slowly through all rates, with its physics, and watched: how far the lag moves about its mean.
+// Mid-band instability and resonance begin at rates that no formula predicts to within a few per cent, and they take
+// time to build up. Therefore the motor is simulated in a slow sweep through all rates, and the fluctuation of its lag
+// about the mean is measured.
 #pragma once
 
 #include "passo/motor/running_motor.hpp"
 
 namespace passo {
 
-// In full steps a second; `fastest` if the motor is calm everywhere below. `late`: the share of an interval by which a
-// step may come late, as at a board whose events are those of a faster motor.
+// Returns the rate in full steps/s; `fastest` if the motor does not oscillate below it. `late`: the fraction of an
+// interval by which a step may be late, as on a board whose events are those of a faster motor.
 Hertz calm_up_to(const MotorSetup& setup, Hertz fastest, double late);
 
 }  // namespace passo

@@ -1,4 +1,4 @@
-// AxisPeaks: the highest speed and acceleration that each axis reaches. Private to report/.
+// AxisPeaks: the maximum speed and acceleration of each axis. Private to report/.
 #pragma once
 
 #include "passo/trajectory/phase.hpp"

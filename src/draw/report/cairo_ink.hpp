@@ -1,4 +1,5 @@
-// CairoInk: a picture as PNG, by cairo, which is loaded with the first of them (decision 0120). Private to report/.
+// CairoInk: draws a picture as PNG with cairo, which is loaded with the first PNG picture (decision 0120). Private to
+// report/.
 #pragma once
 
 #include <memory>
@@ -10,10 +11,10 @@
 
 namespace passo {
 
-// `file` outlives the ink. On a computer without cairo finish() says so.
+// `file` must outlive the ink. Without cairo on the computer, finish() returns an error.
 std::unique_ptr<Ink> cairo_ink(const PictureOptions& options, OutputFile& file);
 
-// The pixels as the bytes of a PNG file.
+// Encodes the pixels as a PNG file.
 Result<std::string, OutputError> png_of(PixelMap map);
 
 }  // namespace passo

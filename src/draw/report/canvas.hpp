@@ -1,7 +1,7 @@
-// Canvas: a few drawing operations, the same for an SVG and a PNG. Private to report/.
+// Canvas: a few drawing operations, the same for SVG and PNG. Private to report/.
 //
-// Coordinates are in units of the picture: x to the right and y down, from the upper left corner. The Ink of the format
-// makes the picture; it keeps its first error, and finish() returns that.
+// Coordinates are in picture units: x to the right and y down, from the upper left corner. The Ink of the format
+// generates the picture; it keeps its first error, which finish() returns.
 #pragma once
 
 #include <cstdint>
@@ -30,7 +30,7 @@ struct Area {
   double bottom() const { return y + height; }
 };
 
-// A picture made of pixels, row by row from the upper left corner: 0xAARRGGBB, the colours multiplied by A.
+// A pixel image, row by row from the upper left corner: 0xAARRGGBB, the colours premultiplied by A.
 struct PixelMap {
   int width = 0;
   int height = 0;
@@ -52,7 +52,7 @@ struct Font {
   bool bold = false;
 };
 
-// What draws a picture of one format. A path may have several pieces, and is used up by stroke() or fill().
+// Draws a picture in one format. A path may have several pieces; stroke() and fill() reset it.
 class Ink {
  public:
   virtual ~Ink() = default;
@@ -60,13 +60,13 @@ class Ink {
   virtual void line_to(Spot spot) = 0;
   virtual void close() = 0;
   virtual void stroke(const Pen& pen) = 0;
-  // even_odd: a piece in another is a hole.
+  // even_odd: a piece within another one is a hole.
   enum class Rule : std::uint8_t { winding, even_odd };
   virtual void fill(const Colour& colour, double opacity, Rule rule) = 0;
   virtual void fill_with_speeds(const Area& area) = 0;
   virtual void disc(Spot centre, double radius, const Colour& colour) = 0;
   virtual void image(const Area& area, PixelMap map) = 0;
-  // The y of `place` is that of the base line.
+  // The y of `place` is the baseline.
   virtual void text(Spot place, const std::string& text, const Font& font, Align align) = 0;
   virtual double text_width(const std::string& text, const Font& font) = 0;
   virtual void clip(const Area& area) = 0;
@@ -83,29 +83,29 @@ class Canvas {
 
   void fill(const Area& area, const Colour& colour);
   void fill(const std::vector<Spot>& polygon, const Colour& colour, double opacity = 1);
-  // Fills the area with the map of speeds, from left to right.
+  // Fills the area with the colour map of speeds, from left to right.
   void fill_with_speeds(const Area& area);
   // Fills the area with the pixels.
   void image(const Area& area, PixelMap map);
   void frame(const Area& area, const Pen& pen);
   void line(Spot from, Spot to, const Pen& pen);
   void disc(Spot centre, double radius, const Colour& colour);
-  // The y of `place` is at the middle of the digits' height.
+  // The y of `place` is the middle of the digits' height.
   void text(Spot place, const std::string& text, const Font& font, Align align = Align::left);
   double text_width(const std::string& text, const Font& font);
 
-  // These two build a path, which may have several pieces. stroke() draws the path. fill_path() fills what an odd
-  // number of its pieces surround, so a piece in another is a hole.
+  // Build a path, which may have several pieces. stroke() draws the path. fill_path() fills by the even-odd rule, so a
+  // piece within another one is a hole.
   void move_to(Spot spot);
   void line_to(Spot spot);
   void stroke(const Pen& pen);
   void fill_path(const Colour& colour);
 
-  // Between clip() and end_clip(), drawing shows only inside `area`.
+  // Limits drawing to `area` until end_clip().
   void clip(const Area& area);
   void end_clip();
 
-  // Writes what is left. Returns the first error, if there was one.
+  // Writes the remaining output. Returns the first error, if there was one.
   Status<OutputError> finish();
 
  private:

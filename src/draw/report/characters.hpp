@@ -1,4 +1,4 @@
-// Characters of a text that may hold any bytes. Private to report/.
+// Splits texts of arbitrary bytes into characters. Private to report/.
 #pragma once
 
 #include <cstddef>
@@ -8,8 +8,8 @@
 
 namespace passo {
 
-// The number of bytes of the UTF-8 character at the start of `text`; 0 if there is none.
-// A control character does not count.
+// Returns the number of bytes of the UTF-8 character at the start of `text`; 0 if there is none. A control character
+// counts as none.
 inline std::size_t character_length(std::string_view text) {
   const CodePoint first = first_code_point(text);
   return first.value < 0x20 || first.value == 0x7F ? 0 : first.length;

@@ -1,4 +1,4 @@
-// A face seen straight on: its place on the paper, and scales in millimetres beside it. Private to report/.
+// A front view of a face: its position on the paper, with scales in millimetres. Private to report/.
 #pragma once
 
 #include "canvas.hpp"
@@ -12,10 +12,10 @@ struct FaceExtent {
   double size_y = 0;
 };
 
-// The largest area of the face's shape within `room`, at its upper left.
+// Returns the largest area with the face's aspect ratio within `room`, at its upper left.
 Area fitted(const FaceExtent& face, const Area& room);
 
-// Scales of X below the area and of Y beside it.
+// Draws the X scale below the area and the Y scale beside it.
 void draw_scales(Canvas& canvas, const FaceExtent& face, const Area& area);
 
 }  // namespace passo

@@ -1,4 +1,4 @@
-// How wide letters will be that a viewer draws: those of DejaVu Sans, the widest of the fonts that a picture asks for.
+// Estimates the width of letters in a viewer: that of DejaVu Sans, the widest of the fonts that a picture requests.
 // Private to report/.
 #pragma once
 
@@ -6,7 +6,7 @@
 
 namespace passo {
 
-// In sizes of the font. `text` may hold any bytes.
+// Returns the width in units of the font size. `text` may contain any bytes.
 double width_of_letters(std::string_view text, bool bold);
 
 }  // namespace passo

@@ -1,8 +1,8 @@
-// PathColours: which colour each piece of a recorded path has. Private to report/.
+// PathColours: the colour of each piece of a recorded path. Private to report/.
 //
-// Speeds, depths and loads have the map of SpeedColours: fast is dark, deep is dark, and little margin is dark. Tools
-// have colours that the colour-blind can tell apart (Okabe and Ito, 2008), without the two that hardly show on white
-// paper.
+// Speeds, depths and loads use the map of SpeedColours: fast is dark, deep is dark, and a small margin is dark. Tools
+// have colours that are distinguishable for the colour-blind (Okabe and Ito, 2008), without the two that are hardly
+// visible on white paper.
 #pragma once
 
 #include "speed_colours.hpp"
@@ -17,12 +17,13 @@ class PathColours {
   PathColours(const PathRecorder& path, PathColour by);
 
   PathColour by() const { return by_; }
-  // Pieces of one class have one colour, so that neighbours become one stroke.
+  // Returns the number of classes. Pieces of one class have the same colour, so that adjacent pieces are drawn as one
+  // stroke.
   std::size_t classes() const;
-  // `z` is the height of the piece's middle, relative to the base of the path.
+  // `z` is the height of the piece's midpoint, relative to the base of the path.
   std::size_t class_of(const PathRecorder::Vertex& vertex, double z) const;
   Colour of_class(std::size_t index) const;
-  // In how many parts a piece between these two heights is drawn, so that its colour follows its depth.
+  // Returns the number of parts in which a piece between these heights is drawn, so that its colour follows its depth.
   int parts_between(double from_z, double to_z) const;
 
   static Colour of_tool(std::size_t index);
@@ -30,8 +31,8 @@ class PathColours {
  private:
   PathColour by_;
   SpeedColours speeds_;
-  double top_;     // of the feeds, relative to the base
-  double height_;  // 0: all feeds are level
+  double top_;     // top of the feed moves, relative to the base
+  double height_;  // 0: all feed moves are at the same height
 };
 
 }  // namespace passo

@@ -1,5 +1,5 @@
-// Draws a recorded path in a projection. Feeds have the colours of their speed, depth or tool and are drawn over the
-// rapids. Private to report/.
+// Draws a recorded path in a projection. Feed moves have the colours of their speed, depth or tool and are drawn over
+// the rapids. Private to report/.
 #pragma once
 
 #include "path_colours.hpp"
@@ -10,7 +10,7 @@
 namespace passo {
 
 Pen rapid_pen();
-// A dense path gets a finer pen.
+// Draws the path, with a thinner pen if it is dense.
 void draw_path(Canvas& canvas, const PathRecorder& path, const Projection& projection, const PathColours& colours,
                bool rapids);
 

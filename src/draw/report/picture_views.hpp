@@ -8,21 +8,21 @@
 
 namespace passo {
 
-// What a view shows: the box of the path, which is widened so that it is never flat, and the zero of the ticks.
+// The content of a view: the bounding box of the path, widened so that it is never flat, and the zero of the ticks.
 struct Scene {
   Scene(const PathRecorder& path, const PictureOptions& options);
 
   const PathRecorder& path;
   PathColours colours;
-  bool rapids;  // the rapids are drawn
+  bool rapids;  // whether the rapids are drawn
   Box box;      // machine coordinates
-  Point zero;   // zero of the ticks: the work zero if there is exactly one, else machine zero
+  Point zero;   // zero of the ticks: the work zero if there is exactly one, otherwise machine zero
   bool work_coordinates = false;
 };
 
-// A view along one axis of the machine. `view` is not FlatView::automatic.
+// Draws a view along one axis of the machine. `view` must not be FlatView::automatic.
 void draw_flat_view(Canvas& canvas, const Scene& scene, FlatView view, const Area& area);
-// The flat view that shows most of the work.
+// Returns the flat view that shows the most.
 FlatView natural_view(const PathRecorder& path, bool is_lathe);
 void draw_isometric_view(Canvas& canvas, const Scene& scene, const Area& area);
 

@@ -1,4 +1,4 @@
-// PlanView: from places of a board to places of the paper, and the pens of pictures of boards. Private to report/.
+// PlanView: maps board positions to the paper, and defines the pens of board pictures. Private to report/.
 #pragma once
 
 #include <algorithm>
@@ -29,7 +29,7 @@ inline void extend(DrawnBox& box, DrawnPoint point) {
 
 class PlanView {
  public:
-  // The box and 2 mm of air around it fill the area, in its middle.
+  // Centres the box, with a margin of 2 mm, in the area.
   PlanView(const DrawnBox& box, const Area& area) : area_(area) {
     constexpr double air = 2e6;  // nm
     low_ = {static_cast<double>(box.least.x.count) - air, static_cast<double>(box.least.y.count) - air};

@@ -1,4 +1,5 @@
-// Projection: maps a place of the path to a spot of the picture, at equal scale in all directions. Private to report/.
+// Projection: maps a point of the path to a point of the picture, at the same scale in all directions. Private to
+// report/.
 #pragma once
 
 #include <algorithm>
@@ -12,13 +13,12 @@ namespace passo {
 
 class Projection {
  public:
-  // Seen along the third axis: `across` points right, `up` points up. Both are X, Y or Z.
+  // Views along the third axis: `across` points right, `up` points up. Both are X, Y or Z.
   static Projection flat(Axis across, Axis up) {
     const auto way = [&](Axis axis) { return Spot{axis == across ? 1.0 : 0.0, axis == up ? 1.0 : 0.0}; };
     return {way(Axis::x), way(Axis::y), way(Axis::z)};
   }
-  // Seen from the front, the right and above. All axes are equally foreshortened: X points right and down, Y right and
-  // up.
+  // Views from the front, right and above. All axes are equally foreshortened: X points right and down, Y right and up.
   //
   //            back
   //     left  /    \        Z
@@ -30,20 +30,20 @@ class Projection {
     return {{cosine, -0.5}, {cosine, 0.5}, {0, 1}};
   }
 
-  // Shows the whole box in the middle of `area`, as large as possible.
+  // Fits the whole box into the middle of `area`, as large as possible.
   void fit(const Box& box, const Area& area);
 
   Spot spot(double x, double y, double z) const {
     return {left_ + scale_ * (x_.x * x + y_.x * y + z_.x * z), top_ - scale_ * (x_.y * x + y_.y * y + z_.y * z)};
   }
   Spot spot(const Point& point) const { return spot(point[Axis::x], point[Axis::y], point[Axis::z]); }
-  // Units of the picture for one millimetre along an axis.
+  // Returns the picture units per millimetre along an axis.
   double scale() const { return scale_; }
 
  private:
   Projection(Spot x, Spot y, Spot z) : x_(x), y_(y), z_(z) {}
 
-  // How one millimetre of each axis moves a spot of the picture at scale 1. Here y points up.
+  // The displacement in the picture per millimetre of each axis, at scale 1. Here y points up.
   Spot x_;
   Spot y_;
   Spot z_;

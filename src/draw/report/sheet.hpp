@@ -1,4 +1,4 @@
-// Sheet: what pictures have in common: colours, fonts and pens, white paper, a title with a line below it, and a
+// Sheet: the common elements of pictures: colours, fonts and pens, white paper, a title with a line below it, and a
 // legend. Private to report/.
 #pragma once
 
@@ -21,12 +21,12 @@ inline const Font axis_title{.size = 14, .colour = quiet_ink};
 inline const Pen grid{.colour = {0.90, 0.91, 0.92}, .width = 0.8};
 inline const Pen edge{.colour = {0.62, 0.64, 0.67}, .width = 1};
 inline constexpr double margin = 48;
-inline constexpr double mark = 5;  // length of a tick
+inline constexpr double mark = 5;  // length of a tick mark
 }  // namespace sheet
 
 // Fills the paper with white, and writes the title (options.program) and `words` below it.
 void begin_sheet(Canvas& canvas, const PictureOptions& options, const std::string& words);
-// The same with options.machine below the title.
+// Does the same with options.machine below the title.
 void begin_sheet(Canvas& canvas, const PictureOptions& options);
 
 // Explains the strokes, areas and dots of a picture in one row, from left to right.
@@ -39,7 +39,7 @@ class Legend {
   void dot(double radius, const Colour& colour, const std::string& words);
   void words(const std::string& words);
 
-  // The width of a legend that has a line for each of these.
+  // Returns the width of a legend that has a line for each of these words.
   static double width_of_lines(Canvas& canvas, const std::vector<std::string>& words);
 
  private:

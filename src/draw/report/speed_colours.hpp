@@ -1,9 +1,9 @@
 // SpeedColours: the colour for each speed. Private to report/.
 //
-// Viridis (Smith and van der Walt, matplotlib, CC0) is perceptually even. The colour-blind can read it, and it can be
-// read in grey. It is used backwards: the full speed of most of a path is dark on white paper, and slow places are
-// bright. The palest fifth is left out, because it would hardly show on paper. The darkest tenth is left out, because
-// it looks black. Speeds are sorted into a few classes, so that neighbouring pieces become one stroke.
+// Viridis (Smith and van der Walt, matplotlib, CC0) is perceptually uniform, and legible for the colour-blind and in
+// greyscale. It is used in reverse: the full speed of most of a path is dark on white paper, and slow points are
+// bright. The palest fifth is omitted, because it would hardly be visible on paper, and the darkest tenth, because it
+// looks black. Speeds are grouped into a few classes, so that adjacent pieces are drawn as one stroke.
 #pragma once
 
 #include <array>
@@ -26,7 +26,7 @@ class SpeedColours {
   explicit SpeedColours(MmPerSecond top) : fastest_(top.value()) {}
 
   std::size_t class_of(double speed) const;
-  // `share`, 0…1, is a place in the map.
+  // `share`, 0…1, is the position in the colour map.
   static Colour at(double share);
   static Colour of_class(std::size_t index) { return at((static_cast<double>(index) + 0.5) / classes); }
 

@@ -1,7 +1,7 @@
-// StepView: pulses on the grid of steps, seen along one axis. Private to report/.
+// StepView: pulses on the step grid, seen along one axis. Private to report/.
 //
-// The view fits the pulses and the ideal path into an area of the paper, with the same scale right and up. Places are
-// in steps.
+// The view fits the pulses and the ideal path into an area of the paper, at the same scale in both directions.
+// Positions are in steps.
 #pragma once
 
 #include <algorithm>
@@ -14,7 +14,7 @@
 
 namespace passo {
 
-// The fonts and colours of all pictures of pulses.
+// The fonts and colours shared by all pictures of pulses.
 namespace step_look {
 inline const Font title_font{.size = 24, .colour = {0.13, 0.14, 0.17}, .bold = true};
 inline const Font heading_font{.size = 17, .colour = {0.13, 0.14, 0.17}, .bold = true};
@@ -35,14 +35,14 @@ struct Shown {  // one pulse, or the start
 
 class StepView {
  public:
-  // `path` has places of the ideal path; the view is wide enough for them too.
+  // `path`: points of the ideal path; the view includes them, too.
   StepView(const std::vector<Shown>& shown, const std::vector<Spot>& path, std::size_t across, std::size_t up,
            const Area& area);
-  // A magnified view of the steps from `low` on, which fills the area. The area is a square.
+  // Creates a magnified view of `steps` steps from `low` on, which fills the square area.
   StepView(const StepView& whole, Spot low, double steps, const Area& area);
 
   bool shows(const Place& place) const;
-  // Whether a pulse has room to be a dot.
+  // Returns whether there is room to draw a pulse as a dot.
   bool has_dots() const { return dot_radius() >= smallest_dot; }
   double dot_radius() const { return std::min(5.0, scale_ * 0.2); }
 
@@ -56,7 +56,7 @@ class StepView {
   const Area& frame() const { return frame_; }
   const Spot& low() const { return low_; }
   const Spot& high() const { return high_; }
-  double scale() const { return scale_; }  // pixels a step
+  double scale() const { return scale_; }  // pixels per step
   std::size_t across() const { return across_; }
   std::size_t up() const { return up_; }
 
@@ -73,19 +73,19 @@ class StepView {
   Area frame_;
 };
 
-// There is a line at every step if there is room for it, else only at round numbers of steps.
+// Draws a line at every step if there is room, otherwise only at round numbers of steps.
 void draw_step_lines(Canvas& canvas, const StepView& view);
-// The same, and the ticks beside them.
+// Does the same, and adds ticks.
 void draw_step_grid(Canvas& canvas, const StepView& view);
-// The pulses, joined by a line. Blue: one axis stepped; orange: several; grey ring: it waited there.
+// Draws the pulses, joined by a line. Blue: one axis stepped; orange: several; grey ring: a pause.
 void draw_pulses(Canvas& canvas, const StepView& view, const std::vector<Shown>& shown);
 
 struct StepKey {
   std::string text;
   Colour colour;
-  bool line = false;  // else a dot
+  bool line = false;  // drawn as a line; otherwise as a dot
 };
-// What every picture of pulses explains.
+// Returns the legend entries of every picture of pulses.
 std::vector<StepKey> step_keys();
 void draw_step_keys(Canvas& canvas, const std::vector<StepKey>& keys, double x, double y);
 

@@ -1,4 +1,4 @@
-// The pixels of a piece of stock under light: from above, and as a body. Private to report/.
+// Renders a piece of stock with lighting: from above, and as a 3D view. Private to report/.
 #pragma once
 
 #include "canvas.hpp"
@@ -8,14 +8,14 @@
 
 namespace passo {
 
-// A pixel of a PixelMap. bright: 1 is the colour itself.
+// Returns a pixel of a PixelMap. bright: 1 is the colour itself.
 std::uint32_t pixel_of(const Colour& colour, double bright);
 
-// The colours of differences, and of what does not differ.
+// The colours of deviations, and of areas without deviation.
 inline constexpr Colour left_colour{0.16, 0.42, 0.86};
 inline constexpr Colour gouge_colour{0.86, 0.16, 0.14};
 inline constexpr Colour even_colour{0.80, 0.80, 0.79};
-// What no tool has touched.
+// The colour of uncut material.
 inline constexpr Colour untouched_colour{0.87, 0.84, 0.78};
 
 class StockShading {
@@ -26,21 +26,21 @@ class StockShading {
   double largest_left() const { return left_; }    // mm
   double largest_gouge() const { return gouge_; }  // mm
 
-  // The colour of a depth below the top, and of a difference (above 0: left), without light.
+  // Return the unlit colour of a depth below the top, and of a deviation (positive: excess material).
   Colour colour_of_depth(double depth) const;
   Colour colour_of_difference(double difference) const;
 
-  // The stock seen from above, X to the right and Y up, on so many pixels.
+  // Renders the top view, X to the right and Y up, with this many pixels.
   PixelMap from_above(int width, int height) const;
-  // The stock as `projection` shows it in `area`; `scale` pixels for a unit.
+  // Renders the 3D view of `projection` in `area`, with `scale` pixels per unit.
   PixelMap as_body(const Projection& projection, const Area& area, int scale) const;
 
  private:
-  // A piece of the face: its height and colour as they are seen.
+  // A piece of the surface: its height and its lit colour.
   struct Patch {
     double height = 0;
     std::uint32_t colour = 0;
-    std::uint32_t wall = 0;  // below it, seen from the side
+    std::uint32_t wall = 0;  // the wall below it, seen from the side
   };
   Patch patch(double column, double row, double size) const;
   double height_near(double column, double row) const;

@@ -1,5 +1,5 @@
-// SvgInk: a picture as SVG, written as it is drawn: no library, and no more memory than the file's buffer. Private to
-// report/.
+// SvgInk: writes a picture as SVG while it is drawn: without a library, and without memory beyond the file's buffer.
+// Private to report/.
 #pragma once
 
 #include <memory>
@@ -8,7 +8,7 @@
 
 namespace passo {
 
-// `file` outlives the ink.
+// `file` must outlive the ink.
 std::unique_ptr<Ink> svg_ink(const PictureOptions& options, OutputFile& file);
 
 }  // namespace passo

@@ -1,4 +1,4 @@
-// TriangleWriter: a body as a binary STL file. Private to report/.
+// TriangleWriter: writes a solid as a binary STL file. Private to report/.
 #pragma once
 
 #include <array>
@@ -41,7 +41,7 @@ class TriangleWriter {
   }
   std::uint64_t count() const { return count_; }
 
-  // Numbers as the file has them, the lowest byte first.
+  // Appends a number in little-endian order.
   template <class Number>
   void append(Number number) {
     static_assert(std::endian::native == std::endian::little);
@@ -71,8 +71,8 @@ class TriangleWriter {
   std::uint64_t count_ = 0;
 };
 
-// Writes the triangles that `write` adds to a TriangleWriter. It is called twice: the file begins with their number,
-// which is returned.
+// Writes the triangles that `write` adds to a TriangleWriter; returns their number. `write` is called twice, because
+// the file begins with the number.
 template <class Write>
 std::uint64_t write_triangles(std::string_view words, OutputFile& file, Write&& write) {
   TriangleWriter counter(nullptr);

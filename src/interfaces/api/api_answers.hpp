@@ -1,4 +1,4 @@
-// Answers that several parts of the API give. Private to api/.
+// Responses shared by several parts of the API. Private to api/.
 #pragma once
 
 #include <string>
@@ -12,19 +12,19 @@
 namespace passo {
 
 WebAnswer json_answer(unsigned status, const Json& json);
-// {"code": …, "arguments": {…}}: what a client needs to say it in another language.
+// Returns {"code": …, "arguments": {…}}: the data from which a client can translate the sentence.
 Json as_json(const Sentence& sentence);
-// {"error": {"code": …, "message": …, "sentence": …}}. The sentence's code may be finer than the code that clients
-// compare.
+// Returns {"error": {"code": …, "message": …, "sentence": …}}. The sentence's code may be more specific than `code`,
+// which clients compare.
 WebAnswer error_answer(unsigned status, std::string_view code, const Sentence& sentence);
 WebAnswer error_answer(unsigned status, std::string_view code, std::string_view message);
-// What HTTP's own status says.
+// Returns an error response with the standard message of this HTTP status.
 WebAnswer refusal_answer(unsigned status);
-// 400: what the body should have been.
+// 400: describes the expected body.
 WebAnswer bad_body(std::string_view message);
-// What the session has refused.
+// Returns the error response for a request refused by the session.
 WebAnswer refused_answer(const Refusal& refusal);
-// A client tells by the change which statuses are older than its request.
+// Includes the current version of the status, by which a client recognises statuses older than its request.
 WebAnswer ticket_answer(const MachineSession& session, Ticket ticket);
 
 Sentence sentence_of_busy(MachineState state);
@@ -37,8 +37,7 @@ WebAnswer no_maker();
 WebAnswer no_place();
 WebAnswer no_room();
 WebAnswer no_studies();
-// 507: the disk is full, or refuses for another reason.
-// `what`: "the job"; `finer`: "job".
+// 507: writing failed because the disk is full, or for another reason. `what`: "the job"; `finer`: "job".
 WebAnswer unwritten(std::string_view what, std::string_view finer, std::string why);
 
 }  // namespace passo

@@ -1,4 +1,4 @@
-// ApiCall: a request that has found its route. Its body was parsed once. Private to api/.
+// ApiCall: a request with its route and its parsed body. Private to api/.
 #pragma once
 
 #include <cstdint>
@@ -14,9 +14,9 @@ using Json = nlohmann::ordered_json;
 struct ApiCall {
   const WebRequest& request;
   std::uint64_t id = 0;                  // the number in the path
-  Json body = Json::value_t::discarded;  // an object where the body is one; else discarded
+  Json body = Json::value_t::discarded;  // the body if it is a JSON object; otherwise discarded
 
-  // Nothing said is no member said.
+  // Returns the members of the body; an empty object if there is no body.
   Json members() const { return body.is_object() ? body : Json::object(); }
   std::string_view query(std::string_view key) const { return query_value(request.query, key); }
 };

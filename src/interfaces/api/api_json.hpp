@@ -1,4 +1,4 @@
-// What the API's parts say in JSON. Private to api/.
+// JSON conversion shared by several parts of the API. Private to api/.
 #pragma once
 
 #include <optional>
@@ -19,39 +19,40 @@
 
 namespace passo {
 
-inline constexpr double a_minute = 60;  // s; the API's speeds are mm/min
+inline constexpr double a_minute = 60;  // s; speeds in the API are mm/min
 
-// What a query says. A name keeps its own letters. It may become a file's name, and stand in a terminal or a page: one
-// that could do harm there is refused. `otherwise`: where the query has none.
+// Returns the name from the query, with the user's capitalisation. It may become a file name and be displayed in a
+// terminal or a web page; a name that could be harmful there is refused. `otherwise`: the default.
 Result<std::string, WebAnswer> name_from(std::string_view query, std::string_view otherwise);
-// A person's words for others, without control characters, and at most 200 bytes of them.
+// Returns a user's text for display to others, without control characters, and limited to 200 bytes.
 std::string words_from(std::string_view text, std::string_view otherwise);
 Result<Dialect, WebAnswer> dialect_from(std::string_view query);
 std::string_view dialect_name(Dialect dialect);
-// from_line, pass and after of a query. Empty: they are no place of a program.
+// Reads from_line, pass and after from a query. Empty if they do not specify a position in a program.
 std::optional<LinePlace> place_from(std::string_view query);
 
-// The body of a request: what a client of the stream has said, or the text. The error: its type (415) or its shape
-// (400) is another than the route's.
+// Returns the request's body: the object sent over the WebSocket stream, or the parsed text. The error: its type (415)
+// or its structure (400) does not match the route.
 Result<Json, WebAnswer> read_body(BodyKind kind, const WebRequest& request, std::optional<Json> said);
 
-// Six decimals: a tenth of a step of a fine machine.
+// Rounds to six decimals: a tenth of a step of a high-resolution machine.
 double rounded(double value);
 
 Json as_json(const MachineDescription& machine, const Point& place);
 Json as_json(const MachineDescription& machine, const MachineStatus& status);
 Json as_json(const MotionOwner& owner);
 Json as_json(const ApiJob& job);
-// The modes of the lines that a person types, and where the tool is by them.
+// Returns the modal state of the MDI lines, and the tool position derived from it.
 Json as_json(const MachineDescription& machine, const MdiLines& mdi, const Point& at);
 Json as_json(const StoredProgram& program, bool with_findings);
 Json as_json(const HistoryJob& job);
-// How the history keeps a sentence, and what a client gets of it: null where an older program has written the words.
+// Convert a sentence for the history, and from the history for a client; null if an older version of the program has
+// written plain text.
 std::string kept_form(const Sentence& sentence);
 Json sentence_json(const std::string& kept, const std::string& words);
-// What the last homing has found, and how well all homings agree.
+// Returns the results of the last homing, and the repeatability over all homings.
 Json as_json(const std::vector<HomedAxis>& homed, const HomingRepeats& repeats);
-// What viewers ask of a program.
+// Returns the path of a program, for viewers.
 WebAnswer path_answer(const StoredProgram& program, const MachineDescription& machine, const ToolTable& tools,
                       std::string_view query);
 WebAnswer text_answer(const StoredProgram& program, std::string_view query);
@@ -62,9 +63,9 @@ Json as_json(const MachineDescription& machine, const WayBack& way);
 Json as_json(const MachineDescription& machine, const InterruptedJob& job, const WayBack& way);
 Json machine_json(const MachineDescription& machine, std::string_view version);
 
-// {"severity", "code", "line", …} of each.
+// Returns {"severity", "code", "line", …} for each finding.
 Json as_json(const Diagnostics& findings);
-// The pulses that the board makes, one by one, for a window of its clock.
+// Returns the individual step pulses of the board in a window of its clock.
 WebAnswer pulses_answer(MachineSession& session, const MachineDescription& machine, std::string_view query);
 
 }  // namespace passo

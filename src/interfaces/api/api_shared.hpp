@@ -1,4 +1,4 @@
-// ApiShared: what all parts of the API work with. Private to api/.
+// ApiShared: the data shared by all parts of the API. Private to api/.
 #pragma once
 
 #include "kept_offsets.hpp"

@@ -1,4 +1,4 @@
-// CamApi: programs made of drawings and pictures. Private to api/.
+// CamApi: generates programs from drawings and pictures. Private to api/.
 #pragma once
 
 #include <cstdint>
@@ -15,7 +15,7 @@ namespace passo {
 
 class CamApi {
  public:
-  // Both outlive this.
+  // Both must outlive this object.
   CamApi(const ApiShared& shared, const JobRunner& jobs) : shared_(shared), jobs_(jobs) {}
 
   WebAnswer get(const ApiCall& call);
@@ -26,8 +26,8 @@ class CamApi {
   WebAnswer picture(const ApiCall& call);
   WebAnswer page(const ApiCall& call);
 
-  // Programs that are made go to the others. What is made again of the same drawing takes the place of what was made
-  // before, also where a board has other steps now.
+  // Adds generated programs to the program store. A program generated again from the same drawing replaces the previous
+  // one, even if a board now has other steps.
   void poll();
 
  private:
@@ -35,7 +35,8 @@ class CamApi {
 
   const ApiShared& shared_;
   const JobRunner& jobs_;
-  std::string making_;               // what is made of what, as "board/a.gbr"; empty: no order runs
+  std::string making_;               // the current operation and its input, e.g. "board/a.gbr"; empty: no order is
+                                     // running
   std::vector<std::uint64_t> made_;  // the programs of the last order
   std::map<std::string, std::vector<std::uint64_t>, std::less<>> made_of_;
 };

@@ -1,4 +1,4 @@
-// What an order of a CAM operation may say, as JSON Schema and as a check. Private to api/.
+// The parameters of a CAM operation, as JSON Schema and as a check. Private to api/.
 #pragma once
 
 #include <string>
@@ -11,17 +11,17 @@
 
 namespace passo {
 
-// The options of an operation. What JSON Schema has no word for begins with "x-": x-accepts (endings of its files),
-// x-most-files, x-instead-of-files (an option), x-parts (operations that a profile may speak of); of an option x-kind,
-// x-for (experts, programs), x-of-job (the board's order decides it for its parts) and x-of-machine (the machine file
-// may have another default).
+// Returns the schema of an operation's options. Extensions to JSON Schema begin with "x-": x-accepts (file name
+// extensions), x-most-files, x-instead-of-files (an option), x-parts (operations that a profile may configure); for an
+// option x-kind, x-for (experts, programs), x-of-job (for a board, set by the order as a whole) and x-of-machine (the
+// machine file may set another default).
 Json schema_of(const CamOperation& operation);
 
-// Null: an order has no option of this name.
+// Null if an order has no option of this name.
 const CamOption* find_ordered(std::span<const CamOption> options, std::string_view name);
 
-// What an option is told, as words for the command line: each value as a text. `files`: those that were sent.
-// The error: what was expected.
+// Converts the value of an option to command-line arguments: each value as a text. `files`: the uploaded files. The
+// error: what was expected.
 Result<std::vector<std::string>, std::string> ordered_values(const CamOption& option, const Json& value,
                                                              const std::vector<std::string>& files);
 

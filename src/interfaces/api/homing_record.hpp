@@ -1,4 +1,4 @@
-// HomingRecord: what the last homing has found, and how well all homings agree. Private to api/.
+// HomingRecord: the results of the last homing, and the repeatability over all homings. Private to api/.
 #pragma once
 
 #include <optional>
@@ -11,11 +11,11 @@ namespace passo {
 
 class HomingRecord {
  public:
-  // Both outlive this.
+  // Both must outlive this object.
   HomingRecord(const MachineDescription& machine, const MachineSession& session)
       : session_(session), repeats_(machine) {}
 
-  // The machine is now in this state.
+  // Must be called when the machine's state changes.
   void on_change(MachineState state);
   const std::vector<HomedAxis>& homed() const { return homed_; }
   const HomingRepeats& repeats() const { return repeats_; }
@@ -23,9 +23,9 @@ class HomingRecord {
  private:
   const MachineSession& session_;
   HomingRepeats repeats_;
-  std::vector<HomedAxis> homed_;  // by the last homing
-  std::optional<Point> from_;     // where the machine stood, if that was known when a homing began
-  bool homes_ = false;            // a homing goes on
+  std::vector<HomedAxis> homed_;  // the axes homed by the last homing
+  std::optional<Point> from_;     // position at the start of the homing, if it was known
+  bool homes_ = false;            // homing is in progress
 };
 
 }  // namespace passo

@@ -1,4 +1,4 @@
-// JobLog: what a job has said by (PRINT,…), (MSG,…) and (LOG,…). Bounded. Private to api/.
+// JobLog: the output of a job by (PRINT,…), (MSG,…) and (LOG,…). Bounded. Private to api/.
 #pragma once
 
 #include <cstdint>
@@ -14,13 +14,13 @@ namespace passo {
 
 class JobLog {
  public:
-  // More is not kept of one job.
+  // The maximum amount kept per job.
   static constexpr std::size_t most_words = 50'000;
   static constexpr std::size_t longest_words = 200;
 
   void record(const Operation& operation);
   void clear() { all_.clear(); }
-  // The lines of (LOG,…).
+  // Returns the lines of (LOG,…).
   std::string lines() const;
   Json json() const;
 

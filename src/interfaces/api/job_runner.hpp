@@ -1,10 +1,10 @@
-// JobRunner: the job that runs, from its check to its end, and the job that waits for a person meanwhile.
+// JobRunner: the running job, from its check to its end, and the parked job that waits for the operator.
 //
-//   begin() -> check -> the board hears of the job (with a journal) -> the session runs it -> end
-//                                                                   -> step_aside() -> go_on() -> check …
+//   begin() -> check -> the board gets a session number (with a journal) -> the session runs it -> end
+//                                                                        -> step_aside() -> go_on() -> check …
 //
-// Place: what moves the machine by programs, for JobsApi and MachineApi. Private to api/. Only one job runs at a time.
-// A job that was broken off, or waits, is not lost: see KeptJob and ParkedJob.
+// Position in the pipeline: moves the machine by programs, for JobsApi and MachineApi. Private to api/. Only one job
+// runs at a time. An interrupted or waiting job is not lost: see KeptJob and ParkedJob.
 #pragma once
 
 #include <cstdint>
@@ -24,54 +24,53 @@ namespace passo {
 
 class JobRunner {
  public:
-  // All of them outlive this.
+  // All references must outlive this object.
   JobRunner(const ApiShared& shared, MdiLines& mdi);
 
   const ApiJob& job() const { return job_; }
   bool is_checking() const { return job_.state == JobState::checking; }
-  // The program runs, or its job waits for a person.
+  // Returns whether the program runs, or its job waits for the operator.
   bool runs(const StoredProgram& program) const;
-  // The program is about to run, or its job waits for a person.
+  // Returns whether the program is about to run, or its job waits for the operator.
   bool waits_with(std::uint64_t program) const;
   const std::optional<ParkedJob>& parked() const { return parked_; }
   bool goes_on() const { return goes_on_; }
   const JobLog& log() const { return log_; }
   std::uint64_t jobs_ended() const { return ended_; }
-  // False: the journal of the job cannot be written.
+  // Returns false if the journal of the job cannot be written.
   bool is_journal_written() const { return !named_ || kept_->is_written(); }
-  // The job that was broken off. Null: there is none.
+  // Returns the interrupted job. Null if there is none.
   const InterruptedJob* interrupted() const { return kept_ ? kept_->interrupted() : nullptr; }
   Result<Reentry, Sentence> way_of_interrupted() { return kept_->reentry(); }
   void drop_interrupted() { kept_->drop(); }
-  // From where the machine stands to the first motion of a line. Goes through the program.
+  // Computes the reentry from the current position to the first motion of a line. Runs through the program.
   Result<Reentry, Sentence> way_to(const StoredProgram& program, const LinePlace& from) const;
 
   struct Wanted {
-    std::int64_t history = 0;            // its number in the history; 0: it gets one
-    std::optional<LinePlace> from = {};  // where it is to begin; empty: at its beginning
-    std::uint64_t map_for = 0;           // the program that gets the height map which the job probes; 0: it probes none
+    std::int64_t history = 0;            // its number in the history; 0: a new one is assigned
+    std::optional<LinePlace> from = {};  // start position in the program; empty: its beginning
+    std::uint64_t map_for = 0;           // the program that gets the height map probed by the job; 0: none
   };
   WebAnswer begin(const StoredProgram& program, const Wanted& wanted);
-  // The job that was broken off goes on amid its path. It is checked from where it began.
+  // Resumes the interrupted job in the middle of its path. It is checked from its original start.
   WebAnswer resume(bool by_a_way_back);
-  // True: the job had not begun yet, and does not begin any more.
+  // Returns true if the job had not begun yet and is now cancelled.
   bool call_off();
-  // Who is about to stop the job.
-  // `who`: empty for a client that is not in control. Nothing: it has no name.
+  // Sets who is about to stop the job. `who`: empty for a client that is not in control. Nothing: unnamed.
   void set_stopped_by(std::optional<std::string> who) { stopped_by_ = std::move(who); }
 
-  // The spindle stands, and the machine can be led back onto the path.
+  // Returns whether the spindle is stopped and the machine can be returned to the path.
   bool is_free_to_move(const MachineStatus& status) const;
-  // The motion of a job that waits ends here, if that is possible, so that a person may move the machine.
+  // Ends the motion of a waiting job, if possible, so that the operator may move the machine.
   void step_aside();
-  // The parked job is checked with what counts now, and begins behind its stop.
+  // Checks the parked job with the current offsets and tools, and restarts it after its stop.
   WebAnswer go_on();
   WebAnswer stop_parked();
   WebAnswer parked_refusal() const;
 
   void on_change(const MachineChange& change);
   void poll();
-  // The program is about to end.
+  // Announces the end of the program.
   void leave();
   WebAnswer no_room_in_history() const;
 
@@ -92,26 +91,26 @@ class JobRunner {
   MdiLines& mdi_;
   std::unique_ptr<KeptJob> kept_;  // null: no journal is kept
   ApiJob job_;
-  // How the job is to begin.
+  // The parameters of the start of the job.
   struct Beginning {
-    std::uint64_t owner = 0;             // MotionOwner::changes() when the job was asked for
-    bool resumes = false;                // the job was broken off, and goes on
-    bool reenters = false;               // by a way back onto its path
-    std::optional<LinePlace> from = {};  // where the job is to begin; empty: at its beginning
-    std::optional<Reentry> way = {};     // the way there
-    std::uint64_t map_for = 0;           // as in Wanted
+    std::uint64_t owner = 0;             // MotionOwner::changes() when the job was requested
+    bool resumes = false;                // the interrupted job is resumed
+    bool reenters = false;               // it is resumed by a reentry move to its path
+    std::optional<LinePlace> from = {};  // start position in the program; empty: its beginning
+    std::optional<Reentry> way = {};     // the reentry move
+    std::uint64_t map_for = 0;           // the program that gets the height map, as in Wanted
   };
   Beginning begins_;
-  bool named_ = false;                // the job's journal is begun
-  std::optional<Ticket> ticket_;      // of the session, for the job
-  Point start_;                       // where the path of the job begins
-  std::vector<ProbeOutcome> probes_;  // what the job has probed
-  Diagnostics findings_;              // of the run
+  bool named_ = false;                // the job's journal has been started
+  std::optional<Ticket> ticket_;      // the session's ticket of the job
+  Point start_;                       // start of the job's path
+  std::vector<ProbeOutcome> probes_;  // probe results of the job
+  Diagnostics findings_;              // findings of the run
   JobLog log_;
   std::optional<ParkedJob> parked_;
-  bool goes_on_ = false;                   // the parked job is about to begin behind its stop
-  bool wait_noted_ = false;                // where the job waits for a person now
-  std::optional<std::string> stopped_by_;  // who has asked to stop the job
+  bool goes_on_ = false;                   // the parked job is about to restart after its stop
+  bool wait_noted_ = false;                // the current stop of the job has been recorded
+  std::optional<std::string> stopped_by_;  // who requested the stop
   bool leaves_ = false;
   std::uint64_t last_job_ = 0;
   std::uint64_t ended_ = 0;

@@ -1,5 +1,5 @@
-// JobsApi: programs that run, by themselves or from the queue, probing cycles, what has become of jobs, and a job that
-// was broken off. Private to api/.
+// JobsApi: running programs, directly or from the queue, probing cycles, the outcome of jobs, and the interrupted job.
+// Private to api/.
 #pragma once
 
 #include "api_call.hpp"
@@ -10,7 +10,7 @@ namespace passo {
 
 class JobsApi {
  public:
-  // Both outlive this.
+  // Both must outlive this object.
   JobsApi(const ApiShared& shared, JobRunner& jobs) : shared_(shared), jobs_(jobs) {}
 
   WebAnswer run(const ApiCall& call);
@@ -18,7 +18,7 @@ class JobsApi {
   WebAnswer probe(const ApiCall& call);
   WebAnswer log(const ApiCall& call);
 
-  // A job in the queue waits until somebody runs it.
+  // A job in the queue waits until a client starts it.
   WebAnswer list_queue(const ApiCall& call);
   WebAnswer queue(const ApiCall& call);
   WebAnswer delete_queued(const ApiCall& call);

@@ -1,4 +1,4 @@
-// JsonMembers: reads the members of an object, and notes what is wrong. Private to api/.
+// JsonMembers: reads the members of an object, and records the first error. Private to api/.
 #pragma once
 
 #include <optional>
@@ -17,13 +17,13 @@ class JsonMembers {
 
   std::optional<double> number(const std::string& key);
   std::optional<bool> flag(const std::string& key);
-  // Numbers for some of the machine's axes, the others as in `start`.
+  // Reads coordinates for some of the machine's axes; the others are taken from `start`.
   Point place(const std::string& key, const MachineDescription& machine, const Point& start);
   void fail(const std::string& key, const std::string& expected);
-  // True: all was right, and there was nothing else. Call last.
+  // Returns true if everything was valid and there were no unknown members. Must be called last.
   bool end();
   bool good() const { return reason_.empty(); }
-  // What was wrong first.
+  // Returns the first error.
   const std::string& reason() const { return reason_; }
 
  private:

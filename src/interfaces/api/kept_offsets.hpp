@@ -1,4 +1,4 @@
-// KeptOffsets: the offsets and tools of the programs, kept on the disk. Private to api/.
+// KeptOffsets: the offsets and tools of the programs, saved on disk. Private to api/.
 #pragma once
 
 #include <string>
@@ -11,18 +11,18 @@ namespace passo {
 
 class KeptOffsets {
  public:
-  // Both outlive this. `options`: what keeps the offsets, and those of the beginning.
+  // Both must outlive this object. `options`: the initial offsets, and the function that saves them.
   KeptOffsets(ProgramStore& programs, const ApiOptions& options);
 
-  // What a program or a person's line has found, and set.
+  // Adopts the values set by a program or by an MDI line.
   void adopt(const SavedParameters& parameters, const ToolTable& tools);
-  // Those of a sender, who has kept them. True: they are others than before.
+  // Adopts the values of a sender, which has saved them. Returns true if they differ from the previous ones.
   bool adopt(const SavedParameters& parameters);
-  // False, with trouble(): it cannot be written, so the zero is as before.
+  // Returns false, with trouble(), if the zero cannot be saved; it is then unchanged.
   bool set_work_zero(const Point& zero);
-  // Tries again what could not be written. True: all is on the disk.
+  // Retries what could not be saved. Returns true if everything is on disk.
   bool write_again();
-  // Why the offsets are not on the disk. Empty: they are.
+  // Returns why the offsets are not saved on disk. Empty: they are.
   const std::string& trouble() const { return trouble_; }
   void set_trouble(std::string why) { trouble_ = std::move(why); }
 

@@ -1,5 +1,5 @@
-// MachineApi: the machine itself: how it is, and what a person does to it: hold, stop, jog, home, overrides, outputs,
-// lines that are typed, and the zero of the work. Private to api/.
+// MachineApi: the machine itself: its status, and manual operation: hold, stop, jog, home, overrides, outputs, MDI
+// lines, and the work zero. Private to api/.
 #pragma once
 
 #include <cstdint>
@@ -17,7 +17,7 @@ namespace passo {
 
 class MachineApi {
  public:
-  // All of them outlive this.
+  // All references must outlive this object.
   MachineApi(const ApiShared& shared, JobRunner& jobs, const ProgramTimes& times, MdiLines& mdi);
 
   WebAnswer status(const ApiCall& call);
@@ -27,7 +27,7 @@ class MachineApi {
   WebAnswer pulses(const ApiCall& call);
   WebAnswer metrics(const ApiCall& call);
   WebAnswer openapi(const ApiCall& call);
-  // Without WebSocket there is no stream.
+  // Returns an error: the stream requires WebSocket.
   WebAnswer stream(const ApiCall& call);
 
   WebAnswer hold(const ApiCall& call);
@@ -41,7 +41,7 @@ class MachineApi {
   WebAnswer set_position(const ApiCall& call);
   WebAnswer set_work_zero(const ApiCall& call);
   WebAnswer run_line(const ApiCall& call);
-  // A request of the session that has nothing to say but its name.
+  // Passes on a session request without parameters.
   template <class Wanted>
   WebAnswer order(const ApiCall&) {
     return ask(Wanted{});
@@ -50,7 +50,7 @@ class MachineApi {
   std::string status_text() const;
   void on_change(const MachineChange& change);
   void poll();
-  // What web servers count, for the metrics.
+  // Sets the server whose counters are included in the metrics.
   void watch(const WebServer& server) { server_ = &server; }
 
  private:
@@ -63,10 +63,10 @@ class MachineApi {
   const ProgramTimes& times_;
   MdiLines& mdi_;
   HomingRecord homing_;
-  std::uint64_t mdi_owner_ = 0;  // MotionOwner::changes()
+  std::uint64_t mdi_owner_ = 0;  // value of MotionOwner::changes() for the MDI lines
   const WebServer* server_ = nullptr;
   std::uint64_t alarms_ = 0;
-  std::uint64_t late_ = 0;  // rests because a refill came too late
+  std::uint64_t late_ = 0;  // number of stops because a queue update was late
 };
 
 }  // namespace passo

@@ -1,5 +1,5 @@
-// MachineFileApi: the machine file for an editor: its text and values, what a change would make of it, and writing it.
-// Private to api/.
+// MachineFileApi: the machine file for an editor: its text and values, a preview of a change, and writing it. Private
+// to api/.
 #pragma once
 
 #include <optional>
@@ -12,7 +12,7 @@ namespace passo {
 
 class MachineFileApi {
  public:
-  // Both outlive this.
+  // Both must outlive this object.
   MachineFileApi(const ApiShared& shared, const JobRunner& jobs) : shared_(shared), jobs_(jobs) {}
 
   WebAnswer get(const ApiCall& call);

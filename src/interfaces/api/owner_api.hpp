@@ -1,4 +1,4 @@
-// OwnerApi: the owner of motion: who takes it, whether it is still there, and when it is given back. Private to api/.
+// OwnerApi: control of the machine: taking it, keeping it alive, and releasing it. Private to api/.
 #pragma once
 
 #include <cstdint>
@@ -14,20 +14,20 @@ namespace passo {
 
 class OwnerApi {
  public:
-  // Both outlive this.
+  // Both must outlive this object.
   OwnerApi(const ApiShared& shared, const JobRunner& jobs) : shared_(shared), jobs_(jobs) {}
 
   WebAnswer claim(const ApiCall& call);
   WebAnswer renew(const ApiCall& call);
   WebAnswer release(const ApiCall& call);
 
-  // A request has come with this key.
+  // Notes a request with this key.
   void hear(std::string_view key);
-  // A client of the stream has shown this key, and has left.
+  // Notes that a client of the stream with this key has disconnected.
   void hear(std::string_view key, std::uint64_t client);
   void gone(std::uint64_t client);
-  // While the machine moves for an owner who is gone, it keeps an owner: a sender would take what nobody owns. Whoever
-  // asks gets it.
+  // While the machine moves for an owner that is gone, control is not released, because a sender would take it. Any
+  // client that requests control gets it.
   void poll();
 
  private:
@@ -37,8 +37,8 @@ class OwnerApi {
   const ApiShared& shared_;
   const JobRunner& jobs_;
   Seconds heard_{0};
-  std::set<std::uint64_t> streams_;     // clients of the stream that have shown the owner's key
-  std::optional<Seconds> stream_lost_;  // when the last of them went; empty: none has gone
+  std::set<std::uint64_t> streams_;     // stream clients that have presented the owner's key
+  std::optional<Seconds> stream_lost_;  // when the last of them disconnected; empty: none has
 };
 
 }  // namespace passo

@@ -1,8 +1,9 @@
-// ParkedJob: a job that waits for a person, whose motion has ended so that the person may jog, probe or set a zero.
+// ParkedJob: a job that waits for the operator, whose motion has ended so that the operator may jog, probe or set a
+// zero.
 //
-// Going on is a new start behind the same stop: the program is interpreted anew with the zeros and tools that count
-// now, and the tool is led back to where the program has left it, in these zeros. See docs/decisions/0157. Other jobs
-// may run meanwhile: a probing cycle is one. Private to api/.
+// To continue is to restart after the same stop: the program is interpreted again with the current offsets and tools,
+// and the tool returns to the position where the program has left it, relative to these offsets. See
+// docs/decisions/0157. Other jobs, such as a probing cycle, may run in between. Private to api/.
 #pragma once
 
 #include <vector>
@@ -17,12 +18,12 @@ namespace passo {
 struct ParkedJob {
   ApiJob job;
   OperatorWait wait;
-  SavedParameters parameters;  // of then
+  SavedParameters parameters;  // parameters at the start of the job
   ToolTable tools;
-  Point start;                       // where its path begins
-  std::vector<ProbeOutcome> probes;  // what it has probed
+  Point start;                       // start position of the job's path
+  std::vector<ProbeOutcome> probes;  // probe results of the job
 
-  // From where the machine stands to behind the stop.
+  // Returns the reentry from the current machine position to the point after the stop.
   Result<Reentry, Sentence> way_behind_stop(const MachineDescription& machine, const ProgramStore& programs,
                                             const Point& stands) const;
 };

@@ -1,4 +1,4 @@
-// ProgramTimes: how long programs take, and the time left of a job, from their planned motion. Private to api/.
+// ProgramTimes: the duration of programs, and the remaining time of a job, from their planned motion. Private to api/.
 #pragma once
 
 #include <cstdint>
@@ -11,12 +11,12 @@ namespace passo {
 
 class ProgramTimes {
  public:
-  // Both outlive this.
+  // Both must outlive this object.
   ProgramTimes(const ApiShared& shared, const JobRunner& jobs) : shared_(shared), jobs_(jobs) {}
 
-  // First the job that runs is timed, with its overrides, then each program that was checked.
+  // Starts computing durations: first for the running job, with its overrides, then for each checked program.
   void poll();
-  // Of the job that runs, as far as it is known.
+  // Returns the remaining time of the running job, if it is known.
   std::optional<Seconds> left(const MachineStatus& status) const;
 
  private:
@@ -25,13 +25,13 @@ class ProgramTimes {
 
   const ApiShared& shared_;
   const JobRunner& jobs_;
-  // The program that is timed or was timed last, and its times, as far as they are known.
+  // The program whose duration is or was computed last, and the result, if it is known.
   std::uint64_t timed_ = 0;
   std::uint64_t timed_path_ = 0;
-  MotionFactors timed_factors_;  // of the order
+  MotionFactors timed_factors_;  // the motion factors of the current order
   bool is_timing_ = false;
-  std::optional<MotionTimes> times_;  // of that program
-  MotionFactors times_factors_;       // those that they were planned with
+  std::optional<MotionTimes> times_;  // the result for that program
+  MotionFactors times_factors_;       // the factors with which they were planned
 };
 
 }  // namespace passo

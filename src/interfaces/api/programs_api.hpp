@@ -1,5 +1,5 @@
-// ProgramsApi: programs that clients send, whole or in pieces, what viewers ask of them, and their height maps.
-// Private to api/.
+// ProgramsApi: programs that clients upload, whole or in chunks, their data for viewers, and their height maps. Private
+// to api/.
 #pragma once
 
 #include "api_call.hpp"
@@ -12,10 +12,10 @@ namespace passo {
 
 class ProgramsApi {
  public:
-  // The longest program that is levelled: a machine that rests waits for that.
+  // The maximum length of a program that is levelled: the idle machine waits for the levelling.
   static constexpr std::size_t longest_to_level = std::size_t{16} << 20;
 
-  // Both outlive this.
+  // Both must outlive this object.
   ProgramsApi(const ApiShared& shared, const JobRunner& jobs) : shared_(shared), jobs_(jobs) {}
 
   WebAnswer list(const ApiCall& call);
@@ -29,7 +29,7 @@ class ProgramsApi {
 
   WebAnswer height_map(const ApiCall& call);
   WebAnswer set_height_map(const ApiCall& call);
-  // A program of its own, so that it is seen and checked like any other.
+  // Adds the result as a separate program, so that it can be viewed and checked like any other.
   WebAnswer level(const ApiCall& call);
 
   WebAnswer list_uploads(const ApiCall& call);

@@ -1,5 +1,5 @@
-// StudiesApi: what is worked out beside the machine: the torque that a program needs, and limits for the motors.
-// Private to api/.
+// StudiesApi: analyses that run without blocking the machine: the torque that a program needs, and limits for the
+// motors. Private to api/.
 #pragma once
 
 #include <cstdint>
@@ -12,7 +12,7 @@ namespace passo {
 
 class StudiesApi {
  public:
-  // Outlives this.
+  // Must outlive this object.
   explicit StudiesApi(const ApiShared& shared) : shared_(shared) {}
 
   WebAnswer get(const ApiCall& call);
@@ -25,8 +25,8 @@ class StudiesApi {
   WebAnswer state_answer(unsigned status) const;
 
   const ApiShared& shared_;
-  std::string study_;          // the last one that was ordered
-  std::uint64_t studied_ = 0;  // its program; 0: none
+  std::string study_;          // the last one ordered
+  std::uint64_t studied_ = 0;  // the program of that study; 0: none
 };
 
 }  // namespace passo

@@ -1,12 +1,12 @@
-// LateLibrary: a shared library that is opened by what needs it, and not by every start (decision 0166). The functions
-// of a library stand in one table, a struct with a LateLibrary `library` as its first member:
+// LateLibrary: a shared library that is loaded on first use instead of at program start (decision 0166). The functions
+// of a library are members of a table, a struct with a LateLibrary `library` as its first member:
 //
 //   struct SomeLibrary {
 //     LateLibrary library{PASSO_SOME_NAME};
 //     PASSO_FUNCTION(some_open);
 //   };
 //
-// Their types are those of the library's header, so a wrong one does not compile. A library stays open. Private to
+// Their types are those of the library's header, so a wrong type does not compile. A library stays loaded. Private to
 // mqtt/.
 #pragma once
 
@@ -16,12 +16,13 @@ namespace passo {
 
 class LateLibrary {
  public:
-  // What has a name in the library, as a pointer to a function of any type.
+  // A symbol of the library, convertible to a pointer to any function type.
   class Found {
    public:
     explicit Found(void* place) : place_(place) {}
     template <class Function>
-    operator Function*() const {  // NOLINT(google-explicit-constructor): the type is that of what it is stored in
+    operator Function*() const {  // NOLINT(google-explicit-constructor): converts to the type of the variable it is
+                                  // assigned to
       return reinterpret_cast<Function*>(place_);
     }
 
@@ -37,7 +38,7 @@ class LateLibrary {
     has_all_ = has_all_ && place != nullptr;
     return Found(place);
   }
-  // Whether the library is there, with all that was looked for.
+  // Returns whether the library was found, with all requested functions.
   bool has_all() const { return has_all_; }
 
  private:
@@ -45,8 +46,8 @@ class LateLibrary {
   bool has_all_;
 };
 
-// The library of a table: opened by the first call, and kept. Null: this computer has none, or one that lacks a
-// function.
+// Returns the library of a table, which is loaded by the first call and kept. Null if this computer has none, or if it
+// lacks a function.
 template <class Table>
 const Table* late_library() {
   static const Table table;
@@ -55,5 +56,5 @@ const Table* late_library() {
 
 }  // namespace passo
 
-// A member with the name and the type of the library's function.
+// Declares a member with the name and the type of the library's function.
 #define PASSO_FUNCTION(name) decltype(&::name) name = library.find(#name)

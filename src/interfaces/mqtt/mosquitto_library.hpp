@@ -1,5 +1,5 @@
-// libmosquitto, loaded when --mqtt asks for it. With it comes OpenSSL: a sixth of the memory and a third of the time of
-// a start, which no other command needs (decision 0166). Private to mqtt/.
+// libmosquitto, loaded when --mqtt is given. It also loads OpenSSL, which takes a sixth of the memory and a third of
+// the time of a program start, and which no other command needs (decision 0166). Private to mqtt/.
 #pragma once
 
 #include "late_library.hpp"

@@ -1,4 +1,4 @@
-// What the characters of a line mean to RS274/NGC, and names for those without a meaning.
+// Classifies the characters of a line in RS274/NGC, and names invalid characters.
 #pragma once
 
 #include <cstddef>
@@ -16,16 +16,16 @@ constexpr bool is_digit(char c) {
 constexpr char to_upper(char c) {
   return c >= 'a' && c <= 'z' ? static_cast<char>(c - 'a' + 'A') : c;
 }
-// For an upper-case character.
+// Expects an upper-case character.
 constexpr bool is_letter(char c) {
   return c >= 'A' && c <= 'Z';
 }
 
-// A character as messages show it, and its replacement.
+// An invalid character as shown in messages, and its replacement.
 struct NamedCharacter {
   std::size_t length = 1;  // bytes
   std::string name;        // "'='", "U+00B0 '°'", "control character U+0007", "byte 0xE9"
-  std::string cure;        // "'-' (minus)"; empty: unknown
+  std::string cure;        // "'-' (minus)"; empty: no suggestion
 };
 
 // Names the first character of `text`, which must not be empty.

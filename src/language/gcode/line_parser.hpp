@@ -1,4 +1,4 @@
-// LineParser: the grammar of one line of RS274/NGC, by recursive descent.
+// LineParser: parses one line of RS274/NGC by recursive descent.
 //
 //   line       = [ '/' ] [ N digits ] ( control | { word | assignment | comment } )   or '%' alone
 //   word       = letter value
@@ -8,9 +8,9 @@
 //              | function '[' expression ']' | ATAN '[' expression ']' '/' '[' expression ']' | EXISTS '[' '#' … ']'
 //   expression = value { operator value }                                             by precedence, from the left
 //
-// Blanks mean nothing outside comments, so every token may have blanks inside. Expressions are stored in Block::code in
-// postfix order while they are read. The first fault ends the line. A LineParser lives on the stack for one line, and
-// its depth is bounded.
+// Blanks are ignored outside comments, so every token may contain blanks. Expressions are stored in Block::code in
+// postfix order while they are read. The first error ends the line. A LineParser lives on the stack for one line, and
+// its recursion depth is bounded.
 #pragma once
 
 #include <cstddef>
@@ -23,7 +23,7 @@
 
 namespace passo {
 
-// What is wrong with a line. The place counts in bytes from the start of the line.
+// An error in a line. The position is a byte offset from the start of the line.
 struct LineFault {
   const char* code = "";
   std::size_t offset = 0;
@@ -34,7 +34,7 @@ struct LineFault {
 
 class LineParser {
  public:
-  // `block` must be clear. Its views will point into `text`.
+  // `block` must be empty. Its views will point into `text`.
   LineParser(std::string_view text, Block& block, SymbolTable& symbols, LineFault& fault,
              bool line_numbers_anywhere = false)
       : begin_(text.data()),
@@ -46,7 +46,7 @@ class LineParser {
         fault_(fault),
         line_numbers_anywhere_(line_numbers_anywhere) {}
 
-  // Returns false after a fault; `fault` then describes it.
+  // Returns false after an error, which is described in `fault`.
   bool parse();
 
  private:
@@ -62,8 +62,8 @@ class LineParser {
   bool parse_control_arguments(Control& control, const char* keyword);
   bool parse_comments_only();
 
-  // line_parser_values.cpp: everything that gives a number. Each function adds to Block::code. `owner` is what lacks a
-  // value if there is none.
+  // line_parser_values.cpp: everything that yields a number. Each function appends to Block::code. `owner`: what the
+  // value belongs to, for the error message if it is missing.
   bool parse_expression(Expression& expression, const char* owner);
   bool parse_value(const char* owner);
   bool parse_number(const char* owner);
@@ -81,22 +81,22 @@ class LineParser {
   bool fail(const char* code, const char* from, std::size_t length, std::string message, std::string expected);
   bool fail_missing_value(const char* owner);
   bool is_digit_alike() const;
-  bool fail_unexpected();                     // at_ is at a place where no item can start
-  bool fail_in_brackets(const char* open);    // at_ is at a place that needs an operator or ']'
-  bool fail_foreign_word(const char* start);  // a word that is wrong: it may be one of Fanuc's macros
+  bool fail_unexpected();                     // at_ is where no item can start
+  bool fail_in_brackets(const char* open);    // at_ is where an operator or ']' is required
+  bool fail_foreign_word(const char* start);  // an invalid word, possibly of a Fanuc macro
   bool fail_function(const char* name_start, std::string_view name);
-  bool fail_assignment(const char* target);  // no '=' after the parameter
-  bool fail_letter_o(const char* o);         // an O that is not the first item of its line; a zero may be meant
+  bool fail_assignment(const char* target);  // '=' is missing after the parameter
+  bool fail_letter_o(const char* o);         // an O that is not the first item of its line; possibly a zero is meant
   bool fail_control_keyword(const char* start, std::string_view keyword);
 
   bool at_end() const { return at_ == end_; }
-  // The next character that is not blank, in upper case. NUL at the end.
+  // Returns the next non-blank character in upper case. NUL at the end.
   char peek() {
     while (at_ != end_ && is_blank(*at_)) ++at_;
     return at_ == end_ ? '\0' : to_upper(*at_);
   }
   void consume() { token_end_ = ++at_; }
-  // Takes the next letters in upper case, without blanks, as far as `buffer` has room.
+  // Reads the following letters in upper case, without blanks, as far as `buffer` has room.
   std::string_view read_letters(char* buffer, std::size_t size);
   Span span_from(const char* start) const {
     return {static_cast<std::uint32_t>(start - begin_ + 1), static_cast<std::uint32_t>(token_end_ - start)};
@@ -106,14 +106,14 @@ class LineParser {
   const char* const begin_;
   const char* const end_;
   const char* at_;
-  const char* token_end_;  // after the last character taken; a span does not include blanks at its end
+  const char* token_end_;  // after the last character read; a span excludes trailing blanks
   Block& block_;
   SymbolTable& symbols_;
   LineFault& fault_;
   const bool line_numbers_anywhere_;
-  std::size_t nesting_ = 0;         // values inside other values
-  std::size_t operands_ = 0;        // operands on the stack of the evaluation
-  std::string_view last_operator_;  // as it is written
+  std::size_t nesting_ = 0;         // current nesting depth of values
+  std::size_t operands_ = 0;        // current operand stack size of the evaluation
+  std::string_view last_operator_;  // the last operator, as written
 };
 
 }  // namespace passo

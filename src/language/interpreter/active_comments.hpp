@@ -1,4 +1,5 @@
-// ActiveComments: the comments of a block that do something: (MSG,…), (DEBUG,…), (PRINT,…), (LOG,…), (ABORT,…).
+// ActiveComments: executes the comments of a block that have an effect: (MSG,…), (DEBUG,…), (PRINT,…), (LOG,…),
+// (ABORT,…).
 #pragma once
 
 #include <string>
@@ -20,7 +21,7 @@ class ActiveComments : private CodeFamily {
   bool obey(const BlockComment& comment);
 
   SymbolTable& symbols_;
-  std::string text_;  // with parameters filled in
+  std::string text_;  // text of the comment with the parameters filled in
 };
 
 }  // namespace passo

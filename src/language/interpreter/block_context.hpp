@@ -1,5 +1,5 @@
-// BlockContext: the block that is executed, and all that its codes use. BlockExecutor fills it for each block; the
-// families of codes (code_family.hpp) read and write it.
+// BlockContext: the block being executed, and the data that its codes share. BlockExecutor fills it for each block; the
+// code families (code_family.hpp) read and write it.
 #pragma once
 
 #include "block_words.hpp"
@@ -32,14 +32,14 @@ struct BlockContext {
   InterpreterOptions options;
 
   BlockWords words;
-  const CodeEntry* motion = nullptr;  // what the block does with its axis words, if a motion does
+  const CodeEntry* motion = nullptr;  // the motion code that uses the block's axis words, if there is one
   OperationSource source;
-  WordPlace word;  // the word that is executed now; see Operation::word
+  WordPlace word;  // the word being executed; see Operation::word
   AxisWords axis_words;
 
-  bool missing_feed_told = false;  // reported since the last F
-  bool ended = false;              // the program has ended, and no block follows
-  bool gave_up = false;            // it ended by (ABORT,…)
+  bool missing_feed_told = false;  // already reported since the last F
+  bool ended = false;              // the program has ended; no block follows
+  bool gave_up = false;            // it was ended by (ABORT,…)
 };
 
 }  // namespace passo

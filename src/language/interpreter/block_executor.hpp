@@ -1,13 +1,13 @@
-// BlockExecutor: one block of words -> operations, in RS274/NGC's order of execution.
+// BlockExecutor: executes one block, i.e. converts its words to operations, in RS274/NGC's order of execution.
 //
-// A block is first checked as a whole (one code of each modal group, every word used, one code that takes the axis
-// words). Then it is executed group by group in a fixed order. The codes belong to families (code_family.hpp). A cycle
-// is a source of operations, which is pulled while the queue has room until the cycle is finished. A block with an
-// error does nothing after the error. But the position goes where the block was meant to lead, so one slip does not
-// cause errors in all that follows.
+// First the block is checked as a whole (at most one code of each modal group, every word used, at most one code that
+// uses the axis words). Then it is executed group by group in a fixed order. The codes belong to families
+// (code_family.hpp). A cycle is a source of operations, from which operations are pulled while the queue has room,
+// until the cycle is finished. Execution of a block stops at an error. The position is set to the block's intended end
+// nevertheless, so that one mistake does not cause errors in all following blocks.
 //
-// A block needs no allocation. The queue has room for the most operations of one block (an M2 with everything before
-// it).
+// A block needs no memory allocation. The queue has room for the maximum number of operations of one block (an M2 with
+// everything before it).
 #pragma once
 
 #include <array>
@@ -41,44 +41,45 @@ class BlockExecutor : private CodeFamily {
 
   void start(const InterpreterOptions& options);
   void execute(const Block& block);
-  // The program has no more blocks: it ended at its closing '%', or with M2 and that is missing, or neither.
+  // How the program ended: at its closing '%'; with M2 and without a required '%'; or neither.
   enum class Closing : std::uint8_t { none, percent, missing };
   void finish(Closing closing);
-  // After M2, M30 or (ABORT,…).
+  // Returns true after M2, M30 or (ABORT,…).
   bool ended() const { return block_.ended; }
-  // After (ABORT,…).
+  // Returns true after (ABORT,…).
   bool gave_up() const { return block_.gave_up; }
-  // Notes what the blocks so far leave to the next ones, beside the program's state and its parameters; and goes back
-  // to that. In grbl's dialect this is all; splines, cutter compensation and macros of LinuxCNC's remember more.
+  // Save and restore the state that blocks leave to later ones, in addition to the program's state and its parameters.
+  // Complete only for the Grbl dialect; splines, cutter compensation and LinuxCNC's macros have further state.
   void keep();
   void roll_back();
-  // Goes on after the end of the program.
+  // Continues after the end of the program.
   void reopen() { block_.ended = block_.gave_up = false; }
-  // The jump that the block just executed requests.
+  // Returns the jump requested by the last block.
   std::optional<SubprogramJump> take_jump() { return subprograms_.take_jump(); }
-  // Tells that a sub was left, by its O-word or M99. The flow is back in the caller.
+  // Notes that a subroutine was left, by its O-word or M99, and that the caller continues.
   void leave_sub(const OperationSource& source);
   // Handles M99 in a main program that does not run again.
   void end_program(bool pallet) { stops_.end_program(pallet); }
-  // True: a cycle of the last block has more operations to give.
+  // Returns whether a cycle of the last block has more operations.
   bool busy() const { return cycle_ != nullptr; }
   void go_on();
-  // The word that says how often the cycle repeats: L, or its code.
+  // Returns the word for the number of repetitions of the cycle: L, or the code of the cycle.
   Span repeated() const { return words_.has('L') ? words_.span('L') : Span{block_.word.column, block_.word.length}; }
   void drop_cycle() { cycle_ = nullptr; }
 
-  // True: the program waits for what the machine finds in the last probe move.
+  // Returns whether the program waits for the result of the last probe move.
   bool awaits_probe() const { return probe_.awaits_outcome(); }
   void apply_probe_outcome() { probe_.apply_outcome(); }
 
-  // The lathe cycle that takes the blocks of its sub, one after the other, instead of execute(). Null: no such cycle.
+  // Returns the lathe cycle that receives the blocks of its subroutine one by one instead of execute(). Null: no such
+  // cycle.
   LatheCodes* wants_contour() { return lathe_.wants_contour() ? &lathe_ : nullptr; }
   void add_to_contour(const Block& block);
   void end_contour();
 
  private:
   bool go_home_beside_g0(const CodeEntry& taker);
-  // Executes the code of a group. False: the code failed, and the rest of the block is not executed.
+  // Executes the code of a group. Returns false if the code failed; the rest of the block is then not executed.
   using GroupFunction = bool (*)(BlockExecutor& executor, const CodeEntry& entry);
   static const std::array<GroupFunction, modal_group_count> group_functions;
   bool set_group(const CodeEntry& entry) { return group_functions[index_of(entry.group)](*this, entry); }
@@ -96,7 +97,7 @@ class BlockExecutor : private CodeFamily {
     }
   }
 
-  // The block as a whole.
+  // Checks of the block as a whole.
   bool resolve_motion();
   bool check_words_used();
   bool check_words_shared();
@@ -115,7 +116,7 @@ class BlockExecutor : private CodeFamily {
   bool move_by(CodeNumber code);
   bool begin(CycleCodes& codes, bool good);
 
-  // The modal state, saved and restored.
+  // Saving and restoring the modal state.
   bool keep_modal_state(CodeNumber code);
   void restore(const ModalSnapshot& saved);
   void restore_spindles(const ModalSnapshot& saved);
@@ -138,10 +139,10 @@ class BlockExecutor : private CodeFamily {
   ActiveComments comments_;
 
   SymbolTable& symbols_;
-  CycleCodes* cycle_ = nullptr;           // the cycle that is being pulled
+  CycleCodes* cycle_ = nullptr;           // the active cycle
   std::vector<ModalSnapshot> snapshots_;  // by call depth
   std::vector<double> assigned_;
-  bool missing_feed_was_told_ = false;  // at keep()
+  bool missing_feed_was_told_ = false;  // its value at keep()
   bool has_settings_ = false;
 };
 

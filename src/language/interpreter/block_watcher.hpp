@@ -1,6 +1,7 @@
-// BlockWatcher: sees each block before and after it is executed, with the state it runs under. For explain().
+// BlockWatcher: observes each block before and after its execution, with the state in which it is executed. For
+// explain().
 //
-// The watcher is called once for each execution. A watcher that needs only some lines has to check the line first.
+// The observer is called for each execution. An observer that needs only some lines should check the line first.
 #pragma once
 
 #include <string_view>
@@ -15,7 +16,7 @@ namespace passo {
 class BlockWatcher {
  public:
   virtual ~BlockWatcher() = default;
-  // All arguments are borrowed until the call returns. `file` is the name of the file that the block is in.
+  // All arguments are valid only until the call returns. `file` is the name of the file that contains the block.
   virtual void before(const Block& block, std::string_view file, const ProgramState& state,
                       const Parameters& parameters, const SymbolTable& symbols) = 0;
   virtual void after(const ProgramState& state) = 0;

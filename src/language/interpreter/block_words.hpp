@@ -1,5 +1,4 @@
-// BlockWords: the words of one block with their values, sorted by what they are: codes by modal group, numbers by
-// letter.
+// BlockWords: the words of one block with their values: codes by modal group, numbers by letter.
 #pragma once
 
 #include <array>
@@ -13,15 +12,15 @@
 
 namespace passo {
 
-// The bit of a group in BlockWords::groups().
+// Returns the bit of a group in BlockWords::groups().
 constexpr std::uint32_t bit_of(ModalGroup group) {
   return std::uint32_t{1} << index_of(group);
 }
 
 class BlockWords {
  public:
-  // Evaluates the words of `block`. False: a word is wrong: unknown, without a value, given twice, or of a group
-  // already seen. All such words are reported.
+  // Evaluates the words of `block`. Returns false if a word is unknown, has no value, occurs twice, or belongs to a
+  // group that already has a code. All such words are reported.
   [[nodiscard]] bool read(const Block& block, const ParameterValues& parameters, Reporter& reporter);
   void clear();
 
@@ -29,9 +28,9 @@ class BlockWords {
   double operator[](char letter) const { return values_[letter_index(letter)]; }
   Span span(char letter) const { return spans_[letter_index(letter)]; }
   LetterSet present() const { return present_; }  // without G and codes of M
-  // True: the block has G65 or G66. The words after it are arguments, even M.
+  // Returns whether the block has G65 or G66. The words after it are arguments, including M.
   bool calls_macro() const { return calls_macro_; }
-  // Where the axis words are.
+  // Sets the positions of the axis words in the line.
   void find_axes(AxisWords& places) const;
   bool any_axis() const { return (present_ & (axis_letters | polar_letters)).any(); }
 
@@ -41,9 +40,9 @@ class BlockWords {
     return entry != nullptr && entry->number == number;
   }
   Span span(ModalGroup group) const { return code_spans_[index_of(group)]; }
-  // True: a code of another group than this one takes the word.
+  // Returns whether a code of another group uses the word.
   bool is_of_another(char letter, ModalGroup group) const;
-  // The bits of the groups of which the block has a code.
+  // Returns the bits of the groups of which the block has a code.
   std::uint32_t groups() const { return groups_; }
 
  private:
@@ -53,15 +52,14 @@ class BlockWords {
   LetterSet present_;
   bool calls_macro_ = false;
   std::uint32_t groups_ = 0;
-  // Only the entries that present_ and groups_ name are up to date. codes_ is up to date as a whole.
+  // Only the entries listed in present_ and groups_ are up to date. codes_ is up to date as a whole.
   std::array<double, letter_count> values_{};
   std::array<Span, letter_count> spans_{};
   std::array<const CodeEntry*, modal_group_count> codes_{};
   std::array<Span, modal_group_count> code_spans_{};
 };
 
-// The value of an expression. An expression without a value is reported. Most expressions are a single number, which is
-// fast.
+// Evaluates an expression; reports an expression without a value. Most expressions are a single number, which is fast.
 inline bool value_of(const Block& block, const Expression& expression, const ParameterValues& parameters,
                      Reporter& reporter, double& value) {
   const Instruction& first = block.code[expression.first];

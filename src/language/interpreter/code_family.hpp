@@ -1,9 +1,9 @@
-// CodeFamily: what all families of codes (drilling, tools, probing …) share. They read the words of the current block,
-// report what is wrong with it, and push operations.
+// CodeFamily: the base of all families of codes (drilling, tools, probing …). They read the words of the current block,
+// report errors in it, and push operations.
 //
-// Each family is a class that knows its codes and what these codes remember from block to block. BlockExecutor calls
-// the families in the order of execution. A method that returns false has reported why; the rest of the block is then
-// not executed. Lengths are millimetres, whatever the program's units.
+// Each family is a class that defines its codes and their state from block to block. BlockExecutor calls the families
+// in the order of execution. A method that returns false has reported an error; the rest of the block is then not
+// executed. Lengths are millimetres, whatever the program's units.
 #pragma once
 
 #include <string>
@@ -25,28 +25,28 @@ class CodeFamily {
         words_(block.words) {}
   ~CodeFamily() = default;
 
-  // Faults. fail() returns false.
+  // Errors. fail() returns false.
   bool fail(std::string_view code, Span span, std::string message, std::string expected = {});
   bool speaks_grbl() const { return block_.options.dialect == Dialect::grbl; }
-  // True: the word is below zero by more than a rounding error, as in P[0.3-0.1-0.2].
+  // Returns whether the word is negative by more than a rounding error, as in P[0.3-0.1-0.2].
   bool is_negative(char letter) const { return words_[letter] <= -equality_tolerance; }
-  // The word, and 0 where a rounding error has brought it below zero.
+  // Returns the word, or 0 if it is negative because of a rounding error.
   double never_negative(char letter) const { return words_[letter] < 0 ? 0 : words_[letter]; }
   bool whole_word(char letter, double lowest, double highest, std::int32_t& value);
   bool fail_at_origin(char polar_letter);
   bool report_arc(const ArcCenter& arc);
-  // Whether a line that failed would have moved an axis of the plane.
+  // Returns whether a failed line would have moved an axis of the plane.
   bool starts_in_doubt() const;
-  // Where a diagnostic about a motion points: at the motion's code, or, if the code is modal, at the first word that
-  // caused the move.
+  // Returns the position of a diagnostic about a motion: the motion's code or, if the code is modal, the first word
+  // that caused the move.
   Span motion_span() const;
   LetterSet letters_of(const CodeEntry& entry) const;
 
-  // Places. end_point: where the block's axis words lead, in work coordinates.
+  // Positions. end_point: the end position given by the block's axis words, in work coordinates.
   double axis_word(Axis axis) const { return words_[letter_of(axis)] * state_.units_of(axis) * diameter_factor(axis); }
-  // Half of a word along X counts where such words are diameters (G7).
+  // Returns 0.5 for X words if they are diameters (G7), otherwise 1.
   double diameter_factor(Axis axis) const;
-  // Without G51, the result is bit for bit what the program says.
+  // Without G51, returns the programmed value bit for bit.
   double scaled_place(Axis axis, double value) const {
     return state_.scaling.factor(axis) == 1 ? value : state_.scaling.place(axis, value);
   }
@@ -57,7 +57,7 @@ class CodeFamily {
   void emit_inverse_time_feed(double length, bool rotary);
   void emit_feed_rate(double units);
 
-  // The spindles that `$` names, from first to before end.
+  // The spindles selected by `$`: from first, up to but excluding end.
   struct SpindleRange {
     std::uint8_t first = 0;
     std::uint8_t end = 1;
@@ -68,15 +68,15 @@ class CodeFamily {
   void emit(const OperationKind& what) {
     operations_.push(operations_.holding() ? kept_operation(what) : operation_of(what));
   }
-  // Pushes an operation before the moves that cutter compensation holds back: one that goes to the operator, or moves
+  // Pushes an operation before the moves held back by cutter compensation: one that goes to the operator, or moves
   // nothing.
   void emit_ahead(const OperationKind& what) { operations_.push_ahead(operation_of(what)); }
-  // LinuxCNC reports changes of its own modes as comments. Its canonical calls are what other programs compare with.
+  // LinuxCNC reports changes of its own modes as comments, and other programs compare with its canonical calls.
   void emit_comment(std::string_view text) { emit(operation::Comment{text}); }
   Operation operation_of(const OperationKind& what) const {
     return {what, block_.source, block_.word, &block_.axis_words, goes_to_machine()};
   }
-  // An operation that is held back while other lines are read. So it carries the text of its own line.
+  // Returns an operation that is held back while other lines are read, so it owns the text of its line.
   Operation kept_operation(const OperationKind& what = operation::Comment{}) const {
     return {what,
             block_.source,

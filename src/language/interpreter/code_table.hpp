@@ -1,13 +1,13 @@
-// The G and M codes: their modal groups, the words they use, and what each of them means.
+// The G and M codes: their modal groups, the words they use, and their meaning.
 //
-// Each code is one row of the table. The row is all that the interpreter, canon, `explain`, grbl's dialect, the rules
-// and the #<_names> need of a code that only sets a mode. A new mode needs an enumerator here with its place in
-// `modes_in_order`, a row for its group, and a row for each of its codes. What the mode does to other codes stands
-// where they are executed. A code that does more than set a mode also needs a case in the function that executes its
-// group (block_executor.cpp). A test holds docs/gcode.md against the rows.
+// Each code is one row of the table. For a code that only sets a mode, the row defines its whole behaviour for the
+// interpreter, canon, `explain`, the Grbl dialect, the rules and the #<_names>. A new mode needs an enumerator here, in
+// its position in `modes_in_order`, a row for its group, and a row for each of its codes. The effect of the mode on
+// other codes is implemented where they are executed. A code that does more than set a mode also needs a case in the
+// function that executes its group (block_executor.cpp). A test compares docs/gcode.md with the rows.
 //
-// The table is enough to check a block before it is executed: for two codes of one group, for words that no code uses,
-// for two codes that both use the axis words.
+// The table is sufficient to check a block before it is executed: for two codes of one group, for words that no code
+// uses, and for two codes that both use the axis words.
 #pragma once
 
 #include <array>
@@ -26,8 +26,8 @@ constexpr CodeNumber code(int whole, int tenth = 0) {
   return static_cast<CodeNumber>(whole * 10 + tenth);
 }
 
-// RS274/NGC's modal groups (table 4 of the standard, with LinuxCNC's additions). A block has at most one code of each
-// group.
+// RS274/NGC's modal groups (table 4 of the standard, with LinuxCNC's additions). A block may have at most one code of
+// each group.
 enum class ModalGroup : std::uint8_t {
   non_modal,            // G group 0
   motion,               // G group 1
@@ -43,7 +43,7 @@ enum class ModalGroup : std::uint8_t {
   path_mode,            // G group 13
   spindle_mode,         // G group 14
   lathe_diameter,       // G group 15
-  macro,                // Fanuc's macro calls
+  macro,                // Fanuc macro calls
   stopping,             // M group 4
   input_output,         // M group 5
   tool_change,          // M group 6
@@ -63,22 +63,22 @@ inline constexpr ModalGroup modes_in_order[] = {
     ModalGroup::tool_length,  ModalGroup::work_system,  ModalGroup::path_mode,      ModalGroup::distance,
     ModalGroup::arc_distance, ModalGroup::retract};
 
-// When the canonical calls tell a mode.
+// When a mode is included in the canonical calls.
 enum class Told : std::uint8_t { always, when_changed };
 
 struct GroupRow {
   ModalGroup group = ModalGroup::non_modal;
-  std::string_view name;             // of its codes, for messages
-  CodeNumber at_start = 0;           // the code that is active when a program starts; 0: the group is no mode
+  std::string_view name;             // name of its codes, for messages
+  CodeNumber at_start = 0;           // the code that is active when a program starts; 0: the group is not a mode
   std::string_view sets = {};        // what its codes set, for `explain`
-  Told told = Told::always;          // of a mode that is nothing but set
-  bool ahead_of_held_moves = false;  // told before the moves that cutter compensation holds back
+  Told told = Told::always;          // when the canonical calls include the mode, if it has no other effects
+  bool ahead_of_held_moves = false;  // emitted before the moves held back by cutter compensation
 };
-// The groups, modes first, in the order in which `explain` shows them.
+// Returns the groups, modes first, in the order in which `explain` shows them.
 std::span<const GroupRow> group_rows();
 const GroupRow& row_of(ModalGroup group);
 
-// A set of word letters. The polar words '@' and '^', and '$', follow after 'Z'.
+// A set of word letters. The polar words '@' and '^', and '$', follow 'Z'.
 inline constexpr std::size_t letter_count = 29;
 constexpr std::size_t letter_index(char letter) {
   if (letter >= 'A' && letter <= 'Z') return static_cast<std::size_t>(letter - 'A');
@@ -87,7 +87,7 @@ constexpr std::size_t letter_index(char letter) {
 class LetterSet {
  public:
   constexpr LetterSet() = default;
-  constexpr LetterSet(const char* letters) {  // NOLINT: implicit on purpose, for the lines of the table
+  constexpr LetterSet(const char* letters) {  // NOLINT: implicit on purpose, for the rows of the table
     for (; *letters != 0; ++letters) add(*letters);
   }
   constexpr bool has(char letter) const { return (bits_ >> letter_index(letter) & 1U) != 0; }
@@ -113,12 +113,12 @@ enum class AxisUse : std::uint8_t { none, may, must };
 
 enum class GrblUse : std::uint8_t { refused, executed, without_effect };
 
-// What a word means with a code. A word without a meaning is shown as "a value of" its code.
+// The meaning of a word of a code. A word without a description is shown as "a value of" its code.
 enum class LetterQuantity : std::uint8_t { number, turns, times, length, degrees, seconds, speed };
 struct LetterMeaning {
   char letter = 0;
   LetterQuantity quantity = LetterQuantity::number;
-  const char* text = "";  // {}: the value
+  const char* text = "";  // {} stands for the value
 };
 
 struct CodeEntry {
@@ -127,27 +127,27 @@ struct CodeEntry {
   ModalGroup group = ModalGroup::non_modal;
   AxisUse axes = AxisUse::none;  // whether the code uses axis words
   LetterSet letters = {};        // the other words that the code uses
-  std::string_view what;         // a few words for messages and `explain`
+  std::string_view what;         // short description for messages and `explain`
   GrblUse grbl = GrblUse::refused;
-  std::string_view note = {};         // LinuxCNC reports the mode by this comment; empty: it does not
-  OperationKind (*call)() = nullptr;  // the canonical call that sets the mode; null: there is none
-  std::string_view parameter = {};    // the #<_name> that is 1 while the mode is active; empty: there is none
-  std::string_view chapter = {};      // of the manual that tells how the code is used; empty: no mistake is possible
+  std::string_view note = {};         // the comment by which LinuxCNC reports the mode; empty: none
+  OperationKind (*call)() = nullptr;  // the canonical call that sets the mode; null: none
+  std::string_view parameter = {};    // the #<_name> that is 1 while the mode is active; empty: none
+  std::string_view chapter = {};      // manual chapter about the use of the code; empty: no error is possible
   std::array<LetterMeaning, 4> meanings = {};
 };
 
-// All codes but M100 to M199.
+// Returns all codes except M100 to M199.
 std::span<const CodeEntry> code_entries();
-// Null: there is no such code.
+// Null if there is no such code.
 const CodeEntry* find_code(char letter, CodeNumber number);
-// "G59.1"
+// Returns the code as written, e.g. "G59.1".
 std::string spelling(char letter, CodeNumber number);
 inline std::string spelling(const CodeEntry& entry) {
   return spelling(entry.letter, entry.number);
 }
-// What to write in place of a code that is not in the table.
+// Returns a suggestion in place of a code that is not in the table.
 std::string cure_for_unknown_code(char letter, CodeNumber number);
-// The codes that use this word, as in "G2, G3 or G10". Empty: no code uses it.
+// Returns the codes that use this word, e.g. "G2, G3 or G10". Empty if there are none.
 std::string codes_using(char letter);
 
 }  // namespace passo

@@ -1,4 +1,4 @@
-// The text of (DEBUG,…), (PRINT,…) and (LOG,…), in which #12 and #<name> are replaced by their values.
+// The text of (DEBUG,…), (PRINT,…) and (LOG,…), with #12 and #<name> replaced by their values.
 #pragma once
 
 #include <string>
@@ -9,8 +9,8 @@
 
 namespace passo {
 
-// Values have six decimals, unless %d (none), %f (four) or %.3f before them says otherwise, as in LinuxCNC. A parameter
-// that does not exist becomes ######.
+// Values have six decimals, unless preceded by %d (none), %f (four) or %.3f, as in LinuxCNC. A parameter that does not
+// exist becomes ######.
 void fill_in_parameters(std::string_view text, const ParameterValues& parameters, SymbolTable& symbols,
                         std::string& out);
 

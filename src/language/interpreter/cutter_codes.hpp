@@ -1,5 +1,5 @@
-// CutterCodes: cutter compensation, G40 to G42.1, and what cannot be done while it is on. The moves beside the contour
-// are made by CutterCompensation.
+// CutterCodes: cutter compensation, G40 to G42.1, and the restrictions while it is on. CutterCompensation generates the
+// offset moves.
 #pragma once
 
 #include "code_family.hpp"
@@ -10,11 +10,12 @@ class CutterCodes : private CodeFamily {
  public:
   explicit CutterCodes(BlockContext& block) : CodeFamily(block) {}
 
-  // Checks that the block is possible with compensation, before anything of the block is done.
+  // Checks whether the block is possible with compensation, before any of it is executed.
   bool check();
   bool set(CodeNumber code);
   bool report(CutterFault fault, Span span);
-  // Leads the tool beside a move of a cycle. The move begins at the programmed position, which goes on to its end.
+  // Applies compensation to a move of a cycle. The move begins at the programmed position, which is then set to its
+  // end.
   bool follow(const OperationKind& what);
 
  private:

@@ -1,7 +1,7 @@
-// Cycle: a source of the operations that one block with a cycle stands for: holes, passes of a thread, cuts of a lathe.
+// Cycle: generates the operations of one block with a canned cycle: holes, passes of a thread, cuts of a lathe.
 //
-// A cycle is made from a plain value with all its data (DrillingPlan, ThreadingPlan, LathePlan). A cycle knows no words
-// and no modal state. Memory is bounded, however long the cycle is: a cycle works out one step at a time (a hole, a
+// A cycle is created from a plain struct with all its data (DrillingPlan, ThreadingPlan, LathePlan), independent of
+// words and modal state. Memory is bounded, however long the cycle is: a cycle generates one step at a time (a hole, a
 // peck or a pass), of at most `longest_step` operations.
 #pragma once
 
@@ -27,14 +27,14 @@ class Cycle : public Source<Operation> {
     operation.file = operation.text = {};
     return true;
   }
-  // Where the tool is after the step that gave the last operation, in work coordinates.
+  // Returns the tool position after the step of the last returned operation, in work coordinates.
   const Point& position() const { return position_; }
 
  protected:
   static constexpr std::size_t longest_step = 20;
   Cycle(const Point& start, const OperationSource& source) : source_(source), position_(start) {}
 
-  // Gives the operations of the next step. False: there are no more steps.
+  // Generates the operations of the next step. Returns false if there are no more steps.
   virtual bool step() = 0;
 
   void emit(const OperationKind& operation) {

@@ -1,5 +1,5 @@
-// decimal_text: numbers as text with a fixed number of decimals, the same characters as printf's "%.4f", without its
-// cost. Canonical calls are mostly numbers, so their printing decides how fast `passo canon` is.
+// decimal_text: formats numbers with a fixed number of decimals, with the same result as printf's "%.4f", but faster.
+// Canonical calls consist mostly of numbers, so this determines the speed of `passo canon`.
 #pragma once
 
 #include <cstddef>
@@ -7,10 +7,10 @@
 
 namespace passo {
 
-// Room for any number that these functions write.
+// Sufficient for any number that these functions write.
 inline constexpr std::size_t longest_decimal_text = 352;
 
-// Write at `to` and return the end. `value` is rounded exactly, half to even, as printf does it.
+// Write at `to` and return the end. `value` is rounded exactly, half to even, like printf.
 char* write_decimal_4(char* to, double value);
 char* write_decimal_6(char* to, double value);
 char* write_whole(char* to, std::uint64_t value);

@@ -1,5 +1,5 @@
-// DoubtfulLabels: the labels of O-words that cannot be read. What lacks one of them is not reported: the line that
-// cannot be read may hold it.
+// DoubtfulLabels: the labels of O-words in unreadable lines. Missing counterparts of these labels are not reported,
+// since the unreadable line may contain them.
 #pragma once
 
 #include <cstdint>
@@ -12,7 +12,7 @@ namespace passo {
 class DoubtfulLabels {
  public:
   void add(Symbol label) { some_.insert(label.id); }
-  // The label of an O-word cannot be read either.
+  // Used if the label of an O-word is unreadable, too.
   void add_all() { all_ = true; }
   bool has(Symbol label) const { return all_ || some_.contains(label.id); }
 

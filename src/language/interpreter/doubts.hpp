@@ -1,5 +1,5 @@
-// Doubts: what lines that failed would have set. An error that only tells that this is missing is their consequence,
-// and is not reported: nothing is wrong where it is found.
+// Doubts: what failed lines would have set. An error about such a missing value is a consequence of the failed line,
+// and is not reported.
 #pragma once
 
 #include <cstddef>
@@ -13,15 +13,15 @@ namespace passo {
 
 class Doubts {
  public:
-  // `line` failed. It would have set whatever it names.
+  // Adds everything that the failed `line` would have set.
   void scan(std::string_view line);
 
-  // Whether an error of this code may be a consequence.
+  // Returns whether an error with this code may be such a consequence.
   bool explain(std::string_view code) const;
-  // Whether a line that failed would have given a value to this parameter, as in "#<name>".
+  // Returns whether a failed line would have set this parameter, e.g. "#<name>".
   bool explain_parameter(std::string_view text) const { return names_.contains(normal(text)); }
 
-  // The axes whose places are not known.
+  // The axes with an unknown position.
   LetterSet axes() const { return axes_; }
   void set_axes(LetterSet axes) { axes_ = axes; }
 

@@ -1,7 +1,7 @@
 // DrillingCycle: the holes of one block with a drilling, tapping or boring cycle (G73, G74, G81 … G89), as operations.
 //
-// The moves are those of RS274/NGC (NIST 6556, 3.5.16) in the order in which LinuxCNC makes them. Depth and height are
-// measured along the axis through the active plane. Lengths are in millimetres.
+// The moves are those of RS274/NGC (NIST 6556, 3.5.16), in LinuxCNC's order. Depth and height are measured along the
+// axis perpendicular to the active plane. Lengths are in millimetres.
 #pragma once
 
 #include <cstdint>
@@ -13,8 +13,8 @@
 
 namespace passo {
 
-// The way from hole to hole: a change of the distance from the origin and of the angle about it (@ and ^ in incremental
-// distances).
+// The distance from hole to hole in polar coordinates: a change of the radius and of the angle about the origin (@ and
+// ^ in incremental mode).
 struct PolarWay {
   double radius = 0;
   double angle = 0;  // radians
@@ -22,25 +22,26 @@ struct PolarWay {
 
 struct DrillingPlan {
   CodeNumber code = 0;
-  Axis axis = Axis::z;  // the direction of the holes
-  Point start;          // the tool's position before the cycle
-  Point hole;           // the first hole; its height does not count
+  Axis axis = Axis::z;  // direction of the holes
+  Point start;          // tool position before the cycle
+  Point hole;           // the first hole; its height is ignored
   std::int32_t holes = 1;
-  std::optional<Point> way = {};       // from hole to hole; empty: all holes are at one place
+  std::optional<Point> way = {};       // from hole to hole; empty: all holes are at the same position
   std::optional<PolarWay> polar = {};  // used instead of `way`
-  double initial_height = 0;           // the tool's height before the first of several cycles
-  bool returns_to_initial = false;     // G98: the tool goes to this height between holes, not only to `retract`
-  double retract = 0;                  // R: the height where the feed begins
+  double initial_height = 0;           // tool height before the first of consecutive cycles
+  bool returns_to_initial = false;     // G98: between holes, the tool retracts to the initial height, not only to
+                                       // `retract`
+  double retract = 0;                  // R: the height at which the feed begins
   double bottom = 0;
-  double top = 0;                        // the top of a back bore
-  Point aside = {};                      // G87: how far the tool goes aside, in the plane
+  double top = 0;                        // height of the top of a back bore
+  Point aside = {};                      // G87: lateral offset of the tool, in the plane
   double dwell = 0;                      // P, seconds
   double peck = 0;                       // Q
-  std::optional<double> clearance = {};  // D: how far a peck goes back; empty: LinuxCNC's 0.254 mm
+  std::optional<double> clearance = {};  // D: retract distance of a peck; empty: LinuxCNC's 0.254 mm
   SpindleDirection spindle = SpindleDirection::off;
   bool feed_override = true;  // whether the override was on: it is switched on again after a tap
   bool speed_override = true;
-  bool retracts_by_hand = false;              // G88: true: the operator retracts the tool, and the cycle does not
+  bool retracts_by_hand = false;              // G88: true: the operator retracts the tool, not the cycle
   PathMode path_mode = PathMode::continuous;  // the mode after the cycle
   PathTolerance tolerance = {};
 };
@@ -49,7 +50,7 @@ class DrillingCycle final : public Cycle {
  public:
   DrillingCycle(const DrillingPlan& plan, const OperationSource& source);
 
-  // True: the cycle broke off, because at the origin there is no angle to go on from (DrillingPlan::polar).
+  // Returns whether the cycle was aborted, because the angle is undefined at the origin (DrillingPlan::polar).
   bool stuck() const { return stuck_; }
 
  private:
@@ -67,16 +68,16 @@ class DrillingCycle final : public Cycle {
   void traverse_by(const Point& way) { traverse(position_ + way); }
 
   DrillingPlan plan_;
-  double height_ = 0;   // the height at which the tool goes to the next hole
-  double clear_ = 0;    // the height to which the tool leaves a hole
-  double reached_ = 0;  // the height that the pecks have reached so far
+  double height_ = 0;   // height at which the tool moves to the next hole
+  double clear_ = 0;    // height to which the tool retracts from a hole
+  double reached_ = 0;  // height reached by the pecks so far
   std::int32_t holes_left_;
   bool begun_ = false;
   bool in_hole_ = false;
   bool stuck_ = false;
 };
 
-// What each cycle does. DrillingCodes checks the words with these functions.
+// The properties of each cycle. DrillingCodes checks the words with these functions.
 constexpr bool pecks(CodeNumber number) {
   return number == code(73) || number == code(83);
 }

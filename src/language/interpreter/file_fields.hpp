@@ -1,8 +1,8 @@
-// FieldReader: reads the lines of a small settings file (tools, parameters, ini) as fields between blanks. Errors are
-// reported with line, column and caret.
+// FieldReader: reads the lines of a small settings file (tools, parameters, ini) as fields separated by blanks. Errors
+// are reported with line, column and caret.
 //
-// The files come from anywhere, so a line of any length, any byte and any number must do no harm. ProgramReader refuses
-// lines over 64 KiB and NUL bytes. Numbers must be finite and below a million million.
+// The files are untrusted: lines of any length, any bytes and any numbers must be handled safely. ProgramReader refuses
+// lines over 64 KiB and NUL bytes. Numbers must be finite and below 10^12.
 #pragma once
 
 #include <cstdint>
@@ -25,11 +25,11 @@ class FieldReader {
   FieldReader(ProgramReader reader, Diagnostics& diagnostics)
       : reader_(std::move(reader)), file_(reader_.name()), diagnostics_(diagnostics) {}
 
-  // Reads the next line. False: the file has ended, or has too many errors.
+  // Reads the next line. Returns false at the end of the file, and after too many errors.
   bool next_line();
-  // Reads the line's next field. False: the line has ended.
+  // Reads the next field of the line. Returns false at the end of the line.
   bool next_field(Field& field);
-  // The rest of the line, without blanks at its ends.
+  // Returns the remaining text of the line, trimmed.
   Field rest() const;
 
   const std::string& file() const { return file_; }
@@ -37,7 +37,7 @@ class FieldReader {
     report(Severity::error, code, field, std::move(message), std::move(expected));
   }
   void report(Severity severity, std::string_view code, const Field& field, std::string message, std::string expected);
-  // Reports an error of the whole line.
+  // Reports an error about the whole line.
   void error(std::string_view code, std::string message, std::string expected);
 
  private:
@@ -49,10 +49,10 @@ class FieldReader {
   std::size_t at_ = 0;
 };
 
-// The whole of `text` as a finite number. A plus sign is allowed.
+// Parses the whole of `text` as a finite number. Accepts a plus sign.
 std::optional<double> number_of(std::string_view text);
 std::optional<std::int32_t> whole_number_of(std::string_view text);
-// `text` for a message: shortened, and without control characters for terminals.
+// Prepares `text` for a message: shortened, and without control characters.
 std::string quoted(std::string_view text);
 
 }  // namespace passo

@@ -1,5 +1,5 @@
 // FrameCodes: the codes that move the work frame (G54 to G59.3, G10 L2 and L20, G52, G92, G51), and the codes that need
-// the whole frame (G28, G30). The tool stays where it is; only the numbers of its position change.
+// the whole frame (G28, G30). The tool does not move; only its coordinates change.
 #pragma once
 
 #include "code_family.hpp"
@@ -11,7 +11,7 @@ class FrameCodes : private CodeFamily {
  public:
   explicit FrameCodes(BlockContext& block) : CodeFamily(block) {}
 
-  // Restores the frame of the last run: the system and the offsets that the parameters hold.
+  // Restores the frame of the last run from the parameters: the work coordinate system and the offsets.
   void start();
   bool select_work_system(CodeNumber code);
   void activate_system(int system, bool with_g92);

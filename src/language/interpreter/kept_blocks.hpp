@@ -1,8 +1,8 @@
-// KeptBlocks: the blocks of lines that are read again, so that the body of a loop or of a sub is parsed once.
+// KeptBlocks: a cache of parsed blocks, so that the body of a loop or subroutine is parsed only once.
 //
-// The line's number gives the place of its block. The next line with the same place replaces the block. So a body with
-// as many lines as there are places is kept whole. Memory is bounded: about 1 KiB for each place in use, at most 10 MiB
-// in all. A place keeps its capacity, so lines that share a place soon allocate nothing more.
+// The line number determines the slot of its block. The next line with the same slot replaces the block. A body with at
+// most as many lines as there are slots is therefore cached completely. Memory is bounded: about 1 KiB for each slot in
+// use, at most 10 MiB in all. A slot keeps its capacity, so lines that share a slot soon need no more allocations.
 #pragma once
 
 #include <cstddef>
@@ -17,10 +17,10 @@
 namespace passo {
 
 struct KeptBlock {
-  std::uint32_t file = 0;  // its number among those of the program
+  std::uint32_t file = 0;  // its number among the files of the program
   ReaderPosition at{.offset = 0, .line = 0};
   ReaderPosition after;  // the line after it
-  std::string text;      // the line; the block's views point into it
+  std::string text;      // the text of the line; the block's views point into it
   Block block;
 };
 
@@ -29,13 +29,13 @@ class KeptBlocks {
   static constexpr std::size_t places = 512;  // a power of two
   static constexpr std::size_t longest_text = 256;
 
-  // The kept block of the line that begins there, or null.
+  // Returns the cached block of the line at this position, or null.
   KeptBlock* find(std::uint32_t file, ReaderPosition at) {
     if (places_.empty()) return nullptr;
     KeptBlock& there = place(file, at.line);
     return there.at.line == at.line && there.at.offset == at.offset && there.file == file ? &there : nullptr;
   }
-  // The place into which that line's block is to be parsed. The block that was there is gone.
+  // Returns the slot into which that line's block is to be parsed. Its previous block is dropped.
   KeptBlock& make_room(std::uint32_t file, ReaderPosition at, ReaderPosition after, std::string_view text) {
     if (places_.empty()) places_.resize(places);
     KeptBlock& there = place(file, at.line);
@@ -45,14 +45,14 @@ class KeptBlocks {
     there.text.assign(text);
     return there;
   }
-  // Empties a place whose line turned out to have no block.
+  // Empties the slot of a line that turned out to have no block.
   static void drop(KeptBlock& kept) { kept.at.line = 0; }
 
  private:
-  // Small files that call each other do not share their places.
+  // The offset prevents small files that call each other from sharing slots.
   KeptBlock& place(std::uint32_t file, std::uint32_t line) { return places_[(line + 61 * file) & (places - 1)]; }
 
-  std::vector<KeptBlock> places_;  // made when a line comes again for the first time
+  std::vector<KeptBlock> places_;  // allocated when a line is read for the second time
 };
 
 }  // namespace passo

@@ -1,7 +1,7 @@
 // LatheCodes: the words of the lathe cycles G70, G71, G72 (.1 .2), and their contours.
 //
-// A cycle's block moves to its X and Z. The lines of its sub are then read as a contour and not executed
-// (interpreter.cpp does that). When the sub has returned, the cuts are planned. LatheCycle makes the moves.
+// A cycle's block moves to its X and Z. The lines of its subroutine are then read as a contour and not executed (by
+// interpreter.cpp). At the end of the subroutine, the cuts are planned. LatheCycle generates the moves.
 #pragma once
 
 #include <memory>
@@ -23,16 +23,16 @@ class LatheCodes final : public CycleCodes {
 
   bool start(CodeNumber code);
 
-  // True: the cycle waits for the blocks of contour_sub(), one after the other.
+  // Returns whether the cycle waits for the blocks of contour_sub(), one by one.
   bool wants_contour() const { return contour_ != nullptr && contour_->open; }
   Symbol contour_sub() const { return contour_->sub; }
   Span contour_span() const { return contour_->span; }
-  // Adds a line of the contour. The line's words are those of the context. readable: the words could be read.
+  // Adds a line of the contour. Its words are those of the context. readable: the words could be read.
   void add_to_contour(bool readable);
-  // Plans the cuts when the sub has returned. False: nothing is cut.
+  // Plans the cuts at the end of the subroutine. Returns false if nothing is cut.
   bool end_contour();
   void abandon_contour() { contour_->open = false; }
-  // The text of the line with the cycle whose contour was read last.
+  // Returns the line with the cycle whose contour was read last.
   std::string_view text() const { return contour_->text; }
 
   Cycle& cycle() override { return *cycle_; }
@@ -40,20 +40,20 @@ class LatheCodes final : public CycleCodes {
 
  private:
   static constexpr std::size_t most_segments = 10'000;
-  // The data of one cycle while its contour is read.
+  // The data of a cycle while its contour is read.
   struct Contour {
     bool open = true;
-    bool good = true;  // true: no line so far was wrong
+    bool good = true;  // whether all lines so far were valid
     std::uint64_t errors_before = 0;
     CodeNumber code = 0;
-    BlockWords words;  // the words of the cycle's block
-    Span span;         // the place of the cycle's Q, to which errors of the whole contour point
-    std::string text;  // the line of the cycle's block
+    BlockWords words;  // words of the cycle's block
+    Span span;         // position of the cycle's Q, used for errors of the contour as a whole
+    std::string text;  // line of the cycle's block
     Block block;
     OperationSource source;
     Symbol sub;
-    Point start;        // the tool's position before the first cut
-    LathePoint corner;  // the contour's last point so far
+    Point start;        // tool position before the first cut
+    LathePoint corner;  // last point of the contour so far
     LatheContour shape;
   };
 
@@ -74,7 +74,7 @@ class LatheCodes final : public CycleCodes {
 
   CutterCodes& cutter_codes_;
   SymbolTable& symbols_;
-  std::unique_ptr<Contour> contour_;  // made when the first cycle starts
+  std::unique_ptr<Contour> contour_;  // created when the first cycle starts
   std::optional<LatheCycle> cycle_;
 };
 

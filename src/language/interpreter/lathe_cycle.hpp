@@ -1,7 +1,7 @@
 // LatheCycle: the moves of a lathe cycle (G70 to G72) along a contour, as operations.
 //
-// LatheRoughing and LatheFinishing know where to cut, in the contour's own orientation and in the program's units.
-// LatheCycle turns their moves into moves in work coordinates. A LatheCycle keeps the whole contour in memory.
+// LatheRoughing and LatheFinishing compute the cuts, in the contour's own orientation and in the program's units.
+// LatheCycle converts them to moves in work coordinates. It stores the whole contour.
 #pragma once
 
 #include <optional>
@@ -16,8 +16,8 @@ namespace passo {
 
 struct LathePlan {
   std::variant<LatheRoughing, LatheFinishing> cuts;
-  Point start;      // the tool's position; all axes but X and Z stay there
-  double unit = 1;  // millimetres in one unit of the contour
+  Point start;      // tool position; all axes except X and Z stay there
+  double unit = 1;  // millimetres per unit of the contour
   ArcTolerance tolerance = arc_tolerance_mm;
 };
 
@@ -25,9 +25,10 @@ class LatheCycle final : public Cycle {
  public:
   LatheCycle(LathePlan plan, const OperationSource& source) : Cycle(plan.start, source), plan_(std::move(plan)) {}
 
-  // Why the cycle broke off.
+  // Returns why the cycle was aborted.
   LatheFault fault() const { return fault_; }
-  // The motion code of the last move. As in LinuxCNC this code stays active after the cycle. Empty: there was no move.
+  // Returns the motion code of the last move. As in LinuxCNC, this code stays active after the cycle. Empty: there was
+  // no move.
   std::optional<CodeNumber> last_motion() const { return last_motion_; }
 
  private:

@@ -1,8 +1,8 @@
 // LatheRoughing and LatheFinishing: the moves of the lathe cycles G70 to G72, a few at a time.
 //
-// Roughing goes down the contour's first segment in steps. From each step the tool cuts along Z until it meets the
-// contour, lifts off, goes back, and goes down the next step. Where the contour no longer falls, the tool follows the
-// contour to its end, or to where the contour falls again. There a pocket begins, which is cleared in the same way.
+// Roughing descends the contour's first segment in steps. At each step the tool cuts along Z up to the contour, lifts
+// off, returns, and descends to the next step. Where the contour stops descending, the tool follows the contour to its
+// end, or to the point where it descends again. There a pocket begins, which is cleared in the same way.
 #pragma once
 
 #include <optional>
@@ -38,12 +38,12 @@ class LatheMoves {
 
 class LatheRoughing {
  public:
-  // G71 and G72; G71.1 and G72.1; G71.2 and G72.2.
+  // The codes: G71 and G72; G71.1 and G72.1; G71.2 and G72.2.
   enum class Extent : std::uint8_t { everything, no_pockets, only_pockets };
   LatheRoughing(LatheContour contour, Extent extent, double depth_of_cut, double lift);
 
   const LatheOrientation& orientation() const { return contour_.orientation; }
-  // Adds at most LatheMoves::capacity moves. False: roughing is done, or there is a fault.
+  // Adds at most LatheMoves::capacity moves. Returns false when roughing is done, or if there is an error.
   bool step(LatheMoves& moves);
   LatheFault fault() const { return fault_; }
 
@@ -56,11 +56,11 @@ class LatheRoughing {
   void cut(LatheMoves& moves);
   void go_up(LatheMoves& moves);
   void enter_pocket();
-  // These go down the segment to the height x or to the segment's end. False: from here on the segment does not fall.
+  // Descend the segment to the height x or to the segment's end. Return false where the segment stops descending.
   bool dive(double x, LatheMoves& moves);
   bool dive_line(double x, LatheMoves& moves);
   bool dive_arc(double x, LatheMoves& moves);
-  // These go up the segment. False: from here on the contour falls.
+  // Ascend the segment. Return false where the contour descends.
   bool climb(LatheMoves& moves);
   bool climb_arc(LatheMoves& moves);
   void climb_only(LatheMoves& moves);
@@ -72,7 +72,7 @@ class LatheRoughing {
   double depth_of_cut_;
   double lift_;
   Phase phase_ = Phase::begin;
-  std::size_t at_ = 0;  // index of the segment at which the tool is
+  std::size_t at_ = 0;  // index of the current segment
   LathePoint tool_;
   double level_ = 0;      // X of the next cut
   double top_level_ = 0;  // X from which levels are counted
@@ -81,7 +81,7 @@ class LatheRoughing {
   LatheFault fault_ = LatheFault::none;
 };
 
-// G70: passes along the contour, each nearer to it than the pass before.
+// G70: passes along the contour, each closer to it than the previous one.
 class LatheFinishing {
  public:
   LatheFinishing(LatheContour contour, double first_distance, double last_distance, std::int32_t passes);
@@ -95,7 +95,7 @@ class LatheFinishing {
   double last_distance_;
   std::int32_t passes_;
   std::int32_t left_;
-  LatheContour path_;  // the contour set off by the distance of this pass
+  LatheContour path_;  // the contour, offset by the distance of this pass
   std::size_t at_ = 0;
   LatheFault fault_ = LatheFault::none;
 };

@@ -1,5 +1,5 @@
 // ModalSnapshot: the part of the modal state that M70 and M73 save and M72 restores. There is one for the main program
-// and one for each sub that runs. The motion code, positions and offsets of work systems are not part of it.
+// and one for each running subroutine. It excludes the motion code, positions and work offsets.
 #pragma once
 
 #include "program_state.hpp"
@@ -8,7 +8,7 @@ namespace passo {
 
 struct ModalSnapshot {
   bool valid = false;
-  bool restore_at_return = false;  // M73
+  bool restore_at_return = false;  // saved by M73
   ModalState modal;
   Point tool_offset;
   double feed = 0;

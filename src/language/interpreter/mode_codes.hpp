@@ -1,4 +1,4 @@
-// ModeCodes: the codes that set modes, the feed rate F, and the overrides and the coolant, which are switched.
+// ModeCodes: the codes that set modes, the feed rate F, and the codes that switch the overrides and the coolant.
 #pragma once
 
 #include "code_family.hpp"
@@ -9,7 +9,7 @@ class ModeCodes : private CodeFamily {
  public:
   explicit ModeCodes(BlockContext& block) : CodeFamily(block) {}
 
-  // A mode that is nothing but set: its row of the table says what is told.
+  // Sets a mode without other effects: its row of the table defines the canonical call.
   bool set(const CodeEntry& entry);
   bool set_feed_mode(const CodeEntry& entry);
   bool set_feed_rate();

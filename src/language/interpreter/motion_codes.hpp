@@ -1,4 +1,4 @@
-// MotionCodes: lines, arcs and feeds in step with the spindle: G0 to G3, G33, G33.1.
+// MotionCodes: lines, arcs and spindle-synchronised feeds: G0 to G3, G33, G33.1.
 #pragma once
 
 #include "code_family.hpp"

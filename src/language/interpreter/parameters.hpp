@@ -1,12 +1,13 @@
 // Parameters: #1 … #5601, #<name> and #<_name>.
 //
-// Numbered parameters are 0 until set, except #5220 (the work system) and #5599, which are 1. #1 … #30 belong to the
-// sub that runs, and so do names without a leading underscore. Names with a leading underscore are global. Home
-// positions and offsets are parameters (#5161, #5181, #5211, #5221 … #5390), in the machine's unit and in degrees,
-// whatever the program's units. The state of the machine (#5400 …, #5420 …, #<_x>, #<_feed> …) is computed when it is
-// read and cannot be set. The same holds for the machine's settings (#<_ini[…]…>).
+// Numbered parameters are 0 until set, except #5220 (the work coordinate system) and #5599, which are 1. #1 … #30 are
+// local to the running subroutine, and so are names without a leading underscore. Names with a leading underscore are
+// global. Home positions and offsets are parameters (#5161, #5181, #5211, #5221 … #5390), in the machine's unit and in
+// degrees, whatever the program's units. The state of the machine (#5400 …, #5420 …, #<_x>, #<_feed> …) is computed on
+// reading and cannot be set. The same holds for the machine's settings (#<_ini[…]…>).
 //
-// Looking up a name is an index. A sub that sets a local name first puts the name's old value on an undo list.
+// Looking up a name is an index operation. When a subroutine sets a local name, the name's old value is saved in an
+// undo list.
 #pragma once
 
 #include <algorithm>
@@ -36,7 +37,7 @@ inline constexpr int second_home_parameter = 5181;
 inline constexpr int machine_position_parameter = 5021;
 inline constexpr int probe_parameter = 5061;
 inline constexpr int probe_success_parameter = 5070;
-inline constexpr int used_offset_parameter = 5081;  // the tool offset in effect
+inline constexpr int used_offset_parameter = 5081;  // the active tool offset
 inline constexpr int input_parameter = 5399;
 inline constexpr int show_debug_parameter = 5599;
 inline constexpr int tool_parameter = 5400;
@@ -50,23 +51,22 @@ class Parameters final : public ParameterValues {
   Parameters(SymbolTable& symbols, const ProgramState& state, LengthUnits machine_units = LengthUnits::mm,
              std::shared_ptr<const SettingsFile> settings = nullptr);
 
-  // Called before the program and after it. save() updates the parameters that `saved` has and adds those that are
-  // always saved.
+  // Called before and after the program. save() updates the parameters in `saved` and adds those that are always saved.
   void load(const SavedParameters& saved);
   void save(SavedParameters& saved) const;
 
   bool numbered(std::int64_t number, double& value) const override;
   bool named(Symbol name, double& value) const override;
-  // What the interpreter itself sets counts as set, and so do the arguments of a sub.
+  // Parameters set by the interpreter itself, and arguments of a subroutine, count as set.
   bool was_set(std::int64_t number) const override {
     return number < 1 || number >= machine_position_parameter || set_[static_cast<std::size_t>(number)] ||
            is_of_sub(number);
   }
 
-  // False: this name cannot be set.
+  // Returns false if this name cannot be set.
   [[nodiscard]] bool set_named(Symbol name, double value);
   static bool is_settable(std::int64_t number);
-  // #5021 to #5029, where a machine is there. Elsewhere they are numbers like others.
+  // Returns whether this is one of #5021 to #5029 on a machine. Without a machine they are ordinary parameters.
   bool is_machine_position(std::int64_t number) const {
     return state_.on_machine && number >= machine_position_parameter &&
            number < machine_position_parameter + static_cast<int>(axis_count);
@@ -79,17 +79,18 @@ class Parameters final : public ParameterValues {
   }
   double get(int number) const { return numbers_[static_cast<std::size_t>(number)]; }
 
-  // A point in millimetres and degrees. Nine parameters, beginning with `first`, hold it in the machine's unit.
+  // Returns a point in millimetres and degrees, from nine parameters beginning with `first`, which are in the machine's
+  // unit.
   Point point(int first) const;
   void set_point(int first, const Point& point);
 
-  // Notes what is set from now on. roll_back() undoes what was set since.
+  // Starts recording changes. roll_back() undoes the recorded changes.
   void keep();
   void roll_back();
 
-  // A sub begins, with these arguments as its #1 …
+  // Enters a subroutine with these arguments as its #1 …
   void enter_sub(std::span<const double> arguments);
-  // A subprogram of M98 begins. It has names of its own but shares #1 … #30 with its caller.
+  // Enters a subprogram of M98. It has its own local names but shares #1 … #30 with its caller.
   void enter_subprogram();
   void leave_sub();
 
@@ -98,7 +99,7 @@ class Parameters final : public ParameterValues {
     enum class Kind : std::uint8_t { unseen, local, global, predefined };
     Kind kind = Kind::unseen;
     std::uint8_t predefined = 0;  // index in predefined_parameters()
-    std::int32_t depth = -1;      // call depth of the sub that set it; -1: never set
+    std::int32_t depth = -1;      // call depth of the subroutine that set it; -1: never set
     double value = 0;
   };
   struct Undo {
@@ -113,7 +114,7 @@ class Parameters final : public ParameterValues {
   };
   Named& at(Symbol name);
   double of_tool(int number) const;
-  // A parameter of the sub that runs: an argument that is not given is 0.
+  // Returns whether this is a parameter of the running subroutine: arguments that are not given are 0.
   bool is_of_sub(std::int64_t number) const {
     return number <= static_cast<int>(sub_parameters) && !std::ranges::all_of(callers_, &Caller::shares_numbers);
   }
@@ -125,12 +126,12 @@ class Parameters final : public ParameterValues {
   double machine_unit_;  // in millimetres
   std::shared_ptr<const SettingsFile> settings_;
   std::array<double, highest_parameter + 1> numbers_{};
-  std::bitset<highest_parameter + 1> set_;  // once set, also by a line that was taken back
+  std::bitset<highest_parameter + 1> set_;  // once set, even by a line that was rolled back
   std::vector<Named> names_;                // by symbol
   std::vector<Undo> undo_;
   std::vector<Caller> callers_;
   bool keeps_ = false;
-  std::vector<std::pair<int, double>> kept_numbers_;  // what they were, in the order in which they were set
+  std::vector<std::pair<int, double>> kept_numbers_;  // previous values, in the order of the changes
   std::vector<std::pair<Symbol, Named>> kept_names_;
 };
 

@@ -1,4 +1,4 @@
-// PercentSigns: a '%' before everything else but comments opens the program, and the next one closes it.
+// PercentSigns: a '%' before everything else except comments opens the program, and the next one closes it.
 #pragma once
 
 #include <utility>
@@ -7,15 +7,15 @@ namespace passo {
 
 class PercentSigns {
  public:
-  // Something else than a '%', a comment or an empty line was read.
+  // Notes that something other than a '%', a comment or an empty line was read.
   void note_content() { has_begun_ = true; }
-  // A '%' was read. True: it closes the program.
+  // Notes a '%'. Returns true if it closes the program.
   bool closes() {
     const bool ends = std::exchange(has_begun_, true);
     opened_ = opened_ || !ends;
     return ends;
   }
-  // The program is read again from its start.
+  // Notes that the program is read again from its start.
   void restart() { has_begun_ = false; }
   bool opened() const { return opened_; }
 

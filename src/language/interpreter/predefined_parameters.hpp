@@ -1,5 +1,5 @@
-// The predefined #<_names>. They tell the present state of the machine. Those of the modes stand in
-// the rows of their codes; the others are one line of a table each.
+// The predefined #<_names>, which return the current state of the machine. Those of modes are in the rows of their
+// codes; the others are one row of a table each.
 #pragma once
 
 #include <span>
@@ -12,7 +12,7 @@ namespace passo {
 struct PredefinedParameter {
   std::string_view name;
   double (*of)(const ProgramState&) = nullptr;
-  const CodeEntry* mode = nullptr;  // the value is whether this code is active
+  const CodeEntry* mode = nullptr;  // the value is 1 while this code is active
 
   double value(const ProgramState& state) const;
 };

@@ -1,4 +1,4 @@
-// ProbeCodes: probing, G38.2 to G38.5. On the machine the program waits for what a probe move finds.
+// ProbeCodes: probing, G38.2 to G38.5. On a machine the program waits for the result of a probe move.
 #pragma once
 
 #include <optional>
@@ -12,7 +12,7 @@ class ProbeCodes : private CodeFamily {
   explicit ProbeCodes(BlockContext& block) : CodeFamily(block) {}
 
   bool probe(CodeNumber code);
-  // True: the program waits for what the machine finds in the last probe move.
+  // Returns whether the program waits for the result of the last probe move.
   bool awaits_outcome() const { return awaited_.has_value(); }
   void apply_outcome();
 

@@ -1,6 +1,5 @@
-// ProgramBounds: when a program that repeats itself is stopped. It may go round its loops, or call, only so often while
-// the machine does nothing, and come to only so many steps (passes, calls and operations) within its outermost loop or
-// call.
+// ProgramBounds: stops a program that repeats itself without end. It limits the number of loop passes and calls while
+// the machine does nothing, and the number of steps (passes, calls and operations) within an outermost loop or call.
 #pragma once
 
 #include <cstdint>
@@ -14,15 +13,15 @@ class ProgramBounds {
     std::uint64_t repeated_steps = 0;
     std::uint64_t main_passes = 1;
   };
-  // idle: too often while the machine did nothing. steps: too many in all.
+  // idle: too many passes while the machine did nothing. steps: too many in all.
   enum class Reached : std::uint8_t { nothing, idle, steps };
 
   explicit ProgramBounds(const Limits& limits) : limits_(limits) {}
   const Limits& limits() const { return limits_; }
 
-  // The outermost loop, call or cycle begins.
+  // Notes the begin of an outermost loop, call or cycle.
   void begin() { steps_ = 0; }
-  // Counts an operation. `works`: the machine does something, so the loops do.
+  // Counts an operation. `works`: the machine does something, so the loops are not idle.
   void count_operation(bool works) {
     ++steps_;
     if (works) idle_passes_ = idle_calls_ = 0;
@@ -31,12 +30,12 @@ class ProgramBounds {
   Reached count_call() { return count(idle_calls_); }
   bool allows_more_operations() const { return steps_ <= limits_.repeated_steps; }
 
-  // The main program has come to its end. True: it may run again.
+  // Counts a pass of the main program. Returns whether it may run again.
   bool count_main_pass() { return ++main_passes_ != limits_.main_passes; }
-  // It runs again. False: too often while the machine did nothing.
+  // Counts a restart. Returns false after too many restarts while the machine did nothing.
   bool count_restart() { return ++idle_passes_ <= limits_.idle_passes; }
 
-  // A call of a sub that is not there. True: the last that is allowed.
+  // Counts a call of a missing subroutine. Returns true for the last one that is allowed.
   bool is_last_unknown_call() { return ++unknown_calls_ == most_unknown_calls; }
 
  private:
@@ -48,9 +47,9 @@ class ProgramBounds {
   }
 
   Limits limits_;
-  std::uint64_t idle_passes_ = 0;  // passes since the machine last did something
-  std::uint64_t idle_calls_ = 0;   // calls since then
-  std::uint64_t steps_ = 0;        // passes, calls and operations since begin()
+  std::uint64_t idle_passes_ = 0;  // number of passes since the machine last did something
+  std::uint64_t idle_calls_ = 0;   // number of calls since then
+  std::uint64_t steps_ = 0;        // number of passes, calls and operations since begin()
   std::uint64_t main_passes_ = 0;
   std::uint64_t unknown_calls_ = 0;
 };

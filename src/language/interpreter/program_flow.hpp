@@ -1,13 +1,13 @@
-// ProgramFlow: which block comes next. It reads lines, obeys O-words, goes back for loops and jumps to subs.
+// ProgramFlow: determines the next block. It reads lines, executes O-words, loops, and calls subroutines.
 //
-// Memory does not grow with the number of lines. The flow remembers places in the files: of open constructs and of subs
-// that were met. ProgramLines reads the lines and finds the subs. Skipped lines (a branch that is not taken, the body
-// of a sub at its definition) are read line by line, and only their O-words are parsed. As in RS274/NGC a construct's
-// label tells the construct from others inside it.
+// Memory does not grow with the number of lines. The flow stores positions in the files: of open constructs and of
+// known subroutines. ProgramLines reads the lines and finds the subroutines. Skipped lines (a branch that is not taken,
+// the body of a subroutine at its definition) are read line by line, and only their O-words are parsed. As in
+// RS274/NGC, labels distinguish nested constructs.
 //
-// Calls nest 100 deep at most. A loop with an error inside makes no further pass, and the run goes on after it. The
-// flow stops a program that goes round its loops, or calls, too often while the machine does nothing, a program whose
-// loop or call comes to too many steps in all, and a program that calls a thousand times what is not there.
+// Calls may be nested 100 deep. A loop with an error inside makes no further pass, and execution continues after it.
+// The flow stops a program whose loops or calls repeat too often while the machine does nothing, a program with too
+// many steps in one loop or call, and a program that calls missing subroutines a thousand times.
 #pragma once
 
 #include <array>
@@ -38,47 +38,49 @@ class ProgramFlow final : public CallStack {
   struct Options {
     ProgramLines::Options lines;
     ProgramBounds::Limits bounds;
-    bool numbered_programs = true;  // false: [RS274NGC]DISABLE_FANUC_STYLE_SUB
+    bool numbered_programs = true;  // false if [RS274NGC]DISABLE_FANUC_STYLE_SUB is set
   };
   enum class End : std::uint8_t { none, file, percent, error };
 
   ProgramFlow(ProgramReader reader, const Options& options, ProgramState& state, Parameters& parameters,
               SymbolTable& symbols, Reporter& reporter);
 
-  // The next block to execute. Null: the program ends, or an O-word left a sub (take_left_sub), or the contour of
-  // call_for_contour() ends.
+  // Returns the next block to execute. Null: the program ends, or an O-word left a subroutine (take_left_sub), or the
+  // contour of call_for_contour() ends.
   const Block* next();
-  // Only with `open_ended`, when next() has returned null.
+  // Adds a line. Only with `open_ended`, when next() has returned null.
   void push_line(std::string_view text) { lines_.push_line(text); }
-  // True: the next line was not given yet.
+  // Returns whether the next line is not available yet.
   bool waits_for_line() const { return lines_.open_ended() && end_ == End::none; }
-  // Tells whether a sub was just left, and the line of its call.
+  // Returns the line of the call if a subroutine was just left.
   std::optional<std::uint32_t> take_left_sub() { return std::exchange(left_sub_, std::nullopt); }
-  // Makes the jump that the block just executed asks for: M98, M99 or a macro. main_ends: there was an M99 in the main
-  // program, which is not to run again.
+  // Executes the jump requested by the last block: M98, M99 or a macro. main_ends: an M99 in a main program that is not
+  // to run again.
   enum class Followed : std::uint8_t { goes_on, left_sub, main_ends };
   Followed follow(const SubprogramJump& jump);
   End end() const { return end_; }
-  // Calls a sub. next() then gives the blocks of this call, and null once at its end. False: the sub cannot be called.
+  // Calls a subroutine. next() then returns the blocks of this call, and null once at its end. Returns false if the
+  // subroutine cannot be called.
   bool call_for_contour(Symbol sub, Span span);
-  // Counts an operation of the program. `works`: the machine does something, so the loops do.
+  // Counts an operation of the program. `works`: the machine does something, so the loops are not idle.
   void count_operation(bool works) { bounds_.count_operation(works); }
 
-  // The block at hand has begun a cycle, whose operations count from here if no loop or call is around the block.
+  // Notes that the current block has begun a cycle. If no loop or call contains the block, operations are counted from
+  // here.
   void begin_cycle() {
     if (is_outermost()) bounds_.begin();
   }
-  // Called before each part of the cycle. False: the cycle came to too many operations, and the program ends.
-  // `repeated` is the word that asks for them.
+  // Called before each part of the cycle. Returns false if the cycle has too many operations; the program then ends.
+  // `repeated`: the word for the number of repetitions.
   bool may_go_on_with_cycle(Span repeated);
 
-  // Called after M2. Reports the constructs around M2 whose end comes nowhere in the file.
+  // Called after M2. Reports the constructs around M2 that are never closed in the file.
   void report_never_closed();
-  // Warns of moves that come after the end of the program.
+  // Warns about moves after the end of the program.
   void report_moves_after_end() {
     if (!lines_.open_ended() && frames_.empty()) lines_.report_moves_after_end();
   }
-  // Called after M2. True: the program began with '%', and the rest of the file has no closing '%'.
+  // Called after M2. Returns whether the program began with '%', and the rest of the file has no closing '%'.
   bool lacks_closing_percent() {
     return lines_.lacks_closing_percent(frames_.empty() ? lines_.in_main_file() : frames_.front().return_to);
   }
@@ -92,7 +94,7 @@ class ProgramFlow final : public CallStack {
  private:
   using SubPlace = ProgramLines::SubPlace;
   using File = ProgramLines::File;
-  // What a sub returns: #<_value> and #<_value_returned>.
+  // The return value of a subroutine: #<_value> and #<_value_returned>.
   class Returned {
    public:
     Returned(SymbolTable& symbols, Parameters& parameters)
@@ -115,11 +117,11 @@ class ProgramFlow final : public CallStack {
     Symbol label;
     ReaderPosition at;                // its line
     ReaderPosition after;             // the line after it
-    std::uint64_t errors_before = 0;  // errors that were found before it was entered
-    std::uint64_t passes_left = 0;    // only of a repeat
+    std::uint64_t errors_before = 0;  // number of errors found before it was entered
+    std::uint64_t passes_left = 0;    // remaining passes of a repeat
   };
   struct Frame {
-    File* caller = nullptr;  // the file to which to return
+    File* caller = nullptr;  // the file to return to
     ReaderPosition return_to;
     Symbol sub;
     SubPlace place;
@@ -127,10 +129,10 @@ class ProgramFlow final : public CallStack {
     std::uint64_t errors_before = 0;
     std::uint64_t passes_left = 1;                                     // L of M98, G65, G66
     bool modal_macro = false;                                          // called by G66
-    std::optional<std::array<double, sub_parameters>> arguments = {};  // only of a macro
+    std::optional<std::array<double, sub_parameters>> arguments = {};  // arguments of a macro
   };
 
-  // A numbered program that was left and is to run again.
+  // A numbered program that has ended and is to run again.
   struct Again {
     Frame frame;
     File* file = nullptr;
@@ -138,7 +140,7 @@ class ProgramFlow final : public CallStack {
 
   const Block* finish(End end);
 
-  // O-words.
+  // Execution of O-words.
   void obey(const Control& control);
   void begin_sub(Symbol label, const Control& control);
   void call(Symbol label, const Control& control);
@@ -152,7 +154,7 @@ class ProgramFlow final : public CallStack {
   void end_repeat(Symbol label, const Control& control);
   void leave_or_continue_loop(Symbol label, const Control& control);
 
-  // The open constructs of the running sub.
+  // The open constructs of the running subroutine.
   Open& push(ControlKind kind, Symbol label);
   Open* innermost(ControlKind kind, Symbol label);
   Open* require_innermost(ControlKind kind, Symbol label, const Control& control);
@@ -162,7 +164,7 @@ class ProgramFlow final : public CallStack {
   bool may_go_round(const Open& loop);
   bool is_outermost() const { return frames_.empty() && open_.empty(); }
 
-  // Skipping lines: skip_to() reads on to the next O-word of the wanted kinds that belongs to `from`.
+  // Skipping lines: skip_to() reads up to the next O-word of the given kinds that belongs to `from`.
   using Kinds = std::uint32_t;
   static constexpr Kinds kinds(std::initializer_list<ControlKind> list) {
     Kinds bits = 0;
@@ -173,7 +175,7 @@ class ProgramFlow final : public CallStack {
   bool skip_branch(const Open& from);
   static Kinds end_of(ControlKind construct);
 
-  // Subs.
+  // Subroutines.
   bool may_call(Span span);
   void enter(const Frame& frame, File* file);
   void leave_frame();
@@ -206,7 +208,7 @@ class ProgramFlow final : public CallStack {
   std::vector<Frame> frames_;
   std::optional<std::uint32_t> left_sub_;
   std::optional<Again> again_;
-  std::size_t contour_depth_ = 0;  // call depth of the contour that is read; 0: none
+  std::size_t contour_depth_ = 0;  // call depth of the contour being read; 0: none
   End end_ = End::none;
   BlockWatcher* watcher_ = nullptr;
 };

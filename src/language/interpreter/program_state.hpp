@@ -1,4 +1,4 @@
-// ProgramState: what the program has set so far. Its modal state has one code for each modal group.
+// ProgramState: the state set by the program so far. Its modal state has one code for each modal group.
 #pragma once
 
 #include <array>
@@ -16,7 +16,7 @@ namespace passo {
 
 class ModalState {
  public:
-  // The state in which LinuxCNC starts.
+  // Sets the state in which LinuxCNC starts.
   ModalState() {
     for (const GroupRow& row : group_rows()) set(row.group, row.at_start);
   }
@@ -42,7 +42,7 @@ class ModalState {
   std::array<CodeNumber, modal_group_count> active_{};
 };
 
-// G51 scales X Y Z of the program by a factor about a centre. G51 scales moves but no offsets.
+// G51 scales the program's X Y Z by a factor about a centre. It scales moves but not offsets.
 struct Scaling {
   bool on = false;
   Point center;  // work coordinates
@@ -56,8 +56,8 @@ struct Scaling {
 inline constexpr double highest_tool = 99999;
 inline constexpr std::size_t most_spindles = 8;
 struct SpindleState {
-  double speed = 0;          // S: revolutions a minute, or with constant surface speed metres or feet a minute
-  double surface_limit = 0;  // above 0: constant surface speed, with this highest number of revolutions a minute
+  double speed = 0;          // S: rpm, or m/min or ft/min with constant surface speed
+  double surface_limit = 0;  // above 0: constant surface speed, with this maximum rpm
   SpindleDirection direction = SpindleDirection::off;
   bool speed_override = true;
   friend bool operator==(const SpindleState&, const SpindleState&) = default;
@@ -73,8 +73,8 @@ struct ProgramState {
   ModalState modal;
   Frame frame;
   Point position;      // the programmed position, in work coordinates, millimetres and degrees
-  Point cutter_shift;  // cutter compensation: from `position` to the tool's centre
-  double feed = 0;     // F, in millimetres a minute or a revolution; 0: no F was given
+  Point cutter_shift;  // cutter compensation: from `position` to the tool centre
+  double feed = 0;     // F, mm/min or mm/rev; 0: no F was given
   Scaling scaling;
   std::array<SpindleState, most_spindles> spindles;
   int spindle_count = 1;
@@ -87,12 +87,12 @@ struct ProgramState {
   bool on_machine = false;  // false: a preview
   ToolTable tools;
   Tool spindle_tool;                // the data of the tool in the spindle, whose number is `tool`
-  std::int32_t tool = 0;            // the tool in the spindle; 0: no tool
+  std::int32_t tool = 0;            // the tool in the spindle; 0: none
   std::int32_t selected_tool = -1;  // the tool of the last T; -1: no T yet
-  std::uint32_t line = 0;           // the line of the block that is executed
+  std::uint32_t line = 0;           // the line of the block being executed
   int call_depth = 0;
 
-  // Millimetres in one length unit of the program.
+  // Returns the millimetres per length unit of the program.
   double length_unit() const { return modal.inches() ? mm_per_inch : 1; }
   double units_of(Axis axis) const { return is_rotary(axis) ? 1 : length_unit(); }
   Point tool_position() const { return position + cutter_shift; }

@@ -1,4 +1,4 @@
-// Reporter: reports what is wrong in the block that is being read, with its line and the place in the line.
+// Reporter: reports errors in the block being read, with the line and the position in it.
 #pragma once
 
 #include <cstdint>
@@ -14,11 +14,11 @@
 
 namespace passo {
 
-// The interface that knows which subs are running.
+// The interface to the stack of running subroutines.
 class CallStack {
  public:
   virtual ~CallStack() = default;
-  // The innermost first.
+  // Returns the calls, the innermost first.
   virtual std::vector<CallPlace> calls() const = 0;
 };
 
@@ -26,21 +26,21 @@ class Reporter {
  public:
   explicit Reporter(Diagnostics& diagnostics) : diagnostics_(diagnostics) {}
 
-  // Until the next call, reports are about this block of this file. Both are borrowed.
+  // Sets the block and the file of the following reports. Both must stay valid until the next call.
   void set_block(const Block& block, const std::string& file) {
     block_ = &block;
     file_ = &file;
   }
 
-  // The same for another block of that file.
+  // Sets another block of that file.
   void set_block(const Block& block) { block_ = &block; }
 
-  // Sets the stack that tells through which calls the program came to a finding. Borrowed.
+  // Sets the stack from which diagnostics get their chain of calls. It must stay valid.
   void set_call_stack(const CallStack& stack) { stack_ = &stack; }
 
   void error(std::string_view code, Span span, std::string message, std::string expected = {});
   void warning(std::string_view code, Span span, std::string message, std::string expected = {});
-  // Report about a line other than the block's own.
+  // Reports an error in a line other than the block's own.
   void error_at(std::string_view code, std::uint32_t line, std::string_view text, Span span, std::string message,
                 std::string expected);
   void warning_at(std::string_view code, std::uint32_t line, std::string_view text, Span span, std::string message,
@@ -48,25 +48,25 @@ class Reporter {
   // Reports an expression that has no value.
   void error(const EvaluationError& error);
   void warn_of(const UnsetParameter& unset);
-  void warn_of_blank(Span number);  // between the digits of a number
+  void warn_of_blank(Span number);  // Warns about a blank between the digits of a number.
 
-  // Reports what was found while the line was read.
+  // Reports errors found while the line was read.
   void pass_on(Diagnostics& faults);
 
-  // Each line is judged by itself, and none as the consequence of an earlier one.
+  // Makes each line be judged separately, without suppressing consequences of earlier errors.
   void judge_lines_alone() { judges_alone_ = true; }
-  // The block failed, and what it would have set is in doubt.
+  // Notes that the block failed, so what it would have set is in doubt.
   void doubt() {
     if (!judges_alone_) doubts_.scan(block_->text);
   }
   Doubts& doubts() { return doubts_; }
 
-  // Counts an error that was reported before and is met again.
+  // Counts the repetition of an error that was already reported.
   void meet_again() { ++errors_; }
-  // How often an error was met, also one that was reported before.
+  // Returns the number of errors, including repetitions.
   std::uint64_t errors() const { return errors_; }
 
-  // The text of the block at this place, shortened if it is long.
+  // Returns the text of the block at this position, shortened if it is long.
   std::string quote(Span span) const;
   const Block& block() const { return *block_; }
   std::string_view file() const { return file_ == nullptr ? std::string_view() : *file_; }
@@ -88,9 +88,9 @@ class Reporter {
   bool judges_alone_ = false;
 };
 
-// A number as a person writes it: "2.5", not "2.500000".
+// Formats a number in plain style: "2.5", not "2.500000".
 std::string plain_number(double value);
-// "1 degree", "2.5 degrees".
+// Returns e.g. "1 degree", "2.5 degrees".
 std::string number_and_noun(double value, std::string_view noun);
 
 }  // namespace passo

@@ -1,4 +1,4 @@
-// SpindleCodes: the codes and words of spindles: S, M3, M4, M5, M19, G96, G97. `$` says which spindle.
+// SpindleCodes: the codes and words of spindles: S, M3, M4, M5, M19, G96, G97. `$` selects the spindle.
 #pragma once
 
 #include "code_family.hpp"
@@ -13,7 +13,7 @@ class SpindleCodes : private CodeFamily {
   bool set_speed();
   bool turn(CodeNumber code);
   bool orient();
-  void stop();  // all
+  void stop();  // Stops all spindles.
 };
 
 }  // namespace passo

@@ -1,4 +1,4 @@
-// StopCodes: the codes that stop or end the program: M0, M1, M2, M30, M60; and G4, at which it waits.
+// StopCodes: the codes that stop or end the program: M0, M1, M2, M30, M60; and the dwell G4.
 #pragma once
 
 #include "code_family.hpp"
@@ -13,9 +13,9 @@ class StopCodes : private CodeFamily {
       : CodeFamily(block), cutter_codes_(cutter_codes), frame_(frame) {}
 
   bool run(CodeNumber code);
-  // G4, if the block has one.
+  // Executes G4, if the block has one.
   bool dwell();
-  // M2 and M30 put the machine back into the state that programs may expect.
+  // Ends the program: M2 and M30 restore the default state of the machine.
   void end_program(bool pallet);
 
  private:

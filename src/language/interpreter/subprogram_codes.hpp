@@ -1,7 +1,7 @@
-// SubprogramCodes: M98 and M99 call and leave numbered programs. G65 calls one with arguments; G66 has it called behind
-// each block that moves, until G67, as Fanuc and grblHAL do.
+// SubprogramCodes: M98 and M99 call and leave numbered programs. G65 calls one with arguments; G66 makes each following
+// block with motion call one, until G67, as in Fanuc controls and grblHAL.
 //
-// This class only tells the jump that the block requests. ProgramFlow makes the jump.
+// This class only determines the requested jump. ProgramFlow executes it.
 #pragma once
 
 #include <optional>
@@ -19,9 +19,9 @@ class SubprogramCodes : private CodeFamily {
   bool call_or_leave(CodeNumber code);
   void call_macro(bool readable);
   bool end_macro_calls(CodeNumber code);
-  // Call after the block was executed. If the block moved, the macro of G66 runs.
+  // Must be called after the block was executed. If the block moved, requests the macro of G66.
   void call_modal_macro();
-  // The jump that the block just executed requests.
+  // Returns the jump requested by the last block.
   std::optional<SubprogramJump> take_jump() { return std::exchange(jump_, std::nullopt); }
 
  private:
@@ -30,7 +30,7 @@ class SubprogramCodes : private CodeFamily {
   bool moves() const;
 
   std::optional<SubprogramJump> jump_;
-  std::optional<SubprogramJump> modal_macro_;  // of G66
+  std::optional<SubprogramJump> modal_macro_;  // the modal macro of G66
 };
 
 }  // namespace passo

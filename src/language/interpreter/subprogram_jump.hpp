@@ -1,4 +1,4 @@
-// SubprogramJump: M98, M99 or a macro call. BlockExecutor reads its words from the block, and ProgramFlow makes the
+// SubprogramJump: M98, M99 or a macro call. BlockExecutor reads its words from the block, and ProgramFlow executes the
 // jump.
 #pragma once
 
@@ -17,15 +17,15 @@ struct SubprogramJump {
     leave,        // M99
     call,         // M98
     macro,        // G65
-    modal_macro,  // a block that moves, while G66 is active
-    find_macro,   // G66: whether there is such a program
+    modal_macro,  // a block with motion, while G66 is active
+    find_macro,   // G66: checks whether the program exists
   };
   Kind kind = Kind::leave;
   bool good = true;  // false: the target is unknown
   std::int32_t program = 0;
   std::int32_t passes = 1;
   Span span;
-  std::array<double, sub_parameters> arguments{};  // of a macro: its #1 … #30
+  std::array<double, sub_parameters> arguments{};  // arguments of a macro: its #1 … #30
 
   bool is_macro() const { return kind != Kind::leave && kind != Kind::call; }
   std::string_view code() const {

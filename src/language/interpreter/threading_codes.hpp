@@ -1,4 +1,4 @@
-// ThreadingCodes: the words of the threading cycle G76. ThreadingCycle makes the passes.
+// ThreadingCodes: the words of the threading cycle G76. ThreadingCycle generates the passes.
 #pragma once
 
 #include <optional>

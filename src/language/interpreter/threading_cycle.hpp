@@ -1,9 +1,9 @@
 // ThreadingCycle: G76, a thread cut in passes along Z, as operations.
 //
-// Depths count from the thread's crest. Pass n goes J * n^(1/R) deep. The last pass and H spring passes go K deep. With
-// Q the tool follows the thread's flank: the deeper a pass, the further along the cut's direction it starts and ends. E
-// and L lead the tool in and out on a slope. On the slope the feed for a revolution is larger, so that along Z the
-// turns stay equally far apart. Lengths are in millimetres.
+// Depths are measured from the thread's crest. Pass n is J * n^(1/R) deep. The last pass and H spring passes are K
+// deep. With Q the tool follows the thread's flank: the deeper a pass, the farther its start and end are shifted in the
+// direction of the cut. E and L define tapered entry and exit moves. On the taper the feed per revolution is larger, so
+// that the thread's pitch along Z stays constant. Lengths are in millimetres.
 #pragma once
 
 #include <cstdint>
@@ -14,19 +14,19 @@ namespace passo {
 
 struct ThreadingPlan {
   Point start;
-  Point end;           // its Z is the thread's end; the tool's position after the last pass
-  double outward = 1;  // the way along X away from the thread: 1 for an outside thread, -1 for an inside thread
-  // These three are in the program's units. Depths are compared in these units, so that they are rounded as in
+  Point end;           // its Z is the end of the thread; the tool position after the last pass
+  double outward = 1;  // direction along X away from the thread: 1 for an external thread, -1 for an internal thread
+  // The following three are in the program's units, in which depths are compared, so that they are rounded as in
   // LinuxCNC.
   double crest = 0;                // I, from the start to the thread's crest
-  double first_cut = 0;            // J, the depth of the first pass
-  double full_depth = 0;           // K, the depth of the last pass
-  double unit = 1;                 // millimetres along X in one of these units
+  double first_cut = 0;            // J, depth of the first pass
+  double full_depth = 0;           // K, depth of the last pass
+  double unit = 1;                 // millimetres along X per unit
   double pitch = 0;                // P
-  double infeed_tangent = 0;       // tangent of Q, the compound slide's angle; negated if the cut goes towards higher Z
+  double infeed_tangent = 0;       // tangent of Q, the compound slide angle; negated if the cut goes towards higher Z
   double degression = 1;           // R
   std::int32_t spring_passes = 0;  // H
-  double taper = 0;                // E, the slope's length along Z; negated if the cut goes towards higher Z
+  double taper = 0;                // E, length of the taper along Z; negated if the cut goes towards higher Z
   bool taper_at_start = false;
   bool taper_at_end = false;
   bool feed_override = true;  // whether the override was on: it is switched on again after each pass

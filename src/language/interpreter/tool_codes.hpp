@@ -1,5 +1,5 @@
-// ToolCodes: the codes and words of tools (T, M6, M61, G43, G49, G10 L0, L1, L10, L11). Which tool is in the spindle,
-// what its offset is, and what the tool table says of it.
+// ToolCodes: the codes and words of tools (T, M6, M61, G43, G49, G10 L0, L1, L10, L11): the tool in the spindle, its
+// offset, and its entry in the tool table.
 #pragma once
 
 #include "code_family.hpp"

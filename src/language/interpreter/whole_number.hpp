@@ -1,5 +1,5 @@
-// Values of a program that must be whole: numbers of parameters, labels and counts. They may come from an expression,
-// so rounding is forgiven.
+// Values of a program that must be whole numbers: parameter numbers, labels and counts. They may be computed, so small
+// rounding errors are accepted.
 #pragma once
 
 #include <cmath>
@@ -7,13 +7,13 @@
 
 namespace passo {
 
-inline constexpr double whole_tolerance = 1e-4;  // LinuxCNC's
+inline constexpr double whole_tolerance = 1e-4;  // LinuxCNC's value
 
 inline bool is_whole(double value) {
   return std::abs(value - std::round(value)) <= whole_tolerance;
 }
 
-// The whole number from `lowest` to `highest` that the value means, if it means one.
+// Returns the whole number from `lowest` to `highest` that the value represents, if there is one.
 inline std::optional<double> whole_within(double value, double lowest, double highest) {
   const double whole = std::round(value);
   if (!is_whole(value) || whole < lowest || whole > highest) return std::nullopt;

@@ -1,5 +1,5 @@
-// JsonText: writes one JSON object, field by field. The lab runs in browsers too, where a whole JSON library would be
-// half of what is loaded.
+// JsonText: writes one JSON object, field by field. The lab also runs in browsers, where a complete JSON library would
+// be half of the download.
 #pragma once
 
 #include <cmath>
@@ -15,7 +15,8 @@ namespace passo {
 
 class JsonText {
  public:
-  // Numbers are written with as many digits as tell them apart from their neighbours. JSON has no infinity: null.
+  // Numbers are written with as many digits as distinguish them from their neighbours. JSON has no infinity: null is
+  // written instead.
   void number(std::string_view name, double value) {
     key(name);
     append(value);
@@ -29,13 +30,13 @@ class JsonText {
     key(name);
     append(value);
   }
-  // Numbers or words.
+  // Writes a list of numbers or texts.
   template <class T>
   void list(std::string_view name, const std::vector<T>& values) {
     key(name);
     append(values);
   }
-  // `json` is a JSON text already.
+  // `json` is a complete JSON text.
   void raw(std::string_view name, std::string_view json) {
     key(name);
     text_ += json;

@@ -1,10 +1,11 @@
-// JerkRamp: the fastest motion within limits from a speed and an acceleration to the end speed, over a given way.
+// JerkRamp: the fastest motion within limits from a speed and an acceleration to the end speed, over a given distance.
 // Private to ramp/. In steps and seconds.
 //
-// Three parts: a head from the start state to the crest speed, a stretch at the crest, and a tail from the crest to the
-// end speed. The tail is kept backwards: the place r before the end is the place r of a motion that speeds up from the
-// end speed. So no digit is lost where the speed goes to zero. The crest is the highest speed that leaves room to
-// brake. The way grows with the crest, so that bisection finds it.
+// It has three parts: acceleration from the start state to the peak speed, motion at constant peak speed, and
+// deceleration from the peak to the end speed. The deceleration is stored in reverse: the distance r before the end is
+// the distance r of a motion that accelerates from the end speed, so no precision is lost where the speed approaches
+// zero. The peak is the maximum speed that leaves room to brake. The distance increases with the peak, so it is found
+// by bisection.
 #pragma once
 
 #include <array>
@@ -26,12 +27,13 @@ struct JerkState {
   double acceleration = 0;
 };
 
-// Phases of constant jerk, one after the other.
+// A sequence of phases of constant jerk.
 class JerkPhases {
  public:
-  // A stretch at constant speed.
+  // Adds a phase at constant speed.
   void add_way(double way, double speed);
-  // Goes from `from` to `speed` with no acceleration at its end, as fast as the limits allow: up to three phases.
+  // Adds the change from `from` to `speed` with zero acceleration at its end, as fast as the limits allow: up to three
+  // phases.
   void add_change(const JerkState& from, double speed, const JerkLimits& limits);
 
   double way() const { return way_; }
@@ -43,7 +45,7 @@ class JerkPhases {
   static constexpr std::size_t most = 4;
   struct Phase {
     ConstantJerk motion;
-    double start = 0;  // the way at the start of the phase
+    double start = 0;  // position at the start of the phase
     double start_time = 0;
     double duration = 0;
   };
@@ -64,12 +66,12 @@ class JerkPhases {
 class JerkRamp {
  public:
   JerkRamp() = default;
-  // From the middle of a move. `way` is at least shortest(); a lack by rounding is ignored.
+  // Plans from any state of a move. `way` is at least shortest(); a deficit by rounding is ignored.
   JerkRamp(const JerkState& from, double way, const JerkLimits& limits);
-  // From rest. Where the end speed is not 0, the first step and the last run at it. A constant speed where no steps lie
-  // between.
+  // Plans from standstill. If the end speed is not 0, the first and the last step run at it. The speed is constant if
+  // there are no steps in between.
   static JerkRamp from_rest(double way, const JerkLimits& limits);
-  // The least way from the state to the end speed, including a last step at that speed.
+  // Returns the minimum distance from the state to the end speed, including a last step at that speed.
   static double shortest(const JerkState& from, const JerkLimits& limits);
 
   double way() const { return way_; }
@@ -80,7 +82,7 @@ class JerkRamp {
   void climb(const JerkState& from, double lead, const JerkLimits& limits);
 
   JerkPhases head_;
-  JerkPhases tail_;  // backwards
+  JerkPhases tail_;  // the deceleration, stored in reverse
   double crest_ = 0;
   double way_ = 0;
   double duration_ = 0;

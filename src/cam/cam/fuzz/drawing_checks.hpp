@@ -1,4 +1,4 @@
-// What must be true of every drawing, whatever bytes were read.
+// Invariants of every drawing, whatever the input bytes were.
 #pragma once
 
 #include <cmath>

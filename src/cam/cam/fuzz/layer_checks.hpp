@@ -1,4 +1,4 @@
-// What must be true of every finding and of every layer of a board, whatever bytes were read.
+// Invariants of every diagnostic and every layer of a board, whatever the input bytes were.
 #pragma once
 
 #include <cmath>

@@ -1,4 +1,4 @@
-// Closed lines to cut along, in mm: corners, boxes, circles.
+// Closed contours for tests, in mm: polygons, boxes, circles.
 #pragma once
 
 #include <vector>

@@ -1,4 +1,4 @@
-// random_star: a closed line whose corners lie evenly around zero, each at a random distance.
+// random_star: a closed contour whose corners are evenly spaced in angle about the origin, each at a random distance.
 #pragma once
 
 #include <cmath>
@@ -14,7 +14,7 @@ struct StarShape {
   int corners = 5;
   double nearest = 5;  // mm
   double farthest = 25;
-  double bulge = 0;  // at most
+  double bulge = 0;  // maximum bulge of an edge
 };
 
 inline std::vector<PathPoint> random_star(const StarShape& shape, std::mt19937_64& random) {

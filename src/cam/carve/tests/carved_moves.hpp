@@ -1,4 +1,5 @@
-// Programs of reliefs, read again move by move, and checked against the oracle: what the tests of whole programs share.
+// Reads the programs of reliefs back move by move and checks them against the oracle: shared by the tests of whole
+// programs.
 #pragma once
 
 #include <cmath>
@@ -15,15 +16,15 @@ namespace passo::test {
 
 struct ReadMove {
   bool is_rapid = false;
-  bool is_arc = false;  // a chord of one
+  bool is_arc = false;  // a chord of an arc
   double from[3] = {};
   double to[3] = {};
   double feed = 0;
-  std::size_t tool = 0;  // how many tools were changed before
-  std::size_t line = 0;  // of the program
+  std::size_t tool = 0;  // number of tool changes before the move
+  std::size_t line = 0;  // line of the program
 };
 
-// Arcs are chords that are at most a tenth of a micrometre away.
+// Reads a program. Arcs become chords that deviate by at most 0.1 um.
 class ProgramReader {
  public:
   std::vector<ReadMove> read(const std::string& program) {
@@ -135,7 +136,7 @@ inline const OracleCutter& oracle_of(const char* text) {
   return oracle_cutters().front();
 }
 
-// `every`: of the places along the moves, one in so many is checked.
+// `every`: checks one of this many positions along the moves.
 inline void expect_no_gouge(const HeightGrid& grid, const std::string& program, const std::vector<OracleCutter>& tools,
                             int every) {
   int places = 0;
@@ -183,21 +184,21 @@ inline ReliefProgramOptions three_tools() {
   return options;
 }
 
-// The stock as heights at fine places, cut by each place of the tool.
+// The stock as heights on a fine grid, cut by each position of the tool.
 class OracleStock {
  public:
   OracleStock(double width, double length) : columns_(places(width)), rows_(places(length)) {
     heights_.assign(columns_ * rows_, 0);
   }
 
-  // How deep the cutter is in the stock. `share`: of its radius, what counts.
+  // Returns how deep the cutter is in the stock. `share`: the fraction of its radius that is considered.
   double depth_of(const OracleCutter& cutter, double x, double y, double z, double share = 1) const {
     double deepest = 0;
     const OracleCutter inner{cutter.text, cutter.radius * share, cutter.height};
     each(inner, x, y, [&](std::size_t i, double height) { deepest = std::max(deepest, heights_[i] - z - height); });
     return deepest;
   }
-  // Returns the volume that it takes off, mm3.
+  // Returns the removed volume, mm³.
   double cut(const OracleCutter& cutter, double x, double y, double z) {
     double taken = 0;
     each(cutter, x, y, [&](std::size_t i, double height) {

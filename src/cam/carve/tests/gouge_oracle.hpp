@@ -1,5 +1,5 @@
-// The surface and the cutters once more, straight from what their words mean, to check the program against: slow, and
-// without the code under test.
+// An independent reference implementation of the surface and the cutters, written directly from their definitions, to
+// check the program: slow, but without the code under test.
 #pragma once
 
 #include <algorithm>
@@ -13,9 +13,9 @@
 namespace passo::test {
 
 struct OracleCutter {
-  const char* text;  // for parse_cutter()
+  const char* text;  // cutter description for parse_cutter()
   double radius;
-  // Height of the shape above the tip; for distances up to the radius.
+  // Height of the shape above the tip, for distances up to the radius.
   double (*height)(double distance);
 };
 
@@ -37,7 +37,7 @@ inline const std::vector<OracleCutter>& oracle_cutters() {
   return all;
 }
 
-// Random heights with cliffs, plateaus and spikes.
+// Returns random heights with cliffs, plateaus and spikes.
 inline HeightGrid random_surface(std::mt19937_64& random, std::size_t columns, std::size_t rows, Mm pitch_x,
                                  Mm pitch_y) {
   std::uniform_real_distribution<double> share(0, 1);
@@ -51,7 +51,7 @@ inline HeightGrid random_surface(std::mt19937_64& random, std::size_t columns, s
   return grid;
 }
 
-// The height of the bilinear surface; places are inside.
+// Returns the height of the bilinear surface; the position must be inside.
 inline double surface_at(const HeightGrid& grid, double x, double y) {
   const double column = std::clamp(x / grid.pitch_x.value(), 0.0, static_cast<double>(grid.columns - 1));
   const double row = std::clamp(y / grid.pitch_y.value(), 0.0, static_cast<double>(grid.rows - 1));
@@ -63,7 +63,8 @@ inline double surface_at(const HeightGrid& grid, double x, double y) {
          t * ((1 - s) * grid.at(i, j + 1) + s * grid.at(i + 1, j + 1));
 }
 
-// The least height of the tip at which the cutter cuts none of the points of the surface that are `parts` to a cell.
+// Returns the lowest tip height at which the cutter cuts none of the surface points, of which each cell has `parts` in
+// each direction.
 inline double least_tip(const HeightGrid& grid, const OracleCutter& cutter, double x, double y, int parts) {
   double least = -1e9;
   const double dx = grid.pitch_x.value() / parts;

@@ -28,7 +28,7 @@ inline HeightField field_of(const StockBlock& block, double cell) {
   return *field;
 }
 
-// Collects what each move did.
+// Collects the effect of each move.
 class CutBlock {
  public:
   CutBlock(const StockBlock& block, double cell, const StockCutterOptions& options)

@@ -1,4 +1,4 @@
-// JudgedProgram: a program that was checked on a machine, with tools 1 to 3.
+// JudgedProgram: a program checked on a machine with tools 1 to 3. For tests.
 #pragma once
 
 #include <string>

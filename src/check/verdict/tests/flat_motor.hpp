@@ -1,4 +1,4 @@
-// A motor for tests: 1 N·m at all rates, without friction, on a screw of 5 mm.
+// A motor for tests: 1 N·m at all rates, without friction, on a screw with 5 mm lead.
 #pragma once
 
 #include <numbers>
@@ -16,7 +16,7 @@ inline MotorSetup flat_setup() {
   return measured_setup(*curve, *Excitation::named("microsteps:8"));
 }
 
-// Of the axis, in mm/s².
+// Returns the axis acceleration for this torque, in mm/s².
 inline double flat_acceleration(double torque) {
   return torque / flat_inertia / flat_radians_per_mm;
 }

@@ -1,4 +1,4 @@
-// Moves for tests: a curve played from rest to rest with a trapezoid of speed.
+// Moves for tests: a curve travelled from stop to stop with a trapezoidal speed profile.
 #pragma once
 
 #include <algorithm>
@@ -33,7 +33,7 @@ inline PlannedMove play(const Curve& curve, double speed, double acceleration, b
   return move;
 }
 
-// A move along a line at constant speed, as in the middle of a long path.
+// Returns a move along a line at constant speed, as in the middle of a long path.
 inline PlannedMove cruise(const Point& from, const Point& to, double speed, bool rapid = false) {
   PlannedMove move;
   move.segment.curve = Curve::line(from, to);

@@ -1,4 +1,4 @@
-// A strict reader of value change dumps, for tests. It refuses mistakes that a viewer would accept.
+// A strict reader of value change dumps, for tests. It refuses errors that a viewer would accept.
 #pragma once
 
 #include <cstdint>
@@ -40,7 +40,7 @@ class Vcd {
 
   // All changes of each wire, the initial value first.
   std::map<std::string, std::vector<VcdChange>> wires;
-  std::vector<std::string> names;  // in the order of their declaration
+  std::vector<std::string> names;  // in the order of declaration
   std::string timescale;
   std::string scope;
   std::uint64_t end = 0;

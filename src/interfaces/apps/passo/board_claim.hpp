@@ -1,4 +1,5 @@
-// BoardClaim: one program at a time drives a board. The claim is given back when its program ends, however it ends.
+// BoardClaim: a lock that lets only one program at a time drive a board. It is released when its program ends in any
+// way.
 #pragma once
 
 #include <string>
@@ -11,7 +12,7 @@ namespace passo {
 
 class BoardClaim {
  public:
-  // The error is a sentence that tells which process has the board.
+  // The error is a sentence that identifies the process with the lock.
   static Result<BoardClaim, std::string> acquire(const BoardAddress& address);
 
   BoardClaim(BoardClaim&& other) noexcept : descriptor_(std::exchange(other.descriptor_, -1)) {}

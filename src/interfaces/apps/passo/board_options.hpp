@@ -1,4 +1,4 @@
-// `passo board` and its commands.
+// `passo board` and its subcommands.
 #pragma once
 
 #include <functional>
@@ -8,7 +8,7 @@
 
 namespace passo {
 
-// The examples of its help. Its commands have the options.
+// Adds the examples to the help of `passo board`. Its options belong to the subcommands.
 std::function<int()> add_board_help(CLI::App& board);
 std::span<const Command> board_commands();
 

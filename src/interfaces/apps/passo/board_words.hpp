@@ -1,4 +1,4 @@
-// Tells what a board says of itself, in words and as JSON.
+// Describes a board's information and status, as text and as JSON.
 #pragma once
 
 #include <string>
@@ -12,12 +12,12 @@
 namespace passo {
 
 std::string name_of(const About& about);
-// A version number of hundreds and units: 1.02.
+// Formats a version number given in hundredths: 1.02.
 std::string version_of(const About& about);
-// "limit X", "probe"; empty if all switches are off.
+// Returns e.g. "limit X", "probe"; empty if all switches are open.
 std::vector<std::string> switches_of(const BoardStatus& status);
-// Asks a board that has stopped its motors at once. The switch that did it may still be closed: "; closed now: limit
-// 1", or nothing. Ends the conversation with the board.
+// Queries a board that has stopped its motors instantly. The switch that caused it may still be closed: returns ";
+// closed now: limit 1", or an empty text. Ends the communication with the board.
 std::string closed_switches(BoardSession& board);
 std::string state_of(const BoardStatus& status);
 std::string reset_of(const BoardStatus& status);

@@ -1,6 +1,7 @@
-// The commands of `passo cam`, a function each.
+// The commands of `passo cam`, one function each.
 //
-// `given`: what was read already, instead of the files. `made`: what is printed otherwise. Null: nothing.
+// `given`: input that was already read, instead of the files. `made`: receives what is otherwise printed. Null: not
+// used.
 #pragma once
 
 #include <string>
@@ -14,16 +15,16 @@
 
 namespace passo {
 
-// What a command would read from its files, if it was read already.
+// The input of a command, if it was already read.
 struct CamSources {
   std::vector<Drawing> drills = {};
-  BoardLayer layer = {};  // of the copper, or of the edge
-  Region board = {};      // inside the edge; empty: there is none
+  BoardLayer layer = {};  // the copper, or the edge
+  Region board = {};      // the inside of the edge; empty: none
 };
 
-// What a command has made.
+// The results of a command.
 struct CamMade {
-  std::vector<std::string> tools = {};  // for the operator, in the order in which they are used
+  std::vector<std::string> tools = {};  // tool names for the operator, in order of use
   std::string summary = {};
 };
 
@@ -41,7 +42,7 @@ int cam_pocket(const CamPocketArguments& arguments);
 int cam_engrave(const CamEngraveArguments& arguments);
 int cam_wire(const CamWireArguments& arguments);
 int cam_relief(const CamReliefArguments& arguments);
-// The first three at once, on all files of a board.
+// Runs the first three commands on all files of a board.
 int cam_board(const CamBoardArguments& arguments, CamDrillArguments drill, CamIsolateArguments isolate,
               CamOutlineArguments outline);
 int cam_show(const CamShowArguments& arguments);

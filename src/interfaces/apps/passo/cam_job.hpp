@@ -1,4 +1,4 @@
-// What the commands of `passo cam` have in common: how files are read, and how programs and pictures are written.
+// Functions shared by the commands of `passo cam`: reading files, and writing programs and pictures.
 #pragma once
 
 #include <functional>
@@ -17,7 +17,7 @@
 
 namespace passo {
 
-// `Arguments`: with `scale`, `input` and `layers`.
+// `Arguments`: a struct with `scale`, `input` and `layers`.
 template <class Arguments>
 DxfOptions dxf_options_of(const Arguments& arguments, double unit_mm, LengthArguments& lengths) {
   DxfOptions options;
@@ -32,24 +32,24 @@ DxfOptions dxf_options_of(const Arguments& arguments, double unit_mm, LengthArgu
   return options;
 }
 
-// Where X0 Y0 is, of the drawing after it was turned over. Empty: the drawing's own zero.
+// The position of X0 Y0 in the drawing, after mirroring. Empty: the drawing's own zero.
 struct ZeroPlace {
   bool is_lower_left = false;
   std::optional<DrawnPoint> at = {};
 };
-// "file", "lower-left", or "X,Y".
+// Parses "file", "lower-left", or "X,Y".
 ZeroPlace zero_of(const std::string& zero, LengthArguments& lengths);
 
-// What --mirror and --mirror-at say.
+// Parses --mirror and --mirror-at.
 Mirror mirror_of(const std::string& turned, const std::string& at, LengthArguments& lengths);
-// The two places of --align: X,Y,X,Y. Empty: none were given, or they are wrong.
+// Parses the two positions of --align: X,Y,X,Y. Empty if there are none, or if they are invalid.
 std::vector<DrawnPoint> align_holes_of(const std::string& align, LengthArguments& lengths);
 
 ProgramUnits program_units_of(const std::string& name);
 
-// Writes the text to the file, or without a name to standard output. Returns an exit code.
+// Writes the text to the file, or to standard output if the name is empty. Returns an exit code.
 int write_text(const std::string& path, const std::string& text);
-// Draws into the file with `draw`. Returns an exit code.
+// Draws into the file by calling `draw`. Returns an exit code.
 int write_picture(const std::string& path, const std::string& title,
                   const std::function<Status<OutputError>(const PictureOptions&, OutputFile&)>& draw);
 
@@ -58,31 +58,31 @@ struct MillJob {
   MillProgramOptions program;
   Mirror mirror;
   ZeroPlace zero;
-  std::optional<DrawnBox> sheet = {};  // the material
+  std::optional<DrawnBox> sheet = {};  // the sheet of material
 };
 
-// What CamMillArguments say. `command`: "passo cam isolate". `what`: the thing that is milled, in comments.
+// Converts CamMillArguments. `command`: "passo cam isolate". `what`: the milled object, for comments.
 MillJob mill_job_of(const CamMillArguments& arguments, const char* command, LengthArguments& lengths,
                     const char* what = "board");
 
 OutlineOptions outline_options_of(const CamOutlineArguments& arguments, const MillJob& job, LengthArguments& lengths);
 
-// Whether the files are apart, and --picture is a picture. If not, says why.
+// Checks that all files are different, and that --picture is a picture. Shows a message if not.
 bool outputs_are_good(const CamMillArguments& arguments, const std::string& edge);
 
-// The files as a finding on all of them names them: "front.svg, back.svg".
+// Joins the file names for a finding about all of them: "front.svg, back.svg".
 std::string listed(const std::vector<std::string>& files);
 
-// Reads the files, and says what was guessed. Findings are shown; then the answer is empty.
+// Reads the files, and shows guesses as notes. Returns nothing after errors, which it shows.
 std::optional<BoardLayer> read_layers(const std::vector<std::string>& files, const MillJob& job);
 
-// Puts the regions where --zero says; `whole`, one of them, has the lower left corner.
+// Moves the regions according to --zero; `whole`, one of them, defines the lower left corner.
 void move_to_zero(const ZeroPlace& zero, const Region& whole, const std::vector<Region*>& regions);
 
-// Prints the words where standard output is free, or puts them into `made`. Returns exit_done.
+// Prints the text if standard output is not used by the program, or adds it to `made`. Returns exit_done.
 int tell(const std::string& output, const MillPlan& plan, const std::string& words, CamMade* made);
 
-// What the runs of each tool are, a line each, in the program's units.
+// Summarises the runs of each tool, one per line, in the program's units.
 std::string summary_of(const MillPlan& plan, DrawnPoint park, const std::string& units);
 
 }  // namespace passo

@@ -1,4 +1,4 @@
-// The commands of `passo cam`, which make programs of drawings, and their options.
+// The commands of `passo cam`, which generate programs from drawings, and their options.
 #pragma once
 
 #include <span>
@@ -8,28 +8,28 @@
 
 namespace passo {
 
-// Of the commands for circuit boards, whose options can be kept in a profile or remembered for a machine.
+// The arguments of the commands for circuit boards, whose options can be saved in a profile or for a machine.
 struct CamArguments {
   CamDrillArguments drill;
   CamIsolateArguments isolate;
   CamOutlineArguments outline;
   CamBoardArguments board;
-  std::string machine;    // whose remembered options are used; empty: none are
-  bool remember = false;  // the options that are given
+  std::string machine;    // the machine whose saved options are used; empty: none
+  bool remember = false;  // whether to save the given options
 };
 
 // The commands of `passo cam`.
 std::span<const Command> cam_commands();
 
-// The options of an operation, as its rows describe them, and its examples. The values that are given go where the rows
-// say that they stand.
+// Adds the options of an operation, as its rows describe them, and its examples. Parsed values are stored in the
+// members named by the rows.
 void add_options(CLI::App& command, std::span<const CamOption> options);
 
-// Options that are kept for a machine: how they are asked for, and how what was not given is filled in with them.
+// Adds --machine and --remember, with which options are saved for a machine and supply the values that are not given.
 void add_remember_options(CLI::App& command, CamArguments& arguments);
 // Returns an exit code.
 int use_remembered(const CLI::App& command, CamArguments& arguments);
-// The same for the three commands of a board: from --profile, or as remembered.
+// Does the same for the three commands of a board: from --profile, or from the saved options.
 int read_profile(CamArguments& arguments);
 
 }  // namespace passo

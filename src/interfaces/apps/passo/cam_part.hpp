@@ -1,4 +1,4 @@
-// What the commands that cut parts from drawings have in common: profile, pocket and engrave.
+// Functions shared by the commands that cut parts from drawings: profile, pocket and engrave.
 #pragma once
 
 #include <optional>
@@ -9,22 +9,22 @@
 
 namespace passo {
 
-// The lines of a command's files, where the program has them.
+// The lines of a command's files, in program coordinates.
 struct PartDrawing {
   EdgeLoops loops;
-  DrawnPoint least;  // corners of the box around them
+  DrawnPoint least;  // lower left and upper right corner of the bounding box
   DrawnPoint most;
 };
 
-// The files as one drawing. Findings are shown; then the answer is empty.
+// Reads the files as one drawing. Returns nothing after errors, which it shows.
 std::optional<Drawing> read_drawings(const CamMillArguments& arguments, const MillJob& job);
-// The drawing's lines, turned over and moved as the job asks. Findings are shown; then the answer is empty.
+// Returns the drawing's lines, mirrored and moved as the job requires. Returns nothing after errors, which it shows.
 std::optional<PartDrawing> part_of(Drawing drawing, const MillJob& job, Nanometres join, OpenRows open_rows);
 
-// "drawn: X 0 to 10, Y 0 to 5 mm", a line.
+// Returns one line, e.g. "drawn: X 0 to 10, Y 0 to 5 mm".
 std::string size_words(const PartDrawing& part);
 
-// What a command has made, for the program, the picture and the summary.
+// The results of a command, for the program, the picture and the summary.
 struct PartResult {
   const MillPlan& mill;
   const Region& face;
@@ -33,7 +33,7 @@ struct PartResult {
   std::string words;
   std::string json;
 };
-// Writes and prints it all. Returns an exit code.
+// Writes and prints everything. Returns an exit code.
 int deliver(const CamMillArguments& arguments, const MillJob& job, const PartResult& result);
 
 }  // namespace passo

@@ -1,4 +1,4 @@
-// The page of `passo check`: what a program was judged to be, as text and JSON.
+// The output of `passo check`: the analysis of a program, as text and JSON.
 #pragma once
 
 #include <string>
@@ -9,12 +9,13 @@
 
 namespace passo {
 
-// 0:12:31
+// Formats a duration: 0:12:31
 std::string clock_words(Seconds time);
 const AxisDescription& description_of(const MachineDescription& machine, Axis axis);
-// "the acceleration of Z, 500 mm/s²".
+// Returns e.g. "the acceleration of Z, 500 mm/s²".
 std::string limit_words(const SpeedShare& share);
-// How far the feeds go in a work system, along its axes: "X 0.000 to 40.000 mm, Y …". Empty: it has no feed.
+// Returns the range of the feed moves in a work coordinate system, along its axes: "X 0.000 to 40.000 mm, Y …". Empty:
+// there is no feed move.
 std::string feed_words(const WorkSummary& work, const RunSummary& summary);
 
 std::string to_text(const Judgement& page, const MachineDescription& machine);

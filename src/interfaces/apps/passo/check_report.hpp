@@ -1,7 +1,7 @@
-// CheckReport: all that `passo check` knows of a program, as one page in HTML.
+// CheckReport: the complete results of `passo check` as one HTML page.
 //
 // The page is a single file: it needs no network and runs no script. It is readable on paper, on a narrow screen, and
-// in light and dark. All that comes from the program and its name is escaped.
+// in light and dark mode. All text from the program and its name is escaped.
 #pragma once
 
 #include <string>
@@ -13,10 +13,10 @@
 namespace passo {
 
 struct CheckReport {
-  std::string program;  // its name
+  std::string program;  // program name
   const MachineDescription& machine;
   const Diagnostics& findings;
-  std::string waits;                // where the program waits for somebody; empty: nowhere
+  std::string waits;                // where the program stops for the operator; empty: nowhere
   const Judgement* page = nullptr;  // null: the program has errors
   const PathRecorder& path;
   const LoadTrack& track;

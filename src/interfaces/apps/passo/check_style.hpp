@@ -1,4 +1,4 @@
-// The style sheet of the page of `passo check --report`. Colours are pairs for light and dark; paper is light.
+// The style sheet of `passo check --report`. Colours are pairs for light and dark mode; paper is light.
 #pragma once
 
 namespace passo {

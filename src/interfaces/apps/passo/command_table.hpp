@@ -1,7 +1,8 @@
-// A table of commands: how each is called, what the help says of it, and how it gets its options. main.cpp has the
-// table of `passo`; `cam`, `board` and `follower` have one of their own.
+// A table of commands: the name of each, its description in the help, and how its options are added. main.cpp has the
+// table of `passo`; `cam`, `board` and `follower` have separate tables.
 //
-// Invariant: only the command that the command line names gets options. A start would take half as long again.
+// Invariant: only the command named in the command line adds its options, because adding all options would make a start
+// 50 % slower.
 #pragma once
 
 #include <functional>
@@ -18,14 +19,14 @@ namespace passo {
 
 struct Command {
   const char* name;
-  const char* purpose;  // a line of the help
-  // Adds the options, and returns what the command does after they are parsed: a function with an exit code. Null, or
-  // nothing returned: one of its own commands does it.
+  const char* purpose;  // one line of the help
+  // Adds the options, and returns the function to call after parsing; it returns an exit code. Null, or nothing
+  // returned: one of the subcommands runs.
   std::function<int()> (*add_options)(CLI::App& command);
-  std::span<const Command> commands = {};  // its own
+  std::span<const Command> commands = {};  // its subcommands
 };
 
-// A command's add_options: Arguments are filled in by its options, and `run` gets them.
+// Implements add_options: the options fill in Arguments, which are passed to `run`.
 template <class Arguments, void (*add)(CLI::App&, Arguments&), int (*run)(const Arguments&)>
 std::function<int()> options_of(CLI::App& command) {
   const auto arguments = std::make_shared<Arguments>();
@@ -33,8 +34,8 @@ std::function<int()> options_of(CLI::App& command) {
   return [arguments] { return run(*arguments); };
 }
 
-// Adds the commands to `parent`. `words` are the command line. Returns what the named command does after `parent` has
-// parsed them; nothing: they name none.
+// Adds the commands to `parent`. `words` is the command line. Returns the function of the named command, to be called
+// after `parent` has parsed the command line; nothing if no command is named.
 std::function<int()> add_commands(CLI::App& parent, std::span<const Command> commands,
                                   const std::vector<std::string>& words);
 

@@ -1,5 +1,5 @@
-// The words of the command line before CLI11 parses them: `passo help run` is `passo run --help`, and an unknown
-// command or option is refused with the name that was probably meant.
+// Preprocesses the command line before CLI11 parses it: `passo help run` becomes `passo run --help`, and an unknown
+// command or option is refused with a suggestion.
 #pragma once
 
 #include <string>
@@ -11,14 +11,14 @@ class App;
 
 namespace passo {
 
-// The words after the program's name. "help" in the first place becomes "--help" in the last place.
+// Returns the arguments after the program's name. "help" as the first argument becomes "--help" as the last one.
 std::vector<std::string> command_words(int argc, const char* const* argv);
 
-// Why the words cannot be a command line of `app`: an unknown command, or an unknown option that begins with "--".
-// Empty: nothing is wrong so far, and CLI11 looks at the rest.
+// Returns an error for an unknown command, or for an unknown option that begins with "--". Empty if none is found;
+// CLI11 checks the other arguments.
 std::string refuse_words(CLI::App& app, const std::vector<std::string>& words);
 
-// A check for CLI11 of a count: a whole number from 1 on. Returns what is wrong; empty: nothing.
+// A CLI11 check for a count: a whole number of at least 1. Returns the error; empty if valid.
 std::string refuse_count(const std::string& text);
 
 }  // namespace passo

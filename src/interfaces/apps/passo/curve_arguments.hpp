@@ -1,4 +1,4 @@
-// CurveArguments: makes a curve from the words of the command line.
+// CurveArguments: creates a curve from command-line arguments.
 #pragma once
 
 #include <string>
@@ -18,10 +18,10 @@ namespace passo {
 
 using AnyCurve = std::variant<CurveInSpace, Ellipse, QuadraticBezier, CubicBezier, Nurbs>;
 
-// The error's words fit after "passo: error: ".
+// The error text can follow "passo: error: ".
 Result<AnyCurve, std::string> curve_of(const ChordsArguments& arguments);
 
-// Reads "1,2.5,-3" as `least` to `most` numbers. `what` says what was expected: "X,Y or X,Y,Z in mm".
+// Parses "1,2.5,-3" as `least` to `most` numbers. `what` describes the expected input: "X,Y or X,Y,Z in mm".
 Result<std::vector<double>, std::string> numbers_of(std::string_view option, std::string_view text, std::size_t least,
                                                     std::size_t most, std::string_view what);
 

@@ -1,4 +1,4 @@
-// What `passo check --cutting-force` says of the cut.
+// The output of `passo check --cutting-force` about the cut.
 #pragma once
 
 #include <string>
@@ -9,9 +9,9 @@
 
 namespace passo {
 
-// Adds a finding for each trouble of the cut, and for feeds without a spindle speed.
+// Adds a finding for each problem of the cut, and for feed moves without a spindle speed.
 void add_findings(const CutOutcome& cut, Diagnostics& findings);
-// "cut             11.78 cm³ removed, ...".
+// Returns e.g. "cut             11.78 cm³ removed, ...".
 std::string to_text(const CutOutcome& cut);
 nlohmann::ordered_json as_json(const CutOutcome& cut);
 

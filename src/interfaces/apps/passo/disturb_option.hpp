@@ -1,4 +1,4 @@
-// --disturb: what holds an axis of a virtual or emulated machine with physics, for a time.
+// --disturb: a disturbance torque on an axis of a virtual or emulated machine with physics, for a limited time.
 #pragma once
 
 #include <optional>
@@ -10,8 +10,8 @@
 
 namespace passo {
 
-// "X:0.8@1.5:0.2" is 0.8 N·m against the motor of X, from 1.5 s of the board's time on, for 0.2 s. Any other text, or
-// an axis without a described motor, is reported on standard error, and the result is empty.
+// Parses "X:0.8@1.5:0.2": 0.8 N·m against the motor of X, starting at 1.5 s of the board's time, for 0.2 s. Reports
+// invalid texts, and axes without a described motor, on standard error, and returns nothing.
 std::optional<std::vector<Disturbance>> read_disturbances(const std::vector<std::string>& texts,
                                                           const MachineDescription& machine);
 

@@ -1,4 +1,4 @@
-// The machine file of `passo serve` without one: examples/machines/router.toml, as text in the program.
+// The default machine file of `passo serve`: examples/machines/router.toml, embedded in the program.
 #pragma once
 
 namespace passo {

@@ -1,4 +1,4 @@
-// What would make a program run on this machine, as text and JSON.
+// Proposals that would let a program run on this machine, as text and JSON.
 #pragma once
 
 #include <string>
@@ -10,7 +10,7 @@
 
 namespace passo {
 
-// A line for each, with a line end.
+// Returns one line per proposal, each with a final newline.
 std::string to_text(const std::vector<Proposal>& proposals);
 nlohmann::ordered_json as_json(const std::vector<Proposal>& proposals);
 

@@ -1,4 +1,4 @@
-// passo run --from-line: shows the way back onto the path of a program, and asks.
+// passo run --from-line: shows the reentry move to the path of a program, and asks for confirmation.
 #pragma once
 
 #include <optional>
@@ -9,8 +9,8 @@
 
 namespace passo {
 
-// Empty, with `code` and a message: there is no such way, or nobody has agreed to it. `options`: where the machine will
-// stand when the program begins.
+// Returns nothing, with `code` and a message, if there is no such move, or if the user has not confirmed it. `options`:
+// the machine position at the start of the program.
 std::optional<Reentry> way_to_line(const RunArguments& arguments, const ProgramReader& program,
                                    const MachineDescription& machine, const InterpreterOptions& options, int& code);
 

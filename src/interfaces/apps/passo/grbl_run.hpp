@@ -1,4 +1,4 @@
-// passo run and passo home on a machine that speaks Grbl 1.1.
+// passo run and passo home on a machine with a Grbl 1.1 controller.
 #pragma once
 
 #include "commands.hpp"
@@ -10,9 +10,10 @@
 
 namespace passo {
 
-// Whether such a machine can do what the arguments ask. If not, shows a message.
+// Returns whether such a machine supports what the arguments request. If not, shows a message.
 bool suits_grbl(const RunArguments& arguments);
-// Checks the program from where the machine stands and with its offsets, and streams it. Returns the exit code.
+// Checks the program from the current machine position and with the machine's offsets, and streams it. Returns the exit
+// code.
 int run_on_grbl(const RunArguments& arguments, const MachineDescription& machine, ProgramReader program,
                 InterpreterOptions options, const MidRunChanges& changes);
 int home_grbl(const HomeArguments& arguments);

@@ -1,4 +1,4 @@
-// Homing by a command: the request, the display meanwhile, and the result in words.
+// Homing by a command: the request, the progress display, and the result as text.
 #pragma once
 
 #include <optional>
@@ -14,16 +14,16 @@ namespace passo {
 struct HomingReport {
   std::vector<HomedAxis> axes;
   Seconds time{0};
-  // What went wrong: a stable code, and a sentence without a full stop. Both are empty if the machine is homed.
+  // The error: a stable code, and a sentence without a full stop. Both are empty if the machine is homed.
   std::string code;
   std::string message;
-  std::optional<Axis> axis;  // the axis that was being homed when something went wrong
+  std::optional<Axis> axis;  // the axis that was being homed when the error occurred
 };
 
-// Homes a machine that has been greeted. Ctrl-C brakes. With `shows`, shows the progress on standard error if that is a
-// terminal.
+// Homes a connected machine. Ctrl-C brakes. With `shows`, shows the progress on standard error if that is a terminal.
 HomingReport home_machine(OpenedMachine& machine, bool shows);
-// describe() says why the machine is not homed. words_without_homing() says why a machine with this file cannot home.
+// describe() explains why the machine is not homed. words_without_homing() explains why a machine with this file cannot
+// be homed.
 std::string describe(const HomingReport& report);
 std::string words_without_homing(const std::string& machine_file);
 

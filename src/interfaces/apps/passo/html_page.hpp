@@ -1,5 +1,5 @@
-// HtmlPage: the frame of a page that `passo` writes as one file. Nothing is loaded, and nothing runs, whatever a
-// program or a board's name may have brought into the page.
+// HtmlPage: the frame of an HTML page that `passo` writes as one file. The page loads nothing and runs no script,
+// whatever text a program or a board's name contributes.
 #pragma once
 
 #include <string>
@@ -7,9 +7,9 @@
 
 namespace passo {
 
-// All before the page's first element. `title` and `style` are HTML and CSS, without markup that a file has brought.
+// Returns everything before the page's first element. `title` and `style` are HTML and CSS, without text from files.
 std::string html_page_begin(std::string_view title, std::string_view style);
-// All after the last one. `more` names where each part is explained, as HTML.
+// Returns everything after the last element. `more` refers to the explanation of each part, as HTML.
 std::string html_page_end(std::string_view more);
 
 }  // namespace passo

@@ -1,4 +1,4 @@
-// LengthArguments: reads the lengths of a command line, and keeps the first message of what is wrong.
+// LengthArguments: parses the lengths of a command line, and keeps the first error message.
 #pragma once
 
 #include <optional>
@@ -41,7 +41,7 @@ class LengthArguments {
     }
     return all;
   }
-  // "X,Y".
+  // Parses "X,Y".
   DrawnPoint place(const char* option, const std::string& text) {
     const std::vector<Nanometres> both = list(option, text);
     if (both.size() == 2) return {both[0], both[1]};

@@ -1,4 +1,4 @@
-// What a line to the board costs, as `passo check` tells it.
+// The cost of a serial link to the board, as shown by `passo check`.
 #pragma once
 
 #include <optional>
@@ -10,12 +10,12 @@
 
 namespace passo {
 
-// line_cost() with a progress line. Empty: it cannot be told. A board that refuses comes as a message.
+// Runs line_cost() with a progress line. Empty if the cost cannot be computed. If the board refuses, shows a message.
 std::optional<LineCost> line_cost_with_progress(const ProgramReader& program, const MachineDescription& machine,
                                                 const InterpreterOptions& options, const ProgramCheck& check,
                                                 Seconds without);
 
-// A line for the page of `passo check`, with a line end.
+// Returns one line for the output of `passo check`, with a final newline.
 std::string to_text(const LineCost& cost);
 nlohmann::ordered_json as_json(const LineCost& cost);
 

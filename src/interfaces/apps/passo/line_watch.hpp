@@ -1,4 +1,5 @@
-// LineWatch: says that a board over a line is silent, as soon as it is, and how long it will be waited for.
+// LineWatch: reports that a board on a serial link does not respond, as soon as a response is overdue, and the
+// remaining waiting time.
 #pragma once
 
 #include <functional>
@@ -11,24 +12,25 @@ namespace passo {
 
 class LineWatch {
  public:
-  // How often to look.
+  // The interval between checks.
   static constexpr Seconds between_looks{0.2};
 
-  // `rewrites`: the words go to a terminal on which a line can be rewritten, so they count down each second. Elsewhere
-  // they come at the beginning and every ten seconds. `say` gets text with its line ends.
+  // `rewrites`: the output is a terminal on which a line can be rewritten, so the message counts down each second.
+  // Otherwise it is written at the beginning and every ten seconds. `say` receives text including its newlines.
   LineWatch(bool rewrites, std::function<void(const std::string&)> say) : rewrites_(rewrites), say_(std::move(say)) {}
 
-  // `silence`: for how long an answer has been due. `patience`: after so long the run ends. `ended`: it has.
+  // `silence`: for how long a response has been overdue. `patience`: the silence after which the run ends. `ended`: the
+  // run has ended.
   void update(Seconds silence, Seconds patience, bool ended = false);
   void update(const BoardSession& board) { update(board.silent_for(), board.patience(), board.error().has_value()); }
 
  private:
   bool rewrites_;
   std::function<void(const std::string&)> say_;
-  int told_ = -1;  // the seconds left that were told last; less than 0: the board answers
+  int told_ = -1;  // remaining seconds in the last message; negative: the board responds
 };
 
-// To standard error.
+// Returns a LineWatch that writes to standard error.
 LineWatch line_watch();
 
 }  // namespace passo

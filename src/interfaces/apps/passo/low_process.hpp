@@ -1,8 +1,8 @@
-// LowProcess: this program once more, as a process of its own at the lowest priority: whatever its input contains, the
-// machine goes on.
+// LowProcess: runs this program in a separate process at the lowest priority, so that the machine keeps running
+// whatever the input contains.
 //
-// It may take `most_time` of a processor and `most_memory`. It inherits none of the server's files and lines. What it
-// writes to standard output and standard error lies in files of its folder.
+// It is limited to `most_time` of a processor and `most_memory`. It inherits none of the server's files and
+// connections. Its standard output and standard error are written to files in its folder.
 #pragma once
 
 #include <cstdint>
@@ -17,10 +17,10 @@ namespace passo {
 
 class LowProcess {
  public:
-  static constexpr unsigned most_time = 120;                            // s of a processor
+  static constexpr unsigned most_time = 120;                            // maximum processor time, s
   static constexpr std::uint64_t most_memory = std::uint64_t{3} << 30;  // bytes
   static constexpr std::uint64_t longest_file = std::uint64_t{512} << 20;
-  static constexpr std::size_t longest_words = 8000;  // of what is told of it
+  static constexpr std::size_t longest_words = 8000;  // maximum length of its messages
   // In its folder.
   static constexpr const char* said_file = ".said";        // standard error
   static constexpr const char* printed_file = ".printed";  // standard output
@@ -30,10 +30,11 @@ class LowProcess {
   LowProcess& operator=(const LowProcess&) = delete;
   ~LowProcess() { end(); }
 
-  // `words`: the command line, the first is the program's name. False: one runs already, or none can begin.
+  // Starts the process. `words`: the command line, beginning with the program's name. Returns false if one is already
+  // running, or if it cannot be started.
   bool begin(const std::string& folder, const std::vector<std::string>& words);
   bool runs() const { return process_ != 0; }
-  // How it has ended, as waitpid() tells; once. Empty: it runs, or there is none.
+  // Returns the exit status, as reported by waitpid(), once. Empty: it is running, or there is none.
   std::optional<int> poll();
   void end();
 
@@ -41,10 +42,10 @@ class LowProcess {
   pid_t process_ = 0;
 };
 
-// Why a process with this end has done nothing, where it said nothing itself.
+// Explains an exit status for which the process gave no message itself.
 std::string words_of_end(int status);
 
-// A folder for files of others, removed with all that lies in it. Its name is empty until it is made.
+// A temporary folder, removed with all its contents. Its name is empty until it is created.
 class PassingFolder {
  public:
   PassingFolder() = default;
@@ -52,7 +53,7 @@ class PassingFolder {
   PassingFolder& operator=(const PassingFolder&) = delete;
   ~PassingFolder() { remove(); }
 
-  // False: it cannot be made.
+  // Returns false if it cannot be created.
   bool make();
   void remove();
   const std::string& name() const { return name_; }
@@ -63,7 +64,7 @@ class PassingFolder {
 };
 
 std::string content_of(const std::string& file);
-// False: it is not written whole.
+// Returns false if the file cannot be written completely.
 bool write_content(const std::string& file, std::string_view bytes);
 
 }  // namespace passo

@@ -1,4 +1,5 @@
-// The options of the commands that need a machine and no program (jog, home, serve, machine), and those of a machine.
+// The options of the commands that need a machine and no program (jog, home, serve, machine), and the options of a
+// machine.
 #pragma once
 
 #include <string>

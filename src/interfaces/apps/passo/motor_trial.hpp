@@ -1,4 +1,4 @@
-// passo motor --trial: a motor on the test bench, tried out with its physics.
+// passo motor --trial: tests a motor on a simulated test bench.
 #pragma once
 
 #include <string>
@@ -9,7 +9,7 @@
 
 namespace passo {
 
-// `motor` is the motor with its load, `end` the last rate of a table, `words` describe the motor in pictures. Returns
+// `motor` is the motor with its load, `end` the last rate of a table; `words` describes the motor in pictures. Returns
 // the exit code.
 int try_motor(const MotorArguments& arguments, const MotorSetup& motor, Hertz end, const std::string& words);
 

@@ -1,4 +1,4 @@
-// MotorWatch: what the motors of a machine with physics do during a run, with the program's lines.
+// MotorWatch: monitors the motors of a machine with physics during a run, and relates them to the program lines.
 #pragma once
 
 #include <cstdint>
@@ -14,30 +14,30 @@ namespace passo {
 
 class MotorWatch {
  public:
-  // `begins`: the board's time when the program begins. `plant` and `machine` outlive the watch.
+  // `begins`: the board's time at the start of the program. `plant` and `machine` must outlive the watch.
   MotorWatch(RotorPlant& plant, const MachineDescription& machine, Seconds begins);
 
-  // What is planned, in order.
+  // Adds planned motion, in order.
   void plan(const MotionItem& item) { lines_.watch(item); }
-  // Call after each turn of the session. `now`: the board's time.
+  // Must be called after each turn of the session. `now`: the board's time.
   void poll(Seconds now);
-  // Lets the rotors come to rest. `now`: the board's time at the end.
+  // Waits until the rotors come to rest. `now`: the board's time at the end.
   PhysicsSummary finish(Seconds now);
 
  private:
   struct Motor {
     const AxisDescription* axis = nullptr;
-    double scale = 0;              // steps a unit of the axis; negative: it turns the other way
-    std::uint32_t worst_line = 0;  // of the least margin
+    double scale = 0;              // steps per unit of the axis; negative: reversed direction
+    std::uint32_t worst_line = 0;  // line of the minimum margin
   };
 
   RotorPlant& plant_;
   Seconds begins_;
   PlannedLines lines_;
   Seconds looked_{-1};
-  std::vector<Motor> motors_;  // of the board, each axis's second motor after all the first ones
+  std::vector<Motor> motors_;  // the motors in the board's order: the second motors of axes follow all the first ones
   std::vector<std::uint32_t> lines_of_losses_;
-  std::uint32_t fault_line_ = 0;  // of the following error beyond its limit
+  std::uint32_t fault_line_ = 0;  // line where the following error exceeded its limit
 };
 
 }  // namespace passo

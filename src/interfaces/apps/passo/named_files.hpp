@@ -1,4 +1,5 @@
-// NamedFiles: the files that a command line names. No output may be a file that the command reads, nor another output.
+// NamedFiles: the files named on a command line. An output must be neither a file that the command reads, nor another
+// output.
 #pragma once
 
 #include <string>
@@ -8,17 +9,17 @@ namespace passo {
 
 class NamedFiles {
  public:
-  // `what`: the option, or words for the argument. Empty paths count for nothing. "-" is standard input or output.
+  // `what`: the option, or a description of the argument. Empty paths are ignored. "-" is standard input or output.
   void reads(const std::string& what, const std::string& path) { add(what, path, true, false); }
   void writes(const std::string& what, const std::string& path) { add(what, path, false, true); }
   // The command reads the file first, and writes it at its end.
   void updates(const std::string& what, const std::string& path) { add(what, path, true, true); }
 
-  // Any program (.ngc) in this folder may be called as a sub.
+  // Any program (.ngc) in this folder may be called as a subroutine.
   void reads_subs(const std::string& folder) { sub_folders_.push_back(folder.empty() ? "." : folder); }
 
-  // Call it before anything is done. False, with a message: two of them are one file. Links and other ways to write a
-  // name make no difference.
+  // Must be called before anything else is done. Returns false, with a message, if two of the names refer to the same
+  // file, also through links or different spellings.
   [[nodiscard]] bool are_apart() const;
 
  private:
@@ -38,7 +39,7 @@ class NamedFiles {
   std::vector<std::string> sub_folders_;
 };
 
-// The same for a command that reads no file.
+// Does the same for a command that reads no file.
 [[nodiscard]] bool outputs_are_apart(const std::vector<std::string>& pictures, const std::string& output);
 
 }  // namespace passo

@@ -1,4 +1,4 @@
-// number_range: the check of an option that is a number between two others. CLI::Range would take "nan".
+// number_range: checks that an option is a number within a range. CLI::Range would accept "nan".
 #pragma once
 
 #include <string>

@@ -1,4 +1,4 @@
-// OpenedGrbl: a machine that speaks Grbl 1.1, at the end of a serial line or a connection, after it was greeted.
+// OpenedGrbl: a connected machine with a Grbl 1.1 controller, over a serial port or a network connection.
 #pragma once
 
 #include <functional>
@@ -13,33 +13,33 @@
 
 namespace passo {
 
-// Whether an address of --board names such a machine.
+// Returns whether an address of --board identifies such a machine.
 bool names_grbl_machine(const std::string& board);
 
 class OpenedGrbl {
  public:
   static constexpr Seconds between_looks{0.02};
 
-  // Opens `board`, and waits until the machine has told what it is. Null, with a message and `code`: there is none, or
-  // another program drives it. The machine may be in an alarm.
+  // Opens `board`, and waits until the controller has identified itself. Null, with a message and `code`, if there is
+  // none, or if another program drives it. The machine may be in an alarm.
   static std::unique_ptr<OpenedGrbl> open(const std::string& board, int& code);
 
   GrblSender& sender() { return sender_; }
   const GrblSender& sender() const { return sender_; }
   Seconds now() const { return port_->elapsed(); }
-  // Sends what is to be sent and hears what comes, for `most` at most.
+  // Sends pending data and processes received data, for at most `most`.
   void poll(Seconds most);
-  // Turns until the machine has done all lines and rests, or has a fault. Ctrl-C brakes, and drops what it holds.
-  // Shows what somebody must do at the machine. `look`, if any, is called after each turn. False: it was interrupted,
-  // or there is a fault.
+  // Polls until the machine has executed all lines and is idle, or reports a fault. Ctrl-C brakes, and drops the
+  // remaining lines. Shows requests to the operator. `look`, if set, is called after each turn. Returns false if it was
+  // interrupted, or if there is a fault.
   [[nodiscard]] bool poll_until_rest(const std::function<void()>& look = {});
-  // What somebody must do at the machine, if that is new: once for each wait.
+  // Returns the request to the operator, if it is new: once for each wait.
   std::string_view news_of_wait();
-  // Shows why the machine is not at rest with all lines done. Returns the exit code.
+  // Shows why the machine is not idle with all lines executed. Returns the exit code.
   [[nodiscard]] int give_up() const;
-  // Unlocks the machine by homing it. False, with a message.
+  // Unlocks the machine by homing it. Returns false, with a message, on failure.
   [[nodiscard]] bool home(int& code);
-  // "X1.000 Y2.000 Z0.000", machine coordinates; or that the place is not known.
+  // Returns "X1.000 Y2.000 Z0.000", machine coordinates; or that the position is unknown.
   std::string place_words() const;
 
  private:
@@ -53,7 +53,7 @@ class OpenedGrbl {
   std::string_view last_wait_;
 };
 
-// The fault for people: where, what, and its code.
+// Describes the fault: position in the program, cause and code.
 std::string describe(const GrblFault& fault, const std::string& program);
 
 }  // namespace passo

@@ -1,5 +1,5 @@
-// OperatorPrompt: asks a person on the terminal to do what the program waits for (M0, M1, M6). Meanwhile the session
-// still hears the machine. ProgramStops: the stops and tool changes of a program.
+// OperatorPrompt: asks the operator on the terminal to do what the program waits for (M0, M1, M6). In the meantime the
+// session keeps communicating with the machine. ProgramStops: the stops and tool changes of a program.
 #pragma once
 
 #include <cstdint>
@@ -13,18 +13,18 @@
 
 namespace passo {
 
-// Whether somebody can be asked: standard input and standard error are a terminal.
+// Returns whether prompts are possible: standard input and standard error are a terminal.
 bool asks_operator();
-// "line 12: tool 2 (M6): 6 mm drill".
+// Returns e.g. "line 12: tool 2 (M6): 6 mm drill".
 std::string describe(const OperatorWait& wait);
 
-// The stops of a program, reported by a check, and before a run that asks nobody.
+// The stops of a program, reported by a check, and before a run without prompts.
 class ProgramStops {
  public:
-  // Call the first for each operation, and the second for each item of the path.
+  // The first must be called for each operation, the second for each item of the path.
   void watch(const Operation& operation, const ToolTable& tools) { words_.watch(operation, tools); }
   void watch(const PathItem& item);
-  // All stops: count() is how many there are, words() names the first ones, and first() has them.
+  // All stops: count() is their number, words() names the first ones, and first() returns them.
   std::uint64_t count() const { return count_; }
   std::string words() const;
   const std::vector<OperatorWait>& first() const { return stops_; }
@@ -40,10 +40,11 @@ class ProgramStops {
 class OperatorPrompt {
  public:
   explicit OperatorPrompt(std::string program) : program_(std::move(program)) {}
-  // Call it before each turn. Asks when the program waits, and notices when Enter is pressed. Returns how long the turn
-  // may take. If nobody can be asked, the program is stopped.
+  // Must be called before each turn. Prompts when the program waits, and detects the Enter key. Returns the maximum
+  // duration of the turn. If prompts are impossible, stops the program.
   Seconds poll(MachineSession& session);
-  // The same for a machine without a session that rests at a stop: true when Enter was pressed. Takes 50 ms at most.
+  // Does the same for a machine without a session that has stopped: returns true when Enter was pressed. Takes at most
+  // 50 ms.
   bool hears_enter(const OperatorWait& wait);
   bool gave_up() const { return fault_.has_value(); }
   const std::optional<ActivityFault>& fault() const { return fault_; }

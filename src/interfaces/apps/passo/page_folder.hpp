@@ -1,5 +1,5 @@
-// PageFolder: the files of a folder, for browsers. Nothing outside the folder is given, no hidden file, and no link.
-// Where FILE.br or FILE.gz lies beside FILE, a browser that knows this compression gets it.
+// PageFolder: serves the files of a folder to browsers. It never serves files outside the folder, hidden files, or
+// links. If FILE.br or FILE.gz exists beside FILE, a browser that supports this compression gets it.
 #pragma once
 
 #include <optional>
@@ -12,14 +12,15 @@ namespace passo {
 class PageFolder {
  public:
   explicit PageFolder(std::string folder) : folder_(std::move(folder)) {}
-  // "/" is index.html. Empty: there is no such file.
+  // Returns the file at a path; "/" is index.html. Empty: there is no such file.
   std::optional<WebAnswer> answer(const WebRequest& request) const;
 
  private:
   std::string folder_;
 };
 
-// The page's folder beside the running program, as scripts/page.sh makes it. Empty: there is none.
+// Returns the folder of the web interface beside the running program, as created by scripts/page.sh. Empty: there is
+// none.
 std::string usual_page_folder();
 
 }  // namespace passo

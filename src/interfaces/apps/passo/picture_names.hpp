@@ -1,4 +1,4 @@
-// What the names of pictures may be: the same for each command that draws.
+// The valid names of pictures, the same for every command that draws.
 #pragma once
 
 #include <string>
@@ -7,7 +7,7 @@
 
 namespace passo {
 
-// Why a picture cannot have this name. Empty: it can, or none is wanted.
+// Returns why a picture cannot have this name. Empty if the name is valid, or if no picture is requested.
 inline std::string refuse_picture(const std::string& path) {
   if (path.empty() || picture_format_of(path)) return "";
   return path + ": the name of a picture must end with .svg or .png";

@@ -1,4 +1,4 @@
-// passo probe and passo level: ready programs of the probe, and programs on a surface that is not flat.
+// passo probe and passo level: ready-made probing programs, and auto-levelling of programs.
 #pragma once
 
 #include <string>
@@ -23,10 +23,10 @@ struct LevelArguments {
   ProgramArguments program;  // no name: the map is shown
   std::string map;
   double tolerance = 0.01;  // mm
-  bool holes = false;       // what is drilled is levelled too
+  bool holes = false;       // levels drilling, too
   double clear = 1;         // mm: see LevelOptions
   double beside = 5;        // mm
-  std::string zero;         // "X,Y": where the program's Z0 was set; empty: as the map says
+  std::string zero;         // "X,Y": where the program's Z0 was set; empty: as in the map
   std::string output;       // empty: standard output
 };
 int level(const LevelArguments& arguments);

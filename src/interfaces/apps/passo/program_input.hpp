@@ -1,4 +1,4 @@
-// What every command does with a program: opens the program, and reports what is wrong with it.
+// Functions for every command that reads a program: opening it, and reporting its errors.
 #pragma once
 
 #include <optional>
@@ -16,35 +16,35 @@ namespace passo {
 // Opens the program, or reports the reason on standard error.
 std::optional<ProgramReader> open_program(const ProgramArguments& arguments);
 
-// The interpreter's options, after reading the files that the arguments name. If a file is wrong, reports that on
-// standard error and returns nothing. interpreter_options() is for finding out what the program means,
-// machine_options() for a run on the machine.
+// Return the interpreter's options, after reading the files named in the arguments. If a file is invalid, they report
+// this on standard error and return nothing. interpreter_options() is for analysing the program, machine_options() for
+// running it on the machine.
 std::optional<InterpreterOptions> interpreter_options(const ProgramArguments& arguments);
 std::optional<InterpreterOptions> machine_options(const ProgramArguments& arguments);
 
-// The tool table that the arguments or the settings name; empty: none.
+// Returns the tool table named by the arguments or the settings; empty: none.
 std::string tool_table_file(const ProgramArguments& arguments, const InterpreterOptions& options);
-// The parameter file that the arguments or the settings name; empty: none.
+// Returns the parameter file named by the arguments or the settings; empty: none.
 std::string parameter_file(const ProgramArguments& arguments, const InterpreterOptions& options);
 
-// The files that the arguments name or that the settings name, as files that are read.
+// Returns the files named by the arguments or the settings, as files that are read.
 NamedFiles files_of(const ProgramArguments& arguments, const InterpreterOptions& options);
 
 // Writes all findings to standard error, in colour on a terminal.
 void show(const Diagnostics& diagnostics);
-// The same, where findings that name no file are of this one.
+// Does the same; findings without a file name belong to this file.
 void show(const Diagnostics& diagnostics, const std::string& file);
 
-// Shows findings on standard error as soon as they are found, where a stage still works on the program.
+// Shows findings on standard error as soon as they are found, while a stage is still processing the program.
 class FindingsDisplay {
  public:
   explicit FindingsDisplay(const Diagnostics& findings) : findings_(findings) {}
-  // Shows what is new. Cheap where nothing is.
+  // Shows new findings. Cheap if there are none.
   void update() {
     if (has_news()) show_new();
   }
   bool has_news() const { return findings_.all().size() != shown_; }
-  // Shows the rest, and the number of errors.
+  // Shows the remaining findings, and the number of errors.
   void finish();
 
  private:
@@ -52,15 +52,15 @@ class FindingsDisplay {
 
   const Diagnostics& findings_;
   std::size_t shown_ = 0;
-  std::size_t shown_text_ = 0;  // characters
+  std::size_t shown_text_ = 0;  // number of characters shown
 };
 
-// Reports on standard error why the command ends here. Returns the given exit code.
+// Reports on standard error why the command ends. Returns the given exit code.
 int fail(ExitCode code, const std::string& message);
-// Reports on standard error something that the user should know and need not heed.
+// Reports information on standard error that requires no action.
 void note(const std::string& words);
-// Hands what was printed to the reader of standard output. Returns exit_done, or what the command should return. A
-// reader that has gone away, as `head` does, has seen enough: that is no error to report.
+// Flushes standard output. Returns exit_done, or the exit code that the command should return. If the reader has closed
+// the pipe, as `head` does, this is not an error.
 int flush_output();
 
 }  // namespace passo

@@ -1,8 +1,7 @@
-// ProgramMessages: shows the texts by which a program speaks to the operator, (MSG,…), (DEBUG,…) and (PRINT,…), on
-// standard error.
+// ProgramMessages: shows a program's messages to the operator, (MSG,…), (DEBUG,…) and (PRINT,…), on standard error.
 //
-// A text is shown when its line is read. The program is read ahead, so the machine may be some seconds behind. Of a
-// program that talks without end, as many texts are shown as the summary keeps.
+// A message is shown when its line is read. The program is read ahead, so the machine may be some seconds behind. For a
+// program with endless messages, only as many are shown as the summary keeps.
 #pragma once
 
 #include <cstddef>
@@ -16,9 +15,9 @@ namespace passo {
 
 class ProgramMessages {
  public:
-  // `program` names the file of lines that name none.
+  // `program` is the file of lines that name none.
   ProgramMessages(std::string program, bool wanted) : program_(std::move(program)), wanted_(wanted) {}
-  // `before` is called before a text is shown, to make room for it.
+  // `before` is called before a message is shown, to clear the display.
   void show(const Operation& operation, const std::function<void()>& before = {});
 
  private:

@@ -1,4 +1,4 @@
-// The options of the commands that read a program (run, check, canon, explain), and those that every such command has.
+// The options of the commands that read a program (run, check, canon, explain), and those common to all of them.
 #pragma once
 
 #include "commands.hpp"
@@ -11,8 +11,8 @@ namespace passo {
 
 void add_program(CLI::App& command, ProgramArguments& arguments,
                  const char* what = "G-code file; - reads standard input");
-// Adds the options for the machine's files on which a program depends. With `letters`, the options have LinuxCNC's
-// short names too. Not every command can have these names: `run` has a -t of its own.
+// Adds the options for the machine-specific files on which a program depends. With `letters`, adds LinuxCNC's short
+// names, too. Some commands cannot have these names: `run` has its own -t.
 void add_files(CLI::App& command, ProgramArguments& arguments, bool letters);
 
 void add_run_options(CLI::App& command, RunArguments& arguments);

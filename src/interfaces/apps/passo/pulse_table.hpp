@@ -1,5 +1,5 @@
-// PulseTable: the pulses of one method as CSV, a line each. What stands in a line is chosen: the decision variables
-// alone, the four beats of the pulse, how long the pulse lasts.
+// PulseTable: the pulses of one method as CSV, one per line. The columns are selectable: only the decision variables,
+// the four phases of the pulse, the duration of the pulse.
 #pragma once
 
 #include <optional>
@@ -13,12 +13,12 @@
 namespace passo {
 
 struct PulseTable {
-  bool beats = false;           // judge, feed, compute, judge the end
-  std::optional<Seconds> time;  // of the whole move; empty: no durations
+  bool beats = false;           // judge, feed, compute, check for the end
+  std::optional<Seconds> time;  // duration of the whole move; empty: no durations
   SpeedRule rule = SpeedRule::roots;
 };
 
-// Writes the header and all pulses. Fails with the reason if the method does not take the move.
+// Writes the header and all pulses. Fails with the reason if the method does not support the move.
 Status<std::string> write_pulse_table(const Method& method, const StepMove& move, const PulseTable& table,
                                       OutputFile& file);
 

@@ -1,5 +1,5 @@
-// What the picture of a ramp shows: every method that applies, as played, beside the ideal. With a limit of jerk the
-// picture shows the ramp with jerk beside constant acceleration.
+// The content of a ramp picture: every applicable method, as played, compared with the ideal. With a jerk limit the
+// picture compares the ramp with jerk to constant acceleration.
 #pragma once
 
 #include <string>
@@ -9,8 +9,8 @@
 
 namespace passo {
 
-// The request's method is always among the methods shown. If that method does not apply, returns the error. The exact
-// method is shown as a chip plays it, in whole ticks.
+// The request's method is always included. If that method is not applicable, returns the error. The exact method is
+// shown as a chip plays it, in whole ticks.
 Result<RampScene, RampError> ramp_scene(const RampRequest& request);
 
 std::string ramp_title(const RampRequest& request);

@@ -1,5 +1,5 @@
-// RunOutputs: the files that a run was asked to write. The files are opened before the run, filled during the run, and
-// get their names after the run.
+// RunOutputs: the files that a run was asked to write. They are opened before the run, filled during the run, and named
+// after the run.
 #pragma once
 
 #include <memory>
@@ -19,7 +19,7 @@
 
 namespace passo {
 
-// Whether the end of a name is that of a trace.
+// Returns whether the name has the extension of a trace.
 bool is_trace_name(const std::string& path);
 
 class RunOutputs {
@@ -33,11 +33,11 @@ class RunOutputs {
   RunOutputs& operator=(RunOutputs&&) noexcept;
   ~RunOutputs();
 
-  // Call it before the first step of the program. `machine` is a virtual machine that does what the board does.
+  // Must be called before the first step of the program. `machine` is a virtual machine that mirrors the board.
   void watch(VirtualMachine& machine, Watchers& watchers);
-  // Whether a file cannot be written any more. Then there is no point in going on.
+  // Returns whether writing a file has failed, so that continuing is pointless.
   bool failed() const;
-  // Call it after the program has come to its end.
+  // Must be called after the program has reached its end.
   Status<OutputError> commit(const RunSummary& summary, const SavedParameters& parameters, const ToolTable& tools,
                              LengthUnits machine_units);
 

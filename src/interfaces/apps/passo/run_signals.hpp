@@ -1,26 +1,25 @@
-// The signals that Ctrl-C, `kill` and a terminal that is closed send to a command. A command that moves a machine
-// brakes first; any other command ends.
+// The signals that Ctrl-C, `kill` and a closed terminal send to a command. A command that moves a machine brakes first;
+// any other command ends.
 //
-// A reader that goes away (SIGPIPE) ends no command that has called one of these functions: its next write fails. See
+// A closed pipe (SIGPIPE) does not end a command that has called one of these functions: its next write fails. See
 // flush_output().
 #pragma once
 
 namespace passo {
 
-// From now on a signal ends the program, which has moved nothing yet. Output files that were begun are removed.
+// From now on a signal ends the program, which has not moved anything yet. Unfinished output files are removed.
 void end_on_signals();
 // From now on interrupted_by() reports the first signal, and a second signal ends the program.
 void brake_on_signals();
-// For a command that moves nothing and ends by itself when it is told to: interrupted_by() reports the first signal,
-// and a second signal ends the program.
+// For a command that moves nothing and ends itself on request: interrupted_by() reports the first signal, and a second
+// signal ends the program.
 void catch_signals();
-// The signal's number; 0: no signal has come.
+// Returns the signal's number; 0: no signal has been received.
 int interrupted_by();
-// What a command returns that a signal has ended: 128 and its number. If no signal has come, shows that as an error, so
-// that no command ends without a word.
+// Returns the exit code of a command ended by a signal: 128 plus its number. If there was no signal, shows this as an
+// error, so that no command ends silently.
 int exit_of_signal();
-// For a program without such signals: a reader that goes away is no reason to end, and a file that may not grow is
-// none.
+// For a program without such signals: neither a closed pipe nor the file size limit ends it.
 void outlive_readers();
 
 }  // namespace passo

@@ -1,4 +1,4 @@
-// Where `passo serve` is to be reached and by whom: read and judged before anything is opened.
+// The addresses of `passo serve` and their access rights: parsed and checked before anything is opened.
 #pragma once
 
 #include <optional>
@@ -12,15 +12,15 @@
 
 namespace passo {
 
-// "HOST:PORT", "[::1]:PORT" or ":PORT". Empty: it is none of them.
+// "HOST:PORT", "[::1]:PORT" or ":PORT". Empty: none of these.
 struct HostAndPort {
   std::string host;
   unsigned port = 0;
 };
 std::optional<HostAndPort> read_address(std::string_view text);
 
-// Each of them: empty, with a message and `code`, if what the arguments say is not good or not allowed.
-// `wanted`: of --grbl-tcp, or what stands for it.
+// Each returns nothing, with a message and `code`, if the arguments are invalid or not allowed. `wanted`: the value of
+// --grbl-tcp, or its default.
 std::optional<HostAndPort> sender_address(const ServeArguments& arguments, const std::string& wanted, int& code);
 std::optional<BoardAddress> sender_port(const ServeArguments& arguments, int& code);
 struct WebPlace {
@@ -29,8 +29,8 @@ struct WebPlace {
 };
 std::optional<WebPlace> web_place(const ServeArguments& arguments, int& code);
 
-// --check: all that can be judged without a board, without a port, and without motion. Returns the exit code.
-// `machine_name`: of the machine file, which is good.
+// --check: checks everything that is possible without a board, without a port, and without motion. Returns the exit
+// code. `machine_name`: of the valid machine file.
 int check_serve(const ServeArguments& arguments, const std::string& machine_name);
 
 }  // namespace passo

@@ -1,5 +1,5 @@
-// ServeDaemon: the one loop of `passo serve`. It hears senders and web clients, turns the session, and answers. Only
-// this thread touches the machine. See docs/decisions/0090 and 0093.
+// ServeDaemon: the main loop of `passo serve`. It receives from senders and web clients, polls the session, and
+// responds. Only this thread accesses the machine. See docs/decisions/0090 and 0093.
 #pragma once
 
 #include <chrono>
@@ -18,13 +18,13 @@
 
 namespace passo {
 
-// The time of a virtual machine follows the clock of this computer.
+// Makes the time of a virtual machine follow the clock of this computer.
 class WallClock {
  public:
-  // A virtual machine that is later than this, because the computer was busy or asleep, does not catch up.
+  // A virtual machine with a larger delay, because the computer was busy or asleep, does not catch up.
   static constexpr Seconds most_late{0.2};
 
-  // How far the clock is ahead of `time`.
+  // Returns how far the clock is ahead of `time`.
   Seconds ahead_of(Seconds time) {
     const auto now = std::chrono::steady_clock::now();
     const Seconds ahead = Seconds(std::chrono::duration<double>(now - start_).count()) - (time - from_);
@@ -43,19 +43,19 @@ class ServeDaemon {
  public:
   using Lines = std::vector<std::unique_ptr<SenderLine>>;
 
-  // All of them outlive the daemon. `web` may be null.
+  // All references must outlive the daemon. `web` may be null.
   ServeDaemon(OpenedMachine& machine, GrblController& grbl, MotionOwner& owner, Lines lines, ServedWeb* web,
               ServiceNotice& service);
 
-  // A broker is told the status too. `status` outlives the daemon; null: none is.
+  // Publishes the status to a broker, too. `status` must outlive the daemon; null: not published.
   void tell(ServedStatus* status) { status_ = status; }
-  // Until a signal comes.
+  // Runs until a signal is received.
   void serve();
-  // Brakes what moves, and waits until it rests.
+  // Brakes all motion, and waits until it has stopped.
   void stop();
 
  private:
-  bool works() const;  // or gets ready
+  bool works() const;  // or is getting ready
   void wait();
   bool may_read(const SenderLine& line) const;
   void attend(SenderLine& line);
@@ -74,9 +74,9 @@ class ServeDaemon {
   ServedWeb* web_;
   ServiceNotice& service_;
   ServedStatus* status_ = nullptr;
-  SenderLine* driver_ = nullptr;    // where the sender is
-  bool driver_spoke_ = false;       // and is no stranger
-  std::uint64_t kept_version_ = 0;  // of the status with which the place was written down
+  SenderLine* driver_ = nullptr;    // the interface with the active sender
+  bool driver_spoke_ = false;       // and the sender has identified itself as one
+  std::uint64_t kept_version_ = 0;  // version of the status with which the position was saved
   WallClock clock_;
 };
 

@@ -1,4 +1,4 @@
-// ServedWeb: the web server of `passo serve`, with the API behind it.
+// ServedWeb: the web server of `passo serve`, with its API.
 #pragma once
 
 #include <chrono>
@@ -21,10 +21,10 @@
 
 namespace passo {
 
-// docs/api/openapi.json
+// the contents of docs/api/openapi.json
 extern const char* const openapi_text;
 
-// What is kept of a job that runs.
+// The persistent data of a running job.
 struct ServedJobs {
   ServedJournal* journal = nullptr;  // null: none
   FileStamp machine_file;
@@ -33,24 +33,24 @@ struct ServedJobs {
 
 class ServedWeb {
  public:
-  // Null, with a message and `code`: the address or the token is not good.
+  // Null, with a message and `code`, if the address or the token is invalid.
   static std::unique_ptr<ServedWeb> open(const ServeArguments& arguments, const MachineDescription& machine,
                                          MachineSession& session, MotionOwner& owner, const ServedJobs& jobs,
                                          int& code);
 
   std::string name() const;
-  // What the loop wakes up for, and how long it may sleep.
+  // The file descriptors that wake up the loop, and its maximum sleep time.
   void add_to(std::vector<pollfd>& all) const { server_->add_to(all); }
   Seconds most_wait(Seconds most) const;
   void hear_changes(const std::vector<MachineChange>& changes) { api_.on_change(changes); }
-  // Where the motors of the job that was broken off were last, as far as that is sure.
+  // Returns the last known motor position of the interrupted job, if it is reliable.
   std::optional<Point> broken_off_at() { return api_.broken_off_at(); }
-  // A job that is stopped from now on can go on when the program runs again.
+  // A job that is stopped from now on can be resumed when the program runs again.
   void leave() { api_.leave(); }
   const WebApi& api() const { return api_; }
-  // From now on senders and programs have the same offsets. `grbl` outlives this.
+  // Makes senders and programs share the same offsets. `grbl` must outlive this object.
   void share_offsets(GrblController& grbl);
-  // Hears the clients, and tells those who watch what is new.
+  // Processes requests of the clients, and sends changes to those that are subscribed.
   void poll();
 
  private:
@@ -66,7 +66,7 @@ class ServedWeb {
   bool has_page_ = false;
   std::unique_ptr<JobHistory> history_;     // may be null
   std::unique_ptr<ServedOffsets> offsets_;  // may be null
-  GrblController* grbl_ = nullptr;          // what senders speak to
+  GrblController* grbl_ = nullptr;          // the controller for senders
   std::string host_;
   ServedMaker maker_;
   ServedStudies studies_;

@@ -1,4 +1,4 @@
-// ServedJournal: the journal of `passo serve --data`: the file job.journal in its folder, for the job that runs.
+// ServedJournal: the journal of `passo serve --data`: the file job.journal in its folder, for the running job.
 #pragma once
 
 #include <memory>
@@ -14,11 +14,11 @@ namespace passo {
 
 class ServedJournal final : public JobKeeper {
  public:
-  // Null, with a message: another program has the journal. The machine outlives this.
+  // Null, with a message, if another program uses the journal. The machine must outlive this object.
   static std::unique_ptr<ServedJournal> open(const std::string& folder, OpenedMachine& machine);
 
-  // Call at rest, before the machine is greeted: looks whether a job was broken off, and takes note that the board
-  // hears this greeting next. False, with a message: the journal cannot be written.
+  // Must be called at standstill, before the handshake: checks whether a job was interrupted, and records that this
+  // handshake comes next. Returns false, with a message, if the journal cannot be written.
   [[nodiscard]] bool resume_job(const Greeting& greeting);
   const std::optional<BrokenOff>& found() const { return found_; }
 

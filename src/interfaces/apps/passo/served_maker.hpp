@@ -1,5 +1,5 @@
-// ServedMaker: `passo cam` for the API, as a process of its own (low_process.hpp). The files lie in a folder that is
-// removed at the end.
+// ServedMaker: runs `passo cam` for the API in a separate process (low_process.hpp). The files are in a temporary
+// folder.
 #pragma once
 
 #include <string>
@@ -35,9 +35,9 @@ class ServedMaker final : public Maker {
 
   PassingFolder folder_;
   std::vector<Kept> kept_;
-  std::string stem_;  // of the programs' names
+  std::string stem_;  // base name of the programs
   MakeResult result_;
-  std::vector<std::string> made_;  // the programs' files, in the folder
+  std::vector<std::string> made_;  // the program files in the folder
   LowProcess process_;
 };
 

@@ -1,5 +1,5 @@
-// ServedOffsets: the offsets of the work systems and the tool table that `passo serve --data` keeps between programs:
-// the files work.var and tool.tbl in its folder, in LinuxCNC's forms.
+// ServedOffsets: the work offsets and the tool table that `passo serve --data` saves between runs: the files work.var
+// and tool.tbl in its folder, in LinuxCNC's formats.
 #pragma once
 
 #include <string>
@@ -13,9 +13,9 @@ class ServedOffsets {
  public:
   explicit ServedOffsets(const std::string& folder);
 
-  // False, with a message: a file is there and cannot be read.
+  // Returns false, with a message, if a file exists and cannot be read.
   [[nodiscard]] bool read();
-  // Returns why a file cannot be written; empty: all is written. What is not is written with the next call.
+  // Returns why a file cannot be written; empty on success. Failed writes are repeated with the next call.
   std::string keep(const SavedParameters& parameters, const ToolTable& tools);
 
   const SavedParameters& parameters() const { return parameters_; }
@@ -24,7 +24,7 @@ class ServedOffsets {
  private:
   std::string parameter_file_;
   std::string tool_file_;
-  std::string tool_lines_;  // of the tool table, with its remarks
+  std::string tool_lines_;  // the tool table with its comments
   SavedParameters parameters_;
   ToolTable tools_;
 };

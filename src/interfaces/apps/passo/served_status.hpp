@@ -1,4 +1,4 @@
-// ServedStatus: the machine's status for an MQTT broker, once a second at most.
+// ServedStatus: publishes the machine's status to an MQTT broker, at most once a second.
 #pragma once
 
 #include <chrono>
@@ -17,13 +17,13 @@ class ServedStatus {
  public:
   static constexpr std::chrono::seconds between_messages{1};
 
-  // Null, with a message and `code`: the address or the login is not good.
+  // Null, with a message and `code`, if the address or the login is invalid.
   static std::unique_ptr<ServedStatus> open(const ServeArguments& arguments, const MachineDescription& machine,
                                             int& code);
-  // Whether the arguments are good. If not, shows a message.
+  // Returns whether the arguments are valid. If not, shows a message.
   static bool check(const ServeArguments& arguments, int& code);
 
-  // `api`: knows the job and the time left; null: nobody does.
+  // `api`: provides the job and the remaining time; null: not available.
   void poll(const MachineSession& session, const WebApi* api);
   std::string name() const { return name_; }
 

@@ -1,4 +1,4 @@
-// ServedStudies: `passo check` and `passo tune` for the API, as a process of its own (low_process.hpp).
+// ServedStudies: runs `passo check` and `passo tune` for the API in a separate process (low_process.hpp).
 #pragma once
 
 #include <string>

@@ -1,5 +1,5 @@
-// ServedTimer: times the motion of programs in a thread of its own, at the lowest priority: the machine's loop waits
-// for nothing. What the thread uses is its own.
+// ServedTimer: computes the duration of programs in a separate thread at the lowest priority, so that the machine's
+// loop never waits for it. The thread works on its own copies.
 #pragma once
 
 #include <atomic>
@@ -26,9 +26,9 @@ class ServedTimer final : public MotionTimer {
   void run();
 
   const MachineDescription machine_;
-  std::atomic<std::uint64_t> orders_{0};  // what is timed for an older one is given up
+  std::atomic<std::uint64_t> orders_{0};  // number of the current order; computations for older orders are abandoned
   std::atomic<bool> ends_{false};
-  std::mutex mutex_;  // guards what follows
+  std::mutex mutex_;  // guards the following members
   std::condition_variable news_;
   std::optional<MotionTiming> wanted_;
   std::optional<MotionTimes> found_;

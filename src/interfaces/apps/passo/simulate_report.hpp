@@ -1,4 +1,4 @@
-// What `passo simulate` says: figures as text or JSON.
+// The output of `passo simulate`: figures as text or JSON.
 #pragma once
 
 #include <string>
@@ -9,7 +9,7 @@ namespace passo {
 
 std::string to_text(const Simulation& simulation);
 std::string to_json(const Simulation& simulation, const Diagnostics& findings);
-// The words below a picture's title.
+// Returns the text below a picture's title.
 std::string in_short(const Simulation& simulation);
 
 }  // namespace passo

@@ -1,11 +1,11 @@
-// Where this computer keeps what it remembers of boards.
+// The folder in which this computer stores the state of boards.
 #pragma once
 
 #include <string>
 
 namespace passo {
 
-// XDG_STATE_HOME/passo or ~/.local/state/passo. Empty: neither is known.
+// Returns XDG_STATE_HOME/passo or ~/.local/state/passo. Empty: neither is known.
 std::string state_folder();
 
 }  // namespace passo

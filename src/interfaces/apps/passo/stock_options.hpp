@@ -1,4 +1,4 @@
-// The options that say what is cut and by which tools: those of `passo simulate` and `passo check`.
+// The options for stock and tools, used by `passo simulate` and `passo check`.
 #pragma once
 
 #include <optional>
@@ -11,9 +11,9 @@ class App;
 
 namespace passo {
 
-// Of the command line, as text.
+// The command-line arguments as text.
 struct StockArguments {
-  std::string block;                // "X0:100,Y0:80,Z-10:0"; axes that it does not name are as the feeds need them
+  std::string block;                // "X0:100,Y0:80,Z-10:0"; missing axes are as the feed moves require
   std::optional<double> cell = {};  // mm
   std::vector<std::string> tools;   // "ball:3", "2=vee:60:6"
   std::string tool_table;           // TOML; empty: none

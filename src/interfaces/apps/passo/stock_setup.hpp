@@ -1,4 +1,4 @@
-// What the command line says of a piece of stock that is cut, and what of it is wrong, as messages.
+// Converts the command-line arguments for a piece of stock, and reports their errors as messages.
 #pragma once
 
 #include <optional>
@@ -12,17 +12,18 @@
 
 namespace passo {
 
-// The refusals of the command line come as messages. `tool_table` is not read.
+// Returns errors of the command line as messages. Does not read `tool_table`.
 Result<StockWishes, std::string> stock_wishes(const StockArguments& arguments);
-// Reads a file of tools into the wishes. A tool of an option keeps its shape. False, with a message: the file is wrong.
+// Adds the shapes of a tool file to the settings. A tool given as an option keeps its shape. Returns false, with a
+// message, if the file is invalid.
 bool add_tool_shapes(const std::string& path, StockWishes& wishes);
 
-// survey_feeds() that shows the findings as they come.
+// Calls survey_feeds() and shows the findings as they appear.
 FeedLook shown_feeds(const StockJob& job, const StockWishes& wishes, Diagnostics& findings);
-// Nothing, with a message: a tool has no shape.
+// Returns nothing, with a message, if a tool has no shape.
 std::optional<std::vector<ToolShape>> shapes_or_message(const StockJob& job, const StockWishes& wishes,
                                                         const FeedLook& look);
-// Nothing, with a message: there is no such stock.
+// Returns nothing, with a message, if the stock cannot be created.
 std::optional<HeightField> field_or_message(const StockWishes& wishes, const FeedLook& look);
 
 }  // namespace passo

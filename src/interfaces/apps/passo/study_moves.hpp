@@ -1,5 +1,5 @@
-// What the commands that study one move make of their words: a move in steps, its time, the request for a ramp.
-// `passo windings` takes the same words as `passo interpolate` and `passo ramp`.
+// Converts the arguments of the commands that study one move: a move in steps, its time, the request for a ramp. `passo
+// windings` takes the same arguments as `passo interpolate` and `passo ramp`.
 #pragma once
 
 #include <optional>
@@ -13,15 +13,15 @@
 
 namespace passo {
 
-// The errors' words fit after "passo: error: ".
+// The error text can follow "passo: error: ".
 Result<StepMove, std::string> step_move_of(const InterpolateArguments& arguments);
 Result<Method, std::string> method_of(const InterpolateArguments& arguments);
-// The time of the whole move, as --time or --feed says it; empty: neither was given.
+// Returns the time of the whole move, from --time or --feed; empty: neither was given.
 Result<std::optional<Seconds>, std::string> time_of(const InterpolateArguments& arguments, const StepMove& move);
 
-// What is wrong with the numbers of a ramp; empty: nothing.
+// Returns the error in the numbers of a ramp; empty: they are valid.
 std::string wrong_number(const RampArguments& arguments);
-// For arguments whose numbers are right, with clock, acceleration and steps a turn.
+// The arguments must be valid, and must include clock, acceleration and steps per revolution.
 RampRequest ramp_request_of(const RampArguments& arguments);
 
 }  // namespace passo

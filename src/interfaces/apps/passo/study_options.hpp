@@ -1,4 +1,4 @@
-// The options of the commands that study one thing at a time: pulses, chords, ramps, motors.
+// The options of the commands that study a single topic: pulses, chords, ramps, motors.
 #pragma once
 
 #include <span>
@@ -14,7 +14,7 @@ void add_ramp_options(CLI::App& command, RampArguments& arguments);
 void add_motor_options(CLI::App& command, MotorArguments& arguments);
 void add_loop_options(CLI::App& command, LoopArguments& arguments);
 void add_windings_options(CLI::App& command, WindingsArguments& arguments);
-// The commands of `passo follower`.
+// The subcommands of `passo follower`.
 std::span<const Command> follower_commands();
 
 }  // namespace passo

@@ -1,4 +1,4 @@
-// What a stream of this process leads to: a terminal or a file, with colours or without, and how wide.
+// The properties of a stream of this process: whether it is a terminal, supports colours, and how wide it is.
 #pragma once
 
 #include <cstddef>
@@ -7,13 +7,14 @@ namespace passo {
 
 bool is_terminal(int descriptor);
 
-// A terminal that understands escape sequences, so that a line on it can be rewritten. TERM=dumb says that it does not.
+// Returns whether the stream is a terminal with escape sequences, so that a line on it can be rewritten. TERM=dumb
+// disables this.
 bool rewrites_lines(int descriptor);
 
-// The text may have colours. A user switches them off with NO_COLOR (https://no-color.org) or TERM=dumb.
+// Returns whether the text may be coloured. Users disable colours with NO_COLOR (https://no-color.org) or TERM=dumb.
 bool shows_colours(int descriptor);
 
-// The width of the terminal now, in characters; it changes when the user resizes the window. 0: not known.
+// Returns the current width of the terminal in characters; it changes when the window is resized. 0: unknown.
 std::size_t columns_of(int descriptor);
 
 }  // namespace passo

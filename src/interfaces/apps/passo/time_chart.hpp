@@ -1,5 +1,5 @@
-// A chart over the time of a motion, as HTML: the curve is an <svg> that is stretched to any width, and all text is
-// outside of it, so the text keeps its size.
+// A chart over motion time, as HTML: the curve is an <svg> that is stretched to any width, and all text is outside of
+// it, so the text keeps its size.
 #pragma once
 
 #include <string>
@@ -10,15 +10,15 @@
 namespace passo {
 
 struct TimeChart {
-  std::string label;  // what the chart shows
+  std::string label;  // the quantity shown
   struct Value {
-    Seconds time{0};  // how long it lasts
+    Seconds time{0};  // total duration
     double value = 0;
   };
   std::vector<Value> values;
-  double top = 1;                  // of the scale, which begins at 0; what is higher is drawn at the top
-  std::vector<double> marks = {};  // values with a tick
-  std::string unit;                // after the number of a mark
+  double top = 1;                  // end of the scale, which begins at 0; higher values are clipped
+  std::vector<double> marks = {};  // values with a tick mark
+  std::string unit;                // unit of the marks
   // Values above this are drawn as a warning; 0: none.
   double warns_above = 0;
 };

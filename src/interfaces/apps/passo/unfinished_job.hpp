@@ -1,5 +1,5 @@
-// UnfinishedJob: where `passo cam board` makes a job before all of it is put in place. What fails leaves the job's
-// folder as it was.
+// UnfinishedJob: the folder in which `passo cam board` generates a job before all of it is moved to its destination.
+// After a failure, the job's folder is unchanged.
 #pragma once
 
 #include <filesystem>
@@ -9,24 +9,24 @@ namespace passo {
 
 class UnfinishedJob {
  public:
-  // `folder`: of the job. Nothing is made yet.
+  // `folder`: the job's folder. Creates nothing yet.
   explicit UnfinishedJob(const std::string& folder) : folder_(folder), made_(folder_ / "unfinished-job") {}
   ~UnfinishedJob();
   UnfinishedJob(const UnfinishedJob&) = delete;
   UnfinishedJob& operator=(const UnfinishedJob&) = delete;
 
-  // The folder to write into.
+  // Returns the folder to write into.
   const std::filesystem::path& made() const { return made_; }
-  // Makes the folders. Returns an exit code.
+  // Creates the folders. Returns an exit code.
   int begin();
-  // Puts what was made in the place of what is there of an earlier job. Returns an exit code.
+  // Replaces the files of an earlier job by the generated ones. Returns an exit code.
   int finish();
 
  private:
   std::filesystem::path folder_;
   std::filesystem::path made_;
   bool is_begun_ = false;
-  bool is_new_ = false;  // the job's folder
+  bool is_new_ = false;  // the job's folder did not exist before
 };
 
 }  // namespace passo

@@ -1,4 +1,4 @@
-// The kerf of a hot wire, as the command line says it: "1.2", or "1.6@100,1@200", widths that were measured at speeds.
+// The kerf of a hot wire, as given on the command line: "1.2", or "1.6@100,1@200", widths measured at speeds.
 #pragma once
 
 #include <optional>
@@ -11,7 +11,8 @@
 
 namespace passo {
 
-// By rising speed. `feed`: the speed of a width without one, mm a minute; nothing: such a width is that of all speeds.
+// Returns the kerfs by increasing speed. `feed`: the speed, in mm/min, to which a width without a speed belongs;
+// nothing: such a width applies to all speeds.
 std::vector<WireKerf> kerfs_of(const char* option, const std::string& text, std::optional<double> feed,
                                LengthArguments& lengths);
 

@@ -1,4 +1,4 @@
-// A sender and a machine on one line, in virtual time.
+// A sender and a machine connected to each other, in virtual time.
 #pragma once
 
 #include <cstddef>
@@ -14,7 +14,7 @@ namespace passo {
 struct GrblPair {
   explicit GrblPair(std::size_t bytes = 128) : machine(bytes) {}
 
-  // Plays until it is so, or for a minute. `each` is called at each step.
+  // Runs until is_so() returns true, or for a minute. `each` is called at each step.
   bool play(const std::function<bool()>& is_so, const std::function<void()>& each = {}) {
     return play_for(Seconds(60), is_so, each);
   }
@@ -32,7 +32,7 @@ struct GrblPair {
   bool greet() {
     return play([&] { return sender.ready() || sender.fault(); }) && sender.ready();
   }
-  // Streams moves of a millimetre each: lines 1 to `count`.
+  // Streams moves of one millimetre each: lines 1 to `count`.
   bool stream(std::uint32_t count, const std::function<void()>& each = {}) {
     std::uint32_t next = 1;
     const auto feed = [&] {

@@ -1,4 +1,4 @@
-// same_meaning: whether two blocks say the same, wherever on their lines. This is the meaning of parse(print(b)) == b.
+// same_meaning: compares two blocks, ignoring positions in their lines. This defines parse(print(b)) == b.
 #pragma once
 
 #include <algorithm>
@@ -10,7 +10,7 @@ namespace passo {
 
 inline bool same_meaning(const Block& a, const Block& b) {
   const auto same_instruction = [](const Instruction& x, const Instruction& y) {
-    // Compares bits, so that 0 and -0 differ.
+    // Compares the bits, so that 0 and -0 differ.
     return x.op == y.op && x.symbol == y.symbol &&
            std::bit_cast<std::uint64_t>(x.number) == std::bit_cast<std::uint64_t>(y.number);
   };

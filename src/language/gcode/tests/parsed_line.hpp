@@ -1,4 +1,4 @@
-// ParsedLine: one line through the parser, for the tests: its result, its error, and the values of its expressions.
+// ParsedLine: a parsed line, for tests: its result, its error, and the values of its expressions.
 #pragma once
 
 #include <cstdint>
@@ -15,7 +15,7 @@ inline void PrintTo(const Span& span, std::ostream* out) {
   *out << "column " << span.column << ", length " << span.length;
 }
 
-// Parameters in maps.
+// Stores parameters in maps.
 struct Parameters : ParameterValues {
   bool numbered(std::int64_t number, double& value) const override {
     const auto found = numbers.find(number);
@@ -40,14 +40,14 @@ class ParsedLine {
   }
 
   const Diagnostic& fault() const { return diagnostics.all().at(0); }
-  // "code column length", a short form of the error.
+  // Returns "code column length", a short form of the error.
   std::string fault_at() const {
     if (good) return "good";
     return fault().code + " " + std::to_string(fault().place.column) + " " + std::to_string(fault().place.length);
   }
   Evaluation evaluation(const Expression& expression) const { return evaluate(block, expression, parameters); }
   double value(const Expression& expression) const { return evaluation(expression).value(); }
-  // The value of word n.
+  // Returns the value of word n.
   double value(std::size_t n = 0) const { return value(block.words.at(n).value); }
   std::string printed() const { return print(block, symbols); }
 

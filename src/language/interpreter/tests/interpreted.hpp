@@ -1,4 +1,4 @@
-// A program from text to canonical calls, for tests.
+// Interprets a program from text to canonical calls, for tests.
 #pragma once
 
 #include <cstdlib>
@@ -13,14 +13,14 @@
 namespace passo {
 
 struct Interpreted {
-  std::string canon;                  // as `rs274 -g` prints it
-  std::vector<Operation> operations;  // without borrowed text
+  std::string canon;                  // the canonical calls, in the format of `rs274 -g`
+  std::vector<Operation> operations;  // the operations, without borrowed text
   std::vector<std::vector<operation::ControlPoint>> splines;
   Diagnostics diagnostics{1000};
 
   std::string rendered() const { return render(diagnostics, false); }
-  // The calls alone, one a line: without the counter, the N column, the six calls that start every program, and
-  // ON_RESET.
+  // Returns only the calls, one per line: without the counter, the N column, the six calls that start every program,
+  // and ON_RESET.
   std::string calls() const;
   template <class What>
   std::vector<What> all() const {

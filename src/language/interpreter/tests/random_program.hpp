@@ -1,28 +1,28 @@
 // RandomProgram: random programs that Passo and LinuxCNC's rs274 both accept.
 //
-// What it leaves out, because rs274 (2.9, as Debian 12 has it) is known to do it wrong or in another way:
+// It omits the following, because rs274 (2.9, as in Debian 12) is known to have errors or to differ there:
 //   EQ, NE, LE and GE             EQ and NE hold within 1e-4 there, LE and GE are exact; in LinuxCNC 2.9.0 and here all
 //                                 four hold within 1e-6
-//   G93 with slow feeds           no feed there is below 0.1 a minute
-//   G10 L2 R, G28.1 when turned   the tool's place is lost
-//   units that change under G43.1 the tool's place is lost
+//   G93 with slow feeds           the minimum feed there is 0.1 per minute
+//   G10 L2 R, G28.1 when rotated  the tool's position is lost
+//   units changed under G43.1     the tool's position is lost
 //   M6, M61                       rs274 alone takes the numbers of the last move for the position
 //   M49                           M2 leaves the speed override off
 //   M70 to M73                    some overrides are mixed up
-//   G74, G84 outside G17          they go sideways
-//   cutter compensation           gouging is looked for at some corners only; arcs lead in on the wrong side too;
-//                                 in inches, arcs that come out 0.001 radian longer are refused
+//   G74, G84 outside G17          they move sideways
+//   cutter compensation           gouging is detected at some corners only; arcs lead in on the wrong side, too;
+//                                 in inches, arcs that become 0.001 radian longer are refused
 //   O-words that repeat a label   loops are refused there
 //   break out of while, then do   the `break` of an earlier `while` ends the next `do` loop after its first pass
-//   continue in do                the loop's condition is not looked at
-//   G17 beside polar words        the plane before it counts there
+//   continue in do                the condition of the loop is not evaluated
+//   G17 with polar words          the previous plane is used there
 //   quarter turns                 COS[90] is not 0 there
-//   pecks that end at the bottom  rounding may add one of no length
+//   pecks that end at the bottom  rounding may add one of zero length
 //   lines over 255 characters     it does not read them
-//   contours of G70 to G72        U, W, A and C are of 2.10. With D, 2.10 leads out of the stock before the contour is
-//                                 set off, and brings arcs of opposite turns together. G71.2 goes on where G71.1 ended.
-//                                 Of the two places where arcs cross, rs274 may take the farther one. Lines in one
-//                                 direction, or along the cuts, end somewhere on the same way
+//   contours of G70 to G72        U, W, A and C were added in 2.10. With D, 2.10 leads out of the stock before the
+//                                 contour is offset, and merges arcs of opposite directions. G71.2 continues where
+//                                 G71.1 ended. Where arcs cross at two points, rs274 may take the farther one.
+//                                 Collinear lines, or lines along the cuts, end at different points of the same path
 #pragma once
 
 #include <algorithm>
@@ -49,7 +49,7 @@ class RandomProgram {
     return text_;
   }
 
-  // A contour that is turned, faced and finished.
+  // Returns a program in which a contour is turned, faced and finished.
   std::string lathe_program() {
     text_ = fmt::format("G21 G18 {} F200\n", one_of({"G7", "G8"}));
     facing_ = below(3) == 0;
@@ -95,7 +95,7 @@ class RandomProgram {
   }
   std::string number(int limit = 50) { return fmt::format("{:.{}f}", below(2000 * limit) / 1000.0 - limit, below(4)); }
 
-  // A value: a number, or an expression.
+  // Returns a value: a number, or an expression.
   std::string value(int depth = 0) {
     switch (below(depth < 3 ? 9 : 2)) {
       case 2: return fmt::format("#{}", 1 + below(6));
@@ -112,7 +112,7 @@ class RandomProgram {
       default: return number();
     }
   }
-  // A place that no expression brings out of the numbers that are printed alike.
+  // Returns a coordinate that no expression computes from numbers with the same printed value.
   std::string place() { return below(3) == 0 ? fmt::format("[{} MOD 100]", value()) : number(); }
 
   std::string axes() {
@@ -128,7 +128,7 @@ class RandomProgram {
     const auto& [code, ends, centers] = planes[below(3)];
     const double angle = below(628) / 100.0;
     const double radius = 1 + below(20);
-    // In increments: from a point of a circle to another one.
+    // Incremental: from one point of a circle to another one.
     const double next = angle + 0.1 + below(600) / 100.0;
     text_ +=
         fmt::format("{} G91 {} {}{:.6f} {}{:.6f} {}{:.6f} {}{:.6f}\nG90\n", code, one_of({"G2", "G3"}), ends[0],
@@ -138,8 +138,8 @@ class RandomProgram {
 
   std::string size(int limit) { return fmt::format("{:.2f}", 0.1 + below(100 * limit) / 100.0); }
 
-  // Cycles in every plane and distance mode, arcs with R, splines, threads, contours with compensation, polar words,
-  // feed modes, and codes that ask the machine.
+  // Appends cycles in every plane and distance mode, arcs with R, splines, threads, contours with compensation, polar
+  // words, feed modes, and codes that query the machine.
   void machining() {
     switch (below(9)) {
       case 5: return is_metric_ ? contour() : feed_modes();
@@ -199,8 +199,8 @@ class RandomProgram {
     text_ += "G8 G17\n";
   }
 
-  // Lines and arcs with cutter compensation. Each line is much longer than the tool's radius, and no corner turns back,
-  // so that the tool fits everywhere.
+  // Appends lines and arcs with cutter compensation. Each line is much longer than the tool radius, and no corner turns
+  // back, so that the tool fits everywhere.
   void contour() {
     const std::array<const char*, 2> planes[] = {{"G17", "XYIJ"}, {"G18", "ZXKI"}};
     const auto& plane = planes[below(2)];
@@ -229,7 +229,7 @@ class RandomProgram {
     }
     text_ += "G40\nG1" + go(10) + "\nG17\n";
   }
-  // An arc that begins in the direction of `heading`.
+  // Appends an arc that begins in the direction of `heading`.
   void bow(const char* letters, double& first, double& second, double& heading) {
     const bool left = below(2) == 0;
     const double radius = 5 + below(50) / 10.0;
@@ -258,7 +258,7 @@ class RandomProgram {
     }
   }
 
-  // G93 with an F in each block, G95 with the spindle on.
+  // Appends G93 with an F in each block, and G95 with the spindle on.
   void feed_modes() {
     if (below(2) == 0) {
       text_ += "G93\n";
@@ -271,8 +271,8 @@ class RandomProgram {
     text_ += fmt::format("G94 F{}\n", 10 + below(200));
   }
 
-  // Diameters, absolute centres, more turns, homes, scaled offsets of work systems.
-  // The sub of a contour. Along the cuts the contour goes one way. Across them it may go back, into pockets.
+  // Appends diameters, absolute centres, multiple turns, homes, scaled work offsets, and the subroutine of a contour.
+  // Along the cuts the contour is monotonic. Across them it may go back, into pockets.
   void profile() {
     double x = 4 + below(60) / 10.0;
     double z = facing_ ? -20 - below(50) / 10.0 : below(20) / 10.0;
@@ -359,7 +359,7 @@ class RandomProgram {
     if (!middle.empty()) statement(depth + 1);
     text_ += fmt::format("o{} {}\n", label, closing);
   }
-  // A loop that counts in a parameter of its own.
+  // Appends a loop with its own counter parameter.
   void counted(int depth) {
     const int label = ++labels_;
     text_ += fmt::format("#{0}=0\no{0} while [#{0} LT {1}]\n#{0}=[#{0}+1]\n", label, 1 + below(4));
@@ -380,7 +380,7 @@ class RandomProgram {
     }
     text_ += fmt::format("o{} endif\n", label);
   }
-  // A loop that looks at its end, and may be left or begun again in the middle.
+  // Appends a loop with its condition at the end, which may contain break or continue.
   void until(int depth) {
     const int label = ++labels_;
     const int leave = ++labels_;
@@ -393,7 +393,7 @@ class RandomProgram {
     statement(depth + 1);
     text_ += fmt::format("o{} {}\n", label, at_end ? condition : "endwhile");
   }
-  // Parameters with names, and a sub that returns early and calls another one.
+  // Appends named parameters, and a subroutine that returns early and calls another one.
   void named() {
     text_ += fmt::format("#<here>={}\n#<_there>=[#<here> + {}]\nG0 X[#<_there> MOD 50]\n", value(), value());
     if (subs_ > 0)
@@ -412,11 +412,12 @@ class RandomProgram {
 
   std::mt19937_64 random_;
   std::string text_;
-  int labels_ = 100;  // labels are the numbers of parameters too
+  int labels_ = 100;  // labels are also used as parameter numbers
   int subs_ = 0;
   bool facing_ = false;
   bool is_metric_ = true;
-  bool has_do_ = false;  // loops that look at their end, else loops that look at their beginning, may be left
+  bool has_do_ = false;  // true: loops with the condition at the end may contain a break; false: loops with the
+                         // condition at the start
 };
 
 }  // namespace passo::test

@@ -1,4 +1,4 @@
-// Runs an interpolator to its end and reports the place after each pulse.
+// Runs an interpolator to its end and reports the position after each pulse.
 #pragma once
 
 #include <array>
@@ -20,7 +20,7 @@ void apply(Pulse pulse, Place<axes>& place) {
   }
 }
 
-// Calls visit(pulse, place, interpolator) after each pulse. Returns the end place.
+// Calls visit(pulse, place, interpolator) after each pulse. Returns the end position.
 template <std::size_t axes, class Interpolator, class Visit>
 Place<axes> walk(Interpolator interpolator, Place<axes> place, Visit visit) {
   while (!interpolator.done()) {
@@ -39,7 +39,7 @@ std::vector<Place<axes>> places(Interpolator interpolator, Place<axes> start = {
   return found;
 }
 
-// The number of random cases: PASSO_RUNS, or as many as a developer will wait for.
+// Returns the number of random cases: PASSO_RUNS, or a number that is fast enough for development.
 inline int runs(int otherwise) {
   const char* const given = std::getenv("PASSO_RUNS");
   return given != nullptr ? std::atoi(given) : otherwise;

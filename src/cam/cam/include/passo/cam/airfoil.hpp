@@ -1,10 +1,10 @@
-// read_airfoil: the section of a wing from a file of coordinates (.dat), as a closed path.
+// read_airfoil: reads the section of a wing from a coordinate file (.dat) as a closed path.
 //
-// Read are both forms that are around: Selig's, from the trailing edge over the upper side to the nose and back below,
-// and Lednicer's, with the numbers of points in the second line, and each side from the nose on. The section is scaled
-// so that it is as long as the chord; X0 Y0 stays where the file has it, mostly the nose.
+// Two formats are supported: Selig's, from the trailing edge over the upper side to the nose and back along the lower
+// side; and Lednicer's, with the numbers of points in the second line, and both sides starting at the nose. The section
+// is scaled to the chord length; the origin stays as in the file, usually at the nose.
 //
-// A hostile text gives diagnostics "airfoil.…" with a line.
+// Invalid input produces diagnostics "airfoil.…" with a line number.
 //
 // Source: UIUC Airfoil Coordinates Database, M. Selig.
 #pragma once
@@ -19,7 +19,7 @@ namespace passo {
 
 Drawing read_airfoil(const std::string& name, std::string_view text, Mm chord, Diagnostics& diagnostics);
 
-// Whether lines of two numbers begin in the first lines.
+// Returns whether the text looks like a coordinate file: its first lines contain lines of two numbers.
 bool looks_like_airfoil(std::string_view text);
 
 }  // namespace passo

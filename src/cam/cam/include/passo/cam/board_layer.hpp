@@ -1,7 +1,7 @@
-// read_board_layer: a layer of a board as a face and as lines, from a Gerber file, a board of KiCad or a drawing.
+// read_board_layer: reads a layer of a board as an area and as lines, from a Gerber file, a KiCad board or a drawing.
 //
-// In a drawing (DXF) closed paths and circles are filled, and open paths with a width are as wide as that. An open path
-// without a width covers nothing; it is still among the lines, from which edge_loops() makes an outline.
+// In a drawing (DXF) closed paths and circles are filled, and open paths with a width are drawn in that width. An open
+// path without a width covers nothing, but is still one of the lines from which edge_loops() makes an outline.
 #pragma once
 
 #include <optional>
@@ -14,27 +14,28 @@
 namespace passo {
 
 struct BoardLayer {
-  Region face = {};                 // all that the layer covers
-  Drawing lines = {};               // the middles of its strokes; its notes are those of the file
-  std::optional<Region> bare = {};  // of a negative layer: what it draws. It covers all else of the board, too
+  Region face = {};                 // the area that the layer covers
+  Drawing lines = {};               // centre lines of its strokes, with the notes of the file
+  std::optional<Region> bare = {};  // for a negative layer: what the file draws; the layer covers the rest of the board
 };
 
-// Errors are those of the readers, and of a KiCad board "kicad.which-layer" and "kicad.no-layer".
+// Reports the errors of the readers, and "kicad.which-layer" and "kicad.no-layer" for a KiCad board.
 BoardLayer read_board_layer(const std::string& path, const DrawingFileOptions& options, Diagnostics& diagnostics);
 
-// What the layer covers of the board. "isolation.negative": a negative layer, and nobody knows the board.
+// Returns the part of the board that the layer covers. Reports "isolation.negative" for a negative layer if the board's
+// outline is unknown.
 Region covered_by(const BoardLayer& layer, const Region& board, Diagnostics& diagnostics);
 
-// What a drawing covers.
+// Returns the area that a drawing covers.
 Region face_of(const Drawing& drawing);
 
 struct BoardEdge {
   EdgeLoops loops = {};
-  Region board = {};  // inside the loops
+  Region board = {};  // the board inside the loops
 };
 
-// The board inside an edge layer: inside the middles of its strokes, or the face that it fills. Errors as those of
-// edge_loops().
+// Returns the board inside an edge layer: the inside of its stroke centre lines, or the area that it fills. Reports the
+// errors of edge_loops().
 BoardEdge board_edge(const BoardLayer& layer, Nanometres join, Diagnostics& diagnostics);
 
 }  // namespace passo

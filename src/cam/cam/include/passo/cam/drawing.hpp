@@ -1,8 +1,8 @@
-// Drawing: the geometry that every reader of cam/ makes of its file: holes and paths on named layers.
+// Drawing: the common geometry that all readers of cam/ produce: holes and paths on named layers.
 //
-// Lengths are whole nanometres, X to the right, Y up. So an inch and a millimetre are both exact, and no sum of lengths
-// rounds. A coordinate is at most 100 m from zero. A path is a row of points; from each point a line or an arc leads to
-// the next. The readers refuse a drawing of more than `most_drawn` points.
+// Lengths are whole nanometres, X to the right, Y up. Inches and millimetres are therefore both exact, and adding
+// lengths involves no rounding. Coordinates are limited to 100 m. A path is a sequence of points, joined by lines or
+// arcs. The readers refuse a drawing of more than `most_drawn` points.
 #pragma once
 
 #include <cmath>
@@ -24,12 +24,12 @@ struct Nanometres {
 
 inline constexpr double nanometres_per_mm = 1e6;
 inline constexpr Nanometres farthest_drawn{100'000'000'000};
-inline constexpr std::size_t most_drawn = 4'000'000;  // points, those of holes included
+inline constexpr std::size_t most_drawn = 4'000'000;  // maximum number of points, including holes
 
 constexpr Mm to_mm(Nanometres length) {
   return Mm(static_cast<double>(length.count) / nanometres_per_mm);
 }
-// Rounds to the nearest nanometre. The length is at most 10^9 mm.
+// Rounds to the nearest nanometre. The length must not exceed 10^9 mm.
 inline Nanometres to_nanometres(Mm length) {
   return {std::llround(length.value() * nanometres_per_mm)};
 }
@@ -41,7 +41,8 @@ struct DrawnPoint {
 };
 
 inline double distance_nm(DrawnPoint a, DrawnPoint b) {
-  // No place is so far that its square were too much for a double: std::hypot() would take four times as long.
+  // The square of a coordinate always fits in a double; std::hypot(), which avoids overflow, would take four times as
+  // long.
   const auto across = static_cast<double>(a.x.count - b.x.count);
   const auto up = static_cast<double>(a.y.count - b.y.count);
   return std::sqrt(across * across + up * up);
@@ -49,13 +50,13 @@ inline double distance_nm(DrawnPoint a, DrawnPoint b) {
 
 struct DrawnHole {
   DrawnPoint at = {};
-  Nanometres diameter = {};  // 0: the file does not say
+  Nanometres diameter = {};  // 0: not stated in the file
   std::uint32_t layer = 0;   // index into Drawing::layers
-  std::uint32_t line = 0;    // of the file, from 1; 0: the file has no lines
+  std::uint32_t line = 0;    // line of the file, from 1; 0: the file has no lines
 };
 
-// A point of a path. `bulge` tells how the path leads to the next point: 0 by a line, else by an arc, as the tangent of
-// a quarter of the angle that the arc sweeps; above 0 counterclockwise. 1 is a half circle.
+// A point of a path. `bulge` defines the connection to the next point: 0 is a line; otherwise it is an arc, and the
+// bulge is the tangent of a quarter of its sweep angle, positive if counterclockwise. 1 is a half circle.
 struct PathPoint {
   DrawnPoint at = {};
   double bulge = 0;
@@ -64,23 +65,23 @@ struct PathPoint {
 struct DrawnPath {
   std::vector<PathPoint> points = {};
   bool is_closed = false;
-  // How wide the path is to be cut: a slot or a rout of a drill file. 0: a mere line of a drawing.
+  // Width of a slot or rout in a drill file. 0: a line without a width.
   Nanometres width = {};
   std::uint32_t layer = 0;
   std::uint32_t line = 0;
 };
 
 struct Drawing {
-  std::string file = {};                 // as the user named it
-  std::vector<std::string> layers = {};  // of a drill file: its tools, "T1"
+  std::string file = {};                 // the file name given by the user
+  std::vector<std::string> layers = {};  // in a drill file: its tools, e.g. "T1"
   std::vector<DrawnHole> holes = {};
   std::vector<DrawnPath> paths = {};
-  std::vector<std::string> notes = {};  // what was guessed or left out, a sentence each without a full stop
+  std::vector<std::string> notes = {};  // guesses and omissions, each a sentence without a full stop
 };
 
-// The least X and the least Y of all holes' centres and of all points of slots; zero if there are none.
+// Returns the minimum X and the minimum Y of all hole centres and slot points; the origin if there are none.
 DrawnPoint lower_left_of(const std::vector<Drawing>& drawings);
-// Makes `zero` the drawing's zero.
+// Moves the origin of the drawing to `zero`.
 void move_zero_to(DrawnPoint zero, Drawing& drawing);
 
 }  // namespace passo

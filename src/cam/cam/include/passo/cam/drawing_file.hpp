@@ -1,4 +1,4 @@
-// read_drawing: a drawing from a file of any kind that cam/ knows. The contents determine the format; the file may be
+// read_drawing: reads a drawing file of any supported format. The format is detected from the contents; the file may be
 // compressed with gzip (SVGZ).
 #pragma once
 
@@ -14,15 +14,15 @@
 namespace passo {
 
 struct DrawingFileOptions {
-  DxfOptions dxf = {};  // its layers choose those of a KiCad board, too
+  DxfOptions dxf = {};  // its layers also select those of a KiCad board
   ExcellonOptions excellon = {};
   SvgOptions svg = {};
   HpglOptions hpgl = {};
-  bool is_edge = false;  // of a KiCad board: the edge is wanted, if no layer is chosen
+  bool is_edge = false;  // for a KiCad board: reads the edge if no layer is selected
 };
 
-// Of a KiCad board: its holes. Errors are in `diagnostics`: "drawing.…", "dxf.…", "svg.…", "hpgl.…", "excellon.…" and
-// "kicad.…".
+// Reads a drawing; of a KiCad board, its holes. Reports errors in `diagnostics`: "drawing.…", "dxf.…", "svg.…",
+// "hpgl.…", "excellon.…" and "kicad.…".
 Drawing read_drawing(const std::string& path, const DrawingFileOptions& options, Diagnostics& diagnostics);
 
 }  // namespace passo

@@ -1,12 +1,12 @@
-// plan_drilling: which tool makes which hole of the drawings, in which order, and where each tool goes.
+// plan_drilling: assigns the holes of the drawings to tools and optimises the order of each tool's holes.
 //
-// A hole goes to the drill of the rack that is nearest to its diameter, within the tolerance. Without a rack each
-// diameter has a drill of its own; with one drill that drill makes every hole. With a milling cutter, wide holes are
-// milled in circles and slots along their sides; without, slots are drilled as rows of holes. A hole or slot that
-// nothing can make is an error: no hole is lost without a word.
+// A hole is assigned to the drill of the rack that is closest to its diameter, within the tolerance. Without a rack
+// each diameter gets its own drill; with `one_drill` that drill makes every hole. With a milling cutter, large holes
+// are milled in circles, and slots along their sides; without one, slots are drilled as rows of holes. A hole or slot
+// that no tool can make is an error: no hole is dropped silently.
 //
-// Holes at one place (a pad and its drill, a hole in two files) become one: the narrowest. The order of a tool's holes
-// is shortened by shorten_route() from the park place and back to it.
+// Holes at the same position (a pad and its drill, the same hole in two files) become one hole of the smallest
+// diameter. The route of each tool is optimised by shorten_route(), from the park position and back to it.
 #pragma once
 
 #include <cstdint>
@@ -20,20 +20,21 @@
 namespace passo {
 
 struct DrillOptions {
-  std::vector<Nanometres> rack = {};         // diameters of the drills at hand; empty: one for each diameter
-  Nanometres tolerance{50'000};              // between a hole and its drill
+  std::vector<Nanometres> rack = {};         // diameters of the available drills; empty: one drill per diameter
+  Nanometres tolerance{50'000};              // maximum difference between the diameters of a hole and its drill
   std::optional<Nanometres> one_drill = {};  // this drill makes every hole and slot
   std::optional<Nanometres> mill = {};       // diameter of the milling cutter
-  DrawnPoint park = {};                      // where the tool is at the start, at tool changes and at the end
-  std::uint64_t route_steps = 200'000'000;   // work of shorten_route() on each tool, at most
+  DrawnPoint park = {};                      // tool position at the start, at tool changes and at the end
+  std::uint64_t route_steps = 200'000'000;   // maximum number of steps of shorten_route() per tool
 };
 
-// What one tool makes at one place.
+// What one tool makes at one position.
 struct DrillTarget {
   enum class Kind : std::uint8_t {
     hole,    // drilled at points.front()
-    circle,  // milled about points.front(), `radius` from there to the middle of the cutter
-    slot     // milled along points, the middle of the cutter; closed where `radius` is not 0: a straight slot's sides
+    circle,  // milled about points.front(); `radius`: from there to the cutter centre
+    slot     // milled along points, the path of the cutter centre; closed if `radius` is not 0 (a straight slot's
+             // sides)
   };
   Kind kind = Kind::hole;
   std::vector<PathPoint> points = {};
@@ -43,19 +44,19 @@ struct DrillTarget {
 struct DrillTool {
   Nanometres diameter = {};
   bool is_mill = false;
-  std::vector<DrillTarget> targets = {};  // in the order in which they are made
-  std::size_t holes = 0;                  // drilled or milled
+  std::vector<DrillTarget> targets = {};  // in machining order
+  std::size_t holes = 0;                  // number of holes, drilled or milled
   std::size_t slots = 0;
-  double rapids_before_nm = 0;  // the way of the rapids in the files' order, from the park place and back
+  double rapids_before_nm = 0;  // length of the rapids in file order, from the park position and back
   double rapids_after_nm = 0;
 };
 
 struct DrillPlan {
-  std::vector<DrillTool> tools = {};    // drills from thin to thick, then the milling cutter
-  std::vector<std::string> notes = {};  // what was changed or left out, a sentence each without a full stop
+  std::vector<DrillTool> tools = {};    // drills by ascending diameter, then the milling cutter
+  std::vector<std::string> notes = {};  // changes and omissions, each a sentence without a full stop
 };
 
-// Errors "drill.…" are in `diagnostics`.
+// Reports errors "drill.…" in `diagnostics`.
 DrillPlan plan_drilling(const std::vector<Drawing>& drawings, const DrillOptions& options, Diagnostics& diagnostics);
 
 }  // namespace passo

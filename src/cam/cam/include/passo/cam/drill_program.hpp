@@ -1,12 +1,11 @@
-// write_drill_program: the G-code of a drill plan.
+// write_drill_program: writes a drill plan as G-code.
 //
-// Holes are canned cycles (G81, with pecks G83) or plain moves; circles and slots are milled in turns that go down by
-// `mill_step`, the last at full depth, counterclockwise (climb milling with a spindle that turns clockwise). Several
-// tools are changed with M6 at the park place, with a message to the operator before. The program begins and ends at
-// the park place, at the clearance height.
+// Holes use canned cycles (G81, or G83 for pecking) or plain moves. Circles and slots are milled counterclockwise
+// (climb milling for a clockwise spindle) in passes of `mill_step`, with a final pass at full depth. Multiple tools are
+// changed with M6 at the park position, after a message to the operator. The program begins and ends at the park
+// position, at the clearance height.
 //
-// Numbers are in mm (G21), inches (G20) or centimetres (ProgramUnits). The program's arcs are exact to the last digit
-// written.
+// Numbers are in mm (G21), inches (G20) or centimetres (ProgramUnits). Arcs are exact to the last written digit.
 #pragma once
 
 #include <cstdint>
@@ -20,21 +19,21 @@
 namespace passo {
 
 struct DrillProgramOptions {
-  std::string name = {};                // of the program, for its first comment
-  std::vector<std::string> files = {};  // of the drawings
+  std::string name = {};                // program name, for the first comment
+  std::vector<std::string> files = {};  // names of the drawing files
   ProgramUnits units = ProgramUnits::mm;
-  Nanometres clearance{2'000'000};            // height of the rapids above the board
-  Nanometres depth{-2'000'000};               // below the board's face, negative
-  std::optional<Nanometres> peck = {};        // depth of one peck; empty: none
-  Nanometres mill_step{500'000};              // how deep a turn of a milled circle or slot goes
-  Nanometres feed{100'000'000};               // a minute, down into a hole
-  Nanometres mill_feed{150'000'000};          // a minute, along circles and slots
-  std::optional<std::uint32_t> spindle = {};  // turns a minute; empty: the program leaves the spindle alone
-  DrawnPoint park = {};                       // as in DrillOptions
-  bool canned = true;                         // G81 and G83; else plain moves
+  Nanometres clearance{2'000'000};            // clearance height above the board
+  Nanometres depth{-2'000'000};               // depth of the holes below the board's surface, negative
+  std::optional<Nanometres> peck = {};        // depth of one peck; empty: no pecking
+  Nanometres mill_step{500'000};              // depth per pass of a milled circle or slot
+  Nanometres feed{100'000'000};               // plunge feed for holes, nm/min
+  Nanometres mill_feed{150'000'000};          // feed along circles and slots, nm/min
+  std::optional<std::uint32_t> spindle = {};  // rpm; empty: no spindle commands
+  DrawnPoint park = {};                       // park position, as in DrillOptions
+  bool canned = true;                         // use G81 and G83; otherwise plain moves
 };
 
-// The program's text.
+// Returns the program text.
 std::string write_drill_program(const DrillPlan& plan, const DrillProgramOptions& options);
 
 }  // namespace passo

@@ -1,7 +1,7 @@
-// edge_loops: the closed lines of a board's edge drawing, whatever pieces they are drawn in.
+// edge_loops: joins the pieces of a board's edge drawing to closed loops.
 //
-// Closed paths and circles are loops. Open paths are joined end to end: the two nearest free ends first, no two that
-// are farther apart than `join`. What is drawn twice, or forth and back, counts once.
+// Closed paths and circles are loops. Open paths are joined end to end, the nearest free ends first, if they are at
+// most `join` apart. Duplicate pieces, including those drawn in the opposite direction, count once.
 #pragma once
 
 #include <cstdint>
@@ -15,24 +15,24 @@ namespace passo {
 
 struct EdgeLoops {
   std::vector<std::vector<PathPoint>> loops = {};  // the last point leads back to the first
-  std::vector<std::vector<PathPoint>> open = {};   // rows of paths that do not close, where they are kept
-  std::size_t joined = 0;                          // ends that did not meet, and were joined
+  std::vector<std::vector<PathPoint>> open = {};   // open contours, if they are kept
+  std::size_t joined = 0;                          // number of gaps that were bridged
   Nanometres widest_joined = {};
 };
 
-// What becomes of a row of paths that does not close: an error "outline.open" at each of its ends, or it is kept.
+// The treatment of open contours: an error "outline.open" at each end, or keeping them.
 enum class OpenRows : std::uint8_t { refused, kept };
 
 EdgeLoops edge_loops(const Drawing& drawing, Nanometres join, Diagnostics& diagnostics,
                      OpenRows open_rows = OpenRows::refused);
 
-// The board inside the loops: a loop in another one is an opening, a loop in an opening is board again.
+// Returns the board inside the loops: a loop within a loop is a cutout, a loop within a cutout is board again.
 Region board_within(const EdgeLoops& loops);
 
-// The same for any loops, of which very many may be drawn.
+// Does the same for arbitrary loops, of which there may be very many.
 Region enclosed_by(const std::vector<std::vector<PathPoint>>& loops);
 
-// The points of a path on chords within the tolerance; the last of a closed path is not the first.
+// Returns the path as chords within the tolerance. A closed path does not repeat its first point.
 DrawnRing chords_of_path(const std::vector<PathPoint>& points, bool is_closed, Nanometres tolerance);
 
 }  // namespace passo

@@ -1,13 +1,14 @@
-// read_excellon: drill files, as layout programs write them for board makers, into holes, slots and routed paths.
+// read_excellon: reads drill files, as layout programs write them for board manufacturers, into holes, slots and routed
+// paths.
 //
-// Reads the Excellon formats 1 and 2: METRIC and INCH, leading or trailing zeros left out, or decimal points; tools in
-// the header or where they are used; slots by G85, routed slots (G00, M15, G01 to G03, M16); repeats (R); G90, G91 and
-// G93; the comments in which KiCad, Altium and EasyEDA state their format. What the header does not say is guessed from
-// the numbers and noted in Drawing::notes. Routes that are cut in another plane, patterns and mirrored axes are
-// refused.
+// Supports the Excellon formats 1 and 2: METRIC and INCH; suppressed leading or trailing zeros, or decimal points;
+// tools defined in the header or where they are used; slots by G85, routed slots (G00, M15, G01 to G03, M16); repeats
+// (R); G90, G91 and G93; the comments in which KiCad, Altium and EasyEDA state their format. What the header does not
+// state is guessed from the numbers and noted in Drawing::notes. Routes in another plane, patterns and mirrored axes
+// are refused.
 //
-// Time and memory are proportional to the text and to the holes, of which there are at most `most_drawn`. A hostile
-// text gives diagnostics "excellon.…" with line and column.
+// Time and memory are proportional to the text and to the number of holes, at most `most_drawn`. Invalid input produces
+// diagnostics "excellon.…" with line and column.
 //
 // Source: Excellon, CNC-7 programming; Ucamco, the XNC format specification 2021.11.
 #pragma once
@@ -24,17 +25,17 @@ namespace passo {
 
 enum class LeftOutZeros : std::uint8_t { leading, trailing };
 
-// What the user knows better than the file.
+// Values given by the user, which override the file.
 struct ExcellonOptions {
   std::optional<bool> inch = {};
   std::optional<LeftOutZeros> zeros = {};
 };
 
-// Errors are in `diagnostics`; the drawing then holds what was read so far.
+// Reports errors in `diagnostics`; the drawing then contains what was read before the error.
 Drawing read_excellon(const std::string& name, std::string_view text, const ExcellonOptions& options,
                       Diagnostics& diagnostics);
 
-// Whether the text begins like a drill file.
+// Returns whether the beginning of the text looks like a drill file.
 bool looks_like_excellon(std::string_view text);
 
 }  // namespace passo

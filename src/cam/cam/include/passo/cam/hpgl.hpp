@@ -1,16 +1,16 @@
-// read_hpgl: HPGL plots into paths and circles, as a pen plotter would draw them.
+// read_hpgl: reads HPGL plots into paths and circles, as a pen plotter would draw them.
 //
-// Read are moves (PU PD PA PR), arcs and circles (AA AR AT RT CI), Bézier curves (BZ BR), edges of rectangles, wedges
+// Supports moves (PU PD PA PR), arcs and circles (AA AR AT RT CI), Bézier curves (BZ BR), edges of rectangles, wedges
 // and polygons (EA ER EW PM EP), packed polylines (PE), line types (LT), labels (LB with SI SR DI DR SL ES LO CP DT),
-// ticks (XT YT TL), scaling (IP SC RO) and pens (SP). Fills (RA RR WG FP) are drawn as their edges. Ignored items are
-// counted in Drawing::notes: clipping windows, other alphabets, unknown commands.
+// ticks (XT YT TL), scaling (IP SC RO) and pens (SP). Fills (RA RR WG FP) are drawn as outlines. Ignored items are
+// counted in Drawing::notes: clipping windows, other character sets, unknown commands.
 //
-// Each pen is a layer: "pen 1". A plotter unit is 0.025 mm. P1 and P2 are those of the HP 7475A with a sheet of A4,
-// until the plot places them. Labels are written in the letters of built_in_stroke_font(), each in a cell of one width,
-// as a plotter writes them. Where the pen comes back to its start, a path is closed.
+// Each pen is a layer: "pen 1". A plotter unit is 0.025 mm. P1 and P2 default to those of the HP 7475A with A4 paper.
+// Labels are drawn with the letters of built_in_stroke_font(), in character cells of equal width, as a plotter draws
+// them. A path is closed if the pen returns to its start.
 //
-// Time and memory are proportional to the text and to what it expands to, which is bounded by `most_drawn`. A hostile
-// text gives diagnostics "hpgl.…" with a line and a column.
+// Time and memory are proportional to the text and to its expansion, which is bounded by `most_drawn`. Invalid input
+// produces diagnostics "hpgl.…" with line and column.
 //
 // Sources: Hewlett-Packard, HP 7475A Interfacing and Programming Manual (1983); The HP-GL/2 and HP RTL Reference Guide
 // (1997).
@@ -26,15 +26,17 @@
 namespace passo {
 
 struct HpglOptions {
-  double scale = 1;                      // of all lengths
-  std::vector<std::string> layers = {};  // the pens to read, as "pen 1"; empty: all
-  Mm tolerance{0.005};                   // of chords on Bézier curves, and on arcs that the scaling stretches
+  double scale = 1;                      // scale factor of all lengths
+  std::vector<std::string> layers = {};  // the pens to read, e.g. "pen 1"; empty: all
+  Mm tolerance{0.005};                   // chord tolerance for Bézier curves, and for arcs that become ellipses by
+                                         // scaling
 };
 
-// Errors are in `diagnostics`; the drawing then holds what was read so far.
+// Reports errors in `diagnostics`; the drawing then contains what was read before the error.
 Drawing read_hpgl(const std::string& name, std::string_view text, const HpglOptions& options, Diagnostics& diagnostics);
 
-// Whether the text begins like an HPGL plot: with a command that only plots have, or an escape for plotters.
+// Returns whether the text looks like an HPGL plot: it begins with a command that only plots have, or with a plotter
+// escape sequence.
 bool looks_like_hpgl(std::string_view text);
 
 }  // namespace passo

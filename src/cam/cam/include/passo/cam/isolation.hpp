@@ -1,19 +1,19 @@
-// plan_isolation: where cutters go to free the copper of a layer from the copper around it.
+// plan_isolation: plans isolation milling: toolpaths that separate the copper of a layer from the copper around it.
 //
-// The middle of the cutter goes around every island of copper, half its width and a small margin away, in loops that
-// lie one around the other until the wanted width is free, or with `clear` all ground of the board. So the cutter takes
-// no copper that is wanted. Where two islands are nearer to each other than the cutter is wide, no loop fits between:
-// that is a gap, and the islands stay joined.
+// The cutter centre follows each island of copper at half the cutter width plus a small margin, in concentric passes
+// until the isolation width is reached; with `clear`, until all unwanted copper of the board is removed. The cutter
+// therefore never removes copper of the layer. If two islands are closer than the cutter is wide, no pass fits between
+// them: this is reported as a gap, and the islands stay connected.
 //
-// With several cutters the widest goes first. Each finer one then mills only the ground that the wider ones left and
-// that still joins two islands (with `clear`: all ground that they left).
+// With several cutters the widest goes first. Each finer cutter then mills only the areas that the wider ones left and
+// that still connect two islands (with `clear`: all areas that they left).
 //
-// With `voronoi` the first way runs midway between two islands instead, and further ones beside it: each island keeps
-// the ground around it. These ways end at the board's edge; without an edge a frame around the copper is milled, too.
-// Openings within one island, as those of a thermal relief, are milled as drawn.
+// With `voronoi` the first pass runs midway between two islands, and further passes run beside it: each island keeps
+// the copper around it. These toolpaths end at the board's edge; without an edge, a frame around the copper is milled,
+// too. Openings within one island, such as those of a thermal relief, are milled as drawn.
 //
-// Loops begin where they are near to the end of the one before. The cutter stays down from loop to loop where the
-// straight way is short and keeps away from the copper like the loops, and stays in the ground to be milled.
+// Each loop begins near the end of the previous one. The cutter stays down between loops if the straight link is short,
+// keeps the same distance from the copper as the loops, and stays in the area to be milled.
 #pragma once
 
 #include <cstdint>
@@ -28,44 +28,45 @@
 namespace passo {
 
 struct IsolationCutter {
-  Nanometres width = {};  // at the face of the board
+  Nanometres width = {};  // milled width at the board's surface
   std::string words = {};
 };
 
-// The width that a V-shaped cutter mills at the face: the tip, and the angle between its sides, at this depth (> 0).
+// Returns the width that a V-bit mills at the surface, from its tip width, its included angle and the depth (> 0).
 Nanometres v_cutter_width(Nanometres tip, double angle_degrees, Nanometres depth);
 
 struct IsolationOptions {
-  std::vector<IsolationCutter> cutters = {};  // in any order, one or more
-  std::uint32_t passes = 1;                   // loops of the widest cutter around an island
-  std::optional<Nanometres> width = {};       // free ground around the copper, at least; instead of `passes`
-  double overlap = 0.5;                       // share of the cutter's width that a loop and the next have in common
-  bool clear = false;                         // frees the board of all copper that is not wanted
-  bool voronoi = false;                       // ways midway between the islands; not with `clear`
-  bool climb = true;                          // with a spindle that turns clockwise; else conventional
-  Region board = {};                          // empty: around the copper
+  std::vector<IsolationCutter> cutters = {};  // at least one, in any order
+  std::uint32_t passes = 1;                   // number of isolation passes of the widest cutter around an island
+  std::optional<Nanometres> width = {};       // minimum isolation width; replaces `passes`
+  double overlap = 0.5;                       // overlap of adjacent passes, as a fraction of the cutter width
+  bool clear = false;                         // removes all unwanted copper from the board
+  bool voronoi = false;                       // toolpaths midway between the islands; not with `clear`
+  bool climb = true;                          // climb milling, for a clockwise spindle; otherwise conventional
+  Region board = {};                          // the board's outline; empty: the surroundings of the copper
   Nanometres depth{-50'000};
-  Nanometres tolerance{4'000};  // the loops are so much farther from the copper than half the cutter
+  Nanometres tolerance{4'000};  // margin added to half the cutter width
   DrawnPoint park = {};
-  std::uint64_t route_steps = 20'000'000;  // work of shorten_route() on each tool, at most
+  std::uint64_t route_steps = 20'000'000;  // maximum number of steps of shorten_route() per tool
 };
 
-// Two islands of copper nearer to each other than the finest cutter needs.
+// Two islands of copper closer than the finest cutter requires.
 struct CopperGap {
-  DrawnPoint at = {};     // its narrowest place
-  Nanometres width = {};  // there
+  DrawnPoint at = {};     // the narrowest point
+  Nanometres width = {};  // width at that point
 };
 
 struct IsolationPlan {
   MillPlan mill = {};
-  std::size_t islands = 0;           // of copper
-  std::vector<CopperGap> gaps = {};  // one for each two islands, from narrow to wide
-  Region unmilled = {};              // the ground in the gaps and narrow openings, for the picture
-  // Openings within an island, as those of a thermal relief, of which no cutter reaches half: a place in each.
+  std::size_t islands = 0;           // number of copper islands
+  std::vector<CopperGap> gaps = {};  // one per pair of islands, the narrowest first
+  Region unmilled = {};              // the unmilled areas in gaps and narrow openings, for the picture
+  // Openings within an island, such as those of a thermal relief, of which cutters reach less than half: a point in
+  // each.
   std::vector<DrawnPoint> narrow_openings = {};
 };
 
-// Errors "isolation.…" are in `diagnostics`.
+// Reports errors "isolation.…" in `diagnostics`.
 IsolationPlan plan_isolation(const Region& copper, const IsolationOptions& options, Diagnostics& diagnostics);
 
 }  // namespace passo

@@ -1,9 +1,9 @@
-// write_mill_program: the G-code of a mill plan.
+// write_mill_program: writes a mill plan as G-code.
 //
-// For each run the cutter goes by rapids above its first place and down to 0.5 mm above the board or above the ground
-// that is milled already, by the plunge feed into the board, along the run by the mill feed, and up. Arcs are G2 and
-// G3. Several tools are changed with M6 at the park place, with a message to the operator before. The program begins
-// and ends at the park place, at the clearance height, and ends with M5 and M2.
+// For each run the cutter rapids to the XY position of the first point, rapids down to 0.5 mm above the board or above
+// the floor milled so far, plunges at the plunge feed, follows the run at the mill feed, and retracts. Arcs are G2 and
+// G3. Multiple tools are changed with M6 at the park position, after a message to the operator. The program begins and
+// ends at the park position, at the clearance height, and ends with M5 and M2.
 #pragma once
 
 #include <cstdint>
@@ -17,22 +17,23 @@
 namespace passo {
 
 struct MillProgramOptions {
-  std::string name = {};                  // of the program, for its first comment
+  std::string name = {};                  // program name, for the first comment
   std::string command = {};               // "passo cam isolate"
-  std::vector<std::string> files = {};    // of the drawings
-  std::vector<std::string> remarks = {};  // a comment each
+  std::vector<std::string> files = {};    // names of the drawing files
+  std::vector<std::string> remarks = {};  // comments at the head of the program
   ProgramUnits units = ProgramUnits::mm;
-  Nanometres clearance{2'000'000};            // height of the rapids above the board
-  Nanometres feed{200'000'000};               // a minute, along the runs
-  Nanometres plunge_feed{60'000'000};         // a minute, straight down
-  std::optional<std::uint32_t> spindle = {};  // turns a minute; empty: the program leaves the spindle alone
-  DrawnPoint park = {};                       // where the tool is at the start, at tool changes and at the end
+  Nanometres clearance{2'000'000};            // clearance height above the board
+  Nanometres feed{200'000'000};               // cutting feed, nm/min
+  Nanometres plunge_feed{60'000'000};         // plunge feed, nm/min
+  std::optional<std::uint32_t> spindle = {};  // rpm; empty: no spindle commands
+  DrawnPoint park = {};                       // tool position at the start, at tool changes and at the end
 };
 
-// The program's text.
+// Returns the program text.
 std::string write_mill_program(const MillPlan& plan, const MillProgramOptions& options);
 
-// How far a place of the plan and of the program are apart, at most: half of the last digit, along X and Y.
+// The maximum distance between a point of the plan and the same point of the program: half of the last digit, in X and
+// Y.
 inline constexpr Nanometres most_rounding{180};
 
 }  // namespace passo

@@ -1,7 +1,7 @@
-// Mirror: a board that is turned over, so that its back is milled.
+// Mirror: flips a board so that its back can be milled.
 //
-// `x` turns it over from left to right: X changes its sign about the line X = `at`. `y` turns it over from top to
-// bottom, about the line Y = `at`.
+// `x` flips it left to right: X is mirrored about the line X = `at`. `y` flips it top to bottom, about the line Y =
+// `at`.
 #pragma once
 
 #include <cstdint>
@@ -19,7 +19,7 @@ struct Mirror {
 };
 
 DrawnPoint mirrored(DrawnPoint point, const Mirror& mirror);
-// Rings keep the region to their left.
+// Returns the mirrored region. The rings are reversed, so that they keep the region on their left.
 Region mirrored(const Region& region, const Mirror& mirror);
 void mirror_drawing(Drawing& drawing, const Mirror& mirror);
 

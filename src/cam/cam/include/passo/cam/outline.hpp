@@ -1,11 +1,12 @@
-// plan_outline: cuts boards out, and the openings in them.
+// plan_outline: plans cutting boards out, including their cutouts.
 //
-// The middle of the cutter goes around the board and along its openings, half the cutter's width away from what stays.
-// What lies inside is cut before what lies around. The cut goes down in even steps. Corners and arcs that the edge has
-// are arcs of the cutter's way.
+// The cutter centre follows the outline and the cutouts at half the cutter diameter from the board. Inner contours are
+// cut before the contours around them. The depth is divided into equal passes. Corners and arcs of the edge become arcs
+// of the toolpath.
 //
-// Tabs hold the board: there the cutter stays at a height above the full depth. By number they are spread evenly along
-// each board's outside, on straight edges where there are some; by place they are put at the nearest place of any cut.
+// Tabs hold the board: at a tab the cutter stays above the full depth. Tabs given by number are spread evenly along the
+// outside of each board, on straight edges if possible; tabs given by position are placed at the nearest point of any
+// cut.
 #pragma once
 
 #include <cstdint>
@@ -20,20 +21,20 @@
 namespace passo {
 
 struct OutlineOptions {
-  Nanometres cutter{2'000'000};  // diameter
-  std::string words = {};        // for the operator
-  Nanometres depth{-1'800'000};  // below the board's face, negative
-  Nanometres step{500'000};      // how deep a turn goes, at most
-  std::uint32_t tabs = 0;        // around each board
+  Nanometres cutter{2'000'000};  // cutter diameter
+  std::string words = {};        // tool name for the operator
+  Nanometres depth{-1'800'000};  // final depth below the board's surface, negative
+  Nanometres step{500'000};      // maximum depth per pass
+  std::uint32_t tabs = 0;        // number of tabs around each board
   std::vector<DrawnPoint> tab_places = {};
-  Nanometres tab_width{2'000'000};  // that stays
-  Nanometres tab_height{600'000};   // above the full depth
-  double ramp_degrees = 0;          // how steep the cutter goes down along its way; 0: straight down
-  Nanometres lead{};                // radius of the arc by which the cutter comes to the edge; 0: none
-  bool dog_bones = false;           // inner corners are cut so far that a sharp corner fits in
-  bool climb = true;                // with a spindle that turns clockwise; else conventional
-  bool openings_only = false;       // the outsides are left; tabs hold what falls out of the openings
-  bool skips_narrow = false;        // an opening narrower than the cutter is a warning, and stays; else an error
+  Nanometres tab_width{2'000'000};  // width of the material that remains
+  Nanometres tab_height{600'000};   // height of the tabs above the full depth
+  double ramp_degrees = 0;          // ramp angle of the descent along the toolpath; 0: straight down
+  Nanometres lead{};                // radius of the lead-in arc; 0: none
+  bool dog_bones = false;           // overcuts inner corners so that a sharp corner fits in
+  bool climb = true;                // climb milling, for a clockwise spindle; otherwise conventional
+  bool openings_only = false;       // cuts no outer contours; tabs hold the scrap in the openings
+  bool skips_narrow = false;        // an opening narrower than the cutter is skipped with a warning; otherwise an error
   DrawnPoint park = {};
 };
 
@@ -41,12 +42,13 @@ struct OutlinePlan {
   MillPlan mill = {};
   std::size_t outsides = 0;
   std::size_t openings = 0;
-  std::vector<DrawnPoint> tabs = {};  // their middles, of the cutter's way
-  std::vector<DrawnRing> ways = {};   // where the middle of the cutter goes, each way once, on chords
-  double lost_mm2 = 0;                // of the board, by a sweep of the cutter; dog-bones take a little
+  std::vector<DrawnPoint> tabs = {};  // tab centres on the path of the cutter centre
+  std::vector<DrawnRing> ways = {};   // paths of the cutter centre as chords, each once
+  double lost_mm2 = 0;                // board area lost according to a sweep of the cutter; dog-bones cause a small
+                                      // loss
 };
 
-// Errors "outline.…" are in `diagnostics`.
+// Reports errors "outline.…" in `diagnostics`.
 OutlinePlan plan_outline(const Region& board, const OutlineOptions& options, Diagnostics& diagnostics);
 
 }  // namespace passo

@@ -1,11 +1,10 @@
-// plan_profile: cuts along the lines of a drawing: around parts, inside loops, or with the cutter's middle on the line.
+// plan_profile: cuts along the lines of a drawing: around parts, inside loops, or with the cutter centred on the line.
 //
-// What lies inside is cut before what lies around it. Depths, tabs, ramps, leads and dog-bones are those of
-// plan_outline(). On the line, open paths are cut there and back, a step deeper at each end.
+// Inner loops are cut before the loops around them. Depths, tabs, ramps, lead-ins and dog-bones work as in
+// plan_outline(). With the cutter centred on the line, open paths are cut back and forth, one step deeper at each end.
 //
-// Where two lines are nearer to each other than the cutter needs, and in inner corners, some of the ground along the
-// line stays: it is told as `unreached`. A loop that the cutter does not fit into is a warning
-// "outline.narrow-opening".
+// If two lines are closer than the cutter requires, and in inner corners, some material along the line remains: it is
+// reported as `unreached`. A loop that the cutter does not fit into causes a warning "outline.narrow-opening".
 #pragma once
 
 #include <cstddef>
@@ -17,7 +16,8 @@
 
 namespace passo {
 
-// part: outside the outermost loops, inside the loops in them, and so on in turn. outside, inside: of each loop.
+// part: outside the outermost loops, inside the loops within them, and so on alternately. outside, inside: of every
+// loop.
 enum class ProfileSide : std::uint8_t { part, outside, inside, on };
 
 struct ProfileOptions {
@@ -27,14 +27,14 @@ struct ProfileOptions {
 
 struct ProfilePlan {
   OutlinePlan outline = {};
-  std::size_t lines = 0;  // open paths that are cut
-  Region face = {};       // what the loops fill; of `on` nothing
+  std::size_t lines = 0;  // number of open paths that are cut
+  Region face = {};       // the area inside the loops; empty for `on`
   Region unreached = {};
   double unreached_mm2 = 0;
 };
 
-// `loops`: the last point leads back to the first. `lines`: open paths, which are cut on the line alone.
-// Errors "outline.…" and "profile.…" are in `diagnostics`.
+// `loops`: closed; the last point leads back to the first. `lines`: open paths, which are always cut on the line.
+// Reports errors "outline.…" and "profile.…" in `diagnostics`.
 ProfilePlan plan_profile(const std::vector<std::vector<PathPoint>>& loops,
                          const std::vector<std::vector<PathPoint>>& lines, const ProfileOptions& options,
                          Diagnostics& diagnostics);

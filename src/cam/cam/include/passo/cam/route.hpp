@@ -1,9 +1,9 @@
-// shorten_route: the order of places that makes the way through all of them short, from a start to an end.
+// shorten_route: finds a short route from a start through all points to an end.
 //
-// Nearest neighbour first; then 2-opt and Or-opt among the ten nearest neighbours of each place (Bentley's
-// don't-look bits); then small random changes (segment insertion, Or-3opt), each kept if the way gets shorter. All
-// random numbers come from one fixed seed, and the work is counted in steps: the same places give the same order on
-// every machine.
+// It begins with the nearest neighbour order; then applies 2-opt and Or-opt among the ten nearest neighbours of each
+// point (Bentley's don't-look bits); then small random changes (segment insertion, Or-3opt), each kept if it shortens
+// the route. All random numbers come from a fixed seed, and the work is counted in steps: the same points give the same
+// order on every computer.
 //
 // Source: J. L. Bentley, Fast algorithms for geometric traveling salesman problems (1992); H. R. Lourenço, O. Martin,
 // T. Stützle, Iterated local search (2003).
@@ -16,15 +16,15 @@
 
 namespace passo {
 
-// The indices of `places` in a good order. `steps`: distances looked at and places moved, an upper bound but for the
-// first order, which needs about 100 a place.
+// Returns the indices of `places` in a good order. `steps`: the maximum number of distances evaluated and points moved,
+// not counting the initial order, which needs about 100 per point.
 std::vector<std::uint32_t> shorten_route(const std::vector<DrawnPoint>& places, DrawnPoint start, DrawnPoint end,
                                          std::uint64_t steps);
 
-// More steps hardly shorten the route of so many places: `a_place` for each, and fewer where there are few.
+// Returns the number of steps beyond which the route hardly improves: `a_place` for each point, fewer for few points.
 std::uint64_t enough_steps(std::size_t places, std::uint64_t a_place);
 
-// The way from the start through all places in this order to the end, in nanometres.
+// Returns the length of the route from the start through all points in this order to the end, in nanometres.
 double route_length(const std::vector<DrawnPoint>& places, const std::vector<std::uint32_t>& order, DrawnPoint start,
                     DrawnPoint end);
 

@@ -1,9 +1,9 @@
-// StrokeFont: letters of single lines, for engraving on the line and for plotters.
+// StrokeFont: a single-line font, for engraving and for plotter labels.
 //
-// Read are the fonts of LibreCAD (.lff) and those of A. V. Hershey in the form of J. Hurt (.jhf). A .jhf file has no
-// codes: its letters are those of ASCII from the space on. Lengths are in units of the font, Y0 is the base line.
+// Supports the fonts of LibreCAD (.lff) and those of A. V. Hershey in the format of J. Hurt (.jhf). A .jhf file has no
+// character codes: its letters are ASCII from the space on. Lengths are in font units; Y0 is the baseline.
 //
-// A hostile text gives diagnostics "font.…" with a line. Time and memory are proportional to the text.
+// Invalid input produces diagnostics "font.…" with a line number. Time and memory are proportional to the text.
 #pragma once
 
 #include <map>
@@ -15,7 +15,7 @@
 
 namespace passo {
 
-// The bulge tells how the stroke goes on from here, as in PathPoint.
+// The bulge defines the connection to the next point, as in PathPoint.
 struct StrokePoint {
   double x = 0;
   double y = 0;
@@ -23,26 +23,26 @@ struct StrokePoint {
 };
 
 struct StrokeLetter {
-  double advance = 0;                                  // to the next letter
-  std::vector<std::vector<StrokePoint>> strokes = {};  // of one point: a dot
+  double advance = 0;                                  // distance to the next letter
+  std::vector<std::vector<StrokePoint>> strokes = {};  // a stroke of one point is a dot
 };
 
 struct StrokeFont {
-  double capital = 0;  // the height of a capital letter; above 0
+  double capital = 0;  // capital letter height; above 0
   std::map<char32_t, StrokeLetter> letters = {};
 };
 
-// Errors are in `diagnostics`; the font then has no letters.
+// Reports errors in `diagnostics`; the font then has no letters.
 StrokeFont read_stroke_font(const std::string& name, std::string_view text, Diagnostics& diagnostics);
 
-// Whether the text begins like a font of this kind.
+// Returns whether the beginning of the text looks like a font of these formats.
 bool looks_like_stroke_font(std::string_view text);
 
-// "Roman Simplex" of the Hershey fonts: ASCII. Its data and the acknowledgement that its licence asks for are in
+// Returns the Hershey font "Roman Simplex" (ASCII). Its data and the acknowledgement required by its licence are in
 // hershey_simplex.cpp.
 const StrokeFont& built_in_stroke_font();
 
-// The characters of a text in UTF-8; a byte that is no part of a character is U+FFFD.
+// Decodes UTF-8; an invalid byte becomes U+FFFD.
 std::vector<char32_t> characters_of(std::string_view text);
 
 }  // namespace passo

@@ -1,17 +1,17 @@
-// read_svg: SVG drawings into paths and circles.
+// read_svg: reads SVG drawings into paths and circles.
 //
-// path, rect, circle, ellipse, line, polyline and polygon are read, with transforms, nested svg, groups, symbols and
-// uses. Circles are holes, as in DXF drawings; their arcs, those of paths and of rounded corners stay arcs, unless a
-// transform stretches them. Bézier curves and ellipses become chords within the tolerance. Y goes up: the lower left
-// corner of the page is X0 Y0. Only the lines count: what is filled and how wide a stroke is does not matter. Groups
-// that Inkscape calls layers are the drawing's layers.
+// Supports path, rect, circle, ellipse, line, polyline and polygon, with transforms, nested svg, groups, symbols and
+// uses. Circles are holes, as in DXF drawings; circular arcs, including those of paths and rounded corners, stay arcs
+// unless a transform distorts them. Bézier curves and ellipses become chords within the tolerance. Y points up: the
+// lower left corner of the page is X0 Y0. Only the geometry counts: fill and stroke width are ignored. Inkscape layers
+// are the layers of the drawing.
 //
-// Texts, pictures and foreign objects are left out, and counted in Drawing::notes; so are elements that are not
-// displayed (`display: none`), clips, masks, markers and patterns. Style sheets are not applied.
+// Texts, pictures and foreign objects are omitted and counted in Drawing::notes; so are hidden elements (`display:
+// none`), clips, masks, markers and patterns. Style sheets are not applied.
 //
-// A 1 of the page is what `width` and `viewBox` make of it; without them a pixel, of which an inch has 96. Time and
-// memory are proportional to the text and to what its uses expand to, which is bounded by `most_drawn`. A hostile text
-// gives diagnostics "svg.…" with a line.
+// `width` and `viewBox` determine the user unit; without them it is a pixel, 1/96 inch. Time and memory are
+// proportional to the text and to the expansion of its uses, which is bounded by `most_drawn`. Invalid input produces
+// diagnostics "svg.…" with a line number.
 //
 // Source: Scalable Vector Graphics (SVG) 2, W3C, 2018.
 #pragma once
@@ -26,15 +26,15 @@
 namespace passo {
 
 struct SvgOptions {
-  double scale = 1;                      // of all lengths
+  double scale = 1;                      // scale factor of all lengths
   std::vector<std::string> layers = {};  // the layers to read; empty: all
-  Mm tolerance{0.005};                   // of chords on curves
+  Mm tolerance{0.005};                   // chord tolerance for curves
 };
 
-// Errors are in `diagnostics`; the drawing then holds what was read so far.
+// Reports errors in `diagnostics`; the drawing then contains what was read before the error.
 Drawing read_svg(const std::string& name, std::string_view text, const SvgOptions& options, Diagnostics& diagnostics);
 
-// Whether the text begins like an SVG drawing.
+// Returns whether the beginning of the text looks like an SVG drawing.
 bool looks_like_svg(std::string_view text);
 
 }  // namespace passo

@@ -1,18 +1,18 @@
-// plan_v_carve: carves areas with a V-shaped cutter, so that its edges run along the lines of the areas.
+// plan_v_carve: carves areas with a V-bit, so that its flanks follow the outlines of the areas.
 //
-// The cutter's middle goes along the medial axis: the places that are equally far from two or more lines. There it is
-// as deep as its flanks touch both, so wide strokes are deep, narrow ones shallow, and corners come out sharp. Branches
-// towards corners that are hardly any (chords of curves) are left out.
+// The cutter centre follows the medial axis: the points that are equally far from two or more edges. It goes so deep
+// that its flanks touch both edges; wide strokes are therefore deep, narrow ones shallow, and corners are sharp.
+// Branches into almost straight corners (chords of curves) are omitted.
 //
-// Where an area is wider than the cutter, or deeper than allowed, its middle is a flat floor: the cutter goes around it
-// once at the full depth, and `floor` tells what stays inside, for a flat cutter. Strokes that are narrower than the
-// cutter's tip are told as `unreached`.
+// If an area is wider than the cutter or the maximum depth allows, its middle becomes a flat floor: the cutter goes
+// around it once at full depth, and `floor` is the remaining area, for an end mill. Strokes narrower than the cutter's
+// tip are reported as `unreached`.
 //
-// With a `step` the cutter goes in layers: so much deeper each time, along the places that are deeper than the layer
-// before. Every place is at last cut at its exact depth.
+// With a `step` the cutter works in layers, each deeper by `step`, along the points that are deeper than the previous
+// layer. Every point is finally cut at its exact depth.
 //
-// The plug of an inlay is carved around: its lines lie at `start`, so it fits into a pocket that was carved along the
-// same lines at the face. A cutter that is too narrow to be that deep is an error "engrave.narrow-cutter".
+// `start` is for the plug of an inlay: its outlines lie at that depth, so that it fits into a pocket carved along the
+// same outlines at the surface. A cutter too narrow for that depth is an error "engrave.narrow-cutter".
 //
 // Source: the Voronoi diagram of segments by S. Fortune's sweep, Boost.Polygon.
 #pragma once
@@ -26,27 +26,27 @@
 namespace passo {
 
 struct VCarveOptions {
-  double angle_degrees = 60;     // between the cutter's flanks
-  Nanometres tip{};              // width of its tip
-  Nanometres widest{6'000'000};  // its diameter
-  Nanometres deepest{};          // below `start`, negative; 0: as the cutter's width allows
-  Nanometres step{};             // of a layer, above 0; 0: all at once
-  Nanometres start{};            // where the lines lie, below the face, 0 or negative: above, the walls go on
-  Nanometres tolerance{2'000};   // of curves, in depth and sideways
-  std::string words = {};        // for the operator
+  double angle_degrees = 60;     // included angle
+  Nanometres tip{};              // tip width
+  Nanometres widest{6'000'000};  // cutter diameter
+  Nanometres deepest{};          // maximum depth below `start`, negative; 0: limited by the cutter's width
+  Nanometres step{};             // depth per layer, above 0; 0: a single layer
+  Nanometres start{};            // depth of the outlines below the surface, 0 or negative; the walls continue above
+  Nanometres tolerance{2'000};   // tolerance of curves, in depth and in XY
+  std::string words = {};        // tool name for the operator
   DrawnPoint park = {};
 };
 
 struct VCarvePlan {
   MillPlan mill = {};
-  Nanometres deepest = {};  // below 0
+  Nanometres deepest = {};  // the maximum depth reached, negative
   std::size_t layers = 1;
-  Region floor = {};  // what stays of areas that are too wide, at the depth `floor_z`
+  Region floor = {};  // the remaining area that is too wide for the cutter, at the depth `floor_z`
   Nanometres floor_z = {};
   Region unreached = {};  // strokes narrower than the tip
 };
 
-// Errors "engrave.…" are in `diagnostics`.
+// Reports errors "engrave.…" in `diagnostics`.
 VCarvePlan plan_v_carve(const Region& area, const VCarveOptions& options, Diagnostics& diagnostics);
 
 }  // namespace passo

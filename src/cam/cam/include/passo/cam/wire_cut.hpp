@@ -1,16 +1,18 @@
-// plan_wire_cut: how a hot wire cuts a block of foam, with one profile or with two, at its left and its right face.
+// plan_wire_cut: plans cutting foam with a hot wire, along one profile or along two different ones at the left and
+// right face of the block.
 //
-// The wire begins beside both profiles, comes to its place of greatest X, goes around it once, and leaves as it came.
-// It is straight, so both ends arrive everywhere together: the profiles are matched corner by corner where they have
-// equally many, else at the greatest and the least X; between these, place by place at equal shares of the way.
+// The wire begins outside both profiles, moves to the point of maximum X, goes around the profile once, and leaves
+// along its entry path. The wire is straight, so both ends move in synchronism: profiles with equal numbers of corners
+// are matched corner by corner, others at the points of maximum and minimum X; in between, points are matched at equal
+// fractions of the length.
 //
-// The slower end moves at the feed, and the other end faster, at most at `most_feed`. A wire that moves more slowly
-// melts more: each side keeps off its profile by half of its own kerf. Of one measured kerf k at the speed v the
-// product k v is the same at all speeds, for the heat of a length of wire is; between several measured ones, and beyond
-// them, the kerf is a line over 1 / v.
+// The slower end moves at the feed; the other end is faster, at most `most_feed`. A slower wire melts more foam, so
+// each side is offset from its profile by half of its own kerf. From one measured kerf k at the speed v, the kerf at
+// other speeds follows from a constant product k v, since the heat per length of wire is constant; with several
+// measured kerfs it is interpolated and extrapolated linearly in 1 / v.
 //
-// Where the profile turns inwards more tightly than the wire melts, the wire cannot go: a warning "wire.narrow".
-// `lost_mm2` is found by a sweep of the wire along what is planned.
+// The wire cannot follow an inward curve tighter than its kerf: a warning "wire.narrow". `lost_mm2` is computed by
+// sweeping the wire along the plan.
 #pragma once
 
 #include <cstdint>
@@ -23,14 +25,14 @@
 
 namespace passo {
 
-enum class WireKeeps : std::uint8_t { inside, outside, line };  // line: the wire goes on the drawn line
+enum class WireKeeps : std::uint8_t { inside, outside, line };  // line: the wire follows the drawn line
 
 struct WireKerf {
-  double speed = 0;  // mm a minute, above 0
+  double speed = 0;  // mm/min, above 0
   double width = 0;  // mm, 0 or more
 };
 
-// A line of a drawing. Of a closed one the last point leads back to the first.
+// A line of a drawing. If it is closed, the last point leads back to the first.
 struct WireProfile {
   std::vector<PathPoint> points = {};
   bool is_closed = true;
@@ -38,13 +40,13 @@ struct WireProfile {
 
 struct WireOptions {
   WireKeeps keeps = WireKeeps::inside;
-  double feed = 200;  // mm a minute
+  double feed = 200;  // mm/min
   double most_feed = 600;
-  std::vector<WireKerf> kerf = {};  // one or more, by rising speed
-  Nanometres lead{10'000'000};      // how far beyond both profiles, and the block, the cut begins and ends
-  Nanometres block_end{};           // the greatest X of the block, where that is more than the profiles'
-  Nanometres tolerance{5'000};      // of chords
-  // Along the wire, from the left tower: used where the two sides differ.
+  std::vector<WireKerf> kerf = {};  // at least one, by increasing speed
+  Nanometres lead{10'000'000};      // distance of the start and end of the cut beyond both profiles and the block
+  Nanometres block_end{};           // maximum X of the block, if it exceeds that of the profiles
+  Nanometres tolerance{5'000};      // chord tolerance
+  // Position along the wire, from the left tower; used if the two sides differ.
   Nanometres left_face{};
   Nanometres right_face{};
   Nanometres span{};
@@ -56,30 +58,30 @@ struct WirePlace {
 };
 
 struct WireSide {
-  Region face = {};  // inside the profile
+  Region face = {};  // the area inside the profile
   double least_kerf = 0;
-  double most_kerf = 0;   // mm
-  double way = 0;         // mm
-  double most_speed = 0;  // mm a minute
+  double most_kerf = 0;   // maximum kerf, mm
+  double way = 0;         // path length, mm
+  double most_speed = 0;  // maximum speed, mm/min
   double lost_mm2 = 0;
 };
 
 struct WirePlan {
-  std::vector<WirePlace> faces = {};    // of the block: where the wire is at both
-  std::vector<WirePlace> towers = {};   // the same places of the wire at its ends
-  std::vector<double> minutes = {};     // from the place before; the first is 0
-  std::vector<double> kerfs_left = {};  // mm, of the way to each place
+  std::vector<WirePlace> faces = {};    // positions of the wire at both faces of the block
+  std::vector<WirePlace> towers = {};   // the same positions at the ends of the wire
+  std::vector<double> minutes = {};     // duration of the move from the previous point, min; the first is 0
+  std::vector<double> kerfs_left = {};  // kerf of the move to each point, mm
   std::vector<double> kerfs_right = {};
   WireSide left = {};
   WireSide right = {};
-  std::size_t sections = 0;  // between places that are matched
+  std::size_t sections = 0;  // number of sections between matched points
 };
 
-// Errors and warnings "wire.…" are in `diagnostics`.
+// Reports errors and warnings "wire.…" in `diagnostics`.
 WirePlan plan_wire_cut(const WireProfile& left, const WireProfile& right, const WireOptions& options,
                        Diagnostics& diagnostics);
 
-// The kerf at a speed, mm and mm a minute.
+// Returns the kerf in mm at a speed in mm/min.
 double kerf_at(const std::vector<WireKerf>& measured, double speed);
 
 }  // namespace passo

@@ -1,7 +1,7 @@
-// write_wire_program: the G-code of a wire cut.
+// write_wire_program: writes a wire cut as G-code.
 //
-// With four axes X Y move the left end of the wire, U V the right one, and each move has its own time (G93), so that
-// the speeds are those of the plan. With two axes both ends move alike: the way is lines and arcs at one feed.
+// With four axes, X Y move the left end of the wire and U V the right one; each move has its own duration (G93), which
+// gives the planned speeds. With two axes both ends move alike: the program consists of lines and arcs at one feed.
 #pragma once
 
 #include <cstdint>
@@ -15,16 +15,16 @@
 namespace passo {
 
 struct WireProgramOptions {
-  std::string name = {};                  // of the program, for its first comment
-  std::vector<std::string> files = {};    // of the drawings
-  std::vector<std::string> remarks = {};  // a comment each
+  std::string name = {};                  // program name, for the first comment
+  std::vector<std::string> files = {};    // names of the drawing files
+  std::vector<std::string> remarks = {};  // comments at the head of the program
   ProgramUnits units = ProgramUnits::mm;
   bool has_four_axes = true;
-  double feed = 200;                       // mm a minute, of two axes
-  std::optional<std::uint32_t> heat = {};  // S of the wire's current; empty: the program leaves it alone
+  double feed = 200;                       // feed with two axes, mm/min
+  std::optional<std::uint32_t> heat = {};  // S word for the wire current; empty: no heating commands
 };
 
-// The program's text. The plan has two places or more.
+// Returns the program text. The plan must have at least two points.
 std::string write_wire_program(const WirePlan& plan, const WireProgramOptions& options);
 
 }  // namespace passo

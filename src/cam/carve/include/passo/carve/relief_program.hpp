@@ -1,12 +1,13 @@
-// write_relief: the program that carves a relief: roughing, finishing, rest finishing, each with its own cutter.
+// write_relief: generates the program that carves a relief: roughing, finishing and rest finishing, each with its own
+// cutter.
 //
-// The program is in mm (G21), Z 0 at the top of the stock. It is handed on in pieces while it is made: memory grows
-// with the surface, not with the program. Each feed move keeps clear of the surface, over its whole length
-// (passo/carve/dropped_cutter.hpp), and is at most `tolerance` higher than it must be. The cutters go beyond the
-// surface by `overrun`, so its edges are cut fully. There the surface goes on, or nothing bounds them but the floor,
+// The program is in mm (G21), with Z 0 at the top of the stock. It is passed to the sink in pieces during generation:
+// memory grows with the surface, not with the program. Each feed move is gouge-free over its whole length
+// (passo/carve/dropped_cutter.hpp), and at most `tolerance` higher than necessary. The cutters travel beyond the
+// surface by `overrun`, so that its edges are cut fully. There the surface continues, or the only limit is the floor,
 // its lowest height (`beside`).
 //
-// The same surface and options make the same bytes, for any number of threads.
+// Equal surfaces and options give identical output, for any number of threads.
 #pragma once
 
 #include <cstddef>
@@ -23,72 +24,72 @@
 
 namespace passo {
 
-// Rows are along X. A spiral goes inwards along the sides of a rectangle. Contours are at constant heights where the
-// way is steeper than `steep`, and rows on the rest.
+// The finishing strategy. Rows are parallel to X. A spiral follows the sides of a rectangle inwards. Contours are at
+// constant heights where the toolpath would be steeper than `steep`, with rows on the remaining area.
 enum class FinishWay : std::uint8_t { rows, columns, both, spiral, contours };
-// In rows, or by offsets of what a level takes off, from within outwards.
+// The roughing strategy: rows, or offsets of the area that a level removes, from the inside outwards.
 enum class RoughWay : std::uint8_t { rows, offsets };
 
 struct ReliefTool {
   Cutter cutter = {};
-  Mm step_over{0};  // 0: as `scallop` asks
-  Mm feed{1000};    // a minute
-  Mm plunge{300};   // the most that the tip goes down, a minute
-  // What it takes off a minute, mm3: the feed falls to a tenth where it would be more, and rises to `fastest` where it
-  // is less. 0: the feed knows nothing of it.
+  Mm step_over{0};  // stepover; 0: derived from `scallop`
+  Mm feed{1000};    // mm/min
+  Mm plunge{300};   // maximum downward speed of the tip, mm/min
+  // Target removal rate, mm³/min: the feed is reduced, at most to a tenth, or increased, at most to `fastest`, to keep
+  // it constant. 0: constant feed.
   double removal = 0;
-  Mm fastest{0};  // a minute; 0: as `feed`
+  Mm fastest{0};  // maximum feed, mm/min; 0: as `feed`
 };
 
 struct ReliefRoughing {
   ReliefTool tool = {};
   RoughWay way = RoughWay::rows;
   Mm step_down{2};
-  Mm stock{0.3};  // what it leaves, each way
+  Mm stock{0.3};  // stock to leave, in all directions
 };
 
 struct ReliefRest {
   ReliefTool tool = {};
-  Mm least{0.02};  // what the finishing cutter may leave without rest finishing
+  Mm least{0.02};  // maximum material that the finishing cutter may leave without rest finishing
 };
 
 struct ReliefProgramOptions {
-  std::string name = {};                // of the program, for its first comment
-  std::vector<std::string> words = {};  // more comments
+  std::string name = {};                // program name, for the first comment
+  std::vector<std::string> words = {};  // additional comments
   ReliefTool finish = {};
   FinishWay way = FinishWay::rows;
-  Radians steep{0.785398};  // of contours: 45 degrees
-  bool arcs = true;         // arcs where they save lines
+  Radians steep{0.785398};  // slope limit of contours: 45 degrees
+  bool arcs = true;         // use arcs where they save lines
   std::optional<ReliefRoughing> roughing = {};
   std::optional<ReliefRest> rest = {};
-  Mm scallop{0.02};                           // the ridges between two rows on a flat, where no step is given
-  Mm tolerance{0.01};                         // of lines, upwards
-  Mm clearance{5};                            // height of rapids
-  bool ramps = true;                          // enters the stock along a ramp; else straight down
-  Radians ramp{0.0873};                       // its angle
-  std::optional<std::uint32_t> spindle = {};  // turns a minute; empty: the program leaves the spindle alone
-  Mm x0{0};                                   // of node (0, 0)
+  Mm scallop{0.02};                           // scallop height between two rows on a flat area, if no stepover is given
+  Mm tolerance{0.01};                         // tolerance of lines, upward only
+  Mm clearance{5};                            // clearance height
+  bool ramps = true;                          // enter the stock along a ramp; otherwise straight down
+  Radians ramp{0.0873};                       // ramp angle
+  std::optional<std::uint32_t> spindle = {};  // rpm; empty: no spindle commands
+  Mm x0{0};                                   // position of node (0, 0)
   Mm y0{0};
-  // Empty: the radius of the finishing cutter; of the roughing cutter at least its own.
+  // Empty: the finishing cutter's radius; for the roughing cutter at least its own radius.
   std::optional<Mm> overrun = {};
   BesideGrid beside = BesideGrid::goes_on;
-  unsigned threads = 1;  // 1 or more
+  unsigned threads = 1;  // at least 1
 };
 
-// What was written for one cutter.
+// The statistics of one cutter's part of the program.
 struct ReliefPart {
   std::string what = {};  // "roughing"
-  std::string tool = {};  // its description
-  Mm step{};              // between rows
+  std::string tool = {};  // description of the cutter
+  Mm step{};              // stepover
   std::uint64_t moves = 0;
-  std::uint64_t arcs = 0;  // of these
-  Mm cut{};                // way in work
+  std::uint64_t arcs = 0;  // number of arcs among the moves
+  Mm cut{};                // cutting distance
   Mm rapid{};
-  double removal = 0;  // the most that was taken off a minute, mm3, where it is held
-  double minutes = 0;  // of the work at the feeds given; rapids and ramps of speed not counted
+  double removal = 0;  // maximum removal rate, mm³/min, if it is controlled
+  double minutes = 0;  // cutting time at the programmed feeds, without rapids and acceleration
 };
 
-// The surface that the cutters leave, at the grid's nodes, mm.
+// The surface that the cutters leave, at the nodes of the grid, mm.
 struct CarvedSurface {
   std::size_t columns = 0;
   std::size_t rows = 0;
@@ -97,18 +98,18 @@ struct CarvedSurface {
 
 struct ReliefReport {
   std::vector<ReliefPart> parts = {};
-  CarvedSurface carved = {};  // where it was wanted
+  CarvedSurface carved = {};  // the carved surface, if requested
 };
 
 using ReliefSink = std::function<void(std::string_view)>;
 using ReliefProgress = std::function<void(double fraction)>;
 
-// `wants_carved`: the report holds the carved surface, with the ridges between rows. Costs twice the surface's memory.
+// `wants_carved`: the report includes the carved surface with its scallops. This takes twice the memory of the surface.
 ReliefReport write_relief(const HeightGrid& surface, const ReliefProgramOptions& options, const ReliefSink& sink,
                           const ReliefProgress& progress, bool wants_carved);
 
-// A shaded view of a carved surface, light from the upper left, as a PNG of at most `most_side` pixels a side. Empty:
-// it could not be made.
+// Returns a shaded view of a carved surface, lit from the upper left, as a PNG of at most `most_side` pixels on each
+// side. Empty on failure.
 std::string draw_carved(const CarvedSurface& carved, Mm pitch_x, Mm pitch_y, std::size_t most_side = 900);
 
 }  // namespace passo

@@ -1,4 +1,4 @@
-// MapFigures: a height map in numbers and as a picture of letters, for people.
+// MapFigures: the statistics of a height map, and a text picture of it.
 #pragma once
 
 #include <string>
@@ -12,15 +12,15 @@ struct MapFigures {
   double lowest = 0;
   double highest = 0;
   double mean = 0;
-  // The plane that is nearest to all points, by least squares: how far it rises, mm a mm.
+  // The best-fit plane of all points (least squares): its slope, mm per mm.
   double rise_x = 0;
   double rise_y = 0;
-  double farthest_off_plane = 0;  // of all points
+  double farthest_off_plane = 0;  // maximum over all points
 };
 
 MapFigures figures_of(const HeightMap& map);
-// The figures in words, and the map seen from above: a row of the grid a line, the farthest row first. '.' is low, '@'
-// high.
+// Returns the statistics as text, and the map seen from above: one text line per grid row, the farthest row first. '.'
+// is low, '@' high.
 std::string describe(const HeightMap& map);
 
 }  // namespace passo

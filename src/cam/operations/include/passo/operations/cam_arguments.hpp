@@ -1,7 +1,7 @@
-// The arguments of the operations of `passo cam`, a struct each. The initial value of a member is the default of its
+// The arguments of the operations of `passo cam`, one struct each. A member's initial value is the default of its
 // option, and is defined only here. cam_options_of() describes the members.
 //
-// Lengths are texts with a unit, or without one in `units`; commas divide several.
+// Lengths are texts with a unit, or without one in `units`; lists are separated by commas.
 #pragma once
 
 #include <cstdint>
@@ -17,20 +17,21 @@ struct CamDrillArguments {
   std::vector<std::string> files;   // DXF or Excellon
   std::string output;               // empty: standard output
   std::string picture;              // .svg or .png; empty: none
-  std::string units = "mm";         // of the program and of lengths without a unit: mm, cm or inch
-  std::optional<double> scale;      // of the numbers of DXF files
-  std::string input;                // unit of the files' numbers; empty: as they say, with --scale as `units`
-  std::string zeros;                // left out in drill files: leading or trailing; empty: as they say
-  std::vector<std::string> layers;  // of DXF files; empty: all that are on
-  std::string zero = "file";        // where X0 Y0 is: file, lower-left or X,Y
-  std::string mirror;               // x or y; empty: the board is not turned over
-  std::string mirror_at;            // the line about which it is; empty: X0 or Y0
-  std::string align;                // X,Y,X,Y: two more holes; empty: none
-  std::string align_drill = "3mm";  // their diameter
-  std::string tools;                // the rack: diameters with commas between; empty: a drill for each diameter
+  std::string units = "mm";         // unit of the program, and of lengths without a unit: mm, cm or inch
+  std::optional<double> scale;      // scale factor for the numbers in DXF files
+  std::string input;                // unit of the numbers in the files; empty: as the files state; with --scale as
+                                    // `units`
+  std::string zeros;                // suppressed zeros in drill files: leading or trailing; empty: as the files state
+  std::vector<std::string> layers;  // layers of DXF files; empty: all layers that are on
+  std::string zero = "file";        // position of X0 Y0: file, lower-left or X,Y
+  std::string mirror;               // x or y; empty: the board is not flipped
+  std::string mirror_at;            // position of the mirror line; empty: X0 or Y0
+  std::string align;                // X,Y,X,Y: two alignment holes; empty: none
+  std::string align_drill = "3mm";  // diameter of the alignment holes
+  std::string tools;                // the rack: comma-separated diameters; empty: one drill per diameter
   std::string tolerance = "0.05mm";
-  std::string drill;  // one drill for all holes; empty: none
-  std::string mill;   // the milling cutter; empty: none
+  std::string drill;  // a single drill for all holes; empty: none
+  std::string mill;   // diameter of the milling cutter; empty: none
   std::string mill_step = "0.5mm";
   std::string clearance = "2mm";
   std::string depth = "-2mm";
@@ -38,49 +39,50 @@ struct CamDrillArguments {
   std::string feed = "100mm";
   std::string mill_feed = "150mm";
   std::string park = "0,0";
-  std::uint32_t spindle = 12000;            // turns a minute; 0: the program leaves the spindle alone
-  std::uint64_t route_steps = 200'000'000;  // of shorten_route()
-  bool plain = false;                       // no canned cycles
+  std::uint32_t spindle = 12000;            // rpm; 0: no spindle commands
+  std::uint64_t route_steps = 200'000'000;  // maximum number of steps of shorten_route()
+  bool plain = false;                       // uses no canned cycles
 };
 std::vector<CamOption> cam_options_of(CamDrillArguments& arguments);
 
-// What all milling has.
+// The arguments of every milling operation.
 struct CamMillArguments {
   std::vector<std::string> files;   // Gerber or DXF
   std::string output;               // empty: standard output
   std::string picture;              // .svg or .png; empty: none
-  bool json = false;                // what was done, on standard output
-  std::string units = "mm";         // of the program and of lengths without a unit: mm, cm or inch
-  std::optional<double> scale;      // of the numbers of DXF files
-  std::string input;                // unit of the files' numbers; empty: as they say, with --scale as `units`
-  std::vector<std::string> layers;  // of DXF files; empty: all that are on
-  std::string zero = "file";        // where X0 Y0 is: file, lower-left or X,Y
-  std::string mirror;               // x or y; empty: the board is not turned over
-  std::string mirror_at;            // the line about which it is; empty: X0 or Y0
-  std::string align;                // X,Y,X,Y: two holes midway between which that line runs
-  std::string sheet;                // W,H of the material, whose lower left corner is X0 Y0; empty: not known
-  bool conventional = false;        // else climb milling
+  bool json = false;                // prints a summary as JSON on standard output
+  std::string units = "mm";         // unit of the program, and of lengths without a unit: mm, cm or inch
+  std::optional<double> scale;      // scale factor for the numbers in DXF files
+  std::string input;                // unit of the numbers in the files; empty: as the files state; with --scale as
+                                    // `units`
+  std::vector<std::string> layers;  // layers of DXF files; empty: all layers that are on
+  std::string zero = "file";        // position of X0 Y0: file, lower-left or X,Y
+  std::string mirror;               // x or y; empty: the board is not flipped
+  std::string mirror_at;            // position of the mirror line; empty: X0 or Y0
+  std::string align;                // X,Y,X,Y: two holes; the mirror line runs midway between them
+  std::string sheet;                // W,H of the material, whose lower left corner is X0 Y0; empty: unknown
+  bool conventional = false;        // conventional instead of climb milling
   std::string clearance = "2mm";
   std::string feed = "200mm";
   std::string plunge_feed = "60mm";
   std::string park = "0,0";
-  std::uint32_t spindle = 12000;  // turns a minute; 0: the program leaves the spindle alone
+  std::uint32_t spindle = 12000;  // rpm; 0: no spindle commands
 };
 
-// Of a board whose options name no cutter.
+// The default for a board whose options specify no cutter.
 inline constexpr const char* usual_isolation_tool = "0.2mm";
 
 struct CamIsolateArguments : CamMillArguments {
-  std::string edge;  // file of the board's edge; empty: none
+  std::string edge;  // file with the board's edge; empty: none
   std::string join = "0.1mm";
-  std::string tools;  // widths of cutters with commas between
-  std::string v;      // ANGLE,TIP of a V-shaped cutter
+  std::string tools;  // comma-separated cutter widths
+  std::string v;      // V-bit, given as ANGLE,TIP
   std::string depth = "-0.05mm";
   std::uint32_t passes = 1;
-  std::string width;    // free ground around the copper; empty: as the passes make
+  std::string width;    // isolation width; empty: given by the number of passes
   double overlap = 50;  // percent
   bool clear = false;
-  bool voronoi = false;  // ways midway between the islands
+  bool voronoi = false;  // mills midway between the islands
   std::string tolerance = "0.004mm";
 };
 std::vector<CamOption> cam_options_of(CamIsolateArguments& arguments);
@@ -91,7 +93,7 @@ struct CamOutlineArguments : CamMillArguments {
   std::string step = "0.5mm";
   std::string join = "0.1mm";
   std::uint32_t tabs = 0;
-  std::vector<std::string> tab_places;  // X,Y each
+  std::vector<std::string> tab_places;  // positions of tabs, X,Y each
   std::string tab_width = "2mm";
   std::string tab_height = "0.6mm";
   double ramp = 0;   // degrees
@@ -110,8 +112,8 @@ struct CamPocketArguments : CamMillArguments {
   std::string depth = "-3mm";
   std::string step = "1mm";
   std::string join = "0.1mm";
-  double step_over = 40;  // percent of the cutter's diameter
-  double engagement = 0;  // degrees; 0: loops
+  double step_over = 40;  // stepover, percent of the cutter diameter
+  double engagement = 0;  // maximum engagement, degrees; 0: loops
   double ramp = 5;        // degrees
 };
 std::vector<CamOption> cam_options_of(CamPocketArguments& arguments);
@@ -119,38 +121,39 @@ std::vector<CamOption> cam_options_of(CamPocketArguments& arguments);
 struct CamEngraveArguments : CamMillArguments {
   std::string text;  // empty: the files are carved
   std::string font = "/usr/share/fonts/truetype/dejavu/DejaVuSans.ttf";
-  std::string height = "10mm";      // of a capital letter
+  std::string height = "10mm";      // capital letter height
   std::string text_align = "left";  // middle or right
-  std::string around;               // radius; empty: on a line
-  std::string arc;                  // FROM,TO in degrees: that part of the circle; empty: as much as the text needs
+  std::string around;               // radius; empty: straight text
+  std::string arc;                  // FROM,TO in degrees: the range on the circle; empty: the natural length of the
+                                    // text
   double turn = 0;                  // degrees
   bool on_line = false;             // the cutter follows the lines of the drawing
   double line_space = 1.6;
-  double angle = 60;  // degrees, of the V-shaped cutter
+  double angle = 60;  // included angle of the V-bit, degrees
   std::string tip = "0mm";
   std::string tool = "6mm";
-  std::string depth;  // at most; empty: as the cutter's width allows
-  std::string step;   // of a layer; empty: all at once
-  std::string clear;  // diameter of a flat cutter for wide areas; empty: none
+  std::string depth;  // maximum; empty: limited by the cutter's width
+  std::string step;   // depth per layer; empty: a single layer
+  std::string clear;  // diameter of an end mill for wide areas; empty: none
   std::string clear_step = "1mm";
   std::string inlay;                // pocket or plug; empty: neither
-  std::string inlay_depth = "4mm";  // of the pocket
-  std::string glue_gap = "0.5mm";   // below the plug
-  std::string saw_gap = "1mm";      // between the two faces
-  std::string margin = "5mm";       // around the plug
+  std::string inlay_depth = "4mm";  // depth of the pocket
+  std::string glue_gap = "0.5mm";   // glue gap below the plug
+  std::string saw_gap = "1mm";      // gap for the saw cut between the two surfaces
+  std::string margin = "5mm";       // margin around the plug
   std::string join = "0.1mm";
 };
 std::vector<CamOption> cam_options_of(CamEngraveArguments& arguments);
 
 struct CamWireArguments : CamMillArguments {
-  std::string axes;             // XY or XYUV; empty: as the profiles need
+  std::string axes;             // XY or XYUV; empty: as the profiles require
   std::string keep = "inside";  // outside or line
   std::string kerf = "1mm";     // or WIDTH@SPEED,...
   std::string most_feed;        // empty: three times the feed
   std::string span;
   std::string width;
-  std::string block_at;  // empty: in the middle
-  std::string chord;     // of airfoils: one, or LEFT,RIGHT
+  std::string block_at;  // empty: centred
+  std::string chord;     // chord length of airfoils: one value, or LEFT,RIGHT
   std::string right_at = "0,0";
   double right_turn = 0;  // degrees
   std::string block;      // X,Y,X,Y; empty: not drawn
@@ -161,45 +164,45 @@ struct CamWireArguments : CamMillArguments {
 };
 std::vector<CamOption> cam_options_of(CamWireArguments& arguments);
 
-// The three commands at once, on all files of a board.
+// Runs the three commands on all files of a board.
 struct CamBoardArguments {
-  std::vector<std::string> paths;    // of Gerber and drill files, folders, or a zip archive
-  std::string output = ".";          // the folder for programs, pictures and the page
+  std::vector<std::string> paths;    // Gerber and drill files, folders, or a zip archive
+  std::string output = ".";          // folder for programs, pictures and the web page
   std::string profile;               // options of the three commands (TOML); empty: none
-  std::string machine;               // machine file, for the times; empty: none
-  std::string turn = "x";            // how a board is turned over: x or y
-  std::string margin = "10mm";       // of the board's lower left corner from X0 and from Y0
-  std::string pin_distance = "5mm";  // of the alignment holes from the board's edge; 0: none
-  bool probe_holes = false;          // the holes are for the probe, which finds the board that was turned over
-  std::string heights;               // COLUMNSxROWS places of a height map of each side; empty: none
-  std::string join;                  // of the edge's ends; empty: as the outline's options say
+  std::string machine;               // machine file, for the time estimates; empty: none
+  std::string turn = "x";            // how the board is flipped: x or y
+  std::string margin = "10mm";       // distance of the board's lower left corner from X0 and from Y0
+  std::string pin_distance = "5mm";  // distance of the alignment holes from the board's edge; 0: no holes
+  bool probe_holes = false;          // the holes are for probing the position of the flipped board
+  std::string heights;               // COLUMNSxROWS probe points of a height map of each side; empty: none
+  std::string join;                  // maximum gap between ends of the edge; empty: as in the outline's options
   std::vector<std::string> told;     // FILE=LAYER: corrections of the detected layers
-  bool json = false;                 // what was made, on standard output
-  bool remember = false;             // the options of the profile, for the machine
+  bool json = false;                 // prints a summary as JSON on standard output
+  bool remember = false;             // saves the options of the profile for the machine
 };
 std::vector<CamOption> cam_options_of(CamBoardArguments& arguments);
 
-// Lengths without a unit are in mm. Cutters are texts for parse_cutter().
+// Lengths without a unit are in mm. Cutters are in the format of parse_cutter().
 struct CamReliefArguments {
   std::string file;     // PNG, TIFF, STL or height map
   std::string output;   // empty: standard output
   std::string picture;  // .png; empty: none
-  std::string width;    // empty: as `length` says, else 100 mm, or as the body is
+  std::string width;    // empty: derived from `length`, otherwise 100 mm or the size of the model
   std::string length;
-  std::string depth;  // empty: 3 mm, or as the body is
+  std::string depth;  // empty: 3 mm, or the height of the model
   double gamma = 1;
   bool invert = false;
   bool mirror = false;
   std::string channel = "luminance";  // or alpha
   std::string margin = "0mm";
   std::string margin_level = "bottom";  // or top
-  std::string pitch;                    // empty: as fine as the cutters need
+  std::string pitch;                    // empty: as fine as the cutters require
   std::string origin = "lower-left";    // a corner, center or X,Y
   std::string cutter = "ball:3";
   std::string way = "rows";    // columns, both, spiral or contours
-  double steep = 45;           // degrees; of contours
+  double steep = 45;           // degrees; slope limit of contours
   std::string moves = "arcs";  // or lines
-  std::string step;            // empty: as `scallop` says
+  std::string step;            // stepover; empty: derived from `scallop`
   std::string scallop = "0.02mm";
   std::string tolerance = "0.01mm";
   std::string clearance = "5mm";
@@ -208,8 +211,8 @@ struct CamReliefArguments {
   double ramp_angle = 5;       // degrees
   std::string feed = "1000mm";
   std::string plunge = "300mm";
-  std::optional<double> removal;   // mm3 a minute; empty: the feed does not look at it
-  std::string feed_most;           // empty: as `feed`
+  std::optional<double> removal;   // target removal rate, mm³/min; empty: constant feed
+  std::string feed_most;           // maximum feed; empty: as `feed`
   std::string rough;               // a cutter; empty: no roughing
   std::string rough_way = "rows";  // or offsets
   std::string rough_step;
@@ -222,7 +225,7 @@ struct CamReliefArguments {
   std::string rest_least = "0.05mm";
   std::string rest_feed;  // empty: as `feed`
   std::optional<double> rest_removal;
-  std::uint32_t spindle = 12000;  // turns a minute; 0: the program leaves the spindle alone
+  std::uint32_t spindle = 12000;  // rpm; 0: no spindle commands
 };
 std::vector<CamOption> cam_options_of(CamReliefArguments& arguments);
 

@@ -1,6 +1,6 @@
 // CamOption: one option of an operation of `passo cam`: name, permitted values, help text, and the member that holds
-// its value. The options of the command line, the checks of the API, the form of the page and the tables of the manual
-// come from these rows.
+// its value. The command-line options, the checks of the API, the form of the web interface and the tables of the
+// manual are generated from these rows.
 #pragma once
 
 #include <cstdint>
@@ -13,27 +13,27 @@
 namespace passo {
 
 enum class CamKind : std::uint8_t {
-  drawings,  // the files that an operation reads; they have no name on the command line
+  drawings,  // the input files of an operation; unnamed on the command line
   flag,
   choice,   // one of `choices`
-  place,    // one of `choices`, or X,Y
-  file,     // a file's name, or one of `choices`
-  text,     // words and numbers: a cutter, letters
-  length,   // or several with commas between
-  feed,     // a length a minute
-  number,   // without a unit
-  degrees,  // also numbers, as the next ones
+  place,    // one of `choices`, or a position X,Y
+  file,     // a file name, or one of `choices`
+  text,     // free text, e.g. a cutter or letters
+  length,   // one length, or several separated by commas
+  feed,     // a length per minute, e.g. a feed rate
+  number,   // a number without a unit
+  degrees,  // an angle; a number like the following kinds
   percent,
-  turns,    // a minute
-  removal,  // mm3 a minute
+  turns,    // rpm
+  removal,  // a removal rate, mm³/min
 };
 
-// For whom an option matters.
+// The users to whom an option is shown.
 enum class CamFor : std::uint8_t {
   everyone,
-  experts,       // few need it: the page shows it under "More options"
-  programs,      // the page does not show it
-  command_line,  // the API does not take it either: files of this computer, and what is printed
+  experts,       // rarely needed: the web interface shows it under "More options"
+  programs,      // intended for programs; hidden in the web interface
+  command_line,  // not accepted by the API either: local files, and console output
 };
 
 struct CamRange {
@@ -41,25 +41,25 @@ struct CamRange {
   double most;
 };
 
-// The member that holds the value. A list: the option may be given again.
+// The member that holds the value. A list option may be repeated.
 using CamValue = std::variant<std::string*, std::vector<std::string>*, bool*, double*, std::uint32_t*, std::uint64_t*,
                               std::optional<double>*, std::optional<std::uint32_t>*>;
 
-// What few options have.
+// Traits that only few options have.
 struct CamTraits {
   std::vector<std::string_view> choices = {};
   std::optional<CamRange> range = {};
   CamFor matters_to = CamFor::everyone;
-  std::string_view usual = {};   // what counts where the value is empty
-  bool is_of_job = false;        // it speaks of one drawing or one job: it is not remembered for a machine
-  bool is_of_machine = false;    // the machine file may have another default
-  std::string_view letter = {};  // "o": -o is the same
-  bool is_required = false;      // of drawings
-  int most_files = 0;            // of drawings; 0: any number
+  std::string_view usual = {};   // the effective value if the option is empty
+  bool is_of_job = false;        // specific to one drawing or job: not saved for a machine
+  bool is_of_machine = false;    // the machine file may set another default
+  std::string_view letter = {};  // short form: "o" stands for -o
+  bool is_required = false;      // for kind `drawings`: at least one file is required
+  int most_files = 0;            // for kind `drawings`: maximum number of files; 0: any number
 };
 
 struct CamOption {
-  std::string_view name;  // without "--"
+  std::string_view name;  // name of the option, without "--"
   CamValue value;
   CamKind kind;
   std::string_view help;
@@ -70,12 +70,12 @@ inline bool is_number(CamKind kind) {
   return kind >= CamKind::number;
 }
 
-// Whether it may be given again.
+// Returns whether the option may be repeated.
 inline bool is_list(const CamOption& option) {
   return std::holds_alternative<std::vector<std::string>*>(option.value);
 }
 
-// What stands there now, as the command line would say it; empty: nothing, or a flag that is not set.
+// Returns the current value in command-line form; empty: no value, or a flag that is not set.
 std::string text_of(const CamOption& option);
 
 }  // namespace passo

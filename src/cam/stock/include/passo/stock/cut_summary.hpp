@@ -1,8 +1,9 @@
-// CutSummary: what the moves of a program did to the stock, in figures and in a list of what is wrong.
+// CutSummary: the effect of a program's moves on the stock, as figures and as a list of problems.
 //
-// Engagement and removal rate are those of a stretch of feeds: one move, or as many short moves in a row as make a way
-// of the tool's radius. So a cell more or less in a tiny move does not count. The engagement is the width of the
-// material that the stretch has cut, seen from above, as a share of the tool's diameter.
+// Engagement and removal rate are evaluated per stretch of feed moves: one move, or consecutive short moves that
+// together are as long as the tool's radius. This keeps single cells in tiny moves from distorting the figures. The
+// engagement is the width of the material that the stretch has cut, seen from above, as a fraction of the tool's
+// diameter.
 #pragma once
 
 #include <array>
@@ -15,12 +16,12 @@
 
 namespace passo {
 
-// Something that should not happen: where, and how deep (mm).
+// A problem: its position, and its depth (mm).
 struct CutTrouble {
   enum class Kind : std::uint8_t {
     rapid,   // a rapid move through the stock
-    flutes,  // deeper than the tool's flutes are long
-    holder,  // the tool's holder in the stock
+    flutes,  // deeper than the flute length of the tool
+    holder,  // the tool holder in the stock
     clamp,   // the tool or its holder in a clamp
     below,   // below the stock's bottom: into the table
   };
@@ -32,7 +33,7 @@ struct CutTrouble {
   Vector3 place{};
 };
 
-// The largest of something, and the line that did it.
+// The maximum of a quantity, and the line that caused it.
 struct LargestOf {
   double value = 0;
   std::uint32_t line = 0;
@@ -40,9 +41,9 @@ struct LargestOf {
 
 class CutSummary {
  public:
-  // Of each kind, so many troubles are kept. All are counted.
+  // The maximum number of problems kept of each kind; all are counted.
   static constexpr std::size_t most_kept = 10;
-  // mm: less is rounding.
+  // mm: smaller values are rounding errors.
   static constexpr double least_depth = 0.005;
 
   explicit CutSummary(std::vector<ToolShape> tools) : tools_(std::move(tools)) {}
@@ -52,16 +53,16 @@ class CutSummary {
   std::uint64_t moves() const { return moves_; }
   std::uint64_t cutting_moves() const { return cutting_moves_; }
   double volume() const { return volume_; }            // mm³
-  double cutting_way() const { return cutting_way_; }  // mm, of the feeds that cut
+  double cutting_way() const { return cutting_way_; }  // mm, distance of the feed moves that cut
   Seconds cutting_time() const { return Seconds(cutting_time_); }
-  // mm³/s, over the time of the feeds that cut.
+  // mm³/s, averaged over the time of the feed moves that cut.
   double mean_rate() const { return cutting_time_ > 0 ? cut_by_feeds_ / cutting_time_ : 0; }
-  const LargestOf& depth() const { return depth_; }            // mm, of a feed
+  const LargestOf& depth() const { return depth_; }            // mm, in a feed move
   const LargestOf& engagement() const { return engagement_; }  // 0 to 1
   const LargestOf& rate() const { return rate_; }              // mm³/s
 
-  // In the order of the program, at most `most_kept` of each kind. Moves that follow each other and have the same
-  // trouble are one, with the greatest depth.
+  // In program order, at most `most_kept` of each kind. Consecutive moves with the same problem are merged into one,
+  // with the maximum depth.
   const std::vector<CutTrouble>& troubles() const { return troubles_; }
   std::uint64_t count(CutTrouble::Kind kind) const { return counts_[static_cast<std::size_t>(kind)]; }
 
@@ -80,7 +81,7 @@ class CutSummary {
   void find_troubles(const MoveCut& cut);
   void record(CutTrouble::Kind kind, const MoveCut& cut, double depth, const Vector3& place);
 
-  // The trouble of this kind that the move before had, if any: which of `troubles_`.
+  // The current problem of this kind if the previous move had one: index into `troubles_`.
   struct Going {
     bool on = false;
     std::size_t index = 0;

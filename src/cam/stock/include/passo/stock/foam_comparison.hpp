@@ -1,7 +1,8 @@
-// compare_foam: what a hot wire has left beside a body that was wanted, and where it has melted into the body.
+// compare_foam: compares the foam that a hot wire has left with the target model: excess foam, and gouges into the
+// model.
 //
-// What counts as the part is the foam that the body lies in: a piece most of which is in the body, or that holds a
-// hundredth of it. Each slice is compared with the body's section there, at the middles of its cells.
+// The part consists of every piece of foam that lies mostly in the model or contains a hundredth of it. Each slice is
+// compared with the model's section there, at the centres of its cells.
 #pragma once
 
 #include <array>
@@ -16,12 +17,12 @@ namespace passo {
 using BodyTriangle = std::array<Vector3, 3>;
 
 struct FoamDifference {
-  enum class Cell : std::uint8_t { even, left, gouge, beside };  // beside: neither foam of the part nor of the body
+  enum class Cell : std::uint8_t { even, left, gouge, beside };  // beside: neither foam of the part nor model
   FieldDifference sides = {};
-  std::vector<Cell> of = {};  // of each cell: slice by slice, row by row
+  std::vector<Cell> of = {};  // for each cell: slice by slice, row by row
 };
 
-// Places that are at most `tolerance` from the body's surface count for nothing.
+// Deviations of at most `tolerance` from the model's surface are ignored.
 FoamDifference compare_foam(const FoamBlock& foam, const FoamPieces& pieces, const std::vector<BodyTriangle>& body,
                             Mm tolerance);
 

@@ -1,7 +1,7 @@
-// foam_skin: the surface of the foam that is left, as triangles: closed, each piece a body of its own.
+// foam_skin: generates the surface of the remaining foam as triangles: closed, each piece a separate solid.
 //
-// The surface goes through the places between cells where the distance from the melted edge is 0, and along the faces
-// and the sides of the block.
+// The surface passes through the points between cells where the distance from the melted edge is 0, and along the faces
+// and sides of the block.
 #pragma once
 
 #include <array>
@@ -19,7 +19,7 @@ struct SkinTriangle {
   std::size_t slice = 0;
 };
 
-// Hands out the triangles, always in the same order. `step`: one cell of so many in X and Y is looked at.
+// Passes the triangles to `use`, always in the same order. `step`: only every `step`-th cell in X and Y is evaluated.
 void foam_skin(const FoamBlock& foam, std::size_t step, const std::function<void(const SkinTriangle&)>& use);
 
 }  // namespace passo

@@ -1,10 +1,10 @@
-// HeightField: the upper face of a piece of stock, as a height for each cell of an even grid in X and Y.
+// HeightField: the upper surface of a piece of stock, as a height for each cell of a uniform grid in X and Y.
 //
-// A height stands for the middle of its cell, and never lies below the bottom. What a height field cannot show is an
-// overhang: tools come from above, so there is none.
+// A height is that of the cell's centre, and never below the bottom. A height field cannot represent overhangs; since
+// tools come from above, there are none.
 //
-// Lengths are millimetres. Memory: four bytes a cell. Heights are kept below the top, as floats: at a depth of 10 mm
-// their steps are a thousandth of a micrometre.
+// Lengths are millimetres. Memory: four bytes per cell. Heights are stored relative to the top, as floats: at a depth
+// of 10 mm their resolution is a thousandth of a micrometre.
 #pragma once
 
 #include <cstddef>
@@ -18,13 +18,13 @@
 
 namespace passo {
 
-// The corners of a block, in the coordinates of the program.
+// The corners of a block, in program coordinates.
 struct StockBlock {
   Vector3 low;
   Vector3 high;
 };
 
-// Why there is no such field, in words for the user who asked for it.
+// The reason why a field cannot be created, as text for the user.
 struct FieldRefusal {
   std::string message;
 };
@@ -33,9 +33,9 @@ class HeightField {
  public:
   static constexpr std::size_t most_cells = 100'000'000;
 
-  // The cells cover the block from its lower left corner on; the last column and row may reach over its edge.
+  // The cells cover the block starting at its lower left corner; the last column and row may extend over its edge.
   static Result<HeightField, FieldRefusal> create(const StockBlock& block, Mm cell);
-  // A round cell size that gives a block some million cells: 0.1 mm for one of 100 x 100 mm.
+  // Returns a round cell size that gives a block about a million cells: 0.1 mm for 100 x 100 mm.
   static Mm usual_cell(const StockBlock& block);
 
   std::size_t columns() const { return columns_; }
@@ -45,7 +45,7 @@ class HeightField {
   double top() const { return block_.high.z; }
   double bottom() const { return block_.low.z; }
 
-  // The middle of a cell.
+  // The centre of a cell.
   double x_of(std::size_t column) const { return block_.low.x + (static_cast<double>(column) + 0.5) * cell_; }
   double y_of(std::size_t row) const { return block_.low.y + (static_cast<double>(row) + 0.5) * cell_; }
   double height(std::size_t column, std::size_t row) const {
@@ -53,11 +53,11 @@ class HeightField {
   }
   void set_height(std::size_t column, std::size_t row, double z);
 
-  // The heights of a row, from the top down: 0 is the top, and what is cut is negative.
+  // Return the heights of a row relative to the top: 0 is the top; cut cells are negative.
   float* below_top(std::size_t row) { return heights_.data() + row * stride_; }
   const float* below_top(std::size_t row) const { return heights_.data() + row * stride_; }
 
-  // The volume between the face and the bottom, mm³.
+  // Returns the volume between the surface and the bottom, mm³.
   double volume() const;
 
  private:
@@ -67,7 +67,7 @@ class HeightField {
   double cell_ = 0;
   std::size_t columns_ = 0;
   std::size_t rows_ = 0;
-  std::size_t stride_ = 0;  // floats from one row to the next
+  std::size_t stride_ = 0;  // number of floats from one row to the next
   std::vector<float> heights_;
 };
 

@@ -1,19 +1,19 @@
-// StockCutter: what the moves of a program take off a piece of stock.
+// StockCutter: simulates how the moves of a program remove material from a piece of stock.
 //
-// Position in the pipeline: outside it. The cutter watches the path, and hands nothing back to it. Moves go in, in the
-// order of the program. For each of them comes out how much it took off (MoveCut), and in the end the HeightField shows
-// what is left.
+// Position in the pipeline: outside. The cutter observes the path, and returns nothing to it. Moves are added in
+// program order. For each of them the watcher receives the removed material (MoveCut); at the end the HeightField is
+// the remaining stock.
 //
-// The tool's swept volume is exact along straight moves: for each cell the lowest height that the underside of the tool
-// reaches there, in closed form (for round corners by an iteration to 0.3 um for each mm of the radius). Arcs, helices
-// and curves become chords that stay within a tenth of a cell.
+// The tool's swept volume is exact along straight moves: for each cell the lowest height of the tool's underside there,
+// in closed form (for round corners by an iteration to 0.3 um per mm of the radius). Arcs, helices and curves become
+// chords that deviate by at most a tenth of a cell.
 //
-// The field is cut in tiles of 64 x 64 cells. A tile sees the moves in their order, and no tile needs another one. So
-// tiles are shared out to threads, and the result is the same, bit for bit, for any number of threads. Memory: that of
-// the field, and some MiB for the moves in hand.
+// The field is cut in tiles of 64 x 64 cells. Each tile processes the moves in order, independently of other tiles.
+// Tiles are distributed to threads, and the result is the same, bit for bit, for any number of threads. Memory: that of
+// the field, and some MiB for the moves being processed.
 //
-// MoveCut::volume over MoveCut::time is the rate at which a move removes material. Times the material's specific
-// cutting force (N/mm²) it is the power that the cut takes: what a load of the plant needs.
+// MoveCut::volume over MoveCut::time is the material removal rate of a move. Multiplied by the material's specific
+// cutting force (N/mm²) it is the cutting power, for the load of a simulated machine.
 #pragma once
 
 #include <cstddef>
@@ -31,33 +31,34 @@
 namespace passo {
 
 struct StockMove {
-  std::uint32_t line = 0;  // of the program
-  std::size_t tool = 0;    // which of the tools
+  std::uint32_t line = 0;  // line of the program
+  std::size_t tool = 0;    // index of the tool
   bool rapid = false;
-  Seconds time{0};  // how long it takes
-  // A rapid that a machine rounds into a feed goes through the stock by so much. On rapids the tool is thinner by that.
+  Seconds time{0};  // duration
+  // The maximum corner deviation of a rapid that the machine blends into a feed move. On rapids the tool is thinner by
+  // this amount.
   Mm rounding{0};
 };
 
-// What a move did. Volumes in mm³, lengths in mm, areas in mm².
+// The effect of a move. Volumes in mm³, lengths in mm, areas in mm².
 struct MoveCut {
   StockMove move;
-  double way = 0;        // along the path
-  double way_level = 0;  // the part of the way in X and Y
+  double way = 0;        // length along the path
+  double way_level = 0;  // length of the path in X and Y
   double volume = 0;
-  double area = 0;    // of the cells from which it took something, seen from above
-  double depth = 0;   // the most that it took off anywhere
-  Vector3 place{};    // where: the middle of the cell, and the height there before the cut
-  double below = 0;   // how far below the stock's bottom the tip was, where it cut
-  double holder = 0;  // how deep the holder was in the stock
+  double area = 0;    // area of the cells in which it removed material, seen from above
+  double depth = 0;   // maximum depth of cut
+  Vector3 place{};    // position of the maximum: the centre of the cell, at the height before the cut
+  double below = 0;   // depth of the tip below the stock's bottom, where it cut
+  double holder = 0;  // depth of the holder in the stock
   Vector3 holder_place{};
-  double clamp = 0;  // how deep the tool or its holder was in a clamp
+  double clamp = 0;  // depth of the tool or its holder in a clamp
   Vector3 clamp_place{};
 };
 
 struct StockCutterOptions {
   std::vector<ToolShape> tools = {};
-  std::vector<StockBlock> clamps = {};  // obstacles, solid from their top down
+  std::vector<StockBlock> clamps = {};  // obstacles, solid from their top downwards
   unsigned threads = 1;                 // 1 to 64
 };
 
@@ -65,15 +66,15 @@ class StockCutter {
  public:
   using Watcher = std::function<void(const MoveCut&)>;
 
-  // `field` outlives the cutter. `watcher` gets every move, in the order of the program, a batch at a time.
+  // `field` must outlive the cutter. `watcher` receives every move, in program order, in batches.
   StockCutter(HeightField& field, const StockCutterOptions& options, Watcher watcher);
   ~StockCutter();
   StockCutter(const StockCutter&) = delete;
   StockCutter& operator=(const StockCutter&) = delete;
 
-  // The tip goes along `curve`, whose places lie `zero` away from those of the stock: stock = curve - zero.
+  // Moves the tip along `curve`. `zero`: the offset of the curve's coordinates: stock = curve - zero.
   void cut(const Curve& curve, const Vector3& zero, const StockMove& move);
-  // Cuts what is left of the last batch. Call it at the end; only then the field is right.
+  // Cuts the last batch. Must be called at the end; the field is complete only then.
   void finish();
 
  private:

@@ -1,10 +1,10 @@
-// read_surface: a Surface from a file: a body (STL, text or binary) or a height map (CSV). The kind is told by what is
-// in the file.
+// read_surface: reads a Surface from a file: a model (STL, text or binary) or a height map (CSV). The format is
+// detected from the contents.
 //
 // A height map has a line x,y,z for each point of a grid. Between the points its surface is that of HeightMap
-// (levelling/height_map.hpp), so a program that is levelled by a map meets the surface of that map.
+// (levelling/height_map.hpp), so a program that is levelled by a map fits the surface of that map.
 //
-// Files are in millimetres. What a file says is bounded: its size, the triangles, and how far they lie. Errors are
+// Files are in millimetres. Limits apply to the file size, the number of triangles and the coordinates. Errors are
 // diagnostics "surface.…".
 #pragma once
 
@@ -21,16 +21,16 @@ namespace passo {
 inline constexpr std::size_t most_triangles = 10'000'000;
 inline constexpr double farthest_surface = 1e5;  // mm
 
-// Errors are in `diagnostics`; the surface then has nothing.
+// Reports errors in `diagnostics`; the surface is then empty.
 Surface read_surface(const std::string& path, Diagnostics& diagnostics);
 
-// The same, of a file that was read.
+// Does the same for a file in memory.
 Surface read_surface(const std::string& name, std::string_view bytes, Diagnostics& diagnostics);
 
-// The triangles of a body (STL). Errors are in `diagnostics`; another kind of file is one.
+// Reads the triangles of a model (STL). Reports errors in `diagnostics`, also for other file formats.
 std::vector<SurfaceTriangle> read_triangles(const std::string& path, Diagnostics& diagnostics);
 
-// Whether the bytes are those of a body (STL), not of a height map.
+// Returns whether the bytes are a model (STL) rather than a height map.
 bool looks_like_body(std::string_view bytes);
 
 }  // namespace passo

@@ -1,16 +1,16 @@
-// CutLoads: the force that the cut takes along a program, as a load of the axes' motors.
+// CutLoads: the cutting force along a program, as a load of the axes' motors.
 //
-// A height field is cut along the path that the machine drives. Of each feed there comes out how much it takes off:
+// A height field is cut along the path that the machine executes. Each feed move yields the volume that it removes:
 //
-//   area  = volume / way                          mm², across the way
+//   area  = volume / distance                     mm², across the path
 //   force = k · area · v / (2π · r · n)           N
 //
-// k is the specific cutting force of the material (N/mm²), v the speed of the tool along its way, n the spindle's turns
-// a second, r the tool's radius at the depth of the cut. This is the mean tangential force: the spindle's power over
-// the cutting speed. A feed is looked at in pieces as long as the tool's radius, and its hardest piece counts for all
-// of it. Left out: the ripple from tooth to tooth, and the thrust of a tool that drills.
+// k is the specific cutting force of the material (N/mm²), v the feed rate of the tool, n the spindle speed in rev/s, r
+// the tool's radius at the depth of the cut. The result is the mean tangential force: the spindle power divided by the
+// cutting speed. A feed move is evaluated in pieces as long as the tool's radius, and the greatest force of its pieces
+// applies to the whole move. Not included: the force ripple from tooth to tooth, and the thrust of a drilling tool.
 //
-// Memory: 12 bytes a feed, and that of the field.
+// Memory: 12 bytes per feed move, and that of the field.
 #pragma once
 
 #include <cstdint>
@@ -25,14 +25,14 @@ namespace passo {
 
 class CutLoads {
  public:
-  // Call it for each feed, in the order of the path. Returns its index.
+  // Adds a feed move; must be called for each one, in path order. Returns its index.
   std::size_t add(const Segment& feed);
   void raise(std::size_t index, double newtons_per_speed);
 
-  // N for each mm/s of a move of the same path. Call it for every move, in order.
+  // Returns the force per speed, N per mm/s, for a move of the same path. Must be called for every move, in order.
   double of(const PlannedMove& move);
   std::size_t feeds() const { return loads_.size(); }
-  // Feeds that were planned and are not among those that were cut. 0, but for a path that a probe decides.
+  // Returns the number of planned feed moves that were not cut; 0 unless the path depends on a probe.
   std::size_t unknown() const { return unknown_; }
 
  private:
@@ -51,18 +51,18 @@ class CutLoads {
 
 struct CutMaterial {
   double specific_force = 0;                          // N/mm²
-  std::optional<double> revolutions_per_minute = {};  // of a spindle that the program does not command
+  std::optional<double> revolutions_per_minute = {};  // speed of a spindle that the program does not command
 };
 
 struct CutOutcome {
   CutLoads loads;
   Simulation simulation;
-  LargestOf force;  // N, at the programmed speeds
-  // The first line that cuts and has no spindle speed, so that the force of such cuts is left out; 0: all have one.
+  LargestOf force;  // cutting force, N, at the programmed feed rates
+  // The first line that cuts without a spindle speed, so that its force is not included; 0: there is none.
   std::uint32_t silent_line = 0;
 };
 
-// Cuts the stock by the program. `look` is of the same program, `tools` its shapes, and `field` its stock before.
+// Cuts the stock by the program. `look`, `tools` and `field` must be those of this program; `field` is the uncut stock.
 CutOutcome cut_with_force(const StockJob& job, const StockWishes& wishes, const FeedLook& look,
                           const std::vector<ToolShape>& tools, HeightField field, const CutMaterial& material);
 

@@ -1,8 +1,8 @@
-// SimulatedPath: the way of a tool's tip through a program, in the coordinates of the work.
+// SimulatedPath: the path of a tool's tip through a program, in work coordinates.
 //
-// The machine's coordinates are those of the spindle: with a tool length offset (G43) the tip is lower by the tool's
-// length. A tip's place is machine - tool offset, less the zero of the work system in force at the first move. So a
-// part that is cut in G54 and G55 lies as on the machine.
+// Machine coordinates are those of the spindle: with a tool length offset (G43) the tip is lower by the tool's length.
+// The tip's position is machine - tool offset, minus the zero of the work coordinate system that is active at the first
+// move. A part that is cut in both G54 and G55 is therefore positioned as on the machine.
 #pragma once
 
 #include <deque>
@@ -20,24 +20,24 @@
 namespace passo {
 
 struct TipMove {
-  const Segment* segment = nullptr;   // in machine coordinates, until the next move
+  const Segment* segment = nullptr;   // in machine coordinates; valid until the next move
   Point zero;                         // tip = machine - zero
-  std::int32_t tool = 0;              // its number; 0: none was changed to
-  Seconds time{0};                    // at the programmed speed; 0 for a rapid of an unknown machine
-  double revolutions_per_minute = 0;  // of the spindle as commanded; 0: it stands, or has no speed
+  std::int32_t tool = 0;              // tool number; 0: no tool was loaded
+  Seconds time{0};                    // at the programmed feed rate; 0 for a rapid without a machine
+  double revolutions_per_minute = 0;  // commanded spindle speed; 0: stopped, or without a speed
 };
 
 class SimulatedPath {
  public:
-  // `machine`: whose path is followed, with its corners rounded; null: the path as the program has it. `diagnostics`
-  // and `machine` outlive the path. `beside`: axes that a program has beside X Y Z, where there is no machine.
+  // `machine`: the machine whose path is followed, with rounded corners; null: the programmed path. `diagnostics` and
+  // `machine` must outlive the path. `beside`: the program's axes other than X Y Z, used without a machine.
   SimulatedPath(ProgramReader program, const InterpreterOptions& options, const MachineDescription* machine,
                 Diagnostics& diagnostics, AxisSet beside = {});
 
   [[nodiscard]] bool next(TipMove& move);
 
  private:
-  // Where the zero of the work lies for the spindle, and how much of that is the tool's offset.
+  // The work zero in spindle coordinates, and the part of it that is the tool offset.
   struct Zeros {
     Point work;
     Point tool;
@@ -52,8 +52,8 @@ class SimulatedPath {
   Interpreter interpreter_;
   PathBuilder builder_;
   Tap<PathItem> watched_;
-  std::unique_ptr<PathSmoother> smoother_;  // null: no machine
-  std::deque<Zeros> zeros_;                 // of the segments that the smoother still has, each once
+  std::unique_ptr<PathSmoother> smoother_;  // null without a machine
+  std::deque<Zeros> zeros_;                 // the zeros of the segments that are still in the smoother, each once
   std::optional<Point> first_zero_;
   std::int32_t tool_ = 0;
   double revolutions_per_minute_ = 0;

@@ -1,4 +1,4 @@
-// Simulation: a piece of stock that a program was cut from, and what would have gone wrong.
+// Simulation: the stock as cut by a program, and the problems found.
 #pragma once
 
 #include <cstdint>
@@ -15,20 +15,20 @@ namespace passo {
 
 struct Simulation {
   std::string program;
-  std::string target;  // empty: nothing was compared
+  std::string target;  // empty: no comparison
   HeightField field;
   double volume_before = 0;           // mm³
-  std::vector<std::int32_t> numbers;  // of the tools, as the program has them
-  std::vector<ToolShape> tools = {};  // in the same order
+  std::vector<std::int32_t> numbers;  // tool numbers, as in the program
+  std::vector<ToolShape> tools = {};  // in the order of `numbers`
   CutSummary summary;
   std::optional<FieldDifference> difference = {};
 };
 
-// "X1.00 Y2.00 Z3.00", and "0.125 mm": as findings and reports name them.
+// Format a position, "X1.00 Y2.00 Z3.00", and a length, "0.125 mm", for findings and reports.
 std::string place_in_words(const Vector3& place);
 std::string mm_in_words(double mm);
 
-// Adds a finding for each trouble.
+// Adds a finding for each problem.
 void add_findings(const Simulation& simulation, Diagnostics& findings);
 
 }  // namespace passo

@@ -1,5 +1,5 @@
-// What is needed to cut a piece of stock by a program: the block, the shapes of the tools and the clamps, as somebody
-// wishes them, and from a first look at the program's feeds.
+// The input for cutting a piece of stock by a program: the block, the shapes of the tools and the clamps, from the
+// user's settings and from a first pass over the program's feed moves.
 #pragma once
 
 #include <cstdint>
@@ -19,7 +19,7 @@
 
 namespace passo {
 
-// A range of X, Y or Z in mm; nothing: as the feeds need it.
+// A range of X, Y or Z in mm; nothing: as the feed moves require.
 struct WishedRange {
   std::optional<double> low;
   std::optional<double> high;
@@ -37,7 +37,7 @@ struct StockWishes {
   std::optional<double> cell;  // mm
 };
 
-// A program that is cut, with what it was read with. `machine`: see SimulatedPath.
+// A program to be cut, with the options for reading it. `machine`: see SimulatedPath.
 struct StockJob {
   ProgramReader program;
   InterpreterOptions options;
@@ -50,44 +50,46 @@ struct FeedReach {
   bool any() const { return low.x <= high.x; }
 };
 
-// What the first look at a program finds.
+// The result of the first pass over a program.
 struct FeedLook {
-  FeedReach feeds;                              // of the tools' edges in X and Y, of the tip in Z
-  std::map<std::int32_t, std::uint32_t> tools;  // that feed, with the line of their first feed
-  double zero = 0;                              // Z of the work's zero, machine coordinates
+  FeedReach feeds;                              // range of the feed moves: of the tools' edges in X and Y, of the tip
+                                                // in Z
+  std::map<std::int32_t, std::uint32_t> tools;  // the tools that cut, with the line of their first feed move
+  double zero = 0;                              // Z of the work zero, machine coordinates
   std::uint64_t moves = 0;
 
-  // The numbers of the tools, in order.
+  // Returns the tool numbers, in order.
   std::vector<std::int32_t> numbers() const;
-  // Where each tool stands among them, and in what shapes_of() returns.
+  // Returns the index of each tool among them, and in the result of shapes_of().
   std::map<std::int32_t, std::size_t> places() const;
 };
-// `after_move`, if any, is called after each move, and may show the findings.
+// Makes the first pass. `after_move`, if set, is called after each move, e.g. to show the findings.
 FeedLook survey_feeds(const StockJob& job, const StockWishes& wishes, Diagnostics& findings,
                       const std::function<void()>& after_move = {});
 
-// A tool without a given shape, and the line of its first feed.
+// A tool without a given shape, and the line of its first feed move.
 struct ShapelessTool {
   std::int32_t number = 0;
   std::uint32_t line = 0;
 };
-// In the order of `look.tools`. The error: all tools without a shape.
+// Returns the shapes in the order of `look.tools`. The error: all tools without a shape.
 Result<std::vector<ToolShape>, std::vector<ShapelessTool>> shapes_of(const StockJob& job, const StockWishes& wishes,
                                                                      const FeedLook& look);
 
-// Why there is no such stock. Empty message: the program has no feed, and the wishes do not name the whole block.
+// The reason why the stock cannot be created. Empty message: the program has no feed move, and the settings do not
+// define the whole block.
 using StockRefusal = FieldRefusal;
-// The block that is wished for, and otherwise what the feeds need: the top at 0 where they go below.
+// Creates the requested block; missing ranges are as the feed moves require: the top is at 0 if they go below 0.
 Result<HeightField, StockRefusal> stock_field(const StockWishes& wishes, const FeedLook& look);
 
-// What else happens in cut_stock(). Empty functions: nothing.
+// Optional callbacks of cut_stock().
 struct CutHooks {
-  StockCutter::Watcher cut;  // gets each cut, in order
-  // Cuts a feed, as in pieces. Empty: the feed is cut in one.
+  StockCutter::Watcher cut;  // receives each cut, in order
+  // Cuts a feed move, e.g. in pieces. Empty: the move is cut as a whole.
   std::function<void(StockCutter& cutter, const TipMove& move, const StockMove& kind)> feed = {};
-  std::function<void(double share)> progress = {};  // is told now and then
+  std::function<void(double share)> progress = {};  // called from time to time
 };
-// Cuts the field by the program. `look` is of the same program, and `tools` its shapes. `threads`: 1 to 64.
+// Cuts the field by the program. `look` and `tools` must be those of this program. `threads`: 1 to 64.
 void cut_stock(const StockJob& job, const StockWishes& wishes, const FeedLook& look,
                const std::vector<ToolShape>& tools, unsigned threads, HeightField& field, const CutHooks& hooks);
 

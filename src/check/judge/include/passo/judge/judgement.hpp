@@ -1,5 +1,5 @@
-// judge(): what there is to say of a program without errors, before it is run: how long it takes, how far it goes, what
-// bounds its speed, and whether the motors can do it.
+// judge(): analyses an error-free program before a run: its duration, its range, what limits its speed, and whether the
+// motors have enough torque.
 #pragma once
 
 #include <cstdint>
@@ -26,34 +26,34 @@ struct Judgement {
   SpeedReport speed;
   MarginVerdict margin;
   std::uint64_t tool_changes = 0;
-  bool knows_motors = false;          // the machine file describes them; otherwise their torque is not judged
-  std::optional<LineCost> line = {};  // of line_cost(), from whoever asks for it
+  bool knows_motors = false;          // the machine file describes the motors; otherwise their torque is not analysed
+  std::optional<LineCost> line = {};  // result of line_cost(), if the caller requested it
 
-  // Whether the motors would surely lose steps.
+  // Returns whether the motors are certain to lose steps.
   bool lost() const { return margin.verdict == Verdict::lost; }
 };
 
-// The greatest load of each line of a program that moves. Memory: 4 bytes a line.
+// The greatest load of each program line that moves. Memory: 4 bytes per line.
 class LineLoads {
  public:
   void add(std::uint32_t line, double load);
-  // CSV: a head, and a line `line,load` for each line that moves; 1: all of the torque that is surely there.
+  // Returns a CSV: a header, and a row `line,load` for each line that moves; 1 is the whole guaranteed torque.
   std::string text() const;
 
  private:
-  std::vector<float> loads_;  // below 0: the line does not move
+  std::vector<float> loads_;  // load of each line; negative: the line does not move
 };
 
-// What else gets the motion, with its load. Null: nobody wants it.
+// Optional receivers of the motion and its load. Null: none.
 struct JudgeWatchers {
   PathRecorder* path = nullptr;
   LoadTrack* track = nullptr;
-  CutLoads* loads = nullptr;  // of the same program's cut
+  CutLoads* loads = nullptr;  // cutting loads of the same program
   LineLoads* lines = nullptr;
 };
 
-// Plans a program that was checked, at these overrides, and judges its motion. `progress`, if any, is told now and then
-// which share is done. No error is possible.
+// Plans a checked program with these overrides and analyses its motion. `progress`, if set, is called from time to time
+// with the completed fraction. Cannot fail.
 Judgement judge(ProgramReader program, const MachineDescription& machine, const InterpreterOptions& options,
                 const ProgramCheck& check, const JudgeWatchers& watchers = {},
                 const std::function<void(double)>& progress = {}, const MotionFactors& factors = {});

@@ -1,8 +1,8 @@
-// LineCost: how much longer a program takes over a line to a board with few places, told before the run.
+// LineCost: the additional run time that a serial link to a board with a small queue causes, predicted before the run.
 //
-// The program is played over a virtual line to a virtual board with the places of the machine file, in virtual time:
-// just what `passo run --cut-cable-at` does. A minute of machining takes some tenths of a second,
-// with limits of jerk some seconds.
+// The program is played over a virtual link to a virtual board with the queue size of the machine file, in virtual
+// time, exactly as by `passo run --cut-cable-at`. A minute of machining takes some tenths of a second; with jerk
+// limits, some seconds.
 #pragma once
 
 #include <functional>
@@ -19,29 +19,30 @@
 namespace passo {
 
 struct LineCost {
-  int held_items = 0;        // the board's places
-  Seconds without{0};        // motion and dwells as planned
-  Seconds over{0};           // until the board has played the last event
-  int rests = 0;             // for want of more
-  int slowdowns = 0;         // where the speed is limited because the motion that brakes the machine has many items
-  std::string trouble = {};  // why the program does not come to its end over the line; empty: it does
+  int held_items = 0;        // queue capacity of the board
+  Seconds without{0};        // planned duration of motion and dwells
+  Seconds over{0};           // duration until the board has played the last event
+  int rests = 0;             // number of stops because the queue ran empty
+  int slowdowns = 0;         // number of speed reductions because the stop ramp needs many queue items
+  std::string trouble = {};  // reason why the program cannot finish over the link; empty: it finishes
 
   Seconds cost() const { return over > without ? over - without : Seconds(0); }
   double share() const { return without > Seconds(0) ? cost() / without : 0; }
 };
 
-// A line in virtual time may be slow, but a board that lives answers at once.
+// In virtual time a link may be slow, but a working board responds immediately.
 inline constexpr LineCare virtual_line_care{.answer_within = Seconds(0.05), .patience = Seconds(3600)};
 
-// The motion and the dwells of a program that was checked, as planned: the time without a line.
+// Returns the planned duration of the motion and the dwells of a checked program, without a link.
 Seconds planned_time(ProgramReader program, const MachineDescription& machine, const InterpreterOptions& options,
                      const ProgramCheck& check);
 
-// Whether the cost of a line can be told: the machine file names the board's places, and no probe decides the way.
+// Returns whether the cost of a link can be computed: the machine file specifies the board's queue size, and the path
+// does not depend on a probe.
 bool has_line_cost(const MachineDescription& machine, const ProgramCheck& check);
-// Plays a program that was checked over the line. `without` is its planned time. `progress`, if any, is told now and
-// then which share is done. The error: why the board cannot be greeted; empty: the machine refuses the program, as it
-// would in a run.
+// Plays a checked program over the link. `without` is its planned duration. `progress`, if set, is called from time to
+// time with the completed fraction. The error: why the connection to the board fails; empty: the machine refuses the
+// program, as it would in a run.
 Result<LineCost, std::string> line_cost(ProgramReader program, const MachineDescription& machine,
                                         const InterpreterOptions& options, const ProgramCheck& check, Seconds without,
                                         const std::function<void(double)>& progress = {});

@@ -12,15 +12,15 @@
 
 namespace passo {
 
-// What else gets the path and the motion. Empty functions: nobody.
+// Optional receivers of the path and the motion. Empty functions: none.
 struct TrialWatchers {
   std::function<void(const PathItem&)> path = {};
   std::function<void(const MotionItem&)> motion = {};
-  std::function<void(double share)> progress = {};  // is told now and then which share is done
+  std::function<void(double share)> progress = {};  // called from time to time with the completed fraction
 };
 
-// `program` was checked. `nominal`: its time at the programmed speeds, for the progress. What is found only in the run
-// goes to `findings`.
+// `program` must have been checked. `nominal`: its duration at the programmed feed rates, for the progress. Errors that
+// are found only during the run are added to `findings`.
 MotionProof prove_motion(ProgramReader program, const MachineDescription& machine, const InterpreterOptions& options,
                          Seconds nominal, Diagnostics& findings, const TrialWatchers& watchers = {});
 

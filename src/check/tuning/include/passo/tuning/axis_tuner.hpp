@@ -1,19 +1,19 @@
-// AxisTuner: proposes velocity, acceleration and jerk for an axis whose motor is known, so that a margin of the weakest
-// motor's torque is never used.
+// AxisTuner: proposes velocity, acceleration and jerk limits for an axis with a known motor, so that a margin of the
+// weakest motor's torque always remains unused.
 //
 //   usable(v) = (1 - margin) · pull-out of the weakest motor at v          TorqueBand, its low end
-//   a(v)      = (usable(v) - friction(v) - weight) / inertia               the most that may be asked for up to v
+//   a(v)      = (usable(v) - friction(v) - weight) / inertia               the acceleration limit up to v
 //   j(v)      = a(v) / T(v)          T = 2π·√(J / (N·pull-out·cos δ)), sin δ = 1 - margin: the ringing's period
 //
-// Torque falls with the speed, so a higher velocity costs acceleration. The criterion: the slowest velocity with which
-// a reference move (half of the travel, from rest to rest) takes at most 1 % longer than with any other one. At that
-// velocity and at all below, the weakest, the usual and the strongest motor do not swing by themselves: a slow sweep
-// through all rates tries them.
+// Torque falls with speed, so a higher velocity costs acceleration. The criterion: the lowest velocity with which a
+// reference move (half of the travel, from stop to stop) takes at most 1 % longer than with any other velocity. At and
+// below that velocity, the weakest, the nominal and the strongest motor must not oscillate by themselves: this is
+// tested in a slow sweep through all rates.
 //
-// The jerk: an acceleration that rises within one period of the rotor's ringing leaves no ringing behind (the response
-// to a ramp of one period is at rest where the ramp ends). The weakest motor has the longest period.
+// The jerk: an acceleration that rises over one period of the rotor's ringing causes no residual ringing (the response
+// to a ramp of one period is at rest when the ramp ends). The weakest motor has the longest period.
 //
-// Cutting forces are not known. The margin is for them, and for what the motor's data leave out.
+// Cutting forces are unknown. The margin is for them, and for effects that the motor's data does not include.
 #pragma once
 
 #include <cstdint>
@@ -28,27 +28,27 @@
 namespace passo {
 
 struct TuningWish {
-  double margin = 0.3;     // of the weakest motor's torque; 0.1 to 0.9
-  double way = 0;          // of the reference move, mm or degrees; 0: half of the travel
-  MmPerSecond fastest{0};  // a velocity that must not be exceeded; 0: none but the board's
+  double margin = 0.3;     // fraction of the weakest motor's torque; 0.1 to 0.9
+  double way = 0;          // length of the reference move, mm or degrees; 0: half of the travel
+  MmPerSecond fastest{0};  // an upper limit of the velocity; 0: only the board's limit
 };
 
-// What kept the velocity from being higher.
+// The limit that determined the velocity.
 enum class TuningBound : std::uint8_t {
-  time,    // a higher one takes acceleration, and saves no time
-  torque,  // above, none is left
-  board,   // its steps a second
-  wish,    // TuningWish::fastest
+  time,    // a higher velocity reduces the acceleration and saves no time
+  torque,  // above it no torque is left
+  board,   // the board's step rate
+  wish,    // the upper limit TuningWish::fastest
   swing,   // the motor may lose steps through resonance above
 };
 
 // Torques at one speed of the axis, at the motor's shaft.
 struct TuningPoint {
   MmPerSecond speed{0};
-  NewtonMetres pull_out = {};  // of the weakest motor
-  NewtonMetres steady = {};    // the same where the motor has the time to swing
+  NewtonMetres pull_out = {};  // pull-out torque of the weakest motor
+  NewtonMetres steady = {};    // the same, if the motor has time to oscillate
   NewtonMetres usable = {};
-  NewtonMetres needed = {};  // to accelerate as proposed; at speeds above the proposed one, to go on
+  NewtonMetres needed = {};  // to accelerate as proposed; above the proposed velocity, to keep the speed
 };
 
 struct AxisTuning {
@@ -58,9 +58,9 @@ struct AxisTuning {
   MmPerSecond2 acceleration{0};
   MmPerSecond3 jerk{0};
   TuningBound bound = TuningBound::time;
-  Seconds period{0};  // of the weakest motor's ringing
-  double way = 0;     // of the reference move
-  Seconds time{0};    // that it takes
+  Seconds period{0};  // ringing period of the weakest motor
+  double way = 0;     // length of the reference move
+  Seconds time{0};    // duration of the reference move
   std::vector<TuningPoint> curve = {};
 };
 
@@ -70,10 +70,11 @@ struct TuningRefusal {
 
 class AxisTuner {
  public:
-  // Empty: the machine file does not describe the axis's motor, or its driver does not divide a full step evenly.
+  // Returns nothing if the machine file does not describe the axis's motor, or if its driver does not divide a full
+  // step evenly.
   static std::optional<AxisTuner> of(const AxisDescription& axis, const BoardDescription& board);
 
-  // Takes some tenths of a second for the trials of the motor. Values are rounded down to three digits.
+  // Takes some tenths of a second for the simulated sweeps. Values are rounded down to three digits.
   Result<AxisTuning, TuningRefusal> propose(const TuningWish& wish) const;
 
  private:
@@ -98,10 +99,10 @@ class AxisTuner {
   double inertia_ = 0;  // kg·m²
   double weight_ = 0;   // N·m
   double radians_per_unit_ = 0;
-  bool coarse_steps_ = false;  // full or half steps: each step makes the rotor ring
+  bool coarse_steps_ = false;  // full or half steps: each step excites ringing of the rotor
 };
 
-// The time of a move from standstill to standstill with constant limits. All above 0.
+// Returns the duration of a move from stop to stop with constant limits. All arguments must be above 0.
 Seconds time_of_move(double way, MmPerSecond velocity, MmPerSecond2 acceleration, MmPerSecond3 jerk);
 
 }  // namespace passo

@@ -1,5 +1,5 @@
-// TuningRun: proposes limits for the axes of a machine, and lets the judge of `passo check` look at them. Where he is
-// not content, the axis gets a larger margin, or a lower velocity, until he is.
+// TuningRun: proposes limits for the axes of a machine and verifies them by the analysis of `passo check`. Until the
+// verdict is safe, it increases the margin of the axis or reduces its velocity.
 #pragma once
 
 #include <string>
@@ -13,22 +13,23 @@
 namespace passo {
 
 struct TunedMachine {
-  MachineDescription machine;  // with the proposals
+  MachineDescription machine;  // the machine, including the proposals
   std::vector<AxisTuning> axes;
   Verdict verdict = Verdict::safe;
-  std::string program;  // that was judged
+  std::string program;  // the test program
 };
 
 struct TuningRequest {
   TuningWish wish;
-  std::vector<Axis> axes;  // whose motors the machine describes
+  std::vector<Axis> axes;  // the axes whose motors the machine file describes
   bool keep_velocity = false;
 };
 
-// The refusal's words begin with the axis.
+// The message of a refusal begins with the axis.
 Result<TunedMachine, TuningRefusal> tuned(const MachineDescription& machine, const TuningRequest& request);
 
-// Strokes at four feeds, zigzags, all axes at once, circles: at the limits of these axes, within their travel.
+// Returns a test program: strokes at four feeds, zigzags, all axes simultaneously, circles: at the limits of these
+// axes, within their travel.
 std::string tuning_program(const MachineDescription& machine, const std::vector<Axis>& axes);
 
 }  // namespace passo

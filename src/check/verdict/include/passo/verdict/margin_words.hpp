@@ -1,4 +1,4 @@
-// What a MarginSpot means, in words: the cause and the cure.
+// Describes a MarginSpot as text: the cause and the remedy.
 #pragma once
 
 #include <string>
@@ -7,11 +7,11 @@
 
 namespace passo {
 
-// "Y needs 0.31 N·m at 1,420 steps/s, and has 0.28 to 0.40". Steps are full steps.
+// Returns e.g. "Y needs 0.31 N·m at 1,420 steps/s, and has 0.28 to 0.40". Steps are full steps.
 std::string cause_of(const MarginSpot& spot);
-// "a <= 380 mm/s², or F <= 900", what would be safe. Empty for a safe spot.
+// Returns a safe limit, e.g. "a <= 380 mm/s², or F <= 900". Empty for a safe spot.
 std::string cure_of(const MarginSpot& spot);
-// Whether no line needs more torque for its motion than there surely is: what is not safe are swings alone.
+// Returns whether no line needs more than the guaranteed torque for its motion, so that only oscillations are unsafe.
 bool is_torque_enough(const MarginVerdict& margin);
 
 }  // namespace passo

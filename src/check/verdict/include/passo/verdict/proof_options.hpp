@@ -1,4 +1,4 @@
-// The limits of a machine as the referee of the motion measures them (passo/proof).
+// The limits of a machine in the form that the verification of the motion uses (passo/proof).
 #pragma once
 
 #include "passo/machine_file/machine_description.hpp"

@@ -1,4 +1,4 @@
-// A picture of a board as its files draw it: from above, and turned over from below.
+// A picture of a board from its files: from above, and flipped, from below.
 #pragma once
 
 #include "passo/cam/board_job.hpp"
@@ -7,7 +7,7 @@
 
 namespace passo {
 
-// Draws into `file`, which the caller commits. Where a mask leaves copper bare, the copper shines.
+// Draws into `file`; the caller commits it. Copper is shiny where the solder mask leaves it bare.
 Status<OutputError> draw_board(const BoardJob& job, const PictureOptions& options, OutputFile& file);
 
 }  // namespace passo

@@ -1,8 +1,8 @@
-// A picture of a curve and its chords. It has a top view, a front view if the curve leaves the plane, and the distance
-// of the chords from the curve along its length.
+// A picture of a curve and its chords: a top view, a front view if the curve leaves the plane, and the deviation of the
+// chords from the curve along its length.
 //
-// The distance between a chord and its curve is too small to be seen. So the views enlarge this distance by a factor
-// that the picture states. They enlarge the tube of the tolerance around the curve by the same factor.
+// The deviation is too small to be visible, so the views magnify it by a factor that the picture states. The tolerance
+// tube around the curve is magnified by the same factor.
 #pragma once
 
 #include <algorithm>
@@ -22,15 +22,15 @@ struct ChordDrawing {
 
   struct Sample {
     Vector3 curve;
-    Vector3 chord;  // the nearest place of the chord
+    Vector3 chord;  // the nearest point of the chord
   };
-  Mm tolerance;                         // of equal chords: the greatest bound of them all
-  std::optional<Mm> chord_length = {};  // of equal chords; empty: the tolerance decided
-  std::vector<Vector3> ends = {};       // the points where chords meet, the start included
+  Mm tolerance;                         // for equal chords: the maximum bound of all of them
+  std::optional<Mm> chord_length = {};  // for equal chords; empty: determined by the tolerance
+  std::vector<Vector3> ends = {};       // the end points of the chords, including the start
   std::vector<Sample> samples = {};
 };
 
-// Records chords of the curve. Of a longer curve only the first `most_chords` are recorded.
+// Records the chords of the curve, at most the first `most_chords`.
 template <ParametricCurve C>
 ChordDrawing record_chords(const C& curve, Source<Chord>& chords) {
   ChordDrawing drawing{.tolerance = ChordTolerance::least};
@@ -66,7 +66,7 @@ ChordDrawing record_chords(const C& curve, ChordLength length) {
   return drawing;
 }
 
-// Draws into `file`, which the caller commits. `options.program` is the title.
+// Draws into `file`; the caller commits it. `options.program` is the title.
 Status<OutputError> draw_chords(const ChordDrawing& drawing, const PictureOptions& options, OutputFile& file);
 
 }  // namespace passo

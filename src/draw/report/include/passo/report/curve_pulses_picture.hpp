@@ -1,7 +1,7 @@
-// A picture of both levels of interpolation on one curve: the curve, the chords of the coarse level, the pulses of the
-// fine level on the grid of steps, and below them how far each pulse is from the curve.
+// A picture of both interpolation levels on one curve: the curve, the chords of the coarse level, the pulses of the
+// fine level on the step grid, and below them the deviation of each pulse from the curve.
 //
-// A curve that leaves the plane is seen from two sides, X Y and X Z.
+// A curve that leaves the plane is drawn in two views, X Y and X Z.
 #pragma once
 
 #include <string>
@@ -18,14 +18,14 @@ struct CurvePulsesScene {
 
   std::string method;
   StepScale scale;
-  std::vector<Vector3> curve = {};     // places of the curve in mm, close to each other
-  std::vector<StepPlace> chords = {};  // where chords end, the start included
+  std::vector<Vector3> curve = {};     // closely spaced points of the curve in mm
+  std::vector<StepPlace> chords = {};  // end points of the chords, including the start
   std::vector<CurvePulse> pulses = {};
   CurveMeasures measures = {};
 };
 
-// `options.program` is the title, `options.machine` tells how the chords were chosen. There is at least one pulse.
-// Draws into `file`, which the caller commits.
+// `options.program` is the title, `options.machine` describes how the chords were chosen. There must be a pulse. Draws
+// into `file`; the caller commits it.
 Status<OutputError> draw_curve_pulses(const CurvePulsesScene& scene, const PictureOptions& options, OutputFile& file);
 
 }  // namespace passo

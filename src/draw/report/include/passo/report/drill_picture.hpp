@@ -1,4 +1,4 @@
-// A picture of a drill plan: holes and slots in their size, coloured by tool, and the rapids between them.
+// A picture of a drill plan: holes and slots in actual size, coloured by tool, and the rapids between them.
 #pragma once
 
 #include "passo/cam/drill_plan.hpp"
@@ -7,7 +7,7 @@
 
 namespace passo {
 
-// Draws into `file`, which the caller commits. `park`: where the plan's rapids begin and end.
+// Draws into `file`; the caller commits it. `park`: where the plan's rapids begin and end.
 Status<OutputError> draw_drill_plan(const DrillPlan& plan, DrawnPoint park, const PictureOptions& options,
                                     OutputFile& file);
 

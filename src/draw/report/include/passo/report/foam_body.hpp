@@ -1,6 +1,6 @@
-// write_foam_body: the foam that a hot wire leaves, as closed bodies in binary STL, millimetres: one for each piece.
+// write_foam_body: writes the foam that a hot wire leaves as closed solids in binary STL, millimetres: one per piece.
 //
-// X and Y are those of the wire's left end, Z goes along the wire from the left tower.
+// X and Y are those of the wire's left end; Z runs along the wire from the left tower.
 //
 // Source: STL, 3D Systems, 1989.
 #pragma once
@@ -13,10 +13,10 @@
 
 namespace passo {
 
-// The step that looks at ten million cells at most.
+// Returns the step with which at most ten million cells are evaluated.
 std::size_t usual_body_step(const FoamBlock& foam);
 
-// Writes into `file`, which the caller commits. Returns the number of triangles. `step`: see foam_skin().
+// Writes into `file`; the caller commits it. Returns the number of triangles. `step`: see foam_skin().
 std::uint64_t write_foam_body(const FoamBlock& foam, std::size_t step, OutputFile& file);
 
 }  // namespace passo

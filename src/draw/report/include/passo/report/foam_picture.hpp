@@ -1,7 +1,7 @@
-// A picture of a block of foam after the wire: both faces with scales, and what is left as a body.
+// A picture of a block of foam after the wire cut: both faces with scales, and the remaining foam as a 3D view.
 //
-// Each piece has a colour of its own. With a target, blue is foam left beside it, red is melted out of it. The body
-// shows what the wire has cut free: the pieces that reach no side of the block in X or Y, where there are such.
+// Each piece has a separate colour. With a target, excess foam is blue, and gouges are red. The 3D view shows the
+// pieces that are cut free, i.e. that do not touch a side of the block in X or Y, if there are any.
 #pragma once
 
 #include "passo/report/picture.hpp"
@@ -13,11 +13,11 @@ namespace passo {
 struct FoamDrawing {
   const FoamBlock& foam;
   const FoamPieces& pieces;
-  const FoamDifference* difference = nullptr;  // null: there is no target
-  bool has_two_faces = false;                  // of which the right one differs from the left one
+  const FoamDifference* difference = nullptr;  // null: no target
+  bool has_two_faces = false;                  // the right face differs from the left one
 };
 
-// Draws into `file`, which the caller commits. options.program is the title, options.machine the words below it.
+// Draws into `file`; the caller commits it. options.program is the title, options.machine the line below it.
 Status<OutputError> draw_foam(const FoamDrawing& drawing, const PictureOptions& options, OutputFile& file);
 
 }  // namespace passo

@@ -1,4 +1,4 @@
-// What a page in HTML needs of this program: text that cannot break out of its place, and pictures inside the page.
+// Building blocks for HTML pages: escaped text, and embedded pictures.
 #pragma once
 
 #include <string>
@@ -6,17 +6,17 @@
 
 namespace passo {
 
-// The text with all characters that mean something in HTML as entities; good inside elements and inside quoted
-// attributes. Control characters and bytes that are no UTF-8 become U+FFFD.
+// Escapes all characters that have a meaning in HTML as entities, for use in elements and quoted attributes. Control
+// characters and invalid UTF-8 become U+FFFD.
 std::string html_text(std::string_view text);
 
-// A picture of draw_view() as an element <svg>, which takes the width of its surroundings. `name` (letters) makes the
-// ids of the picture differ from those of other pictures in the page. `label`: a description of the picture.
+// Returns a picture of draw_view() as an <svg> element, which fills the width of its container. `name` (letters) makes
+// the picture's ids unique in the page. `label`: a description of the picture.
 std::string inline_svg(std::string_view svg, std::string_view name, std::string_view label);
-// The same for a PNG: an element <img> with the bytes inside.
+// Does the same for a PNG: an <img> element with embedded data.
 std::string inline_png(std::string_view png, std::string_view label);
 
-// Any bytes as letters and digits.
+// Encodes bytes in base64.
 std::string base64(std::string_view bytes);
 
 }  // namespace passo

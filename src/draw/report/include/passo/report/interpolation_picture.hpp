@@ -1,7 +1,7 @@
 // A picture of a move in steps: the grid, the ideal path, and the pulses of each method.
 //
-// A single method fills the picture, with its evenness of speed below. Several methods stand side by side. A move of
-// three axes or more is seen from two sides, X Y and X Z. The move may have up to `most_pictured_pulses` pulses.
+// A single method fills the picture, with its speed uniformity below. Several methods are drawn side by side. A move of
+// three or more axes is drawn in two views, X Y and X Z. The move may have up to `most_pictured_pulses` pulses.
 #pragma once
 
 #include <string>
@@ -21,8 +21,8 @@ struct StudiedMethod {
   Measures measures;
 };
 
-// Draws a checked move, as made by each of the methods. There is at least one method, and each must be able to make the
-// move. Draws into `file`, which the caller commits.
+// Draws a checked move with each of the methods. There must be at least one method, and each must support the move.
+// Draws into `file`; the caller commits it.
 Status<OutputError> draw_interpolation(const StepMove& move, const std::vector<StudiedMethod>& methods,
                                        PictureFormat format, OutputFile& file);
 

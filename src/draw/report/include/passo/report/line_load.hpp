@@ -1,4 +1,4 @@
-// LineLoad: the most bytes sent in any second of the board's time.
+// LineLoad: the maximum number of bytes sent over the serial link in any second of the board's time.
 #pragma once
 
 #include <algorithm>
@@ -10,7 +10,7 @@ namespace passo {
 
 class LineLoad {
  public:
-  // `sent` counts the bytes sent up to `now`. Call this often, at least once a second.
+  // `sent` is the number of bytes sent up to `now`. Must be called at least once a second.
   void update(Seconds now, std::uint64_t sent) {
     if (now - since_ < Seconds(1)) return;
     const double rate = static_cast<double>(sent - before_) / (now - since_).value();
@@ -18,8 +18,8 @@ class LineLoad {
     since_ = now;
     before_ = sent;
   }
-  // The highest rate in bytes/s, measured over one second, or between two samples if they are farther apart. 0 if the
-  // whole run took less than a second.
+  // Returns the maximum rate in bytes/s, measured over one second, or between two samples if they are farther apart. 0
+  // if the whole run took less than a second.
   std::uint64_t busiest() const { return busiest_; }
 
  private:

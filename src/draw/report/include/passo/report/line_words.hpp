@@ -1,4 +1,4 @@
-// What a line to the board costs, in words.
+// Describes the cost of a serial link as text.
 #pragma once
 
 #include <string>
@@ -7,10 +7,10 @@
 
 namespace passo {
 
-// Less than this is no cost: it is rounding.
+// A smaller cost is a rounding error and is ignored.
 inline constexpr Seconds least_cost_of_line{0.0005};
 
-// "1.2 %", or "under 0.1 %".
+// Returns e.g. "1.2 %", or "under 0.1 %".
 std::string percent_of(Seconds part, Seconds whole);
 
 }  // namespace passo

@@ -1,4 +1,4 @@
-// A picture of a mill plan: the copper or the board, what each cutter mills, the rapids, and places to look at.
+// A picture of a mill plan: the copper or the board, the area milled by each cutter, the rapids, and points to inspect.
 #pragma once
 
 #include <optional>
@@ -14,17 +14,17 @@ namespace passo {
 
 struct MillScene {
   const MillPlan& plan;
-  const Region& face;                  // of the copper, or of the board
+  const Region& face;                  // the copper, or the board
   std::string face_name = {};          // "Copper"
-  const Region& warned;                // ground that stays though it should not
-  std::vector<DrawnPoint> marks = {};  // a ring around each
+  const Region& warned;                // remaining material that should have been milled
+  std::vector<DrawnPoint> marks = {};  // points to be marked by a ring
   std::string mark_name = {};          // "Tab", "Gap"
   DrawnPoint park = {};                // where the rapids begin and end
-  std::string warned_name = {};        // "Not reached"; empty: not in the legend
-  std::optional<DrawnBox> sheet = {};  // the material
+  std::string warned_name = {};        // "Not reached"; empty: omitted from the legend
+  std::optional<DrawnBox> sheet = {};  // the sheet of material
 };
 
-// Draws into `file`, which the caller commits.
+// Draws into `file`; the caller commits it.
 Status<OutputError> draw_mill_plan(const MillScene& scene, const PictureOptions& options, OutputFile& file);
 
 }  // namespace passo

@@ -1,7 +1,7 @@
 // A picture of a planned motion: the path within its tolerance, the speed along the path with its limit, and the
 // acceleration and jerk of the axes over time.
 //
-// MotionRecorder watches the programmed path and the planned motion. It keeps the first `most_samples` places, so a
+// MotionRecorder records the programmed path and the planned motion. It keeps the first `most_samples` points, so the
 // picture of a long program shows its beginning.
 #pragma once
 
@@ -17,9 +17,9 @@ namespace passo {
 
 struct MotionSample {
   double time = 0;   // s
-  double way = 0;    // mm since the start, over all axes; a degree counts as a millimetre
-  double speed = 0;  // mm/s along that way
-  double cap = 0;    // mm/s: the greatest speed at which some acceleration along the path keeps all limits
+  double way = 0;    // distance from the start, mm, over all axes; a degree counts as a millimetre
+  double speed = 0;  // mm/s along that distance
+  double cap = 0;    // mm/s: the maximum speed at which some acceleration along the path keeps all limits
   Point place;
   Point acceleration;  // of each axis, mm/s²
   Point jerk;          // mm/s³

@@ -1,7 +1,7 @@
-// A picture of what a motor can do with its load. The upper chart shows torque over speed, with the start/stop region
-// and the friction. The lower chart shows the acceleration that is left.
+// A picture of the performance of a motor with its load. The upper chart shows torque over speed, with the start/stop
+// region and the friction. The lower chart shows the available acceleration.
 //
-// Rates are full steps a second.
+// Rates are full steps/s.
 #pragma once
 
 #include "passo/base/result.hpp"
@@ -13,11 +13,11 @@ namespace passo {
 struct MotorScene {
   TorqueCurve curve;
   Load load = {};
-  double margin = 1;  // share of the torque that may accelerate
-  Hertz end;          // the axis of rates reaches at least this far
+  double margin = 1;  // fraction of the torque available for acceleration
+  Hertz end;          // minimum value of the end of the rate axis
 };
 
-// `options.program` is the title, `options.machine` the line below it. Draws into `file`, which the caller commits.
+// `options.program` is the title, `options.machine` the line below it. Draws into `file`; the caller commits it.
 Status<OutputError> draw_motor_picture(const MotorScene& scene, const PictureOptions& options, OutputFile& file);
 
 }  // namespace passo

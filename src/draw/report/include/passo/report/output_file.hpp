@@ -1,12 +1,11 @@
-// OutputFile: a file that appears either whole or not at all. Every writer of the program uses OutputFile.
+// OutputFile: a file that is created either completely or not at all. All output of the program uses OutputFile.
 //
-// Bytes go to a file without a name (NamelessFile). commit() gives the file its name in one step. So a reader never
-// sees half a file, and an older file stays until the new one is complete. Without commit() nothing remains, even if
-// the program is killed. "-" is standard output. A path that is no regular file (a device, a pipe) is written to
-// directly.
+// Bytes go to an unnamed file (NamelessFile), which commit() names in one atomic step. Readers therefore never see a
+// partial file, and an existing file stays until the new one is complete. Without commit() nothing remains, even if the
+// program is killed. "-" is standard output. A path that is not a regular file (a device, a pipe) is written directly.
 //
-// write() never reports an error. The first error is kept, all bytes after the error are dropped, and commit() returns
-// the error. A writer of gigabytes should ask failed() now and then.
+// write() never reports an error. The first error is kept, all bytes after it are dropped, and commit() returns it.
+// Code that writes gigabytes should check failed() from time to time.
 #pragma once
 
 #include <cstdint>
@@ -27,7 +26,7 @@ class OutputFile {
   static constexpr std::size_t buffer_size = 262'144;
 
   static Result<OutputFile, OutputError> open(const std::string& path);
-  // The bytes are added to a text, for what is a part of another file. `text` outlives the file. No error is possible.
+  // Appends the bytes to a string, which becomes part of another file. `text` must outlive the file. Cannot fail.
   static OutputFile into(std::string& text);
 
   OutputFile(OutputFile&&) noexcept;
@@ -36,9 +35,9 @@ class OutputFile {
 
   void write(std::string_view bytes);
   bool failed() const;
-  // All bytes written so far, including buffered ones.
+  // Returns the number of bytes written so far, including buffered ones.
   std::uint64_t size() const;
-  // Hands the last bytes to the system and gives the file its name. Call it once.
+  // Writes the remaining bytes and names the file. May be called once.
   Status<OutputError> commit();
 
  private:

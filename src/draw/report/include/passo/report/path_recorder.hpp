@@ -1,9 +1,9 @@
-// PathRecorder: watches the motion and keeps what a picture needs, in bounded memory.
+// PathRecorder: records the motion for pictures, in bounded memory.
 //
-// The path becomes one polyline in machine coordinates, and each piece has its speed. Lines are cut where their speed
-// changes; arcs and cubics become chords. When the polyline is full, pieces that run nearly straight are joined. The
-// tolerance for that doubles until there is room again. Even a coarse polyline may be too long, as for a path of
-// kilometres over the same place. Then evenly spread stretches are left out. Extents stay exact.
+// The path becomes one polyline in machine coordinates, with a speed for each piece. Lines are split where their speed
+// changes; arcs and cubics become chords. When the polyline is full, nearly collinear pieces are joined with a
+// tolerance, which doubles until there is room again. If even a coarse polyline is too long, e.g. for kilometres of
+// path over the same area, evenly spread stretches are omitted. Extents stay exact.
 //
 // A job of any length takes most_vertices of 20 bytes (2 MB). A line takes about 0.3 µs.
 #pragma once
@@ -21,41 +21,41 @@ class PathRecorder {
  public:
   static constexpr std::size_t most_vertices = 100'000;
 
-  enum class Kind : std::uint8_t { jump, rapid, feed };  // jump: the polyline starts again here
-  // Coordinates are relative to base(). So single precision is enough for a picture, even if the path is small and far
-  // from machine zero.
+  enum class Kind : std::uint8_t { jump, rapid, feed };  // jump: the polyline is interrupted and restarts here
+  // Coordinates are relative to base(), so that single precision suffices for a picture, even if the path is small and
+  // far from machine zero.
   struct Vertex {
     float x = 0;
     float y = 0;
     float z = 0;
     float speed = 0;  // mm/s, of the piece that ends here
     Kind kind = Kind::jump;
-    std::uint8_t tool = 0;  // an index into tools()
-    std::uint8_t load = 0;  // hundredths of load_of_next()'s value
+    std::uint8_t tool = 0;  // index into tools()
+    std::uint8_t load = 0;  // utilisation in percent; the value of load_of_next()
   };
   static constexpr double most_load = 2.5;
 
-  // How much of the torque that is surely there the motors need, from the next move on. 1: all of it.
+  // Sets the torque utilisation of the motors from the next move on. 1: all of the guaranteed torque.
   void load_of_next(double load) { load_ = static_cast<std::uint8_t>(100 * std::min(load, most_load)); }
 
-  // `machine_minus_work` is the work frame at this item, as an offset.
+  // `machine_minus_work` is the work offset at this item.
   void watch(const MotionItem& item, const Point& machine_minus_work);
 
   const std::vector<Vertex>& vertices() const { return vertices_; }
   const Point& base() const { return base_; }
-  // True if nothing moved along X, Y or Z. Then the extents have no meaning.
+  // Returns true if nothing moved along X, Y or Z. The extents are then undefined.
   bool empty() const { return !any_; }
   const Box& extents() const { return extents_; }  // machine coordinates
-  // The extents of the moves at feed alone; those of all moves if there is no feed.
+  // Returns the extents of the feed moves only; those of all moves if there is no feed move.
   const Box& feed_extents() const { return any_feed_ ? feed_extents_ : extents_; }
-  // The tools in use, each once, in the order of their first use. 0: the tool before the first change. Tools beyond the
-  // first most_tools count as the last of these.
+  // The tools in use, each once, in order of first use. 0: the tool before the first change. Tools beyond the first
+  // most_tools count as the last of these.
   static constexpr std::size_t most_tools = 255;
   const std::vector<std::int32_t>& tools() const { return tools_; }
-  // The highest speed at feed, mm/s. 0 if there were only rapids.
+  // Returns the maximum speed of the feed moves, mm/s. 0 if there were only rapids.
   MmPerSecond fastest_feed() const { return MmPerSecond(fastest_feed_); }
   Seconds time() const { return time_; }
-  // The work zeros in use while the path moved, each once, in machine coordinates. At most nine (G54…G59.3).
+  // Returns the work zeros used while the path moved, each once, in machine coordinates. At most nine (G54…G59.3).
   const std::vector<Point>& origins() const { return origins_; }
 
  private:
@@ -80,8 +80,8 @@ class PathRecorder {
   Seconds time_{0};
   std::vector<Point> origins_;
 
-  double tolerance_ = 0;  // mm, the tolerance of the joining so far; 0: nothing is joined yet
-  // One of so many stretches of moves is kept, and the others are left out.
+  double tolerance_ = 0;  // mm, current tolerance of the joining; 0: nothing has been joined yet
+  // One in this many stretches of moves is kept, the others are omitted.
   std::uint64_t keep_one_of_ = 1;
   std::uint64_t moves_ = 0;
 };

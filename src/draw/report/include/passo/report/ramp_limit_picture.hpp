@@ -1,5 +1,5 @@
-// A picture of what ramp tables of several sizes can do, over the motor's steps a revolution: the least acceleration
-// with which the end of the table reaches a rate, and the rate that is reached with several accelerations.
+// A picture of the limits of ramp tables of several sizes, over the motor's steps per revolution: the minimum
+// acceleration with which a rate is reached at the end of the table, and the rate reached with several accelerations.
 #pragma once
 
 #include <cstdint>
@@ -14,13 +14,13 @@ namespace passo {
 
 struct RampLimitScene {
   std::vector<std::int32_t> table_sizes;         // at most three
-  std::optional<Hertz> rate;                     // the wanted rate; empty: the picture shows no least acceleration
-  std::vector<RadiansPerSecond2> accelerations;  // at least one, rising
+  std::optional<Hertz> rate;                     // the required rate; empty: the minimum acceleration is not shown
+  std::vector<RadiansPerSecond2> accelerations;  // at least one, in ascending order
   std::int32_t least_steps_per_turn = 24;
   std::int32_t most_steps_per_turn = 400;
 };
 
-// `options.program` is the title, `options.machine` the line below it. Draws into `file`, which the caller commits.
+// `options.program` is the title, `options.machine` the line below it. Draws into `file`; the caller commits it.
 Status<OutputError> draw_ramp_limits(const RampLimitScene& scene, const PictureOptions& options, OutputFile& file);
 
 }  // namespace passo

@@ -1,7 +1,7 @@
-// Signals: wires over time, each high or low, as a table (CSV), as waves (VCD) and as a picture.
+// Signals: digital signals over time, as a table (CSV), as waveforms (VCD) and as a picture.
 //
-// Times are nanoseconds from the start. A signal is low before its first change. Changes are in order of time; of
-// several at one time the last one counts.
+// Times are nanoseconds from the start. A signal is low before its first change. Changes must be in order of time; of
+// several changes at the same time the last one is used.
 #pragma once
 
 #include <cstdint>
@@ -20,25 +20,25 @@ struct SignalChange {
 };
 
 struct Signal {
-  std::string name;  // of letters, digits and signs without a space
+  std::string name;  // letters, digits and punctuation without blanks
   std::vector<SignalChange> changes = {};
 };
 
 struct Signals {
-  std::string title;  // of the VCD's module, one word
+  std::string title;  // name of the VCD module, one word
   std::vector<Signal> signals = {};
   std::int64_t end = 0;
 
-  // A picture with more changes shows nothing any more.
+  // A picture with more changes would not be legible.
   static constexpr std::size_t most_drawn_changes = 20'000;
   std::size_t count_of_changes() const;
 };
 
-// All three write into `file`, which the caller commits.
-// A row at the start and at each time at which something changes: the time in seconds, then a 1 or 0 for each signal.
+// All three write into `file`; the caller commits it. The CSV has a row for the start and for each time at which
+// something changes: the time in seconds, then 1 or 0 for each signal.
 void write_signals_csv(const Signals& signals, OutputFile& file);
 void write_signals_vcd(const Signals& signals, OutputFile& file);
-// A lane for each signal, filled while the signal is high.
+// Draws a lane for each signal, filled while the signal is high.
 Status<OutputError> draw_signals(const Signals& signals, const PictureOptions& options, OutputFile& file);
 
 }  // namespace passo

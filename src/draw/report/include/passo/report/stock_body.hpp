@@ -1,9 +1,9 @@
-// write_stock_body: a piece of stock as a closed body in binary STL, millimetres.
+// write_stock_body: writes a piece of stock as a closed solid in binary STL, millimetres.
 //
-// The face goes through the middles of the cells, and straight on to the edges of the stock. Walls and a flat bottom
-// close it: each edge belongs to exactly two triangles. Where the stock is cut through, face and bottom are left out.
-// A cell has two triangles, four if the stock is cut through anywhere, of 50 bytes each: 100 MB for a million cells. So
-// `step` may take one cell of so many in each direction.
+// The surface passes through the centres of the cells, and is extended to the edges of the stock. Walls and a flat
+// bottom close it: each edge belongs to exactly two triangles. Where the stock is cut through, surface and bottom are
+// omitted. A cell has two triangles, or four if the stock is cut through anywhere, of 50 bytes each: 100 MB for a
+// million cells. `step` reduces this: only every `step`-th cell in each direction is used.
 //
 // Source: STL, 3D Systems, 1989.
 #pragma once
@@ -16,10 +16,10 @@
 
 namespace passo {
 
-// The step that gives a million cells at most.
+// Returns the step with which at most a million cells are used.
 std::size_t usual_body_step(const HeightField& field);
 
-// Writes into `file`, which the caller commits. Returns the number of triangles.
+// Writes into `file`; the caller commits it. Returns the number of triangles.
 std::uint64_t write_stock_body(const HeightField& field, std::size_t step, OutputFile& file);
 
 }  // namespace passo

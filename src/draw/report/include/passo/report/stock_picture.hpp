@@ -1,7 +1,7 @@
-// A picture of a piece of stock: from above with a scale, and as a body beside it. Light falls from the upper left.
+// A picture of a piece of stock: a top view with a scale, and a 3D view, lit from the upper left.
 //
-// Colours tell the depth below the top. With a target they tell the difference from it: blue is material left, red is a
-// gouge, grey is within the tolerance.
+// Colours show the depth below the top. With a target they show the deviation: blue is excess material, red is a gouge,
+// grey is within the tolerance.
 #pragma once
 
 #include "passo/report/picture.hpp"
@@ -11,11 +11,11 @@ namespace passo {
 
 struct StockDrawing {
   const HeightField& field;
-  const HeightField* target = nullptr;  // of the same cells; null: there is none
+  const HeightField* target = nullptr;  // with the same cells; null: no target
   Mm tolerance{0.02};
 };
 
-// Draws into `file`, which the caller commits. options.program is the title, options.machine the words below it.
+// Draws into `file`; the caller commits it. options.program is the title, options.machine the line below it.
 Status<OutputError> draw_stock(const StockDrawing& drawing, const PictureOptions& options, OutputFile& file);
 
 }  // namespace passo

@@ -1,7 +1,7 @@
-// Trace: a file with every step of a machine. TraceVcd and TraceCsv are its two forms.
+// Trace: a file with every step of a machine. TraceVcd and TraceCsv are its two formats.
 //
-// A trace watches a virtual machine and hands on its text in large pieces, to an OutputFile or another sink. A trace
-// needs the same memory for a job of any length.
+// A trace observes a virtual machine and passes on its text in large pieces, to an OutputFile or another sink. Its
+// memory does not depend on the length of the job.
 #pragma once
 
 #include <array>
@@ -18,27 +18,27 @@
 
 namespace passo {
 
-// A motor of the machine, and the axis that the motor turns.
+// A motor of the machine, and the axis that it drives.
 struct TraceMotor {
   Axis axis = Axis::x;
-  bool inverted = false;  // true: the axis goes up when the motor counts down
+  bool inverted = false;  // the axis moves up when the motor counts down
 };
 
 struct TraceOptions {
   std::vector<TraceMotor> motors;  // in the order of the board's motors, at most max_motors
   Hertz clock{16e6};               // the board's timer: a whole number of hertz below 2^32
   Seconds step_pulse{2.5e-6};
-  std::optional<Excitation> windings = {};  // not of microsteps; empty: the board does not switch windings by itself
+  std::optional<Excitation> windings = {};  // not for microsteps; empty: the board does not switch windings itself
 };
 
-// The windings of a board's motors, as after its reset: no current before a motor's first step.
+// The windings of a board's motors, starting as after a reset: no current before a motor's first step.
 class TraceWindings {
  public:
   static constexpr unsigned outputs = 4;  // F1 to F4 of each motor
 
   explicit TraceWindings(const std::optional<Excitation>& excitation) : excitation_(excitation) {}
   bool exist() const { return excitation_.has_value(); }
-  // Makes a step. Returns the outputs that change.
+  // Applies a step. Returns the outputs that change.
   unsigned step(unsigned motor, bool down) {
     places_[motor] += down ? -1 : 1;
     const std::uint8_t before = patterns_[motor];
@@ -57,7 +57,7 @@ using TraceSink = std::function<void(std::string_view)>;
 
 class Trace : public MachineObserver {
  public:
-  // Writes what is left. The machine has come to rest at `end`. Call it once, after everything else.
+  // Writes the remaining output. The machine has stopped at `end`. Must be called once, after everything else.
   virtual void finish(Ticks end) = 0;
 };
 

@@ -1,4 +1,4 @@
-// TraceBuffer: collects the text of a trace and hands it on in large pieces.
+// TraceBuffer: collects the text of a trace and passes it on in large pieces.
 #pragma once
 
 #include <charconv>
@@ -17,7 +17,7 @@ class TraceBuffer {
  public:
   explicit TraceBuffer(TraceSink sink) : sink_(std::move(sink)), text_(std::make_unique<char[]>(size)) {}
 
-  // Between two calls of make_room(), at most `longest` bytes may be put.
+  // At most `longest` bytes may be added between two calls of make_room().
   void make_room() {
     if (used_ > size - longest) flush();
   }
@@ -30,7 +30,7 @@ class TraceBuffer {
     char* const from = &text_[used_];
     used_ += static_cast<std::size_t>(std::to_chars(from, from + 20, number).ptr - from);
   }
-  // Writes a point and nine digits.
+  // Writes a decimal point and nine digits.
   void put_decimals(std::uint64_t billionths) {
     put(1'000'000'000 + billionths);
     text_[used_ - 10] = '.';

@@ -1,12 +1,12 @@
-// TraceCsv: a row for each event in which something steps, for spreadsheets and scripts.
+// TraceCsv: a row for each event with a step, for spreadsheets and scripts.
 //
 //   t,x,y,z
 //   0.000010031,1,0,-1
 //
 // The first column is the time in seconds from the start. It has nine decimals, rounded half up from the exact tick.
-// Then each axis has −1, 0 or 1: the direction of the axis, whichever way its motor turns. Where the board switches
-// windings by itself, x_f1 to x_f4 and so on follow: 1 for a winding that carries current from this event on. Outputs
-// are not shown. A row takes about 20 ns.
+// The following columns are −1, 0 or 1 for each axis: the direction of the axis, independent of the direction of its
+// motor. If the board switches windings itself, x_f1 to x_f4 and so on follow: 1 for a winding that carries current
+// from this event on. Other outputs are not included. A row takes about 20 ns.
 #pragma once
 
 #include <array>
@@ -34,7 +34,7 @@ class TraceCsv final : public Trace {
   unsigned motors_;
   std::uint8_t inverted_ = 0;
   TraceWindings windings_;
-  // The whole second in which the last row is.
+  // The whole second of the last row.
   std::uint64_t second_ = 0;
   std::uint64_t second_start_ = 0;  // ticks
 };

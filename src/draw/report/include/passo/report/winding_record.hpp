@@ -1,8 +1,10 @@
-// WindingRecord: windings, phase currents and rotors over time, in three forms. A record is started with the motors'
-// names, then told each pulse, then finished.
+// WindingRecord: windings, phase currents and rotors over time, in three formats. A record is started with the motors'
+// names, receives each pulse, and is finished.
 //
-//   CSV   a row a pulse: the time, then for each motor its place, F1 to F4, the currents of A and B, the rotor's
-//   degrees VCD   the same as waves for GTKWave: x_F1 … x_F4, x_place, and the real numbers x_A, x_B, x_deg
+//   CSV      a row per pulse: the time, then for each motor its position, F1 to F4, the currents of A and B, the angle
+//            of the rotor in degrees
+//   VCD      the same as waveforms for GTKWave: x_F1 … x_F4, x_place, and the real numbers x_A, x_B, x_deg
+//   picture  draw_windings()
 //
 // The rotor is ideal: it follows the direction of the field, like an unloaded rotor at standstill.
 #pragma once
@@ -18,15 +20,15 @@
 
 namespace passo {
 
-inline constexpr unsigned winding_outputs = 4;  // of a motor: F1 to F4
+inline constexpr unsigned winding_outputs = 4;  // outputs of each motor: F1 to F4
 
 struct WindingMotors {
   Excitation excitation;
   std::int32_t full_steps_per_turn = 200;
-  std::size_t count = 1;  // motors x, y, z …
+  std::size_t count = 1;  // number of motors x, y, z …
 };
 
-// A pulse, and when it comes.
+// A pulse and its time.
 struct TimedPulse {
   Seconds time{0};
   Pulse pulse;
@@ -36,11 +38,11 @@ class WindingRecord {
  public:
   virtual ~WindingRecord() = default;
   virtual void add(const TimedPulse& pulse) = 0;
-  // Nothing moves any more; `end` is when the last step is over.
+  // Must be called after the last pulse; `end` is the end of the last step.
   virtual void finish(Seconds end) = 0;
 };
 
-// Both begin at place 0 and write into `file`, which must outlive them and which the caller commits.
+// Both begin at position 0 and write into `file`, which must outlive them; the caller commits it.
 class WindingCsv final : public WindingRecord {
  public:
   WindingCsv(const WindingMotors& motors, OutputFile& file);
@@ -79,8 +81,8 @@ struct WindingScene {
   Seconds end{0};
 };
 
-// A column for each motor: its four outputs, the currents of its phases, and its rotor, over time. Draws into `file`,
-// which the caller commits.
+// Draws a column for each motor: its four outputs, the currents of its phases, and its rotor, over time. Draws into
+// `file`; the caller commits it.
 Status<OutputError> draw_windings(const WindingScene& scene, const PictureOptions& options, OutputFile& file);
 
 }  // namespace passo

@@ -1,4 +1,5 @@
-// A picture of a wire cut: both faces of the block, what stays there, what the wire melts, and where its ends go.
+// A picture of a wire cut: both faces of the block, the remaining foam, the melted area, and the paths of the wire's
+// ends.
 #pragma once
 
 #include <optional>
@@ -11,11 +12,11 @@ namespace passo {
 
 struct WireScene {
   const WirePlan& plan;
-  std::optional<DrawnBox> block = {};  // a face of it
+  std::optional<DrawnBox> block = {};  // one face of the block
   bool has_four_axes = true;
 };
 
-// Draws into `file`, which the caller commits.
+// Draws into `file`; the caller commits it.
 Status<OutputError> draw_wire_cut(const WireScene& scene, const PictureOptions& options, OutputFile& file);
 
 }  // namespace passo

@@ -1,4 +1,4 @@
-// ApiJob: a program that was asked to run, and what has become of it.
+// ApiJob: a program requested to run, and its outcome.
 #pragma once
 
 #include <cstdint>
@@ -17,8 +17,8 @@ struct ApiJob {
   std::uint64_t program = 0;
   std::string name;
   JobState state = JobState::none;
-  Sentence why;              // of one that failed
-  std::int64_t history = 0;  // its number in the history; 0: nobody keeps one
+  Sentence why;              // reason of a failure
+  std::int64_t history = 0;  // its number in the history; 0: there is no history
   friend bool operator==(const ApiJob&, const ApiJob&) = default;
 };
 

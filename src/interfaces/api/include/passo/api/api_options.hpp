@@ -1,4 +1,4 @@
-// ApiOptions: what a program gives to the API besides the machine.
+// ApiOptions: the data and services that a program provides to the API in addition to the machine.
 #pragma once
 
 #include <functional>
@@ -14,39 +14,40 @@
 
 namespace passo {
 
-// The machine file on the disk.
+// Access to the machine file on disk.
 struct MachineFileAccess {
-  std::string name;  // for people
+  std::string name;  // name of the file for display
   std::function<std::optional<std::string>()> read = {};
-  // Writes `after`, if the file is still as `before`. Returns why it could not; empty: it is written. Null: the machine
-  // is no file.
+  // Writes `after`, if the file still contains `before`. Returns the reason for a failure; empty on success. Null: the
+  // machine is not from a file.
   std::function<std::string(const std::string& before, const std::string& after)> write = {};
 };
 
 struct ApiOptions {
-  std::string version;                    // of the program
-  std::string openapi;                    // the text of docs/api/openapi.json
-  std::function<std::string()> make_key;  // a text that nobody guesses, for an owner of motion
-  // What serves other paths: a folder with a page. Empty: nothing does.
+  std::string version;                    // program version
+  std::string openapi;                    // contents of docs/api/openapi.json
+  std::function<std::string()> make_key;  // returns an unguessable key for the client in control
+  // Serves all other paths: a folder with the web interface. Empty: not served.
   std::function<std::optional<WebAnswer>(const WebRequest& request)> page = {};
-  // Keeps the queue of jobs and what became of them; outlives the API. Null: there is no queue, and nothing is kept.
+  // Stores the job queue and the history; must outlive the API. Null: there is no queue and no history.
   JobHistory* history = nullptr;
   std::function<double()> wall_time = {};  // seconds since 1970, for the history
-  // Keeps the journal of a job, with a history; outlives the API. Null: a job that is broken off cannot go on.
+  // Writes the journal of a job, in addition to the history; must outlive the API. Null: an interrupted job cannot be
+  // resumed.
   JobKeeper* keeper = nullptr;
-  FileStamp machine_file = {};            // as it was read
-  MachineFileAccess machine_access = {};  // for an editor
-  // The offsets and tools of the programs at the beginning, and what keeps them when they have changed: it returns why
-  // it could not, or an empty text.
+  FileStamp machine_file = {};            // fingerprint of the file when it was read
+  MachineFileAccess machine_access = {};  // for the editor
+  // The initial offsets and tools of the programs, and a function that saves them after a change; it returns the reason
+  // for a failure, or an empty text.
   SavedParameters parameters = {};
   ToolTable tools = {};
   std::function<std::string(const SavedParameters&, const ToolTable&)> keep_offsets = {};
-  std::optional<BrokenOff> broken_off = {};  // the job of an earlier program
-  // Makes programs of drawings; outlives the API. Null: nobody does.
+  std::optional<BrokenOff> broken_off = {};  // the job of an earlier program run
+  // Generates programs from drawings; must outlive the API. Null: not available.
   Maker* maker = nullptr;
-  // Works out what takes longer; outlives the API. Null: nobody does.
+  // Runs longer analyses; must outlive the API. Null: not available.
   Studies* studies = nullptr;
-  // Times the motion of programs; outlives the API. Null: nobody does, and the time left is not known.
+  // Computes the duration of programs; must outlive the API. Null: not available, so the remaining time is unknown.
   MotionTimer* timer = nullptr;
 };
 

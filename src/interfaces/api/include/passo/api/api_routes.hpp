@@ -1,5 +1,5 @@
-// ApiRoute: the requests of the API, one row each: who may ask, what the body is, and which function answers. Nothing
-// else compares methods or paths. A test holds the rows and docs/api/openapi.json together, in both directions.
+// ApiRoute: the requests of the API, one row each: required rights, body type, and handler function. All dispatch by
+// method and path uses this table. A test checks that the rows match docs/api/openapi.json, in both directions.
 #pragma once
 
 #include <cstddef>
@@ -26,16 +26,16 @@ using AnswerOf = WebAnswer (Part::*)(const ApiCall& call);
 using ApiHandler = std::variant<AnswerOf<CamApi>, AnswerOf<JobsApi>, AnswerOf<MachineApi>, AnswerOf<MachineFileApi>,
                                 AnswerOf<OwnerApi>, AnswerOf<ProgramsApi>, AnswerOf<StudiesApi>>;
 
-// What a request's body is. `bytes`: of any file but JSON.
+// The type of a request's body. `bytes`: any file except JSON.
 enum class BodyKind : std::uint8_t { none, json, program, table, bytes };
-// What a server may lack. Without it, a request gets 404.
+// A service that a server may lack; the request then gets 404.
 enum class Needs : std::uint8_t { nothing, history, maker, studies };
 
 struct ApiRoute {
   std::string_view method;
   std::string_view path;       // below api_root, with {id} for a number
-  std::string_view operation;  // the operationId in openapi.json
-  bool moves;                  // only for the owner of motion
+  std::string_view operation;  // operationId in openapi.json
+  bool moves;                  // whether only the client in control may send it
   BodyKind body;
   ApiHandler handler;
   Needs needs = Needs::nothing;
@@ -45,7 +45,7 @@ inline constexpr std::string_view api_root = "/api/v1";
 
 std::span<const ApiRoute> api_routes();
 
-// The route of a request. Null: there is none; `allowed` then has the methods of this path, as "GET, POST".
+// The route of a request. Null: there is none; `allowed` then lists the methods of this path, e.g. "GET, POST".
 struct FoundRoute {
   const ApiRoute* route = nullptr;
   std::uint64_t id = 0;

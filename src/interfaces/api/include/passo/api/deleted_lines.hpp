@@ -1,4 +1,4 @@
-// Lines of a program that begin with `/`: an operator may have them left out (block delete).
+// Program lines that begin with `/`, which an operator can skip (block delete).
 #pragma once
 
 #include <cstdint>
@@ -8,7 +8,7 @@
 namespace passo {
 
 std::uint64_t count_deleted_lines(std::string_view text);
-// The same program for whoever keeps only a text: these lines are comments. All lines keep their numbers.
+// Returns the program with these lines turned into comments, for storage as plain text. All lines keep their numbers.
 std::string with_deleted_lines_as_comments(std::string_view text);
 
 }  // namespace passo

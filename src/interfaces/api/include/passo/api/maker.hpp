@@ -1,7 +1,8 @@
-// Maker: makes programs of drawings and pictures beside the machine, as `passo cam` does.
+// Maker: generates programs from drawings and pictures, as `passo cam` does, without blocking the machine.
 //
-// Place: the API's view of a helper that the program provides. One order at a time. The files of an order are kept by
-// name until they are cleared. Memory, time and files are bounded by whoever implements this.
+// Position in the pipeline: the API's interface to a service that the program provides. It processes one order at a
+// time. The files of an order are kept by name until they are cleared. The implementation must limit memory, time and
+// files.
 #pragma once
 
 #include <cstdint>
@@ -14,21 +15,22 @@ namespace passo {
 
 struct MakeOrder {
   std::string job;                   // "drill"
-  std::vector<std::string> files;    // names that were kept
+  std::vector<std::string> files;    // names of kept files
   std::vector<std::string> options;  // "--depth=-2"
-  std::string profile = {};          // of a board: options of the commands that it needs, as TOML; empty: none
-  std::string machine = {};          // of a board: the machine file's text, for the times; empty: unknown
+  std::string profile = {};          // for a board: options of the required commands, as TOML; empty: none
+  std::string machine = {};          // for a board: contents of the machine file, for the time estimates; empty:
+                                     // unknown
 };
 
 struct MakeResult {
   enum class State : std::uint8_t { none, running, done, failed };
   State state = State::none;
   std::string job;
-  std::vector<std::string> names = {};  // of the programs, in the order in which they are run
-  std::string words = {};               // what was said; why it failed
-  std::string picture_type = {};        // "image/svg+xml"; empty: there is no picture
-  std::string report = {};              // of a board: what was read, and the steps, as JSON; also where it failed
-  bool has_page = false;                // of a board: what to do when
+  std::vector<std::string> names = {};  // names of the programs, in the order in which they are to be run
+  std::string words = {};               // messages, including the reason for a failure
+  std::string picture_type = {};        // "image/svg+xml"; empty: no picture
+  std::string report = {};              // for a board: the files read, and the steps, as JSON; also after a failure
+  bool has_page = false;                // for a board: a page with instructions
 };
 
 class Maker {
@@ -37,19 +39,20 @@ class Maker {
 
   virtual ~Maker() = default;
   virtual std::vector<std::string> files() const = 0;
-  // Keeps a file for orders; one of the same name is replaced. `name`: letters, digits and " ._-()". False: no room.
+  // Keeps a file for orders; replaces one of the same name. `name`: letters, digits and " ._-()". Returns false if
+  // there is no room.
   virtual bool keep(const std::string& name, std::string_view bytes) = 0;
-  // Forgets all files, and ends the order that runs.
+  // Deletes all files, and ends the running order.
   virtual void clear() = 0;
-  // False: an order runs, or none can begin.
+  // Starts an order. Returns false if an order is running, or if it cannot be started.
   virtual bool begin(const MakeOrder& order) = 0;
-  // How it goes. Call often: it is cheap while nothing changes.
+  // Returns the current state. Can be called often: it is cheap if nothing has changed.
   virtual const MakeResult& result() = 0;
-  // Of the last order that is done. Programs count from 0.
+  // Returns a program of the last completed order. Programs are numbered from 0.
   virtual std::string program(std::size_t number) const = 0;
-  // The whole picture, or that of one of several programs.
+  // Returns the picture of the whole order, or of one of several programs.
   virtual std::string picture(std::optional<std::size_t> number) const = 0;
-  // HTML.
+  // Returns the instructions as HTML.
   virtual std::string page() const = 0;
 };
 

@@ -1,13 +1,14 @@
-// MdiLines: lines that a person types at a page (MDI, manual data input). They are one program that never ends, so
-// modes last from line to line, as in LinuxCNC and grbl; and the words of grbl that begin with $.
+// MdiLines: G-code lines entered in the web interface (MDI, manual data input). They form one endless program, so modes
+// persist from line to line, as in LinuxCNC and grbl. grbl's $ commands are also accepted.
 //
 //   POST /mdi -> MdiLines -> OpenProgram -> request::Stream to MachineSession
 //
-// A line is taken as a whole, or refused and changes nothing. The machine is idle again when a line is done, unless the
-// lines have left the spindle or the coolant on: then it waits for the next one. Whatever ends that switches both off.
+// A line is executed as a whole, or refused without any effect. The machine is idle again after a line, unless the
+// lines have left the spindle or the coolant on: then the stream waits for the next line. When the stream ends for any
+// reason, both are switched off.
 //
-// The modes are those of a program's start after a job, M2, M30, an alarm, a reset, and after somebody else has driven.
-// A stop keeps them.
+// The modes are reset to those of a program's start after a job, M2, M30, an alarm, a reset, and after another client
+// has been in control. A stop keeps them.
 #pragma once
 
 #include <cstdint>
@@ -29,32 +30,33 @@ class MdiLines {
  public:
   static constexpr std::size_t longest_line = 255;
 
-  // All of them outlive this.
+  // All references must outlive this object.
   MdiLines(const MachineDescription& machine, MachineSession& session, ProgramStore& programs);
 
   struct Answer {
-    std::string code;  // empty: the line was taken
+    std::string code;  // empty: the line was accepted
     std::string message;
-    std::string expected;            // what would have been right; may be empty
-    std::vector<std::string> words;  // what a line with $ asks for
-    Sentence sentence = {};          // the message with its code; without a code: a finding in the line
+    std::string expected;            // what was expected instead; may be empty
+    std::vector<std::string> words;  // the output requested by a $ command
+    Sentence sentence = {};          // the message with its code; without a code: an error in the line
   };
   Answer execute(std::string_view line);
 
   void on_change(const MachineChange& change);
-  // Ends the stream where nothing is left to do. True: the lines have changed offsets or tools, and the machine rests.
+  // Ends the stream if nothing is left to do. Returns true if the lines have changed offsets or tools, and the machine
+  // is idle.
   bool poll();
-  // The modes of a program's start.
+  // Resets the modes to those of a program's start.
   void begin_anew();
-  // The work's zeros are others now. The modes stay.
+  // Applies changed work offsets. The modes stay.
   void apply_offsets();
 
-  // The lines run, or have left something on.
+  // Returns whether lines are running, or have left an output on.
   bool streams() const { return ticket_.has_value(); }
   ModesInForce modes() const;
-  // Why the last line did not come to its end: a probe that touched nothing. Empty: it did.
+  // Returns why the last line was not completed, e.g. a probe without contact. Empty: it was.
   const std::string& trouble() const { return trouble_; }
-  // Grows with each change of what is told here.
+  // Increases with each change of the state returned here.
   std::uint64_t version() const { return version_; }
   SavedParameters parameters() const { return program_->parameters(); }
   const ToolTable& tools() const { return program_->tools(); }
@@ -69,11 +71,11 @@ class MdiLines {
   MachineSession& session_;
   ProgramStore& programs_;
   std::shared_ptr<OpenProgram> program_;
-  std::shared_ptr<OpenProgram> streamed_;  // the session may still look at it
-  std::optional<Ticket> ticket_;           // of the stream
-  bool stops_ = false;                     // the stream was asked to end
-  bool ended_ = false;                     // by M2 or M30
-  bool changed_ = false;                   // a line was taken, and nobody has asked what it has changed
+  std::shared_ptr<OpenProgram> streamed_;  // the session may still use it
+  std::optional<Ticket> ticket_;           // the session's ticket of the stream
+  bool stops_ = false;                     // the end of the stream was requested
+  bool ended_ = false;                     // the program was ended by M2 or M30
+  bool changed_ = false;                   // a line was accepted, and its effect has not been queried yet
   std::optional<ProbeOutcome> probe_;
   std::string trouble_;
   std::uint64_t version_ = 0;

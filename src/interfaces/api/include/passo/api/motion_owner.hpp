@@ -1,8 +1,9 @@
-// MotionOwner: who may move the machine. Any number of clients watch; one at a time moves.
+// MotionOwner: determines who is in control of the machine. Any number of clients may watch; only one may move the
+// machine.
 //
-// The owner is a sender of G-code (a Grbl client), a client of the API, or nobody. Ownership passes explicitly: a
-// sender becomes the owner when it comes and nobody else is; a client of the API takes ownership, and gives it back. It
-// never passes while the machine moves for an owner who is there. Everybody may hold and stop.
+// In control is a G-code sender (a Grbl client), a client of the API, or nobody. Control passes explicitly: a
+// connecting sender takes control if nobody has it; a client of the API requests control, and releases it. Control
+// never passes while the machine moves for a connected owner. Everyone may hold and stop.
 #pragma once
 
 #include <cstdint>
@@ -16,28 +17,28 @@ namespace passo {
 
 class MotionOwner {
  public:
-  // A client that owns the motion, and was not heard for so long while nothing moved, owns it no longer.
+  // A client in control loses control after this time without a request while the machine was idle.
   static constexpr Seconds silent_for{300};
-  // One whose streams have all ended may come back so long.
+  // The time within which a client may reconnect after all its streams have ended.
   static constexpr Seconds returns_within{5};
 
   enum class Kind : std::uint8_t { nobody, sender, client };
 
   Kind kind() const { return kind_; }
-  // Of a client, as it calls itself; for people.
+  // The client's name, as given by itself, for display.
   const std::string& name() const { return name_; }
   bool is_sender() const { return kind_ == Kind::sender; }
   bool is_client(std::string_view key) const { return kind_ == Kind::client && !key.empty() && key == key_; }
 
-  // A sender is there and asks. False: a client owns the machine.
+  // Requests control for a connected sender. Returns false if a client is in control.
   bool claim_for_sender() {
     if (kind_ == Kind::nobody) set(Kind::sender, "sender", "");
     return is_sender();
   }
-  // `key` proves later that a request is the owner's.
+  // Gives control to a client. `key` later authenticates its requests.
   void claim_for_client(std::string name, std::string key) { set(Kind::client, std::move(name), std::move(key)); }
   void release() { set(Kind::nobody, "", ""); }
-  // Grows with each change of the owner.
+  // Increases with each change of the owner.
   std::uint64_t changes() const { return changes_; }
 
  private:

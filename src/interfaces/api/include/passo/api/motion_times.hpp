@@ -1,8 +1,9 @@
-// MotionTimes: how long the planned motion of a program takes from each of its points, with its ramps and with the
-// overrides in force. So the time left of a job is known to the second. MotionTimer works them out beside the machine.
+// MotionTimes: the duration of a program's planned motion from each of its points, including ramps and the current
+// overrides. It gives the remaining time of a job to the second. MotionTimer computes it without blocking the machine.
 //
-// Place: beside the program store. A point of a program is told by its nominal time (activity/nominal_time.hpp), as
-// the session tells progress. Bounded: in a long program the points that are kept lie farther apart.
+// Position in the pipeline: beside the program store. A point of a program is identified by its nominal time
+// (activity/nominal_time.hpp), as in the session's progress reports. Bounded: in a long program the stored points are
+// farther apart.
 #pragma once
 
 #include <cstddef>
@@ -23,10 +24,10 @@ class MotionTimes {
  public:
   static constexpr std::size_t most_points = 20'000;
 
-  // What was planned so far, from the beginning of the program; both times grow.
+  // Adds the progress of the planning from the beginning of the program; both times must increase.
   void add(Seconds nominal, Seconds planned);
   Seconds whole() const { return last_.planned; }
-  // How long the motion takes from that point on.
+  // Returns the duration of the motion from that point on.
   Seconds left_from(Seconds nominal) const;
   std::size_t points() const { return points_.size(); }
 
@@ -37,10 +38,10 @@ class MotionTimes {
   };
   std::vector<Point> points_{Point()};
   Point last_;
-  Seconds apart_{0};  // the least planned time between two points
+  Seconds apart_{0};  // minimum planned time between two points
 };
 
-// A program that was checked, and is to be timed.
+// A checked program whose duration is to be computed.
 struct MotionTiming {
   std::string name;
   std::string text;
@@ -49,16 +50,16 @@ struct MotionTiming {
   MotionFactors factors;
 };
 
-// Plans the whole motion. Empty: `goes_on`, which is asked again and again, said no.
+// Plans the whole motion. Calls `goes_on` repeatedly; returns nothing if it returns false.
 std::optional<MotionTimes> time_motion(const MotionTiming& wanted, const MachineDescription& machine,
                                        const std::function<bool()>& goes_on);
 
-// Times programs beside the machine. A new order takes the place of the one before.
+// Computes the duration of programs without blocking the machine. A new order replaces the previous one.
 class MotionTimer {
  public:
   virtual ~MotionTimer() = default;
   virtual void begin(MotionTiming wanted) = 0;
-  // What was found of the last order, once.
+  // Returns the result of the last order, once.
   virtual std::optional<MotionTimes> take_times() = 0;
 };
 

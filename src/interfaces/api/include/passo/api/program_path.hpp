@@ -1,11 +1,11 @@
-// ProgramPath: the path of a program as points, for viewers. It is made while the program is checked.
+// ProgramPath: the path of a program as points, for viewers. It is generated while the program is checked.
 //
-// The points come in chunks. Each chunk has a box of its own, within which 16 bits a coordinate place each point: 12
-// bytes a point in all, and a point is off by at most 1/131,000 of its chunk's box. Point i of a chunk is the end of
-// the motion from point i - 1; the first point of a chunk is the last one of the chunk before. Coarser levels leave
-// points out where nobody sees them.
+// The points are stored in chunks. Each chunk has its own bounding box, in which a point has 16 bits per coordinate: 12
+// bytes per point in all, with an error of at most 1/131,000 of the box. Point i of a chunk is the end of the motion
+// from point i - 1; the first point of a chunk is the last one of the previous chunk. Coarser levels omit points that
+// make no visible difference.
 //
-// Lengths are mm, machine coordinates of X, Y and Z. Memory is bounded: beyond `most_points` the rest is left out.
+// Lengths are mm, in machine coordinates of X, Y and Z. Memory is bounded: points beyond `most_points` are omitted.
 #pragma once
 
 #include <array>
@@ -27,13 +27,13 @@ class ProgramPath {
   static constexpr std::size_t most_points = 24'000'000;
   static constexpr unsigned levels = 3;  // 0: all points
   static constexpr std::uint16_t flag_rapid = 1;
-  // Bits 8 to 15 of the flags: the programmed speed, as 16 (log2(mm/s) + 6), 1 to 255; 0: a rapid, or no speed.
+  // Returns bits 8 to 15 of the flags: the programmed speed, as 16 (log2(mm/s) + 6), 1 to 255; 0: a rapid, or no speed.
   static std::uint16_t speed_flags(MmPerSecond speed);
-  // Bits 1 to 7 of the flags: which of tools() is in the spindle.
+  // Bits 1 to 7 of the flags: the index of the current tool in tools().
   static constexpr std::size_t most_tools = 128;
 
   using Coordinates = std::array<double, 3>;
-  // An empty box has low above high.
+  // In an empty box, low is above high.
   struct Range {
     Coordinates low{1e300, 1e300, 1e300};
     Coordinates high{-1e300, -1e300, -1e300};
@@ -42,9 +42,9 @@ class ProgramPath {
     double diagonal() const;
   };
 
-  // Arcs become chords that leave the arc by less than `chord_error`. `frame` is the one in force.
+  // Adds an item. Arcs become chords that deviate by less than `chord_error`. `frame` is the current work frame.
   void add(const PathItem& item, const Frame& frame = {});
-  // No more items come.
+  // Must be called after the last item.
   void finish();
 
   bool complete() const { return complete_; }
@@ -52,8 +52,8 @@ class ProgramPath {
   std::size_t points() const { return points_; }
   std::size_t chunks() const { return chunks_.size(); }
   const Range& all() const { return all_; }    // machine coordinates
-  const Range& cuts() const { return cuts_; }  // feeds alone, machine coordinates
-  // Programmed speeds of the feeds. Empty: there is none.
+  const Range& cuts() const { return cuts_; }  // range of the feed moves only, machine coordinates
+  // The range of programmed speeds of the feed moves. Empty: there is none.
   struct Speeds {
     MmPerSecond low{1e300};
     MmPerSecond high{0};
@@ -61,22 +61,22 @@ class ProgramPath {
   };
   const Speeds& speeds() const { return speeds_; }
   struct UsedTool {
-    std::int32_t number = 0;  // 0: the program has put none in
-    double zero_z = 0;        // mm: machine Z of the work's zero with this tool's length, at its first motion
-    bool feeds = false;       // else it makes rapids alone
+    std::int32_t number = 0;  // 0: the program has not loaded a tool
+    double zero_z = 0;        // mm: machine Z of the work zero with this tool's length, at its first motion
+    bool feeds = false;       // false: the tool makes rapids only
   };
-  // The tools that are used, by their first motion. Beyond most_tools, the last one stands for all others.
+  // The tools in order of their first motion. Tools beyond most_tools count as the last of these.
   const std::vector<UsedTool>& tools() const { return tools_; }
-  const Range& work() const { return work_; }  // feeds alone, along the axes of the work that were in force
-  // Of all motions, rapids too, on each axis. Empty: nothing moves.
+  const Range& work() const { return work_; }  // feed moves only, along the axes of the active work coordinate system
+  // The range of all motions, including rapids, on each axis. Empty: nothing moves.
   struct Reach {
     Box machine;
-    Box work;  // along the axes of the work that were in force
+    Box work;  // along the axes of the active work coordinate system
   };
   const std::optional<Reach>& reach() const { return reach_; }
   std::size_t bytes() const { return points_ * (sizeof(Packed) + sizeof(std::uint32_t)); }
 
-  // A chunk as docs/api/openapi.json describes it, little-endian. `chunk` < chunks(), `level` < levels.
+  // Returns a chunk in the format of docs/api/openapi.json, little-endian. `chunk` < chunks(), `level` < levels.
   std::string chunk(std::size_t chunk, unsigned level) const;
 
  private:
@@ -105,8 +105,8 @@ class ProgramPath {
 
   std::vector<Chunk> chunks_;
   std::vector<UsedTool> tools_;
-  std::int32_t tool_ = 0;     // in the spindle; 0: nobody has said
-  std::vector<Fresh> fresh_;  // of the chunk that is not full yet
+  std::int32_t tool_ = 0;     // number of the tool in the spindle; 0: unknown
+  std::vector<Fresh> fresh_;  // points of the incomplete chunk
   std::size_t points_ = 0;
   Range all_;
   Range cuts_;

@@ -1,8 +1,8 @@
-// ProgramStore: the programs that clients have uploaded, and what their check has found.
+// ProgramStore: the programs that clients have uploaded, and the results of their checks.
 //
-// The store also keeps what outlives a program: the offsets of the work systems, and the lengths of tools.
+// The store also keeps data that is not part of a program: the work offsets, and the tool lengths.
 //
-// Bounded: so many programs, and so many bytes in all. A program is checked a piece at a time, so that a long one does
+// Bounded in the number of programs and in total bytes. A program is checked piece by piece, so that a long one does
 // not delay the machine.
 #pragma once
 
@@ -35,22 +35,23 @@ struct StoredProgram {
   Dialect dialect = Dialect::linuxcnc;
   std::string text;
   std::uint64_t lines = 0;
-  std::uint64_t deleted_lines = 0;  // those that begin with /
-  bool block_delete = false;        // these lines are left out
+  std::uint64_t deleted_lines = 0;  // number of lines that begin with /
+  bool block_delete = false;        // whether these lines are skipped
   UploadState state = UploadState::unchecked;
-  std::uint64_t checks = 0;  // how many have begun
-  Point checked_from = {};   // where the machine stood at the last check
+  std::uint64_t checks = 0;  // number of checks started
+  Point checked_from = {};   // machine position at the last check
   ProgramCheck check;
-  std::optional<Seconds> planned_time;  // of its motion, with all ramps, at overrides of 100 %
-  std::uint64_t path = 0;               // the fingerprint of its path, after a good check
+  std::optional<Seconds> planned_time;  // duration of its motion, including ramps, at overrides of 100 %
+  std::uint64_t path = 0;               // fingerprint of its path, after a successful check
   Diagnostics findings;
-  ProgramPath path_points;                 // of the last check; for viewers
-  std::optional<HeightMap> height_map{};   // of the surface that it is to be levelled on
-  std::vector<std::size_t> line_starts{};  // where every so many lines begin in the text
+  ProgramPath path_points;                 // path of the last check, for viewers
+  std::optional<HeightMap> height_map{};   // height map of the surface to which the program is to be levelled
+  std::vector<std::size_t> line_starts{};  // offsets in the text, one for each fixed number of lines
 
-  // A window of the text: `count` lines from line `from` on (1 is the first), fewer at the end.
+  // Returns `count` lines of the text, beginning with line `from` (the first is 1); fewer at the end.
   std::string_view lines_from(std::uint64_t from, std::uint64_t count) const;
-  // What the history and a journal keep of the program: a text that means the same without any choice.
+  // Returns the text to keep in the history and in a journal: an equivalent text that does not depend on the block
+  // delete setting.
   std::string text_to_keep() const;
 };
 
@@ -59,35 +60,35 @@ class ProgramStore {
   static constexpr std::size_t most_programs = 64;
   static constexpr std::size_t longest_program = std::size_t{64} << 20;  // bytes
   static constexpr std::size_t most_bytes = std::size_t{256} << 20;
-  // Of all paths together. A check drops the paths of other programs if there is no room.
+  // Limit for all paths together. A check drops the paths of other programs if there is no room.
   static constexpr std::size_t most_path_bytes = std::size_t{512} << 20;
 
-  // Null: there is no room.
+  // Adds a program. Returns null if there is no room.
   const StoredProgram* add(std::string name, Dialect dialect, std::string text);
   const StoredProgram* find(std::uint64_t id) const;
-  // False: there is none.
+  // Returns false if there is no such program.
   bool remove(std::uint64_t id);
   const std::map<std::uint64_t, StoredProgram>& all() const { return programs_; }
 
-  // Begins the check of a program from this place on. One is checked at a time; the last one counts. A program that was
-  // found good from this place is not checked again, unless its path had to make room.
+  // Begins to check a program from this start position. Only one check runs at a time; a new one replaces it. A program
+  // that was already found error-free from this position is not checked again, unless its path was dropped.
   void check(std::uint64_t id, const MachineDescription& machine, const Point& start);
   bool checks() const { return checker_ != nullptr; }
-  // Checks a bounded piece.
+  // Checks one piece of limited size.
   void poll();
   InterpreterOptions options_of(const StoredProgram& program) const;
   InterpreterOptions options_of(Dialect dialect) const;
-  // Whether lines that begin with / are left out. The check of before does not count any more.
+  // Sets whether lines that begin with / are skipped. This invalidates the previous check.
   void set_block_delete(std::uint64_t id, bool leaves_out);
   void set_height_map(std::uint64_t id, HeightMap map);
   void set_planned_time(std::uint64_t id, Seconds time);
 
-  // Where the work's zero (G54) lies in machine coordinates, for all programs.
+  // Sets the work zero (G54) in machine coordinates, for all programs.
   void set_work_zero(const Point& zero);
   Point work_zero() const { return work_frame().work_offset(); }
-  // The same with its rotation about Z, which an angle of the work has been probed for.
+  // Returns the work zero with its rotation about Z, which comes from probing an angle.
   Frame work_frame() const;
-  // The offsets and tools for the programs from now on. Checks that were made before count no longer, if they differ.
+  // Sets the offsets and tools for the programs. If they differ, previous checks become invalid.
   void set_offsets(const SavedParameters& parameters, const ToolTable& tools);
   const SavedParameters& parameters() const { return parameters_; }
   const ToolTable& tools() const { return tools_; }
@@ -102,9 +103,9 @@ class ProgramStore {
   std::uint64_t last_id_ = 0;
   SavedParameters parameters_;
   ToolTable tools_;
-  std::uint64_t checked_ = 0;  // the program that is checked
+  std::uint64_t checked_ = 0;  // the program being checked
   std::unique_ptr<ProgramChecker> checker_;
-  PathFingerprint path_;  // of what is checked
+  PathFingerprint path_;  // path fingerprint of the program being checked
 };
 
 }  // namespace passo

@@ -1,8 +1,8 @@
-// Studies: what takes longer than a look, worked out beside the machine: whether the motors have the torque for a
-// program, and which limits they could have.
+// Studies: analyses that take longer than a request, run without blocking the machine: whether the motors have enough
+// torque for a program, and suitable limits for the motors.
 //
-// Place: the API's view of a helper that the program provides. One order at a time; a new one takes the place of the
-// one before. Memory and time are bounded by whoever implements this.
+// Position in the pipeline: the API's interface to a service that the program provides. It processes one order at a
+// time; a new one replaces it. The implementation must limit memory and time.
 #pragma once
 
 #include <cstdint>
@@ -13,36 +13,36 @@ namespace passo {
 
 struct StudyOrder {
   enum class Kind : std::uint8_t {
-    motors,  // as `passo check`: the torque that each line of a program needs
+    motors,  // as `passo check`: the torque needed by each line of a program
     tune,    // as `passo tune`: limits for the machine's motors, with their curves
   };
   Kind kind = Kind::motors;
-  std::string machine;  // the text of a machine file
-  // Of a program:
-  std::string program;     // its text
+  std::string machine;  // contents of the machine file
+  // For a program:
+  std::string program;     // contents of the program
   std::string dialect;     // "linuxcnc" or "grbl"
-  std::string parameters;  // the text of a parameter file: offsets
-  std::string tools;       // the text of a tool table; empty: none
-  double margin = 0.3;     // of `tune`: the share of the torque that is never asked for
+  std::string parameters;  // contents of the parameter file, with the offsets
+  std::string tools;       // contents of a tool table; empty: none
+  double margin = 0.3;     // for `tune`: fraction of the torque that stays unused
 };
 
 struct StudyResult {
   enum class State : std::uint8_t { none, running, done, failed };
   State state = State::none;
-  std::string words = {};   // what was said; why it failed
-  std::string report = {};  // JSON, as the command prints it
+  std::string words = {};   // messages, including the reason for a failure
+  std::string report = {};  // report in JSON, as printed by the command
 };
 
 class Studies {
  public:
   virtual ~Studies() = default;
-  // False: none can begin.
+  // Starts an order. Returns false if it cannot be started.
   virtual bool begin(const StudyOrder& order) = 0;
-  // How it goes. Call often: it is cheap while nothing changes.
+  // Returns the current state. Can be called often: it is cheap if nothing has changed.
   virtual const StudyResult& result() = 0;
-  // Of `motors`: CSV, a line `line,load` for each line of the program that moves. Empty: there is none.
+  // For `motors`: a CSV with a row `line,load` for each line of the program that moves. Empty: there is none.
   virtual std::string loads() const = 0;
-  // Of `tune`: torque over speed, SVG. Empty: there is none.
+  // For `tune`: torque over speed, SVG. Empty: there is none.
   virtual std::string picture() const = 0;
 };
 

@@ -1,13 +1,13 @@
-// WebApi: a machine for programs and browsers, by HTTP and WebSocket. It turns JSON into requests of the machine's
-// session, and the session's status into JSON.
+// WebApi: the HTTP and WebSocket API of a machine, for programs and browsers. It converts JSON to requests to the
+// machine's session, and the session's status to JSON.
 //
 //   WebServer -> WebApi -> a row of api_routes() -> MachineApi, JobsApi, ProgramsApi … -> requests to MachineSession
 //             <- JSON                                                                  <- status and changes
 //
-// Position in the pipeline: outside it, above the session, as GrblController is for senders. It knows no sockets and no
+// Position in the pipeline: outside it, above the session, like GrblController for senders. It uses no sockets and no
 // clock. docs/api/openapi.json describes each request; lengths are mm, speeds mm/min, times seconds.
 //
-// Invariants: only the owner of motion moves the machine; everybody may hold and stop. A program runs only after a
+// Invariants: only the client in control moves the machine; everyone may hold and stop. A program runs only after a
 // successful check from the current position. Memory is bounded.
 #pragma once
 
@@ -29,45 +29,45 @@ namespace passo {
 
 class WebApi final : public WebHandler {
  public:
-  // All of them outlive this.
+  // All references must outlive this object.
   WebApi(const MachineDescription& machine, MachineSession& session, MotionOwner& owner, ApiOptions options);
   ~WebApi() override;
 
   WebAnswer answer(const WebRequest& request) override;
   WebAnswer refusal(unsigned status) override;
   std::size_t longest_body(const WebRequest& request) override;
-  // The page itself is no secret: what it asks of the API needs the token.
+  // The files of the web interface are public; its API requests need the token.
   bool is_public(const WebRequest& request) override;
   bool is_stream(std::string_view path) override;
-  // {"do": "/api/v1/jog/renew", "key": "…", "body": {…}} is a POST; the answer has "do", "status" and "body".
+  // {"do": "/api/v1/jog/renew", "key": "…", "body": {…}} acts as a POST; the response has "do", "status" and "body".
   std::string hear(std::string_view message, std::uint64_t client) override;
   void gone(std::uint64_t client) override;
 
-  // Heeds what has happened. `changes`: the session's, since the last call. Call after each turn of the session.
+  // Processes the session's changes since the last call. Must be called after each turn of the session.
   void on_change(const std::vector<MachineChange>& changes);
-  // Does a bounded piece of what was asked: about a millisecond of a check, or the disk's time while the machine rests.
-  // Call once in each round of the loop.
+  // Does a limited piece of pending work: about a millisecond of a check, or disk access while the machine is idle.
+  // Must be called once per iteration of the main loop.
   void poll();
-  // True: poll() has more to do at once.
+  // Returns true if poll() has more work to do immediately.
   bool is_checking() const;
-  // The status, as GET /api/v1/status gives it.
+  // Returns the status, as in GET /api/v1/status.
   std::string status_text() const;
-  // The offsets and tools of the programs. apply_offsets() takes those that a sender has changed.
+  // The offsets and tools of the programs. apply_offsets() adopts changes made by a sender.
   const SavedParameters& parameters() const;
   const ToolTable& tools() const;
   void apply_offsets(const SavedParameters& parameters);
-  // A sender's offsets could not be kept, for this reason. Empty: they are.
+  // Sets the reason why a sender's offsets could not be saved. Empty: they are saved.
   void set_offsets_trouble(std::string why);
-  // Where the motors of the job that was broken off were last, as far as that is sure. Empty: there is none.
+  // Returns the last known motor position of the interrupted job, if it is reliable. Empty: there is none.
   std::optional<Point> broken_off_at();
-  // What web servers count, for the metrics.
+  // Sets the server whose counters are included in the metrics.
   void watch(const WebServer& server);
   const ApiJob& job() const;
-  // Of the job that runs, as far as it is known.
+  // Returns the remaining time of the running job, if it is known.
   std::optional<Seconds> time_left() const;
-  // Grows when the modes of the lines that a person types have changed.
+  // Increases when the modal state of the MDI lines has changed.
   std::uint64_t mdi_version() const;
-  // From now on a job that is stopped was broken off: the program is about to end.
+  // Announces the end of the program: a job that is stopped from now on counts as interrupted.
   void leave();
 
  private:

@@ -1,5 +1,5 @@
-// DueAnswer: whether a line was taken and not answered yet, and what its answer waits for. One line at most is without
-// an answer, and it waits for one thing: the probe, homing, or a machine at rest.
+// DueAnswer: the state of the only line that may be waiting for its response: whether there is one, and which event
+// completes it: the probe, homing, or standstill.
 #pragma once
 
 #include <functional>
@@ -13,7 +13,7 @@ namespace passo {
 class DueAnswer {
  public:
   bool is_due() const { return !std::holds_alternative<std::monostate>(waits_for_); }
-  // Nothing is due any more. True: an answer was.
+  // Cancels the pending response. Returns true if there was one.
   bool call_off() { return !std::holds_alternative<std::monostate>(std::exchange(waits_for_, std::monostate())); }
 
   void wait_for_probe() { waits_for_ = Probe(); }
@@ -21,15 +21,15 @@ class DueAnswer {
 
   void wait_for_homing(Ticket ticket) { waits_for_ = ticket; }
   bool waits_for_homing() const { return std::holds_alternative<Ticket>(waits_for_); }
-  // True: the answer waits for the homing of this ticket, which has ended.
+  // Returns true if the response was waiting for the homing of this ticket, which has ended.
   [[nodiscard]] bool take_homing(Ticket ended) {
     const auto* const ticket = std::get_if<Ticket>(&waits_for_);
     return ticket != nullptr && *ticket == ended && call_off();
   }
 
-  // `then` is what comes next when the machine rests.
+  // `then` is called when the machine has stopped.
   void wait_for_rest(std::function<void()> then) { waits_for_ = std::move(then); }
-  // The machine rests. Empty: the answer does not wait for that.
+  // Returns the function to call now that the machine has stopped. Empty if the response does not wait for that.
   [[nodiscard]] std::function<void()> take_rest() {
     auto* const then = std::get_if<std::function<void()>>(&waits_for_);
     if (then == nullptr) return {};

@@ -1,16 +1,16 @@
-// GrblController: a Grbl 1.1 controller around a machine session, as senders know it.
+// GrblController: emulates a Grbl 1.1 controller on a machine session, for G-code senders.
 //
 //   sender's bytes -> GrblInput -> GrblController -> requests to MachineSession, lines to OpenProgram
 //   sender  <- replies(): whole lines                <- status and changes
 //
-// Position in the pipeline: outside it, above the session. The controller knows no sockets and has no clock. Its owner
-// gives it the sender's bytes, turns the session, calls poll() after it, and sends the replies.
+// Position in the pipeline: outside it, above the session. The controller uses no sockets and has no clock. Its owner
+// passes the sender's bytes to it, polls the session, calls poll() after that, and sends the replies.
 //
 // Invariants: each line is answered by one `ok` or one `error:n`, in the order of the lines. An `ok` means that the
-// line was taken into the queue; after a probe move or homing, that it is done. A byte is never dropped, but by a
-// reset. Each reply is whole lines and belongs into one write.
+// line was added to the queue; for a probe move or homing, that it is complete. Bytes are only dropped by a reset. Each
+// reply consists of whole lines and must be sent in one write.
 //
-// Where this differs from grbl, for the better: a reset and a soft limit brake on the path, so the place stays known.
+// Improvement over grbl: a reset and a soft limit brake along the path, so the position stays known.
 #pragma once
 
 #include <cstdint>
@@ -36,7 +36,7 @@
 
 namespace passo {
 
-// grbl's numbers for what is wrong with a line, beside those for G-code.
+// Grbl's error numbers that do not correspond to an error in G-code.
 enum class GrblError : int {
   none = 0,
   bad_number = 2,
@@ -59,46 +59,47 @@ inline constexpr std::string_view jog_begins = "$J=";
 
 class GrblController {
  public:
-  // `machine`, `session` and `program` outlive the controller. `program` speaks grbl's dialect.
+  // `machine`, `session` and `program` must outlive the controller. `program` must use the Grbl dialect.
   GrblController(const MachineDescription& machine, MachineSession& session, OpenProgram& program);
 
-  // Settings are written into the machine file, whose text is `text`. They count from the next start on. `write`
-  // replaces the file by a text, and returns false if that is not possible, or if the file is no longer the text it is
-  // given first.
+  // Enables settings, which are written into the machine file with the contents `text`. They take effect at the next
+  // start. `write` replaces the file, and returns false if that is not possible, or if the file no longer has the
+  // contents passed as its first argument.
   void keep_settings(std::string text, GrblStore::WriteFile write) {
     store_.keep_settings(std::move(text), std::move(write));
   }
 
-  // What the controller keeps over a restart begins as `memory`, and goes to `write` when a sender has changed it;
-  // `write` returns false if that is not possible.
+  // Sets the initial contents of the controller's persistent memory, and the function that saves it after a change by a
+  // sender; `write` returns false if that is not possible.
   void remember(GrblMemory memory, GrblStore::WriteMemory write) {
     store_.remember(std::move(memory), std::move(write));
   }
-  // Offsets of the work systems, and the homes of G28 and G30, are shared with others: `share` gets those that a sender
-  // has changed, once the machine rests. apply_offsets() takes theirs; call while nothing moves for the senders.
+  // Shares the work offsets, and the home positions of G28 and G30, with other clients: `share` receives changes by a
+  // sender once the machine is stopped. apply_offsets() adopts changes by others; it must be called while nothing moves
+  // for the senders.
   void share_offsets(std::function<void(const SavedParameters&)> share) { share_offsets_ = std::move(share); }
   void apply_offsets(const SavedParameters& parameters);
 
-  // A sender has come: it is greeted, and what an earlier one has left unread is dropped. Nothing moves: whoever has
-  // come may be no sender. To the first one that says something the controller has just started: its start lines run,
-  // unless it is locked.
+  // Handles the connection of a sender: greets it, and drops output that an earlier one has left unread. Nothing moves
+  // yet, because the client may not be a sender. The start-up lines run when a client sends something for the first
+  // time, unless the controller is locked.
   void connect();
-  // The sender has gone: a jog ends, and a program is held until somebody resumes or resets it.
+  // Handles the disconnection of the sender: ends a jog, and holds a program until it is resumed or reset.
   void disconnect();
-  // Whether senders may move the machine now, or somebody else does. While they may not, lines that ask are answered,
-  // and all others refused; a hold is still taken. Call while nothing moves for the senders.
+  // Sets whether senders are in control of the machine. While they are not, queries are answered and all other lines
+  // refused; a hold is still accepted. Must be called while nothing moves for the senders.
   void let_drive(bool drives);
   void receive(std::string_view bytes);
-  // False: the server is to stop reading until lines were taken.
+  // Returns false if the server must stop reading until lines were processed.
   bool wants_more() const { return input_.wants_more(); }
-  // Takes lines as far as they can be taken now, and tells what has happened. `changes`: the session's, since the last
-  // call. Call after each turn of the session.
+  // Processes as many lines as possible, and reports events. `changes`: the session's, since the last call. Must be
+  // called after each turn of the session.
   void poll(const std::vector<MachineChange>& changes);
-  // What to send, each in one write.
+  // Returns the replies to send, each in one write.
   std::vector<std::string> take_replies();
 
  private:
-  // Real-time commands.
+  // Handlers of real-time commands.
   void act(std::uint8_t byte);
   void act_as_watcher(std::uint8_t byte);
   void report_status();
@@ -114,7 +115,7 @@ class GrblController {
   void change_rapids(int to);
   void change_spindle(int by);
 
-  // Lines.
+  // Handlers of lines.
   void handle_lines();
   void handle(const GrblInput::Line& line);
   bool may_take_line() const;
@@ -141,7 +142,7 @@ class GrblController {
   void request_stream();
   void end_stream();
 
-  // What has happened.
+  // Events.
   void on_change(const MachineChange& change);
   void end_probe();
   void report_end();
@@ -176,17 +177,17 @@ class GrblController {
   std::vector<std::string> replies_;
   DueAnswer due_;
   LineStream stream_;
-  bool is_here_ = true;  // the sender
+  bool is_here_ = true;  // the sender is connected
   std::optional<ProbeOutcome> probe_;
-  bool alarm_ = false;   // locked, until $X, $H
-  bool checks_ = false;  // $C
-  bool drives_ = true;   // senders may move the machine
-  bool resets_ = false;  // the machine comes to rest for a reset
+  bool alarm_ = false;   // whether the controller is locked, until $X or $H
+  bool checks_ = false;  // check mode, $C
+  bool drives_ = true;   // senders are in control
+  bool resets_ = false;  // the machine is stopping for a reset
   ReportTurns report_turns_;
-  bool wait_told_ = false;        // where the program waits for a person now
-  bool has_started_ = false;      // the start lines have had their turn
-  bool offsets_changed_ = false;  // a sender has changed them, and nobody has heard of it
-  PollLease lease_;               // on a jog
+  bool wait_told_ = false;        // the current wait for the operator was reported
+  bool has_started_ = false;      // the start-up lines were processed
+  bool offsets_changed_ = false;  // changed by a sender, and not yet shared
+  PollLease lease_;               // keep-alive timeout of a jog
 };
 
 }  // namespace passo

@@ -1,8 +1,7 @@
-// GrblMemory: what a Grbl controller keeps over a restart, as grbl does in its EEPROM: the lines of a start, the words
-// of its build, and what a sender has chosen for its reports. (Settings of the machine are in its file, offsets in
-// theirs.)
+// GrblMemory: the persistent memory of a Grbl controller, like grbl's EEPROM: the start-up lines, the build info, and a
+// sender's report settings. (Machine settings are in the machine file, offsets in the parameter file.)
 //
-// Kept as a text of lines that senders know: "$10=3", "$I=SHOP", "$N0=G54".
+// Stored as text lines in the format that senders use: "$10=3", "$I=SHOP", "$N0=G54".
 #pragma once
 
 #include <array>
@@ -15,17 +14,17 @@
 namespace passo {
 
 struct GrblMemory {
-  // Of a start line and of the build's words, as in grbl: the longest line of its EEPROM.
+  // Maximum length of a start-up line and of the build info, as in grbl: the longest line of its EEPROM.
   static constexpr std::size_t longest = 79;
 
   GrblChoices choices;
-  std::string build;                   // $I=
-  std::array<std::string, 2> startup;  // $N0=, $N1=
+  std::string build;                   // the build info, set by $I=
+  std::array<std::string, 2> startup;  // the start-up lines, set by $N0= and $N1=
   friend bool operator==(const GrblMemory&, const GrblMemory&) = default;
 };
 
 std::string grbl_memory_text(const GrblMemory& memory);
-// Lines that mean nothing are passed over: a damaged text costs what it says, and not the start of the machine.
+// Ignores invalid lines: a damaged file loses settings, but does not prevent the machine from starting.
 GrblMemory read_grbl_memory(std::string_view text);
 
 }  // namespace passo

@@ -1,4 +1,4 @@
-// The texts that a Grbl controller sends, as grbl 1.1 spells them. Each is one or more whole lines.
+// The texts that a Grbl controller sends, in the format of grbl 1.1. Each is one or more whole lines.
 #pragma once
 
 #include <cstddef>
@@ -17,17 +17,17 @@
 
 namespace passo {
 
-// What a status report shows.
+// The contents of a status report.
 struct GrblStatus {
   std::string_view state;  // "Idle", "Hold:0" …
   Point machine_place;
-  Point work_offset;  // machine place minus work place
+  Point work_offset;  // machine position minus work position
   std::size_t planner_free = 0;
   std::size_t bytes_free = 0;
-  double feed = 0;  // mm/min, as the machine moves
+  double feed = 0;  // mm/min, actual
   double speed = 0;
-  std::int64_t line_number = -1;  // the N word of the line that is being executed; below 1: none
-  std::string pins;               // the letters of closed inputs
+  std::int64_t line_number = -1;  // N word of the current line; below 1: none
+  std::string pins;               // letters of the triggered inputs
   OutputState outputs;
   int feed_override = 100;  // percent
   int rapid_override = 100;
@@ -36,7 +36,7 @@ struct GrblStatus {
   bool shows_overrides = false;
 };
 
-// How places are written: which axes, and whether in inches.
+// The format of positions: which axes, and whether in inches.
 struct GrblUnits {
   std::vector<Axis> axes;
   bool inches = false;
@@ -47,15 +47,15 @@ inline constexpr std::size_t grbl_planner_blocks = 15;
 
 std::string places_text(const Point& place, const GrblUnits& units);
 std::string status_text(const GrblStatus& status, const GrblUnits& units, unsigned mask);
-// $G
+// Returns the response to $G.
 std::string modes_text(const ModesInForce& modes, const GrblUnits& units);
-// $#
+// Returns the response to $#.
 std::string offsets_text(const SavedParameters& parameters, const ModesInForce& modes,
                          const std::optional<ProbeOutcome>& probe, const GrblUnits& units);
 std::string probe_text(const std::optional<ProbeOutcome>& probe, const GrblUnits& units);
-// $I, with the words that somebody has set for this machine
+// $I, with the build info stored for this machine
 std::string build_text(std::string_view words);
-// $
+// Returns the response to $.
 std::string help_text();
 
 }  // namespace passo

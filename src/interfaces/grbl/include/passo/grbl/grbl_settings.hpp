@@ -1,4 +1,4 @@
-// GrblSettings: grbl's numbered settings ($0 … $132), as far as a machine file has their values.
+// GrblSettings: grbl's numbered settings ($0 … $132), as far as the machine file has corresponding values.
 #pragma once
 
 #include <optional>
@@ -14,26 +14,27 @@ struct GrblSetting {
   std::string value;
 };
 
-// What a sender may choose for itself; nothing of it is in a machine file.
+// The settings that a sender may change for itself; they are not in a machine file.
 struct GrblChoices {
-  unsigned status_mask = 3;  // $10: bit 0 machine positions, else work positions; bit 1 the buffers
+  unsigned status_mask = 3;  // $10: bit 0 machine positions, otherwise work positions; bit 1 the buffer state
   bool inches = false;       // $13: reports are in inches
   friend bool operator==(const GrblChoices&, const GrblChoices&) = default;
 };
 
-// In the order of their numbers.
+// Returns the settings in the order of their numbers.
 std::vector<GrblSetting> grbl_settings(const MachineDescription& machine, const GrblChoices& choices);
 
-// True: the setting has that value, as far as senders are shown it.
+// Returns whether the setting has that value, within the precision shown to senders.
 bool has_setting(const MachineDescription& machine, const GrblChoices& choices, int number, double value);
 
-// The axes of reports: X, Y and Z always, because senders expect them; then the machine's others, six at most.
+// Returns the axes of reports: always X, Y and Z, because senders expect them; then the machine's other axes, at most
+// six in all.
 std::vector<Axis> grbl_axes_of(const MachineDescription& machine);
 
-// The letters of those beside X, Y and Z, for InterpreterOptions::more_grbl_axes.
+// Returns the letters of the axes other than X, Y and Z, for InterpreterOptions::more_grbl_axes.
 std::string more_grbl_axes(const MachineDescription& machine);
 
-// The number of a setting's axis: $100 is the first axis of grbl_axes_of(). Null: that axis is not on the machine.
+// Returns the axis of a setting: $100 is the first axis of grbl_axes_of(). Null if the machine does not have that axis.
 const AxisDescription* axis_of_setting(const MachineDescription& machine, int number);
 
 }  // namespace passo

@@ -1,5 +1,5 @@
-// GrblStore: what a Grbl controller keeps over a restart: what senders have chosen (report mask, inches, start lines,
-// the build's words), and numbered settings, which stand in the machine file and count from the next start on.
+// GrblStore: the persistent data of a Grbl controller: settings of senders (report mask, inches, start-up lines, build
+// info), and numbered settings, which are part of the machine file and take effect at the next start.
 #pragma once
 
 #include <functional>
@@ -14,23 +14,23 @@ namespace passo {
 
 class GrblStore {
  public:
-  // Both return false if that is not possible. A file is written only if it is still the text that is given first.
+  // Both return false on failure. A file is written only if it still has the contents passed as the first argument.
   using WriteFile = std::function<bool(const std::string& before, const std::string& after)>;
   using WriteMemory = std::function<bool(const GrblMemory&)>;
 
-  // `machine` outlives the store.
+  // `machine` must outlive the store.
   explicit GrblStore(const MachineDescription& machine) : machine_(machine) {}
 
   void remember(GrblMemory memory, WriteMemory write);
   const GrblMemory& memory() const { return memory_; }
-  // False: it cannot be written, and nothing has changed.
+  // Returns false if it cannot be written; nothing has changed then.
   [[nodiscard]] bool keep(const GrblMemory& memory);
 
   void keep_settings(std::string text, WriteFile write);
   bool keeps_settings() const { return settings_.has_value(); }
-  // The machine as its settings say, also those that do not count yet.
+  // Returns the machine with the current settings, including those that are not yet in effect.
   MachineDescription machine() const { return settings_ ? settings_->machine() : machine_; }
-  // Only with keep_settings(). Empty: it is kept; else why not, as a sentence without a full stop.
+  // Requires keep_settings(). Returns the reason for a failure, as a sentence without a full stop; empty on success.
   std::optional<std::string> keep(int number, double value);
 
  private:

@@ -1,5 +1,6 @@
-// LineStream: the session's stream of the sender's lines, from the request for it to its end. A stream whose lines are
-// done is asked to end once, after a rest: a sender that is still there may go on with the same stream.
+// LineStream: the session's stream of the sender's lines, from the request for it to its end. When its lines are done
+// and the machine has been idle for a while, the stream is asked once to end; a sender that is still connected may
+// continue with the same stream.
 #pragma once
 
 #include <optional>
@@ -12,18 +13,18 @@ class LineStream {
  public:
   static constexpr Seconds longest_rest{1};
 
-  // It was asked for. Empty: it was refused.
+  // Begins the stream that was requested. Empty: the request was refused.
   void begin(std::optional<Ticket> ticket) {
     if (ticket) ticket_ = ticket;
     is_asked_to_end_ = false;
   }
-  // This request is answered: if it was that for the stream, the stream has ended.
+  // Notes that this request is complete: if it is the stream's, the stream has ended.
   void on_answer(Ticket ticket) {
     if (ticket_ == ticket) ticket_.reset();
   }
-  // The stream waits for a line from this time on.
+  // Notes that the stream waits for a line since this time.
   void record_rest(Seconds time) { rests_since_ = time; }
-  // For a stream that waits for a line: whether it has waited long enough.
+  // Returns whether a waiting stream has waited long enough to be ended.
   bool may_end(Seconds now, bool sender_is_here) const {
     if (!ticket_ || is_asked_to_end_) return false;
     return !sender_is_here || now - rests_since_ >= longest_rest;

@@ -1,6 +1,6 @@
-// PollLease: a sender that asks for the status again and again holds a lease on its jog. When nothing was heard of it
-// for its own pace of asking and a quarter of a second more, it hangs or is out of reach, and its key-up may never
-// come.
+// PollLease: the keep-alive timeout of a jog by a sender that polls the status. If nothing was received from the sender
+// for its usual polling interval plus a quarter of a second, it hangs or is disconnected, and its key-up may never
+// arrive.
 #pragma once
 
 #include <optional>
@@ -11,12 +11,13 @@ namespace passo {
 
 class PollLease {
  public:
-  // The sender has sent something, or a question for the status.
+  // Note a byte, or a status query, received from the sender.
   void on_byte(Seconds now) { heard_at_ = now; }
   void on_question(Seconds now);
-  // Another sender.
+  // Resets the timeout for another sender.
   void end() { pace_.reset(); }
-  // True: the sender was asking, and no longer does. A sender that asks more slowly than once a second does not ask.
+  // Returns true if the sender was polling, and has stopped. A sender that polls less than once a second does not count
+  // as polling.
   bool is_over(Seconds now) const;
 
  private:

@@ -1,5 +1,5 @@
-// ReportTurns: which status reports show the work offset, and which the overrides. What has changed is shown at once,
-// the offset first. Else the two take turns, as in grbl: a report has no room for both.
+// ReportTurns: selects the status reports that include the work offset, and those that include the overrides. A change
+// is shown immediately, the offset first. Otherwise the two alternate, as in grbl: a report has no room for both.
 #pragma once
 
 #include "passo/grbl/grbl_reports.hpp"
@@ -9,13 +9,13 @@ namespace passo {
 
 class ReportTurns {
  public:
-  // The next report shows the offset, and the one after it the overrides.
+  // Starts over: the next report shows the offset, the one after it the overrides.
   void begin();
-  // Sets what this report shows. `rests`: there the turns are shorter, as in grbl.
+  // Sets the contents of this report. `rests`: the machine is stopped; the intervals are then shorter, as in grbl.
   void choose(GrblStatus& report, const Overrides& overrides, bool rests);
 
  private:
-  int offset_in_ = 0;  // reports until the work offset is shown again; 0: in the next
+  int offset_in_ = 0;  // number of reports until the work offset is shown again; 0: in the next one
   int overrides_in_ = 1;
   Point told_offset_;
   OutputState told_outputs_;

@@ -1,11 +1,11 @@
-// MqttPublisher: tells short texts to an MQTT broker, for displays and other machines of a workshop. It only publishes
-// and never subscribes, so MQTT cannot move the machine.
+// MqttPublisher: publishes short texts to an MQTT broker, for displays and other equipment in a workshop. It never
+// subscribes, so the machine cannot be moved by MQTT.
 //
-// Each text is retained by the broker, so whoever subscribes later gets the last one. "online" is 1 while this program
-// is connected; the broker itself makes it 0 when the connection breaks. A broker that is away is tried again and
-// again, and never waited for: what is told meanwhile is dropped.
+// The broker retains each text, so a new subscriber receives the last one. "online" is 1 while this program is
+// connected; the broker itself sets it to 0 when the connection is lost. The program keeps trying to reach an
+// unavailable broker without blocking; texts published in the meantime are dropped.
 //
-// The connection has a thread of its own. Only mqtt_publisher.cpp sees libmosquitto.
+// The connection has a separate thread. Only mqtt_publisher.cpp uses libmosquitto.
 #pragma once
 
 #include <memory>
@@ -19,8 +19,8 @@ namespace passo {
 struct MqttPlace {
   std::string host;
   unsigned port = 1883;
-  std::string topic;  // all topics begin with it and '/'
-  std::string user;   // empty: nobody logs in
+  std::string topic;  // prefix of all topics, followed by '/'
+  std::string user;   // empty: no login
   std::string password;
 };
 
@@ -32,9 +32,9 @@ class MqttPublisher {
   MqttPublisher(const MqttPublisher&) = delete;
   MqttPublisher& operator=(const MqttPublisher&) = delete;
 
-  // How often a broker was reached. After each time all is to be told again.
+  // Returns the number of successful connections. After each one, everything must be published again.
   unsigned connections() const;
-  // `name`: the last part of the topic.
+  // Publishes a text. `name`: the last part of the topic.
   void tell(std::string_view name, std::string_view text);
 
  private:

@@ -1,18 +1,18 @@
-// GrblCode: a path as lines for a Grbl 1.1 machine.
+// GrblCode: converts a path to G-code lines for a Grbl 1.1 machine.
 //
-// Place on the street: beside the street, after the path builder. A Grbl machine takes G-code and plans its own motion,
-// so it gets the path as it was built, neither smoothed nor planned: G0, G1, G2 and G3 in absolute millimetres, with
-// the spindle, the coolant and the dwells between them. Loops, subprograms, cycles, offsets, tool lengths and the
-// cutter's radius are already worked in.
+// Position in the pipeline: a branch after the path builder. A Grbl machine plans its own motion, so it gets the path
+// as it was built, neither smoothed nor planned: G0, G1, G2 and G3 in absolute millimetres, with the spindle, the
+// coolant and the dwells between them. Loops, subroutines, cycles, offsets, tool lengths and cutter compensation have
+// already been applied.
 //
-// Lines are modal: what has not changed is not written. Places are rounded to a ten-thousandth of a millimetre, and
-// each is rounded by itself, so errors do not add up. A full circle is written as two halves, because the rounded ends
-// of a small arc could mean a full circle to Grbl. A spline, and an arc whose radius changes, become chords within two
+// Lines are modal: unchanged words are not written. Positions are rounded to a ten-thousandth of a millimetre, each
+// independently, so errors do not accumulate. A full circle is written as two halves, because Grbl could take the
+// rounded ends of a small arc for a full circle. A spline, and an arc with a changing radius, become chords within two
 // thousandths of a millimetre.
 //
-// What Grbl cannot do is refused: other axes than X, Y and Z, probe moves, threads, taps. What it does otherwise than
-// our boards: corners follow its own junction deviation ($11), and M48 to M53 have no effect. An exact stop (G61.1) is
-// a dwell of no length, which waits until the machine rests.
+// Features that Grbl lacks are refused: axes other than X, Y and Z, probe moves, threads, taps. Differences from our
+// boards: corners follow Grbl's junction deviation ($11), and M48 to M53 have no effect. An exact stop (G61.1) is a
+// dwell of zero length, which waits until the machine has stopped.
 #pragma once
 
 #include <cstdint>
@@ -26,11 +26,11 @@ namespace passo {
 
 class GrblCode {
  public:
-  // `zero`: where the zero of the work lies in machine coordinates, X, Y and Z; the lines count from there.
+  // `zero`: the work zero in machine coordinates, X, Y and Z; the lines are relative to it.
   explicit GrblCode(const Point& zero = {}) : zero_(zero) {}
 
-  // Appends the lines of an item; none where nothing changes. Stops and tool changes have no lines but those of their
-  // outputs: the caller waits. The error is a clause that says what a Grbl machine cannot do.
+  // Appends the lines of an item; none if nothing changes. Stops and tool changes produce only the lines of their
+  // outputs; the caller must wait. The error is a clause that names what a Grbl machine does not support.
   Status<std::string> write(const PathItem& item, std::vector<std::string>& lines);
 
  private:
@@ -48,7 +48,7 @@ class GrblCode {
 
   Point zero_;
   Place at_;
-  AxisSet sure_;  // axes that were written, so the machine stands there
+  AxisSet sure_;  // axes that were written, so their machine position is known
   int code_ = -1;
   int plane_ = 17;
   std::int64_t feed_ = -1;

@@ -1,4 +1,4 @@
-// What a machine that speaks Grbl 1.1 tells of itself: its greeting, and the answers to $I, $$, $# and $G.
+// GrblMachine: the properties that a Grbl 1.1 machine reports: its greeting, and the responses to $I, $$, $# and $G.
 #pragma once
 
 #include <cstddef>
@@ -13,24 +13,23 @@ namespace passo {
 
 struct GrblMachine {
   std::string firmware = "Grbl";              // or "grblHAL", "FluidNC"
-  std::string version = {};                   // "1.1h.20190830"; empty: it has not answered $I
-  std::string axes = "XYZABCUVW";             // the letters of the numbers in its reports
-  std::size_t blocks = 15;                    // of its planner
-  std::size_t bytes = 128;                    // of its receive buffer
-  std::map<int, double> settings = {};        // $0 …
+  std::string version = {};                   // "1.1h.20190830"; empty: no response to $I yet
+  std::string axes = "XYZABCUVW";             // axis letters of the numbers in its reports
+  std::size_t blocks = 15;                    // size of its planner queue
+  std::size_t bytes = 128;                    // size of its receive buffer
+  std::map<int, double> settings = {};        // the settings $0 … and their values
   std::map<std::string, Point> offsets = {};  // mm: G54 … G59, G92, TLO
-  std::string system = "G54";                 // in force
+  std::string system = "G54";                 // the active work coordinate system
 
-  // Takes a line of its answers: [VER:…], [OPT:…], [AXS:…], [FIRMWARE:…], [GC:…], [G54:…], $n=…. Other lines tell
-  // nothing of it.
+  // Processes a response line: [VER:…], [OPT:…], [AXS:…], [FIRMWARE:…], [GC:…], [G54:…], $n=…. Ignores other lines.
   void hear(std::string_view line);
-  // Takes its greeting.
+  // Processes the greeting.
   void hear_greeting(std::string_view line);
 
-  bool in_inches() const;  // its reports are in inches ($13)
+  bool in_inches() const;  // whether it reports in inches ($13)
   double unit() const { return in_inches() ? 25.4 : 1; }
-  // Where the zero of the work lies, machine coordinates, mm: the system in force, G92 and the tool's length. Empty: it
-  // has not answered $#.
+  // Returns the work zero in machine coordinates, mm: the active work offset, G92 and the tool length. Empty: no
+  // response to $# yet.
   std::optional<Point> work_zero() const;
 
  private:
@@ -40,7 +39,7 @@ struct GrblMachine {
   void hear_setting(std::string_view line);
 };
 
-// Whether a line is what a machine says when it starts: "Grbl 1.1h ['$' for help]".
+// Returns whether a line is the greeting of a starting machine: "Grbl 1.1h ['$' for help]".
 bool is_grbl_greeting(std::string_view line);
 
 }  // namespace passo

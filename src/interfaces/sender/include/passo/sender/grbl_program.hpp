@@ -1,7 +1,7 @@
-// GrblProgram: a program as the lines that a machine which speaks Grbl gets, with the program's stops between them.
+// GrblProgram: a program as the lines for a Grbl machine, with the program's stops between them.
 //
-// Place on the street: in front of GrblSender. The program is interpreted and its path built as for our boards, with
-// the offsets of the Grbl machine; GrblCode writes the path.
+// Position in the pipeline: in front of GrblSender. The program is interpreted and its path built as for our boards,
+// with the offsets of the Grbl machine; GrblCode converts the path to lines.
 #pragma once
 
 #include <cstdint>
@@ -19,13 +19,13 @@
 
 namespace passo {
 
-// The machine's own offsets become those with which a program begins: G54 to G59 and G92. It begins in G54.
+// Sets the initial offsets of a program to those of the machine: G54 to G59 and G92. The program begins in G54.
 void set_offsets(InterpreterOptions& options, const GrblMachine& machine);
-// Where the zero of G54 lies with G92, machine coordinates, mm.
+// Returns the zero of G54 including G92, machine coordinates, mm.
 Point first_work_zero(const GrblMachine& machine);
 
-// Checks a program as for our boards, and whether a Grbl machine can do it: what it cannot is an error "grbl.cannot" at
-// its line, once for each reason. `zero`: as for GrblCode.
+// Checks a program as for our boards, and whether a Grbl machine supports it: what it does not support is an error
+// "grbl.cannot" at its line, once for each reason. `zero`: as for GrblCode.
 ProgramCheck check_for_grbl(const ProgramReader& program, const MachineDescription& machine,
                             const InterpreterOptions& options, const Point& zero, Diagnostics& findings);
 
@@ -33,27 +33,27 @@ class GrblProgram {
  public:
   struct Line {
     std::string text;
-    std::uint32_t line = 0;  // of the program
-    Seconds silence{0};      // for so long the machine may be silent: a dwell
+    std::uint32_t line = 0;  // line of the program
+    Seconds silence{0};      // how long the machine may not respond, because of a dwell
   };
 
-  // A program that check_for_grbl() has found good. `waits`: it waits at its stops and tool changes. `machine` outlives
-  // this.
+  // The program must have passed check_for_grbl(). `waits`: it waits at its stops and tool changes. `machine` must
+  // outlive this object.
   GrblProgram(const ProgramReader& program, const MachineDescription& machine, const InterpreterOptions& options,
               const Point& zero, bool waits);
 
-  // Begins at a line, after the way there.
+  // Begins at a line, after the reentry move.
   void begin_at(const Reentry& way);
-  // `listener` gets each operation of the program from where it begins.
+  // Sets a listener, which receives each operation of the program from its start position on.
   void hear(std::function<void(const Operation&)> listener) { listener_ = std::move(listener); }
-  // The next line. Empty: the program has ended, or waits at a stop. The last line, and the last one before a stop, are
-  // answered when all motion is done.
+  // Returns the next line. Empty: the program has ended, or waits at a stop. The last line, and the last one before a
+  // stop, are acknowledged only when all motion is complete.
   std::optional<Line> next();
-  // The machine is to rest here until somebody goes on.
+  // The stop at which the machine waits until go_on() is called.
   const std::optional<OperatorWait>& stop() const { return stop_; }
   void go_on() { stop_.reset(); }
   bool ended() const { return ended_ && ready_.empty(); }
-  // Of what was read so far.
+  // Returns the nominal time of the program read so far.
   Seconds nominal_time() const { return checker_.result().nominal_time; }
 
  private:

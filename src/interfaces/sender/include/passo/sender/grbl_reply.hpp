@@ -1,4 +1,4 @@
-// The reports of a machine that speaks Grbl 1.1, and the parts that its lines consist of.
+// Parses the reports of a Grbl 1.1 machine, and the fields of its lines.
 #pragma once
 
 #include <cstddef>
@@ -14,33 +14,33 @@ namespace passo {
 // A status report: <Idle|MPos:0.000,0.000,0.000|Bf:15,128|FS:0,0|WCO:0.000,0.000,0.000|Pn:XP>
 struct GrblReport {
   std::string state;                        // "Idle", "Run", "Hold", "Alarm" …
-  int detail = -1;                          // of Hold and Door: 0 is at rest; of Alarm: its number
-  std::optional<Point> machine_place = {};  // as it is written: mm, or inches with $13=1
-  std::optional<Point> work_place = {};     // the same
-  std::optional<Point> work_offset = {};    // the same
+  int detail = -1;                          // for Hold and Door: 0 means stopped; for Alarm: its number
+  std::optional<Point> machine_place = {};  // as reported: mm, or inches with $13=1
+  std::optional<Point> work_place = {};     // work position, as reported
+  std::optional<Point> work_offset = {};    // work offset, as reported
   std::optional<std::size_t> blocks_free = {};
   std::optional<std::size_t> bytes_free = {};
-  std::string pins = {};  // the letters of the closed inputs
+  std::string pins = {};  // letters of the triggered inputs
 
-  // Nothing moves, and nothing will by itself.
+  // Returns whether nothing moves, and nothing will start moving by itself.
   bool rests() const;
 };
 
-// The letters of the axes in the order in which Grbl tells them, if it does not tell the letters.
+// The axis letters in Grbl's report order, if the machine does not report them.
 inline constexpr std::string_view grbl_axes = "XYZABCUVW";
 
-// Empty: the line is no report, or a broken one.
+// Empty if the line is not a report, or is incomplete.
 std::optional<GrblReport> read_grbl_report(std::string_view line, std::string_view axes = grbl_axes);
-// Whether a line is a report as Grbl had them before 1.1: <Idle,MPos:0.000,0.000,0.000,WPos:…>
+// Returns whether a line is a report of Grbl before version 1.1: <Idle,MPos:0.000,0.000,0.000,WPos:…>
 bool is_report_of_old_grbl(std::string_view line);
 
-// Numbers between commas, one of each letter in `axes`. Only X, Y and Z count: a sender moves no other axis of such a
-// machine. Empty: no numbers.
+// Parses comma-separated numbers, one for each letter in `axes`. Uses only X, Y and Z: a sender moves no other axis of
+// such a machine. Empty if there are no numbers.
 std::optional<Point> read_grbl_place(std::string_view text, std::string_view axes = grbl_axes);
 
-// Empty: the text is no number.
+// Empty if the text is not a number.
 std::optional<double> read_grbl_number(std::string_view text);
-// Takes what comes before the next `mark`, and the mark.
+// Removes and returns the text up to the next `mark`; also removes the mark.
 std::string_view next_grbl_field(std::string_view& text, char mark);
 
 }  // namespace passo

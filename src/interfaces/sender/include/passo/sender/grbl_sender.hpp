@@ -1,20 +1,21 @@
 // GrblSender: a G-code sender for a machine with Grbl 1.1: connects to it, streams lines, and reports its position and
 // errors.
 //
-//   lines -> GrblSender -> bytes for the machine         real-time bytes go before all lines
+//   lines -> GrblSender -> bytes for the machine         real-time bytes are sent before all lines
 //            GrblSender <- bytes of the machine          ok, error:n, ALARM:n, <…>, […], $n=…
 //
-// Position in the pipeline: outside it, instead of a board. Like `grbl/`, the other side of this protocol, a sender
-// knows no sockets and no clock: its owner tells the time, hands over what came and sends what take_bytes() gives.
+// Position in the pipeline: outside it, instead of a board. Like the controller in `grbl/`, which is the other side of
+// this protocol, a sender uses no sockets and no clock: its owner passes the time and the received data, and sends what
+// take_bytes() returns.
 //
-// Invariants: the bytes of all lines that the machine has not answered never exceed its receive buffer, as `$I` tells
-// the buffer's size (128 if it tells none). Each answer belongs to the oldest line without one. A line that the machine
-// refuses, an alarm, a restart and silence end the stream; nothing more is sent but what stops the machine. Every wait
-// has a timeout: the handshake, a line without an answer, and a state without progress. Only a hold, a door and a tool
-// change wait for people as long as they last, and waits_for() tells it.
+// Invariants: the bytes of all unacknowledged lines never exceed the machine's receive buffer, whose size is reported
+// by `$I` (128 if not reported). Each response belongs to the oldest unacknowledged line. A refused line, an alarm, a
+// restart and a timeout end the stream; after that only commands that stop the machine are sent. Every wait has a
+// timeout: the handshake, an unacknowledged line, and a state without progress. Only a hold, an open door and a tool
+// change wait for the operator without a limit; waits_for() reports this.
 //
 // Such a machine cannot report its step counts or the line that it executes. The line of a fault is exact for error:n.
-// For an alarm it lies between two lines: the machine holds some lines that it has answered already.
+// For an alarm it is a range of lines, because the machine's queue contains lines that it has already acknowledged.
 #pragma once
 
 #include <cstddef>
@@ -41,56 +42,59 @@ class GrblSender {
   static constexpr Seconds longest_greeting{20};
   static constexpr Seconds longest_standstill{60};
 
-  // Begins to greet the machine, at this time. Nothing is sent for 2 s: an Arduino whose line is opened starts anew.
+  // Begins the handshake with the machine at this time. Nothing is sent for 2 s, because an Arduino restarts when its
+  // serial port is opened.
   explicit GrblSender(Seconds now);
 
   void receive(std::string_view bytes, Seconds now);
-  // What to send now. Call often.
+  // Returns the bytes to send now. Must be called often.
   std::string take_bytes(Seconds now);
 
-  // The machine has told what it is, and lines may be added. It is idle or in an alarm: see report().
+  // Returns whether the machine has identified itself, so that lines may be added. It is idle or in an alarm: see
+  // report().
   bool ready() const { return stage_ == Stage::ready; }
   const GrblMachine& machine() const { return machine_; }
-  // The last status report. Empty: none has come.
+  // Returns the last status report. Empty: none was received.
   const std::optional<GrblReport>& report() const { return reports_.last(); }
-  // The machine position, mm. Empty: not known yet.
+  // Returns the machine position, mm. Empty: not known yet.
   std::optional<Point> place() const { return reports_.place(machine_); }
-  // Asks again for what a machine in an alarm may not have told, and for its offsets and modes.
+  // Queries again what a machine in an alarm may not have reported, and its offsets and modes.
   void ask_for_offsets();
-  // The alarm that the machine was in when it was greeted, as a clause; empty: it has not told which.
+  // Returns the alarm during the handshake, as a clause; empty if its cause was not reported.
   std::string alarm_words() const;
-  // What somebody must do at the machine before it goes on, as a sentence without a full stop. Empty: nothing.
+  // Returns what the operator must do at the machine before it continues, as a sentence without a full stop. Empty:
+  // nothing.
   std::string_view waits_for() const;
 
-  // A line of a program, without its end. `line`: of the program's file. `silence`: how long the machine may be silent
-  // because of it (homing, a dwell). Spindles may take their time anyway.
+  // Adds a line of a program, without its line end. `line`: in the program file. `silence`: how long the machine may
+  // not respond because of it (homing, a dwell). Spindle delays are always allowed.
   void add(std::string text, std::uint32_t line = 0, Seconds silence = Seconds(0));
-  // Few lines wait here.
+  // Returns whether only few lines are waiting here.
   bool wants_lines() const { return window_.waiting() < 32; }
-  // Each line was sent and answered.
+  // Returns whether each line was sent and acknowledged.
   bool all_answered() const { return window_.all_answered(); }
-  // All lines were answered, and a report that came later shows that the machine rests.
+  // Returns whether all lines were acknowledged and a later report shows that the machine is idle.
   bool at_rest() const { return all_answered() && reports_.came_after(answered_) && report()->state == "Idle"; }
-  // Bytes that the machine can hold, as far as it has told.
+  // Returns the size of the machine's receive buffer, as far as it is known.
   std::size_t buffer_size() const { return window_.usable(machine_.bytes); }
-  // Bytes of lines that the machine may hold in its receive buffer.
+  // Returns the number of bytes that may be in the machine's receive buffer.
   std::size_t unanswered_bytes() const { return window_.sent_bytes(); }
   std::uint64_t lines_sent() const { return window_.lines_sent(); }
 
   void hold();
   void resume();
-  // Percent, 10 to 200, as near as Grbl comes.
+  // Sets the feed override, percent, 10 to 200, as closely as Grbl allows.
   void override_feed(int percent);
   void override_spindle(int percent);
-  // Brakes on the path, and drops what the machine holds. stopped() tells when that is done; the place is then known
-  // still, if the machine has told that it rests. Homing is reset at once.
+  // Brakes along the path, and drops the lines in the machine. stopped() becomes true when that is done; the position
+  // is then still known if the machine has reported a stop. Homing is reset immediately.
   void stop();
   bool stops() const { return stage_ == Stage::braking || stage_ == Stage::dropping; }
   bool stopped() const { return stage_ == Stage::stopped; }
-  // The line is gone.
+  // Notes that the connection is lost.
   void lose();
 
-  // Why the stream has ended before its lines did.
+  // Returns why the stream has ended before its lines.
   const std::optional<GrblFault>& fault() const { return fault_; }
 
  private:
@@ -105,7 +109,7 @@ class GrblSender {
   void hear(std::string_view line);
   void hear_report(const GrblReport& report);
   void hear_greeting();
-  // `error`: what follows "error:". Empty: ok.
+  // `error`: the text after "error:". Empty: ok.
   void answer(std::optional<std::string_view> error);
   void alarm(std::string_view text);
   std::string words_of_alarm(int number) const;
@@ -125,18 +129,18 @@ class GrblSender {
   Seconds now_{0};
   Seconds begun_{0};
   Seconds stage_since_{0};
-  Seconds heard_{0};     // any byte
-  Seconds asked_{-1};    // for the status
-  Seconds answered_{0};  // the last line
+  Seconds heard_{0};     // time of the last received byte
+  Seconds asked_{-1};    // time of the last status query
+  Seconds answered_{0};  // time of the last acknowledged line
   Seconds idle_since_{0};
-  Seconds progress_{0};  // the last answer, or the last report with another state or place
-  Seconds told_{0};      // a line that is no report
-  std::string came_;     // a line that is not whole yet
+  Seconds progress_{0};  // last acknowledgement, or last report with a change of state or position
+  Seconds told_{0};      // last line that is not a report
+  std::string came_;     // the incomplete line received so far
   std::string last_line_heard_;
-  std::string locked_by_;  // the alarm that it told while it was greeted
+  std::string locked_by_;  // the alarm reported during the handshake
   std::string urgent_;
   LineWindow window_;
-  bool is_held_ = false;  // by hold()
+  bool is_held_ = false;  // the machine was held by hold()
   GrblMachine machine_;
   HeardReports reports_;
   std::optional<GrblFault> fault_;

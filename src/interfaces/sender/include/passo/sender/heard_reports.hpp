@@ -1,5 +1,5 @@
-// HeardReports: the last status report of a machine, when it came, and the offset of the work, which a machine tells in
-// few of its reports.
+// HeardReports: the last status report received from a Grbl machine, its time, and the work offset, which a machine
+// includes in only few of its reports.
 #pragma once
 
 #include <optional>
@@ -12,15 +12,15 @@ namespace passo {
 
 class HeardReports {
  public:
-  // True: the machine is in another state or at another place than before.
+  // Adds a report. Returns true if the state or the position of the machine has changed.
   bool hear(const GrblReport& report, Seconds now);
   const std::optional<GrblReport>& last() const { return last_; }
   void forget_last() { last_.reset(); }
   bool came_after(Seconds time) const { return last_ && came_ > time; }
-  // The report came before something that it says nothing of: came_after() is false until the next one.
+  // Marks the last report as outdated by a later event: came_after() is false until the next report.
   void outdate() { came_ = Seconds(-1); }
   Seconds came() const { return came_; }
-  // Where the machine stands, in machine coordinates, mm. Empty: not known yet.
+  // Returns the machine position, in mm. Empty: not known yet.
   std::optional<Point> place(const GrblMachine& machine) const;
 
  private:

@@ -1,9 +1,9 @@
-// WebAccess: who may ask a web server anything.
+// WebAccess: access control of a web server.
 //
-// A page of the web that a browser shows can make that browser ask any server, also one on the browser's own computer.
-// So the name in Host must be one of the server's own, and an Origin must be the server itself: pages of others are
-// refused, whatever name they have given to the server's address. Who is not on this computer must know the token
-// besides.
+// Any web page in a browser can make that browser send requests to any server, including one on the same computer.
+// Therefore the name in Host must be one of the server's own names, and an Origin must be the server itself: pages of
+// other sites are refused, whatever name they have assigned to the server's address. Clients on other computers must
+// also know the token.
 #pragma once
 
 #include <optional>
@@ -13,29 +13,29 @@
 
 namespace passo {
 
-// Headers as they came; empty: the header is missing.
+// Headers as received; empty: the header is missing.
 struct WebCaller {
   std::string_view host = {};
   std::string_view origin = {};
   std::string_view authorization = {};
-  std::string_view query = {};  // of the target, without "?"
+  std::string_view query = {};  // query of the target, without "?"
 };
 
 struct WebAccess {
-  std::vector<std::string> names = {};  // of the server, in Host: without the port, in lower case
-  std::string token = {};               // empty: nobody needs one
+  std::vector<std::string> names = {};  // the server's names in Host: without the port, in lower case
+  std::string token = {};               // empty: not required
 
-  // Why the caller is refused: 400, 401 or 403. Empty: it may ask.
+  // Returns the status with which the caller is refused: 400, 401 or 403. Empty: access is allowed.
   std::optional<unsigned> refuse(const WebCaller& caller) const;
 };
 
-// What %41 stands for (RFC 3986); a "+" is a plus. Empty: a "%" without two hexadecimal digits.
+// Decodes percent-encoding such as %41 (RFC 3986); a "+" stays a plus. Empty if a "%" lacks two hexadecimal digits.
 std::optional<std::string> percent_decoded(std::string_view text);
 
-// The value of a key in "a=1&b=2", without decoding. Empty: it is missing or empty.
+// Returns the value of a key in "a=1&b=2", without decoding. Empty if it is missing or empty.
 std::string_view query_value(std::string_view query, std::string_view key);
 
-// Equal, in a time that does not tell where two texts of one length differ.
+// Compares in constant time: the time does not depend on where two texts of equal length differ.
 bool equal_in_steady_time(std::string_view a, std::string_view b);
 
 }  // namespace passo

@@ -1,15 +1,15 @@
-// WebServer: HTTP and WebSocket at one TCP port, for the owner of a loop.
+// WebServer: serves HTTP and WebSocket on one TCP port, within the caller's event loop.
 //
-// Position in the pipeline: outside it, the entry point for programs and browsers. It knows nothing of machines: a
-// WebHandler answers. Boost.Beast is behind this header and nowhere else.
+// Position in the pipeline: outside it, the entry point for programs and browsers. It is independent of machines: a
+// WebHandler produces the responses. Boost.Beast is used only behind this header.
 //
-// Nothing here waits, and there is no thread: poll() does a bounded number of steps that are ready. So the handler is
-// called by the owner's thread alone. What a client does not read or send in time costs that client its connection:
-// connections, bodies, messages and times are bounded (WebLimits). A watcher of the stream that reads slowly skips
-// messages, and gets the newest one when it has read the last.
+// Nothing blocks, and there is no thread: poll() executes a limited number of steps that are ready, so only the owner's
+// thread calls the handler. A client that does not read or send in time loses its connection: connections, bodies,
+// messages and times are limited (WebLimits). A stream client that reads slowly skips messages, and gets the newest one
+// when it has read the last.
 //
-// A newcomer always gets in: where all connections are taken, one of those that wait goes, first of all one that has
-// not asked anything. So nobody who keeps connections open delays a request to hold the machine.
+// A new connection is always accepted: if the maximum is reached, an idle connection is closed, preferably one that has
+// not sent a request. Clients that keep connections open can therefore not delay a request to hold the machine.
 #pragma once
 
 #include <chrono>
@@ -42,7 +42,7 @@ struct WebAnswer {
   unsigned status = 200;
   std::string type = "application/json";
   std::string body = {};
-  // Headers; empty: the usual ones of an answer that is never kept.
+  // Headers; empty: the defaults of a response that is never cached.
   std::string encoding = {};  // Content-Encoding
   std::string version = {};   // ETag
   std::string cache = {};     // Cache-Control
@@ -54,35 +54,36 @@ class WebHandler {
  public:
   virtual ~WebHandler() = default;
   virtual WebAnswer answer(const WebRequest& request) = 0;
-  // What a server itself refuses is told in the handler's form too.
+  // Formats an error response of the server itself like those of the handler.
   virtual WebAnswer refusal(unsigned status) = 0;
-  // How many bytes the body of such a request may have. Asked before the body is read.
+  // Returns the maximum body length of such a request. Called before the body is read.
   virtual std::size_t longest_body(const WebRequest& request) = 0;
-  // True: also those who do not know the token may ask this. Host and Origin are checked all the same.
+  // Returns true if the request does not need the token. Host and Origin are checked nevertheless.
   virtual bool is_public(const WebRequest&) { return false; }
-  // True: at this path is the stream, for WebSocket clients.
+  // Returns true if this path is the stream for WebSocket clients.
   virtual bool is_stream(std::string_view path) = 0;
-  // A client of the stream has sent a message. Returns the answer; empty: none.
+  // Processes a message from a stream client. Returns the response; empty: none.
   virtual std::string hear(std::string_view message, std::uint64_t client) = 0;
-  // A client of the stream has left, or has not answered for `stream_dead_after`. Its number is never used again.
+  // A stream client has disconnected, or has not responded for `stream_dead_after`. Its number is never reused.
   virtual void gone(std::uint64_t) {}
 };
 
 struct WebLimits {
   std::size_t connections = 700;
-  std::size_t watchers = 600;                     // of them: the rest is for requests
-  std::size_t large_bodies = 4;                   // at once
-  std::size_t small_body = std::size_t{1} << 16;  // bytes; what is longer is a large body
-  std::size_t message = std::size_t{1} << 14;     // of a client of the stream
+  std::size_t watchers = 600;                     // maximum number of stream clients; the other connections are
+                                                  // reserved for requests
+  std::size_t large_bodies = 4;                   // maximum number of large bodies at the same time
+  std::size_t small_body = std::size_t{1} << 16;  // bytes; a longer body is a large body
+  std::size_t message = std::size_t{1} << 14;     // maximum message length of a stream client, bytes
   std::chrono::seconds header_within{10};
   std::chrono::seconds body_within{120};
   std::chrono::seconds answer_read_within{30};
-  std::chrono::seconds stream_dead_after{10};  // without an answer to a ping
+  std::chrono::seconds stream_dead_after{10};  // time without a response to a ping
 };
 
 class WebServer {
  public:
-  // Listens at an address; port 0: any that is free. The error is a sentence with the reason. `handler` outlives the
+  // Listens at an address; port 0: any free port. The error is a sentence with the reason. `handler` must outlive the
   // server.
   static Result<std::unique_ptr<WebServer>, std::string> listen(const std::string& host, unsigned port,
                                                                 WebAccess access, WebHandler& handler,
@@ -92,18 +93,18 @@ class WebServer {
   WebServer& operator=(const WebServer&) = delete;
 
   unsigned port() const;
-  // Adds what the server waits for, so that the owner of the loop may sleep until there is something to do.
+  // Adds the server's file descriptors, so that the event loop can sleep until there is something to do.
   void add_to(std::vector<pollfd>& all) const;
-  // Does what is ready, but no more than `steps` steps.
+  // Processes what is ready, but at most `steps` steps.
   void poll(int steps = 256);
-  // Gives all clients of the stream a new message, each at most as often as it asked (?hz=1 to 60, else 10).
+  // Sends a new message to all stream clients, each at most as often as it has requested (?hz=1 to 60, default 10).
   void publish(std::string message);
 
   std::size_t connections() const;
-  std::size_t watchers() const;  // connections to the stream
+  std::size_t watchers() const;  // number of stream connections
   std::uint64_t requests() const;
-  std::uint64_t refused() const;  // requests and connections
-  std::uint64_t skipped() const;  // messages that slow watchers did not get
+  std::uint64_t refused() const;  // number of refused requests and connections
+  std::uint64_t skipped() const;  // number of messages skipped for slow clients
 
  private:
   class Implementation;

@@ -105,7 +105,7 @@ struct BlockComment {
     probe_close
   };
   Kind kind = Kind::plain;
-  std::string_view text;  // as written, without the delimiters and without a keyword such as "MSG,"
+  std::string_view text;  // text of the comment as written, without the delimiters and without a keyword such as "MSG,"
   Span span;
 };
 
@@ -139,8 +139,8 @@ struct Control {
 };
 
 struct Block {
-  std::uint32_t line = 0;                       // in its file, from 1
-  std::string_view text;                        // the line without its end
+  std::uint32_t line = 0;                       // line number in its file, from 1
+  std::string_view text;                        // the line without its line end
   bool block_delete = false;                    // starts with '/'
   bool percent = false;                         // a line with only '%'
   std::optional<std::string_view> line_number;  // the digits after N, as written
@@ -153,7 +153,7 @@ struct Block {
   std::vector<Expression> spare;      // keeps the capacity of control->arguments for later blocks with a control
 
   bool empty() const { return words.empty() && assignments.empty() && comments.empty() && !control && !percent; }
-  // Empties the block and keeps the capacity.
+  // Empties the block and keeps the capacity of its vectors.
   void clear();
 };
 

@@ -28,7 +28,7 @@ class BlockParser {
   bool line_numbers_anywhere_ = false;
 };
 
-// The block as G-code in canonical spelling: parse(print(b)) == b.
+// Returns the block as G-code in canonical spelling: parse(print(b)) == b.
 std::string print(const Block& block, const SymbolTable& symbols);
 
 }  // namespace passo

@@ -1,4 +1,4 @@
-// evaluate: the value of an expression, with RS274/NGC's operations as LinuxCNC defines them.
+// evaluate: computes the value of an expression, with RS274/NGC's operations as LinuxCNC defines them.
 //
 // The interpreter calls it for every word and assignment that is not a plain number. It never allocates memory; the
 // operand stack is bounded. The result is a finite value, or an error with the part of the line to mark.
@@ -16,10 +16,10 @@ namespace passo {
 class ParameterValues {
  public:
   virtual ~ParameterValues() = default;
-  // Both return false if there is no such parameter.
+  // Both return false if there is no such parameter, and otherwise set `value`.
   virtual bool numbered(std::int64_t number, double& value) const = 0;
   virtual bool named(Symbol name, double& value) const = 0;
-  // False: the parameter is 0 because it was never set.
+  // Returns false if the parameter is 0 because it was never set.
   virtual bool was_set(std::int64_t /*number*/) const { return true; }
 };
 

@@ -11,8 +11,8 @@ struct ForeignFile {
   std::string_view expected;  // how to get G-code from it
 };
 
-// `first` are the first bytes of the file, about a kilobyte. The content decides. The extension is only used for binary
-// data without a signature, and to tell two similar text formats apart.
+// `first` are the first bytes of the file, about a kilobyte. The format is detected from the contents; the extension is
+// only used for binary data without a signature, and to tell two similar text formats apart.
 ForeignFile foreign_file(const std::string& name, std::string_view first);
 
 }  // namespace passo

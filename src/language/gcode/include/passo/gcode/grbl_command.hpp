@@ -1,5 +1,5 @@
-// grbl_command_in: recognises system commands of Grbl in files for its senders: "$H", "$X", "$32=1". In RS274/NGC `$`
-// is a word, e.g. "$1 M3 S100"; such a line is not a system command.
+// grbl_command_in: recognises Grbl system commands in files written for Grbl senders: "$H", "$X", "$32=1". In RS274/NGC
+// `$` is a word, e.g. "$1 M3 S100"; such a line is not a system command.
 #pragma once
 
 #include <optional>

@@ -25,11 +25,13 @@ struct ReaderPosition {
 
 class ProgramReader {
  public:
-  // `path` "-" reads standard input. Its bytes are stored in an unnamed temporary file, because loops jump back.
+  // Opens a file; `path` "-" reads standard input, whose bytes are stored in an unnamed temporary file, because loops
+  // jump back.
   static Result<ProgramReader, Diagnostic> open(const std::string& path);
-  // A program in memory, for tests and for manual data input. `name` is used as file name in diagnostics.
+  // Reads a program in memory, for tests and for manual data input. `name` is used as file name in diagnostics.
   static ProgramReader from_text(std::string name, std::string text);
-  // A program whose lines arrive one by one, with push_line(). Lines are not stored, so the program cannot jump back.
+  // Reads a program whose lines arrive one by one, with push_line(). Lines are not stored, so the program cannot jump
+  // back.
   static ProgramReader from_lines(std::string name);
 
   ProgramReader(ProgramReader&&) noexcept;
@@ -41,14 +43,14 @@ class ProgramReader {
   // skipped.
   [[nodiscard]] bool next_line(std::string_view& text, std::uint32_t& line, Diagnostics& diagnostics);
 
-  // Only for from_lines(), after all earlier lines were read: the next next_line() returns this line. `text` has no
-  // line end.
+  // Only for from_lines(): adds the line that the next call of next_line() returns. All earlier lines must have been
+  // read. `text` has no line end.
   void push_line(std::string_view text);
 
-  // Another reader of the same program, at its start. This also works for standard input.
+  // Returns another reader of the same program, at its start. This also works for standard input.
   ProgramReader again() const;
 
-  // The start of the next line.
+  // Returns the start of the next line.
   ReaderPosition position() const;
   // Moves to a position. The file is accessed only when the next line is read.
   void seek(ReaderPosition position);

@@ -1,6 +1,6 @@
-// Symbols: maps names (of parameters and O-word labels) to small numbers, so that a look-up is an index.
+// SymbolTable: maps names (of parameters and O-word labels) to small numbers, so that a lookup is an array access.
 //
-// Names are compared as in RS274/NGC: in lower case, without white space. One table serves a whole job.
+// Names are compared as in RS274/NGC: in lower case, without white space. One table is used for a whole job.
 #pragma once
 
 #include <cstddef>
@@ -24,9 +24,9 @@ class SymbolTable {
   SymbolTable(const SymbolTable&) = delete;
   SymbolTable& operator=(const SymbolTable&) = delete;
 
-  // `name` may have any case and spacing.
+  // Returns the symbol of a name, in any case and spacing; adds the name if it is new.
   Symbol intern(std::string_view name);
-  // The normalised name. The view is valid as long as the table.
+  // Returns the normalised name. The view is valid as long as the table exists.
   std::string_view name(Symbol symbol) const { return names_[symbol.id]; }
   std::size_t size() const { return names_.size(); }
 

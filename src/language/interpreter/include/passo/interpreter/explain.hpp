@@ -71,7 +71,7 @@ struct ExplainLimits {
 Explanations explain(ProgramReader program, const InterpreterOptions& options, LineRange range,
                      Diagnostics& diagnostics, const ExplainLimits& limits = {});
 
-// "X 10 mm, Y 0 mm, Z 5 mm": X Y Z, and the other axes that are not at 0.
+// Returns e.g. "X 10 mm, Y 0 mm, Z 5 mm": X Y Z, and the other axes that are not at 0.
 std::string in_words(const Point& point);
 
 }  // namespace passo

@@ -14,12 +14,12 @@ namespace passo {
 
 class Frame {
  public:
-  // Updates the frame. True: the operation changed it.
+  // Updates the frame. Returns whether the operation changed it.
   bool follow(const Operation& operation);
 
   Point machine_from_work(const Point& work) const;
   Point work_from_machine(const Point& machine) const;
-  // The extents of a curve (machine coordinates) along the axes of the work, from the work zero.
+  // Returns the extents of a curve in machine coordinates along the work axes, relative to the work zero.
   Box work_extents(const Curve& curve) const;
 
   const Point& work_offset() const { return work_offset_; }

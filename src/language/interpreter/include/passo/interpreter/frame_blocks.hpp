@@ -52,9 +52,9 @@ class FrameBlocks {
   explicit FrameBlocks(Interpreter& interpreter);
   ~FrameBlocks();
 
-  // The last executed block.
+  // Returns the last executed block.
   const FrameBlock& last() const;
-  // The blocks with one of the codes above that were executed since the last call, in order.
+  // Returns the blocks with one of the codes above that were executed since the last call, in order.
   std::vector<FrameBlock> take_executed();
 
  private:

@@ -6,7 +6,7 @@
 
 namespace passo {
 
-// The error number of Grbl 1.1 that corresponds to a diagnostic code. Empty: Grbl has no such error.
+// Returns the error number of Grbl 1.1 that corresponds to a diagnostic code. Empty: Grbl has no such error.
 std::optional<int> grbl_error_number(std::string_view code);
 
 }  // namespace passo

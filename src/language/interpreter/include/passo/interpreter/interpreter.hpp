@@ -35,29 +35,29 @@ struct InterpreterOptions {
   Point start;                          // machine position at the start
   // The units of lengths in parameters (#5161 to #5390, #5401 to #5410) and in `parameters`.
   LengthUnits machine_units = LengthUnits::mm;
-  ToolTable tools;                       // without a name: there is no tool table
+  ToolTable tools;                       // a table without a name: none was given
   SavedParameters parameters;            // the parameters saved after the last run
-  std::vector<std::string> sub_folders;  // folders to search for subs in files, after the program's own folder
+  std::vector<std::string> sub_folders;  // folders to search for subroutine files, after the program's own folder
   // Answers #<_ini[section]name>. Null: there are no settings.
   std::shared_ptr<const SettingsFile> settings;
-  // The largest number of passes of a loop (or of calls) without any action of the machine, before the program is
+  // The maximum number of passes of a loop (or of calls) without any action of the machine, before the program is
   // stopped with a diagnostic. Moves, dwells, stops and tool changes are actions; mode changes are not.
   std::uint64_t idle_passes = 1'000'000;
-  // The largest number of passes, calls and operations inside an outermost loop, call or cycle, before the program is
+  // The maximum number of passes, calls and operations inside an outermost loop, call or cycle, before the program is
   // stopped with a diagnostic. Twenty million moves take a machine days (55 hours at 100 moves/s), but a check only
   // seconds.
   std::uint64_t repeated_steps = 20'000'000;
-  // How probe moves, inputs and #<_task> are evaluated. In a preview as in LinuxCNC's `rs274`: a probe move stops 0.254
-  // mm before its end, and inputs are 0. On a machine, there are no inputs, and a probe move is triggered at its end
-  // unless the machine's answers differ.
+  // Selects how probe moves, inputs and #<_task> are evaluated. false: a preview as in LinuxCNC's `rs274`, where a
+  // probe move stops 0.254 mm before its end and inputs are 0. true: a machine without inputs, where a probe move is
+  // triggered at its end unless the machine's answers differ.
   bool on_machine = false;
   // Number of runs of a main program that ends with M99; 0: endless.
   std::uint64_t main_passes = 1;
   int spindles = 1;          // 1 to 8
-  double orient_offset = 0;  // degrees that M19 adds
+  double orient_offset = 0;  // offset added to the angle of M19, degrees
   bool user_codes = false;   // M100 to M199 are allowed
-  // True: the program's lines arrive one by one, with push_line(). next() then returns false when no line is left, and
-  // continues after the next push_line().
+  // Whether the program's lines arrive one by one, with push_line(). next() then returns false when no line is left,
+  // and continues after the next push_line().
   bool open_ended = false;
   // Letters of further axes that the Grbl dialect accepts in addition to X, Y and Z, e.g. "AC".
   std::string more_grbl_axes;
@@ -73,32 +73,33 @@ class Interpreter final : public Source<Operation> {
 
   [[nodiscard]] bool next(Operation& operation) override;
 
-  // Only for an open-ended program, whose reader is ProgramReader::from_lines(). Call when next() has returned false.
+  // Adds a line to an open-ended program, whose reader is ProgramReader::from_lines(). Requires that next() has
+  // returned false.
   void push_line(std::string_view text);
-  // True: the program has ended, with M2, M30 or a fatal error. The interpreter accepts no more lines.
+  // Returns whether the program has ended, with M2, M30 or a fatal error. The interpreter then accepts no more lines.
   bool ended() const;
-  // Saves modes, offsets, parameters and the position after the lines so far, and restores them, as if the later lines
-  // had not come. Call it when next() has returned false.
+  // keep() saves modes, offsets, parameters and the position after the lines read so far; roll_back() restores them, as
+  // if later lines had not been read. Requires that next() has returned false.
   void keep();
   void roll_back();
   // Continues a program that has ended, with its modes.
   void reopen();
-  // The active motion code in tenths: 0 for G0, 382 for G38.2.
+  // Returns the active motion code in tenths: 0 for G0, 382 for G38.2.
   int motion() const;
   void set_motion(int tenths);
-  // Sets another machine position than that at the end of the program so far. Modes and offsets are kept.
+  // Sets the machine position, replacing that at the end of the program so far. Modes and offsets are kept.
   void stand_at(const Point& machine);
-  // The modes and offsets after the lines read so far.
+  // Returns the modes and offsets after the lines read so far.
   ModesInForce modes() const;
 
-  // The parameters to save for the next run: InterpreterOptions::parameters with the program's changes.
+  // Returns the parameters to save for the next run: InterpreterOptions::parameters with the program's changes.
   SavedParameters saved_parameters() const;
-  // The tool table including the changes of the program so far (G10 L1, L10, L11).
+  // Returns the tool table including the changes by the program so far (G10 L1, L10, L11).
   const ToolTable& tools() const;
   // Sets the observer of executed blocks, e.g. for explain(). It must outlive the interpreter.
   void watch(BlockWatcher& watcher);
 
-  // Bytes of the main program read so far, for progress.
+  // Returns the number of bytes of the main program read so far, for progress.
   std::uint64_t offset() const;
 
  private:

@@ -1,9 +1,9 @@
-// MachineAnswers: results of the machine that its program depends on: the outcome of a probe move, and the position at
+// MachineAnswers: results from the machine on which a program depends: the outcome of a probe move, and the position at
 // which a tap reversed.
 //
-// Position in the pipeline: outside it. All other data flows down; only these few results come back. One rule makes
-// that safe: no stage reads past a probe move or tap before its result is available. The path builder returns it as its
-// last item, and the drive pulls the next item only when the machine is stopped and the result is stored.
+// Position in the pipeline: outside it. All other data flows downstream; only these few results come back. One rule
+// makes that safe: no stage reads past a probe move or tap before its result is available. The path builder returns it
+// as its last item, and the drive pulls the next item only when the machine is stopped and the result is stored.
 #pragma once
 
 #include "passo/interpreter/probe_outcome.hpp"
@@ -13,14 +13,15 @@ namespace passo {
 class MachineAnswers {
  public:
   virtual ~MachineAnswers() = default;
-  // The outcome of the last probe move. Null: not available, so the probe move is triggered at its end.
+  // Returns the outcome of the last probe move. Null: not available, so the probe move is taken to be triggered at its
+  // end.
   virtual const ProbeOutcome* probe() const { return nullptr; }
-  // The position at which the spindle reversed in the last tap. Null: taps do not follow the spindle through the
-  // reversal, and retract from their end.
+  // Returns the position at which the spindle reversed in the last tap. Null: taps do not follow the spindle through
+  // the reversal, and retract from their end.
   virtual const Point* tap_rest() const { return nullptr; }
 };
 
-// No results, for a check or a preview.
+// Returns empty results, for a check or a preview.
 inline const MachineAnswers& no_answers() {
   static const MachineAnswers none;
   return none;

@@ -253,7 +253,7 @@ using OperationKind =
 
 // The origin of an operation, for diagnostics.
 struct OperationSource {
-  std::uint32_t line = 0;         // of the file, from 1
+  std::uint32_t line = 0;         // line number in the file, from 1
   std::int64_t line_number = -1;  // N word; -1: none
 };
 

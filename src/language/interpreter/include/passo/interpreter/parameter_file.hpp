@@ -15,13 +15,13 @@ namespace passo {
 
 using SavedParameters = std::map<int, double>;
 
-// False: the file has errors, which are in `diagnostics`.
+// Returns false if the file has errors, which are in `diagnostics`.
 [[nodiscard]] bool read_parameter_file(const std::string& path, SavedParameters& parameters, Diagnostics& diagnostics);
 std::string parameter_file_text(const SavedParameters& parameters);
-// True: the parameter is saved even if the file did not name it.
+// Returns whether the parameter is saved even if the file did not contain it.
 bool is_always_saved(int number);
-// Replaces the homes of G28 and G30 and the work systems' offsets in `into` by those of `from`. Values that belong to a
-// single program are kept: G92, and the active work offset.
+// Replaces the homes of G28 and G30 and the work offsets in `into` by those of `from`. Keeps values that belong to a
+// single program: G92, and the active work coordinate system.
 void set_lasting_offsets(SavedParameters& into, const SavedParameters& from);
 
 }  // namespace passo

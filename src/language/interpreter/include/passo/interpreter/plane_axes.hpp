@@ -23,7 +23,7 @@ constexpr PlaneAxes axes_of(Plane plane) {
   }
   return {Axis::x, Axis::y, Axis::z};
 }
-// True: a plane of U V W, which only cycles support.
+// Returns whether this is a plane of U V W, which only cycles support.
 constexpr bool is_of_uvw(Plane plane) {
   return plane == Plane::uv || plane == Plane::wu || plane == Plane::vw;
 }

@@ -1,5 +1,5 @@
-// place_of_tool(): for lists of the tools that a program uses, in the order of their first use. A program may name any
-// number of tools, and memory is bounded: beyond the first `most`, the last one stands for all others.
+// place_of_tool(): for lists of the tools that a program uses, in order of first use. A program may use any number of
+// tools, but memory is bounded: beyond the first `most`, the last entry represents all others.
 #pragma once
 
 #include <algorithm>
@@ -9,8 +9,8 @@
 
 namespace passo {
 
-// Where the tool stands in `used`. A new one is added as make(), if there is room. `number`: which member of an entry,
-// or what of it, is the tool's number. `most`: at least 1.
+// Returns the index of the tool in `used`. Adds a new one by make(), if there is room. `number`: member or function of
+// an entry that returns the tool's number. `most`: at least 1.
 template <class Entry, class Number, class Make>
 std::size_t place_of_tool(std::vector<Entry>& used, std::int32_t tool, Number number, std::size_t most, Make make) {
   const auto found = std::ranges::find(used, tool, number);

@@ -1,11 +1,11 @@
-// Loop trials: what a motor with an encoder and a controller does when the wanted value jumps.
+// Loop trials: the step response of a motor with an encoder and a controller.
 //
-//   speed      wanted speed ─►(−)─► PID ─► torque ─► motor ─► encoder ─┐
-//                              └──────────── counted speed ◄───────────┤
-//   position   wanted place ─►(−)─► PID ─► wanted speed ─► the loop above, with gains of its own
-//                              └──────────── counted place ◄───────────┘
+//   speed      set speed ─►(−)─► PID ─► torque ─► motor ─► encoder ─┐
+//                           └──────────── measured speed ◄──────────┤
+//   position   set position ─►(−)─► PID ─► set speed ─► the loop above, with separate gains
+//                              └─────────── measured position ◄─────┘
 //
-// Each trial begins at rest, and the same setup gives the same numbers.
+// Each trial begins at standstill, and the same setup gives the same numbers.
 #pragma once
 
 #include <cstdint>
@@ -23,42 +23,42 @@ struct LoopSetup {
   MotorSetup motor;
   int counts_per_turn = 4000;
   Seconds period{0.0001};
-  Seconds smoothing{0.0005};  // of the counted speed
+  Seconds smoothing{0.0005};  // smoothing of the measured speed
   Controlled controlled = Controlled::speed;
-  PidGains gains = {};            // N·m for each rad/s; of a position loop: rad/s for each radian
-  PidGains speed_gains = {};      // of the inner loop of a position loop
+  PidGains gains = {};            // N·m per rad/s; for a position loop: rad/s per radian
+  PidGains speed_gains = {};      // for the inner loop of a position loop
   double to = 0;                  // rad/s or radians
-  RadiansPerSecond fastest{200};  // the most that a position loop asks of the inner one
-  NewtonMetres load = {};         // against the motion, from `load_at` on
+  RadiansPerSecond fastest{200};  // maximum set speed of a position loop's inner loop
+  NewtonMetres load = {};         // load torque against the motion, starting at `load_at`
   Seconds load_at{0};
 };
 
 struct LoopMoment {
   Seconds time{0};
   double wanted = 0;
-  double counted = 0;  // as the controller sees it
-  double is = 0;       // true
+  double counted = 0;  // value measured by the encoder
+  double is = 0;       // actual value
   RadiansPerSecond speed = {};
-  NewtonMetres asked = {};  // of the motor
+  NewtonMetres asked = {};  // torque demanded from the motor
   NewtonMetres torque = {};
 };
 
-// One moment for each period.
+// Returns one moment for each control period.
 std::vector<LoopMoment> step_response(const LoopSetup& setup, Seconds whole);
 
 struct LoopFigures {
-  std::optional<Seconds> rise = {};     // from a tenth to nine tenths
-  double overshoot = 0;                 // share of the jump
-  std::optional<Seconds> settled = {};  // from then on within 5 % of the jump
-  double error = 0;                     // at the end: the mean of the last tenth of the time
-  double swing = 0;                     // at the end: between the highest and the lowest value there
+  std::optional<Seconds> rise = {};     // from 10 % to 90 %
+  double overshoot = 0;                 // fraction of the step
+  std::optional<Seconds> settled = {};  // from then on within 5 % of the step
+  double error = 0;                     // at the end: mean of the last tenth of the time
+  double swing = 0;                     // at the end: difference of the maximum and minimum there
 };
 
-// Before the load comes, if it does.
+// Evaluates the response before the load is applied, if there is one.
 LoopFigures figures_of(const std::vector<LoopMoment>& moments, const LoopSetup& setup);
 
-// The gain at which the loop with P alone just swings for ever, found by trials. Empty: it does not swing at any gain
-// that the motor's torque can show.
+// Returns the gain at which the loop with P only oscillates with constant amplitude, found by trials. Empty: the loop
+// does not oscillate at any gain that the motor's torque allows.
 std::optional<UltimateCycle> ultimate_cycle(const LoopSetup& setup);
 
 }  // namespace passo

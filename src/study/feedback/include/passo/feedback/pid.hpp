@@ -1,13 +1,13 @@
-// Pid: the controller of most machines, once in each period of time:
+// Pid: a PID controller, executed once per control period:
 //
 //   out = kp·e + ki·∫e dt − kd·d(measured)/dt        e = wanted − measured, |out| ≤ limit
 //
-// The D part looks at the measured value alone, so a jump of the wanted value does not kick. It is smoothed over a few
-// periods, because a difference of counts is noise. While the output is at its limit, the integral does not grow
-// (otherwise it would have to be paid back by an overshoot: wind-up).
+// The D term uses only the measured value, so a step of the set point causes no derivative kick. It is smoothed over a
+// few periods, because a difference of counts is noisy. While the output is at its limit, the integral does not grow
+// (anti-windup: otherwise it would cause an overshoot).
 //
 // UltimateCycle and the rules: J. G. Ziegler and N. B. Nichols, Optimum Settings for Automatic Controllers, Trans. ASME
-// 64 (1942): with P alone the loop swings for ever at the gain Ku, with the period Tu.
+// 64 (1942): with P only, the loop oscillates with constant amplitude at the gain Ku, with the period Tu.
 #pragma once
 
 #include <algorithm>
@@ -18,8 +18,8 @@ namespace passo {
 
 struct PidGains {
   double kp = 0;
-  double ki = 0;  // a second
-  double kd = 0;  // seconds
+  double ki = 0;  // integral gain, per second
+  double kd = 0;  // derivative gain, seconds
 };
 
 struct UltimateCycle {
@@ -41,7 +41,7 @@ constexpr PidGains ziegler_nichols_pid(const UltimateCycle& cycle) {
 
 class Pid {
  public:
-  // `limit` > 0: of the output, either way.
+  // `limit` > 0: maximum magnitude of the output.
   Pid(const PidGains& gains, Seconds period, double limit) : gains_(gains), period_(period.value()), limit_(limit) {}
 
   double update(double wanted, double measured) {
@@ -53,7 +53,7 @@ class Pid {
     const double grown = integral_ + error * period_;
     const double free = gains_.kp * error + gains_.ki * grown - gains_.kd * rate_;
     const double out = std::clamp(free, -limit_, limit_);
-    // At the limit the integral changes only towards what leads away from it.
+    // At the limit the integral changes only in the direction that leads away from the limit.
     if (free == out || free * error < 0) integral_ = grown;
     return out;
   }

@@ -1,8 +1,8 @@
-// ArcTravel: how far an arc in steps has come. Point comparison, DDA and midpoint share it; they only decide which axis
-// is to step.
+// ArcTravel: tracks the progress along an arc in steps. Point comparison, DDA and midpoint share it; they only decide
+// which axis is to step.
 //
-// The centre is the origin, R² = xs² + ys². An arc is cut where it crosses an axis. In each piece one axis falls
-// towards zero and the other rises; in the next piece they change roles:
+// The centre is the origin, R² = xs² + ys². An arc is divided where it crosses an axis. In each piece one axis falls
+// towards zero and the other rises; in the next piece they swap roles:
 //
 //            y                   counterclockwise:
 //        1   │   0               quadrant 0: x falls, y rises      direction bits  x down
@@ -11,11 +11,11 @@
 //            │                            3: y falls, x rises                      -
 //
 // Clockwise is the same with y mirrored. A piece ends at the axis crossing (0, R rounded), the last one at the end
-// point. An axis that has arrived there yields to the other, so every arc ends exactly.
+// point. An axis that has reached its end yields to the other, so every arc ends exactly.
 //
 // Start and end may be any points whose distances from the centre differ by less than a step. Equal points are a full
-// circle. Coordinates up to 2³¹−1. The deviation F = x² + y² − R² stays within 2·2³¹ of zero.
-// Portable: one integer square root and no division, before the first pulse.
+// circle. Coordinates up to 2³¹−1. The deviation F = x² + y² − R² stays within 2·2³¹ of zero. Portable: one integer
+// square root and no division, before the first pulse.
 #pragma once
 
 #include "passo/interpolate/line.hpp"
@@ -57,22 +57,22 @@ class ArcTravel {
 
   constexpr bool done() const { return crossings_ == 0 && falling_ == falls_to_ && rising_ == rises_to_; }
 
-  // The tool's distances from the axes: of the axis that falls and of the one that rises.
+  // The tool's distances from the axes: that of the falling axis and that of the rising one.
   constexpr Length falling() const { return falling_; }
   constexpr Length rising() const { return rising_; }
   constexpr Square deviation() const { return deviation_; }
-  // The largest value of either distance anywhere on the arc.
+  // Returns the maximum of either distance anywhere on the arc.
   constexpr Length reach() const {
     const Length end = end_falling_ > end_rising_ ? end_falling_ : end_rising_;
     return crossing_ > end ? crossing_ : end;
   }
-  // True when that axis has reached the end of the piece; it then yields to the other.
+  // Returns true when that axis has reached the end of the piece; it then yields to the other.
   constexpr bool fall_is_over() const { return falling_ == falls_to_; }
   constexpr bool rise_is_over() const { return rising_ == rises_to_; }
-  // The present quadrant. It changes where the arc crosses an axis.
+  // The current quadrant. It changes where the arc crosses an axis.
   constexpr uint8_t quadrant() const { return quadrant_; }
 
-  // Makes one pulse: the wanted steps, as far as the piece has room for them. At least one axis steps if any is wanted.
+  // Makes one pulse: the requested steps, as far as the piece allows them. At least one axis steps if any is requested.
   constexpr Pulse step(bool fall, bool rise) {
     if (fall && fall_is_over()) {
       fall = false;
@@ -99,7 +99,7 @@ class ArcTravel {
   }
 
  private:
-  // The quadrant that a counterclockwise arc enters at `point`, and the one that it leaves there.
+  // Return the quadrant that a counterclockwise arc enters at `point`, and the one that it leaves there.
   static constexpr uint8_t quadrant_after(const int32_t (&point)[2]) {
     if (point[0] > 0 && point[1] >= 0) return 0;
     if (point[0] <= 0 && point[1] > 0) return 1;
@@ -120,7 +120,7 @@ class ArcTravel {
   constexpr void begin_piece() {
     falls_to_ = crossings_ == 0 ? end_falling_ : Length{0};
     rises_to_ = crossings_ == 0 ? end_rising_ : crossing_;
-    // The axis that rises now falls after the crossing, down to the end point. So it must first rise that far.
+    // After the crossing, the axis that rises now falls to the end point. So it must first rise that far.
     if (crossings_ == 1 && rises_to_ < end_falling_) rises_to_ = end_falling_;
   }
   constexpr void cross() {
@@ -132,7 +132,7 @@ class ArcTravel {
   }
 
   uint8_t quadrant_ = 0;
-  uint8_t crossings_ = 0;  // crossings still ahead
+  uint8_t crossings_ = 0;  // number of remaining crossings
   uint8_t mirror_ = 0;     // the direction bits that a clockwise arc inverts
   Length falling_ = 0;
   Length rising_ = 0;

@@ -1,17 +1,18 @@
-// Arcs of two axes about the origin, pulse by pulse. Three methods decide; all travel in the same way (arc_travel.hpp).
-// Any start, both senses, every quadrant and full circles; every arc ends exactly on its end point.
+// Arcs of two axes about the origin, pulse by pulse. The three methods differ only in their decisions; all use
+// ArcTravel (arc_travel.hpp). Any start, both directions, every quadrant and full circles; every arc ends exactly on
+// its end point.
 //
-//   PointComparisonArc   one axis a pulse: on or outside the circle towards the centre, inside away from it. Error: one
-//                        step at most.
-//   MidpointArc          diagonals allowed (Bresenham's circle): one axis always steps, the other where the midpoint
-//                        between its two places lies on the right side. Error: half a step at most.
+//   PointComparisonArc   one axis per pulse: on or outside the circle towards the centre, inside away from it. Error:
+//                        one step at most.
+//   MidpointArc          diagonals allowed (Bresenham's circle): one axis always steps, the other depends on the
+//                        side of the circle on which the midpoint between its two positions lies. Error: half a step
+//                        at most.
 //   DdaArc               the integrator of each axis adds the other's distance: dx = −y·dt, dy = x·dt. Pulses in which
 //                        nothing moves are part of the method. Error: docs/interpolation/arcs.md.
 //
 // Radii up to 2³¹−1 (uint16_t: 32 767). Sources: J. Bresenham, "A linear algorithm for incremental digital display of
 // circular arcs", CACM 20 (1977); M. Pitteway, "Algorithm for drawing ellipses or hyperbolae with a digital plotter",
-// Computer Journal 10 (1967).
-// Portable.
+// Computer Journal 10 (1967). Portable.
 #pragma once
 
 #include "passo/interpolate/arc_travel.hpp"
@@ -45,10 +46,10 @@ class MidpointArc {
     const Square falling = travel_.falling();
     const Square rising = travel_.rising();
     if (falling > rising) {
-      // Steep: the test is F at (falling − ½, rising + 1), less a quarter.
+      // Steep: tests F at (falling − ½, rising + 1), minus a quarter.
       return travel_.step(travel_.deviation() + 2 * rising + 1 - falling >= 0, true);
     }
-    // Flat: the test is F at (falling − 1, rising + ½), less a quarter.
+    // Flat: tests F at (falling − 1, rising + ½), minus a quarter.
     return travel_.step(true, travel_.deviation() - 2 * falling + 1 + rising < 0);
   }
   constexpr int64_t deviation() const { return travel_.deviation(); }
@@ -78,7 +79,8 @@ class DdaArc {
     rising_sum_ = static_cast<Length>(rising_sum_ + falling_register_);
     bool fall = falling_sum_ < rising_register_;  // the carries
     bool rise = rising_sum_ < falling_register_;
-    // Each axis stops at its own end. The rest of the other axis then follows at once, because its integrand may be 0.
+    // Each axis stops at its own end. The remaining steps of the other axis then follow immediately, because its
+    // integrand may be 0.
     if (travel_.fall_is_over()) fall = false, rise = true;
     if (travel_.rise_is_over()) rise = false, fall = true;
     const Pulse pulse = travel_.step(fall, rise);
@@ -88,7 +90,7 @@ class DdaArc {
     return pulse;
   }
   constexpr int64_t deviation() const { return travel_.deviation(); }
-  // What the accumulator of an axis (0 or 1) holds, in steps. It overflows at 2ᴺ, N = register_bits().
+  // Returns the accumulator of an axis (0 or 1), in steps. It overflows at 2ᴺ, N = register_bits().
   constexpr uint32_t accumulator(uint8_t axis) const {
     if (unit_ == 0) return 0;
     const Length sum = axis == (travel_.quadrant() & 1) ? falling_sum_ : rising_sum_;
@@ -107,9 +109,9 @@ class DdaArc {
 
   ArcTravel<Length> travel_;
   Length unit_ = 0;              // one step, in units of the registers
-  Length falling_register_ = 0;  // distances, at the top of the word
+  Length falling_register_ = 0;  // distances, in the high bits of the word
   Length rising_register_ = 0;
-  Length falling_sum_ = 0;  // the accumulator that makes an axis fall, and the one that makes it rise
+  Length falling_sum_ = 0;  // the accumulators for the falling and for the rising axis
   Length rising_sum_ = 0;
 };
 

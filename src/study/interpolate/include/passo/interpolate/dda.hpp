@@ -1,17 +1,17 @@
-// Dda: a line by digital integration. Each axis has a register of N bits with its length in it, where 2ᴺ exceeds the
-// longest length, and an accumulator of N bits. Each of 2ᴺ iterations adds the register to the accumulator; an overflow
-// is a step.
+// Dda: a line by digital integration. Each axis has an N-bit register that contains its length, where 2ᴺ exceeds the
+// longest length, and an N-bit accumulator. Each of 2ᴺ iterations adds the register to the accumulator; an overflow is
+// a step.
 //
-// In all 2ᴺ·length is added, so each axis makes its length in steps and the accumulators end where they started. They
-// start at 0 (steps come late, the error is just below one step) or half full (the error is centred: half a step).
+// The total added is 2ᴺ·length, so each axis makes exactly its length in steps and the accumulators return to their
+// initial values. They start at 0 (steps are late, the error is just below one step) or half full (the error is
+// centred: half a step).
 //
-// Shifting all registers left until the top bit of the longest is set would save the idle iterations of a short move in
-// a long register. Using the fewest bits that hold the longest length has the same effect, and is the default here.
-// More bits are for comparison.
+// Normalising, i.e. shifting all registers left until the top bit of the longest is set, avoids the idle iterations of
+// a short move in a long register. Using the minimum number of bits for the longest length has the same effect, and is
+// the default here. More bits are for comparison.
 //
-// The N bits stand below the top bit of the word, so the overflow shows in the top bit: one bit to look at and to
-// clear.
-// Any number of axes, lengths up to 2³¹−1. Pulses in which nothing moves are part of the method.
+// The N bits are the high bits below the top bit of the word, so the overflow appears in the top bit: a single bit to
+// test and clear. Any number of axes, lengths up to 2³¹−1. Pulses in which nothing moves are part of the method.
 // Portable. Cost: docs/interpolation/costs.md.
 #pragma once
 
@@ -21,7 +21,7 @@ namespace passo {
 
 enum class DdaLoad : uint8_t { zero, half };
 
-// The fewest bits that hold `length`: the least N with 2ᴺ > length.
+// Returns the minimum number of bits for `length`: the least N with 2ᴺ > length.
 template <class Length>
 constexpr uint8_t fewest_bits(Length length) {
   uint8_t bits = 0;
@@ -36,7 +36,7 @@ class Dda {
 
   constexpr explicit Dda(const int32_t (&distances)[axes], DdaLoad load = DdaLoad::zero)
       : Dda(distances, load, fewest_bits(Line<axes, Length>(distances).longest)) {}
-  // `register_bits`: from the fewest that hold the longest axis to most_bits.
+  // `register_bits`: from the minimum for the longest axis to most_bits.
   constexpr Dda(const int32_t (&distances)[axes], DdaLoad load, uint8_t register_bits)
       : line_(distances), shift_(static_cast<uint8_t>(most_bits - register_bits)) {
     if (line_.longest == 0) return;

@@ -1,16 +1,15 @@
 // ExactRamp: constant acceleration with exact times. Step n happens at t_n = K_b √n. T_n is t_n rounded to a tick, and
 // c_n = T_(n+1) − T_n.
 //
-// T_n is known with its remainder R_n = K_b² n − T_n², so nothing drifts. From one step to the next R grows by K_b² (on
-// the way down it shrinks), and T moves by a guess of the interval. T is the rounded root when −T < R <= T; until then
-// T is corrected by R / 2T (Newton). The guess is c_(n+1) = c_n − 2 c_n / (4n + 5), so good that nearly all corrections
-// are a single tick or none. This takes one 32-bit division a step. 64-bit divisions, at most three, occur in 49 of the
-// first 10 000 steps for K_b = 10^4 and in 166 for K_b = 10^5, most of them at the beginning.
+// T_n is stored with its remainder R_n = K_b² n − T_n², so errors do not accumulate. From one step to the next R grows
+// by K_b² (when decelerating it shrinks), and T moves by an estimate of the interval. T is the rounded root when −T < R
+// <= T; until then T is corrected by R / 2T (Newton). The estimate is c_(n+1) = c_n − 2 c_n / (4n + 5), so good that
+// nearly all corrections are a single tick or none. It takes one 32-bit division per step. 64-bit divisions, at most
+// three, occur in 49 of the first 10 000 steps for K_b = 10^4 and in 166 for K_b = 10^5, most of them at the beginning.
 //
-// Errors: each T_n is within half a tick and each interval within one tick of the real value, without end. K_b² is
-// given as a whole number; rounding a real K_b² shifts t_n by √n / 4K_b ticks more.
-// Ranges: 1 <= K_b < 2^32 ticks, steps up to 2^30. R counts modulo 2^64 until T is nearly right.
-// Portable.
+// Errors: each T_n is within half a tick and each interval within one tick of the real value, without limit. K_b² is
+// given as a whole number; rounding a real K_b² shifts t_n by √n / 4K_b ticks more. Ranges: 1 <= K_b < 2^32 ticks,
+// steps up to 2^30. R is computed modulo 2^64 until T is nearly right. Portable.
 #pragma once
 
 #include <stdint.h>
@@ -23,7 +22,7 @@ class ExactRamp {
  public:
   using Interval = uint32_t;
 
-  // K_b², in ticks².
+  // `first_squared`: K_b², in ticks².
   explicit constexpr ExactRamp(uint64_t first_squared)
       : first_squared_(first_squared),
         interval_(rounded_root(first_squared)),
@@ -31,10 +30,10 @@ class ExactRamp {
         remainder_(first_squared - uint64_t{interval_} * interval_) {}
 
   constexpr uint32_t index() const { return index_; }
-  // c_n of the present index n, in ticks. It may become 0 at high n: from about n = K_b²/4 on.
+  // Returns c_n of the current index n, in ticks. It may become 0 at high n: from about n = K_b²/4 on.
   constexpr uint32_t interval() const { return interval_; }
   constexpr uint32_t fastest() const { return 1; }
-  // T_(n+1), in ticks: the time from rest to the end of the present step.
+  // Returns T_(n+1), in ticks: the time from the start to the end of the current step.
   constexpr uint64_t end() const { return static_cast<uint64_t>(end_); }
 
   // Goes to n + 1.
@@ -46,7 +45,7 @@ class ExactRamp {
     settle();
     interval_ = static_cast<uint32_t>(end_ - start);
   }
-  // Goes to n − 1. Only where n > 0.
+  // Goes to n − 1. Requires n > 0.
   constexpr void fall() {
     remainder_ -= first_squared_;
     move_by(-int64_t{interval_});
@@ -65,7 +64,7 @@ class ExactRamp {
   }
 
  private:
-  // Takes another root of the same square: X = T² + R.
+  // Moves T to another value with the same T² + R.
   constexpr void move_by(int64_t ticks) {
     remainder_ -= static_cast<uint64_t>(ticks) * static_cast<uint64_t>(2 * end_ + ticks);
     end_ += ticks;

@@ -1,20 +1,20 @@
 // Lean: a line with a master and slaves, in a form for an interrupt. It makes the same pulses as master_slave.hpp.
 //
 // m is the number of the master's steps, s that of an axis. Each axis has one decision variable D. D starts at −m, and
-// each pulse adds 2s. Where D ≥ 0 the axis steps and D loses 2m. D is even or odd as m is, so ⌊D/2⌋ decides as well: d
-// starts at −⌈m/2⌉, gains s, loses m. Then d stays in −m … −1 between pulses and in −m … s−1 within one, and fits the
-// signed word of a length:
+// each pulse adds 2s. If D ≥ 0 the axis steps and D is reduced by 2m. D has the same parity as m, so ⌊D/2⌋ decides
+// equally well: d starts at −⌈m/2⌉, is increased by s and reduced by m. Then d stays in −m … −1 between pulses and in
+// −m … s−1 within one, and fits the signed word of a length:
 //
 //      d:  −m ─────────── −1 │ 0 … s−1
 //                  + s ──────▶ steps, − m
 //
-// "d ≥ 0" is one bit to look at. On an 8-bit chip that is cheaper than a comparison of all bytes.
+// "d ≥ 0" tests a single bit. On an 8-bit chip that is cheaper than a comparison of all bytes.
 //
-// A widely copied listing uses one variable for all axes, or a start at +m. It ends a step too far:
+// A widely copied listing uses one variable for all axes, or a start at +m. It ends one step too far:
 // docs/interpolation/master-slave.md shows it.
 //
-// Any number of axes, lengths up to 2³¹−1. Error: at most half a step on each axis.
-// Portable. Cost: docs/interpolation/costs.md.
+// Any number of axes, lengths up to 2³¹−1. Error: at most half a step on each axis. Portable. Cost:
+// docs/interpolation/costs.md.
 #pragma once
 
 #include "passo/interpolate/line.hpp"
@@ -48,7 +48,7 @@ class Lean {
     return {steps, line_.directions};
   }
 
-  // D = −m + 2ks − 2pm of an axis that stands at p after k pulses.
+  // Returns D = −m + 2ks − 2pm of an axis at position p after k pulses.
   constexpr int64_t decision(uint8_t axis) const {
     if (line_.longest == 0) return 0;
     return 2 * int64_t{decision_[axis]} + (line_.longest & 1);

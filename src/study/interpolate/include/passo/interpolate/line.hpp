@@ -1,9 +1,8 @@
 // Line: a straight move in whole steps, the input of the line interpolators.
 //
-// Distances are signed, −(2³¹−1) … 2³¹−1 steps for each axis; an axis with 0 rests. Length is the unsigned type that
-// the interpolator counts with. uint32_t takes every move. uint16_t takes moves of up to 32 767 steps, at half the cost
-// on an 8-bit chip.
-// Portable.
+// Distances are signed, −(2³¹−1) … 2³¹−1 steps for each axis; an axis with 0 does not move. Length is the unsigned type
+// with which the interpolator counts. uint32_t supports every move. uint16_t supports moves of up to 32 767 steps, at
+// half the cost on an 8-bit chip. Portable.
 #pragma once
 
 #include <stdint.h>
@@ -28,7 +27,7 @@ struct LengthTraits<uint32_t> {
   static constexpr uint8_t bits = 32;
 };
 
-// distance|, without the overflow that a negation may have.
+// Returns |distance|, without the overflow that a negation may have.
 template <class Length>
 constexpr Length magnitude(int32_t distance) {
   const uint32_t value = static_cast<uint32_t>(distance);
@@ -56,11 +55,11 @@ struct Line {
   }
 };
 
-// Two axes seen from the first octant. `along` steps the longer axis alone; `both` is the diagonal.
+// Two axes in the first octant. `along` steps the longer axis only; `both` is the diagonal.
 template <class Length>
 struct Octant {
-  Length length;  // of the longer axis
-  Length height;  // of the shorter one
+  Length length;  // steps of the longer axis
+  Length height;  // steps of the shorter axis
   Pulse along;
   Pulse both;
 

@@ -1,12 +1,12 @@
 // MasterSlave: a line by rounding, the reference form. The axis with the most steps, m, is the master and steps at
-// every pulse k = 1 … m. A slave with s steps stands at round(k·s/m), halves away from zero.
+// every pulse k = 1 … m. A slave with s steps is at round(k·s/m), halves away from zero.
 //
-// A slave that stands at p steps again when the ideal line, k·s/m, reaches p + ½, the middle between p and the next
-// step. Both sides are kept times 2m, as whole numbers that only grow: `reached` = 2ks, `middle` = (2p + 1)m.
+// A slave at position p makes its next step when the ideal line, k·s/m, reaches p + ½, the midpoint between p and the
+// next step. Both sides are multiplied by 2m, which gives integers that only increase: `reached` = 2ks, `middle` = (2p
+// + 1)m.
 //
 // Any number of axes, lengths up to 2³¹−1. Error: at most half a step on each axis. lean.hpp is the same without
-// products, for an interrupt.
-// Portable.
+// products, for an interrupt. Portable.
 #pragma once
 
 #include "passo/interpolate/line.hpp"
@@ -34,7 +34,7 @@ class MasterSlave {
     return {steps, line_.directions};
   }
 
-  // 2ks and (2p + 1)m are at most 2·(2³¹−1)² and 2m more, which fits 63 bits.
+  // 2ks and (2p + 1)m are at most 2·(2³¹−1)² plus 2m, which fits 63 bits.
   constexpr int64_t reached(uint8_t axis) const { return reached_[axis]; }
   constexpr int64_t middle(uint8_t axis) const { return middle_[axis]; }
 

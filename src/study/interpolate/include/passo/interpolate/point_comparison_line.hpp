@@ -1,18 +1,17 @@
-// PointComparisonLine: a line of two axes, one axis a pulse, never a diagonal. The deviation
+// PointComparisonLine: a line of two axes, one axis per pulse, never a diagonal. The deviation
 //
 //      F = |xe|·y − |ye|·x
 //
-// tells on which side of the line the tool stands. A pulse has four beats: judge the deviation, feed one axis, compute
-// the new deviation, judge the end. F ≥ 0 feeds X, and F loses |ye|. F < 0 feeds Y, and F gains |xe|. F stays in −|ye|
-// … |xe| − 1.
+// determines on which side of the line the tool is. A pulse has four phases: evaluate the deviation, step one axis,
+// compute the new deviation, test for the end. F ≥ 0 steps X and reduces F by |ye|. F < 0 steps Y and increases F by
+// |xe|. F stays in −|ye| … |xe| − 1.
 //
-// An axis that has arrived yields to the other. With X at its end F = |xe|·(y − |ye|) is negative until Y has arrived.
-// With Y at its end F = |ye|·(|xe| − x) is positive until X has arrived. So the deviation itself makes the axis yield,
-// except where an axis has no length at all.
+// An axis that has reached its end yields to the other. With X at its end F = |xe|·(y − |ye|) is negative until Y has
+// reached its end. With Y at its end F = |ye|·(|xe| − x) is positive until X has reached its end. So the deviation
+// itself makes the axis yield, except if an axis has zero length.
 //
-// Three ways to judge the end make the same pulses: count each axis, the longer axis, or all pulses.
-// Error: at most one step. Lengths up to 2³¹−1.
-// Portable.
+// Three tests for the end give the same pulses: a counter for each axis, for the longer axis, or for all pulses. Error:
+// at most one step. Lengths up to 2³¹−1. Portable.
 #pragma once
 
 #include "passo/interpolate/line.hpp"
@@ -35,7 +34,8 @@ class EndByCoordinates {
   Length y_;
 };
 
-// One counter, of the longer axis. Its zero is not enough: the shorter axis must have arrived too, which F = 0 shows.
+// One counter, for the longer axis. It is not sufficient that it is zero: the shorter axis must have reached its end,
+// too, which F = 0 indicates.
 template <class Length>
 class EndByProjection {
  public:
@@ -54,7 +54,7 @@ class EndByProjection {
   uint8_t longer_;
 };
 
-// One counter of all pulses. It starts at |xe| + |ye|.
+// One counter for all pulses. It starts at |xe| + |ye|.
 template <class Length>
 class EndByTotal {
  public:

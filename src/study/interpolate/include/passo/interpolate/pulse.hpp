@@ -1,12 +1,11 @@
-// Pulse: the output of every interpolator, one beat at a time: which axes step, and in which direction.
+// Pulse: the output of an interpolator for one iteration: which axes step, and in which direction.
 //
 // An interpolator is a value type with
 //   bool done() const;   the end is reached, exactly
-//   Pulse next();        the next beat; only when not done(). A beat in which nothing moves is a pulse too (DDA).
+//   Pulse next();        the next pulse; only when not done(). It may be empty, i.e. without steps (DDA).
 //
-// Bit a belongs to axis a. Interpolators use additions, comparisons and shifts; one that divides does so only before
-// the first pulse.
-// Portable.
+// Bit a belongs to axis a. Interpolators use additions, comparisons and shifts; divisions occur only before the first
+// pulse. Portable.
 #pragma once
 
 #include <stdint.h>

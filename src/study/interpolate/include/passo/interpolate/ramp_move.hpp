@@ -1,25 +1,24 @@
-// RampMove: whole moves of one motor with constant acceleration. A move can be stopped or given a new target on the
-// way.
+// RampMove: whole moves of one motor with constant acceleration. A move can be stopped or given a new target at any
+// time.
 //
 //   rate
-//    cruise   ____________          The ramp's index n rises while the rate is below the wanted rate and there is room
-//            /            \         to brake. The index falls when the steps left are just enough to brake. The
-//            intervals
-//   start  _|              |_       of braking are those of the start, mirrored.
+//    cruise   ____________        The ramp's index n rises while the rate is below the target rate and there is room
+//            /            \       to brake. The index falls when the remaining steps are just enough to brake. The
+//           /              \      intervals of braking are those of the start, mirrored.
+//   start  |                |
 //
-// One comparison decides. At `height` indices above the ramp's first one, the motor needs height + 1 intervals to come
-// to rest, and height < left always holds. Trapezoid, triangle, constant rate, stop and reversal all follow from that
-// one rule, and the count of steps is always right.
+// A single comparison decides. At `height` indices above the ramp's first one, the motor needs height + 1 intervals to
+// stop, and height < left always holds. Trapezoid, triangle, constant rate, stop and reversal all follow from this
+// rule, and the number of steps is always exact.
 //
 // `start` is the shortest interval with which the motor starts, stops and reverses without a ramp (its pull-in rate).
-// The ramp begins and ends at the fastest of its indices that is inside this start/stop region: anything slower is a
-// waste of time. Where the wanted rate is itself inside, the rate is constant. Where the ramp's own first interval is
-// shorter than `start`, the move would not begin inside, and set_rates() refuses.
+// The ramp begins and ends at the fastest of its indices within this start/stop region; slower steps would waste time.
+// If the target rate is itself within the region, the rate is constant. If the ramp's own first interval is shorter
+// than `start`, the move would not begin within the region, and set_rates() refuses.
 //
-// Ramp is TableRamp, ExactRamp or one of their kind, at index 0. Count may be uint16_t, which is cheaper on a chip, for
-// moves below 65536 steps. Positions stay within ±2^30 steps. A step costs one addition and two comparisons beside the
-// ramp's own work.
-// Portable: no division.
+// Ramp is TableRamp, ExactRamp or a similar class, at index 0. Count may be uint16_t, which is cheaper on a chip, for
+// moves below 65536 steps. Positions stay within ±2^30 steps. A step costs one addition and two comparisons in addition
+// to the ramp's own work. Portable: no division.
 #pragma once
 
 #include <stdint.h>
@@ -35,8 +34,8 @@ class RampMove {
   explicit constexpr RampMove(const Ramp& ramp) : ramp_(ramp) {}
 
   // `start` and `cruise` are intervals in ticks, at least 1. `start` 0 means that the motor has no start/stop region; a
-  // move then begins with the ramp's first interval. Returns false if the ramp begins outside the region. Call it at
-  // rest only, and once for a ramp: it walks the ramp up to its first index.
+  // move then begins with the ramp's first interval. Returns false if the ramp begins outside the region. May be called
+  // only at standstill, and once per ramp: it advances the ramp to its first index.
   [[nodiscard]] constexpr bool set_rates(Interval start, Interval cruise) {
     cruise_ = cruise > ramp_.fastest() ? cruise : ramp_.fastest();
     if (start == 0) return true;
@@ -52,7 +51,7 @@ class RampMove {
 
   constexpr bool done() const { return left_ == 0 && leg_end_ == target_; }
 
-  // The next interval, in ticks. The step comes at its end, in direction up() or down. Only when not done().
+  // Returns the next interval, in ticks. The step is at its end, in direction up() or down. Requires !done().
   constexpr Interval next() {
     if (left_ == 0) begin_leg();
     const Interval raw = ramp_.interval();
@@ -69,13 +68,13 @@ class RampMove {
     }
     return interval;
   }
-  // The direction of the step that the last next() announced.
+  // Returns the direction of the step at the end of the last interval.
   constexpr bool up() const { return up_; }
-  // The position after the step that the last next() announced.
+  // Returns the position after that step.
   constexpr Position position() const { return up_ ? leg_end_ - steps(left_) : leg_end_ + steps(left_); }
 
-  // Sets the target, also in mid-move. If the motor can no longer stop before the target, it brakes, stops and comes
-  // back.
+  // Sets the target, also during a move. If the motor can no longer stop before the target, it brakes, stops and
+  // returns.
   constexpr void move_to(Position target) {
     target_ = target;
     if (left_ == 0) return;
@@ -85,7 +84,7 @@ class RampMove {
     left_ = static_cast<Count>(ahead < shortest ? shortest : ahead);
     leg_end_ = up_ ? here + steps(left_) : here - steps(left_);
   }
-  // Stops as soon as the ramp allows. The move is then done() at that place.
+  // Stops as soon as the ramp allows. The move is then done() at that position.
   constexpr void stop() {
     move_to(position());
     target_ = leg_end_;
@@ -102,9 +101,9 @@ class RampMove {
 
   Ramp ramp_;
   Interval cruise_ = 1;
-  Count left_ = 0;        // intervals to the leg's end
+  Count left_ = 0;        // intervals to the end of the leg
   Count height_ = 0;      // indices above the first one of the move; below left_ while any steps are left
-  Position leg_end_ = 0;  // where this leg comes to rest
+  Position leg_end_ = 0;  // position at the end of this leg
   Position target_ = 0;
   bool up_ = true;
 };

@@ -1,5 +1,5 @@
-// The square root of a whole number below (2³² − ½)², rounded to the nearest whole number. Each round finds one bit of
-// the root by shift and subtract, because an 8-bit chip has no 64-bit product. Portable.
+// The square root of a whole number below (2³² − ½)², rounded to the nearest whole number. Each iteration finds one bit
+// of the root by shift and subtract, because an 8-bit chip has no 64-bit product. Portable.
 #pragma once
 
 #include <stdint.h>

@@ -1,10 +1,10 @@
-// SlopeBlocks: a line of two axes as blocks of pulses, one block for each step of the shorter axis. Seen from the first
+// SlopeBlocks: a line of two axes as blocks of pulses, one block for each step of the shorter axis. In the first
 // octant, with q = length div height, a block is q div 2 plain steps, one diagonal and q − 1 − q div 2 plain steps.
-// Each of the first (length mod height) blocks has one plain step more.
+// Each of the first (length mod height) blocks has one additional plain step.
 //
-// Between two diagonals there is only a count-down. The one division comes before the first pulse. The remainder r is
-// not spread over the line but spent at its start, so the tool falls behind by up to r·(height − r)/length steps, and
-// by half a step more within a block. Lengths up to 2³¹−1. Portable.
+// Between two diagonals there is only a countdown. The single division is before the first pulse. The remainder r is
+// not spread over the line but used at its start, so the tool falls behind by up to r·(height − r)/length steps, and by
+// half a step more within a block. Lengths up to 2³¹−1. Portable.
 #pragma once
 
 #include "passo/interpolate/line.hpp"
@@ -29,7 +29,7 @@ class SlopeBlocks {
       --plain_;  // after the last diagonal this value is not used
       return octant_.along;
     }
-    // The rest of this block and the start of the next.
+    // The end of this block and the start of the next.
     plain_ = static_cast<Length>(pulses_ - 1);
     if (longer_ != 0) {
       ++plain_;
@@ -39,17 +39,17 @@ class SlopeBlocks {
     return octant_.both;
   }
 
-  // Plain steps before the next diagonal, and the number of blocks whose diagonal is still to come.
+  // The number of plain steps before the next diagonal, and the number of blocks whose diagonal is still to come.
   constexpr uint32_t plain() const { return blocks_ == 0 ? left_ : plain_; }
   constexpr uint32_t blocks() const { return blocks_; }
 
  private:
   Octant<Length> octant_;
   Length left_;
-  Length blocks_;      // diagonals to come
+  Length blocks_;      // number of remaining diagonals
   Length pulses_ = 0;  // q
-  Length longer_ = 0;  // blocks to come that have one plain step more
-  Length plain_ = 0;   // plain steps before the next diagonal
+  Length longer_ = 0;  // number of remaining blocks with an additional plain step
+  Length plain_ = 0;   // number of plain steps before the next diagonal
 };
 
 }  // namespace passo

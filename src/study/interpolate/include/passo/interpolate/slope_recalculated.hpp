@@ -1,13 +1,12 @@
-// SlopeRecalculated: a line of two axes; the method comes from hot-wire cutters. Seen from the first octant, each pulse
-// compares the slope of what is still to go with the slope of the whole line. If it is below, a step along the longer
-// axis follows; at or above, both axes step. The first pulse is a plain step. At slope 1 all pulses are diagonal.
+// SlopeRecalculated: a line of two axes; the method comes from hot-wire cutters. In the first octant, each pulse
+// compares the slope of the remaining line with the slope of the whole line. If it is smaller, the longer axis steps;
+// otherwise both axes step. The first pulse is a plain step. At slope 1 all pulses are diagonal.
 //
-// Cross products avoid the quotient: slope to go ≥ slope  ⟺  E = height_left·length − height·length_left ≥ 0.
-// A plain step adds `height` to E, a diagonal one `height − length`: E stays in height − length … height − 1.
+// Cross products avoid the quotient: remaining slope ≥ slope  ⟺  E = height_left·length − height·length_left ≥ 0. A
+// plain step adds `height` to E, a diagonal one `height − length`: E stays in height − length … height − 1.
 //
-// Error: along the shorter axis the tool is −E/length beside the line: up to 1 − slope ahead and up to slope behind. It
-// is ahead by ½ − slope on average, so the error is biased unless the slope is ½. Lengths up to 2³¹−1.
-// Portable.
+// Error: along the shorter axis the tool is −E/length off the line: up to 1 − slope ahead and up to slope behind. It is
+// ahead by ½ − slope on average, so the error is biased unless the slope is ½. Lengths up to 2³¹−1. Portable.
 #pragma once
 
 #include "passo/interpolate/line.hpp"

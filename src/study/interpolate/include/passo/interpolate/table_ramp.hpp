@@ -1,15 +1,14 @@
-// TableRamp: constant acceleration from a table, with one 16 × 16 multiplication a step: c_n = (K_b · k_n) >> 16.
+// TableRamp: constant acceleration from a table, with one 16 × 16 multiplication per step: c_n = (K_b · k_n) >> 16.
 //
-// A walk over the index n, one up or down at a time, so a motor brakes with the intervals that it started with. An
-// error stays in its own interval. An interval is short by less than K_b/65536 + 1 ticks, so by less than two; where a
-// real K_b was cut off to a whole number, by up to k_n ticks more. No interval is too long, so a run ends early by the
-// sum of these errors.
+// The index n goes up or down by one at a time, so a motor brakes with the same intervals as in acceleration. An error
+// affects only its own interval. An interval is short by less than K_b/65536 + 1 ticks, i.e. by less than two; if a
+// real K_b was truncated to a whole number, by up to k_n ticks more. No interval is too long, so a run ends early by
+// the sum of these errors.
 //
-// Ranges: 1 <= K_b < 65536 ticks. A longer first interval is refused, never wrapped; a slower timer clock or another
-// method then helps. At the end of the table the motor goes on at the speed it has.
-// Table is a type with `uint16_t size() const` and `uint16_t scaled(uint16_t first, uint16_t n) const`, the product
-// (ramp_table.hpp). A chip's own table reads flash and multiplies in the chip's best way.
-// Portable: no division.
+// Ranges: 1 <= K_b < 65536 ticks. A longer first interval is refused and never wraps around; use a slower timer clock
+// or another method. At the end of the table the motor keeps its speed. Table is a type with `uint16_t size() const`
+// and `uint16_t scaled(uint16_t first, uint16_t n) const`, the product (ramp_table.hpp). A chip's own table reads flash
+// memory and multiplies in the chip's most efficient way. Portable: no division.
 #pragma once
 
 #include <stdint.h>
@@ -33,17 +32,17 @@ class TableRamp {
   }
 
   constexpr uint16_t index() const { return index_; }
-  // c_n of the present index n, in ticks.
+  // Returns c_n of the current index n, in ticks.
   constexpr uint16_t interval() const { return interval_of(index_); }
-  // The shortest interval there is: the one at the table's end.
+  // Returns the shortest interval: the one at the end of the table.
   constexpr uint16_t fastest() const { return interval_of(static_cast<uint16_t>(table_.size() - 1)); }
 
-  // Goes to n + 1. At the table's end n stays.
+  // Goes to n + 1. At the end of the table n stays.
   constexpr void rise() {
     const uint16_t next = static_cast<uint16_t>(index_ + 1);
     if (next < table_.size()) index_ = next;
   }
-  // Goes to n − 1. Only where n > 0.
+  // Goes to n − 1. Requires n > 0.
   constexpr void fall() { --index_; }
 
  private:

@@ -1,9 +1,10 @@
-// Answers of the lab: what the page's lab draws, computed by the program's own interpolators, ramps and motors.
+// The answers of the lab: the data that the web interface's lab draws, computed by the program's own interpolators,
+// ramps and motors.
 //
-// Each answer is one JSON text. Columns are lists of equal length, one entry for each pulse, step or moment; the names
-// say the units. Where a question has no answer, the text is {"error": "…"} with the reason in words.
+// Each answer is one JSON text. Columns are lists of equal length, with one entry for each pulse, step or moment; the
+// names include the units. If a question has no answer, the text is {"error": "…"} with the reason.
 //
-// Every answer is bounded: most_entries is the longest column. Nothing is kept between two questions.
+// Every answer is bounded: most_entries is the maximum length of a column. No state is kept between questions.
 #pragma once
 
 #include <cstdint>
@@ -19,22 +20,24 @@ namespace passo {
 
 inline constexpr std::int64_t most_entries = 20'000;
 
-// One move by one method, pulse by pulse: place, deviation from the ideal path in steps, the share of the time under
-// each SpeedRule, and what the method judges, decides and counts (study/beats.hpp). `ideal` is the path as a polyline.
+// Returns one move by one method, pulse by pulse: position, deviation from the ideal path in steps, the fraction of the
+// time under each SpeedRule, and the method's decisions and counters (study/beats.hpp). `ideal` is the path as a
+// polyline.
 std::string interpolation_answer(const Method& method, const StepMove& move);
-// The figures of every method that takes the move.
+// Returns the figures of every method that supports the move.
 std::string comparison_answer(const StepMove& move);
 
-// The windings and the rotor at the places `first` … `last`.
+// Returns the windings and the rotor at the positions `first` … `last`.
 std::string windings_answer(const Excitation& excitation, std::int32_t full_steps_per_turn, std::int64_t first,
                             std::int64_t last);
 
-// One ramp or move: intervals in ticks, each with its difference from the exact interval, and the ideal rate.
+// Returns one ramp or move: intervals in ticks, each with its difference from the exact interval, and the ideal rate.
 std::string ramp_answer(const RampRequest& request);
 
-// Pull-out, pull-in and the acceleration that is left, at `rows` rates from 0 to `end`. `margin`: the share of the
-// torque to use, above 0 to 1. `end` 0: where the motor is spent. `acceleration` asks how much torque it needs beside
-// the friction, and up to which rate the motor has that.
+// A question about pull-out and pull-in torque and the available acceleration, at `rows` rates from 0 to `end`.
+// `margin`: the fraction of the torque to use, above 0 up to 1. `end` 0: where no torque is left. `acceleration`: the
+// required acceleration; the answer includes the torque it needs in addition to friction, and the rate up to which the
+// motor has that torque.
 struct TorqueQuestion {
   MotorData motor;
   MotorDrive drive;
@@ -46,12 +49,13 @@ struct TorqueQuestion {
 };
 std::string torque_answer(const TorqueQuestion& question);
 
-// The response to a jump, and its figures.
+// Returns the step response, and its figures.
 std::string loop_answer(const LoopSetup& setup, Seconds whole);
-// The gain at which the loop with P alone swings for ever, and the gains of Ziegler and Nichols.
+// Returns the gain at which the loop with P only oscillates with constant amplitude, and the gains of Ziegler and
+// Nichols.
 std::string ultimate_answer(const LoopSetup& setup);
 
-// The answer to a question that was wrong before it reached one of the above.
+// Returns the answer to a question that could not be passed to any of the above functions.
 std::string error_answer(const std::string& words);
 
 }  // namespace passo

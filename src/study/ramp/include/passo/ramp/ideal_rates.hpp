@@ -1,5 +1,5 @@
-// The intended rate of constant acceleration over time: a straight line up, a level one, a straight line down. What a
-// method plays is compared with it.
+// The ideal rate of constant acceleration over time, as a polyline: acceleration, cruise, deceleration. The output of a
+// method is compared with it.
 #pragma once
 
 #include <vector>
@@ -10,10 +10,11 @@ namespace passo {
 
 struct IdealRate {
   double time = 0;  // s
-  double rate = 0;  // steps a second
+  double rate = 0;  // steps/s
 };
 
-// The corners of the line. `duration`: of the whole ramp or move, in seconds. The request has no bound on the jerk.
+// Returns the corners of the polyline. `duration`: of the whole ramp or move, in seconds. The request must not have a
+// jerk limit.
 std::vector<IdealRate> ideal_rates(const RampRequest& request, double duration);
 
 }  // namespace passo

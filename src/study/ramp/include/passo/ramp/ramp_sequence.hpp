@@ -1,7 +1,7 @@
-// RampSequence: the intervals of a ramp or of a whole move, one at a time, by any method. `passo ramp` shows them.
+// RampSequence: the intervals of a ramp or of a whole move, one at a time, by any method. Used by `passo ramp`.
 //
-// It chooses the walk that fits: interpolate/ramp_move.hpp over a ramp, or an SCurveMove. If a method does not apply,
-// the error gives the reason. Constant memory, except for a table.
+// It selects the suitable implementation: interpolate/ramp_move.hpp over a ramp, or an SCurveMove. If a method is not
+// applicable, the error gives the reason. Constant memory, except for a table.
 #pragma once
 
 #include <cstdint>
@@ -21,14 +21,14 @@ struct RampRequest {
   RampSetup setup;
   RampMethod method = RampMethod::exact;
   std::int64_t steps = 0;       // 1…most_steps
-  bool whole_move = false;      // true: to rest again; false: upwards only
+  bool whole_move = false;      // true: including deceleration to a stop; false: acceleration only
   bool whole_ticks = false;     // as a chip plays them; a table always has whole ticks
-  Hertz rate{0};                // the greatest rate; 0: no limit
-  Hertz start{0};               // of the start/stop region; 0: none
-  RadiansPerSecond3 jerk;       // the greatest jerk of a whole move; 0: no limit
-  std::int32_t table_size = 0;  // 0: as many entries as the steps need
-  std::int64_t stop_after = 0;  // stop a whole move after so many steps; 0: do not
-  // After so many steps a whole move is told to go back to where it began: it brakes, turns, and returns. 0: it is not.
+  Hertz rate{0};                // maximum rate; 0: no limit
+  Hertz start{0};               // pull-in rate of the start/stop region; 0: none
+  RadiansPerSecond3 jerk;       // jerk limit of a whole move; 0: no limit
+  std::int32_t table_size = 0;  // 0: as many entries as the steps require
+  std::int64_t stop_after = 0;  // stops a whole move after this many steps; 0: does not
+  // After this many steps a whole move is redirected to its start position: it brakes, reverses, and returns. 0: never.
   std::int64_t reverse_after = 0;
 };
 
@@ -47,9 +47,9 @@ class RampSequence {
   ~RampSequence();
 
   bool done() const;
-  // The next interval, in ticks. Only when not done().
+  // Returns the next interval, in ticks. Requires !done().
   double next();
-  // The motor's position after the step returned by the last next(). The move began at 0.
+  // Returns the motor's position after the step at the end of the last interval. The move began at 0.
   std::int64_t place() const;
   bool whole_ticks() const { return whole_ticks_; }
 
@@ -59,9 +59,9 @@ class RampSequence {
   RampSequence(std::unique_ptr<Walk> walk, const RampRequest& request);
 
   std::unique_ptr<Walk> walk_;
-  std::int64_t left_ = 0;        // of a ramp up
-  std::int64_t to_stop_ = 0;     // steps until the order to stop; 0: none will come
-  std::int64_t to_reverse_ = 0;  // steps until the order to go back
+  std::int64_t left_ = 0;        // remaining steps, for acceleration only
+  std::int64_t to_stop_ = 0;     // steps until the stop command; 0: none follows
+  std::int64_t to_reverse_ = 0;  // steps until the return command
   bool whole_move_ = false;
   bool whole_ticks_ = false;
 };

@@ -1,7 +1,8 @@
-// RampSetup: what decides a ramp: the motor, its clock and the acceleration. And what a table of N entries can do.
+// RampSetup: the parameters of a ramp: the motor, its clock and the acceleration; and the capabilities of a table of N
+// entries.
 //
-// K_b = f_ck √(2α/a) is the first interval from rest, in ticks, with the step angle α = 2π / steps a turn. Real numbers
-// of ticks are doubles; counted ticks are integers.
+// K_b = f_ck √(2α/a) is the first interval from standstill, in ticks, with the step angle α = 2π / steps per
+// revolution. Real numbers of ticks are doubles; counted ticks are integers.
 #pragma once
 
 #include <cmath>
@@ -22,22 +23,23 @@ constexpr Radians step_angle(std::int32_t steps_per_turn) {
   return {2 * std::numbers::pi / steps_per_turn};
 }
 
-// K_b², in ticks².
+// Returns K_b², in ticks².
 constexpr double first_interval_squared(const RampSetup& setup) {
   const double f = setup.clock.value();
   return f * f * 2 * step_angle(setup.steps_per_turn).value / setup.acceleration.value;
 }
-// K_b, in ticks.
+// Returns K_b, in ticks.
 inline double first_interval(const RampSetup& setup) {
   return std::sqrt(first_interval_squared(setup));
 }
 
-// The least acceleration with which a table of N entries reaches `rate`: a_lim = π f² / (N · steps a turn).
+// Returns the minimum acceleration with which a table of N entries reaches `rate`: a_lim = π f² / (N · steps per
+// revolution).
 constexpr RadiansPerSecond2 least_acceleration(Hertz rate, std::int64_t table_size, std::int32_t steps_per_turn) {
   const double f = rate.value();
   return {std::numbers::pi * f * f / (static_cast<double>(table_size) * steps_per_turn)};
 }
-// The rate after N steps from rest: f = √(2aN/α). The motor keeps it at the end of a table of N entries.
+// Returns the rate after N steps from standstill: f = √(2aN/α). The motor keeps it at the end of a table of N entries.
 inline Hertz reached_rate(RadiansPerSecond2 acceleration, std::int64_t table_size, std::int32_t steps_per_turn) {
   const double square = 2 * acceleration.value * static_cast<double>(table_size) / step_angle(steps_per_turn).value;
   return Hertz(std::sqrt(square));

@@ -1,13 +1,13 @@
 // The exact, the recursive and the midpoint ramp in real numbers. The integers on the chip are compared with them, and
 // `passo ramp` prints them.
 //
-// They are walks over the index n, as interpolate/table_ramp.hpp and exact_ramp.hpp are, and can be used in a RampMove.
-// Ticks are real numbers. The largest relative differences of an interval from the exact one:
+// They walk over the index n, like interpolate/table_ramp.hpp and exact_ramp.hpp, and can be used in a RampMove. Ticks
+// are real numbers. The maximum relative differences of an interval from the exact one are:
 //
 //   exact       c_n = K_b / (√(n+1) + √n)         none; 1e-15 of rounding, without a difference of large numbers
 //   recursive   c_n = c_(n−1) / (1 + 2 (c_(n−1)/K_b)²)   too short: by 19.5 % at n = 1, always by less than
-//   (ln n + 2.4) / 8n
-//   midpoint    c_n² + (c_(n−1) + K_b²/c_(n−1))·c_n − K_b² = 0   none: another way to the exact sequence
+//               (ln n + 2.4) / 8n
+//   midpoint    c_n² + (c_(n−1) + K_b²/c_(n−1))·c_n − K_b² = 0   none: another formula for the exact sequence
 //
 // tests/real_ramp_test.cpp measures these differences, and those of the table.
 #pragma once
@@ -26,7 +26,7 @@ class RealExactRamp {
 
   double interval() const { return first_ / (std::sqrt(number() + 1) + std::sqrt(number())); }
   double fastest() const { return 0; }
-  // K_b √(n+1), in ticks: the time from rest to the end of the present step.
+  // Returns K_b √(n+1), in ticks: the time from standstill to the end of the current step.
   double end() const { return first_ * std::sqrt(number() + 1); }
   void rise() { ++index_; }
   void fall() { --index_; }
@@ -51,8 +51,8 @@ class RealRecursiveRamp {
     interval_ /= 1 + 2 * share * share;
     ++index_;
   }
-  // The interval before the present one: the smaller root of the recursion. A rounding error at index n becomes n times
-  // as large at the bottom.
+  // Computes the previous interval: the smaller root of the recursion. A rounding error at index n grows to n times its
+  // size at index 0.
   void fall() {
     const double share = interval_ / first_;
     --index_;
@@ -65,9 +65,9 @@ class RealRecursiveRamp {
   std::int64_t index_ = 0;
 };
 
-// The recursion with the time between the *middles* of two intervals, (c_(n−1) + c_n)/2, because a mean speed is
-// reached in the middle: ω_n = ω_(n−1) + a·(c_(n−1) + c_n)/2f. That is a quadratic equation in c_n. From c_0 = K_b its
-// positive roots are the exact intervals: 1/c_n − 1/c_(n−1) = (√(n+1) − √(n−1))/K_b = (c_(n−1) + c_n)/K_b².
+// The recursion with the time between the *midpoints* of two intervals, (c_(n−1) + c_n)/2, because a mean speed is
+// reached at the midpoint: ω_n = ω_(n−1) + a·(c_(n−1) + c_n)/2f. This is a quadratic equation in c_n. From c_0 = K_b
+// its positive roots are the exact intervals: 1/c_n − 1/c_(n−1) = (√(n+1) − √(n−1))/K_b = (c_(n−1) + c_n)/K_b².
 class RealMidpointRamp {
  public:
   using Interval = double;
@@ -83,7 +83,7 @@ class RealMidpointRamp {
     ++index_;
   }
   // The same equation for c_(n−1): c_(n−1)² − (K_b²/c_n − c_n)·c_(n−1) + K_b² = 0, the smaller root. Rounding errors
-  // grow on the way down: from index n, the first intervals are off by up to n²·10⁻¹⁶ of themselves.
+  // grow when decelerating: starting from index n, the relative error of the first intervals reaches n²·10⁻¹⁶.
   void fall() {
     --index_;
     const double half = (first_ / interval_ * first_ - interval_) / 2;

@@ -1,4 +1,4 @@
-// IdealPath: the curve that the pulses stand for, and the tool's place relative to it.
+// IdealPath: the ideal curve of a move, and the tool's position relative to it.
 #pragma once
 
 #include <array>
@@ -12,12 +12,13 @@ class IdealPath {
   explicit IdealPath(const StepMove& move);
 
   double length() const { return length_; }  // steps
-  // The point after `share` (0 … 1) of the path. Axes that the move lacks are 0.
+  // Returns the point after a fraction `share` (0 … 1) of the path. Axes that the move lacks are 0.
   std::array<double, most_axes> at(double share) const;
-  // The share of the path before the tool's foot on it: 0 at the start, 1 at the end. `place` is the tool's present
-  // place. Call this for each place in turn, because a full circle has more than one answer.
+  // Returns the fraction of the path before the point nearest to the tool: 0 at the start, 1 at the end. `place` is the
+  // current position of the tool. Must be called for each position in order, because on a full circle the result is
+  // ambiguous.
   double progress(const Place& place);
-  // The distance of `place` from the path, in steps.
+  // Returns the distance of `place` from the path, in steps.
   double distance(const Place& place) const;
 
  private:
@@ -27,8 +28,8 @@ class IdealPath {
   StepMove move_;
   double length_ = 0;
   double radius_ = 0;
-  double sweep_ = 0;      // radians, in the sense of travel
-  double travelled_ = 0;  // of the sweep
+  double sweep_ = 0;      // radians, in the direction of travel
+  double travelled_ = 0;  // completed part of the sweep
   Place before_;
 };
 

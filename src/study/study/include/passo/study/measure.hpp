@@ -1,15 +1,15 @@
 // Measures: quality figures of a method for a move.
 //
-// Deviation is the distance of the tool from the ideal path after a pulse that moved it. Evenness of speed is measured
-// under three rules for the duration of a pulse. All of them spend the same time on the whole move:
+// Deviation is the distance of the tool from the ideal path after a pulse that moved it. Uniformity of speed is
+// measured under three rules for the duration of a pulse, all with the same total time:
 //
-//   beats   every pulse lasts the same
-//   roots   a pulse of n axes lasts √n times a plain one; a pulse that moves nothing takes no time
-//   exact   as long as the foot of the tool on the ideal path needs at constant speed
+//   beats   every pulse has the same duration
+//   roots   a pulse of n axes lasts √n times a plain one; a pulse without motion takes no time
+//   exact   the time in which the projection of the tool onto the ideal path passes at constant speed
 //
-// Two figures tell the unevenness. The lag is the greatest distance of the foot from a point that moves along the ideal
-// path at constant speed, ahead or behind. The ratio is the speed of the fastest step over that of the slowest; a
-// step's speed is the tool's way over the time since it last moved.
+// Two figures describe the nonuniformity. The lag is the maximum distance of the projection from a point that moves
+// along the ideal path at constant speed, ahead or behind. The ratio is the speed of the fastest step divided by that
+// of the slowest; a step's speed is the tool's distance divided by the time since it last moved.
 #pragma once
 
 #include <array>
@@ -27,14 +27,14 @@ inline constexpr std::size_t speed_rules = 3;
 
 struct Evenness {
   double lag = 0;    // steps along the path
-  double ratio = 1;  // speed of the fastest over the slowest step; 1 is even
+  double ratio = 1;  // speed of the fastest over the slowest step; 1 is uniform
 };
 
 struct Measures {
   std::int64_t pulses = 0;
-  std::int64_t together = 0;     // pulses in which two axes or more step
-  std::int64_t idle = 0;         // pulses in which no axis steps
-  double largest_deviation = 0;  // steps
+  std::int64_t together = 0;     // number of pulses in which two or more axes step
+  std::int64_t idle = 0;         // number of pulses in which no axis steps
+  double largest_deviation = 0;  // maximum deviation, steps
   double mean_deviation = 0;
   std::array<Evenness, speed_rules> evenness;  // indexed by SpeedRule
 };
@@ -43,24 +43,24 @@ struct Measures {
 struct Followed {
   Pulse pulse;
   const Place& place;
-  double progress = 0;   // of the foot on the ideal path, 0 … 1
+  double progress = 0;   // fraction of the ideal path at the projection, 0 … 1
   double deviation = 0;  // steps
 };
 
-// Runs the method over the move and calls `visit` after each pulse. Fails with the reason if the method does not take
-// the move.
+// Runs the method over the move and calls `visit` after each pulse. Fails with the reason if the method does not
+// support the move.
 Status<std::string> follow(const Method& method, const StepMove& move,
                            const std::function<void(const Followed&)>& visit);
 
-// Runs the method twice over the move; the first time only counts its pulses. `watch` is called now and then with the
-// share of the work done.
+// Runs the method twice over the move; the first time only counts its pulses. `watch` is called from time to time with
+// the completed fraction.
 Result<Measures, std::string> measure(const Method& method, const StepMove& move,
                                       const std::function<void(double)>& watch = nullptr);
 
-// The time after each pulse under one rule, 0 … 1 over the move.
+// The time after each pulse under one rule, from 0 to 1 over the whole move.
 class SpeedClock {
  public:
-  // `pulses` and `way` belong to the whole move; `way` is the sum of way_of() over its pulses.
+  // `pulses` and `way` are those of the whole move; `way` is the sum of way_of() over its pulses.
   SpeedClock(SpeedRule rule, std::int64_t pulses, double way);
   double after(const Followed& followed);
 
@@ -70,7 +70,7 @@ class SpeedClock {
   double done_ = 0;
 };
 
-// √n for a pulse of n axes: the distance that it moves the tool, in steps.
+// Returns √n for a pulse of n axes: the distance that it moves the tool, in steps.
 double way_of(Pulse pulse);
 // Moves `place` by one pulse.
 void apply(Pulse pulse, Place& place);

@@ -1,6 +1,6 @@
-// StepMove: one move in whole steps, as a person states it: start, end, and for an arc its centre.
+// StepMove: one move in whole steps, as entered by the user: start, end, and for an arc its centre.
 //
-// A move that passes check() suits every interpolator of passo/interpolate.
+// A move that passes check() is valid for every interpolator of passo/interpolate.
 #pragma once
 
 #include <cstdint>
@@ -13,7 +13,7 @@
 
 namespace passo {
 
-using Place = std::vector<std::int64_t>;  // absolute steps, one for each axis
+using Place = std::vector<std::int64_t>;  // absolute steps, one entry per axis
 
 struct StepMove {
   struct Arc {
@@ -27,17 +27,17 @@ struct StepMove {
   std::size_t axes() const { return to.size(); }
 };
 
-// Fails with the reason: axes that do not match, too long, no circle. The words fit after "the move ".
+// Fails with the reason: inconsistent axes, too long, no circle. The text can follow "the move ".
 Status<std::string> check(const StepMove& move);
 
-// Both are only for checked moves. Axes that the move lacks rest.
+// Both require a checked move. Axes that the move lacks do not move.
 struct LineDistances {
   std::int32_t all[most_axes] = {};
 };
 LineDistances distances(const StepMove& move);
 ArcPoints arc_points(const StepMove& move);
 
-// "x", "y", "z", "a", "b", "c", "u", "v".
+// Returns "x", "y", "z", "a", "b", "c", "u" or "v".
 std::string axis_name(std::size_t axis);
 
 }  // namespace passo
