@@ -79,7 +79,7 @@ export const frame: Same<typeof en> = {
   'state.Tool.next': 'Le programme est en pause. Appuyer sur Fait pour continuer.',
   'state.Line': 'En attente d’une ligne',
   'state.Line.next': 'La ligne suivante vient d’un logiciel d’envoi de G-code.',
-  'state.Line.console': 'La broche ou l’arrosage, mis en marche depuis la console, tourne encore. Envoyer M5 M9 ou appuyer sur Arrêter.',
+  'state.Line.console': 'La broche ou l’arrosage a été mis en marche depuis la console et l’est encore. Envoyer M5 M9 ou appuyer sur Arrêter.',
   'state.Check': 'Vérification',
   'state.Check.next': 'Rien ne bouge.',
   'state.Door': 'Porte ouverte',

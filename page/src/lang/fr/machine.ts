@@ -12,7 +12,7 @@ export const machine: Same<typeof en> = {
   'machine.speed': 'Vitesse maximale',
   'machine.acceleration': 'Accélération',
   'machine.steps': 'Pas',
-  'machine.step': 'Un pas',
+  'machine.step': 'Taille du pas',
   'machine.homes': 'Prise d’origine',
   'machine.homes.yes': 'sur fin de course',
   'machine.homes.no': 'sans fin de course',

@@ -155,7 +155,7 @@ export const operations: Same<typeof en> = {
   'cam.option.rough-feed': 'Ébauche : avance par minute',
   'cam.option.rough-removal': 'Ébauche : débit copeaux visé, mm³/min',
   'cam.option.rest-step': 'Reprise : pas latéral',
-  'cam.option.rest-least': 'Reprise : ignorer en dessous de',
+  'cam.option.rest-least': 'Reprise : ignorer les restes sous',
   'cam.option.rest-feed': 'Reprise : avance par minute',
   'cam.option.rest-removal': 'Reprise : débit copeaux visé, mm³/min',
   'cam.option.axes': 'Axes',

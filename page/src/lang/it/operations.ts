@@ -155,7 +155,7 @@ export const operations: Same<typeof en> = {
   'cam.option.rough-feed': 'Sgrossatura: avanzamento al minuto',
   'cam.option.rough-removal': 'Sgrossatura: asportazione desiderata, mm³/min',
   'cam.option.rest-step': 'Ripresa: passo laterale',
-  'cam.option.rest-least': 'Ripresa: ignora residui sotto',
+  'cam.option.rest-least': 'Ripresa: ignora residui inferiori a',
   'cam.option.rest-feed': 'Ripresa: avanzamento al minuto',
   'cam.option.rest-removal': 'Ripresa: asportazione desiderata, mm³/min',
   'cam.option.axes': 'Assi',

@@ -39,7 +39,7 @@ export const machine: Same<typeof en> = {
   'file.jerk': '加加速度',
   'file.inverted': '方向反转',
   'file.motor': '控制板电机',
-  'file.home': '回零开关在',
+  'file.home': '回零开关位于',
   'file.home.at': '开关位置',
   'file.home.seek': '回零搜索速度',
   'file.home.latch': '回零定位速度',
