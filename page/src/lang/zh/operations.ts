@@ -102,7 +102,7 @@ export const operations: Same<typeof en> = {
   'cam.option.edge': '板框',
   'cam.option.edge.none': '未指定',
   'cam.option.voronoi': '沿铜箔间中线（Voronoi）',
-  'cam.option.overlap': '刀路重叠，%',
+  'cam.option.overlap': '各圈重叠量，%',
   'cam.option.turn.y': '上下',
   'cam.option.turn.x': '左右',
   'cam.option.pins': '定位销到板边的距离；0 为不用',
