@@ -63,8 +63,8 @@ export const run: Same<typeof en> = {
   'broken.drop.facts': 'Non potrà più essere ripreso.',
   'broken.stands': 'Posizione della macchina',
   'broken.next.resume': '{name} è stato interrotto. Premi “Riprendi qui” nella pagina Lavoro, o abbandona il lavoro.',
-  'broken.next.home': '{name} è stato interrotto. Esegui l’homing; poi il lavoro può continuare.',
-  'broken.next.place': '{name} è stato interrotto. Porta la macchina in una posizione nota e confermala nella pagina Preparazione; poi il lavoro può continuare.',
+  'broken.next.home': '{name} è stato interrotto. Esegui l’homing; poi il lavoro potrà continuare.',
+  'broken.next.place': '{name} è stato interrotto. Porta la macchina in una posizione nota e confermala nella pagina Preparazione; poi il lavoro potrà continuare.',
   'broken.next.reenter': '{name} è stato interrotto. Premi “Rientra sul percorso” nella pagina Lavoro, o abbandona il lavoro.',
   'broken.next.drop': '{name} è stato interrotto e non può continuare. Abbandona il lavoro.',
   // A start at a line
