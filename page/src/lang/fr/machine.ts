@@ -6,8 +6,8 @@ export const machine: Same<typeof en> = {
   // The machine
   'machine.title': 'Machine',
   'machine.axis': 'Axe',
-  'machine.from': 'De',
-  'machine.to': 'À',
+  'machine.from': 'Limite basse',
+  'machine.to': 'Limite haute',
   'machine.travel': 'Course',
   'machine.speed': 'Vitesse maximale',
   'machine.acceleration': 'Accélération',

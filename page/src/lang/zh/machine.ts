@@ -6,8 +6,8 @@ export const machine: Same<typeof en> = {
   // The machine
   'machine.title': '机床',
   'machine.axis': '轴',
-  'machine.from': '从',
-  'machine.to': '到',
+  'machine.from': '下限',
+  'machine.to': '上限',
   'machine.travel': '行程',
   'machine.speed': '最高速度',
   'machine.acceleration': '加速度',
