@@ -5,7 +5,7 @@
 
 namespace passo {
 
-// The first three motors, the keypad and the indicators have the follower's wiring.
+// The first three motors, the keypad and the indicators are wired as on the follower.
 inline constexpr PinMap<4> mega_windings = {
     .motor = {{.windings = {{'A', 0}, {'A', 1}, {'A', 2}, {'A', 3}}},   // D22 to D25
               {.windings = {{'A', 4}, {'A', 5}, {'A', 6}, {'A', 7}}},   // D26 to D29
