@@ -80,8 +80,8 @@ class Link {
   virtual bool rests() const = 0;
   // True: some sent items have not been reported as executed.
   virtual bool busy() const = 0;
-  // True: the board has switched its outputs off after a silence of the host. It accepts no queue update until outputs
-  // have been sent in a separate message.
+  // True: the board has switched its outputs off after a silence of the host. It accepts no queue update until the host
+  // has sent outputs in a separate message.
   virtual bool outputs_timed_out() const { return false; }
 
   // Queries that must be answered before the host continues. Only one may be open at a time. settled() shows when the
@@ -112,8 +112,8 @@ class Link {
   virtual bool answered() const = 0;
   // The response time of the last such answer.
   virtual Seconds answer_time() const = 0;
-  // The time on the board's side, from an arbitrary zero. The recent time per frame of a long burst, including the
-  // transmission; 0: unknown.
+  // now(): the time on the board's side, from an arbitrary zero. time_a_frame(): the recent time per frame of a long
+  // burst, including the transmission; 0: unknown.
   virtual Seconds time_a_frame() const = 0;
   virtual Seconds now() const = 0;
   virtual std::optional<LinkError> error() const = 0;

@@ -46,7 +46,7 @@ struct StepTiming {
   uint8_t pulse = 0;         // how long a step pulse lasts
   uint8_t set_up = 0;        // from a change of the direction to the edge that starts a step
   uint8_t hold = 0;          // from the edge that starts a step to a change of the direction
-  uint16_t event_ticks = 0;  // the shortest interval of events in clock ticks; 0: no limit
+  uint16_t event_ticks = 0;  // the shortest interval between events in clock ticks; 0: no limit
 
   friend constexpr bool operator==(const StepTiming& a, const StepTiming& b) {
     return a.pulse == b.pulse && a.set_up == b.set_up && a.hold == b.hold && a.event_ticks == b.event_ticks;
@@ -112,7 +112,7 @@ enum class WireError : uint8_t {
   queue_full = 3,       // the host ignored its credits
   bad_value = 4,        // a segment without events, faster than the board, or for a motor that does not exist
   unexpected = 5,       // a message that only the board sends, or a hello during motion
-  too_late = 6,         // the queue update came too late: a later item has already started, so it is dropped
+  too_late = 6,         // the queue update came too late: a later item has already started, so the update is dropped
   manual = 7,       // the machine is, or was since the hello, moved with the keypad: a new hello is needed afterwards
   wrong_sums = 8,   // the received items differ from the sent ones: the queue update is dropped
   silent_host = 9,  // the outputs are off after a silence of the host: send outputs first; the queue update is dropped
@@ -130,7 +130,7 @@ enum BoardState : uint8_t {
   board_trusted = 2,   // since the hello no counted step was lost, as far as the board knows
   board_replaces = 4,  // a queue update still waits for items
   board_slipped =
-      8,  // since the hello it could not make events in time, and stopped during motion; its counts are correct
+      8,  // since the hello the board could not make events in time, and stopped during motion; its counts are correct
   board_kept = 16,      // the watched input has changed since the watch began
   board_manual = 32,    // the machine is moved with the board's keypad
   board_homes = 64,     // a limit switch captures instead of stopping the motors
@@ -183,7 +183,7 @@ struct CapturedFor {
 };
 using Captured = CapturedFor<max_motors>;
 
-// A count of the spindle's encoder, and its time. Counts and ticks have arbitrary zeros, modulo 2^32.
+// A count of the spindle's encoder, and its time. Counts and ticks have arbitrary origins, and wrap modulo 2^32.
 struct SpindleCount {
   uint32_t count = 0;
   uint32_t tick = 0;      // the board's clock at the count
@@ -218,8 +218,8 @@ struct About {
   uint8_t step_pulse = 0;           // the shortest step pulse, in sixteenths of a microsecond; 0: no step pulses
 };
 
-// Each of these writes one frame to `frame`, which must have space for largest_frame bytes, and returns its size. Pause
-// as in Encoder.
+// Each of these functions writes one frame to `frame`, which must have space for largest_frame bytes, and returns its
+// size. Pause as in Encoder.
 template <class Pause = NoPause>
 uint8_t encode(const Hello& hello, uint8_t sequence, uint8_t* frame) {
   Encoder<Pause> encoder(frame, MessageType::hello, sequence);
@@ -301,7 +301,7 @@ uint8_t encode(const Credit& credit, uint8_t sequence, uint8_t* frame) {
   return encoder.finish();
 }
 
-// With as many positions as the query requested.
+// With the number of positions that the query requested.
 template <class Pause = NoPause, uint8_t room>
 uint8_t encode(const BoardStatusFor<room>& status, uint8_t motors, uint8_t sequence, uint8_t* frame) {
   Encoder<Pause> encoder(frame, MessageType::status, sequence);
