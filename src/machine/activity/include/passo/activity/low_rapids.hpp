@@ -3,8 +3,8 @@
 // The top of the workpiece is not known, so it is estimated: the end of each downward feed is in material, and the
 // highest such point so far counts as the top:
 //
-//     Z |  \ rapid          rapid /          top: the end of the first plunge; feeds after a rapid alone down
-//       |   \ feed               /           into the cut, and feeds in the air, are ignored
+//     Z |  \ rapid          rapid /          top: the end of the first plunge; a depth reached by rapid alone,
+//       |   \ feed               /           and feeds in the air, do not count
 //   top |....\___ feed ____....                 \ feed
 //       |                  \ feed              . \___ ...
 //

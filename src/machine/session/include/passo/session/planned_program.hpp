@@ -32,12 +32,12 @@ class PlannedProgram final : public Source<MotionItem> {
   // For observers, which must be added before the first next().
   Tap<Operation>& operations() { return activity_.operations(); }
   Tap<PathItem>& path() { return activity_.path(); }
-  // Of what was planned so far.
+  // The nominal time of the motion planned so far.
   Seconds nominal_time() const { return activity_.nominal_time(); }
 
  private:
   const ProgramCheck& check_;
-  Diagnostics findings_;  // after a good check only what is known already
+  Diagnostics findings_;  // after a good check only known findings
   Program activity_;
   BacklashTaker path_with_rests_;
   Planner planner_;
