@@ -72,7 +72,7 @@ class ProcessBoard : public EmulatedBoard {
 
   // Counts the steps in a change of the pins.
   virtual void count_steps(const PinChange& change, std::uint32_t before) = 0;
-  // Returns the speed that the spindle's pins command, in rpm; negative: counterclockwise.
+  // Returns the speed that the spindle's pins command, in rpm; negative: reverse.
   virtual double commanded_rpm() const = 0;
   // Sets the input pins after the plant's inputs have changed.
   virtual void set_pins(std::uint16_t inputs) = 0;

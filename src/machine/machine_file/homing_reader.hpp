@@ -16,7 +16,7 @@ std::optional<HomeDescription> read_home(TableReader& reader, const AxisDescript
 // Reads the table of an axis' second motor. Returns nothing if any value is invalid.
 std::optional<SecondMotor> read_second_motor(TableReader& reader, const AxisDescription& axis);
 
-// The homing order, with a turn number for each axis: axes with the same number seek their switches together.
+// The homing order. `turns` has a number for each axis: axes with the same number seek their switches together.
 struct HomingOrder {
   std::vector<Axis> axes;
   std::vector<int> turns;

@@ -1,7 +1,7 @@
 // TomlDocument: a TOML file as a plain tree, in the order of the file. Every key and value has its position.
 //
-// Only toml_document.cpp and toml_text.cpp include the TOML library, because the library compiles slowly, and to
-// confine its exceptions.
+// Only toml_document.cpp and toml_text.cpp include the TOML library, because it compiles slowly and throws exceptions,
+// which stay inside these files.
 #pragma once
 
 #include <string>

@@ -66,7 +66,7 @@ struct Cell {
   double length = 0;                     // end - start, above 0
   double top_squared = 0;                // the limit by the axes' velocities, for the whole cell
   double acceleration = 0;               // the maximum along the path, in either direction
-  double smallest_rest = smallest_cell;  // the remainder of the cell after a stop
+  double smallest_rest = smallest_cell;  // minimum remainder of the cell after a stop
   bool straight = false;                 // uses exactly this acceleration; may accelerate and decelerate within the
                                          // cell
   std::uint8_t demand_count = 0;

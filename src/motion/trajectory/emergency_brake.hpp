@@ -1,8 +1,8 @@
 // EmergencyBrake: plans a stop on the path as soon as the axes allow, without jerk limits. Private to trajectory/.
 //
 // On a small board, the stop ramp at the end of the queue is such a motion (decision 0108). The board executes it only
-// if no queue update arrives, e.g. when its link is interrupted. Velocity and acceleration limits, which protect the
-// motors' torque, are kept. Jerk limits only prevent vibration during cutting.
+// if no queue update arrives, e.g. when its link is interrupted. The velocity and acceleration limits, which the
+// motors' torque determines, are kept. Jerk limits only prevent vibration during cutting.
 #pragma once
 
 #include <vector>

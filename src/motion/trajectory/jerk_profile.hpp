@@ -33,7 +33,7 @@ namespace passo {
 // The effort before the motion is slowed as a whole.
 struct PlanEffort {
   int rounds = 10;   // maximum number of times that cells beyond a limit are optimised again
-  int attempts = 6;  // each with more cells
+  int attempts = 6;  // each attempt uses more cells
 };
 
 class JerkProfile {
@@ -61,7 +61,7 @@ class JerkProfile {
   // Drops the first `count` cells, which have been returned.
   void drop(std::size_t count);
 
-  // The number of cells at the front that have a plan to rest at their end.
+  // The number of cells at the front that have a plan to a stop at their end.
   std::size_t planned() const { return planned_; }
   // Whether the last plan() could only continue the previous plan.
   bool fell_back() const { return fell_back_; }

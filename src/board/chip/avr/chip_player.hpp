@@ -56,7 +56,7 @@ class ChipPlayer {
     SerialLine::poll();
   }
 
-  // Stops at once: no further event is played, and the pins define the motors' positions.
+  // Stops at once: no further event is played, and the pins determine the motors' positions.
   static void halt() {
     RingTimes::disable();
     running = 0;
@@ -154,7 +154,7 @@ class ChipPlayer {
   static void add_steps(int32_t* positions) { BegunItems::add_steps(played(), positions); }
 
   // Makes some events, and starts the timer if it is stopped. `follows`: another item, or part of one, is available.
-  // After a standstill, the Uno first fills half of the ring; otherwise the next standstill would follow at once.
+  // After a standstill, the Uno first fills half of the ring; otherwise the ring would run empty again at once.
   static void refill(bool follows) {
     for (uint8_t pieces = most_pieces; pieces != 0; --pieces) {
       if (captured()) on_capture();

@@ -24,7 +24,7 @@ class OutputActions {
   }
   static bool full() { return waiting_ == action_count; }
 
-  // Adds an action after all events made so far. `rests` returns whether no event is left to play.
+  // Adds an action after all events made so far. `rests` returns true if no event is left to play.
   static void put(const BoardOutputs& outputs, bool (*rests)()) {
     const uint8_t place = static_cast<uint8_t>(actions_address + sizeof(OutputAction) * next_);
     next_ = static_cast<uint8_t>((next_ + 1) % action_count);

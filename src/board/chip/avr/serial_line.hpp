@@ -106,9 +106,9 @@ class SerialLine {
 
   static inline uint8_t taken_ = 0;
   static inline uint8_t out_[out_size] = {};
-  static inline uint8_t to_send_ = 0;     // behind the last frame
+  static inline uint8_t to_send_ = 0;     // after the last frame
   static inline uint8_t sent_ = 0;        // the next byte to send
-  static inline uint8_t end_ = out_size;  // end of the frames if the next one lies at the start of the buffer
+  static inline uint8_t end_ = out_size;  // end of the frames, if the next frame lies at the start of the buffer
 };
 
 }  // namespace passo::chip

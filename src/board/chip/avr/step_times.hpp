@@ -19,8 +19,8 @@ struct StepTimes {
   uint8_t shortest_pulse;  // cycles, without padding
   uint8_t first_padding;   // length of a pulse with one pass of the loop
   uint8_t event_ticks;     // the shortest interval between events, without padding
-  uint8_t first_turn;      // from a pulse's end to the first change of a direction, at least
-  uint8_t last_turn;       // and to the last one, at most
+  uint8_t first_turn;      // minimum time from a pulse's end to the first direction change
+  uint8_t last_turn;       // maximum time from there to the last direction change
   uint8_t beside_wait;     // ticks per event in addition to its pulse where waits come between events; 0: there are no
                            // waits
 

@@ -100,7 +100,7 @@ class PicoPlayer {
     publish();
     if (rests) {
       rest_ = StepStream::published();
-      fell_ = 0;  // long ago
+      fell_ = 0;  // in the distant past
       fresh_ = true;
     }
     segment_ = segment;
@@ -202,7 +202,7 @@ class PicoPlayer {
     pending_ = left_ == 0;
     publish(pending_ ? last_words : 0);
   }
-  // Call when the board has passed on all items that it could: no event follows the last one soon, and the motors stop.
+  // Call when the board has passed on all available items: no event follows the last one soon, and the motors stop.
   static void end() {
     if (!pending_ || !ready()) return;
     end_pulse(longest_pulse_);

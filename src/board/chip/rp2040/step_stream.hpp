@@ -90,7 +90,7 @@ class StepStream {
     head_ = head_ + 1;
   }
   // For pushing many words at once: returns the address for up to `pairs` pairs of words, fewer if the ring ends
-  // before. The words are pushed when they are kept.
+  // before. Call keep() afterwards to push the words.
   static uint32_t* space(uint32_t& pairs) {
     const uint32_t place = head_ & (words - 1);
     const uint32_t fit = (words - place) / 2;

@@ -70,7 +70,7 @@ class ByLength {
 
 struct Faults {
   double excess = -1;       // the largest excess of the deviation over the tolerance
-  std::size_t gaps = 0;     // ends that differ from the next start; rests not met in order
+  std::size_t gaps = 0;     // ends that differ from the next start; stops not met in order
   double tangent_jump = 0;  // the largest jump, where the path does not stop
   double bend_jump = 0;     // the jump of d²P/ds² there, relative to 1/mm and to itself
   std::string where;        // where the deviation is largest

@@ -1,6 +1,6 @@
 // FollowerPins: the follower's pins on an ATmega board, as data that is checked at compile time.
 //
-// The clock and direction signals are on one port, as on the master board, so that one read samples all of them.
+// The clock and direction signals are on one port, as on the first control board, so that one read samples all of them.
 // Portable.
 #pragma once
 

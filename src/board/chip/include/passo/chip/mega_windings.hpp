@@ -27,7 +27,7 @@ inline constexpr PinMap<4> mega_windings = {
                .tool_button = {'L', 0},                                      // D49
                .automatic_indicator = {'C', 1},                              // D36
                .manual_indicator = {'C', 0},                                 // D37
-               // Half steps: from standstill to 1.5 rev/s, or to 5 rev/s.
+               // Half steps, 400 per revolution: 0.6 rev/s from standstill, up to 5 rev/s.
                .speeds = {.start_stop = 250, .highest = 2'000, .acceleration = 4'000, .tap = 1}},
 };
 static_assert(mega_windings.without_conflict(), "a pin has two jobs");

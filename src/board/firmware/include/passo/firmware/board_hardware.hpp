@@ -9,8 +9,7 @@
 //                                                     standstill; true if one was on
 //   void watch();                                     optional: the watched input has changed (Board::watched())
 //   static void release_capture();                    optional: the position of the capture has been read
-//   PinSetup set_up(const PinSetup&);                 optional: applies the supported part, at standstill, and returns
-//   it
+//   PinSetup set_up(const PinSetup&);                 optional: applies the supported part while stopped; returns it
 //   uint8_t drivers_rest(); void release();           optional, both: that part of the setup; switches the drivers off
 //   bool can_watch(uint8_t limits);                   optional: whether it can watch several limit switches at once
 //   static void breathe();                            optional: called between two pieces of work

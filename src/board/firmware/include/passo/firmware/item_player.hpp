@@ -46,7 +46,8 @@ class ItemPlayer : protected BoardVoice<Hardware> {
       if (!player_.ready() || !has_more()) return;
     }
   }
-  // Passes one item to the player, and removes at most one before: with short events, new items are more urgent.
+  // Passes one item to the player, and removes at most one finished item before, because making short events is more
+  // urgent.
   void feed() {
     breathe();
     if (!player_.ready() && player_.finished()) retire_one();

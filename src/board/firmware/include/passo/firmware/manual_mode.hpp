@@ -7,8 +7,7 @@
 // executed until its next hello after `*`.
 //
 // Hardware is a type with
-//   static uint8_t rows();                                a bit for each row with a pressed key, in the column driven
-//   low
+//   static uint8_t rows();                                a bit for each row with a pressed key, in the low column
 //   static void draw_column(uint8_t column);              drives this column low and lets the others float
 //   static bool tool_button();
 //   static void indicators(bool automatic, bool manual);
@@ -55,7 +54,7 @@ class ManualMode {
     play(stage.events, stage.interval, stage.change);
   }
 
-  // Call when a switch has stopped the motors at once.
+  // Call when a switch has stopped the motors instantly.
   void stopped() {
     stage_ = 0;
     runs_ = waits_ = false;

@@ -48,7 +48,7 @@ class BoardSession final : public Link {
     bool heard = false;
   };
 
-  // The constructor sends nothing. The port outlives the session.
+  // The constructor sends nothing. The port must outlive the session.
   explicit BoardSession(BoardPort& port, const LineCare& care = {});
 
   // Processes the board's messages, and repeats unanswered queries, until something has changed, but for at most

@@ -87,9 +87,9 @@ class Link {
   // Queries that must be answered before the host continues. Only one may be open at a time. settled() shows when the
   // answer has arrived.
   //
-  // Queries the probe. Call it while the board is stopped, with all items executed that did not come too late. After
-  // the answer, the board captures the position of the probe's first change. With `limit`, the bit of a limit switch,
-  // that switch acts as the probe, and does not stop the motors until the next watch.
+  // Starts watching the probe. Call it while the board is stopped, with all items executed except those that came too
+  // late. After the answer, the board captures the position of the probe's first change. With `limit`, the bit of a
+  // limit switch, that switch acts as the probe, and does not stop the motors until the next watch.
   virtual void watch_probe(ProbeUntil until, std::uint8_t limit = 0) = 0;
   // Reads the captured position, while the board is stopped again. After the answer, the report contains the steps.
   virtual void recall_contact() = 0;

@@ -20,7 +20,7 @@ struct MotorPair {
   std::uint8_t second = 0;         // a motor number above all those that the host plans
   bool opposite = false;           // the second motor turns in the opposite direction
   std::uint8_t first_switch = 0;   // bits of limit switches
-  std::uint8_t second_switch = 0;  // 0, for both: the pair is not squared
+  std::uint8_t second_switch = 0;  // 0 for both switches: the pair is not squared
 };
 
 class TwinMotors {

@@ -26,7 +26,7 @@ class CallerCheck {
   // Checks the client's next bytes. Returns those that may take effect now.
   [[nodiscard]] std::string pass(std::string_view bytes);
   Caller caller() const { return caller_; }
-  // Prepares for another client, unless the current line is not judged yet.
+  // Prepares for another client, unless the current line is still being checked.
   void begin_anew();
   // Call when the client has disconnected.
   void reset();

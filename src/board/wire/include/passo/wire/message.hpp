@@ -88,8 +88,9 @@ enum class Question : uint8_t {
   status = 0,
   about = 1,
   watch = 2,  // capture the position of the first change of the probe or the given limit switch; the answer is a status
-  kept = 3,   // read the captured positions; the answer is a captured
-  spindle = 8,  // the spindle's angle; the answer is a turned, or a status if the board has no encoder
+              // message
+  kept = 3,   // read the captured positions; the answer is a Captured message
+  spindle = 8,  // read the spindle's angle; the answer is a Turned message, or a status if the board has no encoder
 };
 struct Ask {
   uint8_t version = protocol_version;
@@ -99,7 +100,7 @@ struct Ask {
       0;  // for watch: the bit of the limit switch that captures instead of stopping the motors; 0: the probe
 };
 
-// Board to host: progress. Each credit includes all earlier ones, so a lost one does no harm.
+// Board to host: progress. Each credit includes all earlier ones, so losing one does no harm.
 struct Credit {
   uint16_t executed = 0;  // number of the last executed item
   uint8_t taken = 0;      // sequence number of the last accepted frame
@@ -150,7 +151,7 @@ enum BoardInput : uint16_t {
 inline constexpr uint16_t outputs_timed_out = 0x2000;
 // Another one: the drivers are off after a silence of the host, so the position is not trusted.
 inline constexpr uint16_t drivers_timed_out = 0x4000;
-// Further bits in the input of a captured.
+// Further bits in the input of a Captured message.
 inline constexpr uint16_t captured_kept = 0x4000;      // this is the answer to a query
 inline constexpr uint16_t captured_released = 0x8000;  // the input became inactive
 
@@ -159,7 +160,7 @@ inline constexpr uint16_t captured_released = 0x8000;  // the input became inact
 template <uint8_t room>
 struct BoardStatusFor {
   uint16_t session = 0;
-  uint16_t executed = 0;  // this and the next two as in a credit
+  uint16_t executed = 0;  // this and the next two members as in a credit
   uint8_t taken = 0;
   uint8_t free = 0;
   uint16_t event = 0;  // executed events of the present item

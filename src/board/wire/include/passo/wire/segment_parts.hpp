@@ -4,7 +4,7 @@
 // The form of a segment determines the length of its parts, and how the change of the interval develops from part to
 // part.
 //
-//   even    (form 0)              The change stays. Parts have 255 events, because a player counts in eight bits.
+//   even    (form 0)              The change is constant. Parts have 255 events, because a player counts in eight bits.
 //   root    (root_form + k)       Parts have 2^k events. Motion with a constant acceleration: the time is a square root
 //                                 of the distance. The segment's `change` is a growth v, in 1/2^31.
 //

@@ -17,7 +17,7 @@ namespace passo {
 inline constexpr uint8_t sync_byte = 0xA5;
 inline constexpr uint8_t protocol_version = 10;
 
-// Words of the extended Hamming code (8,4): at least four wrong bits turn one type into another.
+// Words of the extended Hamming code (8,4): only four or more wrong bits can turn one type into another.
 enum class MessageType : uint8_t {
   // host to board
   hello = 0x0F,
@@ -35,7 +35,7 @@ enum class MessageType : uint8_t {
   fault = 0x96,
   about = 0x69,
   turned = 0xFF,
-  // both ways
+  // both directions
   pin_setup = 0x00,
 };
 

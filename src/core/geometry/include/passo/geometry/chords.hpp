@@ -151,7 +151,7 @@ class Chords final : public Source<Chord> {
     if (!std::isfinite(deviation.value())) return (good_ + bad) / 2;
     const double by_square = deviation > Mm(0) ? guess * std::sqrt(tolerance_ * (1 - nearness) / deviation) : rest;
     if (bad > rest) return std::clamp(by_square, good_, rest);
-    // Where the square law leads out of the bracket (e.g. at the tip of an ellipse), bisect.
+    // Bisects where the square law leads out of the bracket, e.g. at the tip of an ellipse.
     const bool inside = by_square > good_ && by_square < bad;
     if (!inside) return (good_ + bad) / 2;
     return std::max(by_square, good_ > 0 ? good_ : guess / 8);  // no valid chord yet: at least an eighth of the guess

@@ -4,10 +4,9 @@
 // otherwise that of A B C in degrees (RS274/NGC 2.1.2.5, "feed rate"). The other axes move in proportion.
 //
 // - A line moves every axis in proportion to s.
-// - An arc rotates two axes of a plane about a centre and moves all others in proportion (helix). Where the radius at
-//   its
-//   end differs from the radius at its start (programs round their numbers), the radius grows in proportion too, so
-//   that the arc meets both ends exactly.
+// - An arc rotates two axes of a plane about a centre and moves all others in proportion (helix). If the
+//   radius at its end differs from the radius at its start (programs round their numbers), the radius changes in
+//   proportion too, so that the arc meets both ends exactly.
 // - A cubic is a piece of a smoothed path: every axis is a polynomial of s. Its parameter is nearly its length: |dP/ds|
 //   falls below 1 in corners, and rises to 1.1 at most where the cubic smooths noise.
 #pragma once
@@ -87,7 +86,7 @@ class Curve {
   double curvature() const;
   // An upper bound of the total angle in radians by which the direction turns. If an axis that does not count for the
   // feed travels farther than s, the change of its slope counts, relative to its steepest slope. A cubic turns by a few
-  // dozen at most.
+  // dozen radians at most.
   double turning() const { return turning(steepest()); }
   double turning(const Point& steepest) const;
   Box extents() const;

@@ -20,7 +20,7 @@ namespace passo {
 
 class CurveInSpace {
  public:
-  // Fails for an arc that does not move X, Y or Z along a circle.
+  // Fails for an arc whose plane is outside X Y Z, and for coordinates beyond the limit.
   static Result<CurveInSpace, CurveError> of(const Curve& curve);
 
   const Curve& curve() const { return curve_; }

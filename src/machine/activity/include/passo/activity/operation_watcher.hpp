@@ -1,4 +1,4 @@
-// OperationWatcher: the base class of observers that check a program's operations, in order, and add warnings.
+// OperationWatcher: the base class of observers that check a program's operations in order and add warnings.
 #pragma once
 
 #include <algorithm>

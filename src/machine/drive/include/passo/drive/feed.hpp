@@ -20,7 +20,7 @@ namespace passo {
 struct BoardRest {
   ItemNumber executed = 0;
   PathPlace place;
-  PathPlace done = {};  // at least up to this item the board was known to be done when the stop was reported
+  PathPlace done = {};  // the item up to which the board was known to be done when the stop was reported
   friend bool operator==(const BoardRest&, const BoardRest&) = default;
 };
 
@@ -53,7 +53,7 @@ class Feed {
   enum class Progress : std::uint8_t {
     goes_on,        // something was sent, or more can be done at once
     waits,          // the feed first needs a message from the board
-    rests_in_hold,  // the planner holds, and the board has executed all motion given
+    rests_in_hold,  // the planner holds, and the board has executed all planned motion
     at_action,      // the drive has to perform take_action(); everything before it is executed
     lost_thread,    // the board executed a stop ramp in a thread, which cannot continue
     outputs_off,    // the board received nothing from the host, is stopped, and has switched outputs off
@@ -105,7 +105,7 @@ class Feed {
   virtual void expect_thread() = 0;
 
   // The items sent in queue updates, and those of them that the board has executed. Null: items go to the board
-  // directly, and are played as they are sent.
+  // directly, and are executed as they are sent.
   virtual RefillLedger* ledger() = 0;
 };
 

@@ -30,7 +30,7 @@ class PlayedItems {
       if (!sent.end_of_tail || later_by(executed, *sent.end_of_tail) <= 0) watcher_(sent.item);
     }
   }
-  // Drops the unexecuted items, which never will be executed.
+  // Drops the unexecuted items, which will never be executed.
   void forget() { sent_.clear(); }
 
  private:

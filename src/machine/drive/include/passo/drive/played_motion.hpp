@@ -35,7 +35,7 @@ class PlayedMotion {
   void show_tail(const std::vector<PlannedMove>& tail) const {
     for (const PlannedMove& move : tail) watcher_(move);
   }
-  // Drops the unexecuted motion, which never will be executed.
+  // Drops the unexecuted motion, which will never be executed.
   void forget() { given_.clear(); }
 
  private:

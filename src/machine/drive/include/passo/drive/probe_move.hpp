@@ -19,12 +19,12 @@ namespace passo {
 
 class ProbeMove {
  public:
-  // `link` and `answers` outlive the ProbeMove. The outcome is written into `answers` at the beginning of a move
+  // `link` and `answers` must outlive the ProbeMove. The outcome is written into `answers` at the beginning of a move
   // (whether the move is rejected) and at the end.
   ProbeMove(Link& link, AnswerBook& answers, const Kinematics& kinematics)
       : link_(link), answers_(answers), kinematics_(kinematics) {}
 
-  // Adds a watcher that gets the outcome at the end of each probe move.
+  // Adds an observer that receives the outcome at the end of each probe move.
   void watch(std::function<void(const ProbeOutcome&)> watcher) { watchers_.push_back(std::move(watcher)); }
 
   // Also watches the probe in other moves: contact() then reports that the open probe was triggered.

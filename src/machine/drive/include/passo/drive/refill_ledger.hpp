@@ -66,7 +66,7 @@ class RefillLedger {
   // Reports outputs that were sent separately and are switched.
   void show(const BoardOutputs& outputs) const { played_.show(outputs); }
 
-  // Processes the reported progress of the board. `done`: the board is known to be at least there.
+  // Processes the number of the last executed item, as reported by the board.
   void on_executed(ItemNumber executed);
   // The queue update that the board executes: none later has begun. Null: none.
   const Refill* under_way() const { return under_way_.empty() ? nullptr : &under_way_.front(); }
@@ -76,7 +76,7 @@ class RefillLedger {
   void set_slowdowns(int slowdowns) { counts_.slowdowns = slowdowns; }
   // Call when the board is stopped and all sent items are executed.
   void record_rest();
-  // Call when the board is stopped. All items sent after the stop point never will be executed.
+  // Call when the board is stopped. Drops all items sent after the stop point, which will never be executed.
   void forget_unexecuted();
 
   // The time of motion sent and not executed, counted in whole items; surely_ahead() excludes the current item, because

@@ -1,5 +1,5 @@
 // RefillPace: determines the length of motion in the board's queue, and the time of the next queue update, from the
-// load of the motion and the board's response times.
+// requirements of the motion and the board's response times.
 //
 // Urgent motion (a probe move, a thread) is sent with a short lead: only the time until a queue update is acknowledged
 // and the next one arrives.

@@ -72,7 +72,7 @@ class SpindleTracker {
   Stages stages_;
   SpindleEncoder encoder_;
   SpindleFollower follower_;
-  bool encoder_known_ = false;  // the encoder is known to be right
+  bool encoder_known_ = false;  // the encoder is known to count correctly
   bool follows_ = false;
   bool asked_ = false;  // a reading was queried, and the answer is not processed yet
   // The start time of the next thread, by the board's clock. late_: the delay of the previous thread's start.

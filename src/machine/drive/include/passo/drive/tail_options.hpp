@@ -12,8 +12,8 @@ struct TailOptions {
   Seconds refill_at{0.06};       // the next queue update is sent when this much motion is left
   Seconds time_an_item{0.0005};  // transmission time; a queue update with many items is sent sooner
   Seconds longest_move{0.005};   // no planned move is longer
-  // The accuracy of the segments. In the first milliseconds after a stop, segments exact to the tick would exceed the
-  // capacity of a serial link by hundreds per second. They would also not fit into a short board queue. Boards with
+  // The accuracy of the segments. In the first milliseconds after a stop, motion exact to the tick needs hundreds more
+  // segments per second than a serial link can carry. They would not fit into a short board queue either. Boards with
   // fewer places than `few_places`, and urgent motion, get the "in few places" kind.
   std::size_t few_places = 100;
   // On a board with a shorter queue, stop ramps have no jerk limits: with them, a stop ramp has two or three times as

@@ -13,7 +13,7 @@ namespace passo {
 
 // The job found in a journal and a board, before the board gets a new session.
 struct BrokenOff {
-  JournalHead head;  // the position: the board's stop point, if nothing is rejected
+  JournalHead head;  // its position is the board's stop point, unless the job is rejected
   std::optional<ResumeRefusal> refused;
   PathPlace done;       // everything before this position is executed
   PathPlace farthest;   // nothing after this position is executed

@@ -1,5 +1,5 @@
-// JobIdentity: what must be unchanged for a job to continue: the version of this program, the G-code text and the
-// machine file.
+// JobIdentity: the data that must be unchanged for a job to continue: the version of this program, the G-code text and
+// the machine file.
 #pragma once
 
 #include <cstdint>

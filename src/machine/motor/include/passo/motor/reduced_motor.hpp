@@ -13,7 +13,7 @@
 //
 // The bound is checked at each pulse and each block, and the motor reports a violation:
 //
-//   the time since the last pulse is at least L·I·Δ/(U − K·|ω|)        Δ: the electrical angle of a step
+//   the time since the last pulse is at least L·I·Δ/(U − K·|ω|)         Δ: the electrical angle of a step
 //   |e| ≤ 0.8 radians at the end of each block                          U = min(V − R·I, decay·V)
 //
 // docs/ramps/physics.md derives the bound: while it holds, the currents do not react on the rotor, so there is no

@@ -16,9 +16,8 @@
 //   resistive  applies the supply, less the transistor's drop, to R with a series resistor. The current of a phase
 //              that is switched off flows back into the supply until it is zero.
 //
-//   measured   a motor with only a measured pull-out curve: the currents follow the field immediately, with the
-//   amplitude
-//              that the curve gives for the rotor's speed
+//   measured   a motor with only a measured pull-out curve: the currents follow the field immediately, with
+//              the amplitude that the curve gives for the rotor's speed
 //
 // Not modelled: saturation, and the coupling of the two phases.
 //

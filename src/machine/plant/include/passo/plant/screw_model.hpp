@@ -31,8 +31,7 @@ struct ScrewModel {
 
 class Screws {
  public:
-  // Replaces the screw of a motor that stands at `position`, with its backlash taken up in the direction of the
-  // backlash's sign.
+  // Replaces the screw of a motor at `position`, with its backlash taken up in the direction of the backlash's sign.
   void fit(std::size_t motor, const ScrewModel& model, double position);
   bool any() const { return !fitted_.empty(); }
   // Whether every pulse must be processed, because a sum of pulses may hide a reversal.

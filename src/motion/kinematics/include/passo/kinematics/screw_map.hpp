@@ -18,7 +18,7 @@ class ScrewMap {
     double off = 0;  // true position minus nominal position
   };
   // `errors` may be empty. In ascending order of `at`; between two entries the error is interpolated, and beyond the
-  // ends it is constant. The slope of the error must be below 1.
+  // ends it is constant. The slope of the error must be below 1 in magnitude.
   explicit ScrewMap(double backlash, std::vector<Error> errors = {});
 
   double backlash() const { return backlash_; }

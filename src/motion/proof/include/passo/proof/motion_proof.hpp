@@ -41,8 +41,8 @@ struct ProofOptions {
   Hertz tick_rate{16e6};
 };
 
-// The worst value of one kind: the largest, or the largest multiple of the limit where the limit changes with the
-// speed. Units: mm (or degrees) and seconds.
+// The worst value of a quantity: the largest value, or, if the limit changes with the speed, the largest multiple of
+// the limit. Units: mm (or degrees) and seconds.
 struct Finding {
   double value = 0;
   double limit = 0;        // 0: no limit

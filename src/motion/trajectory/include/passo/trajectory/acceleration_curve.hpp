@@ -7,7 +7,7 @@
 //
 //   A ^ ......                 ...  the samples: flat up to a shoulder, then falling
 //     |    \  `.               \    the lines; left of the shoulder they are above the constant limit that
-//     |     \__ `.                  every axis has besides, and have no effect
+//     |     \__ `.                  every axis also has, and so have no effect
 //     |        `---\____
 //     +-------------------> w
 //

@@ -61,9 +61,9 @@ struct PlannedMove {
   }
   const Phase* begin() const { return phases.data(); }
   const Phase* end() const { return phases.data() + phase_count; }
-  // The part of the curve that the move covers: starts at its first phase,
+  // The part of the curve that the move covers: from the start of its first phase,
   Mm from() const { return phase_count > 0 ? phases[0].start : Mm(0); }
-  Mm to{0};  // and ends here
+  Mm to{0};  // to here
   Seconds duration() const {
     Seconds sum{0};
     for (const Phase& phase : *this) sum += phase.duration;
