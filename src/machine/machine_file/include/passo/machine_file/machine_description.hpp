@@ -68,11 +68,12 @@ struct SecondMotor {
   double skew = 0;        // in the simulated machine: the initial skew
 };
 
-// For a rotary axis, all values are in degrees instead of millimetres. The board's inputs that a drive alarm can use:
-// below 8 the pin of that limit switch, then those of the buttons.
+// The board's inputs that a drive alarm can use: below 8 the pin of the limit switch with that number, then the
+// buttons.
 inline constexpr int alarm_at_feed_hold = 8;
 inline constexpr int alarm_at_cycle_start = 9;
 
+// For a rotary axis, all values are in degrees instead of millimetres.
 struct AxisDescription {
   Axis axis = Axis::x;
   double steps_per_unit = 0;  // motor steps per millimetre (rotary axis: per degree); always positive
