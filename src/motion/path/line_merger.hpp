@@ -70,7 +70,7 @@ class LineMerger {
   PathMode mode_before_ = PathMode::exact_stop;
   double tolerance_before_ = 0;
   Cone cone_;
-  Cone exact_;  // the directions that rounding alone would allow
+  Cone exact_;  // the directions allowed for rounding errors only
 };
 
 }  // namespace passo

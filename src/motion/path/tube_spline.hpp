@@ -78,7 +78,7 @@ class TubeSpline {
     Three bend{};
     double tube = 0;                // around the span
     double bend_of_path = 0;        // maximum |P''| in the span
-    std::array<double, 2> slack{};  // maximum distance of vertices from each half of the span
+    std::array<double, 2> slack{};  // maximum distance of the path's vertices from the chord, in each half of the span
     bool checked = false;
   };
   Site& at(std::int64_t k) { return sites_[static_cast<std::size_t>(k + 1) & (window - 1)]; }

@@ -52,7 +52,7 @@ inline constexpr std::size_t most_demands_of_cell = most_limited_axes + 1;
 // holds, the axis is within the curve in the whole cell.
 struct FallingDemand {
   const AccelerationCurve* curve = nullptr;
-  std::uint32_t demand = 0;  // the index of the axis's own demand among the cell's demands
+  std::uint32_t demand = 0;  // the index of this axis' demand among the cell's demands
   std::uint32_t line = 0;    // the curve's line with which the cell was last found feasible
   double entry_weight = 0;
   double exit_weight = 0;
@@ -79,7 +79,7 @@ struct CellPlace {
   AxisDemand* demands;
   FallingDemand* falling;
 
-  // Allows a cell that was cut again the motion that was planned in the longer cell: the demands at the ends of a cell
+  // Allows a cell that was cut again the motion that was planned in the longer cell. The demands at the ends of a cell
   // leave room for the slack between them, so in the middle of a cell an axis may demand more.
   void allow(double entry, double exit) const;
 };

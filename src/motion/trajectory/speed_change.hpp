@@ -38,7 +38,8 @@ class SpeedChange {
   struct Request {
     const std::vector<LimitedAxis>& axes;
     FeedFactors feeds;     // the change stays within these feeds
-    double exit = 0;       // the requested speed; at most the speed that remains when the acceleration just goes to 0
+    double exit = 0;       // the requested speed, or the speed that remains when the acceleration has returned to 0, if
+                           // that is lower
     bool planned = false;  // the profile has already checked the change, including kinks of falling limits
   };
   // Plans the change from `state` on. Returns nothing if the limits do not allow one.
@@ -100,7 +101,7 @@ class SpeedChange {
                           Excess& worst);
   static Look look_at(const Piece& piece, const Segment& segment, const Request& request, double time);
 
-  std::vector<Phase> phases_;  // starts count from the start of the change
+  std::vector<Phase> phases_;  // their starts count from the start of the change
   std::vector<Piece> pieces_;  // the same phases, divided at segment ends
   PhaseChain chain_;           // chain of the phases
   PathState end_;

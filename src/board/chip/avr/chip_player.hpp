@@ -399,7 +399,8 @@ class ChipPlayer {
     if (!fresh_) slipped_ = true;
     // The interrupt does not read the serial port until the motion continues.
     if (!RingTimes::are_short && static_cast<int16_t>(made_ - slow_end_) > 0) slow_end_ = made_;
-    const uint16_t later = static_cast<uint16_t>(now() + least_lead * 2 + 64 * waiting() - due);  // 64: the loop
+    // 64: ticks per pass of the loop below
+    const uint16_t later = static_cast<uint16_t>(now() + least_lead * 2 + 64 * waiting() - due);
     for (uint8_t i = first; i != head_; i = static_cast<uint8_t>((i + 1) & ring_mask)) {
       RingTimes::delay(i, later);
       SerialLine::breathe();

@@ -129,19 +129,19 @@ inline constexpr uint32_t uart_received = 1U << 4 | 1U << 6;  // enough bytes, o
 inline constexpr uint32_t uart_nothing_received = 1U << 4;
 inline constexpr uint32_t uart_full = 1U << 5;
 
-// 4.5 PWM: five registers a slice
+// 4.5 PWM: five registers per slice
 inline volatile uint32_t& pwm(uint32_t slice, uint32_t which) {
   return *reinterpret_cast<volatile uint32_t*>(0x40050000 + 0x14 * slice + 4 * which);
 }
 enum PwmRegister : uint32_t { pwm_csr, pwm_div, pwm_ctr, pwm_cc, pwm_top };
 
-// 4.1 USB device: its registers, and four kilobytes of memory that it shares with the processor: the last setup packet,
-// two words for each endpoint's directions, and the buffers (4.1.3.1).
+// 4.1 USB device: its registers, and four kilobytes of memory that it shares with the processor. They hold the last
+// setup packet, two words for each endpoint's directions, and the buffers (4.1.3.1).
 using UsbAddress = Register<0x50110000>;
 using UsbMain = Register<0x50110040>;
 using UsbSieControl = Register<0x5011004c>;
 using UsbSieStatus = Register<0x50110050>;
-using UsbBuffers = Register<0x50110058>;  // a bit for each endpoint and direction: the buffer is the processor's again
+using UsbBuffers = Register<0x50110058>;  // one bit per endpoint and direction: the processor owns the buffer again
 using UsbStallArm = Register<0x50110068>;
 using UsbMuxing = Register<0x50110074>;
 using UsbPower = Register<0x50110078>;

@@ -26,7 +26,7 @@ struct HelloReply {
   uint32_t clock = 0;    // timer frequency, Hz
 };
 
-// The silence of the host after which a stopped board switches an output off: tenths of a second; 0: never.
+// The silence of the host after which a stopped board switches an output off, in tenths of a second; 0: never.
 struct Silence {
   uint8_t spindle = 0;
   uint8_t mist = 0;

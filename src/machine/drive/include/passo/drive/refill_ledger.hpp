@@ -56,7 +56,7 @@ class RefillLedger {
   // Records motion emitted by the planner.
   void record_given(const MotionItem& motion, Seconds time);
   const PlayedMotion& motion_played() const { return motion_played_; }
-  // Reports a possible stop point. Call it before a queue update or outputs are sent: from then on, the board stops
+  // Reports a possible stop point. Call it before a queue update or outputs are sent: from then on, the board may stop
   // there.
   void report_rest(ItemNumber executed, const PathPlace& place) const;
   void record_motion(const LinkItem& item, ItemNumber number, Seconds time);

@@ -1,4 +1,4 @@
-// MotorData and MotorDrive: the data sheet of a two-phase hybrid (or permanent-magnet) stepping motor, and the
+// MotorData and MotorDrive: the data sheet of a two-phase hybrid (or permanent-magnet) stepper motor, and the
 // electronics that drive it.
 //
 // The electrical values of a data sheet depend on how the motor is connected. A bipolar drive pushes current through

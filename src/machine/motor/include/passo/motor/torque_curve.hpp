@@ -1,4 +1,4 @@
-// TorqueCurve: the torque of a stepping motor at each speed, from the points of a data sheet or from motor and drive.
+// TorqueCurve: the torque of a stepper motor at each speed, from the points of a data sheet or from motor and drive.
 //
 //   torque                        Pull-out: the maximum torque of a running motor. It falls with the speed.
 //    |------.   pull-out          Pull-in: the maximum friction at which the motor starts and stops at that rate

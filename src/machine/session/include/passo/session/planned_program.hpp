@@ -26,7 +26,8 @@ class PlannedProgram final : public Source<MotionItem> {
   PlannedProgram(ProgramReader program, const MachineDescription& machine, const InterpreterOptions& options,
                  const ProgramCheck& check, const MotionFactors& factors = {});
 
-  // A loop that only a probe ends continues as far as the check has followed it.
+  // If the program probes, the motion ends after as many segments as in the check, because a loop that only a probe
+  // result can end would be endless.
   [[nodiscard]] bool next(MotionItem& item) override;
 
   // For observers, which must be added before the first next().

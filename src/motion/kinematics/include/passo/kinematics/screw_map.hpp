@@ -3,8 +3,8 @@
 //
 // The *true* position is that of the axis. The *nominal* position is the position that the axis would have with a
 // perfect screw. Both are in millimetres or degrees of the axis. The backlash is taken up in one of two directions.
-// After upward motion, the nominal position corrects the errors only. After downward motion, it is lower by the
-// backlash.
+// After motion in the positive direction, the nominal position corrects only the errors. After motion in the negative
+// direction, it is lower by the backlash.
 #pragma once
 
 #include <vector>

@@ -6,8 +6,8 @@
 // which side the backlash of each axis is (Segment::downs), so that motion can be followed from any point of a segment.
 // See docs/decisions/0083-backlash-is-taken-up-at-rest.md.
 //
-// A path begins and ends with all backlash taken up for upward motion, so the step counts alone determine the machine
-// position.
+// A path begins and ends with all backlash taken up for motion in the positive direction, so the step counts alone
+// determine the machine position.
 //
 // Invariants: without backlash, items pass unchanged. Reversals shorter than `least` are ignored; the tool is then off
 // the path by less than `least`. At the end of a probe move, where the machine may have left the path, a callback gives
@@ -33,7 +33,7 @@ struct BacklashOptions {
   bool counts_items = false;
 };
 
-// The position of a stopped machine, and the axes whose backlash is taken up for downward motion.
+// The position of a stopped machine, and the axes whose backlash is taken up for motion in the negative direction.
 struct BacklashAtRest {
   AxisSet downs;
   Point place;

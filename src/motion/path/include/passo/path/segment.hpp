@@ -36,7 +36,7 @@ struct Segment {
   // For tapping down: the point at which the spindle is reversed. The remainder of the segment leaves room for the
   // spindle to stop.
   Mm reverse_at{0};
-  // On machines with backlash compensation: the axes whose backlash is taken up for downward motion.
+  // On machines with backlash compensation: the axes whose backlash is taken up for motion in the negative direction.
   AxisSet downs{};
   // True: the segment takes up the backlash of an axis that reverses. The motor moves along the curve, while the tool
   // stays at the curve's end.

@@ -46,7 +46,7 @@ struct StepOptions {
   Point start = {};   // machine position at the start; the motors' step counts begin at its whole steps
   bool bends = true;  // whether segments may have a bend, which does not suit the second motor of an axis
   std::optional<BoardPlace> place = {};  // the board's position; empty: the handshake has just taken place at `start`
-  AxisSet downs = {};                    // the axes whose backlash is taken up for downward motion
+  AxisSet downs = {};                    // the axes whose backlash is taken up for motion in the negative direction
 };
 
 // The items that are sent to the board, in order. The segments before an Action end in a stop. A dwell becomes segments
@@ -102,7 +102,7 @@ class StepGenerator final : public Source<BoardItem> {
   Seconds cut_dwell();
   // The board's position after all items returned so far. Call it only at a stop.
   BoardPlace place() const;
-  // The axes whose backlash is taken up for downward motion, at the end of the motion pulled so far.
+  // The axes whose backlash is taken up for motion in the negative direction, at the end of the motion pulled so far.
   AxisSet downs() const;
 
  private:
