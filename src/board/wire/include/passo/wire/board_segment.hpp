@@ -47,7 +47,7 @@ inline constexpr uint16_t most_events = 0x7ff;
 // In a message, a change has 24 bits. A large change is sent without its lowest eight bits.
 inline constexpr int32_t fine_change = 0x7fffff;
 inline constexpr int32_t coarse_change = 0x100;
-// In the number of events on the wire: set if the change is a large one, and the form.
+// Fields of the event count on the wire: coarse_bit marks a large change; the form starts at bit form_place.
 inline constexpr uint16_t coarse_bit = 0x8000;
 inline constexpr uint8_t form_place = 11;
 inline constexpr uint8_t root_form = 8;

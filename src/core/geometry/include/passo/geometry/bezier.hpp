@@ -44,10 +44,10 @@ extern template class Bezier<3>;
 
 static_assert(ParametricCurve<QuadraticBezier> && ParametricCurve<CubicBezier>);
 
-// Returns an arc of a parabola in the XY plane, at the vertex's Z, defined by vertex and focus. Every arc of a parabola
-// is a quadratic Bézier curve whose middle control point is the intersection of the end tangents, and vice versa.
-// `from` and `to` are the distances of the ends to the right of the axis, seen from the vertex to the focus. At
-// distance d from the axis and with the focal length f the parabola is d² / (4 f) above the vertex.
+// Returns an arc of a parabola in the XY plane, at the vertex's Z, defined by vertex and focus. The arcs of parabolas
+// are exactly the quadratic Bézier curves; the middle control point is the intersection of the end tangents. `from` and
+// `to` are the distances of the ends to the right of the axis, seen from the vertex to the focus. At distance d from
+// the axis and with the focal length f the parabola is d² / (4 f) above the vertex.
 Result<QuadraticBezier, CurveError> parabola(const Vector3& vertex, const Vector3& focus, Mm from, Mm to);
 
 }  // namespace passo

@@ -1,4 +1,4 @@
-// Cutter: the shape of a rotating cutter: its height above its tip at each distance from its axis.
+// Cutter: the shape of a rotating cutter, given by the height above its tip at each distance from its axis.
 //
 // One formula covers all shapes, from the axis outwards: a flat disc, an arc, a cone up to the radius. At the radius
 // the cutter has a vertical wall. The shape is convex: the underside rises with the distance, with increasing slope.

@@ -2,9 +2,8 @@
 //
 // An axis seeks its switch, backs off until the switch opens, returns slowly, and pulls off. The point at which the
 // switch closes during the slow return determines the position, to the step. Each of these moves is a probe move with
-// that switch as the probe. It therefore stops on the path within the limits, and over any link does not depend on a
-// single message. All other limit switches stop the machine instantly. If the switch is closed at the start, the axis
-// first backs off.
+// that switch as the probe. It therefore stops on the path within the limits, over any link, even if a message is lost.
+// All other limit switches stop the machine instantly. If the switch is closed at the start, the axis first backs off.
 //
 // Axes of the same group first move together until one of them reaches its switch. That axis is homed separately; then
 // the others continue.
