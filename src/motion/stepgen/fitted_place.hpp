@@ -9,7 +9,7 @@ namespace passo {
 inline constexpr double still = 1e-4;
 
 // A position within one segment, in 1/65536 step from the start of the motor's current step. The steps of a segment fit
-// into 32 bits, and the processor computes twice as many of these at once.
+// into 32 bits, so a vector register holds twice as many positions as with 64 bits.
 inline std::int32_t step_of(std::int32_t place) {
   return place >> 16;
 }

@@ -62,8 +62,8 @@ class RingTimes {
   static uint8_t few() { return reach_ == Reach::near ? few_events : most_waits_at_once; }
   // The ring's size limits the time.
   static uint8_t most_ahead(uint16_t /*ticks*/) { return most_events; }
-  // Returns the smallest room in the ring for which making events is worth the work. Events far apart leave time, and
-  // the loop may do other work for long: the remaining entries must last while a status is answered.
+  // Returns the smallest room in the ring for which making events is worth the work. With events far apart, the loop
+  // may do other work for long, and the remaining entries must last while a status is answered.
   static uint8_t least_room(uint8_t /*most_ahead*/) {
     if (reach_ == Reach::near) return most_events / 2;
     return reach_ == Reach::middle ? most_events / 3 : most_events / 6;

@@ -38,7 +38,8 @@ struct PicoPins {
   uint8_t spindle_direction = no_gpio;
   uint8_t mist = no_gpio;
   uint8_t flood = no_gpio;
-  // The spindle encoder. A PWM slice counts the pulses, which only its second pin, an odd one, can do.
+  // The spindle encoder. A PWM slice counts the pulses. Only the slice's second pin can do this, so the GPIO number is
+  // odd.
   uint8_t encoder_pulses = no_gpio;
   uint8_t encoder_index = no_gpio;
   // A serial port in addition to USB.

@@ -88,7 +88,7 @@ class Player {
   uint8_t left_ = 0;
   uint8_t finished_ = 0;  // items done and not dropped yet
   bool slipped_ = false;
-  // Half a step and half a tick: with these, truncation here is rounding as seen from outside.
+  // Start values of half a step and half a tick, so that truncation to whole steps and ticks rounds to nearest.
   uint16_t accumulators_[max_motors] = {0x8000, 0x8000, 0x8000, 0x8000, 0x8000, 0x8000, 0x8000, 0x8000};
   uint16_t at_start_[max_motors] = {};  // as they were at the start of the segment
   uint16_t tick_fraction_ = 0x8000;

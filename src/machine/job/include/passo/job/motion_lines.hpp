@@ -36,7 +36,8 @@ class PlannedLines {
   explicit PlannedLines(Seconds begins) : planned_(begins) {}
   // Adds planned motion, in order.
   void watch(const MotionItem& motion);
-  // Returns the line at a time that was not dropped. After the planned motion: the last line. 0: nothing is planned.
+  // Returns the line executed at `time`, which must not be in the dropped past. After the planned motion: the last
+  // line. 0: nothing is planned.
   std::uint32_t line_at(Seconds time) const;
   void forget_before(Seconds time);
 
